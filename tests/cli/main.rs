@@ -50,6 +50,7 @@ mod machine_import;
 mod machines;
 mod many_programs;
 mod meanwhile;
+mod mistakes;
 mod nesting;
 mod nothing;
 mod pictures;

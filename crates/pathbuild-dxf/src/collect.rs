@@ -9,9 +9,9 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use pathbuild_diagnostic::limits::{ENTITIES, TEXT_LENGTH, exceeded};
 use pathbuild_diagnostic::messages::drawing::{
-    BLOCK_NESTED, INSERTED_FROZEN, INVISIBLE, NOT_COMPATIBLE, TILTED, TOO_LARGE,
+    BLOCK_MISSING, BLOCK_NESTED, INSERTED_FROZEN, INVISIBLE, NOT_COMPATIBLE, TILTED, TOO_LARGE,
 };
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, Value};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Place, Point, Value};
 use smol_str::SmolStr;
 
 use crate::entities::Shape;
@@ -30,6 +30,8 @@ pub(crate) struct Collector<'d> {
     with_invisible: BTreeSet<u32>,
     /// Layers with at least one entity in a block that is inserted on a frozen layer.
     with_frozen: BTreeSet<u32>,
+    /// The missing blocks that are inserted on layers that are not read.
+    missing_blocks: BTreeSet<SmolStr>,
     /// Layer of the previous entity, as a cache.
     last: Option<(LayerId, u32)>,
     /// Lines of broken entities with the layers on which they were reported.
@@ -95,6 +97,7 @@ impl<'d> Collector<'d> {
             layers: BTreeMap::new(),
             with_invisible: BTreeSet::new(),
             with_frozen: BTreeSet::new(),
+            missing_blocks: BTreeSet::new(),
             last: None,
             faulty: HashSet::new(),
             groups: 0,
@@ -227,6 +230,27 @@ impl<'d> Collector<'d> {
         if !std::mem::replace(&mut self.has_ignored, true) {
             let diagnostic = Diagnostic::new(&NOT_COMPATIBLE).quoting("entity", placed.kind.name());
             let diagnostic = self.located(diagnostic, placed, layer);
+            self.drawing.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// Reports a missing block that is inserted on a layer that is not read: it may draw on those that are.
+    pub(crate) fn note_missing_block(
+        &mut self,
+        placed: &PlacedEntity<'_>,
+        block: &str,
+        point: Option<Point>,
+    ) {
+        if self.missing_blocks.insert(block.into()) {
+            let mut diagnostic = Diagnostic::new(&BLOCK_MISSING).quoting("block", block);
+            diagnostic.place = Place {
+                line: Some(placed.own.line),
+                handle: placed.own.handle,
+                entity: Some(placed.kind),
+                layer: Some(placed.layer.name.as_str().into()),
+                point: point.map(|point| placed.point(point)),
+                ..Place::default()
+            };
             self.drawing.diagnostics.push(diagnostic);
         }
     }

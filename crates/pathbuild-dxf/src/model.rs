@@ -5,6 +5,7 @@
     reason = "an entity is made where it ends up, without copies from function to function"
 )]
 
+use pathbuild_diagnostic::Point;
 use pathbuild_diagnostic::messages::drawing::BLOCK_MISSING;
 use smol_str::SmolStr;
 
@@ -112,6 +113,9 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         }
         let Some(block) = self.blocks.find(&insert.block) else {
             let point = insert.array.ok().map(|array| array.begin());
+            if !self.reader.layers.is_kept(layer) {
+                return self.note_missing(traits, layer, &insert.block, point, around);
+            }
             let trouble = EntityError::LeftOut {
                 message: &BLOCK_MISSING,
                 point,
@@ -156,6 +160,23 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             }
         }
         self.open.pop();
+        Ok(())
+    }
+
+    /// Reports a missing block on a layer that is not read, unless it is frozen.
+    fn note_missing(
+        &mut self,
+        traits: &Traits,
+        layer: LayerId,
+        block: &str,
+        point: Option<Point>,
+        around: &EntityContext,
+    ) -> Result<(), Fatal> {
+        let is_compatible = self.reader.options.compatible;
+        let placed = placed(self.reader, traits, layer, around)?;
+        if !is_compatible && !placed.layer.is_frozen {
+            self.collector.note_missing_block(&placed, block, point);
+        }
         Ok(())
     }
 

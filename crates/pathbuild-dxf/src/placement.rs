@@ -64,7 +64,7 @@ impl Placement {
     /// Scales x, y and z; `None` if x and y differ in more than sign.
     pub(crate) fn scaled_by(x: f64, y: f64, z: f64) -> Option<Self> {
         /// Relative difference up to which computed scales count as equal.
-        const NOISE: f64 = 1e-9;
+        const NOISE: f64 = 2e-7;
         let scale = x.abs();
         let is_uniform = scale > 0.0 && (scale - y.abs()).abs() <= NOISE * scale;
         let mirrored = (x < 0.0) != (y < 0.0);

@@ -234,11 +234,15 @@ impl SweepLimits {
         Self { path: path.name.clone(), faces }
     }
 
-    /// PB203 for each face that a sweep height in mm does not clear.
-    pub fn check(&self, height: f64) -> Vec<Diagnostic> {
+    /// PB203 for each face that a sweep height in mm does not clear. `role`: in which role the path without S gets this height.
+    pub fn check(&self, height: f64, role: PathRole) -> Vec<Diagnostic> {
+        let message = match role {
+            PathRole::Emitted => &parameters::DEFAULT_SWEEP_TOO_LOW,
+            PathRole::Embedded => &parameters::EMBEDDED_SWEEP_TOO_LOW,
+        };
         let too_high = self.faces.iter().filter(|face| !above(height, face.thickness));
         let problem = |face: &Face| {
-            let mut problem = Diagnostic::new(&parameters::DEFAULT_SWEEP_TOO_LOW)
+            let mut problem = Diagnostic::new(message)
                 .with("value", height)
                 .with("limit", face.thickness)
                 .in_path(self.path.as_str());

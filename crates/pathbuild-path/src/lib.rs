@@ -17,6 +17,7 @@ mod keep_out;
 mod language;
 mod letter;
 mod line_type;
+mod look_alikes;
 mod names;
 mod part;
 mod path;
@@ -42,6 +43,7 @@ pub use language::{ChipLoads, DoubtThresholds, Language};
 pub use letter::Letter;
 pub use letter::{ElementClass, Use};
 pub use line_type::{LineType, LineTypeAliases};
+pub use look_alikes::near_layer;
 pub use names::files::{
     FilePattern, NameRange, PathKey, RangeTable, is_q_project, judge_file_name, q_project_name,
     tested_by_q_project,

@@ -48,8 +48,11 @@ impl LineType {
     /// The line type that an unknown name in upper case most likely means: the one with the longest known word in the name, or else one
     /// with the same beginning or a single typing error.
     pub fn like(name: &str) -> Option<Self> {
+        // STRICH-PUNKT and STRICH PUNKT are STRICHPUNKT.
+        let squeezed: String = name.chars().filter(|character| character.is_alphanumeric()).collect();
         let names = || Self::NAMES.into_iter().chain(names_in(ALIASES)).chain(names_in(WORDS));
-        let in_name = names().filter(|(word, _)| word.len() >= SHORTEST && name.contains(word));
+        let in_name = names()
+            .filter(|(word, _)| word.len() >= SHORTEST && (name.contains(word) || squeezed.contains(word)));
         let longest = in_name.max_by_key(|(word, _)| word.len());
         let abbreviated = || names().find(|(word, _)| name.len() >= SHORTEST && word.starts_with(name));
         let misspelt = || names().find(|(word, _)| word.len() > SHORTEST + 1 && differs_little(name, word));

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::parameters as messages;
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Point};
+use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Point};
 pub use pathbuild_dxf::Origin as Position;
 use smol_str::SmolStr;
 
@@ -71,6 +71,20 @@ impl RawPath {
     /// Whether the drawing itself has no errors.
     pub fn is_sound(&self) -> bool {
         !self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+
+    /// The findings about the drawing that are not repeated by problems with values: a value outside its limits (PB203) of a letter without
+    /// an effect (PB210) is one mistake.
+    pub fn findings_beside(&self, problems: &[Diagnostic]) -> Vec<Diagnostic> {
+        let is_same = |found: &Diagnostic, problem: &Diagnostic| {
+            problem.code() == Code::ParameterOutOfRange
+                && (&problem.text, &problem.place) == (&found.text, &found.place)
+        };
+        let is_repeated = |found: &Diagnostic| {
+            found.code() == Code::ParameterWithoutEffect
+                && problems.iter().any(|problem| is_same(found, problem))
+        };
+        self.diagnostics.iter().filter(|found| !is_repeated(found)).cloned().collect()
     }
 
     /// Its first layer.

@@ -9,6 +9,7 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
 use crate::letter::{ElementClass, Letter, Letters, Use};
+use crate::look_alikes;
 
 /// The parameter texts of a path, parsed once for all stages.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -245,13 +246,19 @@ impl<'t> ParameterText<'t> {
     fn problem(self, piece: &LetterValue, is_repeated: bool, class: ElementClass) -> Option<Diagnostic> {
         let first = self.string[piece.span()].chars().next()?;
         let Some(letter) = piece.letter else {
-            return Some(
-                mistake_in_piece(self, piece, class).unwrap_or_else(|| unknown_letter(first, class)),
-            );
+            let mistake = mistake_in_piece(self, piece, class).or_else(|| self.word(piece, class));
+            return Some(mistake.unwrap_or_else(|| unknown_letter(first, class)));
         };
         let how = class.use_of(letter);
         if matches!(how, Use::Unknown | Use::PathOnly) {
-            return Some(unknown_letter(first, class));
+            if letter == Letter::Embed {
+                return Some(
+                    Diagnostic::new(&messages::NAME_ON_OTHER_ELEMENT)
+                        .with("letter", first)
+                        .with("element", class.word()),
+                );
+            }
+            return Some(self.word(piece, class).unwrap_or_else(|| unknown_letter(first, class)));
         }
         if is_repeated {
             return Some(self.twice(letter, piece));
@@ -260,6 +267,20 @@ impl<'t> ParameterText<'t> {
             return Some(Diagnostic::new(&messages::VARIABLE_NOT_ALLOWED).with("letter", first));
         }
         (how == Use::Ignored).then(|| self.without_effect(letter, piece, class))
+    }
+
+    /// PB202 for a word among parameters: `B2 tief`.
+    fn word(self, piece: &LetterValue, class: ElementClass) -> Option<Diagnostic> {
+        let word = self.piece_text(piece);
+        let is_word = word.chars().nth(2).is_some() && word.chars().all(char::is_alphabetic);
+        let known: pathbuild_diagnostic::Value =
+            class.known_letters().map(|known| known.to_string()).collect();
+        is_word.then(|| {
+            Diagnostic::new(&messages::WORD)
+                .quoting("word", word)
+                .with("known", known)
+                .with("element", class.word())
+        })
     }
 
     /// The advice depends on the intention: a depth whose letter has no effect should be replaced by the other depth, not just removed.
@@ -406,7 +427,8 @@ pub(crate) fn mistake_in_text(text: ParameterText<'_>, class: ElementClass) -> O
     if text.is_plain {
         return None;
     }
-    if let Some(problem) = commas(text).or_else(|| lower_case(text, class)) {
+    let mistake = commas(text).or_else(|| lower_case(text, class)).or_else(|| run_together(text, class));
+    if let Some(problem) = mistake {
         return Some(Misreading { problem, unread: Letters::ALL });
     }
     // A remark gives no parameters, but in place of the path's own text it may hide them.
@@ -454,7 +476,38 @@ fn lower_case(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic
     Some(Diagnostic::new(&messages::LOWER_CASE_TEXT).quoting("text", written).with_text(text.whole()))
 }
 
-/// Recognises remarks: words without any effective parameter, such as `Deckel links` or `Halter rechts, 2 Stück`.
+/// Recognises letters with numbers that are not separated by spaces: `B2F100` or `B2;F100`.
+fn run_together(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
+    let parts = |piece: &LetterValue| {
+        let is_faulty = piece.written == ValueKind::NoNumber;
+        is_faulty.then(|| parameters_in(text.piece_text(piece), class)).flatten()
+    };
+    let piece = text.pieces().iter().find(|piece| parts(piece).is_some())?;
+    let separated = |piece: &LetterValue| match parts(piece) {
+        Some(parts) => parts.join(" "),
+        None => text.piece_text(piece).to_owned(),
+    };
+    let separated: Vec<String> = text.pieces().iter().map(separated).collect();
+    let problem = Diagnostic::new(&messages::RUN_TOGETHER).quoting("text", separated.join(" "));
+    Some(problem.with_text(text.fault(piece)))
+}
+
+/// The parameters in a word that consists of several: letters that have an effect, each with a number.
+fn parameters_in(word: &str, class: ElementClass) -> Option<Vec<&str>> {
+    let counts = |character| {
+        Letter::new(character).is_some_and(|letter| !letter.is_text() && class.use_of(letter).counts())
+    };
+    let mut starts: Vec<usize> =
+        word.char_indices().filter(|(_, letter)| counts(*letter)).map(|(at, _)| at).collect();
+    starts.push(word.len());
+    let parts = starts.windows(2).map(|part| word[part[0]..part[1]].trim_end_matches([',', ';', '/', '|']));
+    let parts: Vec<&str> = parts.collect();
+    let are_numbers = parts.iter().all(|part| parse_number(&part[1..]).is_some());
+    (starts[0] == 0 && parts.len() > 1 && are_numbers).then_some(parts)
+}
+
+/// Recognises remarks: words or numbers of pieces without any effective parameter, such as `Deckel links`, `Halter rechts, 2 Stück` or
+/// `3x M3`.
 fn remark(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
     let counts = |piece: &LetterValue| piece.letter.is_some_and(|letter| class.use_of(letter).counts());
     let is_word = |piece: &LetterValue| {
@@ -466,8 +519,15 @@ fn remark(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
             && value.chars().all(char::is_alphabetic)
     };
     let is_parameter = |piece: &LetterValue| counts(piece) && !is_word(piece);
+    let is_count = |piece: &LetterValue| {
+        let count = text.piece_text(piece).trim_end_matches(['x', 'X', '\u{d7}']);
+        !count.is_empty()
+            && count.len() < text.piece_text(piece).len()
+            && count.bytes().all(|byte| byte.is_ascii_digit())
+    };
     let pieces = text.pieces();
-    let is_remark = pieces.iter().any(is_word) && !pieces.iter().any(is_parameter);
+    let is_remark =
+        pieces.iter().any(|piece| is_word(piece) || is_count(piece)) && !pieces.iter().any(is_parameter);
     is_remark
         .then(|| Diagnostic::new(&messages::REMARK).quoting("text", text.as_str()).with_text(text.whole()))
 }
@@ -504,11 +564,23 @@ pub(crate) fn is_without_value(text: ParameterText<'_>, piece: &LetterValue) -> 
     piece.letter.is_some_and(|letter| !letter.is_text()) && matches!(text.value(piece), "" | "-" | "+")
 }
 
+/// Whether a subpath's variable has no value, because a space separates it from its name: `:B 1`.
+pub(crate) fn is_variable_without_value(
+    text: ParameterText<'_>,
+    piece: &LetterValue,
+    class: ElementClass,
+) -> bool {
+    class == ElementClass::Subpath
+        && piece.letter == Some(Letter::Variable)
+        && text.value(piece).chars().count() == 1
+}
+
 /// Recognises the intended meaning of a piece without a letter: a zero instead of O, or a path name without `>`.
 fn mistake_in_piece(text: ParameterText<'_>, piece: &LetterValue, class: ElementClass) -> Option<Diagnostic> {
     let value = text.value(piece);
     let before = text.pieces().iter().take_while(|other| *other != piece).last();
     let is_apart = |sign: &LetterValue| sign.letter == Some(Letter::Embed) && text.value(sign).is_empty();
+    let has_name = || text.piece(Letter::Embed).is_some_and(|name| !text.value(name).is_empty());
     let (message, meant) = match text.letter(piece)? {
         first if class == ElementClass::Subpath && before.is_some_and(is_apart) => {
             (&messages::NAME_APART_FROM_SIGN, format!(">{first}{value}"))
@@ -519,7 +591,16 @@ fn mistake_in_piece(text: ParameterText<'_>, piece: &LetterValue, class: Element
             parse_number(meant.get(1..).unwrap_or_default())?;
             (&messages::VALUE_APART, meant)
         }
-        digit if class == ElementClass::Subpath && digit.is_ascii_digit() => {
+        first if before.is_some_and(|variable| is_variable_without_value(text, variable, class)) => {
+            let variable = before.map(|variable| text.piece_text(variable)).unwrap_or_default();
+            (&messages::VALUE_APART, format!("{variable}{first}{value}"))
+        }
+        '_' if value.starts_with(['D', 'G', '+']) => return Some(drawn_code(text, piece)),
+        first if look_alikes::ascii(first).and_then(Letter::new).is_some() => {
+            let problem = look_alikes::problem(&messages::LOOK_ALIKE_LETTER, text.piece_text(piece))?;
+            return Some(problem.quoting("meant", look_alikes::replaced(text.piece_text(piece))));
+        }
+        digit if class == ElementClass::Subpath && digit.is_ascii_digit() && !has_name() => {
             (&messages::NAME_WITHOUT_SIGN, format!(">{digit}{value}"))
         }
         '0' if class.use_of(Letter::O).counts() && parse_number(value).is_some() => {
@@ -528,6 +609,20 @@ fn mistake_in_piece(text: ParameterText<'_>, piece: &LetterValue, class: Element
         _ => return None,
     };
     Some(Diagnostic::new(message).quoting("meant", meant).with("element", class.word()))
+}
+
+/// PB202 for a sign that CAD programs write as a code, such as `%%c` for the diameter.
+fn drawn_code(text: ParameterText<'_>, piece: &LetterValue) -> Diagnostic {
+    let (code, sign) = match text.value(piece).chars().next() {
+        Some('D') => ("%%c", "\u{2300}"),
+        Some('G') => ("%%d", "\u{b0}"),
+        _ => ("%%p", "\u{b1}"),
+    };
+    let value = text.value(piece).chars().skip(1).collect::<String>();
+    Diagnostic::new(&messages::DRAWN_CODE)
+        .quoting("sign", format!("{sign}{value}"))
+        .quoting("code", code)
+        .quoting("shown", text.piece_text(piece))
 }
 
 /// Parses a number: an optional sign, digits, and at most one decimal point or comma. `None` for anything else, including exponents, and

@@ -5,14 +5,15 @@ use std::borrow::Cow;
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 
-use crate::approx::above;
+use crate::approx::{above, at_least};
 use pathbuild_motion::ChipLoad;
 
 use crate::language::DoubtThresholds;
 use crate::letter::{ElementClass, Letter, Letters, Use};
+use crate::look_alikes;
 use crate::text::{
-    LetterValue, ParameterText, ValueKind, equals_sign_mistake, is_without_value, mistake_in_text,
-    unit_mistake,
+    LetterValue, ParameterText, ValueKind, equals_sign_mistake, is_variable_without_value, is_without_value,
+    mistake_in_text, unit_mistake,
 };
 use crate::variables::Interpolation;
 
@@ -88,7 +89,9 @@ impl<'t> Values<'t> {
                 && (*letter == Letter::Variable || !text.repeats(*letter))
         };
         let has_unread = values.unread != Letters::default();
-        let is_apart = |piece: &LetterValue| has_unread && is_without_value(text, piece);
+        let is_apart = |piece: &LetterValue| {
+            has_unread && (is_without_value(text, piece) || is_variable_without_value(text, piece, class))
+        };
         let mut filled = Vec::with_capacity(text.pieces().len());
         for piece in text.pieces() {
             filled.push(match piece.letter.filter(is_value) {
@@ -213,6 +216,9 @@ fn no_number(letter: Letter, value: &str) -> Diagnostic {
     if let Some(problem) = unit_mistake(letter, value) {
         return problem;
     }
+    if let Some(problem) = other_characters(letter, value) {
+        return problem;
+    }
     let is_integer = letter == Letter::N;
     let message = match is_integer {
         _ if value.contains('\u{a0}') => &messages::NON_BREAKING_SPACE,
@@ -221,6 +227,21 @@ fn no_number(letter: Letter, value: &str) -> Diagnostic {
     };
     let visible = value.replace('\u{a0}', "\u{2423}");
     Diagnostic::new(message).with("letter", letter.as_char()).quoting("value", visible)
+}
+
+/// Recognises a number with characters that look like others, or with letters instead of digits.
+fn other_characters(letter: Letter, value: &str) -> Option<Diagnostic> {
+    let meant = |value: &str| format!("{}{value}", letter.as_char());
+    let is_number = |value: &str| matches!(ValueKind::of(letter, value), ValueKind::Number(_));
+    let (plain, digits) = (look_alikes::replaced(value), look_alikes::with_digits(value));
+    let problem = if plain != value && is_number(&plain) {
+        look_alikes::problem(&messages::LOOK_ALIKE, value)?.quoting("meant", meant(&plain))
+    } else if is_number(&digits) {
+        Diagnostic::new(&messages::LETTERS_FOR_DIGITS).quoting("meant", meant(&digits))
+    } else {
+        return None;
+    };
+    Some(problem.with("letter", letter.as_char()).quoting("value", value))
 }
 
 /// Letters that must always be positive. (book: language/letters)
@@ -232,8 +253,9 @@ const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
 
 /// Problems with the values that `own` gives; other values come from the path.
 pub(crate) fn check_limits(own: &Values<'_>, path: &Values<'_>, class: ElementClass) -> Vec<Diagnostic> {
-    let mut limits = LimitCheck { own, path, problems: Vec::new() };
-    limits.check_positive(&POSITIVE);
+    let mut limits = LimitCheck { own, path, class, problems: Vec::new() };
+    let is_known = |letter: &Letter| !matches!(class.use_of(*letter), Use::Unknown | Use::PathOnly);
+    limits.check_positive(POSITIVE.into_iter().filter(is_known));
     limits.check_above(Letter::S, Letter::T, &messages::NOT_ABOVE);
     // T of a probe or a subpath is the thickness there, which is unrelated to the path's depths.
     for depth in [Letter::B, Letter::D].into_iter().filter(|depth| class.use_of(*depth) != Use::Unknown) {
@@ -241,7 +263,7 @@ pub(crate) fn check_limits(own: &Values<'_>, path: &Values<'_>, class: ElementCl
     }
     if class.has_bars() {
         limits.check_above(Letter::D, Letter::B, &messages::NOT_ABOVE);
-        limits.check_positive(&POSITIVE_BARS);
+        limits.check_positive(POSITIVE_BARS.into_iter());
     }
     limits.problems
 }
@@ -265,19 +287,20 @@ fn example(letter: Letter) -> &'static str {
 struct LimitCheck<'a> {
     own: &'a Values<'a>,
     path: &'a Values<'a>,
+    class: ElementClass,
     problems: Vec<Diagnostic>,
 }
 
 impl LimitCheck<'_> {
-    fn check_positive(&mut self, letters: &[Letter]) {
+    fn check_positive(&mut self, letters: impl Iterator<Item = Letter>) {
         for letter in letters {
-            let GivenNumber::Number(value) = self.own.number(*letter) else { continue };
+            let GivenNumber::Number(value) = self.own.number(letter) else { continue };
             if !above(value, 0.0) {
                 let problem = Diagnostic::new(&messages::NOT_POSITIVE)
                     .with("letter", letter.as_char())
                     .with("value", value)
-                    .quoting("example", example(*letter));
-                self.problems.push(self.own.underline(*letter, problem));
+                    .quoting("example", example(letter));
+                self.problems.push(self.own.underline(letter, problem));
             }
         }
     }
@@ -298,6 +321,11 @@ impl LimitCheck<'_> {
         let says_upper = *message == messages::NOT_ABOVE;
         let (subject, limit) = if says_upper { (upper, lower) } else { (lower, upper) };
         let (subject_value, limit_value) = if says_upper { (high, low) } else { (low, high) };
+        let message = match (self.class.use_of(subject), says_upper) {
+            (Use::Ignored, true) => &messages::UNUSED_NOT_ABOVE,
+            (Use::Ignored, false) => &messages::UNUSED_NOT_BELOW,
+            _ => message,
+        };
         let problem = Diagnostic::new(message)
             .with("letter", subject.as_char())
             .with("value", subject_value)
@@ -364,7 +392,7 @@ pub(crate) fn check_doubts(
     let thickness = path.number(Letter::T).number();
     let below = value(Letter::B).filter(|bottom| above(-bottom, limits.below_plate)).map(|bottom| {
         let depth = -bottom;
-        let problem = match thickness.filter(|thickness| above(*thickness, depth)) {
+        let problem = match thickness.filter(|thickness| at_least(*thickness, depth)) {
             Some(thickness) => Diagnostic::new(&messages::BELOW_PLATE_BY_DEPTH)
                 .with("thickness", thickness)
                 .with("example", thickness - depth),

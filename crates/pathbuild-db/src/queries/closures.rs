@@ -279,7 +279,7 @@ impl<'db> Walk<'db> {
             self.miss(MissingOption::SweepHeight);
             return Cow::default();
         };
-        Cow::Owned(signature.sweep_limits.check(height))
+        Cow::Owned(signature.sweep_limits.check(height, PathRole::Emitted))
     }
 
     /// Checks that a path without F of its own gets a feed.

@@ -66,18 +66,20 @@ fn embeddings<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Embedding<'d
         &settings.language(db).path_pattern,
         settings.reading(db).compatible,
     );
-    let embedder = Embedder { db, file: instance.file(db), judge };
+    let read_all = || read_layers(db, instance.file(db), &|_| true);
+    let embedder = Embedder { db, file: instance.file(db), judge, ends: LayerEnds::new(&read_all) };
     outer.subpaths.iter().map(|call| embedder.embedding(call)).collect()
 }
 
-struct Embedder<'db> {
+struct Embedder<'a, 'db> {
     db: &'db dyn Db,
     /// The embedding drawing.
     file: SourceFile,
     judge: Judge<'db>,
+    ends: LayerEnds<'a>,
 }
 
-impl<'db> Embedder<'db> {
+impl<'db> Embedder<'_, 'db> {
     fn embedding(&self, call: &SubpathCall) -> Embedding<'db> {
         let name = match &call.subpath.name {
             SubpathName::Found { name, .. } => Some(name.clone()),
@@ -85,7 +87,9 @@ impl<'db> Embedder<'db> {
         };
         let outcome = match self.judge.name(call) {
             Ok(name) => self.named(call, name),
-            Err(problem) => Outcome::Refused(*problem),
+            Err(problem) => {
+                Outcome::Refused(self.ends.with_name_hint(Settings::get(self.db).language(self.db), *problem))
+            }
         };
         let warnings = self.judge.warnings(call);
         Embedding { segment: call.segment, origin: call.origin.clone(), name, outcome, warnings }

@@ -10,8 +10,8 @@ use pathbuild_dxf::Drawing;
 use pathbuild_files::Stamp;
 use pathbuild_path::{
     Bindings, DrawnParts, ExaminedPath, Item, KeepOut, KeepOuts, Language, NearNames, Part, Path, PathCuts,
-    PathHeader, PathName, PathSignature, RawFile, RawPath, WalkedPath, Xy, has_text_on_part, judge_file_name,
-    stray_findings,
+    PathHeader, PathName, PathRole, PathSignature, RawFile, RawPath, WalkedPath, Xy, has_text_on_part,
+    judge_file_name, stray_findings,
 };
 use pathbuild_toolpath::{own_moves, part_cuts};
 use smol_str::SmolStr;
@@ -101,8 +101,9 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
         match read {
             Ok((raw, drawn_parts, keep_outs)) => {
                 let read_all = || entities(bytes, reading, &|_| true);
-                let index = FileIndex::new(db, raw, drawn_parts, &LayerEnds::new(&read_all), content);
-                index.with_name_judged(db, file).with_keep_outs(keep_outs)
+                let ends = LayerEnds::new(&read_all);
+                let index = FileIndex::new(db, raw, drawn_parts, &ends, content);
+                index.with_name_judged(db, file, &ends).with_keep_outs(keep_outs)
             }
             Err(bug) => FileIndex::failed(*bug, content),
         }
@@ -222,12 +223,13 @@ impl FileIndex {
     }
 
     /// Adds findings about the file's name, if the drawing's paths are known.
-    fn with_name_judged(mut self, db: &dyn Db, file: SourceFile) -> Self {
+    fn with_name_judged(mut self, db: &dyn Db, file: SourceFile, ends: &LayerEnds<'_>) -> Self {
         if !self.diagnostics.iter().any(Diagnostic::is_error) {
             let settings = Settings::get(db);
             let stem = file.path(db).file_stem().unwrap_or_default();
             let (files, paths) = (settings.file_pattern(db), &settings.language(db).path_pattern);
-            self.diagnostics.extend(judge_file_name(stem, &self.names, files, paths));
+            let found = judge_file_name(stem, &self.names, files, paths);
+            self.diagnostics.extend(found.into_iter().map(|found| ends.with_near_layer(found)));
         }
         self
     }
@@ -368,7 +370,7 @@ impl PathSummary {
         }
         Self {
             problems,
-            sweep_problems: signature.sweep_limits.check(path.embedded_sweep_height()),
+            sweep_problems: signature.sweep_limits.check(path.embedded_sweep_height(), PathRole::Embedded),
             walk_problems,
             moves,
             signature: Some(signature),
@@ -424,10 +426,10 @@ pub(super) fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> B
 
 /// Binds a path as far as it is known, even if it has errors, so that its other errors are found as well.
 fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> BoundPath {
-    let mut diagnostics = raw.diagnostics.clone();
     let examined = catch_bugs(|| pathbuild_path::examine(raw, bindings, language));
     let ExaminedPath { path, problems } = examined
         .unwrap_or_else(|bug| ExaminedPath { path: None, problems: vec![bug.in_path(raw.name.as_str())] });
+    let mut diagnostics = raw.findings_beside(&problems);
     diagnostics.extend(problems);
     BoundPath { path, diagnostics }
 }

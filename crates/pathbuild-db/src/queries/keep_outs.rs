@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::paths as messages;
-use pathbuild_diagnostic::{Diagnostic, Number, Point, Text};
+use pathbuild_diagnostic::{Diagnostic, Number, Point, Text, words};
 use pathbuild_path::{Curve, KeepOut, KeepOutMap};
 use pathbuild_toolpath::{ProbeOrigin, StepOrigin, kind_of_move, way};
 use rustc_hash::FxHashSet;
@@ -135,7 +135,8 @@ impl<'t> Search<'t> {
         let clamp = &self.clamps[entry.clamp];
         let message = match entry.probe {
             Some(_) => &messages::PROBING_INTO_CLAMP,
-            None => &messages::MOVES_INTO_CLAMP,
+            None if extent.what == &words::RAPID_MOVE => &messages::MOVES_INTO_CLAMP,
+            None => &messages::CUTS_INTO_CLAMP,
         };
         let found = Diagnostic::new(message)
             .with("tool", program.largest_cutter())

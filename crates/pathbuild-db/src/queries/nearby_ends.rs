@@ -6,9 +6,10 @@ use std::cell::OnceCell;
 use pathbuild_diagnostic::messages::{drawing, paths};
 use pathbuild_diagnostic::{Code, Diagnostic, Message, Note, Number, Point, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
-use pathbuild_path::approx::near;
+use pathbuild_path::approx::{coincide, near};
 use pathbuild_path::{
-    Arc, Curve, END_RADIUS, Language, Line, LineType, PathName, START_RADIUS, TextCircle, Xy, on_circle,
+    Arc, Curve, END_RADIUS, Language, Letter, Line, LineType, ParameterTexts, PathName, START_RADIUS,
+    TextCircle, Xy, near_layer, on_circle,
 };
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -36,7 +37,8 @@ impl<'a> LayerEnds<'a> {
         Self { read, all: OnceCell::new(), markers: OnceCell::new() }
     }
 
-    /// Adds the element on another layer that was probably meant: to PB401 an end, to PB101 and PB102 a circle, to PB107 an element.
+    /// Adds the element on another layer that was probably meant: to PB401 an end, to PB101 and PB102 a circle, to PB107 an element, to PB207 a
+    /// text.
     pub(super) fn with_hint(
         &self,
         path: &PathName,
@@ -49,7 +51,8 @@ impl<'a> LayerEnds<'a> {
             }
             Code::MissingStart => self.marker(language, &problem, START, &drawing::START_ON_OTHER_LAYER),
             Code::MissingEnd => self.marker(language, &problem, END, &drawing::END_MARKER_ON_OTHER_LAYER),
-            Code::TextWithoutElement => self.element(&problem),
+            Code::TextWithoutElement => self.element(language, &problem),
+            Code::MissingPathParameters => self.start_text(&problem),
             _ => None,
         };
         if let Some((note, distance)) = hint {
@@ -57,6 +60,27 @@ impl<'a> LayerEnds<'a> {
             problem.notes.retain(|other| distance_of(other).is_none_or(|other| other <= distance));
             let nearer = problem.notes.iter().take_while(|other| distance_of(other).is_some()).count();
             problem.notes.insert(nearer, note);
+        }
+        problem
+    }
+
+    /// Adds to PB501 the text that was probably meant.
+    pub(super) fn with_name_hint(&self, language: &Language, mut problem: Diagnostic) -> Diagnostic {
+        if problem.code() == Code::MissingSubpathName {
+            problem.notes.extend(self.name_text(language, &problem));
+        }
+        problem
+    }
+
+    /// Adds to PB519 the layer with the most similar name.
+    pub(super) fn with_near_layer(&self, mut problem: Diagnostic) -> Diagnostic {
+        let name = problem.arguments.iter().find_map(|(name, value)| match value {
+            Value::Quoted(text) if *name == "name" => Some(text.clone()),
+            _ => None,
+        });
+        if let Some(name) = name.filter(|_| problem.code() == Code::PromisedPath) {
+            let layers = self.all().drawing.layers.iter().map(|layer| &*layer.name);
+            problem.notes.extend(near_layer(&name, layers));
         }
         problem
     }
@@ -97,7 +121,7 @@ impl<'a> LayerEnds<'a> {
         message: &'static Message,
     ) -> Option<(Note, f64)> {
         // Another circle was named already.
-        if !problem.notes.is_empty() {
+        if problem.notes.iter().any(|note| note.message != &drawing::START_TEXT) {
             return None;
         }
         let markers = self.markers.get_or_init(|| {
@@ -116,7 +140,7 @@ impl<'a> LayerEnds<'a> {
     }
 
     /// The element on another layer that is nearest to a text.
-    fn element(&self, problem: &Diagnostic) -> Option<(Note, f64)> {
+    fn element(&self, language: &Language, problem: &Diagnostic) -> Option<(Note, f64)> {
         let argument =
             |wanted| problem.arguments.iter().find(|(name, _)| *name == wanted).map(|(_, value)| value);
         let (Some(Value::Point(centre)), Some(Value::Number(Number(diameter)))) =
@@ -130,7 +154,8 @@ impl<'a> LayerEnds<'a> {
         let text = TextCircle { centre: Xy::new(centre.x.0, centre.y.0), radius: diameter / 2.0 };
         let own = problem.place.layer.as_deref();
         let near = self.all().near(text.centre, text.radius + WORTH_NAMING);
-        let others = near.filter(|(layer, _)| Some(*layer) != own);
+        let is_drawn_for_paths = |layer: &str| !language.is_part(layer) && !language.is_keep_out(layer);
+        let others = near.filter(|(layer, _)| Some(*layer) != own && is_drawn_for_paths(layer));
         let distances =
             others.filter_map(|(layer, entity)| Some((layer, entity, gap(&text, &entity.geometry)?)));
         let (layer, entity, gap) =
@@ -144,10 +169,56 @@ impl<'a> LayerEnds<'a> {
     }
 }
 
+impl LayerEnds<'_> {
+    /// A text with O and T on another layer that lies on a start marker without a text.
+    fn start_text(&self, problem: &Diagnostic) -> Option<(Note, f64)> {
+        let Point { x: Number(x), y: Number(y) } = problem.place.point?;
+        let at = Xy::new(x, y);
+        let is_of_start = |string: &str| {
+            let texts = ParameterTexts::from(string);
+            let has = |letter| texts.first().is_some_and(|text| text.piece(letter).is_some());
+            has(Letter::O) && has(Letter::T) && !has(Letter::Embed)
+        };
+        let touches = |circle: &TextCircle| (circle.centre - at).norm() < circle.radius + START_RADIUS;
+        let texts = self.all().texts_near(at, START_RADIUS);
+        let others = texts.filter(|(layer, ..)| Some(*layer) != problem.place.layer.as_deref());
+        let mut found = others.filter(|(_, circle, string)| touches(circle) && is_of_start(string));
+        let (layer, _, string) = found.next()?;
+        Some((text_note(&drawing::START_TEXT_ON_OTHER_LAYER, layer, string), 0.0))
+    }
+
+    /// A text with a path's name that touches a subpath without a name: on another layer, or belonging to another element.
+    fn name_text(&self, language: &Language, problem: &Diagnostic) -> Option<Note> {
+        let Point { x: Number(x), y: Number(y) } = problem.place.point?;
+        let (start, own) = (Xy::new(x, y), problem.place.layer.as_deref());
+        let is_subpath = |(layer, entity): &(&str, &Entity)| {
+            Some(*layer) == own
+                && LineType::of(&entity.line_type, &language.line_types) == Some(LineType::Dashdot)
+                && ends_of(&entity.geometry).is_some_and(|[begin, _]| coincide(begin, start))
+        };
+        let (_, segment) = self.all().near(start, WORTH_NAMING).find(is_subpath)?;
+        let extent = box_of(&segment.geometry);
+        let names = self.all().texts_in(AABB::from_corners(extent.lower(), extent.upper()));
+        let mut names = names.filter(|(_, circle, string)| {
+            string.trim_start().starts_with('>')
+                && gap(circle, &segment.geometry).is_some_and(|gap| gap <= 0.0)
+        });
+        let (layer, _, string) = names.next()?;
+        let is_own = Some(layer) == own;
+        let message = if is_own { &drawing::NAME_OF_OTHER_ELEMENT } else { &drawing::NAME_ON_OTHER_LAYER };
+        Some(text_note(message, layer, string))
+    }
+}
+
+fn text_note(message: &'static Message, layer: &str, string: &str) -> Note {
+    let text = Value::quoted(string.replace('\n', " "));
+    Note { message, arguments: vec![("layer", Value::quoted(layer)), ("text", text)] }
+}
+
 impl AllLayers {
     fn new(drawing: Drawing) -> Self {
         let boxes = drawing.entities.iter().map(|entity| box_of(&entity.geometry)).zip(0..);
-        let boxes = boxes.filter_map(|(box_, index)| Some(GeomWithData::new(box_?, index)));
+        let boxes = boxes.map(|(box_, index)| GeomWithData::new(box_, index));
         let boxes = RTree::bulk_load(boxes.collect());
         Self { drawing, boxes }
     }
@@ -163,14 +234,31 @@ impl AllLayers {
 
     /// The entities whose bounding boxes come within a distance of a point, in file order.
     fn near(&self, point: Xy, distance: f64) -> impl Iterator<Item = (&str, &Entity)> {
-        let searched = AABB::from_corners(
+        self.touching(AABB::from_corners(
             [point.x - distance, point.y - distance],
             [point.x + distance, point.y + distance],
-        );
+        ))
+    }
+
+    fn touching(&self, searched: AABB<[f64; 2]>) -> impl Iterator<Item = (&str, &Entity)> {
         let mut found: Vec<usize> =
             self.boxes.locate_in_envelope_intersecting(searched).map(|found| found.data).collect();
         found.sort_unstable();
         found.into_iter().filter_map(|index| self.entity(index))
+    }
+
+    /// The texts whose bounding boxes come within a distance of a point, each with its layer and its circle.
+    fn texts_near(&self, point: Xy, distance: f64) -> impl Iterator<Item = (&str, TextCircle, &str)> {
+        let corner = |side: f64| [point.x + side * distance, point.y + side * distance];
+        self.texts_in(AABB::from_corners(corner(-1.0), corner(1.0)))
+    }
+
+    fn texts_in(&self, searched: AABB<[f64; 2]>) -> impl Iterator<Item = (&str, TextCircle, &str)> {
+        self.touching(searched).filter_map(|(layer, entity)| match &entity.geometry {
+            Geometry::Text(text) => Some((layer, TextCircle::of_text(text), &*text.string)),
+            Geometry::MText(text) => Some((layer, TextCircle::of_mtext(text), &*text.plain)),
+            Geometry::Line(_) | Geometry::Arc(_) | Geometry::Circle(_) => None,
+        })
     }
 }
 
@@ -214,22 +302,29 @@ fn gap(text: &TextCircle, geometry: &Geometry) -> Option<f64> {
     })
 }
 
-/// The bounding box of a line, arc or circle; an arc gets that of its whole circle. `None` for texts.
-fn box_of(geometry: &Geometry) -> Option<Rectangle<[f64; 2]>> {
+/// The bounding box of an entity; an arc and a text get that of their whole circle.
+fn box_of(geometry: &Geometry) -> Rectangle<[f64; 2]> {
     let around = |centre: &pathbuild_dxf::Point3, radius: f64| {
         Rectangle::from_corners(
             [centre.x - radius, centre.y - radius],
             [centre.x + radius, centre.y + radius],
         )
     };
-    Some(match geometry {
+    let around_text = |TextCircle { centre, radius }: TextCircle| {
+        Rectangle::from_corners(
+            [centre.x - radius, centre.y - radius],
+            [centre.x + radius, centre.y + radius],
+        )
+    };
+    match geometry {
         Geometry::Line(line) => {
             Rectangle::from_corners([line.start.x, line.start.y], [line.end.x, line.end.y])
         }
         Geometry::Arc(arc) => around(&arc.centre, arc.radius),
         Geometry::Circle(circle) => around(&circle.centre, circle.radius),
-        Geometry::Text(_) | Geometry::MText(_) => return None,
-    })
+        Geometry::Text(text) => around_text(TextCircle::of_text(text)),
+        Geometry::MText(text) => around_text(TextCircle::of_mtext(text)),
+    }
 }
 
 /// The ends of a line or arc.

@@ -18,10 +18,40 @@ messages! {
         en: "layer {layer}, which is not a path layer, has an end marker at {point}: is it on the wrong layer?",
         de: "auf Layer {layer}, der kein Pfadlayer ist, liegt bei {point} eine Endmarke: liegt sie auf dem falschen Layer?",
     }
+    /// Note: a text with O and T that belongs to no start marker.
+    START_TEXT: MissingStart {
+        en: "the text \"{text}\" at {point} has O and T: does the start marker belong there?",
+        de: "der Text \"{text}\" bei {point} hat O und T: gehört dort die Anfangsmarke hin?",
+    }
+    /// Note: a text with O and T on another layer.
+    START_TEXT_ON_OTHER_LAYER: MissingPathParameters {
+        en: "the text \"{text}\" lies here on layer {layer}: move it to the layer of the start marker",
+        de: "der Text \"{text}\" liegt hier auf Layer {layer}: auf den Layer der Anfangsmarke legen",
+    }
+    /// Note: a text with O and T that another element has taken, or that no element has.
+    START_TEXT_ELSEWHERE: MissingPathParameters {
+        en: "the text \"{text}\" at {point} has O and T, but does not lie on the start marker: move it there",
+        de: "der Text \"{text}\" bei {point} hat O und T, liegt aber nicht auf der Anfangsmarke: dorthin schieben",
+    }
+    /// Note: a text with a path's name on another layer.
+    NAME_ON_OTHER_LAYER: MissingSubpathName {
+        en: "the text \"{text}\" lies here on layer {layer}: move it to the layer of the subpath",
+        de: "der Text \"{text}\" liegt hier auf Layer {layer}: auf den Layer des Unterpfads legen",
+    }
+    /// Note: a text with a path's name that another element has taken.
+    NAME_OF_OTHER_ELEMENT: MissingSubpathName {
+        en: "the text \"{text}\" touches this segment, but belongs to a nearer element, or to a circle or an arc: move it closer to the segment",
+        de: "der Text \"{text}\" berührt dieses Segment, gehört aber zu einem näheren Element oder zu einem Kreis oder Bogen: näher ans Segment schieben",
+    }
     /// Note: a circle with the text of a start.
     MEANT_AS_START: MissingStart {
         en: "the circle at {point} has a text with O and T, but its diameter is {diameter} mm; if it is meant as the start marker, draw it with 1 mm",
         de: "der Kreis bei {point} hat einen Text mit O und T, sein Durchmesser ist aber {diameter} mm; ist er als Anfangsmarke gemeint, mit 1 mm zeichnen",
+    }
+    /// Note: an end marker with the text of a start, in a path whose start marker has none.
+    SWAPPED_MARKERS: MissingPathParameters {
+        en: "the circle at {point} has a text with O and T, but is an end marker (2 mm): are the two swapped? The start has 1 mm, the end 2 mm",
+        de: "der Kreis bei {point} hat einen Text mit O und T, ist aber eine Endmarke (2 mm): sind die beiden vertauscht? Der Anfang hat 1 mm, das Ende 2 mm",
     }
     /// Note: a circle with the path's text and the line type of an element.
     MEANT_AS_PHANTOM_START: MissingStart {
@@ -118,7 +148,7 @@ messages! {
     /// A text that is equally near to two elements.
     FIRST_OF_EQUALS: DoubtfulText {
         en: "the text \"{text}\" is as near to {other} at {other_point} as to {element} at {point}, to which it belongs only because that comes first in the file",
-        de: "zum Text \"{text}\" gehört {element} bei {point} nur, weil es in der Datei zuerst kommt: {other} bei {other_point} ist genauso nah",
+        de: "zum Text \"{text}\" gehört {element} bei {point} nur wegen der Reihenfolge in der Datei: {other} bei {other_point} ist genauso nah",
         help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters after the name",
         help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
     }
@@ -131,6 +161,11 @@ messages! {
     HAS_A_TEXT: TextWithoutElement {
         en: "here {element} at {point} has a text already: write all letters into one text",
         de: "hier hat {element} bei {point} schon einen Text: alle Buchstaben in einen Text schreiben",
+    }
+    /// Note: an element that has a text of blanks.
+    HAS_A_BLANK_TEXT: TextWithoutElement {
+        en: "here {element} at {point} has a text already that consists of blanks and cannot be seen: delete that text",
+        de: "hier hat {element} bei {point} schon einen Text, der nur aus Leerzeichen besteht und unsichtbar ist: diesen Text löschen",
     }
     /// Note: an entity that was left out (PB111) takes no text.
     TEXT_OF_LEFT_OUT: TextWithoutElement {
@@ -175,6 +210,11 @@ messages! {
         help_en: "rename it to {path}, or to {path}~A with nothing but letters after ~; if it is not meant to be milled, give it a quite different name",
         help_de: "in {path} umbenennen oder in {path}~A mit nichts als Buchstaben hinter ~; soll es nicht gefräst werden, den Layer ganz anders nennen",
     }
+    /// Note: a character of another alphabet in a layer's name.
+    LOOK_ALIKE_IN_NAME: NearlyPathLayer {
+        en: "\"{character}\" ({code}) in the name of the layer only looks like \"{plain}\"",
+        de: "\"{character}\" ({code}) im Namen des Layers sieht nur aus wie \"{plain}\"",
+    }
     /// A milled line from a point to the same point.
     CUT_WITHOUT_LENGTH: LeftoverElement {
         en: "this line has no length: the cutter plunges here, and mills nothing",
@@ -199,7 +239,7 @@ messages! {
     /// A milled line or arc on another one.
     CURVE_TWICE: LeftoverElement {
         en: "{element} at {point} is drawn twice: it is milled twice, and a text belongs to one of the two only",
-        de: "{element} bei {point} ist doppelt gezeichnet: es wird zweimal gefräst, und ein Text gehört nur zu einem der beiden",
+        de: "{element} bei {point} ist doppelt gezeichnet: hier wird zweimal gefräst, und ein Text gehört nur zu einem der beiden",
         help_en: "delete one of the two; if the tool is to come back along it, draw a turn marker at its end (a PHANTOM circle of 1.5 mm)",
         help_de: "eines der beiden löschen; soll der Fräser darauf zurückkommen, am Ende eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm)",
     }
@@ -293,6 +333,13 @@ messages! {
         de: "{entity} auf einem Layer mit Spannmitteln wird nicht unterstützt; die Lage des Spannmittels ist daher unbekannt",
         help_en: "draw the outline with lines, arcs, a circle or a closed polyline; `approximate-curves` in pathbuild.toml reads ellipses and splines",
         help_de: "den Umriss mit Linien, Bögen, einem Kreis oder einer geschlossenen Polylinie zeichnen; mit `approximate-curves` in pathbuild.toml werden Ellipsen und Splines gelesen",
+    }
+    /// An attribute of a block on a layer with clamps.
+    NO_HEIGHT_TEXT: InvalidKeepOut {
+        en: "this {entity} on a layer with clamps is not read, so the height of the clamp may be unknown",
+        de: "{entity} auf einem Layer mit Spannmitteln wird nicht gelesen; die Höhe des Spannmittels ist daher vielleicht unbekannt",
+        help_en: "write the height as TEXT or MTEXT, in the block or over it, for example Z25; explode the block if its attribute holds it",
+        help_de: "die Höhe als TEXT oder MTEXT schreiben, im Block oder darüber, zum Beispiel Z25; steht sie in einem Attribut, den Block auflösen",
     }
     /// A clamp with more texts than are listed.
     CLAMP_WITH_MANY_TEXTS: InvalidKeepOut {

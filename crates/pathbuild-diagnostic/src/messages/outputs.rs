@@ -38,10 +38,20 @@ messages! {
     }
     /// A path that is only in the file's name.
     PROMISED_PATH: PromisedPath {
-        en: "the file's name names path {name}, but no layer of the drawing has that name",
-        de: "der Dateiname nennt den Pfad {name}, aber kein Layer der Zeichnung heißt so",
+        en: "the file's name names path {name}, but the drawing has nothing on a layer of that name",
+        de: "der Dateiname nennt den Pfad {name}, aber auf einem Layer dieses Namens hat die Zeichnung nichts",
         help_en: "rename the layer, or the file",
         help_de: "den Layer oder die Datei umbenennen",
+    }
+    /// Note: a layer with a similar name.
+    NEAR_LAYER: PromisedPath {
+        en: "layer {layer} has a similar name",
+        de: "Layer {layer} heißt ähnlich",
+    }
+    /// Note: a layer whose name has a character of another alphabet.
+    LOOK_ALIKE_LAYER: PromisedPath {
+        en: "layer {layer} has a similar name: \"{character}\" ({code}) only looks like \"{plain}\"",
+        de: "Layer {layer} heißt ähnlich: \"{character}\" ({code}) sieht nur aus wie \"{plain}\"",
     }
     /// A path that is not covered by the file's name.
     STRAY_PATH: StrayPath {

@@ -57,12 +57,40 @@ messages! {
         help_en: "move a remark to a layer that is no path layer; Q puts a comment into the program",
         help_de: "eine Bemerkung auf einen Layer legen, der kein Pfadlayer ist; mit Q kommt ein Kommentar ins Programm",
     }
+    /// A word among parameters.
+    WORD: UnknownParameter {
+        en: "\"{word}\" is no parameter: {element} knows {known}",
+        de: "\"{word}\" ist kein Parameter: {element} kennt {known}",
+        help_en: "remove it, or put it on a layer that is no path layer; Q puts a comment into the program, for example Q{word}",
+        help_de: "entfernen oder auf einen Layer legen, der kein Pfadlayer ist; mit Q kommt ein Kommentar ins Programm, zum Beispiel Q{word}",
+    }
+    /// A letter of another alphabet.
+    LOOK_ALIKE_LETTER: UnknownParameter {
+        en: "\"{character}\" ({code}) only looks like \"{plain}\"",
+        de: "\"{character}\" ({code}) sieht nur aus wie \"{plain}\"",
+        help_en: "type \"{meant}\"",
+        help_de: "\"{meant}\" eintippen",
+    }
+    /// A sign that CAD programs write as a code.
+    DRAWN_CODE: UnknownParameter {
+        en: "\"{sign}\" is no parameter; {code} is shown as {shown} here",
+        de: "\"{sign}\" ist kein Parameter; {code} wird hier als {shown} angezeigt",
+        help_en: "remove it, or put it on a layer that is no path layer: the diameter of a hole is that of its circle, and O that of the cutter",
+        help_de: "entfernen oder auf einen Layer legen, der kein Pfadlayer ist: der Durchmesser eines Lochs ist der seines Kreises, O der des Fräsers",
+    }
     /// A zero instead of O.
     ZERO_FOR_O: UnknownParameter {
         en: "{element} does not know \"0\"",
         de: "{element} kennt \"0\" nicht",
         help_en: "if the zero is meant as the letter O, write \"{meant}\"",
         help_de: "ist die Null als Buchstabe O gemeint, \"{meant}\" schreiben",
+    }
+    /// `>` on an element that embeds nothing.
+    NAME_ON_OTHER_ELEMENT: UnknownParameter {
+        en: "{element} does not know \"{letter}\": it embeds no path",
+        de: "{element} kennt \"{letter}\" nicht: hier wird kein Pfad eingebettet",
+        help_en: "draw a line that embeds a path with line type DASHDOT",
+        help_de: "eine Linie, die einen Pfad einbettet, mit dem Linientyp DASHDOT zeichnen",
     }
     /// A path name without `>`.
     NAME_WITHOUT_SIGN: UnknownParameter {
@@ -98,6 +126,20 @@ messages! {
         de: "{letter} ist {value}, muss aber kleiner sein als {limit_letter} mit {limit}",
         help_en: "heights are measured from the clamping plate: S above T above D above B",
         help_de: "Höhen zählen ab der Aufspannplatte: S über T über D über B",
+    }
+    /// A value of a letter without an effect that must be greater than another one.
+    UNUSED_NOT_ABOVE: ParameterOutOfRange {
+        en: "{letter} is {value}, but must be greater than {limit_letter}, which is {limit}",
+        de: "{letter} ist {value}, muss aber größer sein als {limit_letter} mit {limit}",
+        help_en: "remove it: {letter} has no effect here",
+        help_de: "entfernen: {letter} hat hier keine Wirkung",
+    }
+    /// A value of a letter without an effect that must be less than another one.
+    UNUSED_NOT_BELOW: ParameterOutOfRange {
+        en: "{letter} is {value}, but must be less than {limit_letter}, which is {limit}",
+        de: "{letter} ist {value}, muss aber kleiner sein als {limit_letter} mit {limit}",
+        help_en: "remove it: {letter} has no effect here; line type CONTINUOUS goes down to B, DIVIDE to D",
+        help_de: "entfernen: {letter} hat hier keine Wirkung; der Linientyp CONTINUOUS geht bis B, DIVIDE bis D",
     }
     /// A value that must be positive.
     NOT_POSITIVE: ParameterOutOfRange {
@@ -211,6 +253,13 @@ messages! {
         help_en: "give the path an S, or raise sweep-height",
         help_de: "dem Pfad ein S geben oder sweep-height erhöhen",
     }
+    /// A sweep height of an embedded path that is too low.
+    EMBEDDED_SWEEP_TOO_LOW: ParameterOutOfRange {
+        en: "this path has no S and sweeps at T + O, which is {value}, where it is embedded: not above the material here, T{limit}",
+        de: "dieser Pfad hat kein S, seine Leerfahrten liegen eingebettet auf T + O mit {value}: nicht über dem Material hier, T{limit}",
+        help_en: "give the path an S",
+        help_de: "dem Pfad ein S geben",
+    }
     /// Material or a probe that H raises to the sweep height.
     RAISED_INTO_SWEEPS: ParameterOutOfRange {
         en: "the material here reaches up to {limit}, but this path sweeps at {value}: rapid moves would hit it",
@@ -236,8 +285,8 @@ messages! {
     NOT_A_NUMBER: NotANumber {
         en: "{letter} needs a number, not \"{value}\"",
         de: "{letter} braucht eine Zahl, nicht \"{value}\"",
-        help_en: "an optional sign, digits, at most one decimal point or comma: {letter}-0,3",
-        help_de: "ein Vorzeichen, wenn nötig, Ziffern, höchstens ein Dezimalpunkt oder -komma: {letter}-0,3",
+        help_en: "an optional sign, digits, and at most one decimal point or comma, for example {letter}-0.3",
+        help_de: "ein Vorzeichen, wenn nötig, Ziffern und höchstens ein Dezimalpunkt oder -komma, zum Beispiel {letter}-0.3",
     }
     /// A number with a unit.
     NUMBER_WITH_UNIT: NotANumber {
@@ -245,6 +294,27 @@ messages! {
         de: "\"{letter}{value}\" ist keine Zahl",
         help_en: "write \"{meant}\": lengths are always in mm, feeds in mm/min, and units are never written",
         help_de: "\"{meant}\" schreiben: Längen sind immer in mm, Vorschübe in mm/min, Einheiten werden nicht geschrieben",
+    }
+    /// A number with a character that looks like another one.
+    LOOK_ALIKE: NotANumber {
+        en: "\"{letter}{value}\" is not a number: \"{character}\" ({code}) only looks like \"{plain}\"",
+        de: "\"{letter}{value}\" ist keine Zahl: \"{character}\" ({code}) sieht nur aus wie \"{plain}\"",
+        help_en: "type \"{meant}\"",
+        help_de: "\"{meant}\" eintippen",
+    }
+    /// A number with letters that look like digits.
+    LETTERS_FOR_DIGITS: NotANumber {
+        en: "\"{letter}{value}\" is not a number: it has a letter in place of a digit",
+        de: "\"{letter}{value}\" ist keine Zahl: statt einer Ziffer steht ein Buchstabe",
+        help_en: "write \"{meant}\"",
+        help_de: "\"{meant}\" schreiben",
+    }
+    /// Parameters without a space between them.
+    RUN_TOGETHER: NotANumber {
+        en: "there are no spaces between parameters here",
+        de: "hier stehen keine Leerzeichen zwischen Parametern",
+        help_en: "separate them with spaces: write \"{text}\"",
+        help_de: "mit Leerzeichen trennen: \"{text}\"",
     }
     /// A non-breaking space, which does not separate parameters.
     NON_BREAKING_SPACE: NotANumber {

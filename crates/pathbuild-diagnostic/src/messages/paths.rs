@@ -77,6 +77,13 @@ messages! {
         help_en: "split the line or arc at {point}",
         help_de: "die Linie oder den Bogen bei {point} teilen",
     }
+    /// A leftover segment that touches another one of its kind where that has no end.
+    NO_END_THERE_ALIKE: UnreachedSegments {
+        en: "not all segments were reached; left: {left}; {element} at {point} lies on another one, which does not end there",
+        de: "nicht alle Segmente wurden erreicht; übrig: {left}; bei {point} trifft {element} auf ein anderes der gleichen Art, das dort nicht endet",
+        help_en: "split the line or arc at {point}",
+        help_de: "die Linie oder den Bogen bei {point} teilen",
+    }
     /// An end that is not reached because a segment is drawn twice.
     END_NOT_REACHED_TWICE: EndNotReached {
         en: "the path stops at {point}, but its end marker is at {end}: {element} at {begin} is drawn twice",
@@ -123,8 +130,15 @@ messages! {
     MOVES_INTO_CLAMP: InsideKeepOut {
         en: "the tool, O{tool}, hits the clamp of layer {layer} at {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
         de: "der Fräser, O{tool}, trifft das Spannmittel von Layer {layer} bei {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
-        help_en: "raise S to {height} or more (rapids at S are straight), keep cuts at least half of O away from the outline, or move the clamp",
-        help_de: "S auf {height} oder mehr erhöhen (Eilgänge auf S verlaufen gerade), Schnitte mindestens O/2 vom Umriss entfernt zeichnen oder das Spannmittel versetzen",
+        help_en: "raise S to {height} or more (rapids at S are straight), or move the clamp",
+        help_de: "S auf {height} oder mehr erhöhen (Eilgänge auf S verlaufen gerade) oder das Spannmittel versetzen",
+    }
+    /// A program that cuts into a clamp, reported at the drawn element.
+    CUTS_INTO_CLAMP: InsideKeepOut {
+        en: "the tool, O{tool}, hits the clamp of layer {layer} at {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
+        de: "der Fräser, O{tool}, trifft das Spannmittel von Layer {layer} bei {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
+        help_en: "move the clamp, or keep the cut at least half of O away from its outline",
+        help_de: "das Spannmittel versetzen oder den Schnitt mindestens O/2 von seinem Umriss entfernt zeichnen",
     }
     /// A probing program that moves into a clamp, reported at the probe.
     PROBING_INTO_CLAMP: InsideKeepOut {

@@ -243,6 +243,7 @@ fn a_block_scaled_differently_is_left_out() {
         assert!(drawing.entities.is_empty());
     }
     assert_eq!(inserted("41 2\n42 -2.0000000000001\n43 7").len(), 1);
+    assert_eq!(inserted("41 1\n42 1.0000001").len(), 1, "the two are shown alike");
 }
 
 #[test]

@@ -44,10 +44,13 @@ impl Texts<'_> {
         for (number, layer) in self.layers.iter().enumerate() {
             for text in &layer.texts {
                 let others = self.layers.iter().enumerate().filter(|(other, _)| *other != number);
-                let problem = layer.without_element(text, others.map(|(_, other)| other), &budget);
+                let problem = layer.without_element(text, others.map(|(_, other)| other), path, &budget);
                 let problem = path.with_left_out(problem);
                 path.diagnostics.push(problem);
                 let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
+                if let Some(read) = texts.first() {
+                    path.note_start_text(read, text.anchor());
+                }
                 let letters = texts.first().map(ParameterText::meant_letters);
                 path.faults.stray_letters = path.faults.stray_letters.and(letters.unwrap_or_default());
             }
@@ -67,8 +70,12 @@ impl<'d> LayerTexts<'d> {
             let has_owner = !owners.is_empty();
             path.diagnostics.extend(found.and_then(|found| layer.doubt(text, found, margin, &path.elements)));
             if has_owner {
-                let text = path.given.push_drawn(text.string());
-                layer.give(text, owners, path);
+                let id = path.given.push_drawn(text.string());
+                layer.give(id, owners.clone(), path);
+                let is_start = |owner: &Candidate| matches!(owner.owner, Owner::Start);
+                if !layer.candidates[owners].iter().any(is_start) {
+                    path.note_given_start_text(id, text.anchor());
+                }
             }
             has_owner
         });
@@ -135,6 +142,7 @@ impl<'d> LayerTexts<'d> {
         &self,
         text: &FoundText<'_>,
         elsewhere: impl Iterator<Item = &'a Self>,
+        path: &PathCollector<'_>,
         budget: &SearchBudget,
     ) -> Diagnostic
     where
@@ -148,8 +156,9 @@ impl<'d> LayerTexts<'d> {
         diagnostic.text = ParameterTexts::from(&*string).first().map(ParameterText::whole);
         let taken = find_taken(&circle, &self.candidates, &self.boxes, budget);
         if let Some(taken) = taken.map(|taken| &self.candidates[taken]) {
+            let is_blank = path.text_of(taken.owner).is_some_and(|text| text.pieces().is_empty());
             diagnostic = diagnostic.note(
-                &messages::HAS_A_TEXT,
+                if is_blank { &messages::HAS_A_BLANK_TEXT } else { &messages::HAS_A_TEXT },
                 vec![("element", taken.word().into()), ("point", shown(taken.shape.point()).into())],
             );
         } else if let Some(miss) = nearest_miss(&circle, &self.candidates, &self.boxes, budget) {

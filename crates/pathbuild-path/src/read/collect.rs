@@ -10,11 +10,12 @@ use smol_str::SmolStr;
 
 use crate::approx::near;
 use crate::element::{
-    CircleMeaning, Cut, END_RADIUS, Element, Marker, MeantMarker, Origin, PROBE_RADIUS, Role, Shape, Source,
-    TURN_RADIUS, circle_meaning, curve_role,
+    CircleMeaning, Cut, END_RADIUS, Element, Marker, MeantMarker, Origin, PROBE_RADIUS, Role, START_RADIUS,
+    Shape, Source, TURN_RADIUS, circle_meaning, curve_role,
 };
 use crate::geometry::{Curve, Line, Xy};
 use crate::language::Language;
+use crate::letter::Letter;
 use crate::line_type::{LineType, LineTypes};
 use crate::names::{PathName, PathPattern};
 use crate::raw::{DrawingFaults, DrawnElements, Position, RawPath, SourceMap};
@@ -22,7 +23,7 @@ use crate::read::candidates::{Candidate, Owner};
 use crate::read::entities::{plane_arc, xy};
 use crate::read::parameters::{PathCheck, Starts};
 use crate::read::texts::Texts;
-use crate::text::ParameterTexts;
+use crate::text::{ParameterText, ParameterTexts, TextId};
 
 /// A path for which entities are being collected.
 pub(crate) struct PathCollector<'d> {
@@ -45,8 +46,18 @@ pub(crate) struct PathCollector<'d> {
     pub(super) unclear: Vec<UnclearCircle>,
     /// Problems shared by several elements: their index among the diagnostics, and the number of elements.
     pub(super) shared: Vec<SharedProblem>,
+    pub(super) hints: StartHints,
     /// Whether there is anything but texts: layers with texts alone form no path.
     pub(super) has_elements: bool,
+}
+
+/// Where the text of a path's start was found instead of on its start marker.
+#[derive(Default)]
+pub(super) struct StartHints {
+    /// A text with O and T that does not belong to the start marker, and its place.
+    pub(super) text: Option<(SmolStr, Xy)>,
+    /// An end marker with a text with O and T, in a path whose start marker has none.
+    pub(super) swapped: Option<Point>,
 }
 
 /// A circle without a meaning because of its line type or diameter.
@@ -112,6 +123,7 @@ impl PathCollector<'_> {
             faults: DrawingFaults::default(),
             unclear: Vec::new(),
             shared: Vec::new(),
+            hints: StartHints::default(),
             has_elements: false,
         };
         for found in layers {
@@ -178,7 +190,7 @@ impl PathCollector<'_> {
             diagnostics: self.diagnostics,
         };
         raw.faults.other_ends.extend(ends.map(|end| end.at));
-        let mut checked = PathCheck { raw: &mut raw };
+        let mut checked = PathCheck { raw: &mut raw, hints: self.hints };
         checked.check_leftovers();
         if !self.has_broken_circle {
             checked.check_markers();
@@ -205,6 +217,34 @@ impl PathCollector<'_> {
         for shared in take(&mut self.shared) {
             self.diagnostics[shared.index].arguments.push(("count", shared.count.into()));
         }
+    }
+
+    /// The text that the owner of a text has.
+    pub(super) fn text_of(&self, owner: Owner) -> Option<ParameterText<'_>> {
+        let text = match owner {
+            Owner::Start => self.start.as_ref()?.text?,
+            Owner::Probe(probe) => self.probes[probe].text?,
+            Owner::Element(element) => self.elements[element].text?,
+            Owner::Faulty => return None,
+        };
+        self.given.get(text)
+    }
+
+    /// Notes a text that is probably the path's own but does not belong to the start marker.
+    pub(super) fn note_start_text(&mut self, text: ParameterText<'_>, at: Xy) {
+        let has = |letter| text.letters.contains(letter);
+        if self.hints.text.is_none() && has(Letter::O) && has(Letter::T) && !has(Letter::Embed) {
+            self.hints.text = Some((text.as_str().into(), at));
+        }
+    }
+
+    /// Notes a text of an element that is probably the path's own.
+    pub(super) fn note_given_start_text(&mut self, text: TextId, at: Xy) {
+        let given = take(&mut self.given);
+        if let Some(text) = given.get(text) {
+            self.note_start_text(text, at);
+        }
+        self.given = given;
     }
 
     /// Adds to PB107 the first entity that was left out: a text on it finds nothing.
@@ -497,6 +537,13 @@ impl PathCollector<'_> {
             if let Some(start) = &self.start {
                 texts.give_to_start(start);
             }
+        }
+        if let Some(start) = &self.start
+            && !texts.has_path_text(start, START_RADIUS)
+        {
+            let mut ends = self.ends.iter();
+            let end = ends.find(|end| texts.has_path_text(end, END_RADIUS));
+            self.hints.swapped = end.map(|end| end.origin.point);
         }
         if self.ends.is_empty() {
             let end = self.take_unclear(MeantMarker::End);

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use pathbuild_diagnostic::messages::{configuration, drawing as messages};
-use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry, Layer, Point3};
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
@@ -110,7 +110,9 @@ impl Reading<'_> {
         let faults = self.drawing.faults.iter().filter(|fault| fault.layer == self.number);
         let mut problems: Vec<Diagnostic> = faults.map(|fault| fault.diagnostic.clone()).collect();
         for left_out in self.drawing.left_out.iter().filter(|left_out| left_out.layer == self.number) {
-            let problem = Diagnostic::new(&messages::NO_OUTLINE).quoting("entity", left_out.kind.name());
+            let is_text = matches!(left_out.kind, EntityKind::Attrib | EntityKind::AttDef);
+            let message = if is_text { &messages::NO_HEIGHT_TEXT } else { &messages::NO_OUTLINE };
+            let problem = Diagnostic::new(message).quoting("entity", left_out.kind.name());
             problems.push(Diagnostic { place: left_out.diagnostic.place.clone(), ..problem });
         }
         self.problems.append(&mut problems);

@@ -8,11 +8,12 @@ use pathbuild_diagnostic::messages::{drawing, parameters};
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Number, Value};
 
 use crate::approx::coincide;
-use crate::element::{Cut, Element, Origin, Role, Shape};
+use crate::element::{Cut, Element, Origin, Role, Shape, shown};
 use crate::geometry::{Curve, Xy};
 use crate::letter::{ElementClass, Letter};
 use crate::names::PathName;
 use crate::raw::RawPath;
+use crate::read::collect::StartHints;
 use crate::text::{LetterValue, ParameterText};
 use crate::variables::Definition;
 
@@ -31,6 +32,7 @@ impl PathCheck<'_> {
         let Some(start) = &self.raw.start else { return self.check_elements(None) };
         let Some(text) = self.raw.drawn.text(start.text) else {
             let problem = start.origin.at(Diagnostic::new(&parameters::NO_PATH_PARAMETERS));
+            let problem = self.with_start_text(problem);
             if !self.raw.faults.has_broken_entity {
                 self.report(problem);
             }
@@ -53,6 +55,20 @@ impl PathCheck<'_> {
         }
         self.define_variables();
         self.check_elements(self.raw.tool());
+    }
+
+    /// Adds to PB207 where the path's text probably is.
+    fn with_start_text(&self, problem: Diagnostic) -> Diagnostic {
+        match &self.hints {
+            StartHints { swapped: Some(end), .. } => {
+                problem.note(&drawing::SWAPPED_MARKERS, vec![("point", (*end).into())])
+            }
+            StartHints { text: Some((text, at)), .. } => problem.note(
+                &drawing::START_TEXT_ELSEWHERE,
+                vec![("text", Value::quoted(text.replace('\n', " "))), ("point", shown(*at).into())],
+            ),
+            StartHints { .. } => problem,
+        }
     }
 
     fn borrow(&mut self, name: &PathName, lender: &Start) {
@@ -146,6 +162,7 @@ const SHORTEST_CUT: f64 = 0.01;
 /// A raw path being checked.
 pub(super) struct PathCheck<'r> {
     pub(super) raw: &'r mut RawPath,
+    pub(super) hints: StartHints,
 }
 
 impl PathCheck<'_> {
@@ -211,7 +228,16 @@ impl PathCheck<'_> {
                 .quoting("name", self.raw.name.as_str())
                 .quoting("layer", self.raw.layer())
         };
-        let start = self.raw.start.is_none().then(|| missing(&drawing::MISSING_START));
+        let text = self.hints.text.as_ref().map(|(text, at)| {
+            vec![("text", Value::quoted(text.replace('\n', " "))), ("point", shown(*at).into())]
+        });
+        let start = self.raw.start.is_none().then(|| {
+            let start = missing(&drawing::MISSING_START);
+            match text {
+                Some(text) => start.note(&drawing::START_TEXT, text),
+                None => start,
+            }
+        });
         let end = self.raw.end.is_none().then(|| missing(&drawing::MISSING_END));
         let somewhere = self.raw.drawn.elements.first().map(|element| self.raw.drawn.origin(element));
         for diagnostic in start.into_iter().chain(end) {

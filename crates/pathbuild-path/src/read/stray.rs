@@ -10,6 +10,7 @@ use pathbuild_dxf::Drawing;
 use crate::element::shown;
 use crate::language::Language;
 use crate::letter::{Letter, Letters};
+use crate::look_alikes;
 use crate::names::PathName;
 use crate::read::candidates::{Candidate, Owner, SearchBudget};
 use crate::read::collect::{self, PathCollector, PathLayers};
@@ -59,12 +60,13 @@ impl NearNames {
     }
 }
 
-/// A name in upper case without spaces, with points for `_` and `,`, and `~` for similar characters.
+/// A name in upper case without spaces, with points for `_` and `,`, and with the characters that others look like.
 fn folded(name: &str) -> String {
     let visible = name.chars().filter(|letter| !letter.is_whitespace());
-    let letters = visible.flat_map(char::to_uppercase).map(|letter| match letter {
+    let upper = visible.flat_map(char::to_uppercase);
+    let letters = upper.map(|letter| match look_alikes::ascii(letter).unwrap_or(letter) {
         '_' | ',' => '.',
-        '\u{2dc}' | '\u{223c}' | '\u{ff5e}' => '~',
+        '\u{2dc}' | '\u{223c}' => '~',
         letter => letter,
     });
     letters.collect()
@@ -181,5 +183,9 @@ fn near_layer(drawing: &Drawing, path: &PathName, layer: u32, entities: &[usize]
         .quoting("path", path.as_str())
         .with("elements", elements)
         .in_path(path.as_str());
+    let problem = match look_alikes::first(&drawing.layers[layer as usize].name) {
+        Some(character) => problem.note(&messages::LOOK_ALIKE_IN_NAME, character),
+        None => problem,
+    };
     Some(at_entity(drawing, first, begin(&drawing.entities[first].geometry), problem))
 }

@@ -70,7 +70,11 @@ impl Walker<'_> {
             if twice.is_some() {
                 problem = Diagnostic::new(&messages::UNREACHED_TWICE);
             } else if let Some(other) = self.passing_by(start) {
-                problem = Diagnostic::new(&messages::NO_END_THERE).with("other", self.word(other));
+                problem = if self.word(other) == self.word(segment) {
+                    Diagnostic::new(&messages::NO_END_THERE_ALIKE)
+                } else {
+                    Diagnostic::new(&messages::NO_END_THERE).with("other", self.word(other))
+                };
             }
             problem = problem.with("element", self.word(segment)).with("point", shown(start));
         }

@@ -2,7 +2,7 @@
 
 use pathbuild_path::approx::coincide;
 use pathbuild_path::{
-    AllowedValues, Bindings, Definition, ExaminedPath, Letter, Path, PathName, ProxyLine, Segment,
+    AllowedValues, Bindings, Definition, ExaminedPath, Letter, Path, PathName, PathRole, ProxyLine, Segment,
     SegmentKind, Subpath, SubpathName, SweepLimits, parse_number, walk,
 };
 use regex::Regex;
@@ -30,13 +30,15 @@ impl<'m> Visit<'m> {
         let drawing = &self.model.drawings[instance.0];
         self.found.extend(drawing.faults());
         let raw = self.model.raw(instance);
-        let mut is_wrong = self.report(instance, &raw.diagnostics) | drawing.has_unclear_clamps;
         let ExaminedPath { path, problems } = self.model.bound(instance);
+        let mut is_wrong =
+            self.report(instance, &raw.findings_beside(&problems)) | drawing.has_unclear_clamps;
         is_wrong |= self.report(instance, &problems);
         let Some(path) = path else { return true };
         is_wrong |= path.has_faults();
         if !path.has_faults() {
-            is_wrong |= self.report(instance, &SweepLimits::of(&path).check(path.embedded_sweep_height()));
+            let height = path.embedded_sweep_height();
+            is_wrong |= self.report(instance, &SweepLimits::of(&path).check(height, PathRole::Embedded));
         }
         is_wrong |= self.report(instance, &walk(&path, self.model.language.join_tolerance).diagnostics);
         self.open.push(instance.clone());

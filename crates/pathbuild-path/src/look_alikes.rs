@@ -1,0 +1,65 @@
+//! Characters that look like those of parameter texts and are others. They are used for hints only: no text is repaired.
+
+use pathbuild_diagnostic::messages::outputs;
+use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, nearest};
+
+/// Cyrillic and Greek letters, and the Latin ones that they look like.
+const LETTERS: [(&str, &str); 3] = [
+    ("АВЕЅІЈКМНОРСТУХЗ", "ABESIJKMHOPCTYX3"),
+    ("ΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "ABEZHIKMNOPTYX"),
+    ("асеорхуіѕ", "aceopxyis"),
+];
+
+/// The character of the keyboard that a character looks like: a minus for longer dashes, and Latin letters and digits for those of full
+/// width, Cyrillic and Greek ones.
+pub(crate) fn ascii(character: char) -> Option<char> {
+    match character {
+        '\u{2010}'..='\u{2015}' | '\u{2212}' | '\u{fe63}' => Some('-'),
+        '\u{ff01}'..='\u{ff5e}' => char::from_u32(u32::from(character) - 0xfee0),
+        _ if character.is_ascii() => None,
+        _ => LETTERS.iter().find_map(|(foreign, latin)| {
+            foreign.chars().zip(latin.chars()).find(|(known, _)| *known == character).map(|(_, latin)| latin)
+        }),
+    }
+}
+
+/// A text with all characters replaced by those that they look like.
+pub(crate) fn replaced(text: &str) -> String {
+    text.chars().map(|character| ascii(character).unwrap_or(character)).collect()
+}
+
+/// The first character of a text that looks like another one, as arguments of a message.
+pub(crate) fn first(text: &str) -> Option<Vec<(&'static str, Value)>> {
+    let (character, plain) = text.chars().find_map(|character| Some((character, ascii(character)?)))?;
+    let code = Value::quoted(format!("U+{:04X}", u32::from(character)));
+    Some(vec![("character", character.into()), ("code", code), ("plain", plain.into())])
+}
+
+/// A problem with the first character of a text that looks like another one; `None` if there is none.
+pub(crate) fn problem(message: &'static Message, text: &str) -> Option<Diagnostic> {
+    let mut problem = Diagnostic::new(message);
+    problem.arguments.extend(first(text)?);
+    Some(problem)
+}
+
+/// A number in which letters stand for digits, with the digits: `O,3` or `l.5`.
+pub(crate) fn with_digits(value: &str) -> String {
+    let digit = |character| match character {
+        'O' | 'o' => '0',
+        'l' | 'I' | '|' => '1',
+        other => other,
+    };
+    value.chars().map(digit).collect()
+}
+
+/// A note about the layer whose name is most like that of a path.
+pub fn near_layer<'l>(path: &str, layers: impl Iterator<Item = &'l str> + Clone) -> Option<Note> {
+    let is_alike = |layer: &&str| replaced(layer).eq_ignore_ascii_case(path) && first(layer).is_some();
+    if let Some(layer) = layers.clone().find(is_alike) {
+        let mut arguments = first(layer)?;
+        arguments.push(("layer", Value::quoted(layer)));
+        return Some(Note { message: &outputs::LOOK_ALIKE_LAYER, arguments });
+    }
+    let layer = nearest(path, layers)?;
+    Some(Note { message: &outputs::NEAR_LAYER, arguments: vec![("layer", Value::quoted(layer))] })
+}
