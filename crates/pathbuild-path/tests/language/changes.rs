@@ -215,3 +215,35 @@ fn crowds() {
         ["190 circles, the first at (5, 5): text B1 became B2", "10 circles, the first at (5, 5): removed"]
     );
 }
+
+/// A groove milled at two depths is drawn twice, in any order.
+#[test]
+fn elements_at_one_place_are_told_apart_by_their_depths() {
+    let lines = |first: &str, second: &str| {
+        format!("mill 0,0 40,0 \"{first}\"\nmill 0,0 40,0 \"{second}\"\nend 40,0\n")
+    };
+    assert_eq!(changes(&lines("B1", "B0.5"), &lines("B0.5", "B1")), [""; 0]);
+    assert_eq!(
+        changes(&lines("B1", "B0.5"), &lines("B0.5", "B0.8")),
+        ["line at (0, 0): text B1 became B0.8"]
+    );
+}
+
+/// A line at the top of the file, so that hardly any element keeps its handle.
+const ADDED: &str = "mill 0,0 0,-30\n";
+
+#[test]
+fn a_line_that_was_lengthened_is_the_nearest_one_at_its_end() {
+    let longer = format!("{ADDED}{}", ROUND.replace("0,0 40,0", "0,0 41,0"));
+    assert_eq!(
+        changes(ROUND, &longer),
+        ["line at (0, 0): one end moved by (1, 0) mm", "line at (0, 0): added"]
+    );
+}
+
+#[test]
+fn a_circle_of_another_diameter_is_known_by_its_centre() {
+    let circle = "mill 0,0 20,0\nmill circle 20,0 d 6\nmill 20,0 40,0\nend 40,0\n";
+    let larger = format!("{ADDED}{}", circle.replace("d 6", "d 8"));
+    assert_eq!(changes(circle, &larger), ["circle at (20, 0): diameter 6 became 8", "line at (0, 0): added"]);
+}

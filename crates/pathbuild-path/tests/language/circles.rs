@@ -65,6 +65,7 @@ fn a_diameter_that_means_nothing_is_shown_with_its_digits() {
     };
     assert_eq!(said("1.0001"), "a PHANTOM circle with a diameter of 1.0001 mm has no meaning");
     assert_eq!(said("1.25"), "a PHANTOM circle with a diameter of 1.25 mm has no meaning");
+    assert_eq!(said("5"), "a PHANTOM circle with a diameter of 5 mm has no meaning");
 }
 
 /// Two starts belong to one path even on different layers of it.

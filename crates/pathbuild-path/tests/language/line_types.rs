@@ -49,6 +49,13 @@ fn names_of_other_programs_are_known() {
     assert_eq!(named("ACAD_ISO06W100"), None);
 }
 
+/// An unknown name may be meant as a line type that begins like it, if it has three letters.
+#[test]
+fn abbreviations_are_recognised() {
+    assert_eq!(LineType::like("PHA"), Some(LineType::Phantom));
+    assert_eq!(LineType::like("PH"), None);
+}
+
 #[test]
 fn the_configuration_adds_names_and_wins() {
     let mut aliases = LineTypeAliases::default();

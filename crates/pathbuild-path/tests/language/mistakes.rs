@@ -64,6 +64,13 @@ fn a_path_is_embedded_with_its_sign() {
         "PB202 this is a path's name without",
         "write \">2050.1P\"",
     );
+    assert_one(&of_text("> 2050.1P", ElementClass::Subpath), "PB202 ", "write \">2050.1P\"");
+    // The sign has its name already.
+    assert_one(
+        &of_text(">2050.1P 5", ElementClass::Subpath),
+        "PB202 this is a path's name without",
+        "write \">5\"",
+    );
     assert_one(
         &of_text("2050.1P", ElementClass::Mill),
         "PB202 ",

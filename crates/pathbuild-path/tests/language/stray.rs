@@ -58,6 +58,17 @@ fn only_an_element_without_a_text_that_would_get_it_counts() {
     assert_eq!(note("70,0"), [""; 0], "the mark has its text");
 }
 
+/// The cutter has 2 mm: the smaller circle is drilled, which takes no I, and the larger one is milled.
+#[test]
+fn the_cutter_decides_whether_a_circle_would_take_a_letter() {
+    let circle = |diameter: u32| {
+        let path = format!("mill 0,0 40,0\nsweep 40,0 60,0\nmill circle 60,0 d {diameter}\nend 60,0");
+        strays_with(&path, &text("Notes", "I0.5", "60,2"))
+    };
+    assert_eq!(circle(4), ["PB119"]);
+    assert_eq!(circle(2), [""; 0]);
+}
+
 #[test]
 fn clamps_hidden_layers_and_layers_of_paths_are_excepted() {
     assert_eq!(strays(&text("Clamps 2", "B2", "20,0")), [""; 0]);
