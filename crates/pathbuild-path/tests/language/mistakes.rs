@@ -71,6 +71,11 @@ fn a_path_is_embedded_with_its_sign() {
         "PB202 ",
         "values follow their letter without a space",
     );
+    assert_one(
+        &of_text("2050.1P", ElementClass::Mill),
+        "PB202 ",
+        "values follow their letter without a space",
+    );
 }
 
 #[test]
