@@ -1,0 +1,41 @@
+//! Tests of the check of tool lengths: the one in effect must be that of the tool that cuts.
+
+use pathbuild_gcode::dialect::Dialect::LinuxCnc;
+use pathbuild_gcode::interpret::{Options, interpret};
+use pathbuild_gcode::verify::ToolLengthRules;
+
+/// The lines of the findings about a program, in which `cut` stands for a cut.
+fn found(program: &str) -> Vec<u32> {
+    let text = format!("G17 G21 G90 G94 F100\n{program}\nM30\n").replace("cut", "G1 X1\nX0");
+    let mut rules = ToolLengthRules::default();
+    interpret(text.as_bytes(), LinuxCnc, &Options::default()).steps.iter().for_each(|step| rules.step(step));
+    rules.finish().iter().filter_map(|problem| problem.place.line).collect()
+}
+
+const NOTHING: [u32; 0] = [];
+
+#[test]
+fn h_is_the_number_of_the_tool_in_the_spindle() {
+    assert_eq!(found("T1 M6\nG43 H1\ncut"), NOTHING);
+    assert_eq!(found("T1 M6\nG43\ncut"), NOTHING);
+    assert_eq!(found("T1 M6\nG43 H2\ncut"), [3]);
+    // Which tool is in the spindle at the start is not known.
+    assert_eq!(found("G43 H2\ncut"), NOTHING);
+    assert_eq!(found("T1 M6\nG43 H2\nG43 H1\ncut"), NOTHING);
+}
+
+#[test]
+fn a_new_tool_needs_its_length() {
+    assert_eq!(found("T1 M6\nG43 H1\ncut\nT2 M6\nG43 H2\ncut"), NOTHING);
+    assert_eq!(found("T1 M6\nG43 H1\ncut\nT2 M6\nG0 Z5\ncut"), [8]);
+    assert_eq!(found("T1 M6\nG43 H1\ncut\nT1 M6\ncut"), NOTHING);
+    // A program without G43 leaves the lengths to the operator.
+    assert_eq!(found("T1 M6\ncut\nT2 M6\ncut"), NOTHING);
+}
+
+#[test]
+fn a_cut_without_the_length_is_reported() {
+    assert_eq!(found("G49\nT1 M6\nG43 H1\ncut\nG49\nG0 Z5"), NOTHING);
+    assert_eq!(found("T1 M6\nG43 H1\ncut\nG49\ncut\ncut"), [7]);
+    assert_eq!(found("T1 M6\nG43 H1\nG49\nG43 H1\ncut"), NOTHING);
+}
