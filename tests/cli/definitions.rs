@@ -146,6 +146,32 @@ fn a_program_that_differs_from_what_its_definition_writes_has_a_finding() {
     }
 }
 
+/// Tool and speed that only the definition gives: `[tool]` has none.
+#[test]
+fn what_the_definition_alone_says_about_tool_and_spindle_is_compared() {
+    let table = "[tool.2mm]\ndiameter = 2\nnumber = 1\nspindle = 4000\ncoolant = \"flood\"\n";
+    assert!(LIBRARY.contains(table));
+    let library = LIBRARY.replace(table, "").replace("S{#~MillingSpindleRate~} M06", "M06\nS4000");
+    let place = Place::of(&library);
+    let run = place.run("emit 1234.1P --post own.toml");
+    assert_eq!(run.status, Some(0), "{run}");
+    let text = place.read(PROGRAM);
+    for (from, to, is_found) in [
+        ("T1 M06", "T1 M06", false),
+        ("T1 M06", "T2 M06", true),
+        ("T1 M06", "T1", true),
+        ("S4000", "S400", true),
+        ("M03", "M04", true),
+        (" M08\n", " M08\nS1\n", true),
+        (" M08\n", " M08\nS4000\n", false),
+    ] {
+        assert!(text.contains(from), "{from}\n{text}");
+        fs::write(place.path().join(PROGRAM), text.replacen(from, to, 1)).unwrap();
+        let run = verify(&place, "--against 1234.1P --post own.toml");
+        assert_eq!(run.status, Some(i32::from(is_found)), "{from} -> {to}\n{run}");
+    }
+}
+
 #[test]
 fn words_that_the_definition_does_not_write_are_doubtful() {
     let place = written();

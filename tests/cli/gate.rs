@@ -74,6 +74,45 @@ fn options_reach_verify_and_what_was_not_checked_is_kept_out_of_the_way() {
     assert!(place.read("a.nc.rejected.txt").contains("PB523"));
 }
 
+/// A rapid move that begins where only the machine knows, and goes down to below the surface.
+#[test]
+fn a_rapid_move_on_an_unknown_way_does_not_count_as_checked() {
+    let program = |start: &str| {
+        format!(
+            "G17 G21 G40 G54 G90 G94 F100\nM3 S9000\n{start}\nG1 X90\nG0 Z5\nG0 X0 Y0\nG1 Z-1\nG0 Z5\nM5\nM30\n"
+        )
+    };
+    let verify = |start: &str, arguments: &str| {
+        let place = Place::new().file("a.nc", program(start));
+        place.run(&format!(
+            "verify a.nc --dialect linuxcnc --cutter 2 --surface 0 --require rapids {arguments}"
+        ))
+    };
+    for start in ["G53 G0 Z0\nG0 X80 Y80\nG0 Z5", "G28\nG0 X80 Y80\nG43 H1 G0 Z5", "G0 X80 Y80 Z5"] {
+        let run = verify(start, "");
+        assert_eq!(run.status, Some(0), "{start}\n{run}");
+        assert!(run.stderr.contains("checked: words, rapid moves against"), "{start}\n{run}");
+    }
+    let low = "G0 X80 Y80 Z-2\nG0 X85\nG0 Z5";
+    let run = verify(low, "--format concise");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(run.stderr.contains("a.nc:3:1: error[PB523]"), "{run}");
+    assert!(
+        run.stderr
+            .contains("not checked: 1 rapid move from an unknown position to below the surface, in line 3 ("),
+        "{run}"
+    );
+    let german = verify(low, "--lang de");
+    assert!(
+        german
+            .stderr
+            .contains("nicht geprüft: 1 Eilgang von unbekannter Position unter die Oberfläche, in Zeile 3 ("),
+        "{german}"
+    );
+    let json = verify(low, "--format json");
+    assert!(json.stdout.contains("\"moves\":1") || json.stdout.contains("\"moves\": 1"), "{json}");
+}
+
 #[test]
 fn a_program_that_nothing_checks_does_not_pass() {
     let place = Place::new().file("a.nc", SOUND);

@@ -133,7 +133,7 @@ pub enum CheckState {
     Made,
     /// It was made with values that only comments of the program state.
     Assumed,
-    /// It was not made.
+    /// It was not made, or not for all moves.
     NotMade,
 }
 
@@ -177,6 +177,7 @@ impl ProgramCheck {
                 (CheckState::Made, values.as_ref().map(|values| values.in_lang(lang)).unwrap_or_default())
             }
             Outcome::Assumed(values) => (CheckState::Assumed, values.in_lang(lang)),
+            Outcome::Incomplete(_, blind) => (CheckState::NotMade, verify::blind_text(*blind, lang)),
             Outcome::NotMade(reason) => (CheckState::NotMade, reason.text().in_lang(lang).to_owned()),
         };
         Self { name: record.requirement.name().to_owned(), state, detail }

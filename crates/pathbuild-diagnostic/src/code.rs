@@ -259,6 +259,8 @@ codes! {
     781 RapidAtDepth "rapid-at-depth" Warning "a rapid move at cutting depth, where the surface of the material is unknown";
     782 UnknownPosition "unknown-position" Warning "a cut that begins before the program has stated X and Y";
     783 SpindleDirection "spindle-direction" Error "a cut with the spindle turning in the opposite direction to that of its tool";
+    784 SpinningAtChange "spinning-at-change" Warning "a tool change by hand while the spindle turns";
+    785 WrongToolLength "wrong-tool-length" Error "a cut with the length of another tool, or without one";
     790 DoubtfulChipLoad "doubtful-chip-load" Warning "a chip load outside the limits of `[tool]`";
 }
 

@@ -2,12 +2,12 @@
 
 use pathbuild_gcode::dialect::Dialect::LinuxCnc;
 use pathbuild_gcode::interpret::{Options, interpret};
-use pathbuild_gcode::verify::ToolLengthRules;
+use pathbuild_gcode::verify::LengthRules;
 
 /// The lines of the findings about a program, in which `cut` stands for a cut.
 fn found(program: &str) -> Vec<u32> {
     let text = format!("G17 G21 G90 G94 F100\n{program}\nM30\n").replace("cut", "G1 X1\nX0");
-    let mut rules = ToolLengthRules::default();
+    let mut rules = LengthRules::new(LinuxCnc, None);
     interpret(text.as_bytes(), LinuxCnc, &Options::default()).steps.iter().for_each(|step| rules.step(step));
     rules.finish().iter().filter_map(|problem| problem.place.line).collect()
 }

@@ -10,7 +10,7 @@ use pathbuild_gcode::dialect::Dialect::{Native, Xpertmill};
 use pathbuild_gcode::interpret::{Heights, Interpretation, Options, interpret};
 use pathbuild_gcode::read::quote;
 use pathbuild_gcode::verify::{
-    Cutter, DepthRules, Machine, MachineRules, Stock, StockSpan, Travel, coarse_arcs,
+    BlindRapidRules, Cutter, DepthRules, Machine, MachineRules, Stock, StockSpan, Travel, coarse_arcs,
 };
 use pathbuild_motion::Step;
 
@@ -276,6 +276,78 @@ fn tools_are_changed_above_the_material() {
     assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nM0\nG0 Z5"), FINE, "no tool is named");
     assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nG0 Z5\nT2 M6"), FINE);
     assert_eq!(on_stock("T2 M6\nG0 X0 Y0 Z5"), FINE);
+}
+
+#[test]
+fn the_spindle_stands_where_the_operator_changes_the_tool() {
+    let program =
+        |words: &str| wrong(&format!("T1\nM3 S9000\nG0 Z9\nG0 X0 Y0\nG1 Z1\nG0 Z9\n{words}\nM5"), None);
+    assert_eq!(program("M5\nM0\nT2\nM3 S1000"), FINE);
+    assert_eq!(program("M0\nT2\nM3 S1000"), ["8 spinning-at-change"]);
+    assert_eq!(program("T2\nM0"), ["9 spinning-at-change"]);
+    assert_eq!(program("T2\nM5 M0\nM3 S1000"), FINE);
+    // A pause without a tool, and a change by a changer, which stops the spindle itself.
+    assert_eq!(program("M0"), FINE);
+    let haas = "T1\nM3 S9000\nG0 Z9.\nM0\nT2\nM30\n";
+    let read = interpret(haas.as_bytes(), pathbuild_gcode::dialect::Dialect::Haas, &Options::default());
+    assert_eq!(verify(&read.steps, None).iter().map(fault_text).collect::<Vec<_>>(), FINE);
+}
+
+/// A program in LinuxCNC's dialect, on material up to Z 0 with a cutter of 2 mm: its findings, and the number of rapid moves whose way is
+/// not known, with the line of the first.
+fn from_unknown(program: &str) -> (Vec<String>, Option<(usize, u32)>) {
+    let text = format!("G17 G21 G90 G94 F100\n{program}\nM30\n");
+    let read = interpret(text.as_bytes(), pathbuild_gcode::dialect::Dialect::LinuxCnc, &Options::default());
+    let stock = Stock::uniform(0.0, 2.0);
+    let mut blind = BlindRapidRules::new(&stock).unwrap();
+    read.steps.iter().for_each(|step| blind.step(step));
+    let found = verify(&read.steps, Some(&stock)).iter().map(fault_text).collect();
+    (found, blind.finish().map(|blind| (blind.count, blind.line)))
+}
+
+/// A slot from (0, 0) to (20, 0) at Z-5 that is cut from there on.
+const SLOT_AT_5: &str = "G1 Z-5\nG1 X20\nG0 Z5";
+
+#[test]
+fn a_rapid_move_from_an_unknown_height_ends_above_the_material() {
+    for start in ["G53 G0 Z0\nG0 X0 Y0", "G28 Z5\nG0 X0 Y0", "G30 Z5\nG0 X0 Y0", "T1 M6\nG0 X0 Y0"] {
+        let begin = start.lines().count() as u32 + 2;
+        let down = |z: &str| from_unknown(&format!("{start}\nG0 Z{z}\n{SLOT_AT_5}"));
+        assert_eq!(down("0").1, None, "{start}");
+        assert!(down("0").0.iter().all(|found| !found.ends_with("rapid-plunge")), "{start}: {:?}", down("0"));
+        let (found, blind) = down("-1");
+        assert!(found.contains(&format!("{begin} rapid-plunge")), "{start}: {found:?}");
+        assert_eq!(blind, None, "{start}");
+    }
+}
+
+#[test]
+fn a_first_move_down_into_the_material_is_found() {
+    let (found, blind) = from_unknown(&format!("G0 X0 Y0 Z-2\n{SLOT_AT_5}"));
+    assert_eq!(found, ["2 rapid-plunge"]);
+    assert_eq!(blind, Some((1, 2)));
+    assert_eq!(from_unknown(&format!("G0 X0 Y0 Z5\n{SLOT_AT_5}")), (Vec::new(), None));
+    // Where nothing is known of the material, only the missing way is told.
+    assert_eq!(
+        from_unknown(&format!("G0 X90 Y90 Z-2\nG0 X95\nG0 Z5\nG0 X0 Y0\n{SLOT_AT_5}")),
+        (Vec::new(), Some((1, 2)))
+    );
+}
+
+#[test]
+fn a_rapid_move_into_what_has_been_cut_may_come_from_anywhere() {
+    let again =
+        |z: &str| from_unknown(&format!("G0 Z5\nG0 X0 Y0\n{SLOT_AT_5}\nG53 G0 Z0\nG0 X10\nG0 Z{z}\nG0 Z5"));
+    assert_eq!(again("-5"), (Vec::new(), None));
+    assert_eq!(again("-5.1"), (vec!["9 rapid-plunge".to_owned()], None));
+}
+
+#[test]
+fn after_a_probe_the_height_is_not_above_everything() {
+    let program =
+        |then: &str| from_unknown(&format!("G0 Z5\nG0 X0 Y0\nG38.2 Z-1 F50\n{then}\nG0 X0 Y0\nG0 Z5"));
+    assert_eq!(program("G0 Z5").1, None);
+    assert_eq!(program("G0 X50").1, Some((2, 5)));
 }
 
 #[test]

@@ -40,6 +40,7 @@ mod reference;
 mod samples;
 mod shadow;
 mod target;
+mod tools;
 mod ways;
 
 pub use built_in::{BUILT_IN, BuiltIn, load};

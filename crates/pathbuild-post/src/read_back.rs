@@ -1,5 +1,5 @@
-//! Reads the text of a post back and compares its moves with those of the job, and checks that the spindle turns in the required direction
-//! wherever the job cuts. (book: program/posts, "Before a program is written")
+//! Reads the text of a post back and compares its moves with those of the job, and tool, length and spindle at each cut.
+//! (book: program/posts, "Before a program is written")
 
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
@@ -7,7 +7,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options};
 use pathbuild_gcode::verify::{Machine, MachineRules, Rules, Stock, Tolerance};
 use pathbuild_motion::{
-    Action, Axes, Change, Move, MoveShape, Named, Pace, Position, Step, ToolLength, Turning, WorkSystem,
+    Action, Axes, Change, Move, MoveShape, Named, Pace, Position, Step, ToolLength, WorkSystem,
 };
 
 use crate::ambiguous;
@@ -15,6 +15,7 @@ use crate::findings::LineOrigin;
 use crate::job::{Entry, Job, JobStep, Operation};
 use crate::shadow::{Doubt, TranslatedText};
 use crate::target::Target;
+use crate::tools;
 use crate::ways;
 
 /// What a text is compared with.
@@ -41,7 +42,7 @@ pub(super) fn check(
     job: &Job,
     expected: &Expected<'_>,
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    let Expected { target, tolerance, machine, translated, is_manual, is_flat } = expected;
+    let Expected { target, tolerance, machine, translated, is_flat, .. } = expected;
     let reader = target.map_or(Dialect::LinuxCnc, |target| target.reader);
     let read = interpret::interpret(text, reader, &Options::default());
     let mut problems: Vec<Diagnostic> =
@@ -65,9 +66,17 @@ pub(super) fn check(
             (wanted, found, clearance) = (flat(&wanted), flat(&found), 0.0);
             problems.extend(check_beam(&read.steps).map(as_post_s));
         }
-        problems.extend(
-            ways::check(&found, &wanted, clearance, tolerance).err().map(|movement| as_post_s(*movement)),
-        );
+        match ways::check(&found, &wanted, clearance, tolerance) {
+            Ok(cuts) => {
+                let is_spinning_told =
+                    broken.iter().any(|problem| problem.message == &gcode::SPINNING_AT_CHANGE);
+                let tools = tools::check(&read.steps, job, &cuts, reader, expected);
+                let is_told =
+                    |problem: &Diagnostic| is_spinning_told && problem.message == &gcode::SPINNING_AT_CHANGE;
+                problems.extend(tools.into_iter().filter(|problem| !is_told(problem)).map(as_post_s));
+            }
+            Err(movement) => problems.push(as_post_s(*movement)),
+        }
         for word in translated.iter().flat_map(|translated| &translated.doubtful) {
             match word.doubt {
                 Doubt::Dangerous => {
@@ -81,9 +90,6 @@ pub(super) fn check(
             }
         }
         doubts.extend(translated.and_then(disputed));
-        if !is_manual {
-            problems.extend(check_spindle(&read.steps, job, *is_flat).map(as_post_s));
-        }
     }
     problems.extend(broken);
     if problems.is_empty() { Ok(doubts) } else { Err(problems) }
@@ -146,7 +152,8 @@ fn broken_rules(steps: &[Step], job: &Job, machine: Option<&Machine>) -> (Vec<Di
     let (mut broken, mut doubts) = (Vec::new(), Vec::new());
     for mut problem in found {
         // A program of other origin gets a warning for these; one that we are about to write must not have them.
-        if [&gcode::SPINDLE_LEFT_ON, &gcode::SPINDLE_WITHOUT_SPEED].contains(&problem.message) {
+        let unwanted = [&gcode::SPINDLE_LEFT_ON, &gcode::SPINDLE_WITHOUT_SPEED, &gcode::SPINNING_AT_CHANGE];
+        if unwanted.contains(&problem.message) {
             problem.severity = Severity::Error;
         }
         match problem {
@@ -277,43 +284,6 @@ impl Mover {
     }
 }
 
-/// Finds the first cut before which the spindle was not switched on, or turns in the wrong direction. Jobs that leave the spindle to the
-/// operator in some operation are not checked.
-fn check_spindle(steps: &[Step], job: &Job, is_flat: bool) -> Option<Diagnostic> {
-    let cutting = || job.operations.iter().filter(|operation| operation.cuts());
-    let turning = |operation: &Operation| operation.spindle.filter(|turning| turning.is_on());
-    let mut expected: Vec<Turning> = cutting().map(turning).collect::<Option<_>>()?;
-    expected.dedup();
-    // A move at feed above the material is not a cut.
-    let surface = cutting().map(|operation| operation.surface).reduce(f64::max);
-    let surface = surface.filter(|_| !job.has_no_surface && !is_flat).unwrap_or(f64::INFINITY);
-    let (mut now, mut index) = (Turning::Unstated, 0);
-    for step in steps {
-        match &step.action {
-            Action::Spindle(spindle) => now = spindle.turning,
-            Action::Move(movement) if is_cut(movement, surface) => {
-                let wanted = *expected.get(index)?;
-                if now == wanted {
-                    continue;
-                }
-                if expected.get(index + 1) == Some(&now) {
-                    index += 1;
-                    continue;
-                }
-                let message = match now {
-                    Turning::Unstated => &posts::SPINDLE_NOT_STARTED,
-                    // Reported by the rules of `verify`.
-                    Turning::Off => return None,
-                    Turning::Clockwise | Turning::CounterClockwise => &posts::SPINDLE_OTHER_WAY,
-                };
-                return Some(Diagnostic::new(message).at_line(step.line, None));
-            }
-            _ => {}
-        }
-    }
-    None
-}
-
 /// Finds the first rapid during which the beam, which is controlled by the spindle words, may be on.
 pub(super) fn check_beam(steps: &[Step]) -> Option<Diagnostic> {
     let mut is_on = false;
@@ -348,10 +318,4 @@ pub(super) fn is_rule_of_spindle(problem: &Diagnostic) -> bool {
         &gcode::SPINDLE_LEFT_ON,
     ];
     rules.contains(&problem.message)
-}
-
-fn is_cut(movement: &Move, surface: f64) -> bool {
-    matches!(movement.pace, Pace::Feed(_))
-        && !movement.is_nothing()
-        && movement.from.z().min(movement.to.z()) < surface
 }

@@ -16,30 +16,37 @@ use rstar::{AABB, RTree};
 type Moves<'m> = &'m [(u32, Move)];
 type Checked<T> = Result<T, Box<Diagnostic>>;
 
-/// Compares parsed moves with those of the job. `clearance` is the height above everything, in mm.
+/// A cut that was found: its line, and the number of the job's step that it belongs to. Cuts in one line belong to one step.
+pub(crate) type MatchedCut = (u32, u32);
+
+/// Compares parsed moves with those of the job and returns the cuts in their order. `clearance` is the height above everything, in mm.
 pub(crate) fn check(
     found: Moves<'_>,
     expected: Moves<'_>,
     clearance: f64,
     tolerance: &Tolerance,
-) -> Checked<()> {
+) -> Checked<Vec<MatchedCut>> {
     if let Some(blind) = blind_cut(expected) {
         return Err(Box::new(Diagnostic::new(&posts::CUT_AT_UNKNOWN_PLACE).with("step", u64::from(blind))));
     }
     let found = without_excursions(found, 2.0 * tolerance.place);
     let (mut found, mut expected) = (found.as_slice(), expected);
-    let mut has_cut = false;
+    let mut matched: Vec<MatchedCut> = Vec::new();
     loop {
         let (way, cuts) = split(expected, is_rapid);
         let way = Way::new(way, clearance, 2.0 * tolerance.place);
-        let Some(next) = cuts.first() else { return way.is_last(found, has_cut) };
+        let Some(next) = cuts.first() else {
+            way.is_last(found, !matched.is_empty())?;
+            return Ok(matched);
+        };
         let length = way.length(found, next)?;
         way.check(&found[..length])?;
         let (run, rest) = split(cuts, |movement| !is_rapid(movement));
         found = &found[length..];
-        found = &found[cut(found, run, tolerance)?..];
+        let (made, after) = found.split_at(cut(found, run, tolerance)?);
+        match_cuts(made, run, tolerance, &mut matched);
+        found = after;
         expected = rest;
-        has_cut = true;
     }
 }
 
@@ -108,6 +115,27 @@ fn cut(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance) -> Checked<
             Ok(run.iter().position(|movement| *movement == next).unwrap_or(run.len()))
         }
         Some(difference) => Err(Box::new(describe(&difference))),
+    }
+}
+
+/// How many steps one move may comprise where the post joins straight ones.
+const MOST_JOINED: usize = 64;
+
+/// Finds the step of each move in a run of equal cuts. The moves may be divided differently, so they are matched by their ends.
+fn match_cuts(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance, matched: &mut Vec<MatchedCut>) {
+    let mut rest = expected;
+    for (line, movement) in found {
+        let Some((step, _)) = rest.first().or(expected.last()) else { return };
+        if matched.last().is_none_or(|(last, _)| last != line) {
+            matched.push((*line, *step));
+        }
+        let slack = 2.0 * tolerance.place;
+        let ends_there = |(_, step): &(u32, Move)| {
+            (0..3).all(|axis| (step.to.at[axis] - movement.to.at[axis]).abs() <= slack)
+        };
+        if let Some(index) = rest.iter().take(MOST_JOINED).position(ends_there) {
+            rest = &rest[index + 1..];
+        }
     }
 }
 

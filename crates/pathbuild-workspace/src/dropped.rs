@@ -157,7 +157,7 @@ fn shown_check(record: &CheckRecord) -> ShownCheck {
     let outcome = match record.outcome {
         Outcome::Made(_) => "made",
         Outcome::Assumed(_) => "assumed",
-        Outcome::NotMade(_) => "not-made",
+        Outcome::Incomplete(..) | Outcome::NotMade(_) => "not-made",
     };
     ShownCheck { check: record.requirement.name(), outcome, text: bilingual(|lang| record.text(lang)) }
 }

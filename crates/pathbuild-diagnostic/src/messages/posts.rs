@@ -606,6 +606,26 @@ messages! {
         en: "here the spindle turns in the direction opposite to the tool's `direction`",
         de: "hier dreht sich die Spindel entgegen der `direction` des Werkzeugs",
     }
+    /// Note: another spindle speed.
+    SPINDLE_OTHER_SPEED: PostDiffers {
+        en: "here the spindle speed is {found} and in the program {expected}",
+        de: "die Drehzahl ist hier {found}, im Programm {expected}",
+    }
+    /// Note: a cut with another tool.
+    TOOL_OTHER: PostDiffers {
+        en: "this cut is made with T{found} and in the program with T{expected}",
+        de: "dieser Schnitt geschieht mit T{found}, im Programm mit T{expected}",
+    }
+    /// Note: a cut before T, or before M6 if the post writes it.
+    TOOL_NOT_SELECTED: PostDiffers {
+        en: "the output has not changed to T{expected}, with which the program makes this cut",
+        de: "die Ausgabe hat nicht auf T{expected} gewechselt, mit dem das Programm diesen Schnitt macht",
+    }
+    /// Note: a cut with the length of another tool, or with none.
+    LENGTH_OTHER: PostDiffers {
+        en: "the tool length in effect here is not that of T{expected}",
+        de: "hier gilt nicht die Werkzeuglänge von T{expected}",
+    }
     /// Note: a laser beam that is on during a rapid move.
     BEAM_ON: PostDiffers {
         en: "the post does not move Z, and its beam is still on during this rapid move",

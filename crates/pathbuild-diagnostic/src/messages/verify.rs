@@ -288,6 +288,13 @@ messages! {
         help_en: "needed: {option}",
         help_de: "nötig: {option}",
     }
+    /// A required check of rapid moves, some of which cannot be judged.
+    CHECK_INCOMPLETE: UnmadeCheck {
+        en: "the required check `{check}` is incomplete: the way of rapid moves below the material's surface is not known because their start is not; number of moves: {count}, the first in line {line}",
+        de: "die verlangte Prüfung `{check}` ist unvollständig: von Eilgängen unter die Oberfläche des Materials ist der Weg nicht bekannt, weil ihr Anfang nicht bekannt ist; Anzahl: {count}, der erste in Zeile {line}",
+        help_en: "go to X and Y above the material first, then down",
+        help_de: "zuerst über dem Material nach X und Y fahren, dann hinunter",
+    }
     /// Two comments that describe a tool differently.
     TOOL_STATED_TWICE: HeaderContradiction {
         en: "comments describe T{number} with {one} mm and with {other} mm, or with different tips",
@@ -435,27 +442,6 @@ messages! {
         help_en: "write {expected}, or correct `direction` in [tool.NAME]; without it, a tool with `spindle` turns clockwise",
         help_de: "{expected} schreiben oder `direction` in [tool.NAME] berichtigen; ohne diese Angabe dreht ein Werkzeug mit `spindle` im Uhrzeigersinn",
     }
-    /// G43 with the H of another tool than that in the spindle.
-    LENGTH_OF_OTHER_TOOL: Disagreement {
-        en: "H{number} is not the tool in the spindle, T{tool}: it cuts with the length of another tool",
-        de: "H{number} ist nicht das eingewechselte Werkzeug T{tool}: es wird mit der Länge eines anderen Werkzeugs gefräst",
-        help_en: "write H{tool}, unless the tool's length is stored under another number",
-        help_de: "H{tool} schreiben, wenn die Länge des Werkzeugs nicht unter einer anderen Nummer gespeichert ist",
-    }
-    /// A tool change without G43 after it, in a program that uses G43.
-    LENGTH_OF_EARLIER_TOOL: Disagreement {
-        en: "T{tool} cuts here with the length of the tool before it: there is no G43 since the tool change",
-        de: "T{tool} fräst hier mit der Länge des vorigen Werkzeugs: seit dem Werkzeugwechsel steht kein G43",
-        help_en: "write G43 with its H after the tool change",
-        help_de: "nach dem Werkzeugwechsel G43 mit seinem H schreiben",
-    }
-    /// A cut after G49.
-    LENGTH_CANCELLED: Disagreement {
-        en: "this cut runs without a tool length: G49 in line {line} has cancelled it",
-        de: "dieser Schnitt läuft ohne Werkzeuglänge: G49 in Zeile {line} hat sie aufgehoben",
-        help_en: "write G43 with its H before the cut, or remove G49",
-        help_de: "vor dem Schnitt G43 mit H schreiben oder G49 entfernen",
-    }
     /// A feed that exceeds the limit of an axis.
     FEED_TOO_HIGH: FeedTooHigh {
         en: "feed {feed} mm/min exceeds the machine's maximum of {most} in {axis}",
@@ -490,6 +476,48 @@ messages! {
         de: "das Werkzeug wird auf Z {z} gewechselt, unter der Oberfläche des Materials bei {surface}",
         help_en: "raise the cutter before M6",
         help_de: "den Fräser vor M6 anheben",
+    }
+    /// A tool change by hand, with T and M0.
+    SPINNING_AT_CHANGE: SpinningAtChange {
+        en: "the spindle still turns where the program stops for the tool change",
+        de: "die Spindel dreht sich noch, wo das Programm zum Werkzeugwechsel anhält",
+        help_en: "switch it off with M5 before M0",
+        help_de: "sie vor M0 mit M5 ausschalten",
+    }
+    /// A cut after M6 without G43.
+    LENGTH_BEFORE_CHANGE: WrongToolLength {
+        en: "this cut still has the tool length that line {set} set before {change} changed the tool",
+        de: "für diesen Schnitt gilt noch die Werkzeuglänge, die Zeile {set} vor dem Werkzeugwechsel {change} gesetzt hat",
+        help_en: "set the length of the new tool after the change, such as `G43 H2` for T2",
+        help_de: "nach dem Wechsel die Länge des neuen Werkzeugs setzen, etwa `G43 H2` für T2",
+    }
+    /// A cut after G49.
+    LENGTH_SWITCHED_OFF: WrongToolLength {
+        en: "this cut has no tool length: line {set} switched it off, but line {first} had applied one",
+        de: "für diesen Schnitt gilt keine Werkzeuglänge: Zeile {set} hat sie ausgeschaltet, Zeile {first} hatte aber eine gesetzt",
+        help_en: "leave the length on up to the last cut, or set it again with G43 H",
+        help_de: "die Länge bis zum letzten Schnitt gelten lassen oder mit G43 H wieder setzen",
+    }
+    /// A cut before the first G43.
+    LENGTH_OF_FIRST_TOOL: WrongToolLength {
+        en: "T{tool} cuts without a tool length, but line {first} applies one to a later cut",
+        de: "T{tool} schneidet ohne Werkzeuglänge, Zeile {first} setzt aber eine für einen späteren Schnitt",
+        help_en: "set the length of T{tool} after M6, such as `G43 H{tool}`; if all lengths are measured from T{tool}, accept this warning with `--accept`",
+        help_de: "nach M6 die Länge von T{tool} setzen, etwa `G43 H{tool}`; werden alle Längen von T{tool} aus gemessen, die Warnung mit `--accept` hinnehmen",
+    }
+    /// `G43 H2` for T1, where T2 cuts with H2 as well.
+    LENGTH_OF_OTHER_TOOL: WrongToolLength {
+        en: "T{tool} cuts with the length H{entry}, which is that of T{entry} in this program",
+        de: "T{tool} schneidet mit der Länge H{entry}, die in diesem Programm zu T{entry} gehört",
+        help_en: "write H{tool}",
+        help_de: "H{tool} schreiben",
+    }
+    /// `G43 H2` for T1.
+    LENGTH_OF_OTHER_NUMBER: WrongToolLength {
+        en: "T{tool} cuts with the length H{entry}: the numbers differ",
+        de: "T{tool} schneidet mit der Länge H{entry}: die Nummern sind verschieden",
+        help_en: "write H{tool}; if H{entry} is the length of T{tool} on this machine, accept this warning with `--accept`",
+        help_de: "H{tool} schreiben; ist H{entry} auf dieser Maschine die Länge von T{tool}, die Warnung mit `--accept` hinnehmen",
     }
     /// `diff`: moves to different points.
     PATHS_DIFFER: MovesDiffer {

@@ -13,7 +13,7 @@ pub use codes::{Letters, Words};
 pub(crate) use comment::beginning_of;
 pub use comment::{Charset, ascii, is_active_comment, within_comment};
 pub use rules::{
-    ArcRules, Blanks, DwellRules, DwellUnit, FeedMode, Grammar, LineLength, Operators, Percent,
+    ArcRules, Blanks, DwellRules, DwellUnit, FeedMode, Grammar, LengthRules, LineLength, Operators, Percent,
     RadiusTolerance, Rules, Slash, Spelling, StartMotion, Style,
 };
 

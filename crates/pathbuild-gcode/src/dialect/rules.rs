@@ -52,6 +52,17 @@ pub struct Rules {
     pub lifts_to_start: bool,
     /// Whether G80 may stand beside a motion word, which then applies.
     pub ends_cycles_beside_motion: bool,
+    /// How tool lengths are kept.
+    pub lengths: LengthRules,
+}
+
+/// What a control keeps of the tool length.
+#[derive(Clone, Copy, Debug)]
+pub struct LengthRules {
+    /// Whether G43 without H takes the H before it, even that of the program before; otherwise it takes the tool in the spindle.
+    pub keeps_entry: bool,
+    /// Whether the length of the program before is in effect until the program states one.
+    pub keeps_length: bool,
 }
 
 /// How G4 specifies its time.
@@ -190,7 +201,11 @@ const BASE: Rules = Rules {
     repeats: b'L',
     lifts_to_start: false,
     ends_cycles_beside_motion: false,
+    lengths: LengthRules { keeps_entry: false, keeps_length: false },
 };
+
+/// The lengths of RS274 and of the controls that follow it.
+const RS274_LENGTHS: LengthRules = LengthRules { keeps_entry: false, keeps_length: true };
 
 pub(super) static RS274: Rules = Rules {
     spelling: Spelling {
@@ -206,6 +221,7 @@ pub(super) static RS274: Rules = Rules {
     },
     arcs: ArcRules { radius: NIST_RADIUS, ..BASE.arcs },
     start_motion: StartMotion::None,
+    lengths: RS274_LENGTHS,
     ..BASE
 };
 
@@ -237,6 +253,7 @@ pub(super) static LINUXCNC: Rules = Rules {
     },
     feed_mode: FeedMode::ClearsFeed,
     start_motion: StartMotion::None,
+    lengths: RS274_LENGTHS,
     ..BASE
 };
 
@@ -255,6 +272,7 @@ pub(super) static GRBL: Rules = Rules {
     words: &codes::GRBL,
     // gcode.c: "bit_false(value_words,(bit(WORD_I)|bit(WORD_J)|bit(WORD_K)))". FreeCAD's grbl_post writes `K0.000` in every arc.
     arcs: ArcRules { ignores_third_centre: true, ..BASE.arcs },
+    lengths: RS274_LENGTHS,
     ..BASE
 };
 
@@ -293,6 +311,7 @@ pub(super) static NATIVE: Rules = Rules {
         ..BASE_SPELLING
     },
     words: &codes::NATIVE,
+    lengths: RS274_LENGTHS,
     ..BASE
 };
 
@@ -310,7 +329,7 @@ pub(super) static MACH3: Rules = Rules {
     ..BASE
 };
 
-/// Common rules of Fanuc and Haas.
+/// Common rules of Fanuc, Haas and DIN 66025.
 const ISO: Rules = Rules {
     arcs: ArcRules { radius: RadiusTolerance::Fixed { mm: 0.02, inch: 0.02 }, axis_word: false, ..BASE.arcs },
     start_motion: StartMotion::None,
@@ -320,6 +339,7 @@ const ISO: Rules = Rules {
     lifts_to_start: true,
     // G80 is in a group of its own.
     ends_cycles_beside_motion: true,
+    lengths: LengthRules { keeps_entry: true, keeps_length: false },
     ..BASE
 };
 

@@ -255,10 +255,10 @@ impl Interpreter<'_> {
                     self.words.values.take(b'S');
                     self.words.values.take(b'P');
                 }
-                self.step(block, Action::Stop { optional: code == 10 });
                 if self.rules.stop_is_complete {
                     self.switch_off(block);
                 }
+                self.step(block, Action::Stop { optional: code == 10 });
             }
             None => {}
         }

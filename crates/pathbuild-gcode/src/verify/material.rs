@@ -5,7 +5,7 @@
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Point};
-use pathbuild_motion::{Action, Move, MoveShape, Pace, widest_chord};
+use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Position, widest_chord};
 use pathbuild_toolpath as toolpath;
 use pathbuild_toolpath::{Comment, ProgramStep as Emitted};
 
@@ -61,7 +61,7 @@ fn follow(
     look: &mut dyn FnMut(&mut Bench<'_>, u32, &Move, &mut Problems),
 ) {
     let mut extent = Extent::default();
-    each_known_move(program, &mut |line, movement| extent.add(line, movement, stock));
+    each_followed_move(program, stock, &mut |line, movement| extent.add(line, movement, stock));
     if extent.pieces > stock.most_pieces {
         let (line, limit) = (extent.line, stock.most_pieces);
         return problems.add_at_line(&say::TOO_MANY_PIECES, line, |d| {
@@ -72,7 +72,7 @@ fn follow(
     let mut bench = Bench::new(stock, resolution, stock.cells());
     let mut reached = 0;
     let mut each = |take: &mut dyn FnMut(&mut Bench<'_>, u32, &Move)| {
-        each_known_move(program, &mut |line, movement| {
+        each_followed_move(program, stock, &mut |line, movement| {
             if !bench.map.is_exhausted() {
                 reached = line;
                 take(&mut bench, line, movement);
@@ -121,12 +121,22 @@ pub(super) fn has_room<'c>(
     problems.into_diagnostics().is_empty() && !bench.map.is_exhausted()
 }
 
-fn each_known_move(program: &(impl Program + ?Sized), take: &mut dyn FnMut(u32, &Move)) {
-    program.each(&mut |step| match &step.action {
-        Action::Move(movement) if movement.is_known() => {
-            take(step.line, movement);
+/// Passes on the moves that can be followed. A rapid move whose start is not known is replaced by the vertical one to its end, which is in
+/// the material or not, wherever the tool comes from.
+fn each_followed_move(program: &(impl Program + ?Sized), stock: &Stock, take: &mut dyn FnMut(u32, &Move)) {
+    let highest = stock.highest().filter(|highest| highest.is_finite());
+    program.each(&mut |step| {
+        let Action::Move(movement) = &step.action else { return };
+        if movement.is_known() {
+            return take(step.line, movement);
         }
-        _ => {}
+        if let Some(highest) =
+            highest.filter(|_| movement.pace == Pace::Rapid && movement.to.known == Axes::ALL)
+        {
+            let [x, y, z] = movement.to.at;
+            let from = Position::known(x, y, z.max(highest));
+            take(step.line, &Move { from, shape: MoveShape::Line, named: None, ..*movement });
+        }
     });
 }
 

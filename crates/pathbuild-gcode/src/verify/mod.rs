@@ -5,17 +5,19 @@
 //! than a missing warning.
 
 mod against;
+mod blind_rapids;
 mod chip_load;
 mod compare;
 mod depth;
 mod direction;
 mod height_map;
+mod lengths;
 mod machine;
 mod material;
 mod rapids;
 mod rules;
 mod stated;
-mod tool_length;
+mod tool_state;
 mod words;
 
 use pathbuild_diagnostic::Diagnostic;
@@ -24,17 +26,19 @@ use pathbuild_motion::Step;
 pub use self::compare::same_move_lines;
 pub use self::rules::coarse_arcs;
 pub use against::{Against, Agreement, Clamps, Drawn, PastClamps, ToolUse};
+pub use blind_rapids::{BlindRapidRules, BlindRapids};
 pub use chip_load::ChipLoadRules;
 pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};
 pub use depth::DepthRules;
 pub use direction::DirectionRules;
+pub use lengths::LengthRules;
 pub use machine::{Machine, MachineRules, Travel};
 pub use material::{Cutter, Stock, StockSpan, rapid_hits};
 pub use rapids::{beyond_machine, rapids_into_material};
 pub use rules::Rules;
 pub use stated::StatedStatistics;
-pub use tool_length::ToolLengthRules;
+pub use tool_state::{LengthFit, ToolState};
 pub use words::{PostWords, WordRules};
 
 use crate::interpret::Program;

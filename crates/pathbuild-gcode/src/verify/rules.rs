@@ -92,6 +92,7 @@ impl<'c> Rules<'c> {
             }
             Action::Stop { optional: false } => {
                 self.by_hand.is_stopped = true;
+                self.by_hand.spinning = self.spindle.turning.is_on().then_some(line);
                 self.change_by_hand(line);
             }
             _ => {}
@@ -179,12 +180,12 @@ impl<'c> Rules<'c> {
 
     /// Checks that the spindle turns, but only in programs that switch it: on many machines the operator does that.
     fn cutting(&mut self, line: u32, movement: &Move) {
-        if !matches!(movement.pace, Pace::Feed(_)) || movement.is_nothing() || is_first_height(movement) {
+        if !is_cut(movement) {
             return;
         }
         self.has_cut = true;
         self.position(line, movement);
-        if self.is_above_stock(line, movement) {
+        if is_above_stock(line, movement, self.stock) {
             return;
         }
         let (message, severity) = match (self.spindle.turning, self.spindle.speed) {
@@ -205,13 +206,6 @@ impl<'c> Rules<'c> {
         if !std::mem::replace(&mut self.spindle_said, true) {
             self.problems.add_at_line(message, line, |diagnostic| Diagnostic { severity, ..diagnostic });
         }
-    }
-
-    /// Whether a move stays above the material, as far as that is known.
-    fn is_above_stock(&self, line: u32, movement: &Move) -> bool {
-        let is_known = movement.is_known();
-        let surface = self.stock.and_then(|stock| stock.at(line)).map(|piece| piece.surface);
-        is_known && surface.is_some_and(|surface| movement.from.z().min(movement.to.z()) >= surface)
     }
 
     /// Reports the first cut at an unknown position in the plane, because other checks ignore such moves.
@@ -236,7 +230,10 @@ impl<'c> Rules<'c> {
     /// Checks the change of a tool by T and a stop, in any order, without a move between them.
     fn change_by_hand(&mut self, line: u32) {
         if self.by_hand.is_selected && self.by_hand.is_stopped {
-            self.by_hand = ChangeByHand::default();
+            let ChangeByHand { spinning, .. } = std::mem::take(&mut self.by_hand);
+            if let Some(stop) = spinning {
+                self.problems.add_at_line(&say::SPINNING_AT_CHANGE, stop, |d| d);
+            }
             self.tool_change(line);
         }
     }
@@ -280,6 +277,8 @@ impl<'c> Rules<'c> {
 struct ChangeByHand {
     is_selected: bool,
     is_stopped: bool,
+    /// The line of the stop, if the spindle turned there.
+    spinning: Option<u32>,
 }
 
 /// Finds arcs between straight cuts that turn back at both ends. The arc the other way round would continue both cuts, so G2 and G3 are
@@ -324,6 +323,21 @@ impl ArcDirections {
 /// Whether two directions are opposite, within about 10 degrees.
 fn is_opposite(one: [f64; 2], other: [f64; 2]) -> bool {
     one[0] * other[0] + one[1] * other[1] < -0.985
+}
+
+/// Whether a move cuts, unless it stays above the material.
+pub(super) fn is_cut_in_stock(line: u32, movement: &Move, stock: Option<&Stock>) -> bool {
+    is_cut(movement) && !is_above_stock(line, movement, stock)
+}
+
+fn is_cut(movement: &Move) -> bool {
+    matches!(movement.pace, Pace::Feed(_)) && !movement.is_nothing() && !is_first_height(movement)
+}
+
+/// Whether a move stays above the material, as far as that is known.
+fn is_above_stock(line: u32, movement: &Move, stock: Option<&Stock>) -> bool {
+    let surface = stock.and_then(|stock| stock.at(line)).map(|piece| piece.surface);
+    movement.is_known() && surface.is_some_and(|surface| movement.from.z().min(movement.to.z()) >= surface)
 }
 
 /// Whether a move sets the height at the beginning of a program, as Easel does with `G1 Z0.15` before it starts the spindle.

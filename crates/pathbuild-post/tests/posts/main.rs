@@ -16,3 +16,4 @@ mod read_programs;
 mod robustness;
 mod support;
 mod target;
+mod tools;

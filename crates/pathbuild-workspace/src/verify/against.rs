@@ -45,6 +45,8 @@ pub(super) struct Rewritten {
     start: Option<Position>,
     /// The moves from there on.
     moves: Vec<(u32, Move)>,
+    /// Tool and spindle of its cuts.
+    tool: ToolUse,
     /// Whether its moves were compared with the drawing when it was written.
     is_read_back: bool,
 }
@@ -119,7 +121,7 @@ impl ReferenceProgram {
             moves: drawn_moves.chain(written.into_iter().flatten()),
             start,
             clearance,
-            tool: self.tool(table),
+            tool: self.tool(table).or(rewritten.map_or(ToolUse::default(), |rewritten| rewritten.tool)),
             number: self.number(settings),
             spin_up: settings.machine.spin_up.value,
         };
@@ -182,12 +184,13 @@ impl ReferenceProgram {
             milliseconds: settings.machine.dwell.value == DwellTime::Milliseconds,
             ..Options::default()
         };
-        let all = interpret::interpret(code, program.dialect, &options).moves();
+        let read = interpret::interpret(code, program.dialect, &options);
+        let (all, tool) = (read.moves(), ToolUse::of_cuts(&read.steps, program.dialect));
         let begins = all.iter().position(|(_, it)| it.to.known == Axes::ALL);
         let start = begins.map(|index| all[index].1.to);
         let moves = all.into_iter().skip(begins.map_or(0, |index| index + 1)).collect();
         let other_line = writer.first_other_line(&program.text, &text);
-        Ok(Rewritten { other_line, start, moves, is_read_back: !writer.is_unchecked() })
+        Ok(Rewritten { other_line, start, moves, tool, is_read_back: !writer.is_unchecked() })
     }
 
     /// Whether the path has probes, and hence a probing run.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Lang, Number, Text};
-use pathbuild_gcode::verify::Machine;
+use pathbuild_gcode::verify::{BlindRapids, Machine};
 use serde::{Deserialize, Serialize};
 
 use super::stock::Sources;
@@ -26,6 +26,8 @@ pub enum Outcome {
     Made(Option<RapidValues>),
     /// It was made with values that only the program itself states.
     Assumed(RapidValues),
+    /// It was made with these values, but for the rapid moves whose way is not known.
+    Incomplete(RapidValues, BlindRapids),
     /// It was not made.
     NotMade(Reason),
 }
@@ -79,11 +81,12 @@ pub(super) fn records(
     machine: Option<&Machine>,
     is_against: bool,
     is_limit_reached: bool,
+    blind: Option<BlindRapids>,
 ) -> Vec<CheckRecord> {
     let made = |is_made: bool, reason| if is_made { Outcome::Made(None) } else { Outcome::NotMade(reason) };
     let limits = |is_limited: fn(&Machine) -> bool| made(machine.is_some_and(is_limited), Reason::NoLimit);
     let all = [
-        (Requirement::Rapids, rapids(sources, is_limit_reached)),
+        (Requirement::Rapids, rapids(sources, is_limit_reached, blind)),
         (Requirement::Envelope, limits(|machine| machine.travel.is_some())),
         (Requirement::Feeds, limits(|machine| machine.feed.is_some())),
         (Requirement::Spindle, limits(|machine| machine.spindle.is_some())),
@@ -93,7 +96,7 @@ pub(super) fn records(
     all.map(|(requirement, outcome)| CheckRecord { requirement, outcome }).into()
 }
 
-fn rapids(sources: &Sources<'_>, is_limit_reached: bool) -> Outcome {
+fn rapids(sources: &Sources<'_>, is_limit_reached: bool, blind: Option<BlindRapids>) -> Outcome {
     if is_limit_reached {
         return Outcome::NotMade(Reason::TooLarge);
     }
@@ -106,7 +109,11 @@ fn rapids(sources: &Sources<'_>, is_limit_reached: bool) -> Outcome {
     let cutters = cutters.iter().map(|(_, cutter)| cutter.diameter).collect();
     let values =
         RapidValues { cutters, cutter_origin, surface, is_level: sources.is_level(), surface_origin };
-    if sources.are_only_stated() { Outcome::Assumed(values) } else { Outcome::Made(Some(values)) }
+    match blind {
+        Some(blind) => Outcome::Incomplete(values, blind),
+        None if sources.are_only_stated() => Outcome::Assumed(values),
+        None => Outcome::Made(Some(values)),
+    }
 }
 
 /// The checks of a program in a line.
@@ -117,6 +124,10 @@ pub fn summary(records: &[CheckRecord], lang: Lang) -> String {
         let name = shown(record.requirement).in_lang(lang);
         match &record.outcome {
             Outcome::Made(_) | Outcome::Assumed(_) => made.push(record.text(lang)),
+            Outcome::Incomplete(values, blind) => {
+                made.push(format!("{name} {}", with_cutter(values, lang)));
+                unmade.push(format!("{} ({})", blind_text(*blind, lang), ABOVE_FIRST.in_lang(lang)));
+            }
             Outcome::NotMade(reason) => {
                 let option = record.option(*reason).in_lang(lang);
                 unmade.push(match record.requirement {
@@ -138,7 +149,7 @@ impl CheckRecord {
     pub fn values(&self) -> Option<&RapidValues> {
         match &self.outcome {
             Outcome::Made(values) => values.as_ref(),
-            Outcome::Assumed(values) => Some(values),
+            Outcome::Assumed(values) | Outcome::Incomplete(values, _) => Some(values),
             Outcome::NotMade(_) => None,
         }
     }
@@ -148,10 +159,11 @@ impl CheckRecord {
         let name = shown(self.requirement).in_lang(lang);
         match (&self.outcome, self.values()) {
             (Outcome::NotMade(reason), _) => format!("{name}: {}", reason.text().in_lang(lang)),
-            (_, Some(values)) => {
-                let against = lang.choose("against a cutter of", "mit einem Fräser von");
-                format!("{name} {against} {}", values.in_lang(lang))
+            (Outcome::Incomplete(values, blind), _) => {
+                let but = lang.choose("but not", "aber nicht");
+                format!("{name} {}, {but} {}", with_cutter(values, lang), blind_text(*blind, lang))
             }
+            (_, Some(values)) => format!("{name} {}", with_cutter(values, lang)),
             (_, None) => name.to_owned(),
         }
     }
@@ -179,6 +191,12 @@ impl CheckRecord {
         }
         let (reason, option) = match &self.outcome {
             Outcome::Made(_) => return None,
+            Outcome::Incomplete(_, blind) => {
+                let problem =
+                    Diagnostic::new(&say::CHECK_INCOMPLETE).quoting("check", self.requirement.name());
+                let line = u64::from(blind.line);
+                return Some(problem.with("count", blind.count).with("line", line).at_line(blind.line, None));
+            }
             Outcome::Assumed(_) if may_be_assumed => return None,
             Outcome::Assumed(_) => (&ONLY_COMMENTS, &GIVEN),
             Outcome::NotMade(reason) => (reason.text(), self.option(*reason)),
@@ -223,6 +241,38 @@ impl Reason {
         }
     }
 }
+
+fn with_cutter(values: &RapidValues, lang: Lang) -> String {
+    let against = lang.choose("against a cutter of", "mit einem Fräser von");
+    format!("{against} {}", values.in_lang(lang))
+}
+
+/// The rapid moves whose way is not known, as in `2 rapid moves from unknown positions to below the surface, from line 7 on`.
+pub fn blind_text(blind: BlindRapids, lang: Lang) -> String {
+    let BlindRapids { count, line } = blind;
+    match (lang, count) {
+        (Lang::En, 1) => {
+            format!("1 rapid move from an unknown position to below the surface, in line {line}")
+        }
+        (Lang::En, _) => {
+            format!(
+                "{count} rapid moves from unknown positions to below the surface, the first in line {line}"
+            )
+        }
+        (Lang::De, 1) => format!("1 Eilgang von unbekannter Position unter die Oberfläche, in Zeile {line}"),
+        (Lang::De, _) => {
+            format!(
+                "{count} Eilgänge von unbekannten Positionen unter die Oberfläche, der erste in Zeile {line}"
+            )
+        }
+    }
+}
+
+/// What makes the way of a rapid move known.
+pub static ABOVE_FIRST: Text = Text {
+    en: "go to X and Y above the material first, then down",
+    de: "zuerst über dem Material nach X und Y fahren, dann hinunter",
+};
 
 /// The name of a check for readers.
 fn shown(requirement: Requirement) -> Text {

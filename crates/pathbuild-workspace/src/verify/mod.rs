@@ -18,8 +18,8 @@ use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    Against, ChipLoadRules, DepthRules, DirectionRules, Machine, MachineRules, PastClamps, PostWords,
-    StatedStatistics, Stock, ToolLengthRules, WordRules, coarse_arcs, verify,
+    Against, BlindRapidRules, BlindRapids, ChipLoadRules, DepthRules, DirectionRules, LengthRules, Machine,
+    MachineRules, PastClamps, PostWords, StatedStatistics, Stock, WordRules, coarse_arcs, verify,
 };
 use pathbuild_motion::{Move, Pace, Step};
 use pathbuild_post::ToolTable;
@@ -33,7 +33,7 @@ use crate::program::{ByDefinition, Program, ReadingOptions};
 use crate::session::Session;
 use crate::workspace::Workspace;
 
-pub use checks::{CheckRecord, Origin, Outcome, RapidValues, Reason, summary};
+pub use checks::{ABOVE_FIRST, CheckRecord, Origin, Outcome, RapidValues, Reason, blind_text, summary};
 pub use run::{Request, Verification};
 use stock::Sources;
 
@@ -298,7 +298,9 @@ impl<'v> Examination<'v> {
     /// The problem that prevents the verification.
     fn run(&self, written: WrittenFindings) -> Result<VerifiedProgram, Vec<Diagnostic>> {
         let rewritten = self.rewritten()?;
-        let (mut found, comparison) = self.findings(written, rewritten.as_ref());
+        let stock = self.sources.stock();
+        let mut blind = stock.and_then(BlindRapidRules::new);
+        let (mut found, comparison) = self.findings(written, rewritten.as_ref(), &mut blind);
         if let Some(against) =
             self.verifier.against.as_ref().filter(|_| self.program.dialect == Dialect::Native)
         {
@@ -307,7 +309,7 @@ impl<'v> Examination<'v> {
             let differences = against.text_differences(settings, self.program, self.is_probing, is_sound);
             found.extend(differences.map_err(|problem| vec![*problem])?);
         }
-        let checks = self.checks(&mut found);
+        let checks = self.checks(&mut found, blind.and_then(BlindRapidRules::finish));
         self.program.place(&mut found);
         let mut diagnostics = self.doubts(rewritten.as_ref(), &mut found);
         diagnostics.append(&mut found);
@@ -329,6 +331,7 @@ impl<'v> Examination<'v> {
         &self,
         written: WrittenFindings,
         rewritten: Option<&Rewritten>,
+        blind: &mut Option<BlindRapidRules>,
     ) -> (Vec<Diagnostic>, Option<MoveComparison>) {
         let Self { verifier, program, .. } = self;
         let against = verifier.against.as_ref();
@@ -344,7 +347,8 @@ impl<'v> Examination<'v> {
         let mut chip_loads = ChipLoadRules::new(self.sources.chip_loads());
         // The comparison with a drawing reports a wrong direction and a wrong tool length.
         let mut directions = self.milled.is_none().then(|| DirectionRules::new(self.sources.directions()));
-        let mut lengths = self.milled.is_none().then(ToolLengthRules::default);
+        let mut lengths =
+            self.milled.is_none().then(|| LengthRules::new(program.dialect, self.sources.stock()));
         let mut depths = DepthRules::default();
         let mut found = verify(&program.drawn(), self.sources.stock(), &mut |step| {
             nominal.step(step);
@@ -356,7 +360,11 @@ impl<'v> Examination<'v> {
                 lengths.step(step);
             }
             depths.step(step);
+            if let Some(blind) = &mut *blind {
+                blind.step(step);
+            }
         });
+        found.extend(lengths.into_iter().flat_map(LengthRules::finish));
         found.extend(self.sources.doubtful_rapids(depths, &found));
         for word in program.words_left_out() {
             nominal.left_out(word.line, &word.word);
@@ -367,7 +375,6 @@ impl<'v> Examination<'v> {
         found.extend(written.limits);
         found.extend(chip_loads.finish());
         found.extend(directions.into_iter().flat_map(DirectionRules::finish));
-        found.extend(lengths.into_iter().flat_map(ToolLengthRules::finish));
         found.extend(self.sources.unknown_tools());
         if program.dialect == Dialect::Native {
             found.extend(native::unstated_heights(&program.text));
@@ -383,7 +390,7 @@ impl<'v> Examination<'v> {
     }
 
     /// The checks. Adds an error to the findings for each check that is required and was not made.
-    fn checks(&self, found: &mut Vec<Diagnostic>) -> Vec<CheckRecord> {
+    fn checks(&self, found: &mut Vec<Diagnostic>, blind: Option<BlindRapids>) -> Vec<CheckRecord> {
         let mut is_limit_reached = false;
         for problem in found.iter_mut().filter(|problem| problem.code() == Code::LimitReached) {
             is_limit_reached = true;
@@ -392,7 +399,8 @@ impl<'v> Examination<'v> {
         }
         let verifier = self.verifier;
         let is_against = verifier.against.is_some();
-        let records = checks::records(&self.sources, verifier.machine.as_ref(), is_against, is_limit_reached);
+        let machine = verifier.machine.as_ref();
+        let records = checks::records(&self.sources, machine, is_against, is_limit_reached, blind);
         found.extend(records.iter().filter_map(|record| record.unmade(verifier.required())));
         records
     }

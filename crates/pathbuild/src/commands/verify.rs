@@ -8,7 +8,9 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_workspace::Failure;
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::session::Session;
-use pathbuild_workspace::verify::{CheckRecord, MoveComparison, Outcome, Request, VerifyOptions, summary};
+use pathbuild_workspace::verify::{
+    ABOVE_FIRST, CheckRecord, MoveComparison, Outcome, Request, VerifyOptions, blind_text, summary,
+};
 use pathbuild_workspace::waivers::Coverage;
 use serde_json::{Value, json};
 
@@ -184,6 +186,14 @@ fn row(record: &CheckRecord, lang: Lang) -> Value {
         Outcome::Assumed(values) => {
             json!({ "check": check, "outcome": "assumed", "with": values.in_lang(lang) })
         }
+        Outcome::Incomplete(values, blind) => json!({
+            "check": check,
+            "outcome": "not-made",
+            "with": values.in_lang(lang),
+            "moves": blind.count,
+            "reason": blind_text(*blind, lang),
+            "option": ABOVE_FIRST.in_lang(lang),
+        }),
         Outcome::NotMade(reason) => json!({
             "check": check,
             "outcome": "not-made",

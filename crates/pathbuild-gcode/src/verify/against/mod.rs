@@ -9,8 +9,9 @@ mod setup;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_motion::{Action, Coolant, Move, Position, Step, Turning};
+use pathbuild_motion::{Action, Coolant, Move, Pace, Position, Spindle, Step, Turning};
 
+use super::tool_state::ToolState;
 use super::words::{PostWords, WordRules};
 use crate::dialect::Dialect;
 use crate::read::Problems;
@@ -47,6 +48,49 @@ pub struct ToolUse {
     pub speed: Option<f64>,
     /// State of the coolant while cutting.
     pub coolant: Option<Coolant>,
+}
+
+impl ToolUse {
+    /// What all cuts of a program have in common.
+    pub fn of_cuts(steps: &[Step], dialect: Dialect) -> Self {
+        let mut tools = ToolState::new(dialect);
+        let mut common: Option<Self> = None;
+        for step in steps {
+            tools.step(step);
+            if step.as_move().is_some_and(|(_, movement)| matches!(movement.pace, Pace::Feed(_))) {
+                let now = Self::of_state(&tools);
+                common = Some(common.map_or(now, |common| common.and(now)));
+            }
+        }
+        common.unwrap_or_default()
+    }
+
+    fn of_state(tools: &ToolState) -> Self {
+        let Spindle { turning, speed } = tools.spindle();
+        let turning = turning.is_on().then_some(turning);
+        Self { number: tools.inserted().or(tools.selected()), turning, speed, coolant: None }
+    }
+
+    /// The properties in which both agree.
+    fn and(self, other: Self) -> Self {
+        Self {
+            number: self.number.filter(|_| self.number == other.number),
+            turning: self.turning.filter(|_| self.turning == other.turning),
+            speed: self.speed.filter(|_| self.speed == other.speed),
+            coolant: self.coolant.filter(|_| self.coolant == other.coolant),
+        }
+    }
+
+    /// The properties of another use where this one has none.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            number: self.number.or(other.number),
+            turning: self.turning.or(other.turning),
+            speed: self.speed.or(other.speed),
+            coolant: self.coolant.or(other.coolant),
+        }
+    }
 }
 
 /// How far a program agrees with a drawing.

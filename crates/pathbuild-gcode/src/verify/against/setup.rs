@@ -13,6 +13,7 @@ use super::ToolUse;
 use crate::dialect::Dialect;
 use crate::interpret::code_name;
 use crate::read::Problems;
+use crate::verify::tool_state::{LengthFit, ToolState};
 use crate::verify::words::PostWords;
 
 /// Maximum rounding of corners in mm, as in the built-in posts.
@@ -34,17 +35,12 @@ pub(super) struct Setup<'w> {
     at: Position,
     /// Words that the post writes before the first move and that the program has not contained yet.
     missing: BTreeMap<Group, u16>,
-    /// The tool selected by T.
-    selected: Option<u32>,
+    /// Tool, tool length and spindle.
+    tools: ToolState,
     coolant: Coolant,
     coolant_line: u32,
     /// The behaviour at corners, if the program has specified it.
     corners: Option<Corners>,
-    /// The tool inserted by M6.
-    inserted: Option<u32>,
-    /// The active tool length, and the line that set it.
-    length: Option<(ToolLength, u32)>,
-    spindle: Spindle,
     spindle_line: u32,
     /// Seconds since the spindle was switched on.
     running: f64,
@@ -58,6 +54,8 @@ pub(super) struct Setup<'w> {
 struct Reported {
     spindle: bool,
     length: bool,
+    /// That the program sets no length.
+    no_length: bool,
     tool: bool,
     coolant: bool,
     corners: bool,
@@ -83,7 +81,7 @@ impl<'w> Setup<'w> {
             dialect,
             words,
             missing,
-            selected: None,
+            tools: ToolState::new(dialect),
             coolant: Coolant::default(),
             coolant_line: 0,
             corners: None,
@@ -91,9 +89,6 @@ impl<'w> Setup<'w> {
             expected,
             spin_up,
             at: Position::default(),
-            inserted: None,
-            length: None,
-            spindle: Spindle::UNSTATED,
             spindle_line: 0,
             running: 0.0,
             reported: Reported::default(),
@@ -102,6 +97,8 @@ impl<'w> Setup<'w> {
 
     pub(super) fn step(&mut self, step: &Step, problems: &mut Problems) {
         let line = step.line;
+        let spindle_before = self.tools.spindle();
+        self.tools.step(step);
         match &step.action {
             Action::Move(movement) => self.moves(line, movement, problems),
             Action::Dwell(seconds) => self.dwell(line, *seconds, problems),
@@ -111,12 +108,11 @@ impl<'w> Setup<'w> {
             Action::ChangeTool(number) => {
                 let number = number.unwrap_or(0);
                 self.select(line, number, problems);
-                self.inserted = Some(number);
                 if self.has_post() && !self.words.has('M', 60) {
                     extra(line, "M6".to_owned(), problems);
                 }
             }
-            Action::Spindle(spindle) => self.switch_spindle(line, *spindle, problems),
+            Action::Spindle(spindle) => self.switch_spindle(line, spindle_before, *spindle, problems),
             Action::Coolant(coolant) => {
                 (self.coolant, self.coolant_line) = (*coolant, line);
                 self.reported.coolant = false;
@@ -130,7 +126,7 @@ impl<'w> Setup<'w> {
     }
 
     pub(super) fn finish(&mut self, problems: &mut Problems) {
-        if self.spindle.turning.is_on() {
+        if self.turns() {
             extra(self.spindle_line, "M3, M4".to_owned(), problems);
         }
         if self.coolant != Coolant::default() && self.switches_coolant() {
@@ -141,13 +137,11 @@ impl<'w> Setup<'w> {
     fn change(&mut self, line: u32, change: Change, problems: &mut Problems) {
         match change {
             Change::ToolLength(ToolLength::Other) => extra(line, "G43, G44".to_owned(), problems),
-            Change::ToolLength(ToolLength::OfTool(entry)) if !self.is_inserted(entry) => {
+            Change::ToolLength(ToolLength::OfTool(_)) if !self.has_length_of_tool() => {
+                self.reported.length = true;
                 problems.add_at_line(&say::LENGTHS_DIFFER, line, |d| d);
             }
-            Change::ToolLength(length) => {
-                self.length = Some((length, line));
-                self.reported.length = false;
-            }
+            Change::ToolLength(_) => self.reported.length = false,
             Change::Offsets { code, .. } => extra(line, code_name('G', code), problems),
             Change::Corners(corners) => {
                 self.corners = Some(corners);
@@ -175,15 +169,12 @@ impl<'w> Setup<'w> {
         }
     }
 
-    /// Whether a length is that of the tool inserted by M6.
-    fn is_inserted(&self, entry: Option<u32>) -> bool {
-        // G43 without H: some controls take the tool in the spindle, others the H of the program before.
-        let keeps_entry = matches!(self.dialect, Dialect::Fanuc | Dialect::Haas | Dialect::Din);
-        self.inserted.is_some_and(|tool| entry.map_or(!keeps_entry, |entry| entry == tool))
+    /// Whether the active length is that of the tool inserted by M6.
+    fn has_length_of_tool(&self) -> bool {
+        self.tools.length_fit() == LengthFit::Fits
     }
 
     fn select(&mut self, line: u32, number: u32, problems: &mut Problems) {
-        self.selected = Some(number);
         if !self.words.chooses_tools && self.has_post() {
             return extra(line, "T".to_owned(), problems);
         }
@@ -196,10 +187,9 @@ impl<'w> Setup<'w> {
         }
     }
 
-    fn switch_spindle(&mut self, line: u32, spindle: Spindle, problems: &mut Problems) {
-        let is_started = spindle.turning != self.spindle.turning || spindle.speed != self.spindle.speed;
-        (self.spindle, self.spindle_line) = (spindle, line);
-        if is_started {
+    fn switch_spindle(&mut self, line: u32, before: Spindle, spindle: Spindle, problems: &mut Problems) {
+        self.spindle_line = line;
+        if spindle != before {
             self.running = 0.0;
             self.reported.spindle = false;
         }
@@ -256,7 +246,7 @@ impl<'w> Setup<'w> {
     /// Checks that the selected tool or layer is that of the drawing.
     fn cutting_tool(&mut self, line: u32, problems: &mut Problems) {
         // If the post inserts its tool by M6, T alone only selects the next tool.
-        let chosen = self.inserted.or(self.selected.filter(|_| !self.words.has('M', 60)));
+        let chosen = self.tools.inserted().or(self.tools.selected().filter(|_| !self.words.has('M', 60)));
         // On XpertMILL, the layer takes the place of the tool. On other controls, a wrong tool has been reported where it was selected.
         let fits = |chosen| {
             !self.dialect.rules().layers || self.expected.number.is_none_or(|number| number == chosen)
@@ -307,23 +297,15 @@ impl<'w> Setup<'w> {
     }
 
     fn turns(&self) -> bool {
-        self.spindle.turning.is_on()
+        self.tools.spindle().turning.is_on()
     }
 
     fn turns_otherwise(&self) -> bool {
-        // XpertMILL switches the spindle by its own events, and the speed belongs to the layer.
-        let is_tied = self.dialect == Dialect::Xpertmill;
-        let turning = self.expected.turning.filter(|_| !is_tied);
-        let differs = turning.is_some_and(|turning| turning != self.spindle.turning);
-        let speed = self.expected.speed.filter(|_| self.expected.turning != Some(Turning::Unstated));
-        differs
-            || speed.is_some_and(|speed| {
-                self.spindle.speed.is_none_or(|found| libm::fabs(speed - found) > SAME_SPEED)
-            })
+        self.tools.turns_otherwise(self.expected.turning, self.expected.speed, SAME_SPEED)
     }
 
     fn spindle_differs(&self, line: u32, message: &'static Message, problems: &mut Problems) {
-        let (expected, found) = (self.expected, self.spindle);
+        let (expected, found) = (self.expected, self.tools.spindle());
         problems.add_at_line(message, line, |d| {
             d.quoting("found", spindle_text(Some(found.turning), found.speed))
                 .quoting("expected", spindle_text(expected.turning, expected.speed))
@@ -333,32 +315,31 @@ impl<'w> Setup<'w> {
 
     /// Checks that the active length is that of the tool in the spindle if M6 inserts tools. The native program and others apply no length.
     fn cutting_length(&mut self, line: u32, problems: &mut Problems) {
-        if self.length.is_none() && self.keeps_lengths() {
-            // After the report, continue as if the word were present.
-            self.length = Some((ToolLength::Off, line));
+        let fit = self.tools.length_fit();
+        if fit == LengthFit::Unstated
+            && self.keeps_lengths()
+            && !std::mem::replace(&mut self.reported.no_length, true)
+        {
             problems.add_at_line(&say::MODES_NOT_STATED, line, |d| {
                 let d = d.quoting("words", "G49").quoting("taken", "G49");
                 Diagnostic { severity: Severity::Error, ..d }
             });
         }
-        let fits = match self.length {
-            None | Some((ToolLength::Off, _)) => !self.must_count(),
-            Some((ToolLength::OfTool(entry), _)) => {
-                (self.must_count() || !self.has_post()) && self.is_inserted(entry)
-            }
-            Some((ToolLength::Other, _)) => false,
+        let fits = match fit {
+            LengthFit::Unstated | LengthFit::Off => !self.must_count(),
+            LengthFit::Fits => self.must_count() || !self.has_post(),
+            LengthFit::Outdated | LengthFit::OfEntry(_) | LengthFit::Unknown => false,
         };
         if !fits && !std::mem::replace(&mut self.reported.length, true) {
-            let at = self.length.map_or(line, |(_, line)| line);
+            let at = self.tools.length_line().unwrap_or(line);
             problems.add_at_line(&say::LENGTHS_DIFFER, at, |d| d);
         }
     }
 
     /// Whether the control keeps the tool length of the previous program unless it is specified.
     fn keeps_lengths(&self) -> bool {
-        let is_such =
-            matches!(self.dialect, Dialect::Native | Dialect::Rs274 | Dialect::LinuxCnc | Dialect::Grbl);
-        is_such && (!self.words.is_of_definition() || self.words.has('G', 490) || self.must_count())
+        self.dialect.rules().lengths.keeps_length
+            && (!self.words.is_of_definition() || self.words.has('G', 490) || self.must_count())
     }
 
     /// Whether the program must apply the length of the tool inserted by M6, because the post does.

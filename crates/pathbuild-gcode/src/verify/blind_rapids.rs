@@ -1,0 +1,85 @@
+//! Counts rapid moves whose way is not known. (book: program/reading)
+//!
+//! After a move to a machine position, a tool change or a probe, and before the first one, the start of a move is known only in part. The
+//! map of the material then judges the end alone. That suffices for a vertical move, and for one above the material.
+
+use pathbuild_motion::{Action, Axes, Move, Pace, Position, Step};
+use serde::{Deserialize, Serialize};
+
+use super::material::{RESIDUE, Stock};
+
+/// Rapid moves that may pass through material on an unknown way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct BlindRapids {
+    /// Their number.
+    pub count: usize,
+    /// The line of the first one.
+    pub line: u32,
+}
+
+/// Finds them: pass every step of a program, then call [`finish`](Self::finish).
+#[derive(Debug)]
+pub struct BlindRapidRules {
+    /// The highest surface of the material, in mm.
+    surface: f64,
+    /// The axes that the program has stated since the last tool change.
+    stated: Axes,
+    /// Whether an unknown height is above everything: the operator, a move to a machine position or a tool changer has raised the tool.
+    /// After a probe it is not.
+    is_raised: bool,
+    found: Option<BlindRapids>,
+}
+
+impl BlindRapidRules {
+    /// Starts at the beginning of a program; `None` if the height of the material is not known.
+    pub fn new(stock: &Stock) -> Option<Self> {
+        let surface = stock.highest().filter(|surface| surface.is_finite())?;
+        Some(Self { surface, stated: Axes::ALL, is_raised: true, found: None })
+    }
+
+    /// Passes the next step of the program.
+    pub fn step(&mut self, step: &Step) {
+        let stated = std::mem::replace(&mut self.stated, step.stated);
+        match &step.action {
+            Action::Move(movement) => {
+                if movement.pace == Pace::Rapid && movement.named.is_none() && self.is_blind(movement, stated)
+                {
+                    let found = self.found.get_or_insert(BlindRapids { count: 0, line: step.line });
+                    found.count += 1;
+                }
+                self.is_raised = match movement.pace {
+                    Pace::Probe { .. } => false,
+                    _ => self.is_raised || movement.named.is_some() || movement.to.known.has(Axes::Z),
+                };
+            }
+            Action::ChangeTool(_) => self.is_raised = true,
+            _ => {}
+        }
+    }
+
+    /// Returns the result, if there are any.
+    pub fn finish(self) -> Option<BlindRapids> {
+        self.found
+    }
+
+    fn is_blind(&self, movement: &Move, stated: Axes) -> bool {
+        let (from, to) = (known(&movement.from, stated), known(&movement.to, self.stated));
+        let is_whole = from.and(to) == Axes::ALL;
+        let is_vertical = movement.keeps_xy() && from.and(Axes::XY) == to.and(Axes::XY);
+        let is_judged_by_end = is_vertical && to == Axes::ALL;
+        let rises = is_vertical && from.and(to).has(Axes::Z) && movement.to.z() >= movement.from.z();
+        if is_whole || is_judged_by_end || rises {
+            return false;
+        }
+        let unknown = self.is_raised.then_some(f64::INFINITY);
+        let height = |at: &Position, known: Axes| if known.has(Axes::Z) { Some(at.z()) } else { unknown };
+        let is_above = |height: Option<f64>| height.is_some_and(|z| z >= self.surface - RESIDUE);
+        let begins_above = is_above(height(&movement.from, from)) || is_vertical;
+        !(begins_above && is_above(height(&movement.to, to)))
+    }
+}
+
+/// The axes of a position that are known, and not changed by the machine since.
+fn known(at: &Position, stated: Axes) -> Axes {
+    at.known.and(stated)
+}

@@ -1,0 +1,132 @@
+//! Cuts with the length of another tool, or without any length. (book: program/reading, "Tool lengths")
+//!
+//! On every control with G43 the length in effect survives M6, so a program must set that of each tool. A program that never uses G43
+//! works with one zero per tool and is not judged.
+
+use std::collections::BTreeSet;
+
+use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Severity};
+use pathbuild_motion::{Action, Change, Move, Step, ToolLength};
+
+use super::material::Stock;
+use super::rules::is_cut_in_stock;
+use super::tool_state::{LengthFit, ToolState};
+use crate::dialect::Dialect;
+use crate::read::Problems;
+
+/// Finds cuts with a wrong tool length: pass every step of a program, then call [`finish`](Self::finish).
+#[derive(Debug)]
+pub struct LengthRules<'c> {
+    stock: Option<&'c Stock>,
+    tools: ToolState,
+    /// The first line that applied a length.
+    first: Option<u32>,
+    /// The first cut of a tool before any length was applied, with the tool.
+    bare: Option<(u32, u32)>,
+    /// Lengths of other entries that tools cut with.
+    of_entries: Vec<OtherEntry>,
+    /// The tools that have cut with their own length.
+    fitting: BTreeSet<u32>,
+    /// Whether the current tool and length have been judged.
+    is_judged: bool,
+    problems: Problems,
+}
+
+/// A tool that cuts with the H of another number.
+#[derive(Clone, Copy, Debug)]
+struct OtherEntry {
+    /// The line that set the length.
+    line: u32,
+    tool: u32,
+    entry: u32,
+}
+
+impl<'c> LengthRules<'c> {
+    /// Starts at the beginning of a program in a dialect, whose material may be known.
+    pub fn new(dialect: Dialect, stock: Option<&'c Stock>) -> Self {
+        Self {
+            stock,
+            tools: ToolState::new(dialect),
+            first: None,
+            bare: None,
+            of_entries: Vec::new(),
+            fitting: BTreeSet::new(),
+            is_judged: false,
+            problems: Problems::default(),
+        }
+    }
+
+    /// Passes the next step of the program.
+    pub fn step(&mut self, step: &Step) {
+        self.tools.step(step);
+        match &step.action {
+            Action::ChangeTool(_) => self.is_judged = false,
+            Action::Change(Change::ToolLength(length)) => {
+                self.is_judged = false;
+                if !matches!(length, ToolLength::Off | ToolLength::OfTool(Some(0))) {
+                    self.first.get_or_insert(step.line);
+                }
+            }
+            Action::Move(movement) if !self.is_judged => self.cut(step.line, movement),
+            _ => {}
+        }
+    }
+
+    fn cut(&mut self, line: u32, movement: &Move) {
+        let rises = movement.keeps_xy() && movement.to.z() > movement.from.z();
+        if movement.named.is_some() || rises || !is_cut_in_stock(line, movement, self.stock) {
+            return;
+        }
+        self.is_judged = true;
+        let (tool, set) = (self.tools.inserted(), self.tools.length_line().unwrap_or(line));
+        match (self.tools.length_fit(), tool, self.first) {
+            (LengthFit::Outdated, ..) => {
+                let change = tool.map_or("M6".to_owned(), |tool| format!("T{tool} M6"));
+                self.problems.add_at_line(&say::LENGTH_BEFORE_CHANGE, line, |d| {
+                    d.quoting("change", change).with("set", u64::from(set))
+                });
+            }
+            (LengthFit::Off, _, Some(first)) => {
+                self.problems.add_at_line(&say::LENGTH_SWITCHED_OFF, line, |d| {
+                    d.with("set", u64::from(set)).with("first", u64::from(first))
+                });
+            }
+            (LengthFit::Off | LengthFit::Unstated, Some(tool), _) => {
+                self.bare.get_or_insert((line, tool));
+            }
+            (LengthFit::OfEntry(entry), Some(tool), _) => {
+                let is_known = self.of_entries.iter().any(|other| (other.tool, other.entry) == (tool, entry));
+                if !is_known {
+                    self.of_entries.push(OtherEntry { line: set, tool, entry });
+                }
+            }
+            (LengthFit::Fits, Some(tool), _) => _ = self.fitting.insert(tool),
+            _ => {}
+        }
+    }
+
+    /// Returns all problems, ordered by line.
+    pub fn finish(mut self) -> Vec<Diagnostic> {
+        if let Some(((line, tool), first)) = self.bare.zip(self.first) {
+            self.problems.add_at_line(&say::LENGTH_OF_FIRST_TOOL, line, |d| {
+                let d = d.with("tool", u64::from(tool)).with("first", u64::from(first));
+                Diagnostic { severity: Severity::Warning, ..d }
+            });
+        }
+        for OtherEntry { line, tool, entry } in std::mem::take(&mut self.of_entries) {
+            // Some shops number H apart from T, but then no other tool cuts with this H.
+            let is_taken = self.fitting.contains(&entry);
+            let (message, severity) = if is_taken {
+                (&say::LENGTH_OF_OTHER_TOOL, Severity::Error)
+            } else {
+                (&say::LENGTH_OF_OTHER_NUMBER, Severity::Warning)
+            };
+            self.problems.add_at_line(message, line, |d| {
+                let d = d.with("tool", u64::from(tool)).with("entry", u64::from(entry));
+                Diagnostic { severity, ..d }
+            });
+        }
+        self.problems.into_diagnostics()
+    }
+}

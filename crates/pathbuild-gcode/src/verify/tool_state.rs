@@ -1,0 +1,145 @@
+//! The tool in the spindle, its length, and the spindle at a cut. (book: program/reading, "verify")
+//!
+//! `verify`, `verify --against` and the check of a post's output judge them by the same rules, which are here.
+
+use pathbuild_motion::{Action, Change, Spindle, Step, ToolLength, Turning};
+
+use crate::dialect::Dialect;
+
+/// What the tool words and spindle words of a program have set so far: pass every step.
+#[derive(Clone, Debug)]
+pub struct ToolState {
+    dialect: Dialect,
+    /// The tool selected by T.
+    selected: Option<u32>,
+    /// The tool inserted by M6; `None` before the first M6, and if none of the T words before it has a number.
+    inserted: Option<u32>,
+    /// H of the last G43 with one, which some controls keep.
+    entry: Option<u32>,
+    length: Option<ActiveLength>,
+    spindle: Spindle,
+}
+
+/// A tool length set by the program.
+#[derive(Clone, Copy, Debug)]
+struct ActiveLength {
+    length: ToolLength,
+    line: u32,
+    /// The tool that was inserted when it was set.
+    tool: Option<u32>,
+    /// Whether M6 has come since.
+    is_before_change: bool,
+}
+
+/// How the active tool length fits the tool in the spindle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LengthFit {
+    /// The program has not set any length.
+    Unstated,
+    /// G49, or G43 H0.
+    Off,
+    /// It is that of the tool.
+    Fits,
+    /// It was set before M6 inserted the tool.
+    Outdated,
+    /// It was set for this tool, with the H of another number.
+    OfEntry(u32),
+    /// The tool or the length is not known.
+    Unknown,
+}
+
+impl ToolState {
+    /// The state at the beginning of a program.
+    pub fn new(dialect: Dialect) -> Self {
+        Self {
+            dialect,
+            selected: None,
+            inserted: None,
+            entry: None,
+            length: None,
+            spindle: Spindle::UNSTATED,
+        }
+    }
+
+    /// Passes the next step of the program.
+    pub fn step(&mut self, step: &Step) {
+        match &step.action {
+            Action::SelectTool(number) => self.selected = Some(*number),
+            Action::ChangeTool(number) => {
+                self.selected = number.or(self.selected);
+                self.inserted = *number;
+                if let Some(active) = &mut self.length {
+                    active.is_before_change = true;
+                }
+            }
+            Action::Change(Change::ToolLength(length)) => self.set_length(step.line, *length),
+            Action::Spindle(spindle) => self.spindle = *spindle,
+            _ => {}
+        }
+    }
+
+    fn set_length(&mut self, line: u32, length: ToolLength) {
+        let length = match length {
+            ToolLength::OfTool(None) if self.keeps_entry() => ToolLength::OfTool(self.entry),
+            other => other,
+        };
+        if let ToolLength::OfTool(Some(entry)) = length {
+            self.entry = Some(entry);
+        }
+        self.length = Some(ActiveLength { length, line, tool: self.inserted, is_before_change: false });
+    }
+
+    /// The tool selected by T.
+    pub fn selected(&self) -> Option<u32> {
+        self.selected
+    }
+
+    /// The tool inserted by M6.
+    pub fn inserted(&self) -> Option<u32> {
+        self.inserted
+    }
+
+    /// The state of the spindle.
+    pub fn spindle(&self) -> Spindle {
+        self.spindle
+    }
+
+    /// The line that set the active tool length.
+    pub fn length_line(&self) -> Option<u32> {
+        self.length.map(|active| active.line)
+    }
+
+    /// How the active length fits the tool that M6 inserted.
+    pub fn length_fit(&self) -> LengthFit {
+        self.length_fit_for(self.inserted)
+    }
+
+    /// How the active length fits a tool, wherever it is known from.
+    pub fn length_fit_for(&self, tool: Option<u32>) -> LengthFit {
+        let Some(active) = self.length else { return LengthFit::Unstated };
+        let is_outdated = active.is_before_change && (active.tool.is_none() || active.tool != self.inserted);
+        match active.length {
+            ToolLength::Off | ToolLength::OfTool(Some(0)) => LengthFit::Off,
+            ToolLength::OfTool(Some(entry)) if Some(entry) == tool => LengthFit::Fits,
+            _ if is_outdated => LengthFit::Outdated,
+            ToolLength::OfTool(Some(entry)) if tool.is_some() => LengthFit::OfEntry(entry),
+            ToolLength::OfTool(None) if tool.is_some() && !self.keeps_entry() => LengthFit::Fits,
+            ToolLength::OfTool(_) | ToolLength::Other => LengthFit::Unknown,
+        }
+    }
+
+    fn keeps_entry(&self) -> bool {
+        self.dialect.rules().lengths.keeps_entry
+    }
+
+    /// Whether the spindle is in another state than expected, as far as that is known. Speeds may differ by `slack` in 1/min.
+    pub fn turns_otherwise(&self, turning: Option<Turning>, speed: Option<f64>, slack: f64) -> bool {
+        // XpertMILL switches the spindle by its own events, and the speed belongs to the layer.
+        let is_tied = self.dialect.rules().layers;
+        let differs = turning.is_some_and(|turning| turning != self.spindle.turning) && !is_tied;
+        let speed = speed.filter(|_| turning != Some(Turning::Unstated));
+        differs
+            || speed
+                .is_some_and(|speed| self.spindle.speed.is_none_or(|found| libm::fabs(speed - found) > slack))
+    }
+}

@@ -1,0 +1,196 @@
+//! Checks that a text makes each cut with the tool, the tool length and the spindle of the job, and that the spindle stands where the operator
+//! changes the tool. (book: program/posts, "Before a program is written")
+
+use pathbuild_diagnostic::messages::{gcode, posts};
+use pathbuild_diagnostic::{Diagnostic, Message};
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::verify::{LengthFit, ToolState};
+use pathbuild_motion::{Action, Change, Move, Pace, Step, ToolLength, Turning};
+
+use crate::job::{Job, Operation};
+use crate::read_back::Expected;
+use crate::ways::MatchedCut;
+
+/// Difference in 1/min that is attributed to rounding: some definitions write whole numbers.
+const SAME_SPEED: f64 = 0.5 * (1.0 + 1e-6);
+
+/// Returns the first problem of each kind. `cuts` are the cuts of the text, in their order.
+pub(super) fn check(
+    steps: &[Step],
+    job: &Job,
+    cuts: &[MatchedCut],
+    reader: Dialect,
+    expected: &Expected<'_>,
+) -> Vec<Diagnostic> {
+    let mut checker = Checker::new(steps, job, reader, expected);
+    let mut rest = cuts;
+    let mut current: Option<MatchedCut> = None;
+    for step in steps {
+        checker.step(step);
+        let Action::Move(movement) = &step.action else { continue };
+        if movement.pace == Pace::Rapid {
+            continue;
+        }
+        if let Some((next, after)) = rest.split_first().filter(|((line, _), _)| *line == step.line) {
+            (current, rest) = (Some(*next), after);
+        }
+        if let Some((_, number)) = current.filter(|(line, _)| *line == step.line) {
+            checker.cut(step.line, movement, number);
+        }
+    }
+    checker.problems
+}
+
+struct Checker<'j> {
+    /// The operation of each step of the job.
+    operations: Vec<&'j Operation>,
+    tools: ToolState,
+    words: ToolWords,
+    is_manual: bool,
+    /// Cuts above this height are moves in the air.
+    surface: f64,
+    /// The tool of the last cut.
+    last: Option<u32>,
+    /// Whether the program has stopped since the last cut.
+    has_stopped: bool,
+    /// The line of a stop since then at which the spindle turned.
+    spinning: Option<u32>,
+    problems: Vec<Diagnostic>,
+}
+
+/// The words for tools in a text.
+#[derive(Clone, Copy, Debug)]
+struct ToolWords {
+    /// T, with or without M6.
+    has_selection: bool,
+    /// M6.
+    has_change: bool,
+    /// G43.
+    has_length: bool,
+    /// Tools are layers, of which the first applies from the beginning.
+    has_layers: bool,
+}
+
+impl ToolWords {
+    fn of(steps: &[Step], reader: Dialect) -> Self {
+        let any = |is_such: fn(&Action) -> bool| steps.iter().any(|step| is_such(&step.action));
+        Self {
+            has_selection: any(|action| matches!(action, Action::SelectTool(_) | Action::ChangeTool(_))),
+            has_change: any(|action| matches!(action, Action::ChangeTool(_))),
+            has_length: any(|action| match action {
+                Action::Change(Change::ToolLength(ToolLength::OfTool(entry))) => *entry != Some(0),
+                _ => false,
+            }),
+            has_layers: reader.rules().layers,
+        }
+    }
+}
+
+impl<'j> Checker<'j> {
+    fn new(steps: &[Step], job: &'j Job, reader: Dialect, expected: &Expected<'_>) -> Self {
+        let operations =
+            job.operations.iter().flat_map(|operation| operation.steps.iter().map(move |_| operation));
+        let cutting = job.operations.iter().filter(|operation| operation.cuts());
+        let surface = cutting.map(|operation| operation.surface).reduce(f64::max);
+        Self {
+            operations: operations.collect(),
+            tools: ToolState::new(reader),
+            words: ToolWords::of(steps, reader),
+            is_manual: expected.is_manual,
+            surface: surface.filter(|_| !job.has_no_surface && !expected.is_flat).unwrap_or(f64::INFINITY),
+            last: None,
+            has_stopped: false,
+            spinning: None,
+            problems: Vec::new(),
+        }
+    }
+
+    fn step(&mut self, step: &Step) {
+        self.tools.step(step);
+        if matches!(step.action, Action::Stop { .. }) {
+            self.has_stopped = true;
+            // In a text with M6, a stop is not for changing the tool.
+            let is_on = self.tools.spindle().turning.is_on() && !self.words.has_change;
+            self.spinning = self.spinning.or(is_on.then_some(step.line));
+        }
+    }
+
+    /// Handles a cut that belongs to a step of the job.
+    fn cut(&mut self, line: u32, movement: &Move, number: u32) {
+        let index = usize::try_from(number).unwrap_or(usize::MAX).wrapping_sub(1);
+        let Some(operation) = self.operations.get(index).copied() else { return };
+        let is_low = movement.from.z().min(movement.to.z()) < self.surface;
+        if !matches!(movement.pace, Pace::Feed(_)) || movement.is_nothing() || !is_low {
+            return;
+        }
+        if let Some(tool) = operation.tool.is_named.then_some(operation.tool.index) {
+            self.tool(line, tool);
+            self.length(line, tool);
+            self.last = Some(tool);
+        }
+        self.spindle(line, operation);
+        (self.has_stopped, self.spinning) = (false, None);
+    }
+
+    fn report(
+        &mut self,
+        message: &'static Message,
+        line: u32,
+        values: impl FnOnce(Diagnostic) -> Diagnostic,
+    ) {
+        if self.problems.iter().all(|problem| problem.message != message) {
+            self.problems.push(values(Diagnostic::new(message)).at_line(line, None));
+        }
+    }
+
+    fn tool(&mut self, line: u32, expected: u32) {
+        let is_changed = self.last.is_some_and(|last| last != expected);
+        if let Some(stop) = self.spinning.filter(|_| is_changed) {
+            self.report(&gcode::SPINNING_AT_CHANGE, stop, |d| d);
+        }
+        let first = self.words.has_layers.then_some(1);
+        let selected = self.tools.selected().filter(|_| !self.words.has_change);
+        match self.tools.inserted().or(selected).or(first) {
+            Some(found) if found != expected => self.report(&posts::TOOL_OTHER, line, |d| {
+                d.with("found", u64::from(found)).with("expected", u64::from(expected))
+            }),
+            // Without any T, the operator has inserted the first tool, and inserts the others where the program stops.
+            None if self.words.has_selection || is_changed && !self.has_stopped => {
+                self.report(&posts::TOOL_NOT_SELECTED, line, |d| d.with("expected", u64::from(expected)));
+            }
+            _ => {}
+        }
+    }
+
+    fn length(&mut self, line: u32, expected: u32) {
+        let fits = match self.tools.length_fit_for(Some(expected)) {
+            LengthFit::Fits | LengthFit::Unknown => true,
+            LengthFit::Unstated | LengthFit::Off => !self.words.has_length,
+            LengthFit::Outdated | LengthFit::OfEntry(_) => false,
+        };
+        if !fits {
+            self.report(&posts::LENGTH_OTHER, line, |d| d.with("expected", u64::from(expected)));
+        }
+    }
+
+    /// Compares the spindle, as far as the job and the text switch it.
+    fn spindle(&mut self, line: u32, operation: &Operation) {
+        let found = self.tools.spindle();
+        let turning = operation.spindle.filter(|turning| turning.is_on() && !self.is_manual);
+        let speed = operation.speed.filter(|_| found.speed.is_some());
+        // A spindle that stands still is reported by the rules of `verify`.
+        if found.turning == Turning::Off || !self.tools.turns_otherwise(turning, speed, SAME_SPEED) {
+            return;
+        }
+        match (turning, found.turning) {
+            (Some(_), Turning::Unstated) => self.report(&posts::SPINDLE_NOT_STARTED, line, |d| d),
+            (Some(expected), now) if now != expected => self.report(&posts::SPINDLE_OTHER_WAY, line, |d| d),
+            _ => {
+                let (found, expected) = (found.speed.unwrap_or_default(), speed.unwrap_or_default());
+                self.report(&posts::SPINDLE_OTHER_SPEED, line, |d| {
+                    d.with("found", found).with("expected", expected)
+                });
+            }
+        }
+    }
+}

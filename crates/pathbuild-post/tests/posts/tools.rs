@@ -1,0 +1,109 @@
+//! Tests of tool, tool length and spindle of what a definition writes, each with a definition that is right and one that is just not.
+
+use pathbuild_diagnostic::Lang;
+use pathbuild_motion::Turning;
+use pathbuild_post::{Job, Operation, PostOptions};
+
+use crate::support::{definition, feed, operation, rapid, read};
+
+/// A definition for a control with M6 and G43.
+const RIGHT: &str = "<Dialect>linuxcnc</Dialect>
+<PostFile>G17 {$units} G90 G94 G40 G49 G80
+{$mops}
+{$clearance}
+M5
+M30</PostFile>
+<ToolChange>{$clearance}
+M5
+T{$tool.index} M6
+G43 H{$tool.index}</ToolChange>
+<MOP>{$toolchange}
+{$clearance}
+{$spindle} {$s}
+{$blocks}</MOP>
+<EndOfLine>\\n</EndOfLine>";
+
+/// A job for T1 at 9000 1/min and T2 at 3000 1/min.
+fn two_tools() -> Job {
+    let milled = |tool, x, speed| {
+        let steps =
+            vec![rapid(x, 0.0, 5.0), feed(x, 0.0, -1.0), feed(x + 9.0, 0.0, -1.0), rapid(x + 9.0, 0.0, 5.0)];
+        let (spindle, speed) = (Some(Turning::Clockwise), Some(speed));
+        Operation { spindle, speed, ..operation("mill", tool, steps) }
+    };
+    let second = Operation { entry: pathbuild_post::Entry::Clearance, ..milled(2, 20.0, 3000.0) };
+    Job { name: "part".into(), operations: vec![milled(1, 0.0, 9000.0), second], ..Job::default() }
+}
+
+/// What is wrong with the output of a definition.
+fn wrong(text: &str, job: &Job) -> Vec<String> {
+    let found = read(&definition(text)).unwrap().write(job, &PostOptions::default());
+    let text = |problem: &pathbuild_diagnostic::Diagnostic| match problem.notes.first() {
+        Some(note) if problem.code().to_string() == "PB767" => note.text(Lang::En),
+        _ => format!("{} {}", problem.code(), problem.text(Lang::En)),
+    };
+    found.err().unwrap_or_default().iter().map(text).collect()
+}
+
+#[track_caller]
+fn changed(from: &str, to: &str) -> Vec<String> {
+    assert!(RIGHT.contains(from));
+    wrong(&RIGHT.replace(from, to), &two_tools())
+}
+
+const FINE: [&str; 0] = [];
+
+#[test]
+fn each_cut_has_its_own_tool() {
+    assert_eq!(wrong(RIGHT, &two_tools()), FINE);
+    assert_eq!(
+        changed("T{$tool.index} M6", "T1 M6")[0],
+        "this cut is made with T1 and in the program with T2"
+    );
+    assert_eq!(
+        changed("T{$tool.index} M6", "M6")[0],
+        "the output has not changed to T1, with which the program makes this cut"
+    );
+    // T alone changes the tool where there is no M6.
+    assert_eq!(changed("T{$tool.index} M6", "T{$tool.index}\nM0"), FINE);
+    // Without any T, the operator has to be stopped for.
+    let by_hand = |change: &str| changed("T{$tool.index} M6\nG43 H{$tool.index}", change);
+    assert_eq!(by_hand("M0"), FINE);
+    assert_eq!(by_hand("")[0], "the output has not changed to T2, with which the program makes this cut");
+}
+
+#[test]
+fn each_cut_has_the_length_of_its_tool() {
+    assert_eq!(changed("H{$tool.index}", "H1"), ["the tool length in effect here is not that of T2"]);
+    assert_eq!(changed("G43 H{$tool.index}", "G43"), FINE);
+    assert_eq!(changed("G43 H{$tool.index}", ""), FINE);
+    assert_eq!(changed("{$blocks}", "G49\n{$blocks}"), ["the tool length in effect here is not that of T1"]);
+}
+
+#[test]
+fn each_cut_has_the_speed_of_its_tool() {
+    let other = |found| [format!("here the spindle speed is {found} and in the program 3000")];
+    assert_eq!(changed("{$s}", "S9000"), other("9000"));
+    let mut job = two_tools();
+    job.operations[1].speed = Some(9000.5);
+    assert_eq!(wrong(&RIGHT.replace("{$s}", "S9000"), &job), FINE, "rounded to a whole number");
+    job.operations[1].speed = Some(9000.6);
+    assert_eq!(wrong(&RIGHT.replace("{$s}", "S9000"), &job).len(), 1);
+    assert!(changed("{$spindle} {$s}", "M4 {$s}")[0].contains("opposite"));
+}
+
+#[test]
+fn the_spindle_stands_where_the_operator_changes_the_tool() {
+    let by_hand = |change: &str| changed("M5\nT{$tool.index} M6\nG43 H{$tool.index}", change);
+    assert_eq!(by_hand("M5\nM0"), FINE);
+    let spinning = "the spindle still turns where the program stops for the tool change";
+    assert_eq!(by_hand("M0"), [spinning]);
+    assert!(by_hand("T{$tool.index}\nM0")[0].contains(spinning));
+    // A changer stops it by itself.
+    assert_eq!(changed("M5\nT{$tool.index} M6", "T{$tool.index} M6"), FINE);
+    assert_eq!(changed("{$blocks}", "M0\n{$blocks}"), FINE, "a pause after the change");
+    // A pause for the same tool.
+    let mut job = two_tools();
+    job.operations[1].tool = job.operations[0].tool.clone();
+    assert_eq!(wrong(&RIGHT.replace("{$blocks}", "M0\n{$blocks}"), &job), FINE);
+}
