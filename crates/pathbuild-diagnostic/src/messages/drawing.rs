@@ -28,7 +28,7 @@ messages! {
         en: "the text \"{text}\" lies here on layer {layer}: move it to the layer of the start marker",
         de: "der Text \"{text}\" liegt hier auf Layer {layer}: auf den Layer der Anfangsmarke legen",
     }
-    /// Note: a text with O and T that another element has taken, or that no element has.
+    /// Note: a text with O and T that belongs to another element, or to none.
     START_TEXT_ELSEWHERE: MissingPathParameters {
         en: "the text \"{text}\" at {point} has O and T, but does not lie on the start marker: move it there",
         de: "der Text \"{text}\" bei {point} hat O und T, liegt aber nicht auf der Anfangsmarke: dorthin schieben",
@@ -38,7 +38,7 @@ messages! {
         en: "the text \"{text}\" lies here on layer {layer}: move it to the layer of the subpath",
         de: "der Text \"{text}\" liegt hier auf Layer {layer}: auf den Layer des Unterpfads legen",
     }
-    /// Note: a text with a path's name that another element has taken.
+    /// Note: a text with a path's name that belongs to another element.
     NAME_OF_OTHER_ELEMENT: MissingSubpathName {
         en: "the text \"{text}\" touches this segment, but belongs to a nearer element, or to a circle or an arc: move it closer to the segment",
         de: "der Text \"{text}\" berührt dieses Segment, gehört aber zu einem näheren Element oder zu einem Kreis oder Bogen: näher ans Segment schieben",
@@ -164,7 +164,7 @@ messages! {
     }
     /// Note: an element that has a text of blanks.
     HAS_A_BLANK_TEXT: TextWithoutElement {
-        en: "here {element} at {point} has a text already that consists of blanks and cannot be seen: delete that text",
+        en: "here {element} at {point} already has an invisible text that consists only of blanks: delete it",
         de: "hier hat {element} bei {point} schon einen Text, der nur aus Leerzeichen besteht und unsichtbar ist: diesen Text löschen",
     }
     /// Note: an entity that was left out (PB111) takes no text.

@@ -125,10 +125,10 @@ messages! {
         help_en: "N comes first in the line, has no decimals, and is at most {most}",
         help_de: "N steht am Anfang der Zeile, ohne Nachkommastellen, und ist höchstens {most}",
     }
-    /// A checksum that is not that of its line.
+    /// A wrong checksum.
     WRONG_CHECKSUM: InvalidWord {
-        en: "`{found}` is not the checksum of this line, which is {expected}: the line was altered; it is left out",
-        de: "`{found}` ist nicht die Prüfsumme dieser Zeile, sie ist {expected}: die Zeile wurde verändert; sie bleibt unbeachtet",
+        en: "the checksum `{found}` is wrong, {expected} would be right: the line was altered and is left out",
+        de: "die Prüfsumme `{found}` ist falsch, richtig wäre {expected}: die Zeile wurde verändert und bleibt unbeachtet",
         help_en: "have the program written again, or remove N and the checksum: the host adds its own",
         help_de: "das Programm neu schreiben lassen, oder N und die Prüfsumme entfernen: das sendende Programm fügt eigene an",
     }
@@ -183,7 +183,7 @@ messages! {
     }
     /// A line that is too long for the controller.
     LINE_TOO_LONG: LongLine {
-        en: "the line has {length} characters; {dialect} accepts {most}",
+        en: "the line has {length} characters; {dialect} accepts at most {most}",
         de: "die Zeile hat {length} Zeichen; {dialect} nimmt höchstens {most} an",
         help_en: "split the line, or shorten its comments",
         help_de: "die Zeile teilen oder ihre Kommentare kürzen",
@@ -632,8 +632,8 @@ messages! {
     }
     /// An arc that is nearly a full circle.
     NEAR_FULL_CIRCLE: DoubtfulArc {
-        en: "the arc's ends are only {gap} mm apart: it is run as {degrees} degrees, and the last digit decides",
-        de: "die Enden des Bogens liegen nur {gap} mm auseinander: er wird als {degrees} Grad gefahren, und die letzte Ziffer entscheidet",
+        en: "the arc's ends are only {gap} mm apart: it is run as {degrees} degrees, but their last digit decides between a tiny arc and a full circle",
+        de: "die Enden des Bogens liegen nur {gap} mm auseinander: er wird als {degrees} Grad gefahren, aber ihre letzte Ziffer entscheidet zwischen Bogenstück und Vollkreis",
         help_en: "if a full circle is meant, write equal ends; if not, leave the arc out",
         help_de: "ist ein Vollkreis gemeint, gleiche Enden schreiben; sonst den Bogen weglassen",
     }

@@ -5,8 +5,8 @@ messages! {
     UNKNOWN_FORMAT: UnreadableDescription {
         en: "the file describes neither a machine nor tools in a known format",
         de: "die Datei beschreibt weder Maschine noch Werkzeuge in einem bekannten Format",
-        help_en: "known are the answer of GRBL and grblHAL to $$, FluidNC's YAML, LinuxCNC's ini file and tool table, and tools of FreeCAD and Fusion 360 (.json, .tools)",
-        help_de: "bekannt sind die Antwort von GRBL und grblHAL auf $$, FluidNCs YAML, ini-Datei und Werkzeugtabelle von LinuxCNC sowie Werkzeuge von FreeCAD und Fusion 360 (.json, .tools)",
+        help_en: "pathbuild reads the answer of GRBL and grblHAL to $$, FluidNC's YAML, LinuxCNC's ini file and tool table, and tools of FreeCAD and Fusion 360 (.json, .tools)",
+        help_de: "gelesen werden die Antwort von GRBL und grblHAL auf $$, FluidNCs YAML, ini-Datei und Werkzeugtabelle von LinuxCNC sowie Werkzeuge von FreeCAD und Fusion 360 (.json, .tools)",
     }
     /// The file cannot be read.
     DESCRIPTION_UNREADABLE: UnreadableDescription {
@@ -94,7 +94,7 @@ messages! {
     }
     /// A tool without a diameter.
     NO_DIAMETER: UnusableValue {
-        en: "the diameter of tool {number} ({name}) or its unit is not known; the tool is not taken",
+        en: "the diameter of tool {number} ({name}) or its unit is unknown; the tool is not imported",
         de: "der Durchmesser von Werkzeug {number} ({name}) oder seine Einheit ist unbekannt; es wird nicht übernommen",
         help_en: "set the diameter in the library, and export it again",
         help_de: "den Durchmesser in der Bibliothek setzen und sie noch einmal exportieren",

@@ -38,7 +38,7 @@ messages! {
     }
     /// A path that is only in the file's name.
     PROMISED_PATH: PromisedPath {
-        en: "the file's name names path {name}, but the drawing has nothing on a layer of that name",
+        en: "the file is named after path {name}, but the drawing has nothing on a layer of that name",
         de: "der Dateiname nennt den Pfad {name}, aber auf einem Layer dieses Namens hat die Zeichnung nichts",
         help_en: "rename the layer, or the file",
         help_de: "den Layer oder die Datei umbenennen",

@@ -54,14 +54,14 @@ messages! {
     REMARK: UnknownParameter {
         en: "\"{text}\" looks like a remark and contains no parameters",
         de: "\"{text}\" sieht nach einer Bemerkung aus und enthält keine Parameter",
-        help_en: "move a remark to a layer that is no path layer; Q puts a comment into the program",
+        help_en: "move a remark to a layer without a path; Q puts a comment into the program",
         help_de: "eine Bemerkung auf einen Layer legen, der kein Pfadlayer ist; mit Q kommt ein Kommentar ins Programm",
     }
     /// A word among parameters.
     WORD: UnknownParameter {
-        en: "\"{word}\" is no parameter: {element} knows {known}",
+        en: "\"{word}\" is not a parameter: {element} knows {known}",
         de: "\"{word}\" ist kein Parameter: {element} kennt {known}",
-        help_en: "remove it, or put it on a layer that is no path layer; Q puts a comment into the program, for example Q{word}",
+        help_en: "remove it, or put it on a layer without a path; Q puts a comment into the program, for example Q{word}",
         help_de: "entfernen oder auf einen Layer legen, der kein Pfadlayer ist; mit Q kommt ein Kommentar ins Programm, zum Beispiel Q{word}",
     }
     /// A letter of another alphabet.
@@ -73,9 +73,9 @@ messages! {
     }
     /// A sign that CAD programs write as a code.
     DRAWN_CODE: UnknownParameter {
-        en: "\"{sign}\" is no parameter; {code} is shown as {shown} here",
+        en: "\"{sign}\" is not a parameter; {code} is shown as {shown} here",
         de: "\"{sign}\" ist kein Parameter; {code} wird hier als {shown} angezeigt",
-        help_en: "remove it, or put it on a layer that is no path layer: the diameter of a hole is that of its circle, and O that of the cutter",
+        help_en: "remove it, or put it on a layer without a path: the diameter of a hole is that of its circle, and O that of the cutter",
         help_de: "entfernen oder auf einen Layer legen, der kein Pfadlayer ist: der Durchmesser eines Lochs ist der seines Kreises, O der des Fräsers",
     }
     /// A zero instead of O.
@@ -255,8 +255,8 @@ messages! {
     }
     /// A sweep height of an embedded path that is too low.
     EMBEDDED_SWEEP_TOO_LOW: ParameterOutOfRange {
-        en: "this path has no S and sweeps at T + O, which is {value}, where it is embedded: not above the material here, T{limit}",
-        de: "dieser Pfad hat kein S, seine Leerfahrten liegen eingebettet auf T + O mit {value}: nicht über dem Material hier, T{limit}",
+        en: "this path has no S: where it is embedded, it sweeps at T + O = {value}, which is not above the material there (T{limit})",
+        de: "dieser Pfad hat kein S: eingebettet liegen seine Leerfahrten auf T + O = {value}, nicht über dem Material dort (T{limit})",
         help_en: "give the path an S",
         help_de: "dem Pfad ein S geben",
     }

@@ -61,15 +61,15 @@ messages! {
     OUTLINE_GAP: DoubtfulOutline {
         en: "the outline of the part has a gap: it ends at {point} and at {other}, {distance} mm apart",
         de: "der Umriss des Teils hat eine Lücke: er endet bei {point} und bei {other}, {distance} mm auseinander",
-        help_en: "let the ends meet: the CAD's object snap joins them; an outline that is not closed is not checked, nor what lies inside it",
-        help_de: "die Enden zusammenführen, der Objektfang im CAD verbindet sie; ein offener Umriss wird nicht geprüft, und nichts darin",
+        help_en: "let the ends meet: the CAD's object snap joins them; neither an open outline nor anything inside it is checked",
+        help_de: "die Enden zusammenführen, der Objektfang im CAD verbindet sie; ein offener Umriss und alles darin werden nicht geprüft",
     }
     /// An outline that crosses itself.
     OUTLINE_CROSSES_ITSELF: DoubtfulOutline {
         en: "the outline of the part crosses itself at {point}",
         de: "der Umriss des Teils kreuzt sich bei {point} selbst",
-        help_en: "trim it there, so that its ends meet in one point; an outline that crosses itself is not checked, nor what lies inside it",
-        help_de: "ihn dort stutzen, sodass sich seine Enden in einem Punkt treffen; ein Umriss, der sich kreuzt, wird nicht geprüft, und nichts darin",
+        help_en: "trim it there, so that its ends meet in one point; until then, neither the outline nor anything inside it is checked",
+        help_de: "ihn dort stutzen, sodass sich seine Enden in einem Punkt treffen; bis dahin werden er und alles darin nicht geprüft",
     }
     /// An outline that crosses the rim of a part.
     OUTLINE_CROSSES_RIM: DoubtfulOutline {

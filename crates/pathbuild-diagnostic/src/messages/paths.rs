@@ -77,7 +77,7 @@ messages! {
         help_en: "split the line or arc at {point}",
         help_de: "die Linie oder den Bogen bei {point} teilen",
     }
-    /// A leftover segment that touches another one of its kind where that has no end.
+    /// A leftover segment that touches another one of its kind between the ends of that one.
     NO_END_THERE_ALIKE: UnreachedSegments {
         en: "not all segments were reached; left: {left}; {element} at {point} lies on another one, which does not end there",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; bei {point} trifft {element} auf ein anderes der gleichen Art, das dort nicht endet",

@@ -549,14 +549,14 @@ messages! {
     }
     /// Two words of a group in one line, such as G0 and G1, in the output of a definition without a dialect.
     WORDS_EXCLUDE: RejectedWord {
-        en: "{first} and {second} exclude each other in one line: controls refuse it, or obey only one of the two",
+        en: "{first} and {second} exclude each other in one line: controls refuse the line, or obey only one of the two",
         de: "{first} und {second} schließen einander in einer Zeile aus: Steuerungen lehnen sie ab oder befolgen nur eines von beiden",
         help_en: "write them in lines of their own, or remove one",
         help_de: "sie in eigene Zeilen schreiben oder eines entfernen",
     }
     /// A repeated letter in the output of a definition without a dialect.
     LETTER_REPEATED: RejectedWord {
-        en: "{letter} occurs twice in one line: controls refuse it, or obey only one of the two",
+        en: "{letter} occurs twice in one line: controls refuse the line, or obey only one of the two",
         de: "{letter} kommt in einer Zeile zweimal vor: Steuerungen lehnen sie ab oder befolgen nur eines von beiden",
         help_en: "remove one, or write it in a line of its own",
         help_de: "eines entfernen oder in eine eigene Zeile schreiben",
@@ -565,12 +565,12 @@ messages! {
     SYSTEM_WITH_P: RejectedWord {
         en: "{word} with P is another coordinate system on some controls, and an error on others",
         de: "{word} mit P ist bei manchen Steuerungen ein anderes Koordinatensystem, bei anderen ein Fehler",
-        help_en: "remove P, or name the control: <Dialect> or dialect =, see the book, program/posts",
-        help_de: "P entfernen oder die Steuerung nennen: <Dialect> oder dialect =, siehe im Buch program/posts",
+        help_en: "remove P, or name the control in the definition with <Dialect> or dialect = (see program/posts in the book)",
+        help_de: "P entfernen oder die Steuerung in der Definition mit <Dialect> oder dialect = nennen (siehe program/posts im Buch)",
     }
     /// A line of output that is too long.
     LINE_TOO_LONG: LineTooLong {
-        en: "line {line} of the output has {length} characters; {dialect} accepts {longest}",
+        en: "line {line} of the output has {length} characters; {dialect} accepts at most {longest}",
         de: "Zeile {line} der Ausgabe hat {length} Zeichen; {dialect} nimmt höchstens {longest} an",
         help_en: "give the post's number format fewer decimals, or its texts several lines",
         help_de: "dem Zahlenformat des Postprozessors weniger Nachkommastellen geben oder seinen Texten mehrere Zeilen",

@@ -250,8 +250,8 @@ messages! {
     OTHER_CUTTER_GIVEN: Disagreement {
         en: "{place} says that the cutter's diameter is {found} mm, but --cutter says {given} mm",
         de: "{place} sagt, der Fräser hat {found} mm, --cutter sagt {given} mm",
-        help_en: "correct the wrong one; until then, the check of rapid moves clears material with the smaller cutter and looks for collisions with the larger one",
-        help_de: "das Falsche berichtigen; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren Fräser und bei Kollisionen mit dem größeren",
+        help_en: "correct the wrong value; until then, the check of rapid moves clears material with the smaller cutter and looks for collisions with the larger one",
+        help_de: "den falschen Wert berichtigen; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren Fräser und bei Kollisionen mit dem größeren",
     }
     /// A cutter in the header or an option that differs from that of the drawing.
     OTHER_CUTTER_DRAWN: Disagreement {
@@ -271,15 +271,15 @@ messages! {
     OTHER_SURFACE_GIVEN: Disagreement {
         en: "the header says that the surface is at Z {found}, but --surface says {given}",
         de: "laut Kopf liegt die Oberfläche bei Z {found}, --surface sagt {given}",
-        help_en: "correct the wrong one; until then, the check of rapid moves assumes material up to the higher one",
-        help_de: "das Falsche berichtigen; bis dahin rechnet die Prüfung der Eilgänge mit Material bis zur höheren",
+        help_en: "correct the wrong value; until then, the check of rapid moves assumes material up to the higher one",
+        help_de: "den falschen Wert berichtigen; bis dahin rechnet die Prüfung der Eilgänge mit Material bis zum höheren",
     }
     /// Plunges of a native program that begin to cut at another height than that of an option.
     PLUNGES_ABOVE_SURFACE: Disagreement {
         en: "plunges of this program begin to cut at Z {found}, but --surface says {given}",
         de: "das Eintauchen beginnt in diesem Programm bei Z {found} zu fräsen, --surface sagt {given}",
-        help_en: "correct the wrong one; until then, the check of rapid moves assumes material up to the higher one",
-        help_de: "das Falsche berichtigen; bis dahin rechnet die Prüfung der Eilgänge mit Material bis zur höheren",
+        help_en: "correct the wrong value; until then, the check of rapid moves assumes material up to the higher one",
+        help_de: "den falschen Wert berichtigen; bis dahin rechnet die Prüfung der Eilgänge mit Material bis zum höheren",
     }
     /// A check that is required and was not made.
     CHECK_NOT_MADE: UnmadeCheck {
@@ -320,8 +320,8 @@ messages! {
     STOCK_STATED_TWICE: HeaderContradiction {
         en: "comments place a corner of the stock at {axis} {one} and at {axis} {other}",
         de: "Kommentare geben eine Ecke des Rohteils mit {axis} {one} und mit {axis} {other} an",
-        help_en: "correct the wrong one: the higher one was used",
-        help_de: "das Falsche berichtigen: verwendet wurde die höhere Angabe",
+        help_en: "correct the wrong value: the higher one was used",
+        help_de: "den falschen Wert berichtigen: verwendet wurde der höhere",
     }
     /// Statistics at the end of a program that do not match its moves.
     LENGTH_DIFFERS: Disagreement {

@@ -112,9 +112,15 @@ fn a_bare_number_is_a_tool_where_the_target_knows_that() {
 fn lines_are_as_long_as_the_target_takes_them() {
     let line = |letters: usize| format!("G0 (a remark) X{}", "0".repeat(letters));
     assert!(write_with(&dialect("grbl"), &line(76), &PostOptions::default()).is_ok());
-    assert_eq!(refused("grbl", &line(77)), ["line 1 of the output has 80 characters; grbl accepts 79"]);
+    assert_eq!(
+        refused("grbl", &line(77)),
+        ["line 1 of the output has 80 characters; grbl accepts at most 79"]
+    );
     assert!(write_with(&dialect("rs274"), &line(240), &PostOptions::default()).is_ok());
-    assert_eq!(refused("rs274", &line(242)), ["line 1 of the output has 257 characters; rs274 accepts 256"]);
+    assert_eq!(
+        refused("rs274", &line(242)),
+        ["line 1 of the output has 257 characters; rs274 accepts at most 256"]
+    );
 }
 
 #[test]
