@@ -157,7 +157,7 @@ impl Diagnostic {
         self.place.handle = handle;
     }
 
-    /// Gives files the names that `replacement` knows for them, wherever it names them.
+    /// Renames files wherever the diagnostic names them. `replacement` returns the new name of a file, if it gets one.
     pub fn rename_files(&mut self, replacement: impl Fn(&str) -> Option<String>) {
         let notes = self.notes.iter_mut().flat_map(|note| &mut note.arguments);
         for (_, value) in self.arguments.iter_mut().chain(notes) {

@@ -105,7 +105,7 @@ impl Value {
         Self::Foreign(text.to_string().into())
     }
 
-    /// Replaces the texts that `replacement` knows, in lists and sentences as well. Prose stays.
+    /// Replaces the texts for which `replacement` returns another one, in lists and sentences as well. Prose is kept.
     pub(crate) fn replace_texts(&mut self, replacement: &dyn Fn(&str) -> Option<String>) {
         let replace = |text: &mut Box<str>| {
             if let Some(new) = replacement(text) {

@@ -71,7 +71,7 @@ impl<'a> Block<'a> {
 }
 
 /// Checks that the record after a block's contents is its ENDBLK.
-fn ended(records: &Records<'_>) -> Result<(), Fatal> {
+fn check_ended(records: &Records<'_>) -> Result<(), Fatal> {
     if records.head.is("ENDBLK") { Ok(()) } else { Err(not_ended("BLOCK", &records.head)) }
 }
 
@@ -120,7 +120,7 @@ impl<'a> Blocks<'a> {
         {
             items.push(item);
         }
-        ended(&records)?;
+        check_ended(&records)?;
         let items: Rc<[Item<'a>]> = items.into();
         block.items = Some(items.clone());
         Ok(items)
@@ -193,7 +193,7 @@ impl<'a> Blocks<'a> {
             let layers = reader.layers_ahead(&mut records).map_err(|stop| stopped(stop, "BLOCKS"))?;
             block.layers = match layers {
                 Some(layers) => {
-                    ended(&records)?;
+                    check_ended(&records)?;
                     LayersOf::Known(layers.into())
                 }
                 None => LayersOf::Items,

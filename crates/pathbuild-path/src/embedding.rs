@@ -234,7 +234,8 @@ impl SweepLimits {
         Self { path: path.name.clone(), faces }
     }
 
-    /// PB203 for each face that a sweep height in mm does not clear. `role`: in which role the path without S gets this height.
+    /// PB203 for each face that a sweep height in mm does not clear. `role` is that of the path without S that
+    /// gets this height.
     pub fn check(&self, height: f64, role: PathRole) -> Vec<Diagnostic> {
         let message = match role {
             PathRole::Emitted => &parameters::DEFAULT_SWEEP_TOO_LOW,

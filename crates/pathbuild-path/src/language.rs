@@ -41,7 +41,7 @@ pub struct ChipLoads(Arc<FindChipLoad>);
 type FindChipLoad = dyn Fn(&str, f64) -> Option<ChipLoad> + Send + Sync;
 
 impl ChipLoads {
-    /// Asks a function.
+    /// Looks up chip loads with a function.
     pub fn new(find: impl Fn(&str, f64) -> Option<ChipLoad> + Send + Sync + 'static) -> Self {
         Self(Arc::new(find))
     }

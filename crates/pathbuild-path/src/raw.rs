@@ -73,8 +73,8 @@ impl RawPath {
         !self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
-    /// The findings about the drawing that are not repeated by problems with values: a value outside its limits (PB203) of a letter without
-    /// an effect (PB210) is one mistake.
+    /// The findings about the drawing without those that `problems` repeats: a letter without an effect (PB210) whose value is outside
+    /// its limits (PB203) is one mistake.
     pub fn findings_beside(&self, problems: &[Diagnostic]) -> Vec<Diagnostic> {
         let is_same = |found: &Diagnostic, problem: &Diagnostic| {
             problem.code() == Code::ParameterOutOfRange

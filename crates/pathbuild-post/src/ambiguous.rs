@@ -1,4 +1,5 @@
-//! Finds lines of a definition without a dialect that no control reads in one way. (book: program/posts, "Before a program is written")
+//! Finds output lines whose meaning is not clear on any control, for definitions without a dialect.
+//! (book: program/posts, "Before a program is written")
 
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Value};

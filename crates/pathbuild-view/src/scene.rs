@@ -260,7 +260,7 @@ pub struct Label {
     /// The radius of that circle.
     #[serde(serialize_with = "millimetres")]
     pub radius: f64,
-    /// The height of a line.
+    /// The height of a text line in mm.
     #[serde(skip)]
     pub height: f64,
     /// Its elements, as indices into [`ScenePath::elements`].

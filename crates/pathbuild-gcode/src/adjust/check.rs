@@ -65,9 +65,9 @@ impl Check<'_, '_> {
             return Ok(());
         }
         let fault = |message| {
-            let all = 0..line.line.content().len();
+            let whole_line = 0..line.line.content().len();
             let file = self.inputs.program.file.file_name().unwrap_or_default();
-            line.line.fault(message, all).with("probe", u64::from(line.probe)).quoting("file", file)
+            line.line.fault(message, whole_line).with("probe", u64::from(line.probe)).quoting("file", file)
         };
         let Some(program_probe) = self.table.probes.get(&line.probe) else {
             return Err(Box::new(fault(&messages::PROBE_OF_OTHER_PROGRAM)));

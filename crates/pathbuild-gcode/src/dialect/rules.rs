@@ -442,7 +442,7 @@ pub struct Spelling {
     pub block_numbers: Option<u32>,
     /// Whether block numbers may have decimals.
     pub fractional_block_numbers: bool,
-    /// Whether a line with a block number ends with `*` and its checksum if a host sends it.
+    /// Whether hosts append `*` and a checksum to lines that have a block number.
     pub checksums: bool,
     /// The syntax of `[ ]` and `#`, if they are supported.
     pub grammar: Option<Grammar>,

@@ -227,7 +227,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         }
         match outcome {
             Outcome::Repeated if times > 0 => self.end_after_continue(name, line),
-            // It begins again, with no pass either.
+            // LinuxCNC begins this loop again, but runs no further pass.
             Outcome::Repeated => self.stale.continue_line = None,
             _ => {}
         }

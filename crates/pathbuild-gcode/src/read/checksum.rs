@@ -1,4 +1,4 @@
-//! Checksums of lines, with which a host sends them to Marlin: `N5 G1 X2*98`. (book: program/reading)
+//! Checksums that hosts append to the lines they send to Marlin: `N5 G1 X2*98`. (book: program/reading)
 
 use memchr::memchr;
 use pathbuild_diagnostic::messages::gcode as say;
@@ -7,7 +7,7 @@ use super::block::{Span, decode};
 use super::line::{Broken, Line};
 
 impl Line<'_> {
-    /// Reads a checksum to the end of the line or to a comment: all bytes before `*`, combined by exclusive or.
+    /// Reads a checksum, which is the exclusive or of all bytes before `*` and extends to the end of the line or to a comment.
     pub(super) fn checksum(&mut self) -> Result<(), Broken> {
         let star = self.at;
         let rest = &self.bytes[star + 1..];

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Action, Pace, Step, Turning};
 
-/// Finds cuts with the spindle turning in the opposite direction to that of the tool: pass every step of a program, then call
+/// Finds cuts during which the spindle turns against the direction of the tool: pass every step of a program, then call
 /// [`finish`](Self::finish). Each tool is reported at most once.
 #[derive(Debug)]
 pub struct DirectionRules {
@@ -20,7 +20,7 @@ impl DirectionRules {
         Self { tools, turning: Turning::Unstated, found: Vec::new() }
     }
 
-    /// Passes the next step of the program.
+    /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         match &step.action {
             Action::Spindle(spindle) => self.turning = spindle.turning,

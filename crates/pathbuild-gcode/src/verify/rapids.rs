@@ -92,7 +92,7 @@ fn low_at<'s>(
         return None;
     }
     let piece = stock.at(line)?;
-    let surface = tops.along(it, piece.cutter.diameter / 2.0);
+    let surface = tops.highest_along(it, piece.cutter.diameter / 2.0);
     (low < surface).then_some((piece, surface))
 }
 
@@ -209,8 +209,9 @@ impl Tops {
     }
 
     /// The highest surface within `radius` mm of a straight move.
-    pub(super) fn along(&self, it: &Move, radius: f64) -> f64 {
-        let [(from_x, to_x), (from_y, to_y)] = [0, 1].map(|axis| (it.from.at[axis], it.to.at[axis]));
+    pub(super) fn highest_along(&self, movement: &Move, radius: f64) -> f64 {
+        let [(from_x, to_x), (from_y, to_y)] =
+            [0, 1].map(|axis| (movement.from.at[axis], movement.to.at[axis]));
         let rows = self.indices(1, (from_y.min(to_y) - radius, from_y.max(to_y) + radius));
         let mut highest = f64::NEG_INFINITY;
         for row in rows {

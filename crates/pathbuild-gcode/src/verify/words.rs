@@ -13,7 +13,7 @@ use crate::dialect::Dialect;
 use crate::interpret::{Options, code_name, interpret_each};
 use crate::read::Problems;
 
-/// What the native program writes: see [`crate::native`].
+/// Sample program with all words that native programs use: see [`crate::native`].
 const NATIVE: &[u8] = b"G17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z5\nG00 X0 Y0\nF40 G38.3 Z0\nG4 P4\nM30\n";
 
 /// The words that a post writes.
@@ -245,9 +245,9 @@ impl<'w> WordRules<'w> {
         self.problems.add_at_line(&say::FOREIGN_WORD, line, |_| words.foreign(word, dialect, is_strict));
     }
 
-    /// Checks the first move in the plane. If it also changes the height, it is inclined and begins at an unknown height. If programs of
-    /// the post raise the cutter before that move, the line that does so is missing here. A move to a machine position before it is
-    /// assumed to raise the cutter, unless the post does not write it. (Moves at unknown height are checked in [`super::rules`].)
+    /// Checks the first move in the plane. If it also changes the height, it is inclined and begins at an unknown height. This is a
+    /// problem if programs of the post raise the cutter first. An earlier move to a machine position is assumed to raise the cutter,
+    /// unless the post does not write such moves. (Moves at unknown height are checked in [`super::rules`].)
     fn first_in_plane(&mut self, line: u32, movement: &Move) {
         let is_first = !std::mem::replace(&mut self.has_moved_in_plane, true);
         let is_aslant = movement.to.known.has(Axes::Z) && !movement.from.known.has(Axes::Z);

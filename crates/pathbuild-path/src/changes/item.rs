@@ -93,7 +93,7 @@ impl Item<'_> {
         self.shape.point()
     }
 
-    /// What it does to the moves, regardless of its shape: equal for elements that are treated alike.
+    /// The effect of the element on the moves, apart from its shape. It is equal for elements that are treated alike.
     pub(super) fn effect(&self) -> Effect<'_> {
         let values = self.parameters.iter().map(|parameter| (parameter.letter, parameter.value.as_str()));
         (self.role.map(swept), values.collect())
@@ -107,8 +107,8 @@ impl Item<'_> {
         is_changed.then(|| [old_role, new_role].map(|role| line_type(role).name()))
     }
 
-    /// The parameters in the own texts of both versions that differ and whose effective values differ with them. A line type that takes no
-    /// text has lost it with the change of the line type, which says so.
+    /// The parameters in the own texts of both versions that differ and whose effective values differ with them. `None` if a new
+    /// or old line type takes no text: the change of the line type explains the lost or added text.
     pub(super) fn text_change(&self, new: &Self) -> Option<[String; 2]> {
         if self.role != new.role && [self.role, new.role].iter().flatten().any(|role| !takes_text(*role)) {
             return None;

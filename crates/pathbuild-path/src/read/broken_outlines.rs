@@ -14,10 +14,11 @@ use crate::part::{BoxIndex, Stretch, at_along, joined, square, within};
 use crate::read::outline_graph::{Chain, Graph, JOINED, NEARLY_JOINED};
 use crate::read::parts::nesting;
 
-/// Largest gap of an outline, relative to its length. Arcs that stand for threads, leaders and letters are open by more.
+/// Largest gap that counts as a mistake, relative to the length of the outline. Arcs that represent threads, leaders and letters have
+/// larger gaps.
 const LARGEST_GAP: f64 = 0.1;
 
-/// Share of a chain that lies between its crossing with itself if the two ends are overlong.
+/// Minimum share of a chain that lies between its two passages through a crossing if its ends are overlong.
 const MOST_OF_CHAIN: f64 = 0.9;
 
 /// Upper bound on the pairs that are compared to find a crossing, or a ring in an open outline: enough for outlines of a hundred thousand
@@ -157,10 +158,10 @@ impl Border {
     }
 }
 
-/// The rings that are in no other one.
+/// Rings that lie in no other ring.
 struct Rims {
     rings: Vec<Vec<Curve>>,
-    /// A point of each.
+    /// Spatial index of one point of each ring.
     points: BoxIndex,
     /// Number of comparisons that are left.
     budget: Cell<usize>,
@@ -179,7 +180,7 @@ impl Rims {
     }
 }
 
-/// Two points in an order of their own.
+/// Two points in a fixed order, regardless of which comes first.
 fn sorted(one: Xy, other: Xy) -> (Point, Point) {
     let (one, other) = (shown(one), shown(other));
     (one.min(other), one.max(other))

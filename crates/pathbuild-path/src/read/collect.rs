@@ -219,7 +219,7 @@ impl PathCollector<'_> {
         }
     }
 
-    /// The text that the owner of a text has.
+    /// The text that belongs to an owner.
     pub(super) fn text_of(&self, owner: Owner) -> Option<ParameterText<'_>> {
         let text = match owner {
             Owner::Start => self.start.as_ref()?.text?,

@@ -129,8 +129,8 @@ impl<'d> OutlineLayers<'d> {
         without.filter_map(problem).collect()
     }
 
-    /// Adds the parts that rings form: each ring in no other one, with all rings inside it. Rings inside a broken outline are openings of a
-    /// part that is not known.
+    /// Adds the parts that rings form: each ring that lies in no other one, with all rings inside it. Rings inside a broken outline are
+    /// openings of a part that is not known.
     fn add_parts(
         &self,
         paths: Option<&SmolStr>,
@@ -187,7 +187,7 @@ pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
     let boxes = outlines.iter().enumerate();
     let boxes = boxes.map(|(n, outline)| GeomWithData::new(Rectangle::from_aabb(outline.extent()), n));
     let boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>> = RTree::bulk_load(boxes.collect());
-    // Rings that cross may contain points of each other: only the larger one is around the other.
+    // Rings that cross may contain points of each other: only the larger one encloses the other.
     let areas: Vec<f64> = rings.iter().map(|ring| area(ring)).collect();
     let is_larger = |other: usize, ring: usize| (areas[other], other) > (areas[ring], ring);
     let around: Vec<Vec<usize>> = (0..rings.len())

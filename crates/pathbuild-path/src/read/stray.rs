@@ -60,7 +60,7 @@ impl NearNames {
     }
 }
 
-/// A name in upper case without spaces, with points for `_` and `,`, and with the characters that others look like.
+/// Normalizes a name for comparison: upper case, no spaces, points for `_` and `,`, and plain characters for those that look like them.
 fn folded(name: &str) -> String {
     let visible = name.chars().filter(|letter| !letter.is_whitespace());
     let upper = visible.flat_map(char::to_uppercase);

@@ -367,7 +367,7 @@ mod tests {
         points
     }
 
-    /// Four times as many points in four times the area, all within a thousandth of a mm² or less.
+    /// The number of comparisons must grow in proportion to the number of ends, even if all ends are less than 0.1 mm apart.
     #[test]
     fn ends_that_lie_close_but_do_not_meet_are_not_compared() {
         let (one, four) = (examined_ends(&crowd(50)), examined_ends(&crowd(100)));

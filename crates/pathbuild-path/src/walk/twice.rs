@@ -31,7 +31,7 @@ impl<'a> Curves<'a> {
         Self { path, known }
     }
 
-    /// Whether another one of the curves lies on a segment.
+    /// Whether another curve lies on this segment.
     pub(super) fn have_another(&self, segment: usize) -> bool {
         let Some(key) = CurveKey::new(self.path, segment) else { return false };
         let first = self.known.partition_point(|(other, _)| *other < key);

@@ -155,8 +155,9 @@ fn stroke(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, styl
 /// Dashes of rapid moves.
 const DOTS: &str = " stroke-dasharray=\"1 4\"";
 
-/// Width of lines in px; of removed moves, so that they are seen beneath what is milled in their place now.
+/// Width of lines in px.
 const WIDTH: f64 = 2.0;
+/// Width of removed moves in px, so that they remain visible beneath the moves in their place.
 const REMOVED_WIDTH: f64 = 6.0;
 
 /// The strokes of an entry of the legend.

@@ -10,7 +10,7 @@ use crate::scene::{
 use pathbuild_motion::MoveShape;
 
 /// Minimum size in px of the path's own texts.
-const LEAST: f64 = 7.5;
+const MIN_TEXT_SIZE: f64 = 7.5;
 
 /// Size in px below which texts are illegible and omitted.
 const READABLE: f64 = 4.5;
@@ -161,7 +161,7 @@ fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mu
         let rows = lines.len().max(1) as f64;
         let size = (label.height * place.scale()).min(14.0);
         // The path's own texts are always legible; those of embedded paths are shown only if they are large enough.
-        let size = if label.path == 0 { size.max(LEAST) } else { size };
+        let size = if label.path == 0 { size.max(MIN_TEXT_SIZE) } else { size };
         if size < READABLE {
             continue;
         }
@@ -315,7 +315,7 @@ pub(super) fn order(
     canvas.open(&format!("id=\"order\" fill=\"{INK}\""));
     let mut hidden = Vec::new();
     for (order, element) in remaining {
-        let anchor = place.at(handle(&element.shape));
+        let anchor = place.at(anchor_point(&element.shape));
         let around = LEADERS.iter().flat_map(|distance| ring(anchor, *distance));
         // Near the anchor, a leader line may touch another number.
         let outer = |at: &Point| [[0, 1].map(|axis| anchor[axis] + (at[axis] - anchor[axis]) / 3.0), *at];
@@ -349,15 +349,15 @@ fn number(canvas: &mut Canvas, order: u32, at: Point) {
     canvas.text([at[0], at[1] + size * 0.36], size, Anchor::Middle, "", &order.to_string());
 }
 
-/// A point on a shape that stands for it: the middle of a curve; of a circle, its rightmost point.
-fn handle(shape: &Shape) -> Point {
+/// The point on a shape to which its number belongs: the middle of a curve; of a circle, its rightmost point.
+fn anchor_point(shape: &Shape) -> Point {
     match shape {
         Shape::Circle { centre: [x, y], radius } => [x + radius, *y],
         Shape::Line { .. } | Shape::Arc(_) => shape.middle(),
     }
 }
 
-/// Points around a point.
+/// Points on a circle around a point.
 fn ring([x, y]: Point, distance: f64) -> impl Iterator<Item = Point> {
     (0..DIRECTIONS).map(move |direction| {
         let (sin, cos) = libm::sincos(f64::from(direction) * std::f64::consts::TAU / f64::from(DIRECTIONS));
@@ -421,7 +421,7 @@ pub(super) fn ends(
     room.lines.truncate(known);
 }
 
-/// The moves of a path as lines, arcs in pieces, for labels that avoid them.
+/// The moves of a path as lines, with arcs in pieces, so that labels can avoid them.
 fn lines<'a>(
     path: &'a ScenePath,
     place: &'a PageTransform,
@@ -437,7 +437,7 @@ fn lines<'a>(
     })
 }
 
-/// Number of lines that stand for an arc.
+/// Number of lines that approximate an arc.
 const ARC_PIECES: u32 = 8;
 
 fn label(canvas: &mut Canvas, room: &mut Room, at: Point, offset: Point, text: &str, color: &str) {

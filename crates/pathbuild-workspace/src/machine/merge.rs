@@ -77,7 +77,7 @@ impl ToolEntry<'_> {
     }
 }
 
-/// The name of a tool, with its number where another tool has the name.
+/// The name of a tool, with its number appended if another tool has the same name.
 fn unique_name<'d>(tool: &'d DescribedTool, names: &mut Vec<(String, &'d DescribedTool)>) -> String {
     let number = tool.number.map(|number| format!("T{number}"));
     let own = Some(tool.name.clone()).filter(|name| !name.is_empty()).or(number.clone());

@@ -48,7 +48,7 @@ impl LengthUnit {
 pub struct Description {
     /// The controller or program that writes this format.
     pub format: &'static str,
-    /// The values that a key of `[machine]` takes.
+    /// Values for keys of `[machine]`.
     pub values: Vec<DescribedValue>,
     /// The tools.
     pub tools: Vec<DescribedTool>,
@@ -67,7 +67,7 @@ pub struct DescribedTool {
     pub name: String,
     /// The line of the file, if known.
     pub line: Option<u32>,
-    /// The values that a key of its table takes.
+    /// Values for keys of its table.
     pub values: Vec<DescribedValue>,
 }
 

@@ -22,11 +22,11 @@ fn what_stands_within_the_radius_of_a_move_is_seen() {
         let (sin, cos) = libm::sincos(f64::from(step) * std::f64::consts::TAU / 48.0);
         let at =
             |along: f64, aside: f64| [130.5 + along * cos - aside * sin, -19.5 + along * sin + aside * cos];
-        let along = |aside: f64| tops.along(&rapid(at(-9.0, aside), at(7.0, aside)), 3.0);
+        let along = |aside: f64| tops.highest_along(&rapid(at(-9.0, aside), at(7.0, aside)), 3.0);
         assert_eq!([along(-2.9), along(0.0), along(2.9)], [9.0; 3], "{step}");
         assert_eq!(along(9.0), f64::NEG_INFINITY, "{step}: far beside it");
         assert_eq!(
-            tops.along(&rapid(at(9.0, 0.0), at(14.0, 0.0)), 3.0),
+            tops.highest_along(&rapid(at(9.0, 0.0), at(14.0, 0.0)), 3.0),
             f64::NEG_INFINITY,
             "{step}: past it"
         );

@@ -4,7 +4,7 @@ use super::data::{Sheet, Words};
 use crate::scene::{Element, ElementKind, ScenePath, Shape};
 use crate::svg::canvas::mm;
 
-/// Upper bound on the rows. On paper, a longer table helps nobody.
+/// Upper bound on the number of rows: a longer table is of no use on paper.
 const MOST_ROWS: usize = 300;
 
 /// Consecutive numbers with the same work.
