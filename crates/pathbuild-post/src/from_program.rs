@@ -1,6 +1,7 @@
 //! Converts finished programs to a job: embedded paths become operations, drilled holes become holes. Cutters get the tools of the table.
 
 use std::borrow::Borrow;
+use std::collections::HashSet;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
@@ -237,7 +238,7 @@ pub struct ToolEntry {
     /// The paths it is for, if several cutters have the same diameter (S and T cutters). Matches anywhere in the name of the path, so use
     /// `T$`.
     pub paths: Option<Regex>,
-    /// Number in T words; without one it gets the next free number, in order of use.
+    /// Number in T words; without one the entry gets a free number: see [`ToolTable::numbers`].
     pub index: Option<u32>,
     /// State of the spindle; `None` if the operator controls it.
     pub spindle: Option<Turning>,
@@ -259,6 +260,8 @@ pub(super) struct ToolAssignment {
 /// Assigns a cutter to each path, and numbers to cutters without one.
 pub(super) struct Fitter<'a> {
     table: &'a ToolTable,
+    /// The number of each entry of the table.
+    numbers: Vec<u32>,
     fitted: Vec<(Key, Tool)>,
     pub(super) warnings: Vec<Diagnostic>,
 }
@@ -276,6 +279,14 @@ impl ToolTable {
         self.position(path, diameter).map(|index| &self.entries[index])
     }
 
+    /// The number of each entry. Entries without one get the free numbers in the order of the table and not in that of use, so that a
+    /// cutter has the same number, and the same length in the control, in each program.
+    fn numbers(&self) -> Vec<u32> {
+        let stated: HashSet<u32> = self.entries.iter().filter_map(|entry| entry.index).collect();
+        let mut free = (1..=u32::MAX).filter(|number| !stated.contains(number));
+        self.entries.iter().map(|entry| entry.index.or_else(|| free.next()).unwrap_or(0)).collect()
+    }
+
     /// The index of that tool.
     pub fn position(&self, path: &str, diameter: f64) -> Option<usize> {
         let fits = |entry: &ToolEntry| near(entry.diameter, diameter);
@@ -287,7 +298,7 @@ impl ToolTable {
 
 impl<'a> Fitter<'a> {
     pub(super) fn new(table: &'a ToolTable) -> Self {
-        Self { table, fitted: Vec::new(), warnings: Vec::new() }
+        Self { table, numbers: table.numbers(), fitted: Vec::new(), warnings: Vec::new() }
     }
 
     /// The cutter of a path.
@@ -308,7 +319,10 @@ impl<'a> Fitter<'a> {
     }
 
     fn add(&mut self, key: Key, entry: Option<&ToolEntry>, path: &str, diameter: f64) -> Tool {
-        let index = entry.and_then(|entry| entry.index).unwrap_or_else(|| self.free_index());
+        let index = match key {
+            Key::Entry(position) => self.numbers[position],
+            Key::Diameter(_) => self.free_index(),
+        };
         if entry.is_none() && !self.table.entries.is_empty() {
             let warning = Diagnostic::new(&posts::TOOL_UNKNOWN).with("diameter", diameter).in_path(path);
             self.warnings.push(warning.quoting("path", path).with("index", u64::from(index)));
@@ -325,8 +339,7 @@ impl<'a> Fitter<'a> {
     /// The smallest number used neither by the table nor by a cutter before.
     fn free_index(&self) -> u32 {
         let is_free = |index: &u32| {
-            self.table.entries.iter().all(|entry| entry.index != Some(*index))
-                && self.fitted.iter().all(|(_, tool)| tool.index != *index)
+            !self.numbers.contains(index) && self.fitted.iter().all(|(_, tool)| tool.index != *index)
         };
         (1..=u32::MAX).find(is_free).unwrap_or(0)
     }
