@@ -477,3 +477,83 @@ fn the_native_program_is_read_back_whatever_the_drawing_holds() {
     let place = library("z-model = \"tin\"\nz-split = 3");
     assert_eq!(place.run("emit .").status, Some(0));
 }
+
+/// The control would keep the unit and the distance mode of the program before.
+#[test]
+fn a_post_that_does_not_state_its_modes_is_a_warning() {
+    let codes = |dialect: &str, header: &str| {
+        let post = format!(
+            "<PostProcessor>{dialect}<Header>{header}\n{{$toolchange(first)}}\n{{$clearance}}</Header></PostProcessor>"
+        );
+        let place = library("").file("my.cbpp", post);
+        let emitted = place.run("emit 1234.1P --post my.cbpp --format concise");
+        assert_eq!(emitted.status, Some(0), "{emitted}");
+        let verified = place.run("verify 1234_Milling.nc --against 1234.1P --post my.cbpp --format concise");
+        assert_eq!(verified.status, Some(0), "{verified}");
+        [emitted, verified]
+            .map(|run| ["PB730", "PB731"].map(|code| run.stderr.matches(&format!("warning[{code}]")).count()))
+    };
+    for dialect in ["<Dialect>linuxcnc</Dialect>", ""] {
+        assert_eq!(codes(dialect, "{$units} {$distancemode}"), [[0, 0]; 2], "{dialect}");
+        assert_eq!(codes(dialect, "{$distancemode}"), [[1, 0]; 2], "{dialect}");
+        assert_eq!(codes(dialect, "{$units}"), [[0, 1]; 2], "{dialect}");
+    }
+}
+
+/// A post writes numbers, so it cannot write "2 mm above the place that the probe touched".
+#[test]
+fn values_that_only_the_machine_knows_are_refused() {
+    let program = |z: &str| {
+        format!(
+            "G21 G90 G17 G94\nG0 Z5\nG0 X20 Y0\nG38.2 Z-10 F50\n{z}\nG0 X0\nG1 Z-1 F100\nG1 X20\nG0 Z5\nM2\n"
+        )
+    };
+    let place = Place::new()
+        .file("fixed.nc", program("G0 Z[3+2]"))
+        .file("probed.nc", program("G0 Z[#5063+2]"))
+        .file("branch.nc", program("o1 if [#5070 EQ 1]\nG0 Z5\no1 else\nM2\no1 endif"));
+    let post = |file: &str| {
+        place.run(&format!(
+            "post {file} --dialect linuxcnc --post grbl --surface 0 -o out.nc --format concise"
+        ))
+    };
+    let fixed = post("fixed.nc");
+    assert_eq!(fixed.status, Some(0), "{fixed}");
+    std::fs::remove_file(place.path().join("out.nc")).unwrap();
+    for (file, place_of_error) in [("probed.nc", "probed.nc:5"), ("branch.nc", "branch.nc:5")] {
+        let refused = post(file);
+        assert_eq!(refused.status, Some(1), "{refused}");
+        let line = refused.stderr.lines().find(|line| line.contains("error[PB765]")).expect("an error");
+        assert!(line.starts_with(place_of_error), "{refused}");
+        assert!(!place.path().join("out.nc").exists(), "{file}");
+    }
+}
+
+#[test]
+fn post_writes_to_standard_output_as_emit_does() {
+    let program = "G21 G90 G17 G94\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG0 Z5\nM2\n";
+    let place = Place::new().file("a.nc", program);
+    let run =
+        |options: &str| place.run(&format!("post a.nc --dialect linuxcnc --post grbl --surface 0 {options}"));
+    let (plain, dash) = (run(""), run("-o -"));
+    assert!(plain.stdout.contains("G1 F100.0 Z-1.0") && plain.stdout == dash.stdout, "{dash}");
+    assert!(!place.path().join("-").exists());
+    assert_eq!(run("-o - --run-post-build").status, Some(2));
+}
+
+/// T and H are the control's entries for a cutter: it must not depend on what else is in a program.
+#[test]
+fn a_cutter_without_a_number_has_the_same_one_in_each_program() {
+    let tools = "spindle = \"manual\"\nfeed = 150\nrapid = 1000\nsweep-height = 20\n[tool.a]\ndiameter = 2\n[tool.b]\ndiameter = 3\n[tool.c]\ndiameter = 4\nnumber = 1\n";
+    let place = library("").file("pathbuild.toml", tools);
+    let changes = |options: &str| {
+        let run = place.run(&format!("emit {options} --post linuxcnc -o -"));
+        assert_eq!(run.status, Some(0), "{run}");
+        let changes = run.stdout.lines().filter(|line| line.ends_with("M6")).map(str::to_owned);
+        changes.collect::<Vec<_>>()
+    };
+    assert_eq!(changes("1234.1P"), ["T2 M6"], "1 is taken");
+    assert_eq!(changes("1300.1P"), ["T3 M6"]);
+    assert_eq!(changes("1234.1P 1300.1P --join both"), ["T2 M6", "T3 M6"]);
+    assert_eq!(changes("1300.1P 1234.1P --join both"), ["T3 M6", "T2 M6"]);
+}

@@ -208,7 +208,9 @@ impl Post {
         let is_manual = options.manual_spindle || target.is_some_and(|target| !target.switches_spindle());
         let machine = options.machine.as_ref();
         let is_flat = matches!(&self.engine, Engine::CamBam(definition) if definition.is_flat());
-        read_back::check(text, job, &Expected { target, tolerance, machine, translated, is_manual, is_flat })
+        let milliseconds = options.milliseconds;
+        let expected = Expected { target, tolerance, machine, translated, is_manual, is_flat, milliseconds };
+        read_back::check(text, job, &expected)
     }
 
     /// The output unit, in mm.

@@ -29,6 +29,7 @@ mod built_in;
 mod cad6;
 mod cambam;
 mod definition;
+mod dwells;
 mod findings;
 mod from_program;
 mod from_steps;

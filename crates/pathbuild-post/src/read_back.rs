@@ -11,6 +11,7 @@ use pathbuild_motion::{
 };
 
 use crate::ambiguous;
+use crate::dwells;
 use crate::findings::LineOrigin;
 use crate::job::{Entry, Job, JobStep, Operation};
 use crate::shadow::{Doubt, TranslatedText};
@@ -33,6 +34,8 @@ pub(super) struct Expected<'a> {
     pub(super) is_manual: bool,
     /// Whether the text never moves in Z, because a beam cuts at all depths.
     pub(super) is_flat: bool,
+    /// Whether the machine counts P of dwells in milliseconds, where that is a setting.
+    pub(super) milliseconds: bool,
 }
 
 /// Checks a text and returns its errors by line: those reported by the reader of the target, otherwise the first deviation from the job and
@@ -42,9 +45,10 @@ pub(super) fn check(
     job: &Job,
     expected: &Expected<'_>,
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    let Expected { target, tolerance, machine, translated, is_flat, .. } = expected;
+    let Expected { target, tolerance, machine, translated, is_flat, milliseconds, .. } = expected;
     let reader = target.map_or(Dialect::LinuxCnc, |target| target.reader);
-    let read = interpret::interpret(text, reader, &Options::default());
+    let options = Options { milliseconds: *milliseconds, ..Options::default() };
+    let read = interpret::interpret(text, reader, &options);
     let mut problems: Vec<Diagnostic> =
         read.problems.iter().filter(|problem| problem.is_error()).cloned().map(as_post_s).collect();
     if !problems.is_empty() && target.is_some() {
@@ -90,9 +94,23 @@ pub(super) fn check(
             }
         }
         doubts.extend(translated.and_then(disputed));
+        doubts.extend(translated.into_iter().flat_map(|translated| translated.unstated.iter().cloned()));
+        if target.is_some() {
+            problems
+                .extend(dwells::check(&read.steps, job, tolerance.place.max(SHORTEST_DWELL)).map(as_post_s));
+            doubts.extend(read.problems.into_iter().filter(is_of_modes));
+        }
     }
     problems.extend(broken);
     if problems.is_empty() { Ok(doubts) } else { Err(problems) }
+}
+
+/// Deviation in seconds that is permitted for dwells: half a millisecond.
+const SHORTEST_DWELL: f64 = 0.000_501;
+
+/// Whether the text does not state its unit, its distance mode or its plane, so that the control keeps those of the program before.
+fn is_of_modes(problem: &Diagnostic) -> bool {
+    [&gcode::UNITS_NOT_STATED, &gcode::MODES_NOT_STATED].contains(&problem.message)
 }
 
 /// Moves seen from above, without those that do not move in the plane.

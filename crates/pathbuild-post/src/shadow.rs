@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::gcode;
 use pathbuild_gcode::interpret::{Disputes, UnionWord, code_name, union_word};
 
 use crate::job::Units;
@@ -15,6 +17,42 @@ pub(crate) struct Shadow {
     disputes: Disputes,
     /// The blank of a Heidenhain program has begun (G30), and ends with G31.
     is_blank_open: bool,
+    modes: ModeWords,
+}
+
+/// Whether the lines so far state the unit, the distance mode and the plane, and whether they contain a G word of a motion.
+#[derive(Debug, Default)]
+struct ModeWords {
+    stated: [bool; 3],
+    has_motion: bool,
+    unstated: Vec<Diagnostic>,
+}
+
+impl ModeWords {
+    /// Reports modes on which a line depends and that no line before states. Lines before the first motion word are not in RS274.
+    fn line(&mut self, number: u32, line: &Words, motion: Option<u32>) {
+        let mut codes: Vec<i64> = line.words.iter().filter(|word| word.letter == 'G').map(tenths).collect();
+        codes.extend(motion.map(|code| 10 * i64::from(code)));
+        let states = |known: &[i64]| codes.iter().any(|code| known.contains(code));
+        let stated = [states(&[200, 210, 700, 710]), states(&[900, 910]), states(&[170, 180, 190])];
+        self.stated = [0, 1, 2].map(|mode| self.stated[mode] || stated[mode]);
+        self.has_motion |= states(&[0, 10, 20, 30]);
+        let moves = line.words.iter().any(|word| matches!(word.letter, 'X' | 'Y' | 'Z'));
+        if !moves || !self.has_motion {
+            return;
+        }
+        if !std::mem::replace(&mut self.stated[0], true) {
+            let unit = Diagnostic::new(&gcode::UNITS_NOT_STATED).quoting("inch", "G20").quoting("mm", "G21");
+            self.unstated.push(unit.at_line(number, None));
+        }
+        let is_arc = states(&[20, 30]);
+        for (mode, words, taken) in [(1, "G90, G91", "G90"), (2, "G17", "G17")] {
+            if (mode == 1 || is_arc) && !std::mem::replace(&mut self.stated[mode], true) {
+                let diagnostic = Diagnostic::new(&gcode::MODES_NOT_STATED).quoting("words", words);
+                self.unstated.push(diagnostic.quoting("taken", taken).at_line(number, None));
+            }
+        }
+    }
 }
 
 /// A program translated line by line to the words of RS274/NGC.
@@ -26,6 +64,8 @@ pub struct TranslatedText {
     pub doubtful: Vec<DoubtfulWord>,
     /// Words whose meaning differs between controls, with the line of the first one.
     pub disputed: Option<(u32, Vec<String>)>,
+    /// Warnings about the unit, the distance mode and the plane, if the program does not state them. The translation does.
+    pub unstated: Vec<Diagnostic>,
 }
 
 /// A word with an effect that the shadow lacks.
@@ -57,7 +97,14 @@ impl Shadow {
         let units = if units == Units::Inches { "G20" } else { "G21" };
         let centres = if absolute_centres { "G90.1" } else { "G91.1" };
         let text = format!("{units} {centres} G90 G17 ");
-        Self { text, line: 1, doubtful: Vec::new(), disputes: Disputes::default(), is_blank_open: false }
+        Self {
+            text,
+            line: 1,
+            doubtful: Vec::new(),
+            disputes: Disputes::default(),
+            is_blank_open: false,
+            modes: ModeWords::default(),
+        }
     }
 
     /// Adds a line with these words. `motion` is the G number of a macro in it. If one axis of the plane is reversed, the direction of arcs
@@ -66,6 +113,7 @@ impl Shadow {
         if self.is_blank(line) {
             return self.end_line();
         }
+        self.modes.line(self.line, line, motion);
         let codes = |word: &&Word| word.letter == 'G';
         let is_motion = |word: &Word| matches!(tenths(word), 0..=30 | 310 | 382..=385 | 730 | 810..=890);
         // The coordinates of G4 are not positions.
@@ -151,8 +199,8 @@ impl Shadow {
 
     /// The program, and the words that are doubtful.
     pub(crate) fn finish(self) -> TranslatedText {
-        let Self { text, doubtful, disputes, .. } = self;
-        TranslatedText { text, doubtful, disputed: disputes.finish() }
+        let Self { text, doubtful, disputes, modes, .. } = self;
+        TranslatedText { text, doubtful, disputed: disputes.finish(), unstated: modes.unstated }
     }
 }
 

@@ -172,7 +172,8 @@ impl Program {
             }
             each(step)
         });
-        if by_definition.is_some() {
+        if let Some(by) = &by_definition {
+            problems.extend(by.translated.unstated.iter().cloned());
             // Only a dialect defines when M5 acts.
             problems.retain(|problem| problem.message.key != gcode::STOP_BEFORE_MOTION.key);
             // Columns are those of the translation.

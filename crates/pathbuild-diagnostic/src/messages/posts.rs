@@ -596,6 +596,16 @@ messages! {
         help_en: "begin the program with absolute moves in Z, X and Y",
         help_de: "das Programm mit absoluten Bewegungen in Z, X und Y beginnen",
     }
+    /// Note: a dwell of another length.
+    DWELL_DIFFERS: PostDiffers {
+        en: "the program dwells {seconds} s, and the output {found} s",
+        de: "das Programm verweilt {seconds} s, die Ausgabe {found} s",
+    }
+    /// Note: a dwell that is not in the output.
+    DWELL_LOST: PostDiffers {
+        en: "the program dwells {seconds} s, and the output no longer before its end",
+        de: "das Programm verweilt {seconds} s, die Ausgabe bis zu ihrem Ende nicht mehr",
+    }
     /// Note: the spindle is not started before the first cut.
     SPINDLE_NOT_STARTED: PostDiffers {
         en: "the tool cuts here, but the output has not switched the spindle on, although the tool has a `spindle` speed; if that is done by hand: spindle = \"manual\" outside all tables of pathbuild.toml",
@@ -706,6 +716,13 @@ messages! {
         de: "einen Schnitt von oder zu einer unbekannten Position kann kein Postprozessor schreiben",
         help_en: "before its first cut, the program must move to X, Y and Z once with absolute coordinates (G90)",
         help_de: "vor seinem ersten Schnitt muss das Programm X, Y und Z einmal mit absoluten Koordinaten (G90) anfahren",
+    }
+    /// A value that only the machine knows, such as the height that a probe found.
+    JOB_MACHINE_VALUE: NothingToPost {
+        en: "only the machine knows #{parameter}, so what depends on it cannot be written through a post",
+        de: "nur die Maschine kennt #{parameter}; was davon abhängt, kann kein Postprozessor schreiben",
+        help_en: "a post writes numbers: measure and calculate in a program of the machine's own",
+        help_de: "ein Postprozessor schreibt Zahlen: in einem Programm der Maschine selbst messen und rechnen",
     }
     /// M6 without T in the middle of a program.
     JOB_TOOL_UNNAMED: NothingToPost {

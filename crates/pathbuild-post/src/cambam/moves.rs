@@ -76,6 +76,11 @@ impl Writer<'_> {
         if self.plan.options.milliseconds && has_choice { 1000.0 * seconds } else { seconds }
     }
 
+    /// Whether P is in milliseconds on this control. `{$move.p}` remains in seconds, for controls with another letter for them.
+    pub(super) fn counts_milliseconds(&self) -> bool {
+        self.plan.target.is_some_and(|target| target.reader.rules().dwell.p == DwellUnit::Milliseconds)
+    }
+
     /// Writes a straight cut.
     pub(super) fn feed(&mut self, to: [Option<f64>; 3], feed: Option<f64>) -> WriteResult {
         let values = self.with_feed(feed);

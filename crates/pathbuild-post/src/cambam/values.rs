@@ -120,7 +120,11 @@ impl Writer<'_> {
             Form::Reversed => -value,
             Form::Positive => value.abs(),
         };
-        let text = self.number_format().format(value);
+        let text = match register {
+            // Fanuc does not accept a decimal point there (alarm 007).
+            Register::P if self.counts_milliseconds() => NumberFormat::decimals(0, 0).format(1000.0 * value),
+            _ => self.number_format().format(value),
+        };
         if form == Form::Changed && self.machine.written(register) == Some(text.as_str()) {
             return Ok(());
         }

@@ -4,7 +4,8 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{
-    BUILT_IN, Entry, Hole, HoleKind, Job, JobStep, Language, PostMacro, PostOptions, load, native_remark,
+    BUILT_IN, Entry, Hole, HoleKind, Job, JobStep, Language, Operation, PostMacro, PostOptions, load,
+    native_remark,
 };
 
 use crate::support::{arc, feed, operation, rapid, texts};
@@ -112,6 +113,52 @@ fn mach3_dwells_as_its_machine_is_set() {
     assert_eq!(dwell(true).as_deref(), Some("G4 P2500.0"));
     let options = PostOptions { milliseconds: true, spin_up: 2.5, ..PostOptions::default() };
     assert!(written("linuxcnc", &options).contains("\nG4 P2.5\n"), "seconds on every machine");
+}
+
+/// P is in milliseconds on Fanuc, and has no decimal point there.
+#[test]
+fn fanuc_dwells_in_milliseconds() {
+    let hole = |seconds| {
+        let kind = HoleKind::Dwell { seconds };
+        let hole = Hole {
+            at: [5.0, 5.0],
+            level: 5.0,
+            retract: 1.0,
+            bottom: -4.0,
+            exit: 5.0,
+            feed: Some(80.0),
+            kind,
+        };
+        let steps = vec![JobStep::Hole(hole), JobStep::Dwell { seconds: 0.25 }];
+        let turning = Some(Turning::Clockwise);
+        Operation { spindle: turning, speed: Some(3000.0), ..operation("1234.1P", 1, steps) }
+    };
+    let dwells = |name: &str, seconds| {
+        let job = Job { name: "1.1P".into(), operations: vec![hole(seconds)], ..Job::default() };
+        let options = PostOptions { cycles: true, ..PostOptions::default() };
+        let output = load(name).unwrap().write(&job, &options);
+        let text = output.unwrap_or_else(|errors| panic!("{name}: {:?}", texts(&errors))).text;
+        let text = String::from_utf8(text).unwrap();
+        let words = text.lines().filter(|line| line.starts_with("G4 ") || line.starts_with("G82 "));
+        words
+            .flat_map(|line| line.split(' ').rfind(|word| word.starts_with(['P', 'X'])).map(str::to_owned))
+            .collect()
+    };
+    let of_fanuc: Vec<String> = dwells("fanuc", 0.5);
+    assert_eq!(of_fanuc, ["P500", "X0.25"]);
+    assert_eq!(dwells("haas", 0.5), ["P0.5", "P0.25"], "seconds with a decimal point");
+    assert_eq!(dwells("linuxcnc", 0.5), ["P0.5", "P0.25"]);
+}
+
+/// After a change by hand the tip is on the stock or wherever the tool was changed.
+#[test]
+fn the_new_tool_moves_up_first_where_it_is_changed_by_hand() {
+    for (name, change) in [("grbl", "M0 "), ("marlin", "M0 "), ("estlcam", "T2 M6")] {
+        let text = written(name, &PostOptions::default());
+        let after = text.lines().skip_while(|line| !line.starts_with(change));
+        let first = after.clone().find(|line| line.starts_with("G0")).expect("a rapid move");
+        assert!(first.contains("Z5.0") && !first.contains('X') && !first.contains('Y'), "{name}: {first}");
+    }
 }
 
 #[test]

@@ -313,7 +313,8 @@ fn an_angle_stands_in_place_of_the_axis_across() {
         (job.operations[0].surface, job.operations[0].clearance) = (10.0, 15.0);
         job.operations[0].entry = Entry::Clearance;
         let options = PostOptions { cycles, ..PostOptions::default() };
-        read(&bare(&format!("<RotaryWrap>true</RotaryWrap>{elements}"))).unwrap().write(&job, &options)
+        let text = bare(&format!("<RotaryWrap>true</RotaryWrap>{elements}"));
+        read(&text.replace("<PostFile>", "<PostFile>G21 G90\n")).unwrap().write(&job, &options)
     };
     let text = |output: pathbuild_post::Output| String::from_utf8(output.text).unwrap();
     for cycles in [false, true] {

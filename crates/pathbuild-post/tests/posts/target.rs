@@ -381,3 +381,39 @@ fn without_a_dialect_words_and_spindle_are_followed_too() {
         assert!(written("", &options).is_ok());
     }
 }
+
+/// A dwell in the wrong unit is a thousand times too short or too long.
+#[test]
+fn dwells_are_compared() {
+    let job = |seconds| {
+        job(vec![
+            rapid(1.0, 0.0, 1.0),
+            feed(1.0, 0.0, -1.0),
+            JobStep::Dwell { seconds },
+            rapid(1.0, 0.0, 5.0),
+        ])
+    };
+    let written = |dialect: &str, dwell: &str, seconds| {
+        let text = format!(
+            "<PostFile>G21 G90 G17 G94\nG0 Z5\n{{$mops}}\nM30</PostFile><MOP>{{$blocks}}</MOP><Dwell>{dwell}</Dwell>{}",
+            self::dialect(dialect)
+        );
+        read(&definition(&text)).unwrap().write(&job(seconds), &PostOptions::default())
+    };
+    for (dialect, dwell) in [
+        ("fanuc", "G4 {$p}"),
+        ("fanuc", "G4 X{$move.p}"),
+        ("haas", "G4 {$p}"),
+        ("linuxcnc", "G4 {$p}\nG4 P9"),
+    ] {
+        let errors = written(dialect, dwell, 0.5).err();
+        assert!(errors.is_none(), "{dialect}: {errors:?}");
+    }
+    for (dialect, dwell) in [("fanuc", "G4 P{$move.p}"), ("haas", "G4 P500.0"), ("linuxcnc", "G4 P500")] {
+        let errors = texts(&written(dialect, dwell, 0.5).expect_err(dialect));
+        assert!(errors[0].contains("PB767 line 6 "), "{errors:?}");
+    }
+    assert!(written("linuxcnc", "", 0.0006).is_err(), "a dwell is lost");
+    assert!(written("linuxcnc", "", 0.0005).is_ok(), "too short for the control's decimals");
+    assert!(written("linuxcnc", "G4 P0.501", 0.5005).is_ok(), "half a millisecond");
+}

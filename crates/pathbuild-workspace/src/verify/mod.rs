@@ -411,7 +411,8 @@ impl<'v> Examination<'v> {
         let mut doubts = self.program.read.problems.clone();
         if rewritten.is_some_and(Rewritten::is_same) {
             // Doubts about the definition's words are reported when it writes them.
-            doubts.retain(|doubt| doubt.is_error() && self.program.by_definition.is_none());
+            let is_own = self.program.by_definition.is_none();
+            doubts.retain(|doubt| doubt.is_error() && is_own || is_of_modes(doubt));
         } else if self.verifier.against.is_some() {
             let unsaid = doubts.iter_mut().filter(|doubt| is_unsaid(doubt));
             let unchecked = found.iter_mut().filter(|problem| problem.code() == Code::UncheckedFormula);
@@ -419,6 +420,11 @@ impl<'v> Examination<'v> {
         }
         doubts
     }
+}
+
+/// Whether the program does not state its unit, its distance mode or its plane.
+fn is_of_modes(doubt: &Diagnostic) -> bool {
+    matches!(doubt.code(), Code::UnitsNotStated | Code::ModesNotStated)
 }
 
 /// Whether a warning is about something that the drawing's program does not contain. Two kinds do not count: the drawing determines how

@@ -1,8 +1,8 @@
 //! `pathbuild post`: rewrites a program for another machine, and shows the built-in posts. (book: program/posts)
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::messages::posts;
-use pathbuild_diagnostic::{Diagnostic, Note};
+use pathbuild_diagnostic::messages::{gcode, posts};
+use pathbuild_diagnostic::{Diagnostic, Note, Severity};
 use pathbuild_gcode::adjust::first_open_formula;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::provenance::Provenance;
@@ -59,6 +59,12 @@ fn show(context: &Context, name: &str) -> ExitStatus {
 
 /// Rewrites a program through a post-processor.
 fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
+    if args.run_post_build && file_to_write(args).is_none() {
+        return context.usage(context.choose(
+            "--run-post-build needs a file: `-o FILE`",
+            "--run-post-build braucht eine Datei: `-o DATEI`",
+        ));
+    }
     let arguments = PostArguments {
         date: args.date.as_deref().map(Into::into),
         dialect: args.target.as_deref().map(Into::into),
@@ -93,6 +99,7 @@ fn written(
 ) -> Result<(), Vec<Diagnostic>> {
     let mut program =
         Program::open(context, file, args.reading.options()).map_err(|problem| vec![*problem])?;
+    program.read.problems.iter_mut().for_each(refuse_machine_value);
     let is_wrong = program.read.problems.iter().any(Diagnostic::is_error);
     diagnostics.append(&mut program.read.problems);
     if is_wrong {
@@ -102,15 +109,14 @@ fn written(
     let given = args.surface.as_deref().map(|text| number("surface", text)).transpose();
     let of_header = || Provenance::of_head(&program.text).and_then(|(provenance, _)| provenance.thickness);
     let surface = given.map_err(|fault| vec![*fault])?.or_else(of_header);
-    let output = output(&program, steps, post_processor, surface, args.output.as_deref()).map_err(
-        |mut problems| {
-            program.place_own(&mut problems);
-            problems
-        },
-    )?;
+    let to = file_to_write(args);
+    let output = output(&program, steps, post_processor, surface, to).map_err(|mut problems| {
+        program.place_own(&mut problems);
+        problems
+    })?;
     diagnostics.extend(output.warnings.iter().cloned());
     say(context, &output.notes);
-    let Some(to) = &args.output else {
+    let Some(to) = to else {
         context.printer.result_bytes(&output.text);
         return Ok(());
     };
@@ -120,6 +126,19 @@ fn written(
     match &output.post_build {
         Some(command) => run_post_build(command, to).map_err(|failure| vec![*failure]),
         None => Ok(()),
+    }
+}
+
+/// The file to write; `None` for standard output, which `-o -` means as in `emit`.
+fn file_to_write(args: &PostArgs) -> Option<&Utf8Path> {
+    args.output.as_deref().filter(|file| *file != "-")
+}
+
+/// Turns the warning about a value that only the machine knows into an error, because the post would write the assumed number.
+fn refuse_machine_value(problem: &mut Diagnostic) {
+    if problem.message == &gcode::MACHINE_VALUE {
+        problem.message = &posts::JOB_MACHINE_VALUE;
+        problem.severity = Severity::Error;
     }
 }
 

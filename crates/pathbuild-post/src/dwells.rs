@@ -1,0 +1,51 @@
+//! Compares the dwells of a text with those of the job: a time in the wrong unit is a thousand times too short or too long.
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::posts;
+use pathbuild_motion::{Action, Step};
+
+use crate::job::{HoleKind, Job, JobStep};
+
+/// Finds the first dwell of the job that the text lacks. Further dwells are allowed, such as those that wait for the spindle. `slack` is
+/// the permitted deviation in seconds; shorter dwells need not be written.
+pub(super) fn check(steps: &[Step], job: &Job, slack: f64) -> Option<Diagnostic> {
+    let dwells = steps.iter().filter_map(|step| match step.action {
+        Action::Dwell(seconds) => Some((step.line, seconds)),
+        _ => None,
+    });
+    let mut found: Vec<(u32, f64)> = dwells.collect();
+    found.reverse();
+    let needed = job.operations.iter().flat_map(|operation| &operation.steps).filter_map(duration);
+    for seconds in needed.filter(|seconds| *seconds > slack) {
+        let Some(at) = found.iter().rposition(|(_, found)| (found - seconds).abs() <= slack) else {
+            return Some(difference(seconds, found.last().copied(), steps));
+        };
+        found.truncate(at);
+    }
+    None
+}
+
+/// The time in seconds that a step waits.
+fn duration(step: &JobStep) -> Option<f64> {
+    match step {
+        JobStep::Dwell { seconds } => Some(*seconds),
+        JobStep::Hole(hole) => match hole.kind {
+            HoleKind::Dwell { seconds } => Some(seconds),
+            HoleKind::Plain | HoleKind::Peck { .. } => None,
+        },
+        JobStep::Move(_) | JobStep::Stop | JobStep::Comment(_) => None,
+    }
+}
+
+fn difference(seconds: f64, next: Option<(u32, f64)>, steps: &[Step]) -> Diagnostic {
+    match next {
+        Some((line, found)) => {
+            let diagnostic = Diagnostic::new(&posts::DWELL_DIFFERS).with("seconds", seconds);
+            diagnostic.with("found", found).at_line(line, None)
+        }
+        None => {
+            let last = steps.last().map_or(0, |step| step.line);
+            Diagnostic::new(&posts::DWELL_LOST).with("seconds", seconds).at_line(last, None)
+        }
+    }
+}
