@@ -509,6 +509,7 @@ fn values_that_only_the_machine_knows_are_refused() {
         )
     };
     let place = Place::new()
+        .file("pathbuild.toml", "spindle = \"manual\"\n")
         .file("fixed.nc", program("G0 Z[3+2]"))
         .file("probed.nc", program("G0 Z[#5063+2]"))
         .file("branch.nc", program("o1 if [#5070 EQ 1]\nG0 Z5\no1 else\nM2\no1 endif"));
@@ -532,7 +533,7 @@ fn values_that_only_the_machine_knows_are_refused() {
 #[test]
 fn post_writes_to_standard_output_as_emit_does() {
     let program = "G21 G90 G17 G94\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG0 Z5\nM2\n";
-    let place = Place::new().file("a.nc", program);
+    let place = Place::new().file("a.nc", program).file("pathbuild.toml", "spindle = \"manual\"\n");
     let run =
         |options: &str| place.run(&format!("post a.nc --dialect linuxcnc --post grbl --surface 0 {options}"));
     let (plain, dash) = (run(""), run("-o -"));
