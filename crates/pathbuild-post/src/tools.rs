@@ -1,5 +1,5 @@
-//! Checks that a text makes each cut with the tool, the tool length and the spindle of the job, and that the spindle stands where the operator
-//! changes the tool. (book: program/posts, "Before a program is written")
+//! Checks that a text makes each cut with the tool, the tool length and the spindle of the job, and that the spindle stands still
+//! where the operator changes the tool. (book: program/posts, "Before a program is written")
 
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Message};
@@ -58,7 +58,7 @@ struct Checker<'j> {
     problems: Vec<Diagnostic>,
 }
 
-/// The words for tools in a text.
+/// The kinds of tool words that a text contains.
 #[derive(Clone, Copy, Debug)]
 struct ToolWords {
     /// T, with or without M6.

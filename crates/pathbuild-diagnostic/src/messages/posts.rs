@@ -618,13 +618,13 @@ messages! {
     }
     /// Note: another spindle speed.
     SPINDLE_OTHER_SPEED: PostDiffers {
-        en: "here the spindle speed is {found} and in the program {expected}",
-        de: "die Drehzahl ist hier {found}, im Programm {expected}",
+        en: "the spindle speed is {found} here, but {expected} in the program",
+        de: "die Drehzahl ist hier {found}, im Programm aber {expected}",
     }
     /// Note: a cut with another tool.
     TOOL_OTHER: PostDiffers {
-        en: "this cut is made with T{found} and in the program with T{expected}",
-        de: "dieser Schnitt geschieht mit T{found}, im Programm mit T{expected}",
+        en: "the output makes this cut with T{found}, but the program with T{expected}",
+        de: "die Ausgabe führt diesen Schnitt mit T{found} aus, das Programm aber mit T{expected}",
     }
     /// Note: a cut before T, or before M6 if the post writes it.
     TOOL_NOT_SELECTED: PostDiffers {

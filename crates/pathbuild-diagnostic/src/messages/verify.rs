@@ -290,8 +290,8 @@ messages! {
     }
     /// A required check of rapid moves, some of which cannot be judged.
     CHECK_INCOMPLETE: UnmadeCheck {
-        en: "the required check `{check}` is incomplete: the way of rapid moves below the material's surface is not known because their start is not; number of moves: {count}, the first in line {line}",
-        de: "die verlangte Prüfung `{check}` ist unvollständig: von Eilgängen unter die Oberfläche des Materials ist der Weg nicht bekannt, weil ihr Anfang nicht bekannt ist; Anzahl: {count}, der erste in Zeile {line}",
+        en: "the required check `{check}` is incomplete: rapid moves below the material's surface begin at unknown positions, so their way is unknown; number of moves: {count}, the first in line {line}",
+        de: "die verlangte Prüfung `{check}` ist unvollständig: Eilgänge unter die Oberfläche des Materials beginnen an unbekannter Stelle, und ihr Weg ist daher unbekannt; Anzahl: {count}, der erste in Zeile {line}",
         help_en: "go to X and Y above the material first, then down",
         help_de: "zuerst über dem Material nach X und Y fahren, dann hinunter",
     }

@@ -1,7 +1,7 @@
 //! Counts rapid moves whose way is not known. (book: program/reading)
 //!
-//! After a move to a machine position, a tool change or a probe, and before the first one, the start of a move is known only in part. The
-//! map of the material then judges the end alone. That suffices for a vertical move, and for one above the material.
+//! After a move to a machine position, a tool change or a probe, and at the beginning of a program, the start of a move is known only in
+//! part. Only its end is then compared with the map of the material. That suffices for a vertical move, and for one above the material.
 
 use pathbuild_motion::{Action, Axes, Move, Pace, Position, Step};
 use serde::{Deserialize, Serialize};
@@ -11,13 +11,13 @@ use super::material::{RESIDUE, Stock};
 /// Rapid moves that may pass through material on an unknown way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BlindRapids {
-    /// Their number.
+    /// Number of moves.
     pub count: usize,
     /// The line of the first one.
     pub line: u32,
 }
 
-/// Finds them: pass every step of a program, then call [`finish`](Self::finish).
+/// Finds blind rapid moves: pass every step of a program, then call [`finish`](Self::finish).
 #[derive(Debug)]
 pub struct BlindRapidRules {
     /// The highest surface of the material, in mm.
@@ -31,13 +31,13 @@ pub struct BlindRapidRules {
 }
 
 impl BlindRapidRules {
-    /// Starts at the beginning of a program; `None` if the height of the material is not known.
+    /// Rules for the beginning of a program; `None` if the height of the material is unknown.
     pub fn new(stock: &Stock) -> Option<Self> {
         let surface = stock.highest().filter(|surface| surface.is_finite())?;
         Some(Self { surface, stated: Axes::ALL, is_raised: true, found: None })
     }
 
-    /// Passes the next step of the program.
+    /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let stated = std::mem::replace(&mut self.stated, step.stated);
         match &step.action {
@@ -57,7 +57,7 @@ impl BlindRapidRules {
         }
     }
 
-    /// Returns the result, if there are any.
+    /// Returns the blind rapid moves, if there are any.
     pub fn finish(self) -> Option<BlindRapids> {
         self.found
     }

@@ -1,6 +1,6 @@
 //! Cuts with the length of another tool, or without any length. (book: program/reading, "Tool lengths")
 //!
-//! On every control with G43 the length in effect survives M6, so a program must set that of each tool. A program that never uses G43
+//! On every control with G43 the length in effect survives M6, so a program must set the length of each tool. A program that never uses G43
 //! works with one zero per tool and is not judged.
 
 use std::collections::BTreeSet;
@@ -24,7 +24,7 @@ pub struct LengthRules<'c> {
     first: Option<u32>,
     /// The first cut of a tool before any length was applied, with the tool.
     bare: Option<(u32, u32)>,
-    /// Lengths of other entries that tools cut with.
+    /// Tools that have cut with the H of another number.
     of_entries: Vec<OtherEntry>,
     /// The tools that have cut with their own length.
     fitting: BTreeSet<u32>,
@@ -43,7 +43,7 @@ struct OtherEntry {
 }
 
 impl<'c> LengthRules<'c> {
-    /// Starts at the beginning of a program in a dialect, whose material may be known.
+    /// Rules for the beginning of a program; `stock` is `None` if the material is unknown.
     pub fn new(dialect: Dialect, stock: Option<&'c Stock>) -> Self {
         Self {
             stock,
@@ -57,7 +57,7 @@ impl<'c> LengthRules<'c> {
         }
     }
 
-    /// Passes the next step of the program.
+    /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         self.tools.step(step);
         match &step.action {
@@ -115,7 +115,7 @@ impl<'c> LengthRules<'c> {
             });
         }
         for OtherEntry { line, tool, entry } in std::mem::take(&mut self.of_entries) {
-            // Some shops number H apart from T, but then no other tool cuts with this H.
+            // Some shops number H independently of T, but then no other tool cuts with this H.
             let is_taken = self.fitting.contains(&entry);
             let (message, severity) = if is_taken {
                 (&say::LENGTH_OF_OTHER_TOOL, Severity::Error)

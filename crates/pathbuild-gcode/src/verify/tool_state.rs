@@ -1,12 +1,12 @@
 //! The tool in the spindle, its length, and the spindle at a cut. (book: program/reading, "verify")
 //!
-//! `verify`, `verify --against` and the check of a post's output judge them by the same rules, which are here.
+//! `verify`, `verify --against` and the check of a post's output judge them by the same rules, which are defined here.
 
 use pathbuild_motion::{Action, Change, Spindle, Step, ToolLength, Turning};
 
 use crate::dialect::Dialect;
 
-/// What the tool words and spindle words of a program have set so far: pass every step.
+/// State that the tool words and spindle words of a program have set so far: pass every step.
 #[derive(Clone, Debug)]
 pub struct ToolState {
     dialect: Dialect,
@@ -14,7 +14,7 @@ pub struct ToolState {
     selected: Option<u32>,
     /// The tool inserted by M6; `None` before the first M6, and if none of the T words before it has a number.
     inserted: Option<u32>,
-    /// H of the last G43 with one, which some controls keep.
+    /// H of the last G43 that had one; some controls keep it.
     entry: Option<u32>,
     length: Option<ActiveLength>,
     spindle: Spindle,
@@ -27,7 +27,7 @@ struct ActiveLength {
     line: u32,
     /// The tool that was inserted when it was set.
     tool: Option<u32>,
-    /// Whether M6 has come since.
+    /// Whether M6 was executed since.
     is_before_change: bool,
 }
 
@@ -38,7 +38,7 @@ pub enum LengthFit {
     Unstated,
     /// G49, or G43 H0.
     Off,
-    /// It is that of the tool.
+    /// It is the length of the tool.
     Fits,
     /// It was set before M6 inserted the tool.
     Outdated,
@@ -61,7 +61,7 @@ impl ToolState {
         }
     }
 
-    /// Passes the next step of the program.
+    /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         match &step.action {
             Action::SelectTool(number) => self.selected = Some(*number),
@@ -114,7 +114,7 @@ impl ToolState {
         self.length_fit_for(self.inserted)
     }
 
-    /// How the active length fits a tool, wherever it is known from.
+    /// How the active length fits a tool, which need not have been inserted by M6.
     pub fn length_fit_for(&self, tool: Option<u32>) -> LengthFit {
         let Some(active) = self.length else { return LengthFit::Unstated };
         let is_outdated = active.is_before_change && (active.tool.is_none() || active.tool != self.inserted);

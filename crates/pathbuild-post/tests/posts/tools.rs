@@ -58,7 +58,7 @@ fn each_cut_has_its_own_tool() {
     assert_eq!(wrong(RIGHT, &two_tools()), FINE);
     assert_eq!(
         changed("T{$tool.index} M6", "T1 M6")[0],
-        "this cut is made with T1 and in the program with T2"
+        "the output makes this cut with T1, but the program with T2"
     );
     assert_eq!(
         changed("T{$tool.index} M6", "M6")[0],
@@ -82,7 +82,7 @@ fn each_cut_has_the_length_of_its_tool() {
 
 #[test]
 fn each_cut_has_the_speed_of_its_tool() {
-    let other = |found| [format!("here the spindle speed is {found} and in the program 3000")];
+    let other = |found| [format!("the spindle speed is {found} here, but 3000 in the program")];
     assert_eq!(changed("{$s}", "S9000"), other("9000"));
     let mut job = two_tools();
     job.operations[1].speed = Some(9000.5);

@@ -26,7 +26,7 @@ pub enum Outcome {
     Made(Option<RapidValues>),
     /// It was made with values that only the program itself states.
     Assumed(RapidValues),
-    /// It was made with these values, but for the rapid moves whose way is not known.
+    /// It was made with these values, except for rapid moves whose way is unknown.
     Incomplete(RapidValues, BlindRapids),
     /// It was not made.
     NotMade(Reason),
