@@ -146,7 +146,7 @@ impl PostProcessor {
         let inserted = |directory| {
             let files = DirectoryFiles { directory, system };
             let hash = |file: &Utf8PathBuf| blake3::hash(&files.read(file).unwrap_or_default());
-            // Files that are unreadable or too many are reported when a program is written.
+            // Unreadable or excess files are reported when a program is written.
             insertions.iter().take(MOST_INSERTIONS).flat_map(|file| *hash(file).as_bytes()).collect()
         };
         let inserted = directory.as_deref().map(inserted).unwrap_or_default();

@@ -64,12 +64,12 @@ struct Swept {
     diameter: f64,
 }
 
-/// Something to paint. What is higher is painted first, and an edge before what is cut at the same height.
+/// A stroke to paint. Higher strokes are painted first, and an edge before the cuts at the same height.
 struct Stroke {
     swept: Swept,
     z: f64,
     kind: StrokeKind,
-    /// Instead of the colour of its depth.
+    /// Colour used instead of that of its depth.
     mark: Option<&'static str>,
 }
 
@@ -207,7 +207,7 @@ impl<'s> MilledStock<'s> {
         corners
     }
 
-    /// Draws the stock with what is wrong about it, and the outlines of the parts. `id` makes the names of clips unique.
+    /// Draws the stock with its defects, and the outlines of the parts. `id` makes the names of clips unique.
     pub(super) fn draw(&self, canvas: &mut Canvas, frame: &Frame, id: &str) {
         let place = frame.of_drawing();
         self.blanks(canvas, &place, id);
@@ -297,7 +297,7 @@ impl<'s> MilledStock<'s> {
         }
     }
 
-    /// Draws what the colours mean, from `left` to `right`, continuing on further lines.
+    /// Draws the legend of the colours, from `left` to `right`, continuing on further lines.
     pub(super) fn legend(&self, canvas: &mut Canvas, shown: VisibleParts, [left, mut y]: Point, right: f64) {
         let [top, low] = self.range;
         let has = |kind| self.strokes.iter().any(|stroke| stroke.kind == kind);
@@ -364,9 +364,9 @@ impl<'s> MilledStock<'s> {
 /// The two pictures of what a change does to the stock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StockChange {
-    /// What is removed now and was not before.
+    /// Material that is removed now and was not before.
     Removed,
-    /// What is left now and was removed before.
+    /// Material that is left now and was removed before.
     Left,
 }
 
@@ -592,8 +592,8 @@ fn corners(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: 
     canvas.close();
 }
 
-/// How far from a corner a round cutter touches its sides, in radii of the cutter, which is on the right. `None` if the outline does not turn
-/// to that side.
+/// Distance from a corner at which a round cutter on the right touches its sides, in radii of the cutter. `None` if the outline does not
+/// turn to that side.
 fn sharpness([x, y]: Point, [next_x, next_y]: Point) -> Option<f64> {
     let (across, along) = (x * next_y - y * next_x, x * next_x + y * next_y);
     let norm = libm::hypot(x, y) * libm::hypot(next_x, next_y);
@@ -606,7 +606,7 @@ const SMOOTH: f64 = 0.01;
 /// Upper bound on the reach of a corner, in radii of the cutter.
 const SHARPEST: f64 = 10.0;
 
-/// Draws what is wrong about a part: cuts into it, support bars that are cut away, and that nothing holds it.
+/// Draws the defects of a part: cuts into it, support bars that are cut away, and that nothing holds it.
 fn wrong(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
     let material = || -> String {
         // A ring inside an opening leaves it open.

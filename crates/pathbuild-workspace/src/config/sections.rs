@@ -125,7 +125,7 @@ pub mod general {
         /// mm: S of an emitted path that gives none; needed to emit
         sweep_height: Option<f64> = "sweep-height", POSITIVE, None, "20", Check,
             option 2: GivenOption::positive, Text("MM"), "Sweep height of an emitted path that gives none", "Leerfahrthöhe, wenn der geschriebene Pfad keine angibt";
-        /// mm/min: Z of probes that give none; without it, like feed
+        /// mm/min: Z of probes without a Z of their own; default: like feed
         probe_feed: Option<f64> = "probe-feed", POSITIVE, None, "40", Emit,
             option 3: GivenOption::positive, Text("MM/MIN"), "Probing feed of paths that give none", "Vorschub beim Antasten für Pfade, die keinen angeben";
         /// directories that `check` and `emit` use without arguments, and in which paths are found by name;

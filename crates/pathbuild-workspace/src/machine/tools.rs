@@ -12,7 +12,7 @@ use super::entries::rounded;
 use super::{DescribedTool, DescribedValue, Description, Entry, LengthUnit, Quantity, Target, at, broken};
 use crate::config::is_too_round;
 
-/// Gives the text of a tool bit that a FreeCAD library names.
+/// Returns the text of a tool bit that a FreeCAD library names.
 pub(super) type ReadBit<'r> = &'r dyn Fn(&str) -> Result<String, Shown>;
 
 /// Whether every line of the text is a tool of `LinuxCNC` or a comment.
@@ -243,7 +243,7 @@ impl Fields {
         shown(&self.take(name)?).parse().ok().filter(|number: &f64| number.is_finite())
     }
 
-    /// The values that were not taken.
+    /// The values that have not been used.
     fn unused(self) -> impl Iterator<Item = Entry> {
         self.values.into_iter().map(|(name, value)| Entry { name, value: shown(&value), line: None })
     }
@@ -346,7 +346,7 @@ impl Tools {
         self.problems.push(at(problem, tool.line));
     }
 
-    /// Adds a tool, unless it has no diameter, without which the configuration takes none, or a tip that no tool has.
+    /// Adds a tool, unless it has no diameter, which the configuration requires, or a tip that no tool can have.
     fn add(&mut self, tool: ToolDescription) {
         let Some(diameter) = tool.number_of("diameter") else { return };
         let radius = tool.number_of("corner-radius").unwrap_or_default();

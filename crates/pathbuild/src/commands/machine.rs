@@ -1,4 +1,4 @@
-//! `pathbuild machine import`: compares descriptions of the machine with the configuration, and takes them over. (book: howto/machine)
+//! `pathbuild machine import`: compares descriptions of the machine with the configuration, and imports them. (book: howto/machine)
 
 use std::fmt::Write;
 

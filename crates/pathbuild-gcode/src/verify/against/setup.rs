@@ -54,7 +54,7 @@ pub(super) struct Setup<'w> {
 struct Reported {
     spindle: bool,
     length: bool,
-    /// That the program sets no length.
+    /// Whether it was reported that the program sets no length.
     no_length: bool,
     tool: bool,
     coolant: bool,

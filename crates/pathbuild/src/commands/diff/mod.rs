@@ -245,7 +245,7 @@ fn path(
     })
 }
 
-/// The configured post-processor if it has written a program. What it rounds, and the moves that it adds, are then no difference.
+/// The configured post-processor if it has written a program. Its rounding and its additional moves then do not count as differences.
 fn post_processor_of(context: &Context, program: &Utf8Path) -> Option<PostProcessor> {
     let head = context.system.head(program, HEAD).ok()?;
     let (provenance, _) = Provenance::of_head(&head)?;
