@@ -93,7 +93,7 @@ fn a_round_tip_leaves_a_ridge_between_cuts() {
     assert!(rapid_between_cuts(&tool(2), 4.0));
     assert!(!rapid_between_cuts(&tool(2), 2.0));
     assert!(!rapid_between_cuts(&tool(0), 4.0));
-    // A ball.
+    // A ball-nose cutter.
     assert!(rapid_between_cuts(&tool(3), 2.0));
     assert!(!rapid_between_cuts(&tool(3), 0.5));
 }

@@ -72,7 +72,7 @@ fn what_was_drawn_explains_the_moves() {
     assert!(german.stdout.contains("\n  Ursache:\n"), "{german}");
 }
 
-/// A line type that takes no text has lost its text with the change; another change of the text is told as before.
+/// A line type that takes no text has lost its text with the change; any other change of the text is still reported.
 #[test]
 fn a_line_type_without_texts_is_told_instead_of_the_text() {
     let part = |sweep: &str| part("1001.1P", "B1 F200", &format!("{sweep}\nmill 20,0 40,0"));

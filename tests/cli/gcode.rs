@@ -122,7 +122,7 @@ fn tools_are_those_of_the_table_where_there_is_one() {
     assert!(!elsewhere.run("verify foreign.nc --format concise").stderr.contains("PB764"));
 }
 
-/// The nearest configuration above the program, else that of the working directory; which one it was is told where it is not obvious.
+/// The nearest configuration above the program, else that of the working directory; the one used is reported if it is not obvious.
 #[test]
 fn the_configuration_of_a_program_is_told() {
     let configuration = |most: u32| format!("[machine]\nmaximum-feed = {most}\n");

@@ -15,7 +15,7 @@ fn place(configuration: &str) -> Place {
     Place::new().file("1234.dxf", drawing.to_dxf()).file("pathbuild.toml", configuration)
 }
 
-/// An option is told as one, a line of the configuration as that: in both languages, on the screen and in what the page shows.
+/// The source of a value, an option or a line of the configuration, is stated: in both languages, on the screen and in what the page shows.
 #[test]
 fn a_value_says_whether_an_option_or_the_configuration_gives_it() {
     let place = place("rapid = 1000\nsweep-height = 20\n");

@@ -413,7 +413,7 @@ fn circles_keep_their_centres() {
             continue;
         }
         seen += 1;
-        // The angle between neighbouring ends, seen from the centre, says how far their rounding moves it.
+        // The angle between neighbouring ends, seen from the centre, determines how far their rounding moves it.
         let radius = pieces[1][0];
         let is_apart = |pair: &[[f64; 2]]| {
             let [[x, y], [a, b]] = [pair[0], pair[1]];

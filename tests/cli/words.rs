@@ -35,7 +35,7 @@ fn mistakes_of_draughtsmen_are_named() {
     assert_snapshot!(mistakes.map(said).join("\n"));
 }
 
-/// What lies on a wrong layer is named if it is what is missing, on whichever side.
+/// An element on a wrong layer is named if it is what the path lacks, no matter in which direction it lies.
 #[test]
 fn elements_on_a_wrong_layer_are_named() {
     let said = |own: &str, other: &str| {

@@ -327,7 +327,7 @@ fn a_first_move_down_into_the_material_is_found() {
     assert_eq!(found, ["2 rapid-plunge"]);
     assert_eq!(blind, Some((1, 2)));
     assert_eq!(from_unknown(&format!("G0 X0 Y0 Z5\n{SLOT_AT_5}")), (Vec::new(), None));
-    // Where nothing is known of the material, only the missing way is told.
+    // If nothing is known about the material, only the unknown way is reported.
     assert_eq!(
         from_unknown(&format!("G0 X90 Y90 Z-2\nG0 X95\nG0 Z5\nG0 X0 Y0\n{SLOT_AT_5}")),
         (Vec::new(), Some((1, 2)))

@@ -29,7 +29,7 @@ struct ModeWords {
 }
 
 impl ModeWords {
-    /// Reports modes on which a line depends and that no line before states. Lines before the first motion word are not in RS274.
+    /// Reports modes on which a line depends and which no line up to it states. Lines before the first motion word are not in RS274.
     fn line(&mut self, number: u32, line: &Words, motion: Option<u32>) {
         let mut codes: Vec<i64> = line.words.iter().filter(|word| word.letter == 'G').map(tenths).collect();
         codes.extend(motion.map(|code| 10 * i64::from(code)));
@@ -64,7 +64,8 @@ pub struct TranslatedText {
     pub doubtful: Vec<DoubtfulWord>,
     /// Words whose meaning differs between controls, with the line of the first one.
     pub disputed: Option<(u32, Vec<String>)>,
-    /// Warnings about the unit, the distance mode and the plane, if the program does not state them. The translation does.
+    /// Warnings about the unit, the distance mode and the plane, if the program does not state them. The translation
+    /// always does.
     pub unstated: Vec<Diagnostic>,
 }
 

@@ -92,7 +92,7 @@ function all(folder) {
   for (let step = 0; step < 3; step++) await page.keyboard.press("ArrowRight");
   assert.match(await text(page, "#where"), /^Move 3 of/);
   await shot(page, "web-path");
-  // Through a post: what a control needs that nobody says is asked for, then given.
+  // Through a post: the page asks for a value that the control needs and that is not stated, and then gets it.
   await page.keyboard.press("Escape");
   await page.fill("#search", "");
   await page.selectOption("#post", "linuxcnc");
@@ -149,7 +149,7 @@ function all(folder) {
   await page.close();
 }
 {
-  // Drawings alone: what nobody says is asked for; a drawing that comes again replaces itself.
+  // Drawings alone: the page asks for values that are not stated; a drawing that comes again replaces itself.
   const { page, faults } = await open();
   const drawing = join(library, "components/2050.1P.dxf");
   await page.setInputFiles("#drawings", [drawing, join(library, "mistakes/3001.1P.dxf")]);

@@ -115,7 +115,7 @@ fn adjust_refuses_a_program_whose_drawing_gives_other_moves() {
     succeed(&place.run("adjust a.dxf --max-correction 0.9"));
     save(&place, "layer 8001.1P\nmill 0,0 40,0\n");
     let run = place.run("adjust a.dxf --max-correction 0.9 --format concise");
-    assert!(run.status == Some(1) && run.stderr.contains("a.dxf:"), "its errors are told: {run}");
+    assert!(run.status == Some(1) && run.stderr.contains("a.dxf:"), "its errors are reported: {run}");
 }
 
 #[test]

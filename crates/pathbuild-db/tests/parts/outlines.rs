@@ -20,7 +20,7 @@ fn curves_join_within_a_hundredth() {
     );
 }
 
-/// Of 117.5 mm, a tenth may be missing; threads and letters are open by more.
+/// Of 117.5 mm, a tenth may be missing; threads and letters have larger gaps.
 #[test]
 fn a_gap_is_named_up_to_a_tenth_of_the_outline() {
     let gap = |x: f64| messages(&beside(&format!("line {x},1 40,1\n{SIDES}")));

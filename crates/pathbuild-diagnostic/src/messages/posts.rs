@@ -598,13 +598,13 @@ messages! {
     }
     /// Note: a dwell of another length.
     DWELL_DIFFERS: PostDiffers {
-        en: "the program dwells {seconds} s, and the output {found} s",
-        de: "das Programm verweilt {seconds} s, die Ausgabe {found} s",
+        en: "the program dwells {seconds} s, but the output {found} s",
+        de: "das Programm verweilt {seconds} s, die Ausgabe aber {found} s",
     }
     /// Note: a dwell that is not in the output.
     DWELL_LOST: PostDiffers {
-        en: "the program dwells {seconds} s, and the output no longer before its end",
-        de: "das Programm verweilt {seconds} s, die Ausgabe bis zu ihrem Ende nicht mehr",
+        en: "the program dwells {seconds} s, but this dwell is missing in the rest of the output",
+        de: "das Programm verweilt {seconds} s, diese Verweilzeit fehlt aber im Rest der Ausgabe",
     }
     /// Note: the spindle is not started before the first cut.
     SPINDLE_NOT_STARTED: PostDiffers {

@@ -54,7 +54,7 @@ impl fmt::Debug for Rules<'_> {
 }
 
 impl<'c> Rules<'c> {
-    /// Starts at the beginning of a program, whose material may be known.
+    /// Rules for the beginning of a program; `stock` is `None` if the material is unknown.
     pub fn new(stock: Option<&'c Stock>) -> Self {
         Self {
             stock,

@@ -1,4 +1,4 @@
-//! Tests of tool, tool length and spindle of what a definition writes, each with a definition that is right and one that is just not.
+//! Tests of tool, tool length and spindle in the output of definitions, each with a correct definition and one with a single mistake.
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_motion::Turning;
@@ -66,7 +66,7 @@ fn each_cut_has_its_own_tool() {
     );
     // T alone changes the tool where there is no M6.
     assert_eq!(changed("T{$tool.index} M6", "T{$tool.index}\nM0"), FINE);
-    // Without any T, the operator has to be stopped for.
+    // Without any T, the program must stop for the operator.
     let by_hand = |change: &str| changed("T{$tool.index} M6\nG43 H{$tool.index}", change);
     assert_eq!(by_hand("M0"), FINE);
     assert_eq!(by_hand("")[0], "the output has not changed to T2, with which the program makes this cut");

@@ -129,7 +129,7 @@ fn written(
     }
 }
 
-/// The file to write; `None` for standard output, which `-o -` means as in `emit`.
+/// The file to write; `None` for standard output, which is named by `-o -` as in `emit`.
 fn file_to_write(args: &PostArgs) -> Option<&Utf8Path> {
     args.output.as_deref().filter(|file| *file != "-")
 }
