@@ -1,4 +1,4 @@
-//! The BLOCKS section. It is indexed at the first INSERT that may bring something wanted; each block is read at its first such INSERT. Most
+//! The BLOCKS section. It is indexed at the first INSERT that may insert something wanted; each block is read at its first such INSERT. Most
 //! drawings need neither.
 
 use std::collections::{BTreeMap, HashMap, HashSet};

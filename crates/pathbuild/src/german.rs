@@ -190,7 +190,7 @@ fn context_values(error: &Error, kind: ContextKind) -> Vec<String> {
     }
 }
 
-/// English and German of what clap says itself, and of values that are defined elsewhere.
+/// Messages of clap itself and values that are defined elsewhere, in English and German.
 const OTHERS: &[(&str, &str)] = &[
     (
         "Print this message or the help of the given subcommand(s)",

@@ -103,7 +103,7 @@ impl<'db> PlacedProgram<'db> {
         }
     }
 
-    /// Whether another path of the same drawing has brought a part to this place.
+    /// Whether another path of the same drawing has already placed a part here.
     fn is_known(&self, instance: Instance<'db>, placement: &Placement, part: &pathbuild_path::Part) -> bool {
         let is_same = |other: &PlacedPath<'_>| {
             other.cuts.parts.iter().any(|known| std::ptr::eq(*known, part))

@@ -304,8 +304,8 @@ messages! {
     UNKNOWN_PERCENT: UnknownWord {
         en: "{dialect} does not know `%`",
         de: "{dialect} kennt `%` nicht",
-        help_en: "remove the line, unless your sender does it",
-        help_de: "die Zeile entfernen, wenn das nicht das Sendeprogramm tut",
+        help_en: "remove the line, unless your sender removes it",
+        help_de: "die Zeile entfernen, wenn das Sendeprogramm sie nicht selbst entfernt",
     }
     /// `%` in mid-program, for XpertMILL.
     SECOND_PERCENT: DoubtfulSpelling {
@@ -475,7 +475,7 @@ messages! {
     }
     /// G53 with another motion than G0 and G1.
     MACHINE_COORDINATES_MOTION: ConflictingWords {
-        en: "G53 goes with G0 and G1 only",
+        en: "G53 works only with G0 and G1",
         de: "G53 geht nur mit G0 und G1",
         help_en: "write G0 or G1 in the same line",
         help_de: "G0 oder G1 in dieselbe Zeile schreiben",
@@ -613,8 +613,8 @@ messages! {
     RADIUS_TOO_SMALL: InvalidArc {
         en: "the radius {radius} is too small: the arc's ends are {chord} apart",
         de: "der Radius {radius} ist zu klein: die Enden des Bogens liegen {chord} auseinander",
-        help_en: "R is at least half of that",
-        help_de: "R ist mindestens die Hälfte davon",
+        help_en: "R must be at least half of that",
+        help_de: "R muss mindestens die Hälfte davon sein",
     }
     /// A radius of zero.
     RADIUS_ZERO: InvalidArc {

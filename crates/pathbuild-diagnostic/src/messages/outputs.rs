@@ -184,7 +184,7 @@ messages! {
     PROXY_VALUE_DIFFERS: ProxyDiffers {
         en: "{letter} is {here} on the proxy line, but {there} in path {name}",
         de: "{letter} ist auf der Stellvertreterlinie {here}, in Pfad {name} aber {there}",
-        help_en: "write the path's {letter} on the proxy line, which people copy into their projects",
+        help_en: "write the path's {letter} on the proxy line, which is copied into projects",
         help_de: "das {letter} des Pfads an die Stellvertreterlinie schreiben, die in Projekte kopiert wird",
     }
     /// A length of a proxy line that differs from that of its path.

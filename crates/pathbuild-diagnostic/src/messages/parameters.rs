@@ -376,8 +376,8 @@ messages! {
     WITHOUT_EFFECT: ParameterWithoutEffect {
         en: "{letter} has no effect here",
         de: "{letter} hat hier keine Wirkung",
-        help_en: "remove it; it has no effect",
-        help_de: "entfernen; es bewirkt nichts",
+        help_en: "remove it",
+        help_de: "entfernen",
     }
     /// W of a path without a milling chain.
     FIRST_DEPTH_WITHOUT_CHAIN: ParameterWithoutEffect {
@@ -481,7 +481,7 @@ messages! {
     COMBINATIONS_CUT: LimitReached {
         en: "{checked} of {all} combinations of the variables' values were checked",
         de: "{checked} von {all} Kombinationen der Variablenwerte wurden geprüft",
-        help_en: "each value was in one of them at least; projects are checked with the values that they set",
+        help_en: "each value occurred in at least one of them; projects are checked with the values that they set",
         help_de: "jeder Wert kam in mindestens einer vor; Projekte werden mit den Werten geprüft, die sie setzen",
     }
     /// Note: the values of the variables for which this was found.

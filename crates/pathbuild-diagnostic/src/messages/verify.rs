@@ -467,8 +467,8 @@ messages! {
     LARGER_THAN_MACHINE: OutsideMachine {
         en: "the program needs {size} mm in {axis}, but the machine has {most}",
         de: "das Programm braucht {size} mm in {axis}, die Maschine hat aber nur {most}",
-        help_en: "wherever the part is clamped, it does not fit",
-        help_de: "wo immer das Werkstück gespannt ist, es passt nicht",
+        help_en: "use a larger machine, or correct the travel under [machine]: the program does not fit, wherever the part is clamped",
+        help_de: "eine größere Maschine nehmen oder den Verfahrweg unter [machine] berichtigen: das Programm passt nicht, wo immer das Werkstück gespannt ist",
     }
     /// A tool change below the surface.
     TOOL_CHANGE_AT_DEPTH: ToolChangeAtDepth {

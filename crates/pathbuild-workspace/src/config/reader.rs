@@ -20,7 +20,7 @@ pub(super) struct TomlReader<'a> {
     directory: &'a Utf8Path,
     /// Directories that an untrusted configuration may refer to.
     confined: Option<&'a ConfinedSystem>,
-    /// Knows which table a misplaced key belongs to; `None` for files other than `pathbuild.toml`.
+    /// Index for finding the table that a misplaced key belongs to; `None` for files other than `pathbuild.toml`.
     key_index: Option<LazyKeyIndex>,
     key: String,
     diagnostics: Vec<Diagnostic>,

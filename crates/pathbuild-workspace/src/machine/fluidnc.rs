@@ -33,7 +33,7 @@ pub(super) fn read(text: &str) -> Result<Description, Box<Diagnostic>> {
     Ok(entries.finish("FluidNC"))
 }
 
-/// Sets the speeds of the spindle, if there is exactly one. A laser has a map of speeds as well, which are powers.
+/// Sets the speeds of the spindle, if there is exactly one. The map of speeds of a laser contains powers.
 fn spindle(entries: &mut Entries) {
     let is_map = |name: &str| {
         name.strip_suffix("/speed_map")

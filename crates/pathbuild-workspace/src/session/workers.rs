@@ -64,7 +64,7 @@ fn reserved() -> Vec<u8> {
 /// Touches the first pages of the block until there is work, so that the work need not wait for each page.
 fn touch(memory: &mut Vec<u8>, is_wanted: &AtomicBool) {
     const PAGE: usize = 4 << 10;
-    /// Roughly the size of the results of a few hundred drawings.
+    /// Number of pages touched: roughly the size of the results of a few hundred drawings.
     const PAGES: usize = 384;
     for page in memory.spare_capacity_mut().chunks_mut(PAGE).take(PAGES) {
         if is_wanted.load(Ordering::Relaxed) {

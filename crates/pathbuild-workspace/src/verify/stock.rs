@@ -13,7 +13,7 @@ use super::{Verifier, VerifyOptions};
 use crate::config::types::Tool;
 use crate::program::Program;
 
-/// Everything that may say which cutter a program uses and how high its material is, and what was concluded.
+/// All sources for the cutter of a program and the height of its material, and the values concluded from them.
 pub(super) struct Sources<'s> {
     verifier: &'s Verifier<'s>,
     program: &'s Program,
