@@ -43,8 +43,8 @@ pub(crate) fn check(
         way.check(&found[..length])?;
         let (run, rest) = split(cuts, |movement| !is_rapid(movement));
         found = &found[length..];
-        let (made, after) = found.split_at(cut(found, run, tolerance)?);
-        match_cuts(made, run, tolerance, &mut matched);
+        let (run_moves, after) = found.split_at(cut(found, run, tolerance)?);
+        match_cuts(run_moves, run, tolerance, &mut matched);
         found = after;
         expected = rest;
     }

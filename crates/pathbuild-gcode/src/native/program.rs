@@ -150,7 +150,7 @@ pub fn program_within(
     for step in steps.as_ref() {
         match step {
             ProgramStep::Move { to, count } => writer.step(to, count.length),
-            ProgramStep::Comment(said) => writer.said(said),
+            ProgramStep::Comment(comment) => writer.program_comment(comment),
         }
         if writer.text.len() > most {
             return Err(too_large(most));
@@ -294,9 +294,9 @@ impl Writer<'_> {
         }
     }
 
-    fn said(&mut self, said: &Comment) {
+    fn program_comment(&mut self, comment: &Comment) {
         let names = &self.program.names;
-        let text = match *said {
+        let text = match *comment {
             Comment::Question(text) => format!("Q:{}", names.get(text)),
             Comment::StartSubpath(name) => format!("START Subpath {}", names.get(name)),
             Comment::EndSubpath(name) => format!("END Subpath {}", names.get(name)),

@@ -123,7 +123,7 @@ impl<E: Iterator<Item = (u32, motion::Move)>> Abreast<E> {
 /// The moves of a text, with their lines.
 fn moves(text: &str) -> Result<Vec<(u32, motion::Move)>, Box<Diagnostic>> {
     let mut moves = Vec::with_capacity(text.len() / SHORT_LINE);
-    each_move(text, |line, it| moves.push((line, it)))?;
+    each_move(text, |line, movement| moves.push((line, movement)))?;
     Ok(moves)
 }
 

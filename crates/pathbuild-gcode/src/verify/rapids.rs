@@ -54,17 +54,17 @@ fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
     let tops = LazyCell::new(|| Tops::of(drawn, stock));
     let mut recent: VecDeque<(u32, Move)> = VecDeque::with_capacity(MOST_CUTS);
     let (mut before, mut found) = (None, Vec::new());
-    for (line, it) in drawn.moves() {
-        let last = before.replace((line, it));
-        if it.pace == Pace::Rapid {
-            let is_dip = last.is_some_and(|(line, down)| is_dip(line, &down, &it, stock));
+    for (line, movement) in drawn.moves() {
+        let last = before.replace((line, movement));
+        if movement.pace == Pace::Rapid {
+            let is_dip = last.is_some_and(|(line, down)| is_dip(line, &down, &movement, stock));
             let has_room = || {
-                let Some((piece, surface)) = low_at(line, &it, stock, &tops) else { return true };
-                is_in_circle(&it, piece.cutter.diameter, &recent)
-                    || material::has_room(line, &it, surface, &recent, stock, MOST_CELLS)
+                let Some((piece, surface)) = low_at(line, &movement, stock, &tops) else { return true };
+                is_in_circle(&movement, piece.cutter.diameter, &recent)
+                    || material::has_room(line, &movement, surface, &recent, stock, MOST_CELLS)
             };
             if is_dip || !has_room() {
-                found.push(it);
+                found.push(movement);
             }
             if found.len() > MOST_SUSPECTS {
                 break;
@@ -73,7 +73,7 @@ fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
             if recent.len() == MOST_CUTS {
                 recent.pop_front();
             }
-            recent.push_back((line, it));
+            recent.push_back((line, movement));
         }
     }
     found
@@ -82,27 +82,27 @@ fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
 /// The stock for a rapid move that goes below a surface nearby, with the highest of these surfaces.
 fn low_at<'s>(
     line: u32,
-    it: &Move,
+    movement: &Move,
     stock: &'s Stock,
     tops: &LazyCell<Tops, impl FnOnce() -> Tops>,
 ) -> Option<(&'s StockSpan, f64)> {
-    let low = it.from.z().min(it.to.z()) + material::RESIDUE;
-    let goes_up = it.keeps_xy() && it.to.z() >= it.from.z();
+    let low = movement.from.z().min(movement.to.z()) + material::RESIDUE;
+    let goes_up = movement.keeps_xy() && movement.to.z() >= movement.from.z();
     if goes_up || stock.highest().is_none_or(|highest| low >= highest) {
         return None;
     }
     let piece = stock.at(line)?;
-    let surface = tops.highest_along(it, piece.cutter.diameter / 2.0);
+    let surface = tops.highest_along(movement, piece.cutter.diameter / 2.0);
     (low < surface).then_some((piece, surface))
 }
 
 /// Whether a rapid move stays inside the circle milled by the preceding cuts, in which there is no core. This is the end of a
 /// helical circle.
-fn is_in_circle(it: &Move, cutter: f64, recent: &VecDeque<(u32, Move)>) -> bool {
+fn is_in_circle(movement: &Move, cutter: f64, recent: &VecDeque<(u32, Move)>) -> bool {
     let Some(MoveShape::Arc(last)) = recent.back().map(|(_, cut)| cut.shape) else { return false };
     let from_centre = |at: &Position| libm::hypot(at.x() - last.centre[0], at.y() - last.centre[1]);
-    let radius = from_centre(&it.from);
-    let low = it.from.z().min(it.to.z()) + material::RESIDUE;
+    let radius = from_centre(&movement.from);
+    let low = movement.from.z().min(movement.to.z()) + material::RESIDUE;
     // The angle of a cut on that circle, if it is deep enough to make room.
     let angle = |(_, cut): &(u32, Move)| match cut.shape {
         MoveShape::Arc(arc) => {
@@ -114,7 +114,7 @@ fn is_in_circle(it: &Move, cutter: f64, recent: &VecDeque<(u32, Move)>) -> bool 
         MoveShape::Line => None,
     };
     let turned: f64 = recent.iter().rev().map_while(angle).sum();
-    turned >= TAU - EXACT && radius <= cutter / 2.0 + EXACT && from_centre(&it.to) <= radius + EXACT
+    turned >= TAU - EXACT && radius <= cutter / 2.0 + EXACT && from_centre(&movement.to) <= radius + EXACT
 }
 
 /// Positions in mm and angles that differ by less than this are equal.
@@ -136,7 +136,7 @@ struct Moves<'d>(&'d toolpath::Program);
 
 impl Program for Moves<'_> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
-        self.0.moves().for_each(|(line, it)| take(&Step::of_move(line, it)));
+        self.0.moves().for_each(|(line, movement)| take(&Step::of_move(line, movement)));
     }
 }
 
@@ -153,8 +153,8 @@ struct Near<'d> {
 }
 
 impl Near<'_> {
-    fn is_near(&self, it: &Move) -> bool {
-        let own = sides(it).map(|(low, high)| (low - self.reach, high + self.reach));
+    fn is_near(&self, movement: &Move) -> bool {
+        let own = sides(movement).map(|(low, high)| (low - self.reach, high + self.reach));
         let meets =
             |place: &Sides| own.iter().zip(place).all(|(own, place)| own.0 <= place.1 && place.0 <= own.1);
         self.places.as_ref().is_none_or(|places| places.iter().any(meets))
@@ -163,14 +163,14 @@ impl Near<'_> {
 
 impl Program for Near<'_> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
-        let near = self.drawn.moves().filter(|(_, it)| self.is_near(it));
-        near.for_each(|(line, it)| take(&Step::of_move(line, it)));
+        let near = self.drawn.moves().filter(|(_, movement)| self.is_near(movement));
+        near.for_each(|(line, movement)| take(&Step::of_move(line, movement)));
     }
 }
 
 /// The bounding box of a move. The moves of a drawing are known in all axes.
-fn sides(it: &Move) -> Sides {
-    let [across, up, _] = it.extent();
+fn sides(movement: &Move) -> Sides {
+    let [across, up, _] = movement.extent();
     [across, up].map(|side| side.unwrap_or((f64::NEG_INFINITY, f64::INFINITY)))
 }
 
@@ -251,9 +251,9 @@ impl Tops {
 type Cut = ([(f64, f64); 2], f64);
 
 fn cuts(drawn: &toolpath::Program, stock: &Stock) -> impl Iterator<Item = Cut> {
-    drawn.moves().filter_map(|(line, it)| {
-        let piece = cutting_piece(line, &it, stock)?;
-        let [Some((left, right)), Some((low, high)), _] = it.extent() else { return None };
+    drawn.moves().filter_map(|(line, movement)| {
+        let piece = cutting_piece(line, &movement, stock)?;
+        let [Some((left, right)), Some((low, high)), _] = movement.extent() else { return None };
         let cutter = piece.cutter.diameter;
         Some(([(left - cutter, right + cutter), (low - cutter, high + cutter)], piece.surface))
     })

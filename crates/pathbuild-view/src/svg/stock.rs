@@ -47,7 +47,7 @@ pub(super) struct MilledStock<'s> {
     blanks: Vec<Blank>,
     strokes: Vec<Stroke>,
     /// Pieces of rapid moves that hit material.
-    hits: Vec<Swept>,
+    hits: Vec<SweptArea>,
     /// Highest upper face and deepest cut.
     range: [f64; 2],
     /// Whether corners that the cutter does not reach are filled: the findings of the scene name some, or the caller asks for it.
@@ -57,16 +57,16 @@ pub(super) struct MilledStock<'s> {
 /// A rectangle of stock, and its upper face.
 type Blank = ([Point; 2], f64);
 
-/// A way of a cutter in the coordinates of the drawing.
+/// Area swept by a cutter, in the coordinates of the drawing.
 #[derive(Clone, Copy)]
-struct Swept {
+struct SweptArea {
     way: Move,
     diameter: f64,
 }
 
 /// A stroke to paint. Higher strokes are painted first, and an edge before the cuts at the same height.
 struct Stroke {
-    swept: Swept,
+    swept: SweptArea,
     z: f64,
     kind: StrokeKind,
     /// Colour used instead of that of its depth.
@@ -147,7 +147,8 @@ impl<'s> MilledStock<'s> {
         blanks.sort_by(|one, other| one.1.total_cmp(&other.1));
         let top = blanks.last().map_or(low, |(_, top)| *top);
         let step = ((top - low) / STEPS).max(1e-3);
-        let mut strokes: Vec<Stroke> = cuts.iter().flat_map(|(way, of)| strokes(way, of, step)).collect();
+        let mut strokes: Vec<Stroke> =
+            cuts.iter().flat_map(|(way, setting)| strokes(way, setting, step)).collect();
         sort(&mut strokes);
         let blank = if let [blank] = blanks[..] { Some(blank) } else { None };
         let hits = scene.paths.iter().flat_map(|path| hits(scene, path, blank)).collect();
@@ -183,7 +184,7 @@ impl<'s> MilledStock<'s> {
 
     /// Leaves out everything outside of an area.
     pub(super) fn near(mut self, [low, high]: [Point; 2]) -> Self {
-        let is_near = |swept: &Swept| {
+        let is_near = |swept: &SweptArea| {
             let radius = swept.diameter / 2.0;
             let sides = swept.way.extent().into_iter().zip(low.into_iter().zip(high));
             sides.into_iter().all(|(side, (low, high))| {
@@ -448,7 +449,7 @@ fn strokes(way: &Move, setting: &Setting, step: f64) -> Vec<Stroke> {
         } else {
             (rounded(z), StrokeKind::Edge, StrokeKind::Cut)
         };
-        let swept = Swept { way, diameter };
+        let swept = SweptArea { way, diameter };
         strokes.extend(has_edge.then_some(Stroke { swept, z, kind: edge, mark: None }));
         strokes.push(Stroke { swept, z, kind, mark: None });
     };
@@ -485,7 +486,7 @@ fn rounded(z: f64) -> f64 {
 }
 
 /// The pieces of rapid moves of a path that hit material. Without a common blank, it is only known near cuts.
-fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<Swept> {
+fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<SweptArea> {
     let settings: Vec<Option<Setting>> =
         path.moves.iter().map(|movement| setting(scene, path, movement)).collect();
     let highest = settings.iter().flatten().map(|setting| setting.top).fold(f64::NEG_INFINITY, f64::max);
@@ -498,7 +499,7 @@ fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<Swept> {
     }
     let (mut spans, mut steps, mut swept) = (Vec::new(), Vec::new(), Vec::new());
     if let Some((way, span)) = blank.map(|blank| touch(blank, path.zero)) {
-        swept.push(Swept { way, diameter: 0.0 });
+        swept.push(SweptArea { way, diameter: 0.0 });
         steps.push(Step::of_move(span.line, way));
         spans.push(span);
     }
@@ -511,7 +512,7 @@ fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<Swept> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
         let count = if is_low(movement) && !movement.way.is_vertical() { count as u32 } else { 1 };
         for way in movement.way.split(count) {
-            swept.push(Swept { way: moved(&way, path.zero), diameter: setting.diameter });
+            swept.push(SweptArea { way: moved(&way, path.zero), diameter: setting.diameter });
             steps.push(Step::of_move(line(steps.len()), way));
         }
     }

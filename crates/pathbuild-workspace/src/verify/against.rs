@@ -38,7 +38,7 @@ pub(super) struct ReferenceProgram {
 }
 
 /// The program that a definition writes for a path.
-pub(super) struct Rewritten {
+pub(super) struct RewrittenProgram {
     /// The first line of the program that differs, and the expected line.
     other_line: Option<(u32, String)>,
     /// The first position that it states in all axes.
@@ -51,7 +51,7 @@ pub(super) struct Rewritten {
     is_read_back: bool,
 }
 
-impl Rewritten {
+impl RewrittenProgram {
     /// Whether the program has the same lines.
     pub(super) fn is_same(&self) -> bool {
         self.other_line.is_none()
@@ -108,7 +108,7 @@ impl ReferenceProgram {
         table: &ToolTable,
         dialect: Dialect,
         words: &'w PostWords,
-        rewritten: Option<&Rewritten>,
+        rewritten: Option<&RewrittenProgram>,
     ) -> verify::Against<'w, impl Iterator<Item = (u32, Move)>> {
         let clearance = self.drawn.start_height();
         let above_zero = Position::known(0.0, 0.0, clearance);
@@ -135,7 +135,7 @@ impl ReferenceProgram {
         program: &Program,
         lang: Lang,
         agreement: Agreement,
-        rewritten: Option<&Rewritten>,
+        rewritten: Option<&RewrittenProgram>,
     ) -> (Option<MoveComparison>, Vec<Diagnostic>) {
         let comparison = |equal, moves| {
             let (path, drawing) = ((*self.drawn.path).to_owned(), self.file.clone());
@@ -174,7 +174,7 @@ impl ReferenceProgram {
         settings: &Settings,
         writer: &PostProcessor,
         program: &Program,
-    ) -> Result<Rewritten, Vec<Diagnostic>> {
+    ) -> Result<RewrittenProgram, Vec<Diagnostic>> {
         let programs = std::slice::from_ref(&*self.drawn);
         let (job, _) = Job::from_programs(&self.drawn.path, programs, &writer.tools, writer.cycles);
         let text = writer.write(&job, None, &mut Vec::new())?.text;
@@ -190,7 +190,7 @@ impl ReferenceProgram {
         let start = begins.map(|index| all[index].1.to);
         let moves = all.into_iter().skip(begins.map_or(0, |index| index + 1)).collect();
         let other_line = writer.first_other_line(&program.text, &text);
-        Ok(Rewritten { other_line, start, moves, tool, is_read_back: !writer.is_unchecked() })
+        Ok(RewrittenProgram { other_line, start, moves, tool, is_read_back: !writer.is_unchecked() })
     }
 
     /// Whether the path has probes, and hence a probing run.

@@ -7,7 +7,7 @@ mod stock;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use against::{ReferenceProgram, Rewritten};
+use against::{ReferenceProgram, RewrittenProgram};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_diagnostic::messages::gcode::FEED_IGNORED;
@@ -317,7 +317,7 @@ impl<'v> Examination<'v> {
     }
 
     /// The drawing's program as the post-processor's definition writes it.
-    fn rewritten(&self) -> Result<Option<Rewritten>, Vec<Diagnostic>> {
+    fn rewritten(&self) -> Result<Option<RewrittenProgram>, Vec<Diagnostic>> {
         let definition = self.writer.filter(|writer| writer.file().is_some());
         let rewritten = self
             .milled
@@ -330,7 +330,7 @@ impl<'v> Examination<'v> {
     fn findings(
         &self,
         written: WrittenFindings,
-        rewritten: Option<&Rewritten>,
+        rewritten: Option<&RewrittenProgram>,
         blind: &mut Option<BlindRapidRules>,
     ) -> (Vec<Diagnostic>, Option<MoveComparison>) {
         let Self { verifier, program, .. } = self;
@@ -407,9 +407,9 @@ impl<'v> Examination<'v> {
 
     /// Doubts about the program's words. With a drawing to compare with, doubts about something that the drawing does not contain are
     /// errors.
-    fn doubts(&self, rewritten: Option<&Rewritten>, found: &mut [Diagnostic]) -> Vec<Diagnostic> {
+    fn doubts(&self, rewritten: Option<&RewrittenProgram>, found: &mut [Diagnostic]) -> Vec<Diagnostic> {
         let mut doubts = self.program.read.problems.clone();
-        if rewritten.is_some_and(Rewritten::is_same) {
+        if rewritten.is_some_and(RewrittenProgram::is_same) {
             // Doubts about the definition's words are reported when it writes them.
             let is_own = self.program.by_definition.is_none();
             doubts.retain(|doubt| doubt.is_error() && is_own || is_of_modes(doubt));

@@ -68,13 +68,13 @@ fn bit(context: &Context, library: &Utf8Path, name: &str) -> Result<String, Valu
 }
 
 /// A file with its description.
-type Described<'f> = (&'f Utf8Path, Description);
+type DescribedFile<'f> = (&'f Utf8Path, Description);
 
 /// Shows the values beside those of the configuration, and writes them if requested.
 fn compare(
     context: &Context,
     values: &[DescribedValue],
-    descriptions: &[Described<'_>],
+    descriptions: &[DescribedFile<'_>],
     write: bool,
 ) -> Result<(), Vec<Diagnostic>> {
     let file = configuration(context);
@@ -108,7 +108,7 @@ fn configuration(context: &Context) -> Utf8PathBuf {
     context.settings.file.clone().unwrap_or_else(|| join(&context.working_directory, FILE_NAME))
 }
 
-fn show(context: &Context, file: &Utf8Path, changes: &[Change], descriptions: &[Described<'_>]) {
+fn show(context: &Context, file: &Utf8Path, changes: &[Change], descriptions: &[DescribedFile<'_>]) {
     if context.format == Format::Json {
         for Change { table, key, old, new, source, is_new } in changes {
             let row = json!({ "table": table, "key": key, "old": old, "new": new, "from": source, "differs": is_new });
@@ -131,7 +131,7 @@ fn show(context: &Context, file: &Utf8Path, changes: &[Change], descriptions: &[
         }
         change_lines(&mut text, change);
     }
-    let has_unused = |(_, description): &&Described<'_>| !description.unused.is_empty();
+    let has_unused = |(_, description): &&DescribedFile<'_>| !description.unused.is_empty();
     for (file, Description { format, unused, .. }) in descriptions.iter().filter(has_unused) {
         // All tools of a library have the same entries: name each once.
         let mut names: Vec<&str> = Vec::new();
