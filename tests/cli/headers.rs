@@ -131,7 +131,7 @@ fn a_stock_block_gives_the_surface() {
     assert_eq!(codes(&slots(CARBIDE_CREATE, "G0 Z5\nG0 Y20\nG0 Z-0.1"), ""), ["PB741"]);
 }
 
-/// A program that is too large for the map was not examined at cutting depth, which is said; without such a rapid move there is nothing
+/// A program that is too large for the map was not examined at cutting depth, which is reported; without such a rapid move there is nothing
 /// to examine.
 #[test]
 fn what_is_too_large_to_doubt_is_told() {
@@ -218,7 +218,7 @@ fn a_required_check_that_was_not_made_is_an_error() {
     assert_eq!(required(&plain, "rapids"), ["PB523"]);
     assert_eq!(required(&plain, "rapids --cutter 6"), ["PB523"]);
     assert_eq!(required(&plain, "rapids --cutter 6 --surface 0"), [""; 0]);
-    // Comments do not suffice, unless that is said.
+    // Comments do not suffice, unless the option allows them.
     assert_eq!(required(&carbide_create, "rapids"), ["PB523"]);
     assert_eq!(required(&carbide_create, "rapids=assumed"), [""; 0]);
     assert_eq!(required(&plain, "rapids=assumed"), ["PB523"]);

@@ -1,4 +1,4 @@
-//! Mistakes of a draughtsman, each with what is said about it, word for word and in both languages.
+//! Mistakes of a draughtsman, each with its messages, word for word and in both languages.
 
 use insta::assert_snapshot;
 use pathbuild_testkit::sheet;

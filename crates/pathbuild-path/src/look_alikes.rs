@@ -28,14 +28,14 @@ pub(crate) fn replaced(text: &str) -> String {
     text.chars().map(|character| ascii(character).unwrap_or(character)).collect()
 }
 
-/// The first character of a text that looks like another one, as arguments of a message.
+/// The first look-alike in a text, as arguments of a message.
 pub(crate) fn first(text: &str) -> Option<Vec<(&'static str, Value)>> {
     let (character, plain) = text.chars().find_map(|character| Some((character, ascii(character)?)))?;
     let code = Value::quoted(format!("U+{:04X}", u32::from(character)));
     Some(vec![("character", character.into()), ("code", code), ("plain", plain.into())])
 }
 
-/// A problem with the first character of a text that looks like another one; `None` if there is none.
+/// A problem with the first look-alike in a text; `None` if there is none.
 pub(crate) fn problem(message: &'static Message, text: &str) -> Option<Diagnostic> {
     let mut problem = Diagnostic::new(message);
     problem.arguments.extend(first(text)?);

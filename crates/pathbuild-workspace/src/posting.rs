@@ -259,8 +259,8 @@ impl PostProcessor {
         self.file.as_deref().and_then(Utf8Path::file_name).unwrap_or_default().to_owned()
     }
 
-    /// The first line, from 1, in which a program differs from another one of this post, and the other one's line. Lines that contain only
-    /// a comment in both count as equal.
+    /// The first line, from 1, in which a program differs from another program of this post, and the line of the other one. Lines that
+    /// contain only a comment in both count as equal.
     pub fn first_other_line(&self, found: &[u8], expected: &[u8]) -> Option<(u32, String)> {
         self.post.first_other_line(found, expected)
     }

@@ -229,14 +229,14 @@ messages! {
         help_en: "delete it",
         help_de: "löschen",
     }
-    /// A circle on another one.
+    /// A circle drawn on top of another.
     CIRCLE_TWICE: LeftoverElement {
         en: "a circle of {diameter} mm diameter is drawn twice here: it is milled twice, and a text belongs to one of the two only",
         de: "hier ist ein Kreis von {diameter} mm Durchmesser doppelt gezeichnet: er wird zweimal gefräst, und ein Text gehört nur zu einem der beiden",
         help_en: "delete one of the two",
         help_de: "einen der beiden löschen",
     }
-    /// A milled line or arc on another one.
+    /// A milled line or arc drawn on top of another.
     CURVE_TWICE: LeftoverElement {
         en: "{element} at {point} is drawn twice: it is milled twice, and a text belongs to one of the two only",
         de: "{element} bei {point} ist doppelt gezeichnet: hier wird zweimal gefräst, und ein Text gehört nur zu einem der beiden",

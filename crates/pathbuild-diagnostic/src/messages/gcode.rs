@@ -1,4 +1,4 @@
-//! Messages about G-code: those about reading and interpreting it stand here, those about verifying it in a file of their own. (PB701 to
+//! Messages about G-code: those about reading and interpreting it are here, those about verifying it in `verify`. (PB701 to
 //! PB779; book: program/reading)
 //!
 //! `{dialect}` is the name of the dialect in which the file is read.

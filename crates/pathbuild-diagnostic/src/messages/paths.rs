@@ -70,14 +70,14 @@ messages! {
         help_en: "delete one of the two",
         help_de: "eines der beiden löschen",
     }
-    /// A leftover segment that touches another one where that has no end.
+    /// A leftover segment that touches another segment between its ends.
     NO_END_THERE: UnreachedSegments {
         en: "not all segments were reached; left: {left}; {element} at {point} lies on {other}, which does not end there",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; bei {point} liegen {element} und {other} übereinander, ohne dass dort ein Segment endet",
         help_en: "split the line or arc at {point}",
         help_de: "die Linie oder den Bogen bei {point} teilen",
     }
-    /// A leftover segment that touches another one of its kind between the ends of that one.
+    /// The same for a segment of the same kind.
     NO_END_THERE_ALIKE: UnreachedSegments {
         en: "not all segments were reached; left: {left}; {element} at {point} lies on another one, which does not end there",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; bei {point} trifft {element} auf ein anderes der gleichen Art, das dort nicht endet",

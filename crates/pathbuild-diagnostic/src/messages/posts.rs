@@ -514,7 +514,7 @@ messages! {
         help_en: "delete it, so that its output is not relied on",
         help_de: "ihn löschen, damit sich niemand auf seine Ausgabe verlässt",
     }
-    /// A text that another one replaces.
+    /// A text that is replaced by another and therefore never called.
     TEXT_NOT_CALLED: InvalidControlText {
         en: "{text} is never called, because the definition has {other}",
         de: "{text} wird nie aufgerufen, weil die Definition {other} hat",

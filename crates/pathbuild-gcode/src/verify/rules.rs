@@ -272,7 +272,7 @@ impl<'c> Rules<'c> {
     }
 }
 
-/// The words by which the operator of a machine without M6 is told to change the tool.
+/// The words that tell the operator of a machine without M6 to change the tool.
 #[derive(Clone, Copy, Debug, Default)]
 struct ChangeByHand {
     is_selected: bool,

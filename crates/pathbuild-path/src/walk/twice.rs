@@ -39,7 +39,7 @@ impl<'a> Curves<'a> {
         same.take(2).any(|(_, other)| *other != segment)
     }
 
-    /// PB121 for milled segments on another one of their kind, unless both have a text: then the user milled the same curve twice on
+    /// PB121 for milled segments on top of another of their kind, unless both have a text: then the user milled the same curve twice on
     /// purpose.
     pub(super) fn milled_twice(&self) -> Vec<Diagnostic> {
         let pairs = self.known.windows(2).filter(|pair| pair[0].0 == pair[1].0);

@@ -51,7 +51,7 @@ pub struct Request<'a> {
     pub task: Task,
     /// The post-processor to write programs through, instead of the configured one.
     pub post: Option<&'a str>,
-    /// What the post-processor is told; native programs take none of it.
+    /// Arguments for the post-processor; native programs ignore them.
     pub post_arguments: PostArguments,
     /// Joins all paths, in the order of the inputs, into one program of this name.
     pub join: Option<&'a str>,

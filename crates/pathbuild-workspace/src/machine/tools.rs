@@ -43,7 +43,7 @@ pub(super) fn read_table(text: &str, unit: Option<LengthUnit>) -> Result<Descrip
             Some(diameter) => tool.length("diameter", diameter, unit, "D"),
             None => tools.without_diameter(&tool),
         }
-        // The table does not tell the shape of the tip.
+        // The table does not contain the shape of the tip.
         tool.shape(None);
         let others = words.split_whitespace().filter(|word| !word.starts_with(['T', 'D']));
         tools.unused.extend(others.map(|word| {
