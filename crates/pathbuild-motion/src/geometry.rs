@@ -160,9 +160,15 @@ pub struct Arc {
 /// full circle, as in GRBL.
 const SAME_DIRECTION: f64 = 5e-7;
 
-/// Whether two directions that are this many radians apart are equal.
-pub fn is_same_direction(apart: f64) -> bool {
-    (apart - TAU * libm::round(apart / TAU)).abs() <= SAME_DIRECTION
+/// Rounding errors of angles that have been turned, in radians.
+const ROUNDING: f64 = 1e-12;
+
+/// Whether a drawn arc is a full circle, given its end minus its start in its direction, in radians: if they are equal, up to rounding,
+/// if it is hardly less than a whole turn, or hardly more than one. An arc of hardly any length, as trimming leaves it, is none.
+pub fn is_full_turn(ahead: f64) -> bool {
+    let beyond = ahead - TAU * libm::round(ahead / TAU);
+    let is_whole = beyond < 0.0 || ahead > PI;
+    beyond.abs() <= if is_whole { SAME_DIRECTION } else { ROUNDING }
 }
 
 /// The angle in radians from one direction to another in the direction of travel: greater than 0, and a full turn if they are equal.

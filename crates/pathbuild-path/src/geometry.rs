@@ -1,7 +1,7 @@
 //! Lines, arcs and circles in the plane, and the placement of embedded paths.
 
 use nalgebra::{Point2, UnitComplex, Vector2};
-use pathbuild_motion::is_same_direction;
+use pathbuild_motion::is_full_turn;
 
 use crate::approx::coincide;
 
@@ -117,12 +117,11 @@ impl Curve {
 }
 
 impl Arc {
-    /// An arc by its angles in degrees as drawn. If the angles are equal or differ by a whole turn, up to rounding, the arc is a full
-    /// circle.
+    /// An arc by its angles in degrees as drawn; a full circle according to [`is_full_turn`].
     pub fn from_angles(centre: Xy, radius: f64, start_angle: f64, end_angle: f64, clockwise: bool) -> Self {
         let ahead = if clockwise { start_angle - end_angle } else { end_angle - start_angle };
         let start = on_circle(centre, radius, start_angle);
-        if is_same_direction(ahead.to_radians()) {
+        if is_full_turn(ahead.to_radians()) {
             return Self { centre, radius, start, end: start, clockwise, degrees: 360.0 };
         }
         let (end, turns) = (on_circle(centre, radius, end_angle), ahead / 360.0);

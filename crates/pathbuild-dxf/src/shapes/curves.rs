@@ -8,7 +8,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use pathbuild_diagnostic::messages::drawing::SPLINE_NOT_UNDERSTOOD;
-use pathbuild_motion::is_same_direction;
+use pathbuild_motion::is_full_turn;
 
 use crate::faults::EntityError;
 use crate::fields::{BadGroup, Fields};
@@ -360,9 +360,9 @@ impl Ellipse {
     }
 }
 
-/// Range of the parameter: greater than 0, and a full turn if both ends are in the same direction.
+/// Range of the parameter: greater than 0, and a full turn according to [`is_full_turn`].
 fn sweep(start: f64, end: f64) -> f64 {
-    if is_same_direction(end - start) {
+    if is_full_turn(end - start) {
         return TAU;
     }
     let turn = libm::fmod(end - start, TAU);

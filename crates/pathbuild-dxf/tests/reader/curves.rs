@@ -174,6 +174,8 @@ fn a_full_turn_may_be_rounded() {
     }
     let drawing = approximated(&ellipse("40 0.4\n41 0\n42 6.283184"), 0.01);
     assert!(gap(&drawing) > 1e-6);
+    let remnant = approximated(&ellipse("40 0.4\n41 1\n42 1.000000001"), 0.01);
+    check(&remnant, 0.01, |part| on_ellipse(0.4, 1.0 + part * 1e-9));
 }
 
 #[test]

@@ -34,9 +34,9 @@ fn drawn(start: f64, end: f64) -> String {
     format!("0 ARC\n8 1234.1P\n10 10\n20 5\n40 3\n50 {start:?}\n51 {end:?}")
 }
 
-/// Directions less than 5e-7 radians (2.86e-5 degrees) apart are equal, as they are to the control that runs the program.
+/// A turn may be 5e-7 radians (2.86e-5 degrees) short of a whole one, or beyond it: the control that runs the program sees no difference.
 #[test]
-fn angles_that_differ_by_a_whole_turn_or_by_nothing_make_a_full_circle() {
+fn angles_a_whole_turn_or_nothing_apart_make_a_full_circle() {
     for (start, end) in [
         (218.2, 578.2),
         (218.2, 218.2),
@@ -44,15 +44,21 @@ fn angles_that_differ_by_a_whole_turn_or_by_nothing_make_a_full_circle() {
         (0.0, 720.0),
         (33.3, -326.7),
         (-360.0, 0.0),
-        (0.1, 0.1 + 2.8e-5),
+        (0.0, 360.0 + 2.8e-5),
         (0.1, 0.1 - 2.8e-5),
+        (0.1, 0.1 + 1e-11),
     ] {
         let arc = arc("0 NONE", &drawn(start, end));
         assert_eq!((arc.degrees, arc.end), (360.0, arc.start), "{start} {end}");
     }
-    for (start, end, degrees) in
-        [(0.1, 0.1 + 2.9e-5, 2.9e-5), (0.1, 0.1 - 2.9e-5, 360.0 - 2.9e-5), (350.0, 10.0, 20.0)]
-    {
+    // What trimming leaves of an arc is no circle.
+    for (start, end, degrees) in [
+        (0.1, 0.1 + 2.9e-5, 2.9e-5),
+        (0.1, 0.1 + 1e-10, 1e-10),
+        (360.0 - 1e-7, 0.0, 1e-7),
+        (0.1, 0.1 - 2.9e-5, 360.0 - 2.9e-5),
+        (350.0, 10.0, 20.0),
+    ] {
         let arc = arc("0 NONE", &drawn(start, end));
         assert!((arc.degrees - degrees).abs() < 1e-12, "{start} {end}: {}", arc.degrees);
         assert_ne!(arc.end, arc.start);
