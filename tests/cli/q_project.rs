@@ -285,3 +285,24 @@ fn nothing_is_said_against_a_q_project_with_errors() {
     let wrong = EMBEDDING.replace("T5", "T5x");
     expect(&[(EMBEDDING, &format!("{wrong} #! PB205"))], 1);
 }
+
+/// Users draw Q-projects by hand, too.
+#[test]
+fn a_drawing_of_the_user_is_not_overwritten() {
+    let place = written();
+    let name = "gear 1234_Q.dxf";
+    let ours = std::fs::read(place.path().join(name)).unwrap();
+    // A CAD program drops the comment at the beginning when it saves.
+    let saved = String::from_utf8(ours).unwrap().split_once("q-project\r\n").unwrap().1.to_owned();
+    let place = place.file(name, &saved);
+    assert_eq!(
+        place.run_with(&["q-project", "gear 1234.dxf"]).status,
+        Some(0),
+        "an earlier version wrote it"
+    );
+    let edited = saved.replacen("gear", "gears", 1).replacen("1234", "1235", 1);
+    let place = place.file(name, &edited);
+    let run = place.run_with(&["q-project", "gear 1234.dxf"]);
+    assert!(run.status != Some(0) && run.stderr.contains("PB004"), "{run}");
+    assert_eq!(place.read(name), edited);
+}

@@ -3,6 +3,7 @@
 
 use std::time::Duration;
 
+use crate::support::Place;
 use camino::Utf8Path;
 use pathbuild::report::summary;
 use pathbuild_db::system::OsSystem;
@@ -192,4 +193,26 @@ fn the_summary_counts_and_agrees_in_number() {
         summary(&many, 0, time, Lang::De),
         "2.014 Pfade in 2 Zeichnungen: 3 Fehler in 2 Zeichnungen, 2 Warnungen (0,4 s)"
     );
+}
+
+/// A slip of the fingers must not cost a drawing, a program or the configuration.
+#[test]
+fn no_report_replaces_a_source_or_a_program() {
+    let place =
+        Place::new().file("pathbuild.toml", "library = [\".\"]\n").file("a.dxf", "x").file("a.nc", "M30\n");
+    let commands = [
+        "check --report json=a.dxf",
+        "check --report json=a.NC",
+        "check --report html=pathbuild.toml",
+        "check --baseline a.dxf --update-baseline",
+        "verify a.nc --report json=a.nc",
+        "emit . --deps a.dxf",
+    ];
+    for command in commands {
+        let run = place.run(command);
+        assert!(run.stderr.contains("PB004") && run.stderr.contains("would be lost"), "{run}");
+    }
+    let kept = ["pathbuild.toml", "a.dxf", "a.nc"].map(|name| place.read(name));
+    assert_eq!(kept, ["library = [\".\"]\n", "x", "M30\n"]);
+    assert!(!place.path().join("a.NC").exists() || place.read("a.NC") == "M30\n");
 }

@@ -8,9 +8,13 @@ use std::io::Write;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_diagnostic::messages::files;
-use pathbuild_diagnostic::reasons::{IS_THERE, LEADS_OUT, NO_DIRECTORY, NOT_UTF_8, reason};
-use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_diagnostic::reasons::{
+    IS_THERE, LEADS_OUT, NAME_OF_CONFIGURATION, NAME_OF_DRAWING, NAME_OF_PROGRAM, NO_DIRECTORY, NOT_UTF_8,
+    reason,
+};
+use pathbuild_diagnostic::{Diagnostic, Text, Value};
 
+use crate::config::FILE_NAME;
 use crate::workspace::Workspace;
 
 /// A file other than a drawing that a result depends on.
@@ -96,6 +100,39 @@ fn write_whole(mut file: fs::File, content: &[u8]) -> std::io::Result<()> {
 
 fn already_there(file: &Utf8Path) -> Diagnostic {
     cannot_write(file, Value::Prose(&IS_THERE))
+}
+
+/// Atomically replaces a report or a baseline. Refuses a name under which a source or a program lies, or would lie.
+///
+/// # Errors
+/// A diagnostic with the reason why the file cannot be written.
+pub fn replace_report(context: &Workspace, file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
+    match name_of_source_or_program(context, file) {
+        Some(reason) => Err(Box::new(cannot_write(file, Value::Prose(reason)))),
+        None => replace(context, file, text),
+    }
+}
+
+/// Why a name belongs to a drawing or to the configuration in use, which no other output may replace. Judged by the name alone.
+pub fn name_of_source(context: &Workspace, file: &Utf8Path) -> Option<&'static Text> {
+    let is = |extension: &str| file.extension().is_some_and(|own| own.eq_ignore_ascii_case(extension));
+    let is_configuration = file.file_name().is_some_and(|name| name.eq_ignore_ascii_case(FILE_NAME))
+        || context.settings.file.as_deref() == Some(file);
+    if is("dxf") || is("dwg") {
+        return Some(&NAME_OF_DRAWING);
+    }
+    is_configuration.then_some(&NAME_OF_CONFIGURATION)
+}
+
+/// The same for outputs that are no programs, and must not replace one either.
+pub(crate) fn name_of_source_or_program(context: &Workspace, file: &Utf8Path) -> Option<&'static Text> {
+    name_of_source(context, file).or_else(|| is_program(file).then_some(&NAME_OF_PROGRAM))
+}
+
+/// Whether the file is a G-code program, by its extension.
+pub(crate) fn is_program(path: &Utf8Path) -> bool {
+    const EXTENSIONS: [&str; 6] = ["nc", "ngc", "gcode", "tap", "cnc", "din"];
+    path.extension().is_some_and(|own| EXTENSIONS.iter().any(|known| own.eq_ignore_ascii_case(known)))
 }
 
 /// Atomically replaces a file. A device or a pipe cannot be replaced and is written to directly.

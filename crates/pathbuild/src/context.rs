@@ -177,7 +177,7 @@ impl Context {
                 self.printer.document(Stream::Stdout, &text);
             } else {
                 let file = self.working_directory.join(&report.file);
-                failed.extend(files::replace(self, &file, text.as_str()).err().map(|fault| *fault));
+                failed.extend(files::replace_report(self, &file, text.as_str()).err().map(|fault| *fault));
             }
         }
         if failed.is_empty() { status } else { status.max(self.fail(failed)) }

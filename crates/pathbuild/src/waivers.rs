@@ -119,7 +119,7 @@ fn refusal(context: &Context, waiver: &Waiver, run: Option<RunDate>) -> Option<S
 }
 
 fn write(context: &Context, file: &Utf8Path, text: &str, outcome: &str) -> ExitStatus {
-    match files::replace(context, file, text) {
+    match files::replace_report(context, file, text) {
         Ok(()) => {
             context.printer.status(format_args!("{}: {outcome}", file.file_name().unwrap_or_default()));
             ExitStatus::Success

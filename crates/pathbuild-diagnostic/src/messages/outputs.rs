@@ -110,6 +110,13 @@ messages! {
         help_en: "check that it is no longer needed; emit --remove-stale removes such files",
         help_de: "prüfen, ob es noch gebraucht wird; emit --remove-stale entfernt solche Dateien",
     }
+    /// An output file that would no longer be written, unless another library wrote it.
+    STALE_OR_OF_OTHERS: StaleOutput {
+        en: "{name} was written earlier from a drawing that this library does not have",
+        de: "{name} wurde früher aus einer Zeichnung geschrieben, die diese Bibliothek nicht hat",
+        help_en: "the directory lies outside of the library, and the program may be another library's: if it is not, delete it",
+        help_de: "das Verzeichnis liegt außerhalb der Bibliothek, und das Programm gehört vielleicht zu einer anderen: sonst löschen",
+    }
     /// An output file that is older than the errors in its path.
     OLDER_OUTPUT: OlderOutput {
         en: "path {path} was not written, so {name} is out of date",

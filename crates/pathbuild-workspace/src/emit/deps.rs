@@ -5,11 +5,12 @@ use std::iter::repeat_n;
 
 use camino::Utf8Path;
 use pathbuild_db::Db;
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
+use pathbuild_diagnostic::{Diagnostic, Value};
 
 use super::outcome::cannot_write;
 use super::plan::Job;
+use crate::files::name_of_source_or_program;
 use crate::posting::PostProcessor;
 use crate::session::Session;
 
@@ -26,6 +27,9 @@ pub(super) fn write<'p>(
     let mut text = String::new();
     let post = post_processor.and_then(PostProcessor::file).map(|file| session.normal(file));
     let file = session.normal(file);
+    if let Some(reason) = name_of_source_or_program(session.workspace(), &file) {
+        return Some(cannot_write(file.as_str(), Value::Prose(reason)));
+    }
     for job in jobs {
         let outputs: Vec<&Utf8Path> = job.files.iter().map(|(_, path)| path.as_path()).collect();
         let inserted = job.outcome.iter().flat_map(|outcome| &outcome.inserted);

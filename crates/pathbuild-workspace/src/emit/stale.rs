@@ -36,6 +36,8 @@ struct StaleProgram {
 enum Reason {
     /// No path yields it any more.
     Left,
+    /// Its drawing is not in the library, but may be in another one that shares the output directory.
+    OfOthers,
     /// It was adjusted from a program that has changed since.
     Adjusted { clean: Utf8PathBuf },
     /// It is not the result of adjusting that program with the measured heights that it states.
@@ -51,6 +53,7 @@ impl StaleProgram {
         let name = |path: &Utf8Path| path.file_name().unwrap_or_default().to_owned();
         let problem = match &self.reason {
             Reason::Left => Diagnostic::new(&messages::STALE),
+            Reason::OfOthers => Diagnostic::new(&messages::STALE_OR_OF_OTHERS),
             Reason::Adjusted { clean } => {
                 Diagnostic::new(&messages::STALE_ADJUSTED).quoting("clean", name(clean))
             }
@@ -69,7 +72,7 @@ impl StaleProgram {
 
     /// Whether the path exists but has other moves now; a comparison reports such a program as out of date.
     fn is_outdated(&self) -> bool {
-        !matches!(self.reason, Reason::Left)
+        !matches!(self.reason, Reason::Left | Reason::OfOthers)
     }
 }
 
@@ -116,7 +119,7 @@ impl EarlierPrograms<'_> {
     ) -> StaleOutcome {
         let mut dealt = StaleOutcome::default();
         for stale in stale {
-            if !is_removed {
+            if !is_removed || matches!(stale.reason, Reason::OfOthers) {
                 diagnostics.push(stale.diagnostic());
                 dealt.outdated.extend(stale.is_outdated().then_some(stale.path));
                 continue;
@@ -276,8 +279,8 @@ impl<'a> StaleSearch<'a> {
             }
             _ => self.of_other_post(&path, &found, &title).or_else(|| {
                 let directory = path.parent().unwrap_or(Utf8Path::new(""));
-                let is_left = self.writers.are_gone(directory, &title, beside?.iter());
-                is_left.then_some(StaleProgram { path, reason: Reason::Left })
+                let reason = self.writers.gone(directory, &title, beside?.iter())?;
+                Some(StaleProgram { path, reason })
             }),
         }
     }
@@ -381,6 +384,8 @@ struct Writers {
     others: BTreeSet<Title>,
     /// Whether all drawings of the library, or beside the program, are known, so that any other drawing no longer exists.
     knows_all: bool,
+    /// Whether the output directory lies outside of the configuration's directory, where other libraries may use it.
+    is_shared: bool,
 }
 
 /// Title of a program, reduced for comparison.
@@ -419,28 +424,46 @@ impl Writers {
             idle: of_covered.filter(|title| !generated.contains(title)).collect(),
             covered: covered.iter().map(|drawing| written(drawing)).collect(),
             others: others.map(written).collect(),
-            knows_all: if has_library { problems.is_empty() } else { out_dir.is_none() },
+            knows_all: if has_library {
+                problems.is_empty() && session.missing_directories().is_empty()
+            } else {
+                out_dir.is_none()
+            },
+            is_shared: out_dir.as_ref().is_some_and(|directory| is_outside(session, directory)),
         }
     }
 
-    /// Whether no drawing yields this program any more, given that no path of the run does. `beside` lists the files in its directory.
-    fn are_gone<'n>(
+    /// Why a program that no path of the run yields is stale, if no other drawing yields it either. `beside` lists the files in its
+    /// directory.
+    fn gone<'n>(
         &self,
         directory: &Utf8Path,
         title: &str,
         mut beside: impl Iterator<Item = &'n str>,
-    ) -> bool {
+    ) -> Option<Reason> {
         let title = plain_title(title);
-        let Some(drawing) = native::drawing_of_title(&title) else { return false };
+        let drawing = native::drawing_of_title(&title)?;
         let named = |text: &str| (directory.to_owned(), text.to_owned());
         let drawing = named(drawing);
         let is_beside = beside.any(|name| plain_title(name) == drawing.1);
         if self.idle.contains(&named(&title)) || self.others.contains(&drawing) {
-            return false;
+            return None;
+        }
+        if self.covered.contains(&drawing) {
+            return Some(Reason::Left);
         }
         // A drawing that exists but is unknown to the run, such as an ignored one, is left alone.
-        self.covered.contains(&drawing) || (self.knows_all && !is_beside)
+        let is_gone = self.knows_all && !is_beside;
+        is_gone.then_some(if self.is_shared { Reason::OfOthers } else { Reason::Left })
     }
+}
+
+/// Whether a directory lies outside of that of the configuration.
+fn is_outside(session: &Session<'_>, directory: &Utf8Path) -> bool {
+    let workspace = session.workspace();
+    let own = session.normal(workspace.settings.directory().unwrap_or(&workspace.working_directory));
+    let rest = directory.strip_prefix(own);
+    !rest.is_ok_and(|rest| rest.is_relative() && !rest.starts_with(".."))
 }
 
 /// Programs in output directories, each of which is listed once.

@@ -21,6 +21,7 @@ use pathbuild_diagnostic::messages::{files as messages, outputs};
 use rayon::prelude::*;
 
 use super::Session;
+use crate::files::is_program;
 
 /// The programs that arguments name.
 #[derive(Debug, Default)]
@@ -130,12 +131,6 @@ impl Walk<'_> {
         }
         Ok((walked, count))
     }
-}
-
-/// Whether the file is a G-code program, by its extension.
-fn is_program(path: &Utf8Path) -> bool {
-    const EXTENSIONS: [&str; 6] = ["nc", "ngc", "gcode", "tap", "cnc", "din"];
-    path.extension().is_some_and(|own| EXTENSIONS.iter().any(|known| own.eq_ignore_ascii_case(known)))
 }
 
 /// The contents of a single directory.

@@ -429,7 +429,7 @@ fn missing_name(diagnostic: &Diagnostic) -> &str {
 
 impl Session<'_> {
     /// PB003 for each missing directory of the keys `library` and `search`.
-    pub(super) fn missing_directories(&self) -> Vec<Diagnostic> {
+    pub(crate) fn missing_directories(&self) -> Vec<Diagnostic> {
         let general = &self.context.settings.general;
         let library = self.missing("library", &general.library, &[FileKind::Directory, FileKind::File]);
         library.chain(self.missing("search", &general.search, &[FileKind::Directory])).collect()

@@ -1,9 +1,10 @@
 //! `pathbuild q-project`: writes a drawing that embeds all paths of another drawing. (book: language/q-projects)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::spelt;
+use pathbuild_db::system::{FileKind, spelt};
 use pathbuild_db::{Db, Role, Settings, SourceFile, check_file, path_names, q_project};
 use pathbuild_diagnostic::messages::{files, outputs};
+use pathbuild_diagnostic::reasons::DRAWN_BY_USER;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Value};
 use pathbuild_draw::EmbeddingPath;
 use pathbuild_path::{PathName, QProject, q_project_name};
@@ -160,7 +161,8 @@ fn dxf(planned: &[QProject], names: &[PathName]) -> Result<Vec<u8>, String> {
         let segments = path.lines.iter().map(|line| (line.length, line.text.as_str())).collect();
         paths.push(EmbeddingPath { layer: name.as_str(), parameters: &path.parameters, segments });
     }
-    pathbuild_draw::q_project(&paths).map_err(|reasons| reasons.join("; "))
+    let drawing = pathbuild_draw::q_project(&paths).map_err(|reasons| reasons.join("; "))?;
+    Ok([MARK, &drawing].concat())
 }
 
 fn write(
@@ -170,6 +172,9 @@ fn write(
     bytes: &[u8],
     count: usize,
 ) -> ExitStatus {
+    if is_of_user(session, output, bytes) {
+        return context.fail(vec![cannot_write(output, Value::Prose(&DRAWN_BY_USER))]);
+    }
     let state = match session.db().system().write(output, bytes) {
         Ok(written) => output_state(context, output, written),
         Err(reason) => return context.fail(vec![cannot_write(output, reason)]),
@@ -181,3 +186,15 @@ fn write(
     context.printer.status(format_args!("{output}: {state}, {count} {paths}"));
     ExitStatus::Success
 }
+
+/// Whether a drawing of this name exists that q-project did not write: it lacks the mark, which a CAD program drops when it saves, and is
+/// not what an earlier version wrote without it.
+fn is_of_user(session: &Session<'_>, output: &Utf8Path, bytes: &[u8]) -> bool {
+    let system = session.db().system();
+    let is_there = system.kind(output) == FileKind::File;
+    let is_ours = |old: Vec<u8>| old.starts_with(MARK) || bytes.strip_prefix(MARK) == Some(&old);
+    is_there && !system.head(output, bytes.len()).is_ok_and(is_ours)
+}
+
+/// First lines of every Q-project: a comment.
+const MARK: &[u8] = b"999\r\npathbuild q-project\r\n";
