@@ -471,3 +471,22 @@ fn names_of_paths_that_no_file_may_have_are_refused() {
         assert_eq!(run.status, Some(0), "{name}: {run}");
     }
 }
+
+/// A program names its cutter by the number alone.
+#[test]
+fn a_number_is_that_of_one_cutter() {
+    let tools = |other: &str| {
+        format!("[tool.a]\ndiameter = 2\nnumber = 5\nspindle = 12000\n[tool.b]\nnumber = 5\n{other}")
+    };
+    for other in ["diameter = 3", "diameter = 2\ncorner-radius = 1", "diameter = 2\nshape = \"other\""] {
+        let said = complaints(&tools(other));
+        assert!(
+            said.contains("PB003") && said.contains("`tool.b.number` is 5, the number of [tool.a]"),
+            "{said}"
+        );
+    }
+    let same = tools("diameter = 2\npaths = 'S$'\nspindle = 3000");
+    assert_eq!(Place::new().file("pathbuild.toml", same).run("config show").status, Some(0));
+    let others = tools("diameter = 3").replace("number = 5\ndiameter = 3", "number = 6\ndiameter = 3");
+    assert_eq!(Place::new().file("pathbuild.toml", others).run("config show").status, Some(0));
+}

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::conformance::recorded::{self, Form, Run, What};
-use crate::support::{self, Place, runs, shown};
+use crate::support::{self, Place, dxf, runs, shown};
 use insta::assert_snapshot;
 use rayon::prelude::*;
 
@@ -570,4 +570,53 @@ end 40,0.01
         ]
     );
     assert_snapshot!("farther apart is a gap", place("20.011").run("emit 1234.1P.dxf"));
+}
+
+/// What trimming leaves of an arc is no full circle. (PB121)
+#[test]
+fn the_remnant_of_an_arc_is_not_milled_as_a_circle() {
+    let drawing = |end: &str| {
+        dxf(&format!(
+            "layer 1234.1P\nstart 0,0 \"T5 O2 I5 B0 S10 MAl\"\nmill 0,0 20,0\nmill arc 20,0 to 20,{end} centre 30,0\nmill 20,{end} 40,0\nend 40,0"
+        ))
+    };
+    for (end, is_circle) in [("0", true), ("-0.0000001745", false), ("-0.00000001745", false)] {
+        let place = Place::new()
+            .file("pathbuild.toml", "feed = 150\nrapid = 1000\n")
+            .file("1234.1P.dxf", drawing(end));
+        let run = place.run("emit 1234.1P --format concise");
+        assert_eq!(run.stderr.contains("PB121"), !is_circle, "{run}");
+        let program = place.read("1234.1P_Milling.gcode");
+        // The end of a full circle is its start.
+        let closes = |line: &str| line.starts_with("G03") && line.contains("X20.000 Y0.000");
+        assert_eq!(program.lines().any(closes), is_circle, "{end}: {program}");
+    }
+}
+
+/// A network drive may be away for a while.
+#[test]
+fn nothing_is_stale_while_a_directory_of_the_library_is_missing() {
+    let place = Place::of(LIBRARY);
+    place.run("emit --out-dir all");
+    fs::rename(place.path().join("projects"), place.path().join("away")).unwrap();
+    let run = place.run("emit --out-dir all --remove-stale");
+    assert!(run.stderr.contains("PB003") && !run.stderr.contains("stale"), "{run}");
+}
+
+/// Two libraries may write into one directory.
+#[test]
+fn programs_of_another_library_are_not_removed() {
+    let in_directory = |library: &str, directory: &str| {
+        let file = |line: &str| line.strip_prefix("== ").map(|name| format!("== {directory}/{name}\n"));
+        library.lines().map(|line| file(line).unwrap_or_else(|| format!("{line}\n"))).collect::<String>()
+    };
+    let other = ["1234", "1300", "8001", "8002"]
+        .iter()
+        .fold(LIBRARY.to_owned(), |text, name| text.replace(name, &format!("{}7{}", &name[..1], &name[2..])));
+    let place = Place::of(&(in_directory(LIBRARY, "one") + &in_directory(&other, "two")));
+    place.run_in("one", &["emit", "--out-dir", "../all"]);
+    let run = place.run_in("two", &["emit", "--out-dir", "../all", "--remove-stale", "--format", "concise"]);
+    assert!(run.stderr.contains("PB520") && !run.stderr.contains("removed"), "{run}");
+    let within = place.run_in("two", &["emit", "--out-dir", "all", "--format", "concise"]);
+    assert!(!within.stderr.contains("PB520"), "{within}");
 }

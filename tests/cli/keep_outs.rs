@@ -299,3 +299,43 @@ fn posts_and_verify_know_clamps() {
         assert!(refused.status == Some(1) && codes(&refused).contains(&"407".to_owned()), "{refused}");
     }
 }
+
+/// Joined paths are milled in one set-up.
+#[test]
+fn clamps_of_one_drawing_hold_for_joined_paths_of_others() {
+    let cut = |y: &str, sweep: &str, thickness: &str| {
+        dxf(&format!(
+            "layer 1300.1P\nstart 0,0 \"T{thickness} O2 I5 B0 S{sweep} MAl\"\nmill 0,0 0,{y}\nmill 0,{y} 50,{y}\nend 50,{y}"
+        ))
+    };
+    let emit = |y: &str, sweep: &str, thickness: &str| {
+        let place =
+            place(&path("21", "mill 0,0 10,0\nend 10,0")).file("1300.1P.dxf", cut(y, sweep, thickness));
+        let run = place.run("emit 1234.1P 1300.1P --join both --post linuxcnc --format concise");
+        assert_eq!(place.path().join("both_Milling.ngc").exists(), run.status == Some(0), "{run}");
+        run
+    };
+    let hit = emit("9.01", "21", "5");
+    assert_eq!(codes(&hit), ["407"], "{hit}");
+    assert!(hit.stderr.contains("in 1234.1P.dxf, which is 20 mm high: cut, lowest Z 0, moves: 1"), "{hit}");
+    assert_eq!(codes(&emit("9", "21", "5")), [""; 0]);
+    // All rapids between the paths are at the greater S.
+    assert_eq!(codes(&emit("9", "10", "5")), [""; 0]);
+    assert_eq!(codes(&emit("9", "21", "6")), ["211"]);
+}
+
+#[test]
+fn rapids_between_joined_paths_avoid_clamps() {
+    let emit = |sweep: &str| {
+        let first = path(sweep, "mill 0,0 0,15\nmill 0,15 -5,15\nend -5,15");
+        let far = format!(
+            "layer 1300.1P\nstart 0,0 \"T5 O2 I5 B0 S{sweep} MAl\"\nmill 0,0 0,-5\nmill 0,-5 50,-5\nmill 50,-5 50,30\nend 50,30"
+        );
+        let place = place(&first).file("1300.1P.dxf", dxf(&far));
+        place.run("emit 1300.1P 1234.1P --join both --post linuxcnc --format concise")
+    };
+    let hit = emit("19.99");
+    assert_eq!(codes(&hit), ["407"], "{hit}");
+    assert!(hit.stderr.contains("rapid move, lowest Z 19.99, moves: 1"), "{hit}");
+    assert_eq!(codes(&emit("20")), [""; 0]);
+}

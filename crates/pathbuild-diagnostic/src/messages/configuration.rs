@@ -111,6 +111,13 @@ messages! {
         help_en: "remove it: output that cannot be read back is then an error",
         help_de: "entfernen: eine Ausgabe, die sich nicht zurücklesen lässt, ist dann ein Fehler",
     }
+    /// A number of two different cutters.
+    NUMBER_SHARED: InvalidConfiguration {
+        en: "`{key}` is {number}, the number of [{other}], which is another cutter",
+        de: "`{key}` ist {number}, die Nummer von [{other}], das ein anderer Fräser ist",
+        help_en: "give each cutter a number of its own: programs name the tool by its number, and change it where the number changes",
+        help_de: "jedem Fräser eine eigene Nummer geben: Programme nennen das Werkzeug mit seiner Nummer und wechseln es, wo sich die Nummer ändert",
+    }
     /// A missing directory.
     NO_DIRECTORY: InvalidConfiguration {
         en: "`{key}` names {directory}, which is not a directory",

@@ -148,6 +148,13 @@ messages! {
         help_en: "write a value above 0, for example {example}",
         help_de: "einen Wert über 0 schreiben, zum Beispiel {example}",
     }
+    /// Joined paths with different T.
+    JOINED_THICKNESS: DoubtfulValue {
+        en: "T is {thickness} here, but {other} in path {path} of the same program: rapid moves of one may run through material of the other",
+        de: "T ist hier {thickness}, in Pfad {path} desselben Programms aber {other}: Eilgänge des einen können durch Material des anderen führen",
+        help_en: "join only paths whose plates do not overlap on the table, or give both the same T",
+        help_de: "nur Pfade verbinden, deren Platten auf dem Tisch nicht übereinanderliegen, oder beiden dasselbe T geben",
+    }
     /// A bottom far below the plate.
     BELOW_PLATE: DoubtfulValue {
         en: "B is {value}: {depth} mm below the plate",

@@ -147,6 +147,13 @@ messages! {
         help_en: "draw the probe at least half of O away from the outline, or move the clamp; for the straight rapids at S from probe to probe, raise S to {height} or more",
         help_de: "die Probe mindestens O/2 vom Umriss entfernt zeichnen oder das Spannmittel versetzen; für die geraden Eilgänge auf S von Probe zu Probe S auf {height} oder mehr erhöhen",
     }
+    /// A path of a joined program that moves into a clamp of another path's drawing.
+    JOINED_INTO_CLAMP: InsideKeepOut {
+        en: "joined with the other paths, the tool, O{tool}, hits the clamp of layer {layer} at {clamp} in {drawing}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
+        de: "mit den anderen Pfaden verbunden trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} bei {clamp} in {drawing}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
+        help_en: "the clamps of all drawings stand during the whole program: raise S above them, or write a program for each path",
+        help_de: "die Spannmittel aller Zeichnungen stehen während des ganzen Programms: S darüber anheben oder je Pfad ein Programm schreiben",
+    }
     /// A G-code program that moves into a clamp, reported at its line.
     LINE_INTO_CLAMP: InsideKeepOut {
         en: "here the tool, O{tool}, hits the clamp of layer {layer} at {clamp} of the program, which is {height} mm high: {what}, lowest Z {z}",

@@ -111,13 +111,15 @@ const UNCHECKED: ValueType<bool> = ValueType {
 /// Tools by name.
 pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
     read: |value, reader| {
-        let tools = entries(value, reader)?;
-        Some(
-            tools
-                .into_iter()
-                .filter_map(|entry| reader.within(entry.0.get_ref(), |reader| tool(entry, reader)))
-                .collect(),
-        )
+        let mut tools: Vec<Tool> = Vec::new();
+        for entry in entries(value, reader)? {
+            tools.extend(reader.within(entry.0.get_ref(), |reader| {
+                let tool = tool(entry, reader)?;
+                report_shared_number(&tool, entry, &tools, reader);
+                Some(tool)
+            }));
+        }
+        Some(tools)
     },
     show: |tools| inline(tools.iter().map(|tool| (&*tool.name, shown_tool(tool)))),
     schema: || {
@@ -280,6 +282,23 @@ fn tool((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Too
     }
     let prefix = format!("{}.", reader.key());
     reader.table(table, &prefix, |table| read_tool(name.get_ref(), table))
+}
+
+/// PB003 for a number that another cutter has: a program names its cutter by the number alone, so it would not be changed.
+fn report_shared_number(
+    tool: &Tool,
+    (_, value): Entry<'_, '_>,
+    others: &[Tool],
+    reader: &mut TomlReader<'_>,
+) {
+    let cutter = |tool: &Tool| (tool.diameter, tool.shape, tool.corner_radius);
+    let shared = others.iter().find(|other| other.number == tool.number && cutter(other) != cutter(tool));
+    let number = value.get_ref().as_table().and_then(|table| table.get("number"));
+    if let (Some(other), Some(number)) = (shared, number) {
+        let fault = reader.within("number", |reader| reader.fault(&messages::NUMBER_SHARED, number.span()));
+        let fault = fault.with("number", u64::from(tool.number.unwrap_or_default()));
+        reader.report(fault.quoting("other", format!("tool.{}", other.name)));
+    }
 }
 
 /// Reads a tool. Without a diameter it suits no path, so it is dropped.

@@ -13,6 +13,7 @@ use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
 use pathbuild_toolpath::{Correction, Outside, Program, ProgramStep, memory};
 
+use super::joined;
 use super::options::{OutputSettings, total};
 use super::outcome::ProgramOutcome;
 use super::plan::Job;
@@ -40,6 +41,7 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
     delivered.provenance = Some(provenance);
     let machine = settings.machine.as_ref();
     let unsafe_moves = programs.iter().find_map(|program| unsafe_moves(db, job, program, machine));
+    let unsafe_moves = unsafe_moves.or_else(|| unsafe_together(db, job, &programs));
     let result =
         unsafe_moves.map_or_else(|| outputs(db, job, &programs, &line, settings, &mut delivered), Err);
     let result = result.and_then(|mut outputs| {
@@ -95,6 +97,12 @@ fn unsafe_moves(
         problem.file = Some(job.drawing(db).path(db).clone());
         problem.path = Some(job.path.clone());
     }
+    (!errors.is_empty()).then_some(errors)
+}
+
+/// Errors of programs that are each right alone but cannot be joined.
+fn unsafe_together(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Vec<Diagnostic>> {
+    let errors = if programs.len() > 1 { joined::moves_into_clamps(db, job, programs) } else { Vec::new() };
     (!errors.is_empty()).then_some(errors)
 }
 
@@ -221,7 +229,8 @@ fn posted(
     let output = post_processor.write(&program, Some(path), &mut delivered.inserted);
     let output = output
         .map_err(|problems| problems.into_iter().map(|problem| in_job(problem, job)).collect::<Vec<_>>())?;
-    delivered.problems.extend(warnings.into_iter().chain(output.warnings).map(located));
+    let warnings = warnings.into_iter().chain(joined::differing_thickness(programs));
+    delivered.problems.extend(warnings.chain(output.warnings).map(located));
     delivered.notes.extend(output.notes);
     delivered.post_build = output.post_build.map(|command| (command, path.clone()));
     Ok(Output { kind: *kind, path: path.clone(), text: output.text })

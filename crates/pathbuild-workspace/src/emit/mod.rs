@@ -5,6 +5,7 @@
 mod build;
 mod comparison;
 mod deps;
+mod joined;
 mod options;
 mod outcome;
 mod plan;

@@ -1,0 +1,94 @@
+//! Checks programs that are joined into one: they share the plate and the clamps on the table. (book: language/keep-outs)
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use pathbuild_db::{Database, PlacedKeepOut, placed_keep_outs};
+use pathbuild_diagnostic::messages::{parameters, paths as messages};
+use pathbuild_diagnostic::{Diagnostic, Point, Text, words};
+use pathbuild_path::approx::near;
+use pathbuild_path::{Curve, KeepOutMap, Line, Way, Xy};
+use pathbuild_toolpath::{Program, kind_of_move, way};
+
+use super::plan::Job;
+
+/// PB211: a path whose material is not as thick as that of the first path.
+pub(super) fn differing_thickness(programs: &[Arc<Program>]) -> Option<Diagnostic> {
+    let (first, rest) = programs.split_first()?;
+    let other = rest.iter().find(|other| !near(other.thickness, first.thickness))?;
+    let problem = Diagnostic::new(&parameters::JOINED_THICKNESS).in_path(&other.path);
+    let problem = problem.with("thickness", other.thickness).with("other", first.thickness);
+    Some(problem.quoting("path", &*first.path))
+}
+
+/// PB407 for moves of one path into clamps of another path's drawing, and for rapid moves from one path to the next: one for each clamp,
+/// path and kind of move.
+pub(super) fn moves_into_clamps(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Vec<Diagnostic> {
+    let clamps = job.targets.iter().flat_map(|target| {
+        let drawing = target.file(db).path(db).file_name().unwrap_or_default().to_owned();
+        placed_keep_outs(db, *target).into_iter().map(move |clamp| (clamp, drawing.clone()))
+    });
+    let clamps: Vec<(PlacedKeepOut, String)> = clamps.collect();
+    if clamps.is_empty() {
+        return Vec::new();
+    }
+    let outlines = clamps.iter().map(|(clamp, _)| (clamp.placed.height, &*clamp.placed.outline));
+    let map = KeepOutMap::new(outlines);
+    let mut collisions = BTreeMap::new();
+    for (number, (program, traverse)) in programs.iter().zip(traverses(programs)).enumerate() {
+        let own =
+            program.moves().filter_map(|(_, movement)| Some((way(&movement)?, kind_of_move(&movement))));
+        let ways = traverse.into_iter().map(|traverse| (traverse, &words::RAPID_MOVE)).chain(own);
+        for (way, what) in ways {
+            for clamp in map.entered(&way, program.largest_cutter() / 2.0, 0.0) {
+                let collision = collisions.entry((number, clamp, what.en));
+                let collision = collision.or_insert(Collision { what, moves: 0, lowest: f64::INFINITY });
+                collision.moves += 1;
+                collision.lowest = collision.lowest.min(way.lowest());
+            }
+        }
+    }
+    let diagnostic = |((number, clamp, _), collision): (&(usize, usize, _), &Collision)| {
+        let (clamp, drawing) = &clamps[*clamp];
+        collision
+            .diagnostic(&programs[*number], clamp, drawing)
+            .in_file(job.targets[*number].file(db).path(db))
+    };
+    collisions.iter().map(diagnostic).collect()
+}
+
+/// The rapid move to the start of each program, at the greatest S of all of them; none to that of the first.
+fn traverses(programs: &[Arc<Program>]) -> impl Iterator<Item = Option<Way>> {
+    let clearance = programs.iter().map(|program| program.sweep_height).fold(f64::NEG_INFINITY, f64::max);
+    let ends = programs
+        .iter()
+        .map(|program| program.moves().last().map(|(_, last)| Xy::new(last.to.x(), last.to.y())));
+    let traverse = move |start: Xy| Way {
+        curve: Curve::Line(Line { start, end: Xy::origin() }),
+        from_z: clearance,
+        to_z: clearance,
+    };
+    std::iter::once(None).chain(ends.map(move |end| end.map(traverse)))
+}
+
+/// Moves of one kind into one clamp: their number, and their lowest Z in mm.
+struct Collision {
+    what: &'static Text,
+    moves: u64,
+    lowest: f64,
+}
+
+impl Collision {
+    fn diagnostic(&self, program: &Program, clamp: &PlacedKeepOut, drawing: &str) -> Diagnostic {
+        Diagnostic::new(&messages::JOINED_INTO_CLAMP)
+            .in_path(&program.path)
+            .with("tool", program.largest_cutter())
+            .quoting("layer", clamp.drawn.layer.as_str())
+            .quoting("drawing", drawing)
+            .with("clamp", Point::new(clamp.drawn.at.x, clamp.drawn.at.y))
+            .with("height", clamp.placed.height)
+            .with("what", self.what)
+            .with("z", self.lowest)
+            .with("count", self.moves)
+    }
+}
