@@ -195,7 +195,7 @@ fn the_summary_counts_and_agrees_in_number() {
     );
 }
 
-/// A slip of the fingers must not cost a drawing, a program or the configuration.
+/// A typing error must not overwrite a drawing, a program or the configuration.
 #[test]
 fn no_report_replaces_a_source_or_a_program() {
     let place =

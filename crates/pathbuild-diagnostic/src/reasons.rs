@@ -13,11 +13,11 @@ words! {
     NO_DIRECTORY: "there is no such directory", "das Verzeichnis gibt es nicht";
     /// The file would be overwritten.
     IS_THERE: "it is there already", "sie ist schon da";
-    /// A report or the like with the name of a drawing.
+    /// A report or similar output with the name of a drawing.
     NAME_OF_DRAWING: "it has the name of a drawing, which would be lost", "sie heißt wie eine Zeichnung, die verloren ginge";
-    /// A report or the like with the name of a program.
+    /// A report or similar output with the name of a program.
     NAME_OF_PROGRAM: "it has the name of a G-code program, which would be lost", "sie heißt wie ein G-Code-Programm, das verloren ginge";
-    /// A report or the like with the name of the configuration.
+    /// A report or similar output with the name of the configuration.
     NAME_OF_CONFIGURATION: "it is the configuration, which would be lost", "sie ist die Konfiguration, die verloren ginge";
     /// A drawing that q-project would overwrite, although it did not write it.
     DRAWN_BY_USER: "the drawing there was not written by q-project, or was edited since: rename it, or give another name with -o", "die Zeichnung dort stammt nicht von q-project oder wurde seither bearbeitet: sie umbenennen oder mit -o einen anderen Namen angeben";

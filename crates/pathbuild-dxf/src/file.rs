@@ -165,7 +165,7 @@ fn not_dxf(bytes: &[u8]) -> Fatal {
     Box::new(Diagnostic::new(&NOT_DXF).with("found", kind_of_file(bytes)).at_line(1, None))
 }
 
-/// Guesses from its first bytes what a file that is not DXF is.
+/// Guesses the kind of a file that is not DXF from its first bytes.
 fn kind_of_file(bytes: &[u8]) -> &'static Text {
     static DWG: Text = Text { en: "a DWG drawing", de: "eine DWG-Zeichnung" };
     static BLANK: Text = Text { en: "nothing but blanks", de: "nur Leerraum" };

@@ -163,8 +163,9 @@ const SAME_DIRECTION: f64 = 5e-7;
 /// Rounding errors of angles that have been turned, in radians.
 const ROUNDING: f64 = 1e-12;
 
-/// Whether a drawn arc is a full circle, given its end minus its start in its direction, in radians: if they are equal, up to rounding,
-/// if it is hardly less than a whole turn, or hardly more than one. An arc of hardly any length, as trimming leaves it, is none.
+/// Whether a drawn arc is a full circle. `ahead` is its end minus its start in its direction, in radians: for a full circle, 0 up to
+/// rounding, slightly less than a whole turn, or slightly more. The remnant of a trimmed arc, which has hardly any length, is not a full
+/// circle.
 pub fn is_full_turn(ahead: f64) -> bool {
     let beyond = ahead - TAU * libm::round(ahead / TAU);
     let is_whole = beyond < 0.0 || ahead > PI;

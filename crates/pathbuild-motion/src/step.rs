@@ -88,7 +88,7 @@ pub enum WordEffect {
     Followed,
     /// It selects a coordinate system that the control may not have.
     System,
-    /// It goes to a machine position or refers to machine zero, neither of which a program tells.
+    /// It goes to a machine position or refers to machine zero, neither of which a program states.
     Place,
     /// It runs a subprogram of the file; the subprogram's steps come next.
     Call,

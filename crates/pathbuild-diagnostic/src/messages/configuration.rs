@@ -113,8 +113,8 @@ messages! {
     }
     /// A number of two different cutters.
     NUMBER_SHARED: InvalidConfiguration {
-        en: "`{key}` is {number}, the number of [{other}], which is another cutter",
-        de: "`{key}` ist {number}, die Nummer von [{other}], das ein anderer Fräser ist",
+        en: "`{key}` is {number}, but [{other}], a different cutter, already has this number",
+        de: "`{key}` ist {number}, aber [{other}], ein anderer Fräser, hat diese Nummer schon",
         help_en: "give each cutter a number of its own: programs name the tool by its number, and change it where the number changes",
         help_de: "jedem Fräser eine eigene Nummer geben: Programme nennen das Werkzeug mit seiner Nummer und wechseln es, wo sich die Nummer ändert",
     }

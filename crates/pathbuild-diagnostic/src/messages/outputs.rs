@@ -114,8 +114,8 @@ messages! {
     STALE_OR_OF_OTHERS: StaleOutput {
         en: "{name} was written earlier from a drawing that this library does not have",
         de: "{name} wurde früher aus einer Zeichnung geschrieben, die diese Bibliothek nicht hat",
-        help_en: "the directory lies outside of the library, and the program may be another library's: if it is not, delete it",
-        help_de: "das Verzeichnis liegt außerhalb der Bibliothek, und das Programm gehört vielleicht zu einer anderen: sonst löschen",
+        help_en: "the directory lies outside of the library, so another library may have written the program: if not, delete it",
+        help_de: "das Verzeichnis liegt außerhalb der Bibliothek, vielleicht hat eine andere Bibliothek das Programm geschrieben: sonst löschen",
     }
     /// An output file that is older than the errors in its path.
     OLDER_OUTPUT: OlderOutput {

@@ -151,7 +151,7 @@ messages! {
     JOINED_INTO_CLAMP: InsideKeepOut {
         en: "joined with the other paths, the tool, O{tool}, hits the clamp of layer {layer} at {clamp} in {drawing}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
         de: "mit den anderen Pfaden verbunden trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} bei {clamp} in {drawing}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
-        help_en: "the clamps of all drawings stand during the whole program: raise S above them, or write a program for each path",
+        help_en: "the clamps of all drawings are mounted during the whole program: raise S above them, or write a program for each path",
         help_de: "die Spannmittel aller Zeichnungen stehen während des ganzen Programms: S darüber anheben oder je Pfad ein Programm schreiben",
     }
     /// A G-code program that moves into a clamp, reported at its line.

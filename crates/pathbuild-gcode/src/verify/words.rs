@@ -25,7 +25,7 @@ pub struct PostWords {
     pub(super) lead: BTreeMap<Group, u16>,
     /// Whether it writes T.
     pub(super) chooses_tools: bool,
-    /// The words by which it goes to machine positions before the first cut.
+    /// The words with which it moves to machine positions before the first cut.
     first_places: BTreeSet<u16>,
     /// The greatest feed of its rapid moves in mm/min, if it depends on F.
     pub(super) rapid_feed: Option<f64>,

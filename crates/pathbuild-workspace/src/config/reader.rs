@@ -157,7 +157,7 @@ impl<'a> TomlReader<'a> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// What was found in a value; reports `None` as not what is expected.
+    /// Returns `found`, or reports that the value is not what is expected.
     pub(super) fn require<T>(
         &mut self,
         found: Option<T>,

@@ -123,7 +123,7 @@ const READING: [&str; 4] = ["approximate-curves", "compatible", "line-types", "u
 /// Keys that decide how drawn elements are followed. They count where nothing else explains the moves.
 const WALKING: [&str; 2] = ["compatible", "join-tolerance"];
 
-/// Keys of which elements take values that no text gives.
+/// Keys whose values apply to elements without a value in a text.
 const DEFAULTS: [&str; 3] = ["feed", "probe-feed", "sweep-height"];
 
 /// The keys that can change moves, with values that differ.

@@ -100,7 +100,7 @@ fn unsafe_moves(
     (!errors.is_empty()).then_some(errors)
 }
 
-/// Errors of programs that are each right alone but cannot be joined.
+/// Errors of programs that are correct on their own but cannot be joined.
 fn unsafe_together(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Vec<Diagnostic>> {
     let errors = if programs.len() > 1 { joined::moves_into_clamps(db, job, programs) } else { Vec::new() };
     (!errors.is_empty()).then_some(errors)

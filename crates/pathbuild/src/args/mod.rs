@@ -97,7 +97,7 @@ pub enum Command {
     Init(DeferredArgs<InitArgs>),
     /// Show the configuration
     Config(DeferredArgs<ConfigArgs>),
-    /// Take over what a controller or a CAM program knows about the machine
+    /// Import machine settings from a controller, and tools from a CAM program
     Machine(DeferredArgs<MachineArgs>),
     /// Print a completion script for a shell
     Completions(DeferredArgs<CompletionsArgs>),
@@ -338,8 +338,8 @@ const COMMANDS: &[(&str, &str)] = &[
     ),
     ("Show the configuration", "Zeigt die Konfiguration"),
     (
-        "Take over what a controller or a CAM program knows about the machine",
-        "Übernimmt, was eine Steuerung oder ein CAM-Programm über die Maschine weiß",
+        "Import machine settings from a controller, and tools from a CAM program",
+        "Übernimmt Maschinendaten und Werkzeuge aus Steuerung oder CAM-Programm",
     ),
     ("Print a completion script for a shell", "Gibt ein Skript aus, mit dem eine Shell Eingaben ergänzt"),
     ("Print the manual page", "Gibt die Handbuchseite (man) aus"),

@@ -157,7 +157,7 @@ fn texts(option: &SettingOption, matches: &ArgMatches) -> Option<Vec<String>> {
     matches.get_many::<String>(option.name).map(|texts| texts.cloned().collect())
 }
 
-/// What is accepted, and what is to be accepted from now on.
+/// Accepted findings, and findings to accept from now on.
 #[derive(Clone, Debug, Default, Args)]
 pub struct WaiverArgs {
     /// Report only findings that are not in this file (default: pathbuild-baseline.txt beside pathbuild.toml)

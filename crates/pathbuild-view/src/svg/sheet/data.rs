@@ -146,7 +146,7 @@ pub(super) fn feeds(sheet: &Sheet, is_meant: impl Fn(MoveKind) -> bool) -> Vec<f
 pub(super) struct RapidHeights {
     /// Of moves in the plane, in ascending order.
     pub(super) across: Vec<f64>,
-    /// The number of these below the upper face of the material. They lead through what is milled already.
+    /// Number of these heights below the upper face of the material, where moves lead through areas already milled.
     pub(super) inside: usize,
     /// The lowest end of moves straight down.
     pub(super) down: Option<f64>,
