@@ -139,7 +139,8 @@ fn stray_text(
     Some(at_entity(drawing, entity, text.anchor(), problem.in_path(path.name.as_str())))
 }
 
-/// Whether a text consists of letters with numbers or variables, and perhaps a remark with Q, including a letter that spoils a part if it is missing.
+/// Whether a text consists of letters with numbers or variables, and perhaps a remark with Q, including a letter
+/// whose absence would spoil a part.
 fn is_weighty(text: ParameterText<'_>) -> bool {
     let is_number = |written: ValueKind| matches!(written, ValueKind::Number(_) | ValueKind::Reference);
     text.letters.has_any(WEIGHTY)

@@ -29,9 +29,9 @@ class Local implements Source {
   private statistics: Statistics | null = null;
   private hear: () => void = () => {};
   private told = 0;
-  /** Until all paths are listed nobody knows what there is to see. */
+  /** Resolves when all paths are listed; only then is it known what can be shown. */
   private listed: Promise<void> = Promise.resolve();
-  /** Until all are checked. */
+  /** Resolves when all paths are checked. */
   private settled: Promise<void> = Promise.resolve();
 
   constructor(

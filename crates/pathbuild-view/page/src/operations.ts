@@ -18,7 +18,7 @@ export interface Operation {
   tool: number | null;
 }
 
-/** Beyond so many operations without names, a table of them helps nobody. */
+/** Upper bound on operations without names: a longer table of them is of no use. */
 export const MOST_OPERATIONS = 2000;
 
 export function operations(model: Model, timeline: Timeline): Operation[] {

@@ -1,5 +1,5 @@
-//! Builds the catalogue to be stored: results that still hold keep their facts, new results get current ones. Also the facts about drawings by
-//! themselves, of an earlier run or read now.
+//! Builds the catalogue to be stored: results that still hold keep their facts, new results get current ones. It also contains
+//! facts about the drawings themselves, from an earlier run or newly read.
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap, HashSet};
