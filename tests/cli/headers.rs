@@ -226,6 +226,22 @@ fn a_required_check_that_was_not_made_is_an_error() {
 }
 
 #[test]
+fn speeds_are_checked_only_if_the_spindle_starts() {
+    let codes = |text: &str| {
+        let place = Place::new().file("a.nc", text);
+        let place = place.file("pathbuild.toml", "[machine]\nspindle-speeds = [5000, 24000]\n");
+        codes_of(&place.run("verify a.nc --dialect linuxcnc --format concise --require spindle"))
+    };
+    let program =
+        |spindle: &str| format!("G17 G21 G90 G94\n{spindle}\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG0 Z5\nM30\n");
+    assert_eq!(codes(&program("S12000 M3")), [""; 0]);
+    for spindle in ["", "S12000"] {
+        assert_eq!(codes(&program(spindle)), ["PB523"], "{spindle}");
+    }
+    assert_eq!(codes("G17 G21 G90 G94\nG0 Z5\nG0 X0 Y0\nG38.2 Z-1 F100\nG0 Z5\nM30\n"), [""; 0], "no cut");
+}
+
+#[test]
 fn the_configuration_may_require_checks() {
     let limits = "[machine]\ntravel = [300, 200, 60]\nmaximum-feed = 2000\n";
     let place = |configuration: &str| {

@@ -162,6 +162,42 @@ fn the_date_is_that_of_the_option_else_of_the_variable_in_utc() {
     assert_eq!(with_epoch(&place, "1835481600", &["--baseline", "none"]), Some(1));
 }
 
+/// A roughing cut that is removed later turns a touch of 0.05 mm into a plunge of 3 mm at the same place.
+#[test]
+fn an_accepted_rapid_move_holds_while_it_is_not_deeper() {
+    let program = |head: &str, roughed: &str| {
+        format!(
+            "{head}G21 G90 G17 G40 G94 G54\nM3 S12000\nG0 Z5\nG0 X0 Y0\nG1 Z{roughed} F100\nG1 X20 F200\nG0 Z5\nG0 X10 Y0\nG0 Z-3\nG1 X30 F200\nG0 Z5\nM5\nM30\n"
+        )
+    };
+    let place = Place::new().file("p.nc", program("", "-2.95"));
+    let verify = "verify p.nc --dialect linuxcnc --cutter 2 --surface 0";
+    let accept: Vec<&str> = verify.split(' ').chain(["--accept", "PB741", "--reason", "wax"]).collect();
+    assert_eq!(place.run_with(&accept).status, Some(0));
+    let run = |text: String| {
+        std::fs::write(place.path().join("p.nc"), text).unwrap();
+        place.run(verify)
+    };
+    let same = run(program("", "-2.95"));
+    assert!(same.status == Some(0) && same.stderr.contains("known: 1"), "{same}");
+    let shallower = run(program("(edited)\n", "-2.96"));
+    assert!(shallower.status == Some(0) && shallower.stderr.contains("known: 1"), "{shallower}");
+    for (roughed, depth) in [("-2.94", "0.06"), ("1", "3")] {
+        let deeper = run(program("", roughed));
+        let note =
+            format!("accepted up to a depth of 0.05 mm by pathbuild-baseline.txt:3; here it is {depth} mm");
+        assert!(deeper.status == Some(1) && deeper.stderr.contains(&note), "{deeper}");
+    }
+    let baseline = place.path().join("pathbuild-baseline.txt");
+    let text = std::fs::read_to_string(&baseline).unwrap();
+    std::fs::write(&baseline, text.replace(" depth=0.05", "")).unwrap();
+    let old = run(program("", "-2.95"));
+    assert!(old.status == Some(1) && old.stderr.contains("does not state the depth"), "{old}");
+    std::fs::write(&baseline, text.replace("depth=0.05", "depth=deep")).unwrap();
+    let invalid = run(program("", "-2.95"));
+    assert!(invalid.status == Some(2) && invalid.stderr.contains("`deep` is not a depth"), "{invalid}");
+}
+
 #[test]
 fn invalid_dates_are_named_with_their_places() {
     let line = "0123456789abcdef0123456789abcdef";

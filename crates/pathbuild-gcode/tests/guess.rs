@@ -28,6 +28,11 @@ fn what_looks_like_a_sign_is_none() {
     assert_eq!(guessed("G0 X1 (see http://example)\nM30\n"), (Rs274, None));
     assert_eq!(guessed("T5 M6\nG0 X1\nM30\n"), (Rs274, None));
     assert_eq!(guessed("(=heading=)\nG0 X1\nM30\n"), (Rs274, None));
+    // XpertMILL knows neither G20 nor G90.
+    for word in ["G20", "G21", "G90", "G91"] {
+        assert_ne!(guessed(&format!("// part 1\n{word}\nG0 X1\nM30\n")).0, Xpertmill, "{word}");
+    }
+    assert_eq!(guessed("// G90\nG71\nG0 X1\nM30\n").0, Xpertmill, "a comment");
     assert_eq!(guessed("O100 if [#1 EQ 1]\nG0 X1\nM30\n").0, LinuxCnc);
 }
 

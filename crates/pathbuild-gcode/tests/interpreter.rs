@@ -2,8 +2,8 @@
 
 mod common;
 
-use common::{changes, faults, faults_with, spelled_out, trace, trace_with};
-use pathbuild_diagnostic::Lang;
+use common::{changes, fault_text, faults, faults_with, spelled_out, trace, trace_with};
+use pathbuild_diagnostic::{Lang, Severity};
 use pathbuild_gcode::dialect::Dialect::{
     self, Fanuc, Grbl, Haas, LinuxCnc, Mach3, Marlin, Native, Rs274, Xpertmill,
 };
@@ -1206,4 +1206,67 @@ fn limits_of_values_are_said_in_both_languages() {
         assert_eq!(help(program, Lang::En), en, "{program}");
         assert_eq!(help(program, Lang::De), de, "{program}");
     }
+}
+
+#[test]
+fn marlin_counts_from_the_switches_after_g28() {
+    let program =
+        |words: &str| format!("G21\nG90\nG28\nG0 X0 Y0 Z5 F1000\nG1 Z-1 F100\nG0 Z5 F1000\n{words}\n");
+    assert_eq!(faults(Marlin, &program("G0 X1 F1000")), FINE, "before the first cut");
+    let severities = |words: &str| {
+        let found = interpret(program(words).as_bytes(), Marlin, &Options::default());
+        found.problems.iter().map(|it| (fault_text(it), it.severity)).collect::<Vec<_>>()
+    };
+    let found = |severity| vec![("7 word-not-followed".to_owned(), severity)];
+    assert_eq!(
+        severities("G28 X0 Y0\nG0 X10 Y10 Z5 F1000"),
+        found(Severity::Warning),
+        "it may park the machine"
+    );
+    assert_eq!(severities("G28 Z0\nG0 X10 Y10 Z5 F1000\nG1 Z-1 F100"), found(Severity::Error));
+    assert_eq!(trace(Marlin, "G21\nG90\nG0 X1 Y2 Z3 F100\nG28 Z0")[1..], ["4 rapid to 1 2 ? Home1"]);
+}
+
+#[test]
+fn mach3_references_at_g28_1_and_others_store_the_position() {
+    let program = "G21 G90\nG0 X1 Y2 Z3\nG28.1 Z0\nG0 Z5\nM30";
+    let moves = ["3 rapid to 1 2 ? Home1", "4 rapid to 1 2 5", "4 end"];
+    assert_eq!(trace(Mach3, program)[1..3], moves[..2]);
+    assert_eq!(
+        trace(LinuxCnc, "G21 G90\nG0 X1 Y2 Z3\nG28.1\nG0 Z5\nM30")[1..],
+        ["4 rapid to 1 2 5", "5 end"]
+    );
+}
+
+#[test]
+fn words_that_common_builds_of_marlin_lack_are_doubtful() {
+    let ignored = |word: &str| {
+        let found = faults(Marlin, &format!("G21\nG90\nG17\nG0 X5 Y0 Z0 F1000\n{word}"));
+        found.iter().any(|fault| fault == "5 ignored-word")
+    };
+    assert!(["G20", "G18", "G19", "G2 I-5 J0 P2 F100"].into_iter().all(ignored));
+    assert!(!["G21", "G17", "G2 I-5 J0 F100"].into_iter().any(ignored));
+}
+
+#[test]
+fn a_called_subprogram_that_is_there_twice_is_an_error() {
+    let program = |number: u32| {
+        format!("O1\nG21 G90\nG0 X1. Y1. Z1.\nM98 P2000\nM30\nO2000\nG0 X2.\nM99\nO{number}\nG0 X3.\nM99\n")
+    };
+    for dialect in [Fanuc, Haas, Mach3] {
+        assert_eq!(faults(dialect, &program(2001)), FINE, "{dialect:?}");
+        assert_eq!(faults(dialect, &program(2000)), ["9 word-not-followed"], "{dialect:?}");
+    }
+}
+
+#[test]
+fn grbl_runs_what_follows_m30() {
+    let after = |dialect, rest: &str| {
+        let found = interpret(format!("G21 G90\nM30\n{rest}").as_bytes(), dialect, &Options::default());
+        found.problems.iter().map(|it| (fault_text(it), it.severity)).collect::<Vec<_>>()
+    };
+    let found = |severity| vec![("3 after-program-end".to_owned(), severity)];
+    assert_eq!(after(Grbl, "G0 Z-5\nG1 X1"), found(Severity::Error));
+    assert_eq!(after(LinuxCnc, "G0 Z-5\nG1 X1"), found(Severity::Warning));
+    assert_eq!(after(Grbl, "(end)\n\n; end\n"), []);
 }

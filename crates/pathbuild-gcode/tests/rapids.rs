@@ -96,6 +96,19 @@ fn a_hole_is_not_drilled_by_rapid_moves() {
 }
 
 #[test]
+fn a_slot_is_not_milled_by_rapid_moves() {
+    let slot = |z: f64| {
+        vec![sweep(10.0, 10.0), lift(6.0), lift(z), sweep(90.0, 10.0), sweep(90.0, 90.0), lift(20.0)]
+    };
+    assert_eq!(found(slot(5.0)), [""; 0]);
+    assert_eq!(found(slot(4.9)), ["PB741"]);
+    // A cut far from the descent shows that the tool came down beside the stock.
+    let mut beside = slot(4.9);
+    beside.insert(5, mill(90.0, 91.0, 4.9));
+    assert_eq!(found(beside), ["PB740"]);
+}
+
+#[test]
 fn old_cuts_are_remembered_by_the_map() {
     let mut steps = vec![lift(5.0), mill(0.0, 0.0, 2.0), mill(20.0, 0.0, 2.0)];
     steps.extend((0..100).map(|turn| mill(20.0 + f64::from(turn % 2), 0.0, 2.0)));

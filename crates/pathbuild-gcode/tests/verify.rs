@@ -85,8 +85,47 @@ fn a_rapid_move_just_above_the_material_is_none() {
 #[test]
 fn elsewhere_nothing_is_known_and_nothing_said() {
     // At a distance of O from the middle of the slot, nothing is known.
-    assert_eq!(behind_slot("G0 Z10\nG0 Y3.1\nG0 Z0\nG0 X0\nG0 Z10"), FINE);
+    assert_eq!(behind_slot("G0 Z10\nG0 Y3.1\nG0 Z0\nG38.2 Z-1\nG0 Z10"), FINE);
     assert_eq!(behind_slot("G0 Z10\nG0 Y2.5\nG0 Z0\nG0 Z10"), ["8 rapid-plunge"]);
+}
+
+#[test]
+fn rapid_moves_alone_mill_nothing_anywhere() {
+    // Far from the slot, where nothing is known of the material.
+    let far = |program: &str| behind_slot(&format!("G0 Z10\nG0 X50 Y50\n{program}\nG0 Z10"));
+    assert_eq!(far("G0 Z4.999\nG0 X60"), FINE);
+    assert_eq!(far("G0 Z4.99\nG0 X60"), ["8 rapid-plunge"]);
+    assert_eq!(far("G0 Z1\nG0 X60\nG0 Y60\nG0 X70 Y70 Z5"), ["8 rapid-plunge"]);
+    assert_eq!(far("G0 Z1\nG0 X60\nG53 G0 Z0\nG0 Z10"), ["8 rapid-plunge"]);
+    assert_eq!(far("G0 Z1\nG0 X60\nG0 Z4.9\nG0 X70"), ["8 rapid-plunge"]);
+    // Beside the stock, a cut follows, or a probe.
+    assert_eq!(far("G0 Z1\nG0 X60\nG1 X60.001\nG0 X70"), ["9 rapid-in-material", "11 rapid-in-material"]);
+    assert_eq!(far("G0 Z1\nG0 Z2\nG0 X60\nG38.2 Z0"), FINE);
+    // Within the slot, all is cut.
+    assert_eq!(behind_slot("G0 Z10\nG0 X15\nG0 Z1\nG0 X5\nG0 Z10"), FINE);
+}
+
+#[test]
+fn the_intermediate_point_of_g28_may_lie_in_material() {
+    let home = |words: &str| behind_slot(&format!("G0 Z10\nG0 X50 Y50\n{words}\nG0 X0 Y0 Z10"));
+    for word in ["G28", "G30"] {
+        assert_eq!(home(&format!("{word} Z5")), FINE);
+        assert_eq!(home(&format!("{word} Z4.9")), ["8 rapid-plunge"]);
+        assert_eq!(
+            home(&format!("{word} X60 Z4.9")),
+            ["8 diagonal-rapid", "8 rapid-in-material", "8 rapid-plunge"]
+        );
+    }
+    assert_eq!(home("G91 G28 Z-5\nG90"), FINE);
+    assert_eq!(home("G91 G28 Z-5.1\nG90"), ["8 rapid-plunge"]);
+}
+
+#[test]
+fn the_spindle_stands_still_while_probing() {
+    let probe = |words: &str| wrong(&format!("G0 X0 Y0 Z10\nM3 S1000\n{words}\nM5"), None);
+    assert_eq!(probe("M5\nG38.2 Z0\nG0 Z10\nM3"), FINE);
+    assert_eq!(probe("G38.2 Z0\nG38.2 Z-1\nG0 Z10"), ["4 probe-with-spindle-on"], "once");
+    assert_eq!(probe("G38.4 Z11\nM4\nG38.3 Z0"), ["4 probe-with-spindle-on", "6 probe-with-spindle-on"]);
 }
 
 #[test]
@@ -220,9 +259,9 @@ fn the_program_ends_above_the_material() {
 
 #[test]
 fn rapid_moves_down_are_not_diagonal() {
-    assert_eq!(on_stock("G0 X0 Y0 Z10\nG0 X50 Z4\nG0 Z10"), ["3 diagonal-rapid"]);
+    assert_eq!(on_stock("G0 X0 Y0 Z10\nG0 X50 Z4\nG38.2 Z3\nG0 Z10"), ["3 diagonal-rapid"]);
     assert_eq!(on_stock("G0 X0 Y0 Z10\nG0 X50 Z5\nG0 Z10"), FINE);
-    assert_eq!(on_stock("G0 X0 Y0 Z10\nG0 X50\nG0 Z4\nG0 X60 Z5\nG0 Z10"), FINE);
+    assert_eq!(on_stock("G0 X0 Y0 Z10\nG0 X50\nG0 Z4\nG0 X60 Z5\nG0 Z10"), ["4 rapid-plunge"]);
 }
 
 #[test]
@@ -327,11 +366,10 @@ fn a_first_move_down_into_the_material_is_found() {
     assert_eq!(found, ["2 rapid-plunge"]);
     assert_eq!(blind, Some((1, 2)));
     assert_eq!(from_unknown(&format!("G0 X0 Y0 Z5\n{SLOT_AT_5}")), (Vec::new(), None));
-    // If nothing is known about the material, only the unknown way is reported.
-    assert_eq!(
-        from_unknown(&format!("G0 X90 Y90 Z-2\nG0 X95\nG0 Z5\nG0 X0 Y0\n{SLOT_AT_5}")),
-        (Vec::new(), Some((1, 2)))
-    );
+    // Far from all cuts, rapid moves alone lead down and up again.
+    let (found, blind) = from_unknown(&format!("G0 X90 Y90 Z-2\nG0 X95\nG0 Z5\nG0 X0 Y0\n{SLOT_AT_5}"));
+    assert_eq!(found, ["2 rapid-plunge"]);
+    assert_eq!(blind, Some((1, 2)));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Baselines: text files with one accepted finding per line, which users can read, merge and shorten. A line begins with the fingerprint of
-//! the finding; `until=` with a date and `reason=` with a text in double quotes may follow. The rest describes the finding. Empty lines and
-//! lines that begin with `#` are comments. (book: howto/ci)
+//! the finding; `depth=` in mm, `until=` with a date and `reason=` with a text in double quotes may follow. The rest describes the finding.
+//! Empty lines and lines that begin with `#` are comments. (book: howto/ci)
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -34,6 +34,8 @@ pub struct Baseline {
 #[derive(Clone, Debug)]
 struct Entry {
     waiver: Waiver,
+    /// How deep in mm a finding about a tool in the material may reach into it.
+    depth: Option<f64>,
     description: String,
     line: String,
 }
@@ -115,8 +117,12 @@ impl Baseline {
         for (diagnostic, fingerprint) in
             std::mem::take(&mut findings.diagnostics).into_iter().zip(fingerprints)
         {
-            match self.entries.get(&fingerprint.to_string()).map(|entry| &entry.waiver) {
+            let entry = self.entries.get(&fingerprint.to_string());
+            match entry.map(|entry| &entry.waiver) {
                 None => findings.diagnostics.push(diagnostic),
+                Some(_) if entry.is_some_and(|entry| !entry.is_deep_enough(&diagnostic)) => {
+                    findings.diagnostics.extend(entry.map(|entry| entry.note_depth(diagnostic, place)));
+                }
                 Some(waiver) if waiver.holds(run) => {
                     findings.waived.push(WaivedFinding { diagnostic, waiver: waiver.clone() });
                 }
@@ -227,6 +233,23 @@ impl<'a> Run<'a> {
 }
 
 impl Entry {
+    /// Whether a finding reaches no deeper into the material than when it was accepted.
+    fn is_deep_enough(&self, diagnostic: &Diagnostic) -> bool {
+        depth(diagnostic).is_none_or(|depth| self.depth.is_some_and(|accepted| depth <= accepted))
+    }
+
+    /// Notes on a finding that it was accepted with a smaller depth.
+    fn note_depth(&self, diagnostic: Diagnostic, file: &str) -> Diagnostic {
+        let place = ("place", Value::quoted(format!("{file}:{}", self.waiver.line)));
+        match (self.depth, depth(&diagnostic)) {
+            (Some(accepted), Some(depth)) => {
+                let depths = [("accepted", Value::from(accepted)), ("depth", Value::from(depth))];
+                diagnostic.note(&messages::WAIVER_DEEPER, [place].into_iter().chain(depths).collect())
+            }
+            _ => diagnostic.note(&messages::WAIVER_WITHOUT_DEPTH, vec![place]),
+        }
+    }
+
     /// The names that the description may begin with, which may contain spaces; `None` if it does not name a code first.
     fn possible_files(&self, bases: [&Utf8Path; 2]) -> Option<Vec<Utf8PathBuf>> {
         let (code, rest) = self.description.split_once(' ')?;
@@ -242,9 +265,29 @@ const HEAD: &str = "\
 # Only the fingerprint at the beginning of a line counts, with until=DATE and reason=\"TEXT\" after it; the rest describes the finding.
 ";
 
+/// How deep in mm the tool is in the material, rounded up to 0.01 mm, if the finding is about that.
+fn depth(diagnostic: &Diagnostic) -> Option<f64> {
+    let is_in_material = matches!(
+        diagnostic.code(),
+        Code::RapidInMaterial | Code::RapidPlunge | Code::EndNotRaised | Code::ToolChangeAtDepth
+    );
+    let number = |name| match diagnostic.arguments.iter().find(|(key, _)| *key == name) {
+        Some((_, Value::Number(number))) => Some(number.0),
+        _ => None,
+    };
+    let top = number("height").or_else(|| number("surface")).filter(|_| is_in_material)?;
+    Some(((top - number("z")?) * 100.0 - ROUNDING).ceil() / 100.0)
+}
+
+/// Share of 0.01 mm that is attributed to rounding.
+const ROUNDING: f64 = 1e-6;
+
 /// A line of a baseline.
 fn line(fingerprint: &str, waiver: &Waiver, diagnostic: &Diagnostic, base: &Utf8Path) -> String {
     let mut line = fingerprint.to_owned();
+    if let Some(depth) = depth(diagnostic) {
+        _ = write!(line, " depth={depth}");
+    }
     if let Some(until) = waiver.until {
         _ = write!(line, " until={until}");
     }
@@ -276,7 +319,7 @@ struct LineFault {
 impl LineFault {
     fn in_file(self, file: &Utf8Path, number: u32, line: &str) -> Diagnostic {
         let column = line[..self.part.start].chars().count() + 1;
-        let found = line[self.part.clone()].trim_start_matches("until=");
+        let found = line[self.part.clone()].trim_start_matches("until=").trim_start_matches("depth=");
         Diagnostic::new(self.message)
             .quoting("found", found)
             .in_file(file)
@@ -292,7 +335,7 @@ fn entry(line: &str) -> Result<(&str, Entry), LineFault> {
         let end = start + line.split_whitespace().next().unwrap_or_default().len();
         return Err(LineFault { message: &messages::BASELINE_LINE, part: start..end });
     };
-    let mut waiver = Waiver::default();
+    let (mut waiver, mut depth) = (Waiver::default(), None);
     let mut rest = line[fingerprint.len()..].trim_start();
     loop {
         let start = line.len() - rest.len();
@@ -300,6 +343,11 @@ fn entry(line: &str) -> Result<(&str, Entry), LineFault> {
         if let Some(date) = word.strip_prefix("until=") {
             let fault = |()| LineFault { message: &messages::BASELINE_DATE, part: start..start + word.len() };
             waiver.until = Some(date.parse().map_err(fault)?);
+            rest = rest[word.len()..].trim_start();
+        } else if let Some(number) = word.strip_prefix("depth=") {
+            let number: Option<f64> = number.parse().ok().filter(|number: &f64| number.is_finite());
+            let fault = || LineFault { message: &messages::BASELINE_DEPTH, part: start..start + word.len() };
+            depth = Some(number.ok_or_else(fault)?);
             rest = rest[word.len()..].trim_start();
         } else if let Some(text) = rest.strip_prefix("reason=") {
             let fault = LineFault { message: &messages::BASELINE_REASON, part: start..start + word.len() };
@@ -309,7 +357,7 @@ fn entry(line: &str) -> Result<(&str, Entry), LineFault> {
             rest = text[texts.byte_offset()..].trim_start();
         } else {
             let description = rest.trim_end().to_owned();
-            return Ok((fingerprint, Entry { waiver, description, line: line.to_owned() }));
+            return Ok((fingerprint, Entry { waiver, depth, description, line: line.to_owned() }));
         }
     }
 }

@@ -223,6 +223,13 @@ messages! {
         help_en: "write year, month and day: until=2026-12-31",
         help_de: "Jahr, Monat und Tag schreiben: until=2026-12-31",
     }
+    /// A baseline entry with an invalid depth.
+    BASELINE_DEPTH: InvalidConfiguration {
+        en: "`{found}` is not a depth in mm",
+        de: "`{found}` ist keine Tiefe in mm",
+        help_en: "write a number, such as depth=0.05, or accept the finding again",
+        help_de: "eine Zahl schreiben, etwa depth=0.05, oder den Befund noch einmal hinnehmen",
+    }
     /// A baseline entry with an unreadable reason.
     BASELINE_REASON: InvalidConfiguration {
         en: "the reason is not a text in double quotes",
@@ -241,6 +248,16 @@ messages! {
     WAIVER_ENDED: InvalidConfiguration {
         en: "accepted until {until} by {place}; the date of this run is {date} ({source})",
         de: "hingenommen bis {until} durch {place}; das Datum dieses Laufs ist {date} ({source})",
+    }
+    /// A note: a finding about a tool in the material reaches deeper than when it was accepted.
+    WAIVER_DEEPER: InvalidConfiguration {
+        en: "accepted up to a depth of {accepted} mm by {place}; here it is {depth} mm",
+        de: "hingenommen bis zu einer Tiefe von {accepted} mm durch {place}; hier sind es {depth} mm",
+    }
+    /// A note: an entry of an older version about a tool in the material.
+    WAIVER_WITHOUT_DEPTH: InvalidConfiguration {
+        en: "accepted by {place}, which does not state the depth: accept the finding again",
+        de: "hingenommen durch {place}, aber ohne Tiefe: den Befund noch einmal hinnehmen",
     }
     /// A note: whether a waiver has ended is unknown.
     WAIVER_WITHOUT_DATE: InvalidConfiguration {

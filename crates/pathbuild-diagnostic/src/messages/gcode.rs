@@ -258,6 +258,13 @@ messages! {
         help_en: "remove it, or the earlier end",
         help_de: "entfernen oder das frühere Ende",
     }
+    /// Lines after M2 or M30 that the control runs.
+    RUN_AFTER_END: AfterProgramEnd {
+        en: "{dialect} runs this line and those after it too, in spite of the M2 or M30 in line {line}; they are not checked",
+        de: "{dialect} führt auch diese und die folgenden Zeilen aus, trotz M2 oder M30 in Zeile {line}; sie werden nicht geprüft",
+        help_en: "remove them, or put them into a file of their own; in the middle of a program use M0 instead",
+        help_de: "sie entfernen oder in eine eigene Datei schreiben; mitten im Programm stattdessen M0 verwenden",
+    }
     /// A program without M2, M30 or %.
     NO_END: NoProgramEnd {
         en: "the program ends without {words}",
@@ -335,6 +342,13 @@ messages! {
         help_en: "put it after the program in the same file, or check the program at the control",
         help_de: "es in derselben Datei hinter das Programm schreiben oder das Programm an der Steuerung prüfen",
     }
+    /// Two subprograms with the same number.
+    DEFINED_TWICE: WordNotFollowed {
+        en: "the subprogram {name} is in this file twice: which one the control calls depends on its settings",
+        de: "das Unterprogramm {name} steht zweimal in dieser Datei: welches die Steuerung aufruft, hängt von ihren Einstellungen ab",
+        help_en: "remove one of them, or give it another number",
+        help_de: "eines davon entfernen oder anders nummerieren",
+    }
     /// Recursion.
     CALLED_BY_ITSELF: WordNotFollowed {
         en: "the subprogram {name} calls itself: it is not followed again",
@@ -397,6 +411,20 @@ messages! {
         de: "{word} wird nicht verfolgt: ab hier kann sich die Maschine anders bewegen",
         help_en: "check the program at the control, or write the moves out",
         help_de: "das Programm an der Steuerung prüfen oder die Bewegungen ausschreiben",
+    }
+    /// G28 of Marlin after the first cut.
+    REFERENCED: WordNotFollowed {
+        en: "{dialect} moves to the reference switches at {word} and counts from them afterwards, no longer from the zero of the part",
+        de: "{dialect} fährt bei {word} auf die Referenzschalter und zählt danach von ihnen aus, nicht mehr vom Nullpunkt des Werkstücks",
+        help_en: "reference the machine before the program; to park it, raise the cutter and move to a position of the program",
+        help_de: "vor dem Programm referenzieren; zum Parken den Fräser anheben und eine Position des Programms anfahren",
+    }
+    /// A word that common builds of a control do not know.
+    OFF_IN_BUILDS: IgnoredWord {
+        en: "common builds of {dialect} ignore {word}",
+        de: "übliche Varianten von {dialect} übergehen {word}",
+        help_en: "write the program without it; if the machine's firmware was built with it, accept this warning with `--accept`",
+        help_de: "das Programm ohne dieses Wort schreiben; ist die Firmware der Maschine damit übersetzt, die Warnung mit `--accept` hinnehmen",
     }
     /// An axis that is not interpreted.
     AXIS_NOT_FOLLOWED: WordNotFollowed {
@@ -671,6 +699,13 @@ messages! {
         de: "die Antastbewegung führt nicht nach unten und berührt daher nichts",
         help_en: "probe towards the material; G38.4 and G38.5 go away from it",
         help_de: "zum Material hin messen; G38.4 und G38.5 führen von ihm weg",
+    }
+    /// A probing move while the spindle turns.
+    PROBE_WITH_SPINDLE_ON: ProbeWithSpindleOn {
+        en: "the spindle turns in this probing move, against the touch plate or with the probe",
+        de: "bei dieser Antastbewegung dreht sich die Spindel, gegen die Messplatte oder mit dem Taster",
+        help_en: "stop it with M5 before, and start it again after probing",
+        help_de: "vorher mit M5 anhalten und nach dem Antasten wieder einschalten",
     }
     /// A probing move without length.
     PROBE_WITHOUT_WAY: UselessProbe {

@@ -127,12 +127,12 @@ messages! {
         help_en: "rewrite the program with `pathbuild emit`, which waits for the time in `[machine] spin-up`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben; es wartet dann so lange, wie `[machine] spin-up` angibt",
     }
-    /// A rapid move down and up again, as in `G0 Z-3`, `G0 Z2`.
+    /// Rapid moves down and up again without a feed move between them, as in `G0 Z-3`, `G0 X50`, `G0 Z2`.
     RAPID_DIP: RapidPlunge {
         en: "a rapid move down to Z {z} below the material's surface, and up again: nothing was cut there before",
         de: "ein Eilgang hinunter auf Z {z} unter die Oberfläche des Materials und wieder hinauf: dort wurde vorher nichts gefräst",
-        help_en: "drill with G01 and a feed",
-        help_de: "mit G01 und einem Vorschub bohren",
+        help_en: "drill and mill with G01 and a feed",
+        help_de: "mit G01 und einem Vorschub bohren und fräsen",
     }
     /// `G28` while the tool is below the surface.
     HOME_FROM_DEPTH: RapidInMaterial {

@@ -36,6 +36,12 @@ pub struct Rules {
     pub one_word_each: bool,
     /// Whether M0 and M1 also switch spindle and coolant off, which then stay off.
     pub stop_is_complete: bool,
+    /// Whether the control runs the lines after M2 and M30, because it has no program memory and takes each line as it is sent.
+    pub runs_past_end: bool,
+    /// How the machine is referenced.
+    pub reference: ReferenceRules,
+    /// G codes (times ten), and P of arcs, that only builds with a special setting obey; others ignore them.
+    pub unusual: Unusual,
     /// Whether M5 and M9 take effect after the move in the same line.
     pub stops_last: bool,
     /// Whether rapid moves have the feed F like all other moves.
@@ -63,6 +69,24 @@ pub struct LengthRules {
     pub keeps_entry: bool,
     /// Whether the length of the program before is in effect until the program states one.
     pub keeps_length: bool,
+}
+
+/// How a program references the machine.
+#[derive(Debug)]
+pub struct ReferenceRules {
+    /// G codes (times ten) that move axes to their reference switches.
+    pub g: &'static [u16],
+    /// Whether the control then counts from the switches, no longer from the zero of the part.
+    pub loses_zero: bool,
+}
+
+/// Words that a control only knows if it was built with a special setting.
+#[derive(Debug)]
+pub struct Unusual {
+    /// G codes, times ten.
+    pub g: &'static [u16],
+    /// Whether P, the number of turns of an arc, is one.
+    pub turns: bool,
 }
 
 /// How G4 specifies its time.
@@ -193,6 +217,9 @@ const BASE: Rules = Rules {
     one_command: false,
     one_word_each: false,
     stop_is_complete: false,
+    runs_past_end: false,
+    reference: ReferenceRules { g: &[], loses_zero: false },
+    unusual: Unusual { g: &[], turns: false },
     stops_last: false,
     rapids_at_feed: false,
     program_numbers: false,
@@ -273,6 +300,8 @@ pub(super) static GRBL: Rules = Rules {
     // gcode.c: "bit_false(value_words,(bit(WORD_I)|bit(WORD_J)|bit(WORD_K)))". FreeCAD's grbl_post writes `K0.000` in every arc.
     arcs: ArcRules { ignores_third_centre: true, ..BASE.arcs },
     lengths: RS274_LENGTHS,
+    // gcode.c, M2 and M30: "gc_state.modal.program_flow = PROGRAM_FLOW_RUNNING; // Reset program flow."
+    runs_past_end: true,
     ..BASE
 };
 
@@ -318,6 +347,8 @@ pub(super) static NATIVE: Rules = Rules {
 pub(super) static MACH3: Rules = Rules {
     dialect: Dialect::Mach3,
     words: &codes::MACH3,
+    // Using Mach3Mill, "Reference axes G28.1": "The axes will move at the current feed rate towards the home switch(es)".
+    reference: ReferenceRules { g: &[281], loses_zero: false },
     arcs: ArcRules { radius: NIST_RADIUS, axis_word: false, ..BASE.arcs },
     dwell: DwellRules { p: DwellUnit::BySetting, seconds: b"" },
     program_numbers: true,
@@ -376,6 +407,10 @@ pub(super) static MARLIN: Rules = Rules {
         ..BASE_SPELLING
     },
     words: &codes::MARLIN,
+    // G28 sets the position to that of the switches, and the shift by G92 to 0 (set_axis_is_at_home).
+    reference: ReferenceRules { g: &[280], loses_zero: true },
+    // Configuration_adv.h: `//#define INCH_MODE_SUPPORT`, `//#define CNC_WORKSPACE_PLANES`, `//#define ARC_P_CIRCLES`.
+    unusual: Unusual { g: &[180, 190, 200], turns: true },
     arcs: ArcRules { axis_word: false, turns: true, ..BASE.arcs },
     start_motion: StartMotion::None,
     motion_is_stated: true,

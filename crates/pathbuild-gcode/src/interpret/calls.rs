@@ -39,7 +39,7 @@ pub(super) struct Runner<'r, 'i> {
     interpreter: &'r mut Interpreter<'i>,
     each: &'r mut dyn FnMut(Step) -> ControlFlow<()>,
     /// Where the subprograms of the file begin; searched for at the first call.
-    definitions: Option<HashMap<SubprogramName, Place>>,
+    definitions: Option<HashMap<SubprogramName, Definition>>,
     /// The subprograms that are being executed.
     active: Vec<SubprogramName>,
     /// The loops with a condition that the current subprogram is executing.
@@ -54,6 +54,14 @@ pub(super) struct Runner<'r, 'i> {
     lines: u32,
     /// Whether any line contained a word.
     pub(super) has_words: bool,
+}
+
+/// Where a subprogram begins.
+#[derive(Clone, Copy, Debug)]
+struct Definition {
+    place: Place,
+    /// The line of a second one with the same name. Which of both the control runs depends on its settings.
+    second: Option<u32>,
 }
 
 /// A loop with a condition.
@@ -168,10 +176,13 @@ impl<'r, 'i> Runner<'r, 'i> {
         line: u32,
     ) -> Outcome {
         let shown = name.shown();
-        let Some((name, place, times)) = self.definition(reader, name, times) else {
+        let Some((name, Definition { place, second }, times)) = self.definition(reader, name, times) else {
             self.report(&say::CALLED_ELSEWHERE, line, &shown, 0);
             return Outcome::Repeated;
         };
+        if let Some(second) = second {
+            self.report(&say::DEFINED_TWICE, second, &name.shown(), 0);
+        }
         let is_main =
             matches!(name, SubprogramName::Program(number) if self.interpreter.main_number == Some(number));
         if is_main || self.active.contains(&name) {
@@ -387,15 +398,15 @@ impl<'r, 'i> Runner<'r, 'i> {
         reader: &BlockReader<'_>,
         name: SubprogramName,
         times: u32,
-    ) -> Option<(SubprogramName, Place, u32)> {
+    ) -> Option<(SubprogramName, Definition, u32)> {
         let definitions = self.definitions.get_or_insert_with(|| definitions(reader.again()));
-        if let Some(place) = definitions.get(&name) {
-            return Some((name, *place, times));
+        if let Some(definition) = definitions.get(&name) {
+            return Some((name, *definition, times));
         }
         let SubprogramName::Program(packed) = name else { return None };
         let name = SubprogramName::Program(packed % 10_000);
-        let place = definitions.get(&name).filter(|_| packed >= 10_000 && times == 1)?;
-        Some((name, *place, packed / 10_000))
+        let definition = definitions.get(&name).filter(|_| packed >= 10_000 && times == 1)?;
+        Some((name, *definition, packed / 10_000))
     }
 
     fn report(&mut self, message: &'static Message, line: u32, name: &str, most: u64) {
@@ -411,14 +422,19 @@ fn name_of_o_word(block: &Block<'_>, word: OWord) -> Box<str> {
     name_of(block, word.name).trim_start_matches('0').into()
 }
 
-fn definitions(mut reader: BlockReader<'_>) -> HashMap<SubprogramName, Place> {
-    let mut found = HashMap::new();
+fn definitions(mut reader: BlockReader<'_>) -> HashMap<SubprogramName, Definition> {
+    let mut found: HashMap<SubprogramName, Definition> = HashMap::new();
+    let mut add = |name, place, line| {
+        let repeat = |known: &mut Definition| _ = known.second.get_or_insert(line);
+        found.entry(name).and_modify(repeat).or_insert(Definition { place, second: None });
+    };
     loop {
         let before = reader.place();
         let Some(block) = reader.next_block() else { return found };
         if let Some(word) = block.o_word.filter(|word| word.kind == OWordKind::Sub) {
             let name = SubprogramName::Subroutine(name_of_o_word(&block, word));
-            found.entry(name).or_insert(reader.place());
+            let line = block.line;
+            add(name, reader.place(), line);
             continue;
         }
         let first = block.words.first().filter(|word| word.letter == b'O');
@@ -426,9 +442,9 @@ fn definitions(mut reader: BlockReader<'_>) -> HashMap<SubprogramName, Place> {
             Value::Number(number) => whole(number.value).map(SubprogramName::Program),
             Value::Expression(_) => None,
         });
-        let line = block.number.and_then(|number| whole(number.value)).map(SubprogramName::Line);
-        for name in program.into_iter().chain(line) {
-            found.entry(name).or_insert(before);
+        let number = block.number.and_then(|number| whole(number.value)).map(SubprogramName::Line);
+        for name in program.into_iter().chain(number) {
+            add(name, before, block.line);
         }
     }
 }

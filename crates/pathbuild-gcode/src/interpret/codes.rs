@@ -12,6 +12,8 @@ pub(super) enum Command {
     Inches(bool),
     Home(usize),
     StoreHome(usize),
+    /// Moves axes to their reference switches.
+    Reference,
     /// G40, G43, G49, G61, G64 and others that do not change the programmed position of the tool tip.
     NoEffect(Group),
     LocalOffset,
@@ -93,6 +95,7 @@ impl Command {
             Self::SetOffsets
             | Self::Home(_)
             | Self::StoreHome(_)
+            | Self::Reference
             | Self::LocalOffset
             | Self::SetOrigin
             | Self::Origin(_) => Group::NonModal,
@@ -114,7 +117,7 @@ impl Command {
             Self::NoEffect(Group::ToolLength | Group::PathControl) => WordEffect::Followed,
             Self::NoEffect(_) => WordEffect::NotFollowed,
             Self::System(_) => WordEffect::System,
-            Self::Home(_) | Self::MachineCoordinates => WordEffect::Place,
+            Self::Home(_) | Self::Reference | Self::MachineCoordinates => WordEffect::Place,
             _ => WordEffect::Followed,
         }
     }
@@ -122,7 +125,7 @@ impl Command {
     /// Whether it consumes the coordinates of the line.
     pub(super) fn takes_coordinates(self) -> bool {
         match self {
-            Self::SetOffsets | Self::Home(_) | Self::LocalOffset | Self::SetOrigin => true,
+            Self::SetOffsets | Self::Home(_) | Self::Reference | Self::LocalOffset | Self::SetOrigin => true,
             Self::Motion(motion) => motion != Motion::None,
             _ => false,
         }

@@ -53,6 +53,9 @@ impl<'i> Interpreter<'i> {
 
     /// Returns the problems found, if the file ends in this line.
     pub(super) fn finish(mut self, last_line: u32, is_framed: bool) -> Problems {
+        if let Some((line, code)) = self.state.referenced.take() {
+            self.report_reference(line, code, Severity::Warning);
+        }
         let has_end = [20, 300].iter().any(|code| self.rules.words.has_m(*code));
         if !self.ended && !is_framed && has_end {
             let words = match self.rules.spelling.percent {
@@ -109,8 +112,23 @@ impl<'i> Interpreter<'i> {
         if begins_lost || movement.to.known == Axes::ALL {
             self.state.lost = None;
         }
+        if matches!(movement.pace, Pace::Feed(_)) {
+            self.state.has_cut = true;
+            if let Some((line, code)) = self.state.referenced.take() {
+                self.report_reference(line, code, Severity::Error);
+            }
+        }
         self.state.position = movement.to;
         self.step(block, Action::Move(movement));
+    }
+
+    /// Reports a move to the reference switches after the first cut. If no other cut follows, it may park the machine.
+    fn report_reference(&mut self, line: u32, code: u16, severity: Severity) {
+        let dialect = self.rules.dialect.name();
+        self.problems.add_at_line(&say::REFERENCED, line, |d| {
+            let d = d.quoting("word", codes::name('G', code)).quoting("dialect", dialect);
+            Diagnostic { severity, ..d }
+        });
     }
 
     pub(super) fn report(

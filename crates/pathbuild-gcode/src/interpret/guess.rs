@@ -11,6 +11,7 @@ use super::switches::{is_followed_m, is_jump};
 use super::{Options, interpret_each};
 use crate::dialect::{Dialect, DwellUnit, Rules};
 use crate::provenance::Provenance;
+use crate::read::{BlockReader, Value, Word};
 
 /// Number of bytes inspected at the beginning of a file.
 const LOOKED_AT: usize = 65_536;
@@ -139,8 +140,26 @@ fn by_sign(head: &[u8]) -> Option<Guess> {
     let lines = || (1_u32..).zip(head.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii));
     SIGNS.iter().find_map(|&(dialect, has_sign, reason)| {
         let (line, _) = lines().find(|(_, line)| has_sign(line))?;
+        if dialect == Dialect::Xpertmill && states_modes(head) {
+            return None;
+        }
         Some(Guess { dialect, evidence: Evidence { reason, line: Some(line), kind: EvidenceKind::Sign } })
     })
+}
+
+/// Whether a program states units or distances by words that XpertMILL does not know. It would take its inches for millimetres.
+fn states_modes(head: &[u8]) -> bool {
+    let mut reader = BlockReader::new(head, Dialect::Xpertmill.rules());
+    while let Some(block) = reader.next_block() {
+        let is_mode = |word: &Word| {
+            let Value::Number(number) = word.value else { return false };
+            word.letter == b'G' && [20.0, 21.0, 90.0, 91.0].contains(&number.value)
+        };
+        if block.words.iter().any(is_mode) {
+            return true;
+        }
+    }
+    false
 }
 
 /// The dialect with the fewest unknown words; of several, the first.

@@ -201,13 +201,14 @@ impl Interpreter<'_> {
     /// Executes the command of the block that uses coordinates without being a motion. Returns whether there is one.
     pub(super) fn coordinates_taken(&mut self, block: &Block<'_>) -> bool {
         let Some((command, code, span)) = self.words.of_group(Group::NonModal) else { return false };
-        if !matches!(command, Command::Home(_)) {
+        if !matches!(command, Command::Home(_) | Command::Reference) {
             let are_shifted = self.are_shifted(command);
             self.step(block, Action::Change(Change::Offsets { code, are_shifted }));
         }
         match command {
             Command::SetOffsets => self.set_offsets(block, span),
             Command::Home(which) => self.home(block, which, code),
+            Command::Reference => self.reference(block, code),
             Command::StoreHome(which) => {
                 let here = self.state.position;
                 self.state.offsets.store_home(which, &here);
@@ -273,9 +274,7 @@ impl Interpreter<'_> {
     fn home(&mut self, block: &Block<'_>, which: usize, code: u16) {
         self.state.offsets.fix_base();
         let coordinates = self.words.values.take_coordinates();
-        let given = (0..3)
-            .filter(|axis| coordinates[*axis].is_some())
-            .fold(Axes::NONE, |axes, axis| axes.with(Axes::of(axis)));
+        let given = given_axes(&coordinates);
         if !given.is_empty() {
             let to = self.target(coordinates);
             let from = self.state.position;
@@ -297,6 +296,22 @@ impl Interpreter<'_> {
             self.state.lost = Some((block.line, code));
         }
         let named = Some(if which == 0 { Named::Home1 } else { Named::Home2 });
+        self.emit_move(block, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named });
+    }
+
+    /// Moves the axes in the line, or all of them, to their switches. Where they are in the program is unknown afterwards.
+    fn reference(&mut self, block: &Block<'_>, code: u16) {
+        self.state.offsets.fix_base();
+        let given = given_axes(&self.words.values.take_coordinates());
+        let axes = if given.is_empty() { Axes::ALL } else { given };
+        let from = self.state.position;
+        let to = Position { known: from.known.without(axes), ..from };
+        self.state.stated_axes = self.state.stated_axes.with(axes);
+        self.state.lost = Some((block.line, code));
+        if self.state.has_cut && self.rules.reference.loses_zero {
+            self.state.referenced = Some((block.line, code));
+        }
+        let named = Some(Named::Home1);
         self.emit_move(block, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named });
     }
 
@@ -355,6 +370,12 @@ impl Interpreter<'_> {
     }
 }
 
+/// The axes that have a coordinate.
+fn given_axes(coordinates: &[Option<Slot>; 3]) -> Axes {
+    let given = (0..3).filter(|axis| coordinates[*axis].is_some());
+    given.fold(Axes::NONE, |axes, axis| axes.with(Axes::of(axis)))
+}
+
 /// An arc of almost 180 degrees given by R is doubtful if the last digit of R moves its centre by more than this, in mm.
 const CENTRE_SHIFT: f64 = 0.05;
 
@@ -408,6 +429,9 @@ impl Interpreter<'_> {
             return 0;
         }
         let Some(slot) = self.words.values.take_slot(b'P') else { return 0 };
+        if self.rules.unusual.turns {
+            self.report(block, &say::OFF_IN_BUILDS, slot.span, |d| d.quoting("word", "P"));
+        }
         match whole(slot.value) {
             Some(turns) if (1..=MOST_TURNS).contains(&turns) => turns - 1,
             _ => {

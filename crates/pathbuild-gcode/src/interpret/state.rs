@@ -16,6 +16,10 @@ pub(super) struct State {
     pub(super) stated_axes: Axes,
     /// Line and code (times ten) of a move to a machine position, which is unknown.
     pub(super) lost: Option<(u32, u16)>,
+    /// Whether a move at feed has been made.
+    pub(super) has_cut: bool,
+    /// Line and code (times ten) of a move to the reference switches after the first cut, until the next cut.
+    pub(super) referenced: Option<(u32, u16)>,
     pub(super) motion: Motion,
     /// Code of the motion (times ten), for messages.
     pub(super) motion_code: u16,
@@ -74,6 +78,8 @@ impl State {
             position: Position::default(),
             stated_axes: Axes::ALL,
             lost: None,
+            has_cut: false,
+            referenced: None,
             motion: match rules.start_motion {
                 StartMotion::Rapid => Motion::Rapid,
                 StartMotion::None => Motion::None,

@@ -159,10 +159,16 @@ impl Interpreter<'_> {
         if words.has_g(code) {
             let command = match self.unit_word(code) {
                 Some(unit) => unit,
+                None if self.rules.reference.g.contains(&code) => Command::Reference,
                 None if words.g_own.contains(&code) => Command::NotFollowed(Group::NonModal),
                 None => Command::of(code),
             };
             self.words.commands.push((command, code, word.span));
+            if self.rules.unusual.g.contains(&code) {
+                self.report(block, &say::OFF_IN_BUILDS, word.span, |d| {
+                    d.quoting("word", codes::name('G', code))
+                });
+            }
         } else if words.lenient && codes::is_cycle(code) {
             let name = codes::name('G', code);
             self.words.commands.push((Command::Motion(Motion::Unfollowed), code, word.span));

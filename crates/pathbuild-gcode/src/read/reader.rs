@@ -2,7 +2,7 @@
 
 use memchr::memchr;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Message, Text};
+use pathbuild_diagnostic::{Diagnostic, Message, Severity, Text};
 
 use super::block::{Block, Comment, CommentStyle, Span, end_of_line};
 use super::line::{Line, Parts, plain_words};
@@ -170,7 +170,14 @@ impl<'t> BlockReader<'t> {
                     continue;
                 }
                 if !self.has_subprograms {
-                    self.report(&say::AFTER_END, line, |d| d.with("line", u64::from(end)));
+                    let dialect = self.rules.dialect.name();
+                    let message =
+                        if self.rules.runs_past_end { &say::RUN_AFTER_END } else { &say::AFTER_END };
+                    let severity = if self.rules.runs_past_end { Severity::Error } else { Severity::Warning };
+                    self.report(message, line, |d| {
+                        let d = d.with("line", u64::from(end)).quoting("dialect", dialect);
+                        Diagnostic { severity, ..d }
+                    });
                 }
                 self.at = self.text.len();
                 return None;

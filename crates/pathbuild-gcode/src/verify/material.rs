@@ -9,6 +9,7 @@ use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Position, widest_cho
 use pathbuild_toolpath as toolpath;
 use pathbuild_toolpath::{Comment, ProgramStep as Emitted};
 
+use super::excursion::Excursions;
 use super::height_map::{Capsule, HeightMap};
 use crate::interpret::Program;
 use crate::read::Problems;
@@ -34,7 +35,7 @@ const VISITS: f64 = 3.0;
 /// Applies the moves to the stock and reports rapid moves that hit material.
 pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
     follow(program, stock, problems, &mut |bench, line, movement, problems| {
-        bench.dips(line, movement, problems);
+        bench.excursion(line, movement, problems);
         if movement.pace == Pace::Rapid {
             bench.pass(line, movement, problems);
         }
@@ -121,7 +122,7 @@ pub(super) fn has_room<'c>(
     problems.into_diagnostics().is_empty() && !bench.map.is_exhausted()
 }
 
-/// Passes on the moves that can be followed. A rapid move whose start is not known is replaced by a vertical one to its end:
+/// Passes on the moves; those whose end is not known only end an excursion. A rapid move whose start is not known is replaced by a vertical one to its end:
 /// whether that end is in the material does not depend on where the tool comes from.
 fn each_followed_move(program: &(impl Program + ?Sized), stock: &Stock, take: &mut dyn FnMut(u32, &Move)) {
     let highest = stock.highest().filter(|highest| highest.is_finite());
@@ -136,6 +137,8 @@ fn each_followed_move(program: &(impl Program + ?Sized), stock: &Stock, take: &m
             let [x, y, z] = movement.to.at;
             let from = Position::known(x, y, z.max(highest));
             take(step.line, &Move { from, shape: MoveShape::Line, named: None, ..*movement });
+        } else {
+            take(step.line, movement);
         }
     });
 }
@@ -192,20 +195,19 @@ struct Bench<'s> {
     stock: &'s Stock,
     resolution: f64,
     map: HeightMap,
-    /// The last move, if it was a rapid down below the surface and nothing is known of the material there.
-    dip: Option<(u32, Move)>,
+    excursions: Excursions,
 }
 
 impl<'s> Bench<'s> {
     fn new(stock: &'s Stock, resolution: f64, cells: u64) -> Self {
-        Self { stock, resolution, map: HeightMap::new(resolution, cells), dip: None }
+        Self { stock, resolution, map: HeightMap::new(resolution, cells), excursions: Excursions::default() }
     }
 
     /// Adds material within O of a cutting move. Where the surface is unknown, material is only added along the rapid moves to check.
     fn lay(&mut self, line: u32, movement: &Move) {
         let is_unknown = |piece: &StockSpan| piece.surface == f64::INFINITY;
         if self.stock.at(line).is_some_and(is_unknown) {
-            if movement.pace == Pace::Rapid {
+            if movement.pace == Pace::Rapid && movement.is_known() {
                 for part in self.parts(movement) {
                     self.map.add(&capsule(&part, self.slack()), f64::INFINITY);
                 }
@@ -220,19 +222,19 @@ impl<'s> Bench<'s> {
         }
     }
 
-    /// Handles rapid moves down and up again without any cut there, as if a hole were drilled with them.
-    fn dips(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
-        let stays = movement.pace == Pace::Rapid && movement.keeps_xy();
-        let (from, to) = (movement.from.z(), movement.to.z());
-        if let Some((dipped, down)) = self.dip.take().filter(|_| stays && to > from) {
-            problems.add_at_line(&say::RAPID_DIP, dipped, |d| d.with("z", down.to.z()));
-        }
-        let Some(piece) = self.stock.at(line).filter(|_| stays && to < from) else { return };
-        let below = to < piece.surface - RESIDUE;
-        let place = [movement.to.x(), movement.to.y()];
-        let tip = Capsule::new(place, place, piece.cutter.diameter / 2.0);
-        if below && self.map.highest_above(&tip, f64::NEG_INFINITY).is_none() {
-            self.dip = Some((line, *movement));
+    /// Reports rapid moves down and up again without any other move between them, as if a hole were drilled or a slot milled with them. The
+    /// map decides where it knows the material.
+    fn excursion(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
+        let Some(piece) = self.stock.at(line) else { return };
+        let is_unknown = |descent: &Move| {
+            let place = [descent.to.x(), descent.to.y()];
+            let tip = Capsule::new(place, place, piece.cutter.diameter / 2.0);
+            self.map.highest_above(&tip, f64::NEG_INFINITY).is_none()
+        };
+        if let Some(ended) = self.excursions.step(line, movement, self.stock, is_unknown) {
+            problems.add_at_line(&say::RAPID_DIP, ended.line, |d| {
+                d.with("z", ended.z()).with("surface", ended.surface).at_point(ended.place())
+            });
         }
     }
 
@@ -309,11 +311,11 @@ pub(super) fn cutting_piece(line: u32, movement: &Move, stock: &Stock) -> Option
     (movement.from.z().min(movement.to.z()) < piece.surface).then_some(*piece)
 }
 
-/// Whether a rapid move can hit material: it is not above all of it, and not straight up.
+/// Whether a rapid move can hit material, as far as is known: it is not above all of it, and not straight up.
 fn is_low_rapid(movement: &Move, stock: &Stock) -> bool {
     let is_above = stock.highest().is_none_or(|highest| movement.from.z().min(movement.to.z()) >= highest);
     let goes_up = movement.keeps_xy() && movement.to.z() >= movement.from.z();
-    movement.pace == Pace::Rapid && !is_above && !goes_up
+    movement.pace == Pace::Rapid && movement.is_known() && !is_above && !goes_up
 }
 
 /// Upper bound of the area in mm² within O of a move. An arc with different radii at its ends extends to the larger one.

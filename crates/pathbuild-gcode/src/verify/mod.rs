@@ -10,6 +10,7 @@ mod chip_load;
 mod compare;
 mod depth;
 mod direction;
+mod excursion;
 mod height_map;
 mod lengths;
 mod machine;

@@ -14,6 +14,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_motion::{Move, MoveShape, Pace, Position, Step};
 use pathbuild_toolpath as toolpath;
 
+use super::excursion::Excursions;
 use super::machine::{Machine, MachineRules};
 use super::material;
 use super::material::{Stock, StockSpan, cutting_piece};
@@ -53,17 +54,17 @@ pub fn rapids_into_material(drawn: &toolpath::Program) -> Vec<Diagnostic> {
 fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
     let tops = LazyCell::new(|| Tops::of(drawn, stock));
     let mut recent: VecDeque<(u32, Move)> = VecDeque::with_capacity(MOST_CUTS);
-    let (mut before, mut found) = (None, Vec::new());
+    let (mut excursions, mut found) = (Excursions::default(), Vec::new());
     for (line, movement) in drawn.moves() {
-        let last = before.replace((line, movement));
+        let ended = excursions.step(line, &movement, stock, |_| true);
+        found.extend(ended.into_iter().flat_map(|excursion| excursion.moves));
         if movement.pace == Pace::Rapid {
-            let is_dip = last.is_some_and(|(line, down)| is_dip(line, &down, &movement, stock));
             let has_room = || {
                 let Some((piece, surface)) = low_at(line, &movement, stock, &tops) else { return true };
                 is_in_circle(&movement, piece.cutter.diameter, &recent)
                     || material::has_room(line, &movement, surface, &recent, stock, MOST_CELLS)
             };
-            if is_dip || !has_room() {
+            if !has_room() {
                 found.push(movement);
             }
             if found.len() > MOST_SUSPECTS {
@@ -122,13 +123,6 @@ const EXACT: f64 = 1e-6;
 
 fn is_same(one: f64, other: f64) -> bool {
     libm::fabs(one - other) < EXACT
-}
-
-/// Whether two consecutive rapid moves go down below the surface and up again.
-fn is_dip(line: u32, down: &Move, up: &Move, stock: &Stock) -> bool {
-    let is_down = down.pace == Pace::Rapid && down.keeps_xy() && down.to.z() < down.from.z();
-    let is_below = || stock.at(line).is_some_and(|piece| down.to.z() < piece.surface - material::RESIDUE);
-    is_down && up.keeps_xy() && up.to.z() > up.from.z() && is_below()
 }
 
 /// The program of a drawing as steps.

@@ -32,6 +32,8 @@ pub struct Rules<'c> {
     cut_before_spindle: Option<u32>,
     /// Whether it has been reported that the spindle does not turn.
     spindle_said: bool,
+    /// Whether it has been reported that the spindle turns in a probing move.
+    turning_probe_said: bool,
     /// The line that last switched the spindle.
     spindle_line: u32,
     /// Whether the last move probed downwards.
@@ -65,6 +67,7 @@ impl<'c> Rules<'c> {
             spindle: Spindle::UNSTATED,
             cut_before_spindle: None,
             spindle_said: false,
+            turning_probe_said: false,
             spindle_line: 0,
             has_probed: false,
             has_cut: false,
@@ -112,6 +115,7 @@ impl<'c> Rules<'c> {
         self.diagonal(line, movement);
         self.home(line, movement);
         probe(line, movement, &mut self.problems);
+        self.turning_probe(line, movement);
         self.after_probe(line, movement);
         self.cutting(line, movement);
         self.directions.add(line, movement, &mut self.problems);
@@ -141,6 +145,7 @@ impl<'c> Rules<'c> {
         }
         if before != spindle {
             self.spindle_said = false;
+            self.turning_probe_said = false;
         }
         self.spindle_line = line;
     }
@@ -205,6 +210,14 @@ impl<'c> Rules<'c> {
         };
         if !std::mem::replace(&mut self.spindle_said, true) {
             self.problems.add_at_line(message, line, |diagnostic| Diagnostic { severity, ..diagnostic });
+        }
+    }
+
+    fn turning_probe(&mut self, line: u32, movement: &Move) {
+        let is_probe = matches!(movement.pace, Pace::Probe { .. });
+        if is_probe && self.spindle.turning.is_on() && !std::mem::replace(&mut self.turning_probe_said, true)
+        {
+            self.problems.add_at_line(&say::PROBE_WITH_SPINDLE_ON, line, |d| d);
         }
     }
 

@@ -71,6 +71,8 @@ pub enum Reason {
     NoCutter,
     /// The height of the material is unknown.
     NoSurface,
+    /// The program cuts, but never starts the spindle with a speed.
+    NoSpeed,
     /// A limit of `[limits]` is exceeded.
     TooLarge,
 }
@@ -82,14 +84,19 @@ pub(super) fn records(
     is_against: bool,
     is_limit_reached: bool,
     blind: Option<BlindRapids>,
+    states_speed: bool,
 ) -> Vec<CheckRecord> {
     let made = |is_made: bool, reason| if is_made { Outcome::Made(None) } else { Outcome::NotMade(reason) };
     let limits = |is_limited: fn(&Machine) -> bool| made(machine.is_some_and(is_limited), Reason::NoLimit);
+    let spindle = match limits(|machine| machine.spindle.is_some()) {
+        Outcome::Made(_) if !states_speed => Outcome::NotMade(Reason::NoSpeed),
+        outcome => outcome,
+    };
     let all = [
         (Requirement::Rapids, rapids(sources, is_limit_reached, blind)),
         (Requirement::Envelope, limits(|machine| machine.travel.is_some())),
         (Requirement::Feeds, limits(|machine| machine.feed.is_some())),
-        (Requirement::Spindle, limits(|machine| machine.spindle.is_some())),
+        (Requirement::Spindle, spindle),
         (Requirement::Drawing, made(is_against, Reason::NoDrawing)),
         (Requirement::Clamps, made(is_against, Reason::NoDrawing)),
     ];
@@ -175,6 +182,7 @@ impl CheckRecord {
             (Reason::NoCutter, _) => &CUTTER,
             (Reason::NoSurface, _) => &SURFACE,
             (Reason::TooLarge, _) => &LIMITS,
+            (Reason::NoSpeed, _) => &START,
             (Reason::NoLimit, Requirement::Feeds) => &FEED,
             (Reason::NoLimit, Requirement::Spindle) => &SPEEDS,
             (Reason::NoLimit, _) => &TRAVEL,
@@ -238,6 +246,7 @@ impl Reason {
             Self::NoCutter => &NO_CUTTER,
             Self::NoSurface => &NO_SURFACE,
             Self::TooLarge => &TOO_LARGE,
+            Self::NoSpeed => &NO_SPEED,
         }
     }
 }
@@ -296,6 +305,11 @@ static NO_SURFACE: Text = Text {
     de: "die Höhe des Materials ist nicht bekannt, nur die in Frästiefe wurden untersucht",
 };
 static TOO_LARGE: Text = Text { en: "the program is too large", de: "das Programm ist zu groß" };
+static NO_SPEED: Text = Text {
+    en: "the program cuts without starting the spindle with a speed",
+    de: "das Programm fräst, ohne die Spindel mit einer Drehzahl einzuschalten",
+};
+static START: Text = Text { en: "M3 and S in the program", de: "M3 und S im Programm" };
 static ONLY_COMMENTS: Text = Text {
     en: "only the program itself states cutter or material",
     de: "nur das Programm selbst nennt Fräser oder Material",

@@ -21,7 +21,7 @@ use pathbuild_gcode::verify::{
     Against, BlindRapidRules, BlindRapids, ChipLoadRules, DepthRules, DirectionRules, LengthRules, Machine,
     MachineRules, PastClamps, PostWords, StatedStatistics, Stock, WordRules, coarse_arcs, verify,
 };
-use pathbuild_motion::{Move, Pace, Step};
+use pathbuild_motion::{Action, Move, Pace, Step};
 use pathbuild_post::ToolTable;
 use serde::{Deserialize, Serialize};
 
@@ -259,6 +259,25 @@ impl<I: Iterator<Item = (u32, Move)>> NominalSteps<'_, I> {
     }
 }
 
+/// Whether a program cuts, and whether it starts the spindle with a speed.
+#[derive(Clone, Copy, Debug, Default)]
+struct SeenSpeeds {
+    has_cut: bool,
+    has_started: bool,
+}
+
+impl SeenSpeeds {
+    fn step(&mut self, step: &Step) {
+        match &step.action {
+            Action::Move(movement) => self.has_cut |= matches!(movement.pace, Pace::Feed(_)),
+            Action::Spindle(spindle) => {
+                self.has_started |= spindle.turning.is_on() && spindle.speed.is_some_and(|speed| speed > 0.0);
+            }
+            _ => {}
+        }
+    }
+}
+
 /// A program under examination.
 struct Examination<'v> {
     verifier: &'v Verifier<'v>,
@@ -300,7 +319,8 @@ impl<'v> Examination<'v> {
         let rewritten = self.rewritten()?;
         let stock = self.sources.stock();
         let mut blind = stock.and_then(BlindRapidRules::new);
-        let (mut found, comparison) = self.findings(written, rewritten.as_ref(), &mut blind);
+        let mut speeds = SeenSpeeds::default();
+        let (mut found, comparison) = self.findings(written, rewritten.as_ref(), &mut blind, &mut speeds);
         if let Some(against) =
             self.verifier.against.as_ref().filter(|_| self.program.dialect == Dialect::Native)
         {
@@ -309,7 +329,7 @@ impl<'v> Examination<'v> {
             let differences = against.text_differences(settings, self.program, self.is_probing, is_sound);
             found.extend(differences.map_err(|problem| vec![*problem])?);
         }
-        let checks = self.checks(&mut found, blind.and_then(BlindRapidRules::finish));
+        let checks = self.checks(&mut found, blind.and_then(BlindRapidRules::finish), speeds);
         self.program.place(&mut found);
         let mut diagnostics = self.doubts(rewritten.as_ref(), &mut found);
         diagnostics.append(&mut found);
@@ -332,6 +352,7 @@ impl<'v> Examination<'v> {
         written: WrittenFindings,
         rewritten: Option<&RewrittenProgram>,
         blind: &mut Option<BlindRapidRules>,
+        speeds: &mut SeenSpeeds,
     ) -> (Vec<Diagnostic>, Option<MoveComparison>) {
         let Self { verifier, program, .. } = self;
         let against = verifier.against.as_ref();
@@ -352,6 +373,7 @@ impl<'v> Examination<'v> {
         let mut depths = DepthRules::default();
         let mut found = verify(&program.drawn(), self.sources.stock(), &mut |step| {
             nominal.step(step);
+            speeds.step(step);
             chip_loads.step(step);
             if let Some(directions) = &mut directions {
                 directions.step(step);
@@ -390,7 +412,12 @@ impl<'v> Examination<'v> {
     }
 
     /// The checks. Adds an error to the findings for each check that is required and was not made.
-    fn checks(&self, found: &mut Vec<Diagnostic>, blind: Option<BlindRapids>) -> Vec<CheckRecord> {
+    fn checks(
+        &self,
+        found: &mut Vec<Diagnostic>,
+        blind: Option<BlindRapids>,
+        speeds: SeenSpeeds,
+    ) -> Vec<CheckRecord> {
         let mut is_limit_reached = false;
         for problem in found.iter_mut().filter(|problem| problem.code() == Code::LimitReached) {
             is_limit_reached = true;
@@ -399,8 +426,12 @@ impl<'v> Examination<'v> {
         }
         let verifier = self.verifier;
         let is_against = verifier.against.is_some();
+        // The speeds of XpertMILL belong to its layers.
+        let states_speed =
+            !speeds.has_cut || speeds.has_started || self.program.dialect == Dialect::Xpertmill;
         let machine = verifier.machine.as_ref();
-        let records = checks::records(&self.sources, machine, is_against, is_limit_reached, blind);
+        let records =
+            checks::records(&self.sources, machine, is_against, is_limit_reached, blind, states_speed);
         found.extend(records.iter().filter_map(|record| record.unmade(verifier.required())));
         records
     }

@@ -1,0 +1,72 @@
+//! Excursions below the material's surface that consist of rapid moves only. (book: program/reading)
+//!
+//! Such moves have no purpose beside the stock: nothing is cut there, so the feed of the descent is missing.
+
+use pathbuild_diagnostic::Point;
+use pathbuild_motion::{Move, Pace};
+
+use super::material::{RESIDUE, Stock};
+
+/// Follows the moves of a program to find such excursions.
+#[derive(Debug, Default)]
+pub(super) struct Excursions {
+    open: Option<Excursion>,
+}
+
+/// Rapid moves below the surface, without any other move between them.
+#[derive(Debug)]
+pub(super) struct Excursion {
+    /// The line of the descent.
+    pub(super) line: u32,
+    /// Height of the surface in mm.
+    pub(super) surface: f64,
+    /// The moves from the descent to the ascent; there is at least the descent.
+    pub(super) moves: Vec<Move>,
+}
+
+impl Excursions {
+    /// Passes the next move. Returns the excursion that it ends. One begins only where the tool arrives at a place that `may_begin` accepts.
+    pub(super) fn step(
+        &mut self,
+        line: u32,
+        movement: &Move,
+        stock: &Stock,
+        may_begin: impl FnOnce(&Move) -> bool,
+    ) -> Option<Excursion> {
+        let open = self.open.take().filter(|open| open.continues_with(movement));
+        if let Some(mut open) = open {
+            open.moves.push(*movement);
+            if !movement.is_known() || movement.to.z() >= open.surface - RESIDUE {
+                return Some(open);
+            }
+            self.open = Some(open);
+            return None;
+        }
+        let surface = stock.at(line).map(|piece| piece.surface).filter(|surface| surface.is_finite())?;
+        let is_descent =
+            movement.pace == Pace::Rapid && movement.is_known() && movement.to.z() < movement.from.z();
+        if is_descent && movement.to.z() < surface - RESIDUE && may_begin(movement) {
+            self.open = Some(Excursion { line, surface, moves: vec![*movement] });
+        }
+        None
+    }
+}
+
+impl Excursion {
+    fn continues_with(&self, movement: &Move) -> bool {
+        // Distant moves are left out where only some places are examined.
+        let follows = self.moves.last().is_some_and(|last| last.to == movement.from);
+        follows && movement.pace == Pace::Rapid
+    }
+
+    /// The height in mm to which the tool descends.
+    pub(super) fn z(&self) -> f64 {
+        self.moves[0].to.z()
+    }
+
+    /// Where it arrives there.
+    pub(super) fn place(&self) -> Point {
+        let [x, y, _] = self.moves[0].to.at;
+        Point::new(x, y)
+    }
+}
