@@ -1,16 +1,16 @@
-// The compiler: a worker that is asked, is ended when it takes too long, and begun anew after that and after a bug.
+// The compiler: a worker that answers questions. It is terminated when it exceeds its time, and restarted after that or after a bug.
 
 import type { Finding, Opened } from "../../../../packaging/npm/index.js";
 import { ProgramSettings } from "./programs.js";
 import { LibraryRow } from "./source.js";
 import type { Answered } from "./worker.js";
 
-/** Files by their places below the folder that was given. */
+/** Files by their paths relative to the given folder. */
 export type Files = Map<string, ArrayBuffer>;
 
 export type { Opened };
 
-/** What the page says beside the configuration. */
+/** Options that the page sets in addition to the configuration. */
 export interface Options {
   feed?: string;
   "sweep-height"?: string;
@@ -26,34 +26,34 @@ export interface Place {
   path: string | null;
 }
 
-/** A path that is listed; whether it is written when all are. */
+/** A listed path, and whether it is written when all programs are emitted. */
 export type IndexRow = LibraryRow & { emitted?: boolean };
 
 interface Answer {
-  // The JSON is that of crates/pathbuild-wasm.
+  // JSON as defined by crates/pathbuild-wasm.
   head: any;
   bytes: Uint8Array<ArrayBuffer>;
 }
 
-/** Why the compiler ended in the middle of a question. */
+/** Error of a compiler that was terminated during a question. */
 class Ended extends Error {
   constructor(readonly why: { why: "time" } | { why: "bug"; reason: string }) {
     super(why.why === "bug" ? why.reason : why.why);
   }
 }
 
-/** So long, in seconds, opening may take: as long as the default for one path. */
+/** Time limit in seconds for opening files: the same as the default for one path. */
 const OPENING = 60;
 
 export class Compiler {
   private worker: Worker | null = null;
-  /** Questions are asked one after the other. */
+  /** The last question: questions are asked one at a time. */
   private last: Promise<unknown> = Promise.resolve();
-  /** What ended it. */
+  /** Paths that terminated the compiler, with the reasons. */
   private lost: (Place & Ended["why"])[] = [];
   private seconds = OPENING;
   private isOver = false;
-  /** Grows when it begins anew: it has forgotten what it was asked then. */
+  /** Number of restarts. A restarted compiler has lost all earlier results. */
   generation = 0;
 
   constructor(
@@ -63,40 +63,40 @@ export class Compiler {
     private options: Options,
   ) {}
 
-  /** What the files are. */
+  /** Opens the files and returns what they contain. */
   async open(): Promise<Opened> {
     return this.next(() => this.begin());
   }
 
-  /** The paths of a drawing. */
+  /** Returns the paths of a drawing. */
   async index(file: string): Promise<IndexRow[]> {
     return (await this.ask("index", { file, path: null })).head.rows;
   }
 
-  /** A path with its state. */
+  /** Checks a path and returns its row. */
   async check(place: Place): Promise<LibraryRow | null> {
     return (await this.ask("check", place)).head.row;
   }
 
-  /** What there is to see, as data or as SVG; `null`: nothing. */
+  /** Returns a scene as data or as SVG; `null` if there is nothing to show. */
   async see(what: "scene" | "picture", place: Place): Promise<Uint8Array<ArrayBuffer> | null> {
     const { head, bytes } = await this.ask(what, place);
     return head.seen ? bytes : null;
   }
 
-  /** A program with settings, as a scene. */
+  /** Returns the scene of a program, read with these settings. */
   async program(name: string, text: ArrayBuffer, { dialect, cutter, surface }: ProgramSettings): Promise<Uint8Array<ArrayBuffer>> {
     const given = Object.fromEntries(Object.entries({ dialect, cutter, surface }).filter(([, value]) => value !== ""));
     const { bytes } = await this.next(() => this.put({ ask: "program", name, ...given }, text.slice(0)));
     return bytes;
   }
 
-  /** What all paths add up to that it was asked for. */
+  /** Returns the statistics of all paths requested so far. */
   async statistics(): Promise<any> {
     return (await this.next(() => this.put({ ask: "statistics" }))).head.statistics;
   }
 
-  /** Programs. */
+  /** Writes the programs of these paths. */
   async emit(places: Place[]): Promise<{ refused: string | null; problems: Finding[]; files: [string, Uint8Array<ArrayBuffer>][] }> {
     const { head, bytes } = await this.next(() => this.put({ ask: "emit", places }, undefined, this.seconds * Math.max(1, places.length)));
     let from = 0;
@@ -104,13 +104,13 @@ export class Compiler {
     return { ...head, files: head.files.map(file) };
   }
 
-  /** Ends it. */
+  /** Terminates the worker. */
   end(): void {
     this.isOver = true;
     this.stop();
   }
 
-  /** Asks for a path. One that ends the compiler is lost: asked again, it has a finding that says why. */
+  /** Asks a question about a path. For a path that has terminated the compiler, the answer is a finding with the reason. */
   private ask(what: string, place: Place): Promise<Answer> {
     return this.next(async () => {
       try {
@@ -129,13 +129,13 @@ export class Compiler {
     return result;
   }
 
-  /** Asks, of a compiler that has opened the files. */
+  /** Asks a question once the compiler has opened the files. */
   private async put(question: object, bytes?: ArrayBuffer, seconds = this.seconds): Promise<Answer> {
     if (!this.worker) await this.begin();
     return this.send(question, bytes, seconds);
   }
 
-  /** Begins anew: with all files, and without what was lost. */
+  /** Restarts the worker with all files, without the paths that terminated it. */
   private async begin(): Promise<Opened> {
     this.stop();
     if (this.isOver) throw new Ended({ why: "bug", reason: "" });

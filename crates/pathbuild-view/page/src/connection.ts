@@ -1,4 +1,4 @@
-// What the server that gave out this page is asked. Where others than this machine may come, it wants a token, which stood in the address.
+// Requests to the server of this page. If other machines may connect, the server requires the token from the page's address.
 
 import { Scene } from "./scene.js";
 import { DroppedProgram, ProgramSettings } from "./programs.js";
@@ -28,13 +28,13 @@ export class Connection implements Source {
     return (await this.get(`api/picture?${query(file, path)}`)).blob();
   }
 
-  /** The program goes to the server on this machine that gave out the page, which keeps nothing of it. */
+  /** Sends the program to the server of this page, which does not store it. */
   async program({ name, bytes }: DroppedProgram, { dialect, cutter, surface }: ProgramSettings): Promise<Scene> {
     const given = Object.entries({ name, dialect, cutter, surface }).filter(([, value]) => value !== "");
     return (await this.get(`api/program?${new URLSearchParams(given)}`, { method: "POST", body: bytes })).json();
   }
 
-  /** Calls for each change, until the connection ends. A server that was started again has other pages. */
+  /** Calls `hear` for each change until the connection ends. A restarted server has a different page. */
   async events(hear: () => void): Promise<void> {
     const answer = await this.get("api/events");
     const reader = answer.body!.pipeThrough(new TextDecoderStream()).getReader();
@@ -67,7 +67,7 @@ function query(file: string, path: string | null): string {
   return wanted.toString();
 }
 
-/** Takes the token out of the address, so that it is neither seen nor kept in the browser's history. */
+/** Removes the token from the address, so that it is neither visible nor stored in the browser's history. */
 function takeToken(): string | null {
   const from = new URLSearchParams(location.hash.slice(1));
   const token = from.get("token");

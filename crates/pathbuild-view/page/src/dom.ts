@@ -1,11 +1,11 @@
-// Elements of the page.
+// Access to elements of the page.
 
 import { visible } from "./visible.js";
 
-/** The element of that id, which the page has. */
+/** The element with this id, which must exist. */
 export const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 
-/** A new element with a text, which may come from strangers. */
+/** Creates an element with a text, which may be untrusted. */
 export function node(tag: string, content: string, className = ""): HTMLElement {
   const made = document.createElement(tag);
   made.textContent = visible(content);
@@ -13,7 +13,7 @@ export function node(tag: string, content: string, className = ""): HTMLElement 
   return made;
 }
 
-/** A row of a table, of cells of one kind. */
+/** Creates a table row with cells of one kind. */
 export function tableRow(tag: "td" | "th", cells: string[]): HTMLElement {
   const row = document.createElement("tr");
   row.append(...cells.map((cell) => node(tag, cell)));

@@ -1,4 +1,4 @@
-// A program with a mistake, to try the page with: before the last slot the cutter travels at cutting depth.
+// An example program with a mistake: before the last slot, the cutter travels at cutting depth.
 
 export const EXAMPLE_NAME = "example.nc";
 

@@ -1,12 +1,12 @@
-// Files that a visitor drops or picks.
+// Files that the user drops or picks.
 
 import { Files } from "./compiler.js";
 
-/** More than that no browser's memory holds twice, in the page and in the compiler, with what is made of it. */
+/** Upper bound on the number of files: the page and the compiler each hold a copy in memory. */
 export const MOST_FILES = 20_000;
 export const MOST_BYTES = 256 << 20;
 
-/** Too many files, or too large ones. */
+/** Error for files that are too many or too large. */
 export class TooMuch extends Error {
   constructor(
     readonly files: number,
@@ -16,7 +16,7 @@ export class TooMuch extends Error {
   }
 }
 
-/** What was given: whether it was a folder, and its files by their places in it. */
+/** Files given by the user, by their paths, and whether they are a folder. */
 export interface Given {
   isFolder: boolean;
   files: Files;
@@ -24,31 +24,31 @@ export interface Given {
 
 type Placed = [string, File];
 
-/** Of what was picked by a button. */
+/** Reads files picked with a button. */
 export function picked(list: FileList): Promise<Given> {
   const files = [...list].map((file): Placed => [file.webkitRelativePath || file.name, file]);
   return given(files);
 }
 
-/** What TypeScript does not know yet, and only Chromium has. */
+/** Extension of Chromium that TypeScript does not declare. */
 interface Dropped extends DataTransferItem {
   getAsFileSystemHandle?(): Promise<Handle | null>;
 }
 
 type Handle = { kind: "file"; name: string; getFile(): Promise<File> } | { kind: "directory"; name: string; values(): AsyncIterable<Handle> };
 
-/** Of what was dropped. What was dropped can be asked for at once only. */
+/** Reads dropped files. The items of a drop must be accessed synchronously. */
 export async function dropped(data: DataTransfer): Promise<Given> {
   const all = [...data.items].map((item: Dropped) => ({
     file: item.getAsFile(),
     entry: item.webkitGetAsEntry(),
-    // Chromium has others for what it takes for the system's.
+    // Chromium refuses handles of directories that it considers part of the system.
     handle: item.getAsFileSystemHandle?.().catch(() => null),
   }));
   const files: Placed[] = [];
   for (const { file, entry, handle } of all) {
     if (entry?.isDirectory) {
-      // To a page that is a file itself Chromium reads folders by handles alone.
+      // On a page opened as a file, Chromium reads folders only through handles.
       const folder = await handle;
       await (folder ? unfold(folder, folder.name, files) : walk(entry, files));
     } else if (file) files.push([file.name, file]);
@@ -79,7 +79,7 @@ async function walk(entry: FileSystemEntry, into: Placed[]): Promise<void> {
   }
 }
 
-/** What no drawing depends on: .git above all, which may be large. Rules of what does not count are read. */
+/** Whether a file is hidden, such as .git, which may be large; ignore files are not. */
 function isHidden(place: string): boolean {
   const parts = place.split("/").filter((part) => part !== "");
   return parts.some((part, index) => part.startsWith(".") && !(index === parts.length - 1 && /^\.(git)?ignore$/.test(part)));
@@ -104,7 +104,7 @@ async function read(place: string, file: File): Promise<ArrayBuffer> {
   }
 }
 
-/** Drawings that come to what is there: a drawing of the same name is replaced, wherever it lies, if there is one only. */
+/** Adds drawings to the existing files. A drawing replaces the one with its name in any directory, if there is only one. */
 export function joined(before: Files, given: Given): Files {
   if (given.isFolder || before.size === 0) return given.files;
   const files = new Map(before);

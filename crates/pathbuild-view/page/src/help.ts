@@ -1,9 +1,9 @@
-// The list of keys, which "?" opens.
+// The list of keys, opened with "?".
 
 import { $, node } from "./dom.js";
 import { Lang, Word, say } from "./words.js";
 
-/** Keys in English and German, and what they do. */
+/** Keys and their effects, in English and German. */
 const KEYS: [string, string, Word][] = [
   ["← →", "← →", "keyMove"],
   ["PgUp PgDn", "Bild↑ Bild↓", "keyTen"],
@@ -28,7 +28,7 @@ const KEYS: [string, string, Word][] = [
 
 const dialog = $<HTMLDialogElement>("help");
 
-/** Writes the list in a language. */
+/** Renders the list in a language. */
 export function sayKeys(lang: Lang): void {
   const rows = KEYS.map(([english, german, word]) => {
     const row = document.createElement("tr");
@@ -38,7 +38,7 @@ export function sayKeys(lang: Lang): void {
   $("key-list").replaceChildren(...rows);
 }
 
-/** Opens the list, or closes it. */
+/** Opens or closes the list. */
 export function toggleHelp(): void {
   if (dialog.open) dialog.close();
   else dialog.showModal();

@@ -1,32 +1,32 @@
-// Strokes in large numbers. Without a graphics card each of them costs half a microsecond, however short it is: what is drawn is kept as a
-// picture, and a step draws only what comes on top. For steps backwards there are pictures of the first parts.
+// Strokes in large numbers. Without a graphics card each of them costs half a microsecond, however short it is. Finished strokes are therefore
+// kept as a picture, and a step draws only the new ones. For steps backwards there are pictures of the first parts.
 
 import * as THREE from "three";
 
 import { Pieces } from "./model.js";
 
-/** There are at most so many pictures, of at most so many pixels together. */
+/** Upper bounds on the number of pictures and on their total number of pixels. */
 const [MOST_PICTURES, MOST_PIXELS] = [16, 24_000_000];
 
 interface Picture {
   target: THREE.WebGLRenderTarget;
-  /** How many strokes are done in it. */
+  /** Number of strokes drawn in the picture. */
   count: number;
 }
 
 export class Kept {
-  /** Shows the picture. */
+  /** Mesh that displays the picture. */
   readonly object: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
   private lines: THREE.LineSegments<THREE.BufferGeometry, THREE.LineBasicMaterial>;
   private total: number;
   private wanted = 0;
   private shown: Picture | null = null;
-  /** Pictures without strokes that are done, of the first part, of the first two, and so on. */
+  /** Pictures of the first part of the strokes, of the first two parts, and so on. */
   private parts: Picture[] = [];
   private view = new THREE.Matrix4();
   private size = new THREE.Vector2();
 
-  /** With a colour for strokes that are not done yet, these are to be seen beneath the others. */
+  /** If a colour for pending strokes is given, they are visible beneath the others. */
   constructor(
     pieces: Pieces,
     private ahead?: number,
@@ -41,12 +41,12 @@ export class Kept {
     this.object.frustumCulled = false;
   }
 
-  /** The first so many are done. */
+  /** Sets the number of strokes to draw as done. */
   draw(count: number): void {
     this.wanted = count;
   }
 
-  /** Makes the picture, before it is shown. */
+  /** Draws the picture before it is shown. */
   prepare(renderer: THREE.WebGLRenderer, camera: THREE.Camera): void {
     const shown = this.begun(renderer, camera);
     const most = Math.min(MOST_PICTURES, Math.floor(MOST_PIXELS / (this.size.x * this.size.y)));
@@ -63,14 +63,14 @@ export class Kept {
     this.object.material.uniforms.picture.value = shown.target.texture;
   }
 
-  /** Gives back what the graphics card keeps. */
+  /** Releases the resources of the graphics card. */
   dispose(): void {
     this.forget();
     this.lines.geometry.dispose();
     this.lines.material.dispose();
   }
 
-  /** The picture that is shown, begun anew if the former one was seen from elsewhere. */
+  /** Returns the picture to show; restarts it if the camera has moved. */
   private begun(renderer: THREE.WebGLRenderer, camera: THREE.Camera): Picture {
     const view = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     const size = renderer.getDrawingBufferSize(new THREE.Vector2());
@@ -93,7 +93,7 @@ export class Kept {
     this.lines.material = material;
   }
 
-  /** Goes back to where what is wanted can be drawn on top, or goes on from where that is nearer. */
+  /** Goes back to a picture to which the remaining strokes can be added, or ahead to a later one that is nearer. */
   private resume(renderer: THREE.WebGLRenderer, shown: Picture): void {
     const before = this.parts.filter((part) => part.count <= this.wanted).at(-1)!;
     if (shown.count >= before.count && shown.count <= this.wanted) return;
@@ -107,7 +107,7 @@ export class Kept {
     return { target, count: picture.count };
   }
 
-  /** Puts a picture into a target. */
+  /** Copies a picture into a target. */
   private put(renderer: THREE.WebGLRenderer, picture: Picture, target: THREE.WebGLRenderTarget): void {
     this.object.material.uniforms.picture.value = picture.target.texture;
     paint(renderer, target, this.object, new THREE.Camera(), true);
@@ -119,7 +119,7 @@ export class Kept {
   }
 }
 
-/** Draws an object alone into a target, on what is there or on nothing. */
+/** Draws a single object into a target, which is cleared first if requested. */
 function paint(renderer: THREE.WebGLRenderer, target: THREE.WebGLRenderTarget, object: THREE.Object3D, camera: THREE.Camera, clears: boolean): void {
   const [color, alpha] = [renderer.getClearColor(new THREE.Color()), renderer.getClearAlpha()];
   renderer.autoClear = clears;
@@ -131,7 +131,7 @@ function paint(renderer: THREE.WebGLRenderer, target: THREE.WebGLRenderTarget, o
   renderer.autoClear = true;
 }
 
-/** Covers all of a window with a picture; what is empty in it stays as it is. */
+/** Material that covers the window with a picture; empty pixels are left unchanged. */
 function sheet(): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     uniforms: { picture: { value: null } },

@@ -1,8 +1,8 @@
-// Labels in the picture: none stands over another or over the legend, none is cut off at its edge.
+// Labels in the picture. They overlap neither each other nor the legend, and are not cut off at the edge.
 
 import { Point } from "./scene.js";
 
-/** A label and the place that it belongs to. */
+/** A label and its anchor. */
 export interface Spot {
   at: [number, number, number];
   node: HTMLElement;
@@ -11,16 +11,16 @@ export interface Spot {
 /** Left, top, right, bottom in px. */
 type Box = [number, number, number, number];
 
-/** Whose place comes first, by class. The first ones are shown even where there is no room. */
+/** Classes in order of priority. The first ones are shown even without room. */
 const RANKS = ["finding", "cross", "zero", "probe", "clamp", "text", "order", "name"];
 const ALWAYS = 5;
 
-/** Sides of a cell in px, by which neighbours are found. */
+/** Side length in px of the cells in which neighbours are searched. */
 const CELL = 64;
 
 interface Label extends Spot {
   rank: number;
-  /** What it takes, seen from its place. */
+  /** The space that it takes, relative to its anchor. */
   box: Box;
 }
 
@@ -28,13 +28,13 @@ export class Labels {
   private labels: Label[] = [];
   private isMeasured = false;
 
-  /** The legend lies over the picture as well. */
+  /** `legend` also covers a part of the picture. */
   constructor(
     private host: HTMLElement,
     private legend: HTMLElement,
   ) {}
 
-  /** Shows these instead of what was shown before. */
+  /** Replaces all labels. */
   set(spots: Spot[]): void {
     const rank = ({ node }: Spot) => RANKS.findIndex((name) => node.classList.contains(name));
     this.labels = spots.map((spot): Label => ({ ...spot, rank: rank(spot), box: [0, 0, 0, 0] })).sort((a, b) => a.rank - b.rank);
@@ -42,7 +42,7 @@ export class Labels {
     this.host.replaceChildren(...spots.map(({ node }) => node));
   }
 
-  /** Puts them where they belong in a picture of that size. */
+  /** Places the labels in a picture of this size. */
   place(project: (at: [number, number, number]) => Point, width: number, height: number): void {
     if (!this.isMeasured) this.measure();
     const taken = new Map<number, Box[]>();
@@ -72,13 +72,13 @@ export class Labels {
   }
 }
 
-/** Steps aside, the nearest first. */
+/** Offsets to try, the nearest first. */
 function ways([left, top, right, bottom]: Box): Point[] {
   const [across, down] = [(right - left) / 2 + 4, bottom - top + 1];
   return [[0, 0], [0, down], [0, -down], [across, 0], [-across, 0], [across, down], [across, -down], [-across, down], [-across, -down], [0, 2 * down], [0, -2 * down]];
 }
 
-/** A box, moved into the picture. */
+/** Moves a box into the picture. */
 function inside([left, top, right, bottom]: Box, width: number, height: number): Box {
   const dx = Math.max(0, -left) - Math.max(0, right - width);
   const dy = Math.max(0, -top) - Math.max(0, bottom - height);
@@ -89,7 +89,7 @@ function meets(a: Box, b: Box): boolean {
   return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
 }
 
-/** The cells that a box lies in. */
+/** The cells that a box overlaps. */
 function cells([left, top, right, bottom]: Box): number[] {
   const all: number[] = [];
   for (let row = Math.floor(top / CELL); row * CELL < bottom; row++) {

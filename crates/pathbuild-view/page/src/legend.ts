@@ -1,11 +1,11 @@
-// The legend of the picture: a scale of lengths, one of depths, and what the colours mean.
+// The legend of the picture: a scale of lengths, one of depths, and the meaning of the colours.
 
 import { $ } from "./dom.js";
 import { Model } from "./model.js";
 import { FinishedPart } from "./scene.js";
 import { Lang, Word, mm, say } from "./words.js";
 
-/** Length in px that the scale may have at most. */
+/** Maximum length of the scale in px. */
 const LONGEST = 130;
 
 const host = $("legend");
@@ -21,7 +21,7 @@ export interface Shown {
   parts: FinishedPart[];
 }
 
-/** Says what is to be seen. */
+/** Renders the legend for what is visible. */
 export function sayLegend(model: Model, shown: Shown, lang: Lang): void {
   const hasCuts = Number.isFinite(model.deepest);
   depths.hidden = !hasCuts;
@@ -50,7 +50,7 @@ export function sayLegend(model: Model, shown: Shown, lang: Lang): void {
   );
 }
 
-/** Sets the scale for a picture with so many px for each mm; `null`: lengths are foreshortened. */
+/** Sets the scale in px per mm; `null` if lengths are foreshortened. */
 export function sayScale(perMm: number | null): void {
   scale.hidden = perMm === null;
   if (perMm === null) return;
@@ -60,7 +60,7 @@ export function sayScale(perMm: number | null): void {
   scale.textContent = `${mm(length)} mm`;
 }
 
-/** Shows the legend, or hides it. */
+/** Shows or hides the legend. */
 export function showLegend(isShown: boolean): void {
   host.hidden = !isShown;
 }

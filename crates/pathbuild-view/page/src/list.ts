@@ -1,21 +1,21 @@
-// Rows of a library, of which only those that can be seen are made.
+// Rows of a library. Only the visible ones are rendered.
 
 import { node } from "./dom.js";
 import { LibraryRow } from "./source.js";
 import { lang } from "./viewer.js";
 import { Word, say } from "./words.js";
 
-/** Heights of a row in px, wide and narrow. */
+/** Heights of a row in px, on wide and narrow pages. */
 const [WIDE, NARROW] = [26, 44];
 
-/** Below this width a row has two lines. */
+/** Width in px below which a row has two lines. */
 const LEAST = 900;
 
 const STATES = { errors: "manyErrors", stale: "stateStale", current: "stateCurrent", ok: "stateOk" } as const satisfies Record<string, Word>;
 
 export class List {
   private rows: LibraryRow[] = [];
-  /** The row that is chosen. */
+  /** Index of the selected row. */
   private at = -1;
   private isCompact = false;
 
@@ -33,7 +33,7 @@ export class List {
     new ResizeObserver(() => this.fold()).observe(host);
   }
 
-  /** Lists these; `null`: those that are listed. The row of what is open is chosen. */
+  /** Sets the rows; `null` keeps them. Selects the row of the open path. */
   set(rows: LibraryRow[] | null, open: { file: string; path: string | null } | null): void {
     const chosen = open ?? this.rows[this.at];
     this.rows = rows ?? this.rows;
@@ -48,7 +48,7 @@ export class List {
     if (this.rows.length > 0) this.choose(0, true);
   }
 
-  /** Makes the rows that can be seen. */
+  /** Renders the visible rows. */
   draw(): void {
     const height = this.height();
     this.items.style.height = `${this.rows.length * height}px`;
@@ -96,7 +96,7 @@ export class List {
     if (opens && this.rows[this.at]) this.open(this.rows[this.at]);
   }
 
-  /** Scrolls to the row that is chosen. */
+  /** Scrolls to the selected row. */
   private reveal(): void {
     if (this.at < 0) return;
     const height = this.height();
@@ -149,7 +149,7 @@ function name(row: LibraryRow): string {
   return row.path ?? say("wholeDrawing", lang);
 }
 
-/** As `list` says it. */
+/** The state as printed by `list`. */
 function state(row: LibraryRow): HTMLElement {
   if (!row.state) return part(say("unchecked", lang), "state");
   const counted = (count: number, one: Word, many: Word) => `${count} ${say(count === 1 ? one : many, lang)}`;

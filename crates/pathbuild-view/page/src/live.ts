@@ -1,4 +1,4 @@
-// The page of a library: what is listed, and one path of it that is looked at.
+// The page of a library: its list, and the path that is shown.
 
 import { $, node, tableRow } from "./dom.js";
 import { List } from "./list.js";
@@ -8,7 +8,7 @@ import { LibraryNews, LibraryRow, Refused, Source, Statistics } from "./source.j
 import { assume, hide, lang, onAssume, onSpeak, otherLang, show, speak, theme } from "./viewer.js";
 import { Word, say } from "./words.js";
 
-/** What may be looked at: a path, or all of a drawing. */
+/** The path to show, or a whole drawing. */
 interface Wanted {
   file: string;
   path: string | null;
@@ -26,10 +26,10 @@ const FILTERS: [Filter, Word][] = [
   ["warnings", "withWarnings"],
 ];
 
-/** So many drawings are fetched first: more than any window shows, and painted before a large library has come. */
+/** Number of drawings fetched first: more than a window shows, and rendered before all of a large library has arrived. */
 const FIRST = 200;
 
-/** The page, which asks that source. Returns what opens a program that was dropped. */
+/** Starts the page with this source. Returns a function that opens a dropped program. */
 export function live(source: Source): (program: DroppedProgram) => void {
   const page = new Page(source);
   page.begin();
@@ -38,10 +38,10 @@ export function live(source: Source): (program: DroppedProgram) => void {
 
 class Page {
   private drawings = new Map<string, LibraryRow[]>();
-  /** In order of place. */
+  /** Files sorted by path. */
   private files: string[] = [];
   private revision = 0;
-  /** Whether the last answer was all there was. */
+  /** Whether the last answer was complete. */
   private isWhole = true;
   private isPulling = false;
   private isBehind = false;
@@ -52,14 +52,14 @@ class Page {
   private statistics: Statistics | null = null;
   private filter: Filter = "all";
   private open: Wanted | null = null;
-  /** The program that was dropped last, and what the address says of one. */
+  /** The program dropped last. */
   private program: DroppedProgram | null = null;
   private settings: ProgramSettings | null = null;
-  /** The drawing of what is open, where it is no longer there. */
+  /** Whether the drawing that is open no longer exists. */
   private isGone = false;
-  /** Why a program cannot be shown. */
+  /** Reason why a program cannot be shown. */
   private failure = "";
-  /** Grows with each look: an answer to an older one comes too late. */
+  /** Number of the current request; answers to earlier ones are ignored. */
   private look = 0;
   private list = new List($("list"), $("items"), (row) => this.choose({ file: row.file, path: row.path }));
   private note = node("div", "");
@@ -109,7 +109,7 @@ class Page {
     void this.listen();
   }
 
-  /** Hears of changes for as long as the page is open. */
+  /** Listens for changes while the page is open. */
   private async listen(): Promise<void> {
     for (;;) {
       try {
@@ -125,7 +125,7 @@ class Page {
     }
   }
 
-  /** Fetches what is new; once more if more came meanwhile. */
+  /** Fetches changes, and again if there were more in the meantime. */
   private async pull(): Promise<void> {
     this.isBehind = true;
     if (this.isPulling) return;
@@ -137,12 +137,12 @@ class Page {
         this.isBehind ||= !this.isWhole;
       }
     } catch {
-      // The events tell whether it is worth while to ask again.
+      // An event will show when another request is worthwhile.
     }
     this.isPulling = false;
   }
 
-  /** Opens a program, with the settings of the address if it has any. */
+  /** Opens a program, with the settings from the address if there are any. */
   take(program: DroppedProgram): void {
     this.program = program;
     if (this.settings) this.follow();
@@ -163,7 +163,7 @@ class Page {
     if (news.all || news.drawings.some(({ file, rows }) => !rows || !known.has(file))) this.files = inOrder(this.drawings.keys());
     const wasComplete = this.isComplete;
     this.isWhole = !news.more;
-    // Who has a part knows nothing that the next answer could follow.
+    // After a partial answer there is no revision to continue from.
     [this.revision, this.isComplete, this.halted] = [this.isWhole ? news.revision : 0, this.isWhole && news.complete, news.halted];
     [this.problems, this.statistics] = [news.problems, news.statistics];
     this.say();
@@ -182,7 +182,7 @@ class Page {
     return this.files.flatMap((file) => this.drawings.get(file)!);
   }
 
-  /** Lists what is searched for. */
+  /** Lists the rows that match the search. */
   private relist(): void {
     const words = $<HTMLInputElement>("search").value.toLowerCase().split(/\s+/).filter((word) => word !== "");
     const isMeant = (row: LibraryRow) => {
@@ -201,7 +201,7 @@ class Page {
     $("count").textContent = nothing || `${shown}${count.format(all.length)} ${say(all.length === 1 ? "path" : "paths", lang)}${open}${this.isWhole ? "" : " …"}`;
   }
 
-  /** Everything that is said in words. */
+  /** Renders all texts. */
   private say(): void {
     $<HTMLInputElement>("search").placeholder = say("search", lang);
     $("search").setAttribute("aria-label", say("search", lang));
@@ -261,7 +261,7 @@ class Page {
     this.remark();
   }
 
-  /** What there is to say of the picture as a whole. */
+  /** Renders the remarks about the whole picture. */
   private remark(): void {
     const text = this.failure !== "" ? this.failure : !this.isOnline ? say("offline", lang) : this.isGone ? `${this.open?.file} ${say("gone", lang)}` : "";
     this.note.textContent = text;
@@ -296,7 +296,7 @@ class Page {
     );
   }
 
-  /** Looks at something else, or at the list alone. */
+  /** Shows another path, or only the list. */
   private choose(wanted: Wanted | null): void {
     const to = new URLSearchParams();
     if (wanted) to.set("file", wanted.file);
@@ -307,7 +307,7 @@ class Page {
     this.follow();
   }
 
-  /** Looks at what the address says. */
+  /** Shows the path named in the address. */
   private follow(): void {
     const from = new URLSearchParams(location.hash.slice(1));
     const file = from.get("file");
@@ -332,7 +332,7 @@ class Page {
     if (wasOpen && !this.open && !this.settings) $("list").focus();
   }
 
-  /** Fetches and shows what is open. */
+  /** Fetches and shows the open path. */
   private async view(isSame: boolean): Promise<void> {
     const [{ open, program, settings }, look] = [this, ++this.look];
     try {
@@ -358,7 +358,7 @@ class Page {
     this.remark();
   }
 
-  /** The picture that stands still, as an image: what is in a drawing never becomes part of this page. */
+  /** Shows the still picture as an image, so that no content of a drawing becomes part of this page. */
   private async still({ file, path }: Wanted): Promise<void> {
     const image = document.createElement("img");
     image.alt = path ?? file;
@@ -368,7 +368,7 @@ class Page {
   }
 }
 
-/** Files in order of place: what lies in a directory stands together. */
+/** Sorts files by path, so that the files of a directory are together. */
 function inOrder(files: Iterable<string>): string[] {
   const keyed = [...files].map((file): [string, string] => [file.replaceAll("/", "\u0001"), file]);
   return keyed.sort(([a], [b]) => (a < b ? -1 : 1)).map(([, file]) => file);

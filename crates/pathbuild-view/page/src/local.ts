@@ -1,4 +1,4 @@
-// The page in the browser alone: the page of a library, of files that a visitor drops, compiled here.
+// The page without a server: the page of a library of dropped files, compiled in the browser.
 
 import { zipSync } from "fflate";
 import { Compiler, Files, IndexRow, Options, Place } from "./compiler.js";
@@ -12,10 +12,10 @@ import { LibraryNews, LibraryRow, Refused, Source, Statistics } from "./source.j
 import { lang, onSpeak, speak } from "./viewer.js";
 import { Word, say } from "./words.js";
 
-/** So often, in ms, what was checked is shown. */
+/** Interval in ms at which checked paths are shown. */
 const PAUSE = 100;
 
-/** The library that was given, as a source. */
+/** The given library as a source. */
 class Local implements Source {
   files: Files = new Map();
   compiler: Compiler | null = null;
@@ -40,7 +40,7 @@ class Local implements Source {
     private opened: (posts: { name: string; for: string }[]) => void,
   ) {}
 
-  /** Opens files: what was open is forgotten. */
+  /** Opens files and closes those that were open. */
   open(files: Files, options: Options): void {
     document.body.dataset.files = "true";
     this.compiler?.end();
@@ -55,14 +55,14 @@ class Local implements Source {
     this.settled = this.listed.then(() => this.check(compiler)).catch(fail).then(() => this.finish(compiler));
   }
 
-  /** The paths that are written when all are, once all are checked. */
+  /** Returns the paths that are written when all programs are emitted, once all paths are checked. */
   async emitted(): Promise<Place[]> {
     for (let settled = null; settled !== this.settled; ) await (settled = this.settled);
     const rows = [...this.drawings].flatMap(([file, rows]) => (rows ?? []).map((row) => ({ ...row, file })));
     return rows.filter((row) => row.path !== null && row.emitted && row.state !== "errors").map(({ file, path }) => ({ file, path }));
   }
 
-  /** The paths of a drawing, or one of them. */
+  /** Returns the paths of a drawing, or one of them. */
   places({ file, path }: Place): Place[] {
     return path !== null ? [{ file, path }] : (this.drawings.get(file) ?? []).filter((row) => row.path !== null).map((row) => ({ file, path: row.path }));
   }
@@ -117,10 +117,10 @@ class Local implements Source {
     this.tell(true);
   }
 
-  /** Checks all paths that are listed. */
+  /** Checks all listed paths. */
   private async check(compiler: Compiler): Promise<void> {
     if (compiler !== this.compiler || this.halted !== null) return;
-    // One that begins anew knows no figures of what was checked before.
+    // A restarted compiler has lost the figures of the paths checked before.
     const known = new Map<IndexRow, number>();
     for (let isSettled = false; !isSettled; ) {
       isSettled = true;
@@ -160,12 +160,12 @@ class Local implements Source {
   }
 }
 
-/** The configuration of what was given lies at its root. */
+/** File name of the configuration, at the root of the given files. */
 const CONFIGURATION = "pathbuild.toml";
 
 const FIELDS = ["feed", "sweep-height", "rapid", "probe-feed"] as const;
 
-/** What the visitor says beside the configuration. */
+/** Options that the user sets in addition to the configuration. */
 function options(): Options {
   const said: Options = { lang };
   for (const name of FIELDS) {
@@ -177,13 +177,13 @@ function options(): Options {
   return said;
 }
 
-/** Bytes of a text in the page, packed and in base 64. */
+/** Decodes bytes that are embedded in the page, compressed and in base64. */
 async function unpacked(id: string): Promise<ArrayBuffer> {
   const packed = Uint8Array.from(atob($(id).textContent!.trim()), (letter) => letter.charCodeAt(0));
   return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
-/** Says something below the bar, in lines; nothing: takes it away. */
+/** Shows lines below the bar; none hides them. */
 function tell(lines: string[]): void {
   $("said").replaceChildren(...lines.map((line) => node("p", line)));
   $("said").hidden = lines.length === 0;
@@ -201,7 +201,7 @@ function save(name: string, bytes: BlobPart): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-/** Downloads programs: one file as it is, several in an archive. */
+/** Downloads programs: a single file as it is, several as an archive. */
 async function download(source: Local, wanted: Place[] | Promise<Place[]>): Promise<void> {
   tell([]);
   const places = await wanted;
@@ -286,7 +286,7 @@ async function begin(): Promise<void> {
   speak();
 }
 
-/** The posts to choose from, and what was chosen. */
+/** Renders the selection of posts, and keeps the selected one. */
 function offer(posts: { name: string; for: string }[]): void {
   const select = $<HTMLSelectElement>("post");
   if (select.options.length > 1) return;
@@ -294,12 +294,12 @@ function offer(posts: { name: string; for: string }[]): void {
   [...select.options].slice(1).forEach((option, index) => (option.title = posts[index].for));
 }
 
-/** The book in the language that holds. */
+/** Links the book in the current language. */
 function turnBook(): void {
   for (const link of document.querySelectorAll<HTMLAnchorElement>("a.book")) link.href = link.href.replace(/\/docs\/(en|de)\//, `/docs/${lang}/`);
 }
 
-/** Names of fields, for who sees them and who hears them. */
+/** Labels the fields, also for screen readers. */
 function label(): void {
   const names: [string, Word, string][] = [
     ["post", "post", ""],

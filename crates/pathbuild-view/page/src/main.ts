@@ -1,4 +1,4 @@
-// The page: of one scene, which stands in it, or of a library that is watched.
+// The page, of a single embedded scene or of a watched library.
 
 import { Connection } from "./connection.js";
 import { dropped, picked } from "./files.js";
@@ -6,7 +6,7 @@ import { live } from "./live.js";
 import { DroppedProgram, isProgram } from "./programs.js";
 import { show } from "./viewer.js";
 
-/** Programs come by dropping or picking them; drawings are those of the library. */
+/** Programs can be dropped or picked; drawings are those of the library. */
 function takePrograms(open: (program: DroppedProgram) => void): void {
   const take = async (given: ReturnType<typeof picked>) => {
     const { isFolder, files } = await given;

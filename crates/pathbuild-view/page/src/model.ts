@@ -1,4 +1,4 @@
-// The moves of all paths behind each other, flattened once.
+// The moves of all paths in sequence, flattened once.
 
 import { Color, color as named, depthColor, depths } from "./palette.js";
 import { Move, Path, Scene, isCut, pointsOfMove, pointsOfShape, toolOf } from "./scene.js";
@@ -8,7 +8,7 @@ export interface Step {
   move: Move;
 }
 
-/** Pieces of moves that are drawn alike: 6 numbers each, and how many there are up to each step. */
+/** Pieces of moves with the same style: 6 numbers each, and their count up to each step. */
 export interface Pieces {
   points: number[];
   colors: number[];
@@ -96,13 +96,13 @@ export function model(scene: Scene): Model {
 /** Diameter of a hole's disc where the cutter is unknown, as a share of the picture. */
 const DOT = 0.012;
 
-/** Whether a plunge is the whole of its element; without elements, whether nothing is milled from where it ends. */
+/** Whether an element consists of this plunge alone; without elements, whether nothing is milled from its end. */
 function isHole({ elements }: Path, { kind, element, to }: Move, next: Move | undefined): boolean {
   const isAlone = element === undefined ? next?.kind !== "mill" : elements[element].shape.type === "circle";
   return kind === "plunge" && to[0] !== null && to[1] !== null && isAlone;
 }
 
-/** So many triangles are a disc. */
+/** Number of triangles of a disc. */
 const SECTORS = 24;
 
 function disc(into: Pieces, [x, y, z]: number[], radius: number, color: number[], step: number): void {
@@ -120,7 +120,7 @@ function push(into: Pieces, from: number[], to: number[], color: number[], step:
   into.step.push(step);
 }
 
-/** Two strokes at three fifths of a move. */
+/** Adds an arrowhead of two strokes at three fifths of a move. */
 function arrow(into: Pieces, points: number[][], color: number[], step: number, extent: number): void {
   if (points.length < 2) return;
   const piece = points.length === 2 ? 1 : Math.floor(points.length * 0.6);

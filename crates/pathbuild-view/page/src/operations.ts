@@ -1,16 +1,16 @@
-// The operations of a scene: what is cut between two rapid moves across. In a program that names its sections by comments, each section.
+// The operations of a scene: the cuts between two rapid moves in the plane, or the sections of a program that names them in comments.
 
 import { Model } from "./model.js";
 import { MoveKind, isCut, toolOf } from "./scene.js";
 import { Timeline } from "./timeline.js";
 
 export interface Operation {
-  /** Its moves: from the first one to the one behind the last. */
+  /** Range of its moves, excluding the end. */
   moves: [number, number];
   kind: MoveKind;
-  /** Where it comes from: numbers of elements, or the comment above it. */
+  /** Its origin: numbers of elements, or the comment above it. */
   name: string;
-  /** Deepest Z in mm. */
+  /** Lowest Z in mm. */
   depth: number | null;
   /** Length of its cuts in mm. */
   length: number;
@@ -59,7 +59,7 @@ export function operations(model: Model, timeline: Timeline): Operation[] {
   return found;
 }
 
-/** The comment above each move, where comments divide a program into a few sections; else `null`. */
+/** The comment above each move if comments divide the program into a few sections, otherwise `null`. */
 function sectionsOf({ steps }: Model): string[] | null {
   if (steps.length === 0 || steps.some(({ path }) => path.elements.length > 0 || !path.gcode)) return null;
   const names: string[] = [];

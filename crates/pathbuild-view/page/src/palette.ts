@@ -1,4 +1,4 @@
-// The colours of the picture. They stand in style.css, where a test measures their contrast.
+// The colours of the picture, defined in style.css, where a test measures their contrast.
 
 import type { StockColors } from "./stock/shading.js";
 

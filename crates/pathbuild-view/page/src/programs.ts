@@ -1,6 +1,6 @@
-// Programs that a visitor drops on the page, and what is assumed for them. An address holds the settings, never a program.
+// Programs dropped on the page, and the values assumed for them. An address contains the settings, never a program.
 
-/** Values that are typed in; empty: as the program says. */
+/** Values entered by the user; empty values are taken from the program. */
 export interface ProgramSettings {
   dialect: string;
   cutter: string;
@@ -9,7 +9,7 @@ export interface ProgramSettings {
   rapid: string;
 }
 
-/** Fields of the page by setting. */
+/** Ids of the page's fields by setting. */
 export const FIELDS: Record<keyof ProgramSettings, string> = {
   dialect: "assumedDialect",
   cutter: "assumedTool",
@@ -20,45 +20,45 @@ export const FIELDS: Record<keyof ProgramSettings, string> = {
 
 const NAMES = Object.keys(FIELDS) as (keyof ProgramSettings)[];
 
-/** What is asked: the text of a program, with settings. */
+/** A dropped program: its name and bytes. */
 export interface DroppedProgram {
   name: string;
   bytes: ArrayBuffer;
 }
 
-/** A check of a program: made, made with values that only its comments give, or not made. */
+/** A check of a program: made, made with values from its comments only, or not made. */
 export interface Check {
   check: string;
   outcome: "made" | "assumed" | "not-made";
   text: { en: string; de: string };
 }
 
-/** What is known of a program besides its moves. */
+/** Facts about a program besides its moves. */
 export interface ProgramRecord {
   dialect: string;
   dialects: string[];
-  /** How it was read, and why. */
+  /** The dialect in which it was read, with the reason. */
   read_as: { en: string; de: string };
   checks: Check[];
-  /** Cutters in mm that the program says by itself, and the upper face of the material. */
+  /** Cutter diameters in mm that the program itself states. */
   cutters: { line: number; diameter: number }[];
   surface: number | null;
 }
 
-/** The settings in an address; `null`: it is not one of a program. */
+/** Parses the settings in an address; `null` if the address is not that of a program. */
 export function settingsIn(fragment: string): ProgramSettings | null {
   const from = new URLSearchParams(fragment);
   if (!from.has("program")) return null;
   return Object.fromEntries(NAMES.map((name) => [name, from.get(name) ?? ""])) as unknown as ProgramSettings;
 }
 
-/** The fragment of an address with settings. */
+/** Formats settings as the fragment of an address. */
 export function fragmentOf(settings: ProgramSettings): string {
   const given = NAMES.filter((name) => settings[name] !== "").map((name) => `&${name}=${encodeURIComponent(settings[name])}`);
   return `program${given.join("")}`;
 }
 
-/** Drawings and what belongs to them; everything else that is dropped by itself is taken for a program. */
+/** Drawings and related files; any other file dropped on its own is treated as a program. */
 const LIBRARY = /\.(dxf|toml|cbpp|zip)$|(^|\/)\.(git)?ignore$/i;
 
 export function isProgram(name: string): boolean {

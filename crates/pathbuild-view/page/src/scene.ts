@@ -1,4 +1,4 @@
-// The scene as data: the form is that of pathbuild-view's src/scene.rs, version 1.
+// The scene as data, in the format of pathbuild-view's src/scene.rs, version 1.
 
 import type { ProgramRecord } from "./programs.js";
 import type { Finding } from "../../../../packaging/npm/index.js";
@@ -75,7 +75,7 @@ export interface Path {
   file: string;
   zero: Point;
   tool: number | null;
-  /** Cutters of a program with several, each from a line on. */
+  /** Cutters of a program with several, each with the line from which it is used. */
   tools?: { line: number; diameter: number }[];
   thickness: number | null;
   material: string | null;
@@ -118,7 +118,7 @@ export function toolOf(path: Path, move: Move): number | null {
 }
 
 export interface Scene {
-  /** What is known of a program that was dropped on the page. */
+  /** Facts about a program dropped on the page. */
   program?: ProgramRecord;
   schema: string;
   version: number;
@@ -131,15 +131,15 @@ export interface Scene {
   findings: Finding[];
 }
 
-/** Largest angle in degrees of an arc for which one straight piece stands. */
+/** Largest angle in degrees of an arc that is approximated by one chord. */
 const STEP = 6;
 
-/** Degrees of an arc for which one straight piece stands, so that it stays within `sagitta` of it. */
+/** Angle in degrees of a chord that stays within `sagitta` of its arc. */
 function step(radius: number, sagitta: number): number {
   return Math.min(STEP, (360 / Math.PI) * Math.acos(Math.max(-1, 1 - sagitta / radius)) || STEP);
 }
 
-/** The points of a move, from its beginning to its end; empty where it is not known where it leads. Chords stay within `sagitta` of an arc. */
+/** The points of a move from start to end; empty if its route is unknown. Chords stay within `sagitta` of an arc. */
 export function pointsOfMove(move: Move, sagitta = Infinity): [number, number, number][] {
   const { from, to, arc } = move;
   const z = (place: Place) => place[2] ?? (from[2] ?? to[2] ?? 0);

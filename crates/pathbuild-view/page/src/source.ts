@@ -1,10 +1,10 @@
-// What a page of a library shows, and whom it asks for it.
+// The data that the page of a library shows, and their source.
 
 import { DroppedProgram, ProgramSettings } from "./programs.js";
 import { Finding, Scene } from "./scene.js";
 import { Lang } from "./words.js";
 
-/** A row of `list`; of what is not checked yet only its name is known. */
+/** A row of `list`; a path that has not been checked yet has only its name. */
 export interface LibraryRow {
   path: string | null;
   file: string;
@@ -25,7 +25,7 @@ interface Total {
   minutes: number;
 }
 
-/** What `stats` says. */
+/** The results of `stats`. */
 export interface Statistics extends Total {
   drawings: number;
   states: { errors: number; stale: number; current: number; ok: number };
@@ -34,39 +34,39 @@ export interface Statistics extends Total {
   cutters: (Total & { tool: number | null })[];
 }
 
-/** What is new. */
+/** Changes since a revision. */
 export interface LibraryNews {
   revision: number;
-  /** Whether it is everything. */
+  /** Whether these are all drawings, not only changed ones. */
   all: boolean;
   /** Whether everything has been checked. */
   complete: boolean;
-  /** Why nothing is checked. */
+  /** Reason why nothing is checked. */
   halted: string | null;
   problems: Finding[];
   statistics: Statistics | null;
-  /** Without rows: it is gone. */
+  /** Changed drawings; without rows, the drawing was removed. */
   drawings: { file: string; rows: LibraryRow[] | null }[];
-  /** Whether there are more drawings than were asked for. */
+  /** Whether there are more drawings than requested. */
   more: boolean;
 }
 
-/** An answer that is none. */
+/** Error for a refused request. */
 export class Refused extends Error {
   constructor(readonly status: number) {
     super(`status ${status}`);
   }
 }
 
-/** Whom the page asks: a server, or the compiler in the page itself. */
+/** Source of the page's data: a server, or the compiler in the page itself. */
 export interface Source {
-  /** What came after a change; of drawings so many at most, the first ones. */
+  /** Returns the changes since a revision, with at most `most` drawings. */
   library(since: number, most?: number): Promise<LibraryNews>;
   scene(file: string, path: string | null): Promise<Scene>;
-  /** SVG. */
+  /** Returns a picture as SVG. */
   picture(file: string, path: string | null): Promise<Blob>;
-  /** A program with these settings: its moves, and what `verify` finds. */
+  /** Returns the moves of a program read with these settings, and the findings of `verify`. */
   program(program: DroppedProgram, settings: ProgramSettings, lang: Lang): Promise<Scene>;
-  /** Calls for each change, until there can be no more. */
+  /** Calls `hear` for each change, until there can be no more. */
   events(hear: () => void): Promise<void>;
 }

@@ -1,5 +1,5 @@
-// The picture: one WebGL2 renderer, of which the view from above is the orthographic camera's. Buffers are uploaded once; a step changes
-// only how many of their pieces are drawn, and of very many pieces draws those alone that are new (kept.ts).
+// The picture: one WebGL2 renderer with an orthographic camera, also for the view from above. Buffers are uploaded once; a step changes only
+// how many of their pieces are drawn, and if there are very many, draws only the new ones (kept.ts).
 
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -17,24 +17,24 @@ import { StockPicture } from "./stock/picture.js";
 import { Stock } from "./stock/stock.js";
 import { wayUpTo } from "./timeline.js";
 
-/** Strokes of which the first ones are drawn, so many. */
+/** Strokes, of which a given number is drawn. */
 interface Strokes {
   object: THREE.Object3D;
   draw(count: number): void;
-  /** Does what must be done before a picture. */
+  /** Prepares the next picture. */
   prepare?(renderer: THREE.WebGLRenderer, camera: THREE.Camera): void;
   dispose?(): void;
 }
 
-/** Of more pieces thick lines are too slow without a graphics card: they become thin. */
+/** Number of pieces beyond which lines are thin: thick ones are too slow without a graphics card. */
 const MOST_THICK = 20_000;
 
-/** Whether moves are drawn by thick lines. */
+/** Whether moves are drawn as thick lines. */
 export function isThick(model: Model): boolean {
   return model.cuts.step.length + model.rapids.step.length <= MOST_THICK;
 }
 
-/** From where a picture is looked at. */
+/** Position of the camera. */
 export interface View {
   position: THREE.Vector3;
   target: THREE.Vector3;
@@ -44,10 +44,10 @@ export interface View {
 /** Width of cuts in px. */
 const CUT_WIDTH = 2.2;
 
-/** Largest angle in radians between the line of sight and a look from above. */
+/** Largest angle in radians between the line of sight and the vertical. */
 const MOST_TILT = 1.5;
 
-/** Clicks and hovers reach so many px. */
+/** Search radius in px for clicks and hovers. */
 const REACH = 9;
 
 export class Stage {
@@ -67,12 +67,12 @@ export class Stage {
   private other!: THREE.LineSegments;
   private tool!: THREE.Mesh;
   private mark!: LineSegments2;
-  /** The part of the current move that is done. */
+  /** The completed part of the current move. */
   private progress!: LineSegments2;
   private bars!: LineSegments2;
   private stock: StockPicture | null = null;
   private labels: Labels;
-  /** From where labels were put into their places, and how large the picture was; `null`: they were not. */
+  /** Camera and picture size for which the labels were placed; `null` if they were not. */
   private labelled: [THREE.Matrix4, number, number] | null = null;
   private isDue = false;
   /** Width and height of the picture in px. */
@@ -86,7 +86,7 @@ export class Stage {
     labels: HTMLElement,
     legend: HTMLElement,
     readonly isThick: boolean,
-    /** Hears of px for each mm of the plane; `null`: they differ by direction. */
+    /** Receives the scale in px per mm of the plane; `null` if it depends on the direction. */
     private hearScale: (perMm: number | null) => void,
   ) {
     this.labels = new Labels(labels, legend);
@@ -98,7 +98,7 @@ export class Stage {
     THREE.ColorManagement.enabled = false;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    // Orbits are round the axis that is up now.
+    // The controls orbit around the current up axis.
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.draw());
@@ -109,7 +109,7 @@ export class Stage {
     this.watcher.observe(host);
   }
 
-  /** Draws this instead of what was drawn before. */
+  /** Replaces the scene. */
   load(model: Model, scene: Scene): void {
     this.empty();
     this.model = model;
@@ -143,7 +143,7 @@ export class Stage {
     this.resize();
   }
 
-  /** Gives back what the graphics card keeps. */
+  /** Releases the resources of the graphics card. */
   dispose(): void {
     this.empty();
     this.watcher.disconnect();
@@ -153,20 +153,20 @@ export class Stage {
     this.renderer.domElement.remove();
   }
 
-  /** Shows the stock under the moves, or none. */
+  /** Shows or hides the stock under the moves. */
   showStock(stock: Stock | null): void {
     if (this.stock) this.scene.remove(this.stock.object);
     this.stock?.dispose();
     this.stock = stock && new StockPicture(stock);
     if (this.stock) this.scene.add(this.stock.object);
-    // The stock shows bars and grooves at their true width: lines as wide as usual would cover them.
+    // The stock shows bars and grooves at their true width, so lines of the usual width would cover them.
     this.bars.visible = this.holes.object.visible = !stock;
     if (this.cuts.object instanceof LineSegments2) this.cuts.object.material.linewidth = stock ? 0.8 : CUT_WIDTH;
     else this.cuts.object.visible = !stock;
     this.draw();
   }
 
-  /** These texels of the stock were cut. */
+  /** Updates texels of the stock that were cut. */
   cut(texels: Texels): void {
     this.stock?.change(texels);
     this.draw();
@@ -187,13 +187,13 @@ export class Stage {
     this.layer = 0;
   }
 
-  /** From where it is looked at. */
+  /** Returns the position of the camera. */
   view(): View {
     const { position, zoom } = this.camera;
     return { position: position.clone(), target: this.controls.target.clone(), zoom };
   }
 
-  /** Looks from there. */
+  /** Restores a position of the camera. */
   restore({ position, target, zoom }: View): void {
     this.camera.position.copy(position);
     this.controls.target.copy(target);
@@ -203,7 +203,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Puts a place of the drawing into the middle, and comes near. */
+  /** Centres a place of the drawing and zooms in. */
   look([x, y]: Point): void {
     const away = this.camera.position.clone().sub(this.controls.target);
     this.controls.target.set(x, y, 0);
@@ -214,7 +214,7 @@ export class Stage {
     this.draw();
   }
 
-  /** The whole drawing, from above or from the front left. */
+  /** Fits the whole drawing, from above or from the front left. */
   fit(space: boolean): void {
     const { low, high } = this.model;
     const middle = new THREE.Vector3((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, 0);
@@ -230,7 +230,7 @@ export class Stage {
     this.draw();
   }
 
-  /** The zoom at which all of the drawing is seen from above. */
+  /** The zoom at which the whole drawing is visible from above. */
   private whole(): number {
     const { low, high } = this.model;
     const [width, height] = this.size;
@@ -239,7 +239,7 @@ export class Stage {
     return 0.86 * Math.min(width / wide, height / tall);
   }
 
-  /** Draws the first so many moves and a share of the next one, with the tool where they lead. */
+  /** Draws the first `count` moves and a share of the next one, with the tool at their end. */
   show(count: number, share = 0): void {
     const of = (pieces: Pieces) => (count === 0 ? 0 : pieces.until[count - 1]);
     const all = [
@@ -269,7 +269,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Makes moves stand out, from the first to the one behind the last; none: nothing does. */
+  /** Highlights a range of moves, excluding its end; `null` removes the highlight. */
   point(moves: [number, number] | null): void {
     const points: number[] = [];
     if (moves !== null) {
@@ -290,13 +290,13 @@ export class Stage {
     this.placeLabels();
   }
 
-  /** Finds places for the labels anew: other things lie over the picture now. */
+  /** Places the labels again after something else covers the picture. */
   placeLabels(): void {
     this.labelled = null;
     this.draw();
   }
 
-  /** The move next to a place of the picture, of those that are shown. */
+  /** The visible move nearest to a point of the picture. */
   pick(x: number, y: number, count: number): number | null {
     let [best, found] = [REACH, null as number | null];
     const a = new THREE.Vector3();
@@ -317,7 +317,7 @@ export class Stage {
     return found;
   }
 
-  /** The point of the plane Z = 0 under a place of the picture, drawn to the end of a move nearby. */
+  /** The point of the plane Z = 0 under a point of the picture, snapped to the end of a move nearby. */
   plane(x: number, y: number, count: number): Point {
     const [width, height] = this.size;
     const step = this.pick(x, y, count);
@@ -354,7 +354,7 @@ export class Stage {
     });
   }
 
-  /** Puts labels where they belong, unless they are there. */
+  /** Places the labels, unless they are up to date. */
   private label(): void {
     const view = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
     const [width, height] = this.size;
@@ -387,7 +387,7 @@ export class Stage {
     return kept;
   }
 
-  /** Cuts that are still to come: faint, and behind everything that is done. Of very many, the picture of the cuts has them. */
+  /** Pending cuts: faint, and behind all completed ones. If there are very many, the picture of the cuts contains them. */
   private strokesAhead(pieces: Pieces): Strokes {
     const lines = this.thin(pieces.step.length > MOST_THICK ? [] : pieces.points, hex("ahead"));
     lines.material.depthTest = lines.material.depthWrite = false;
@@ -415,7 +415,7 @@ export class Stage {
     geometry.instanceCount = pieces.points.length / 6;
     const lines = new LineSegments2(geometry, material);
     lines.frustumCulled = false;
-    // What is drawn later lies on top: deeper passes come later than those above them.
+    // Later strokes are on top: deeper passes come after those above them.
     lines.renderOrder = ++this.layer;
     return lines;
   }
@@ -433,7 +433,7 @@ function colored(points: number[], name: string): Pieces {
   return { points, colors: points.map((_, index) => parts[index % 3]), until: [], step: [] };
 }
 
-/** Puts other pieces, of the colour of errors, into lines. */
+/** Replaces the pieces of lines by others in the colour of errors. */
 function replace(lines: LineSegments2, points: number[]): void {
   lines.geometry.dispose();
   const { colors } = colored(points, "error");
@@ -457,12 +457,12 @@ function otherShapes(scene: Scene): number[] {
   return scene.other_layers.flatMap((it) => (it.type === "shape" ? strokes(it.shape, [0, 0], 0) : []));
 }
 
-/** The outlines of clamps on the plate, or at their heights. */
+/** The outlines of clamps, on the plate or at their heights. */
 function keepOuts(scene: Scene, high: boolean): number[] {
   return scene.keep_outs.flatMap((it) => it.outline.flatMap((shape) => strokes(shape, [0, 0], high ? it.height : 0)));
 }
 
-/** A clamp, which can be seen through. */
+/** Creates a translucent clamp. */
 function clamp(it: KeepOut): THREE.Mesh {
   const corners = it.outline.flatMap((shape) => pointsOfShape(shape).slice(1)).map(([x, y]) => new THREE.Vector2(x, y));
   const body = new THREE.ExtrudeGeometry(new THREE.Shape(corners), { depth: it.height, bevelEnabled: false });
@@ -470,7 +470,7 @@ function clamp(it: KeepOut): THREE.Mesh {
   return new THREE.Mesh(body, material);
 }
 
-/** What is drawn and is no move: all of a path without a program, else what embeds. */
+/** Shapes of elements that are not moves: all elements of a path without a program, otherwise those that embed paths. */
 function elementShapes(scene: Scene): number[] {
   const always = ["subpath", "skipped-subpath", "turn", "probe", "start", "end"];
   return scene.paths.flatMap((path) =>

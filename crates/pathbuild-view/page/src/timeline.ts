@@ -1,12 +1,12 @@
-// When the tool is where: times and places along the moves of a scene.
+// Times and positions of the tool along the moves of a scene.
 
 import { Model, Step } from "./model.js";
 import { pointsOfMove } from "./scene.js";
 
-/** Speeds in mm/min that stand in for unknown ones while the tool runs. Times that depend on them are not shown. */
+/** Speeds in mm/min used for unknown ones while the tool runs. Times that depend on them are not shown. */
 const [ASSUMED_RAPID, ASSUMED_FEED] = [3000, 300];
 
-/** Machines take this many times as long as lengths and speeds alone would tell: SLOWER of pathbuild-toolpath. */
+/** Factor by which machines are slower than length / speed: SLOWER of pathbuild-toolpath. */
 const SLOWER = 1.4;
 
 export class Timeline {
@@ -14,10 +14,10 @@ export class Timeline {
   readonly ends: Float64Array;
   /** Whether the speeds of all moves are known. */
   readonly isKnown: boolean;
-  /** Seconds for everything but rapid moves; `null` if the feed of any of it is unknown. */
+  /** Seconds without rapid moves; `null` if any feed is unknown. */
   readonly cutting: number | null;
 
-  /** `rapid` is the speed of rapid moves in mm/min where a program does not give it. */
+  /** `rapid` is the speed of rapid moves in mm/min if a program does not state it. */
   constructor(model: Model, rapid: number | null) {
     this.ends = new Float64Array(model.steps.length);
     let [seconds, isKnown] = [0, true];
@@ -41,13 +41,13 @@ export class Timeline {
     return this.ends.at(-1) ?? 0;
   }
 
-  /** Seconds until so many moves and a share of the next one are done. */
+  /** Seconds until `count` moves and a share of the next one are done. */
   seconds(count: number, share = 0): number {
     const begin = count === 0 ? 0 : this.ends[count - 1];
     return share === 0 ? begin : begin + share * (this.ends[count] - begin);
   }
 
-  /** How many moves are done after so many seconds, and the share of the next one. */
+  /** Number of moves done after this many seconds, and the share of the next one. */
   at(seconds: number): [count: number, share: number] {
     let [low, high] = [0, this.ends.length];
     while (low < high) {

@@ -1,4 +1,4 @@
-// What shows a scene: the picture, its G-code, and what goes between them.
+// The viewer of a scene: the picture, its G-code, and the interaction between them.
 
 import { $, node, tableRow } from "./dom.js";
 import { sayKeys, toggleHelp } from "./help.js";
@@ -24,9 +24,9 @@ const code = $("code");
 const rows = $("rows");
 const details = $("details");
 
-/** Height in px of a row of G-code: a finger needs more. */
+/** Height in px of a row of G-code, larger on touch screens. */
 const ROW = innerWidth > 700 ? 18 : 44;
-/** Numbers and texts beyond so many would cover the picture. */
+/** Upper bound on numbers and texts: more would cover the picture. */
 const MOST_SPOTS = 600;
 
 export let lang: Lang = document.documentElement.lang === "de" ? "de" : "en";
@@ -35,13 +35,13 @@ let scene: Scene = { schema: "", version: 1, title: "", through: 0, paths: [], o
 let made: Model = model(scene);
 let timeline = new Timeline(made, null);
 let work: Operation[] = [];
-/** The operation that the tool is in. */
+/** Index of the current operation. */
 let working: number | null = null;
-/** Whether there is something to see: without, keys are for others. */
+/** Whether a scene is shown; otherwise keys are not handled here. */
 let isOpen = false;
-/** Draws what stands still, where there is no WebGL. */
+/** Draws the still picture if WebGL is not available. */
 let drawStill: () => void = () => {};
-/** Who hears of another language. */
+/** Callbacks for a change of the language. */
 const hearers: (() => void)[] = [];
 let stage: Stage | null = null;
 /** The stock of the scene; `undefined` until it is shown. */
@@ -51,24 +51,24 @@ let count = made.steps.length;
 /** Share of the next move that is done. */
 let share = 0;
 let chosen: number | null = null;
-/** The next picture of the run; 0: it rests. */
+/** Handle of the next animation frame; 0 while paused. */
 let frame = 0;
 let measured: [number, number][] | null = null;
-/** On a telephone texts would cover the picture. */
+/** On a phone, texts would cover the picture. */
 const shown = { stock: true, rapids: true, arrows: true, order: true, texts: innerWidth > 700, other: true, explain: innerWidth > 700 };
-/** Whether the native program is listed where a post writes another one. */
+/** Whether the native program is listed although a post writes another one. */
 let isNative = false;
 let lines: string[] = [];
 let linesOf: number | null = null;
-/** The rows of it that are on the page: the first one, and the one behind the last. */
+/** Range of rendered rows, excluding the end. */
 let listedRows: [number, number] = [0, 0];
-/** The path of each step, and its steps by line of G-code. */
+/** Steps by line of G-code, for each path. */
 let byLine: Map<number, number>[] = [];
 let pathOf: number[] = [];
-/** The line of each step in the text that is listed. */
+/** Line of each step in the listed text. */
 let lineOf: (number | null)[] = [];
 
-/** Shows a scene. One that was shown before and has changed is shown from where it was looked at. */
+/** Shows a scene. If it is a new version of the current one, the view is kept. */
 export function show(next: Scene, isSame: boolean, still: () => void = () => {}): void {
   const atEnd = count === made.steps.length;
   const same = isSame ? marked(chosen) : null;
@@ -92,7 +92,7 @@ export function show(next: Scene, isSame: boolean, still: () => void = () => {})
   speak();
 }
 
-/** Gives a program's findings their places, and its fields what it says by itself. */
+/** Places the findings of a program, and fills its fields with the values that it states. */
 function placeProgram(): void {
   const { program } = scene;
   document.getElementById("download")?.toggleAttribute("hidden", program !== undefined);
@@ -114,29 +114,29 @@ function placeProgram(): void {
   $("checks").replaceChildren(...checks);
 }
 
-/** What is typed in for a program. */
+/** Reads the settings entered for a program. */
 function settings(): ProgramSettings {
   const values = Object.entries(FIELDS).map(([name, id]) => [name, $<HTMLInputElement>(id).value]);
   return Object.fromEntries(values) as unknown as ProgramSettings;
 }
 
-/** Types in what an address says. */
+/** Enters the settings from an address. */
 export function assume(settings: ProgramSettings): void {
   for (const [name, id] of Object.entries(FIELDS)) {
     const field = $<HTMLInputElement | HTMLSelectElement>(id);
     const value = settings[name as keyof ProgramSettings];
-    // The dialects are known with the first answer.
+    // The list of dialects arrives with the first answer.
     if (field instanceof HTMLSelectElement && value !== "" && ![...field.options].some((option) => option.value === value)) field.append(new Option(value, value));
     field.value = value;
   }
 }
 
-/** Calls when something else is typed in for a program. */
+/** Registers a callback for changed settings of a program. */
 export function onAssume(hear: (settings: ProgramSettings) => void): void {
   for (const id of Object.values(FIELDS)) $(id).addEventListener("change", () => scene.program && hear(settings()));
 }
 
-/** Numbers the lines of the text that is listed. */
+/** Determines the line of each step in the listed text. */
 function number(): void {
   byLine = scene.paths.map(() => new Map<number, number>());
   [pathOf, lineOf] = [[], []];
@@ -152,12 +152,12 @@ function number(): void {
   linesOf = null;
 }
 
-/** The text of a path that is listed. */
+/** The listed text of a path. */
 function listed(path: Path | undefined): string {
   return (isNative ? path?.native?.gcode : undefined) ?? path?.gcode ?? "";
 }
 
-/** Says which file is listed, and offers the other text. */
+/** Shows the name of the listed file, and offers the other text. */
 function whose(path: Path | undefined): void {
   const isDrawn = path !== undefined && path.embedded.length > 0;
   $("program").hidden = !isDrawn || !path.gcode;
@@ -168,13 +168,13 @@ function whose(path: Path | undefined): void {
   $("whose").textContent = visible(isNative && path?.native ? `${say("nativeText", lang)} ${file}` : file);
 }
 
-/** Nothing is shown any more. */
+/** Hides the scene. */
 export function hide(): void {
   isOpen = false;
   if (frame) play();
 }
 
-/** Which move of which element a step is, by what outlives an edit. */
+/** Identifies a step by its element and move, in a form that survives an edit. */
 interface Mark {
   path: string;
   handle: string;
@@ -206,7 +206,7 @@ function found({ path, handle, turn }: Mark): number | null {
   return null;
 }
 
-/** Starts or starts again: colours are part of the buffers. */
+/** Starts or restarts the picture, whose buffers contain the colours. */
 function start(keepsView: boolean): void {
   made = model(scene);
   placeWork();
@@ -232,7 +232,7 @@ function start(keepsView: boolean): void {
   go(count);
 }
 
-/** What is typed for values that the program does not give. */
+/** The values entered where the program states none. */
 function assumed(): Assumed {
   const typed = (id: string) => $<HTMLInputElement>(id).valueAsNumber;
   const [tool, thickness] = [typed("assumedTool"), typed("assumedThickness")];
@@ -241,7 +241,7 @@ function assumed(): Assumed {
   return { tool: tool > 0 ? tool : null, thickness: thickness > 0 ? thickness : null, surface: Number.isFinite(surface) ? surface : known };
 }
 
-/** Puts the stock under the moves, or takes it away. */
+/** Shows the stock under the moves, or hides it. */
 function placeStock(): void {
   const cuts = scene.paths.filter(({ moves }) => moves.some((move) => isCut(move.kind)));
   const hasTool = assumed().tool !== null;
@@ -269,7 +269,7 @@ function legend(): void {
   stage?.placeLabels();
 }
 
-/** Times of the moves, and the table of operations. */
+/** Computes the times of the moves and the table of operations. */
 function placeWork(): void {
   const typed = $<HTMLInputElement>("assumedRapid").valueAsNumber;
   timeline = new Timeline(made, typed > 0 ? typed : null);
@@ -294,7 +294,7 @@ function placeWork(): void {
   $("operations").replaceChildren(...rows);
 }
 
-/** Goes to an operation, and makes its moves stand out. */
+/** Goes to an operation and highlights its moves. */
 function choose(index: number): void {
   const it = work[Math.min(Math.max(index, 0), work.length - 1)];
   if (!it) return;
@@ -305,13 +305,13 @@ function choose(index: number): void {
   stage?.point(it.moves);
 }
 
-/** The operation before or after the one that the tool is in. */
+/** Goes to the operation before or after the current one. */
 function chooseNext(step: 1 | -1): void {
   const next = work.findIndex(({ moves }) => moves[0] > count);
   choose(step > 0 ? (next < 0 ? work.length - 1 : next) : (next < 0 ? work.length : next) - (working === null ? 1 : 2));
 }
 
-/** Marks the row of an operation. */
+/** Highlights the row of an operation. */
 function mark(index: number | null): void {
   if (working === index) return;
   const rows = $("operations").children;
@@ -322,7 +322,7 @@ function mark(index: number | null): void {
   if (row && $<HTMLDetailsElement>("work").open) row.scrollIntoView({ block: "nearest" });
 }
 
-/** The last operation that begins at a move or before it, unless it has ended. */
+/** The last operation that begins at or before a move, unless it has ended. */
 function operationAt(step: number): number | null {
   let [low, high] = [0, work.length];
   while (low < high) {
@@ -341,12 +341,12 @@ function cutStock(): void {
   else if (changed) stage.cut(changed);
 }
 
-/** Sets the colours of everything but the picture. */
+/** Sets all colours outside of the picture. */
 function paint(): void {
   document.documentElement.dataset.theme = dark ? "dark" : "light";
 }
 
-/** Numbers, texts and findings that stand in the picture. */
+/** Creates the labels of the picture: numbers, texts and findings. */
 function spots(): void {
   const all: Spot[] = [];
   const add = (at: [number, number], z: number, node: HTMLElement) => all.push({ at: [at[0], at[1], z], node });
@@ -361,7 +361,7 @@ function spots(): void {
             : shape.type === "circle"
               ? shape.centre
               : middle(shape);
-        // A number in the disc of a drilled hole would make a ring of it.
+        // A number on the disc of a drilled hole would make it look like a ring.
         const reach = (path.tool ?? 0) / 2;
         const isHole = shape.type === "circle" && shape.radius <= 1.05 * reach;
         add(place(isHole ? [at[0] + reach, at[1]] : at), 0, node("span", String(order), isHole ? "order beside" : "order"));
@@ -402,11 +402,11 @@ function middle(shape: { from: [number, number]; centre: [number, number]; clock
   ];
 }
 
-/** Runs the tool to behind so many moves, and along a share of the next one. */
+/** Moves the tool to the end of this many moves, and along a share of the next one. */
 function go(to: number, part = 0): void {
   count = Math.min(Math.max(to, 0), made.steps.length);
   share = count < made.steps.length ? part : 0;
-  // First, since it asks where things are: after a change of the page that would cost a layout.
+  // Called first because it reads the layout, which would have to be recomputed after a change of the page.
   listing(true);
   slider.value = String(count);
   stage?.show(count, share);
@@ -415,7 +415,7 @@ function go(to: number, part = 0): void {
   readout();
 }
 
-/** Says where the tool is, how fast, and since when. */
+/** Shows position, feed and time of the tool. */
 function readout(): void {
   $("where").textContent = `${say("step", lang)} ${count} ${say("of", lang)} ${made.steps.length}`;
   const step = made.steps[share > 0 ? count : Math.max(count - 1, 0)];
@@ -434,17 +434,17 @@ function readout(): void {
   $("clock").textContent = timeline.isKnown ? `${clock(seconds)} ${say("elapsed", lang)} · ${clock(timeline.total - seconds)} ${say("remaining", lang)}` : "";
 }
 
-/** The known coordinates of a place. */
+/** Formats the known coordinates of a place. */
 function coordinates(place: (number | null)[], format: (value: number) => string): string {
   return place.flatMap((value, axis) => (value === null ? [] : [`${"XYZ"[axis]}${format(value)}`])).join(" ");
 }
 
-/** The line of G-code that is being run. */
+/** The current line of G-code. */
 function current(): number | null {
   return share > 0 ? lineOf[count] : count === 0 ? null : lineOf[count - 1];
 }
 
-/** Shows the G-code round the present line; only the rows that can be seen are made. */
+/** Shows the G-code around the current line. Only visible rows are rendered. */
 function listing(follow: boolean): void {
   const path = pathOf[share > 0 ? count : Math.max(count - 1, 0)] ?? 0;
   if (linesOf !== path) {
@@ -481,7 +481,7 @@ function codeRow(index: number, content: string): HTMLElement {
   return row;
 }
 
-/** What there is to say of a move and its element. */
+/** Shows the facts about a move and its element. */
 function describe(at: number | null): void {
   stage?.point(at === null ? null : [at, at + 1]);
   if (at === null) return summary();
@@ -508,14 +508,14 @@ function describe(at: number | null): void {
   fill(list);
 }
 
-/** Where a parameter comes from. */
+/** Describes the origin of a parameter. */
 function provider({ from, which, line }: Parameter): string {
   if (line !== undefined) return `\`${which ?? ""}\` ${say("fromLine", lang)} ${line}`;
   const words = { own: "fromOwn", chain: "fromChain", path: "fromPath", lender: "fromLender", option: "fromOption", default: "fromDefault" } as const;
   return `${say(words[from], lang)}${from === "option" ? "" : " "}${which ?? ""}`.trim();
 }
 
-/** What there is to say of the whole. */
+/** Shows the facts about the whole scene. */
 function summary(): void {
   const list: [string, string][] = [];
   for (const path of scene.paths) {
@@ -543,12 +543,12 @@ function summary(): void {
   fill(list);
 }
 
-/** Words for lengths that a program adds up to. */
+/** Keys of the words for total lengths. */
 const TOTALS = { milling: "mill", drilling: "drilling", sweeps: "sweep" } as const;
 
 const extents = new WeakMap<Path, string>();
 
-/** From where to where a program cuts; of a long one it takes a while to find. */
+/** The extent of a program's cuts; slow to compute for a long program. */
 function extent(path: Path): string {
   const known = extents.get(path);
   if (known !== undefined) return known;
@@ -570,14 +570,14 @@ function fill(list: [string, string][]): void {
   details.replaceChildren(
     ...list.flatMap(([name, value]) => {
       const said = node("dd", "");
-      // A number stays on one line with its sign and its letter.
+      // Keeps a number on one line with its sign and its letter.
       value.split(" ").forEach((word, index) => said.append(index > 0 ? " " : "", node("span", word, word.length <= 24 ? "whole" : "")));
       return [node("dt", name), said];
     }),
   );
 }
 
-/** A click on a finding that has a place goes there. */
+/** Lists the findings; a click on one with a place goes there. */
 function findings(): void {
   const list = scene.findings.map((it) => {
     const item = node("li", "", it.is_error ? "error" : "");
@@ -595,7 +595,7 @@ function findings(): void {
   $("found").hidden = list.length === 0;
 }
 
-/** Looks at the place of a finding, and marks its line. */
+/** Shows the place of a finding and highlights its line. */
 function goTo(finding: Finding): void {
   if (finding.at) stage?.look(finding.at);
   const step = scene.program ? pathOf.findIndex((_, index) => lineOf[index] === (finding.line ?? 0)) : -1;
@@ -610,7 +610,7 @@ function goTo(finding: Finding): void {
   }
 }
 
-/** Says everything in the language that holds. */
+/** Renders all texts in the current language. */
 export function speak(): void {
   document.documentElement.lang = lang;
   document.querySelectorAll<HTMLElement>("[data-word]").forEach((node) => {
@@ -633,7 +633,7 @@ export function speak(): void {
   go(count, share);
 }
 
-/** Whom to tell of another language. */
+/** Registers a callback for a change of the language. */
 export function onSpeak(hear: () => void): void {
   hearers.push(hear);
 }
@@ -647,7 +647,7 @@ function measure(at: [number, number]): void {
   spots();
 }
 
-/** Runs the tool by time, or stops it. */
+/** Starts or stops the animation. */
 function play(): void {
   if (frame) {
     cancelAnimationFrame(frame);
@@ -669,7 +669,7 @@ function play(): void {
   $("play").textContent = say(frame ? "stop" : "play", lang);
 }
 
-/** Runs faster or slower. */
+/** Speeds the animation up or slows it down. */
 function changeSpeed(step: 1 | -1): void {
   speed.selectedIndex = Math.min(Math.max(speed.selectedIndex + step, 0), speed.options.length - 1);
 }
@@ -713,7 +713,7 @@ const acts = {
   keys: toggleHelp,
 };
 
-/** What the buttons for colours and language do, wherever they are. */
+/** Actions of the buttons for colours and language, which are on several pages. */
 export const { theme, lang: otherLang } = acts;
 
 function switchLayer(what: keyof typeof shown): void {
@@ -760,7 +760,7 @@ addEventListener("keydown", (event) => {
   const isHelping = $<HTMLDialogElement>("help").open && event.key !== "?";
   const isButton = target instanceof HTMLButtonElement && event.key === " ";
   const isTyping = target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement || (target instanceof HTMLInputElement && target !== slider);
-  // On the live page, Escape leads back to the library otherwise.
+  // Otherwise, Escape leads back to the library on the live page.
   const isOther = event.key === "Escape" && !measured;
   if (!act || isOther || isButton || isTyping || isHelping || !(isOpen || "ld?".includes(event.key))) return;
   event.preventDefault();
@@ -802,7 +802,7 @@ picture.addEventListener("pointerleave", () => {
   $("at").textContent = "";
   describe(chosen);
 });
-/** Where the pointer is; `null` once that was shown. */
+/** The last pointer event; `null` once it has been handled. */
 let hovered: PointerEvent | null = null;
 picture.addEventListener("pointermove", (event) => {
   if (!stage || event.buttons > 0) return;

@@ -1,4 +1,4 @@
-// What the page says, in both languages.
+// The texts of the page in both languages.
 
 export type Lang = "en" | "de";
 
@@ -190,7 +190,7 @@ export function sayKind(kind: string, lang: Lang): string {
   return kind in words ? say(kind as Word, lang) : kind;
 }
 
-/** The name of an option that nothing gives. */
+/** The name of an option without a value. */
 export function sayOption(name: string, lang: Lang): string {
   return name === "feed" ? say("feedF", lang) : name === "rapid" ? say("sweep", lang) : name;
 }

@@ -1,4 +1,4 @@
-// The worker that the compiler runs in. It knows of one instance and one question at a time; a trap ends the instance.
+// The worker that runs the compiler. It has one instance and handles one question at a time; a trap ends the instance.
 
 import { type Instance, instantiate } from "../../../../packaging/npm/index.js";
 
@@ -8,7 +8,7 @@ export interface Asked {
   bytes?: ArrayBuffer;
 }
 
-/** An answer, or why there is none and never will be. */
+/** An answer, or the trap that ended the instance. */
 export type Answered = { head: string; bytes: Uint8Array<ArrayBuffer> } | { trap: string };
 
 let begun: Promise<Instance> | null = null;
