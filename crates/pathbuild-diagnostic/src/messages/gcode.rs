@@ -260,7 +260,7 @@ messages! {
     }
     /// Lines after M2 or M30 that the control runs.
     RUN_AFTER_END: AfterProgramEnd {
-        en: "{dialect} runs this line and those after it too, in spite of the M2 or M30 in line {line}; they are not checked",
+        en: "{dialect} also runs this line and those after it, despite the M2 or M30 in line {line}; they are not checked",
         de: "{dialect} führt auch diese und die folgenden Zeilen aus, trotz M2 oder M30 in Zeile {line}; sie werden nicht geprüft",
         help_en: "remove them, or put them into a file of their own; in the middle of a program use M0 instead",
         help_de: "sie entfernen oder in eine eigene Datei schreiben; mitten im Programm stattdessen M0 verwenden",
@@ -702,8 +702,8 @@ messages! {
     }
     /// A probing move while the spindle turns.
     PROBE_WITH_SPINDLE_ON: ProbeWithSpindleOn {
-        en: "the spindle turns in this probing move, against the touch plate or with the probe",
-        de: "bei dieser Antastbewegung dreht sich die Spindel, gegen die Messplatte oder mit dem Taster",
+        en: "the spindle turns during this probing move: the cutter mills the touch plate, or the probe breaks",
+        de: "bei dieser Antastbewegung dreht sich die Spindel: der Fräser fräst in die Messplatte, oder der Taster bricht ab",
         help_en: "stop it with M5 before, and start it again after probing",
         help_de: "vorher mit M5 anhalten und nach dem Antasten wieder einschalten",
     }

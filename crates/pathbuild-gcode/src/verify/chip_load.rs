@@ -20,7 +20,7 @@ impl ChipLoadRules {
         Self { tools, speed: None, found: Vec::new() }
     }
 
-    /// Passes the next step of the program.
+    /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         match &step.action {
             Action::Spindle(spindle) => {

@@ -22,7 +22,7 @@ pub struct DepthRules {
 }
 
 impl DepthRules {
-    /// Passes the next step of the program.
+    /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         if let Action::Move(movement) = &step.action {
             self.depths.add(self.moves, movement);

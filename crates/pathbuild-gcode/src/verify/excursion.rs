@@ -25,7 +25,7 @@ pub(super) struct Excursion {
 }
 
 impl Excursions {
-    /// Passes the next move. Returns the excursion that it ends. One begins only where the tool arrives at a place that `may_begin` accepts.
+    /// Processes the next move, and returns the excursion that it ends. An excursion begins only at a place that `may_begin` accepts.
     pub(super) fn step(
         &mut self,
         line: u32,

@@ -53,7 +53,7 @@ impl<'m> MachineRules<'m> {
         }
     }
 
-    /// Passes the next step of the program.
+    /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         match &step.action {
             Action::Move(movement) => {

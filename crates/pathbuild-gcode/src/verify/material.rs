@@ -122,8 +122,8 @@ pub(super) fn has_room<'c>(
     problems.into_diagnostics().is_empty() && !bench.map.is_exhausted()
 }
 
-/// Passes on the moves; those whose end is not known only end an excursion. A rapid move whose start is not known is replaced by a vertical one to its end:
-/// whether that end is in the material does not depend on where the tool comes from.
+/// Passes on the moves; those whose end is not known only end an excursion. A rapid move whose start is not known is replaced by a
+/// vertical one to its end: whether that end is in the material does not depend on where the tool comes from.
 fn each_followed_move(program: &(impl Program + ?Sized), stock: &Stock, take: &mut dyn FnMut(u32, &Move)) {
     let highest = stock.highest().filter(|highest| highest.is_finite());
     program.each(&mut |step| {

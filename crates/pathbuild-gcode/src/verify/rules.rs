@@ -78,7 +78,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    /// Passes the next step of the program.
+    /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let line = step.line;
         match &step.action {

@@ -24,7 +24,7 @@ pub struct StatedStatistics {
 }
 
 impl StatedStatistics {
-    /// Passes the next step of the program.
+    /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let has_length = self.counting.counts(step);
         match &step.action {

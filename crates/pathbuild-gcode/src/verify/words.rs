@@ -203,7 +203,7 @@ impl<'w> WordRules<'w> {
         Self { is_strict: true, ..Self::new(words, dialect) }
     }
 
-    /// Passes the next step of the program.
+    /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         self.progress.step(step);
         if self.progress == Progress::Cutting {

@@ -458,7 +458,7 @@ impl<'c> PastClamps<'c> {
         Self { clamps, slack: PLACE + chord, problems: Problems::default() }
     }
 
-    /// Passes the next step of the program.
+    /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let Action::Move(it) = &step.action else { return };
         let Some(way) = way(it) else { return };

@@ -124,7 +124,7 @@ impl<'w, M: Iterator<Item = (u32, Move)>> Against<'w, M> {
         }
     }
 
-    /// Passes the next step of the program.
+    /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         self.words.step(step);
         self.setup.step(step, &mut self.problems);
