@@ -1,4 +1,4 @@
-// How fast the pages are: node bench.mjs PATHBUILD LIBRARY. Needs Debian's chromium; what is measured stands in benches/README.md.
+// Measures the speed of the pages: node bench.mjs PATHBUILD LIBRARY. Needs Debian's chromium; benches/README.md explains the figures.
 import { spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -13,7 +13,7 @@ const MOVES = 200_000;
 
 const browser = await launch();
 
-/** The middle of some figures, and the largest. */
+/** Median and maximum of some figures. */
 function told(what, figures, unit) {
   const sorted = figures.toSorted((a, b) => a - b);
   const [middle, most] = [sorted[sorted.length >> 1], sorted.at(-1)].map((figure) => figure.toFixed(1));
@@ -24,7 +24,7 @@ async function fresh() {
   return (await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: "en" })).newPage();
 }
 
-/** From the address typed to the first picture with rows. */
+/** Time from entering the address to the first picture with rows. */
 async function listing(address) {
   const figures = { first: [], all: [] };
   for (let turn = 0; turn < TURNS; turn++) {
@@ -46,7 +46,7 @@ async function listing(address) {
   told("listing whole", figures.all, "ms");
 }
 
-/** From a saved drawing to its picture. */
+/** Time from saving a drawing to its picture. */
 async function edit(address) {
   const drawings = readdirSync(library, { recursive: true }).filter((name) => /components.*\.dxf$/i.test(name)).sort();
   // Half of I: about twice as many moves.
@@ -74,7 +74,7 @@ async function edit(address) {
   told("edit to picture", figures, "ms");
 }
 
-/** A program of so many moves: zigzags on growing circles, pass by pass. */
+/** A program with this many moves: zigzags on growing circles, pass by pass. */
 function program() {
   const lines = ["%", "G21 G90 G94 G17", "G00 Z5", "G00 X0 Y0", "G01 Z-1 F100"];
   for (let move = lines.length; move < MOVES; move++) {
@@ -85,7 +85,7 @@ function program() {
   return [...lines, "G00 Z5", "M30", "%", ""].join("\n");
 }
 
-/** Processor time of the whole browser in ms: on a busy machine it says more than the clock. */
+/** Processor time of the whole browser in ms, which is more reliable than the clock on a busy machine. */
 async function processorTime() {
   const session = await browser.newBrowserCDPSession();
   const { processInfo } = await session.send("SystemInfo.getProcessInfo");
@@ -95,7 +95,7 @@ async function processorTime() {
 
 const painted = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
 
-/** Pictures while the tool runs by time, ten and a hundred times as fast as the machine. */
+/** Frames while the tool runs ten and a hundred times as fast as the machine. */
 async function played(page, what) {
   for (const speed of ["10", "100"]) {
     const [rates, costs] = [[], []];
@@ -121,7 +121,7 @@ async function played(page, what) {
   }
 }
 
-/** Jumps to anywhere, until the picture is painted. */
+/** Jumps to random moves, each until the picture is painted. */
 async function jumped(page, what) {
   const figures = [];
   const before = await processorTime();
@@ -141,7 +141,7 @@ async function jumped(page, what) {
   console.log(`processor time a jump, ${what}: ${(((await processorTime()) - before) / figures.length).toFixed(1)} ms`);
 }
 
-/** Pictures while the tool runs along a long program. */
+/** Frames while the tool runs along a long program. */
 async function run() {
   writeFileSync(join(place, "long.gcode"), program());
   const viewed = spawnSync(pathbuild, ["view", "long.gcode", "-o", "long.html", "--no-cache"], { cwd: place, encoding: "utf8" });
@@ -166,7 +166,7 @@ async function run() {
       const begun = performance.now();
       let drawn = 0;
       while (performance.now() - begun < 2000) {
-        // Forwards and backwards, by large steps and small ones.
+        // Forwards and backwards, in large and small steps.
         const at = [0.3 + drawn / 500, 1 - drawn / 500, (drawn * 0.37) % 1][turn % 3];
         slider.value = String(Math.round(Math.min(Math.max(at, 0), 1) * most));
         slider.dispatchEvent(new Event("input"));

@@ -4,20 +4,20 @@ import playwright, { chromium } from "playwright-core";
 
 export const isFirefox = process.env.BROWSER === "firefox";
 
-/** The browser with WebGL by software; Chromium with more arguments. */
+/** Starts the browser with WebGL in software; the arguments are added for Chromium. */
 export function launch(...args) {
   if (isFirefox) return launchFirefox({ "webgl.force-enabled": true });
   return launchChromium("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", ...args);
 }
 
-/** The browser without WebGL. */
+/** Starts the browser without WebGL. */
 export function launchWithoutWebGL() {
   if (isFirefox) return launchFirefox({ "webgl.disabled": true });
   return launchChromium("--disable-gpu", "--disable-3d-apis", "--disable-webgl", "--disable-webgl2");
 }
 
 function launchFirefox(firefoxUserPrefs) {
-  // Over WebDriver BiDi, which every Firefox speaks.
+  // Uses WebDriver BiDi, which every Firefox supports.
   return playwright._bidiFirefox.launch({ channel: "moz-firefox", executablePath: process.env.FIREFOX ?? "/usr/bin/firefox-esr", headless: !process.env.DISPLAY, firefoxUserPrefs, env: { ...process.env, LIBGL_ALWAYS_SOFTWARE: "1" } });
 }
 

@@ -1,4 +1,4 @@
-// Contrast of the page's colours in both themes, from its CSS variables: node contrast-test.mjs.
+// Checks the contrast of the page's colours in both themes, from its CSS variables: node contrast-test.mjs.
 import { readFileSync } from "node:fs";
 import assert from "node:assert/strict";
 
@@ -31,14 +31,14 @@ for (const [theme, colors] of Object.entries({ light, dark })) {
   const texts = TEXTS.flatMap((name) => ["paper", "panel"].map((on) => check(name, on, 4.5)));
   texts.push(check("ink", "now", 4.5), check("ink", "edge", 4.5), check("soft", "now", 4.5), check("error", "now", 4.5));
   const lines = LINES.map((name) => check(name, "paper", 3));
-  // On the stock as well: the moves that are its own, and the outline of a part.
+  // On the stock as well: its moves, and the outline of a part.
   for (const name of ["rapid", "outline"]) check(name, "uncut", 3);
   // The deeper, the darker.
   for (let stop = 1; stop < 5; stop++) assert.ok(luminance(colors[`depth${stop}`]) > luminance(colors[`depth${stop + 1}`]), `${theme}: depth ${stop}`);
   console.log(`contrast, ${theme}: texts at least ${Math.min(...texts).toFixed(2)}, lines at least ${Math.min(...lines).toFixed(2)}`);
 }
 
-// Every colour in the style sheets is a variable, apart from those of the variables themselves.
+// Every colour in the style sheets is a variable, except in the definitions of the variables.
 for (const name of ["style.css", "live.css", "local.css"]) {
   const rules = read(name).replace(/:root\{[^}]*\}|\[data-theme=dark\]\{[^}]*\}/g, "");
   assert.deepEqual(rules.match(/#[0-9a-f]{3,8}\b(?=[;}\s,)])/g) ?? [], [], name);

@@ -14,11 +14,11 @@ const directories = ["components", "mistakes", "projects"];
 
 const browser = await launch();
 
-/** Opens the page; errors and requests to elsewhere fail the test. */
+/** Opens the page. Errors and requests to other servers fail the test. */
 async function open(address, options = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, locale: "en", ...options });
   const faults = [];
-  // In Firefox, a picture is taken by means of a style element, which the page's policy refuses.
+  // Firefox takes screenshots by means of a style element, which the page's policy refuses.
   const isOfPicture = (fault) => isFirefox && pictures && fault.includes("blocked an inline style");
   const note = (fault) => isOfPicture(fault) || faults.push(fault);
   page.on("pageerror", (error) => note(String(error)));
@@ -37,7 +37,7 @@ const text = (page, selector) => page.locator(selector).innerText();
 const camera = (page) => page.locator("#labels .zero").first().evaluate((node) => node.style.transform);
 const settled = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
-/** Saves a drawing as careful programs do: whole, under its name. */
+/** Saves a drawing atomically, as careful programs do. */
 function save(name, change) {
   const file = join(place, name);
   writeFileSync(`${file}.new`, change(readFileSync(file, "latin1")), "latin1");
@@ -47,7 +47,7 @@ function save(name, change) {
 const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...directories);
 {
   const { page, faults } = await open(address);
-  // The library: rows with their states, counted.
+  // The library: rows with their states, and the counts.
   await page.waitForFunction(() => /paths$/.test(document.getElementById("count").textContent));
   const all = Number(/^(\d+) paths/.exec(await text(page, "#count"))[1]);
   assert.ok(all > 20, `${all} paths`);
@@ -63,7 +63,7 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   assert.ok(wrong > 0 && wrong < all, `${wrong} of ${all}`);
   assert.equal(await page.locator(".item .state.ok").count(), 0);
   await page.click("#filter-all");
-  // Search, all by keys: the picture of a path opens.
+  // Search with keys only: the picture of a path opens.
   await page.keyboard.press("/");
   await page.keyboard.type("8001.1p");
   assert.equal(await page.locator(".item").count(), 1);
@@ -75,7 +75,7 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   assert.match(page.url(), /#file=.*path=8001\.1P/);
   await settled(page);
   await shot(page, "live-path");
-  // Loading again shows the same.
+  // Reloading shows the same.
   await page.reload();
   await page.waitForFunction(() => document.getElementById("title").textContent === "8001.1P");
   // Language, colours.
@@ -114,7 +114,7 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   await page.close();
 }
 {
-  // A program that is opened here is checked by the server that gave out the page; the values of pathbuild.toml hold for it.
+  // A program opened here is checked by the server of the page, with the values of pathbuild.toml.
   const { page, faults } = await open(address);
   const file = join(place, "..", "slot.nc");
   writeFileSync(file, "(TOOL/MILL, 6, 0, 20, 0)\nG21 G90 G94 G17\nG0 Z5\nG0 X0 Y0\nG1 Z-2 F100\nG1 X20\nG0 X40\nG1 X60\nG0 Z5\nM30\n");
@@ -134,7 +134,7 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   await page.close();
 }
 {
-  // A saved drawing appears; camera, layers and what was chosen stay.
+  // A saved drawing appears; camera, layers and selection are kept.
   const file = "components/2054.1P.dxf";
   const { page, faults } = await open(`${address}#${new URLSearchParams({ file, path: "2054.1P" })}`);
   await page.waitForFunction(() => document.getElementById("title").textContent === "2054.1P");
@@ -159,7 +159,7 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   assert.equal(await page.locator("#arrows").getAttribute("aria-pressed"), "false");
   assert.match(await text(page, "#where"), /^Move 3 of/);
   assert.equal((await text(page, "#details")).split("\n")[0], chosen.split("\n")[0]);
-  // A drawing that goes is told, and the last picture stays; one that comes back appears.
+  // The removal of a drawing is reported, and the last picture stays; when it returns, it appears.
   renameSync(join(place, file), join(place, "gone.kept"));
   await page.waitForSelector("#note:not([hidden])");
   assert.match(await text(page, "#note"), /no longer there/);
@@ -169,7 +169,7 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   await page.close();
 }
 {
-  // On a telephone.
+  // On a phone.
   const { page, faults } = await open(address, { viewport: { width: 390, height: 800 }, colorScheme: "dark", locale: "de" });
   await shot(page, "live-library-390");
   await page.fill("#search", "8001.1P");
@@ -185,7 +185,7 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   await page.close();
 }
 {
-  // Without WebGL the picture stands still, as an image: nothing of a drawing becomes part of the page.
+  // Without WebGL there is a still picture, as an image: no content of a drawing becomes part of the page.
   const still = await launchWithoutWebGL();
   const page = await still.newPage({ viewport: { width: 1280, height: 800 } });
   await page.goto(`${address}#${new URLSearchParams({ file: "projects/8001.1P.dxf", path: "8001.1P" })}`);
@@ -195,7 +195,7 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   await still.close();
 }
 {
-  // What a drawing says is text, whatever it looks like.
+  // Texts of drawings are shown as text, even if they look like markup.
   const hostile = `evil <img src=x onerror=alert(1)> & "q".dxf`;
   copyFileSync(join(place, "mistakes/3001.1P.dxf"), join(place, "mistakes", hostile));
   const { page, faults } = await open(address);
@@ -215,7 +215,7 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   await page.close();
 }
 {
-  // From elsewhere: the token leaves the address, and outlives loading again; without it nothing is told.
+  // From another machine: the token is removed from the address and survives reloading; without it, the server answers nothing.
   const { server, address } = await serve(pathbuild, place, "0.0.0.0:0", ...directories);
   const { page, faults } = await open(address);
   assert.ok(!page.url().includes("token"), page.url());

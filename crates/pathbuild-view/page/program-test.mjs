@@ -1,4 +1,4 @@
-// Programs that are dropped on the page in the browser alone: node program-test.mjs HTML [PICTURES]; BROWSER=firefox tries Firefox.
+// Tests programs dropped on the page without a server: node program-test.mjs HTML [PICTURES]; BROWSER=firefox tries Firefox.
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -16,7 +16,7 @@ async function open(fragment = "", options = {}) {
   page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
   await page.goto(`file://${html}${fragment}`);
   await page.waitForSelector("html[data-ready]");
-  // From here on nothing is asked for: what is dropped stays on this machine.
+  // From here on there must be no requests: dropped files stay on this machine.
   page.on("request", (request) => /^(data|blob):/.test(request.url()) || faults.push(request.url()));
   if ((await page.evaluate(() => document.documentElement.lang)) === "de" && !options.isGerman) await page.keyboard.press("l");
   return { page, faults };
@@ -48,13 +48,13 @@ const says = (page, id, words) => page.waitForFunction(([id, words]) => document
   assert.ok(await page.locator("#stock").isVisible());
   assert.equal(await page.locator("#labels .finding").count(), 1);
   await shot(page, "program-example");
-  // A click on the finding runs to its line.
+  // A click on the finding goes to its line.
   await page.locator("#findings button").click();
   assert.match(await text(page, ".row.now"), /G0 X60/);
   // Sections by comments are operations.
   await page.locator("#work summary").click();
   assert.match(await text(page, "#operations"), /Pocket 1[^]*Pocket 2[^]*Slot/);
-  // Another cutter, another surface: checked anew, from where it was looked at.
+  // Another cutter, another surface: the program is checked again, and the view is kept.
   const there = await text(page, "#where");
   await page.locator("#assumedTool").fill("10");
   await page.locator("#assumedTool").press("Tab");
@@ -64,7 +64,7 @@ const says = (page, id, words) => page.waitForFunction(([id, words]) => document
   assert.match(page.url(), /#program&cutter=10$/);
   await page.locator("#assumedSurface").fill("-3");
   await page.locator("#assumedSurface").press("Tab");
-  // The example states a higher one: that is said, and the higher one counts.
+  // The example states a higher one: this is reported, and the higher one counts.
   await says(page, "findings", "PB777");
   assert.match(await text(page, "#findings"), /PB740/);
   await page.locator("#assumedDialect").selectOption("grbl");
@@ -84,7 +84,7 @@ const says = (page, id, words) => page.waitForFunction(([id, words]) => document
   assert.deepEqual(faults, []);
   await page.close();
 
-  // The link holds the settings and no program: it waits for one.
+  // The link contains the settings but no program: the page waits for one.
   const other = await open(link);
   assert.match(await text(other.page, "#trouble"), /settings, but no program/);
   writeFileSync(join(place, "mine.tap"), "G21 G90 G94 G17\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20\nG0 X40\nG0 Z5\nM30\n");
@@ -97,7 +97,7 @@ const says = (page, id, words) => page.waitForFunction(([id, words]) => document
   await other.page.close();
 }
 {
-  // Dropped by the mouse, whatever its name; broken ones are answered as well.
+  // Dropped with the mouse, under any name; broken programs get an answer as well.
   const { page, faults } = await open();
   const drop = (name, content) =>
     page.evaluate(([name, content]) => {
@@ -117,7 +117,7 @@ const says = (page, id, words) => page.waitForFunction(([id, words]) => document
   await page.close();
 }
 {
-  // On a telephone, dark, in German.
+  // On a phone, dark, in German.
   const options = isFirefox ? {} : { colorScheme: "dark", locale: "de", hasTouch: true };
   const { page, faults } = await open("", { viewport: { width: 390, height: 800 }, isGerman: !isFirefox, ...options });
   await shot(page, "program-empty-390");
@@ -136,7 +136,7 @@ const says = (page, id, words) => page.waitForFunction(([id, words]) => document
   await page.close();
 }
 if (isFirefox) {
-  // It runs by time here as well.
+  // The animation works here as well.
   const { page } = await open();
   await page.locator("#drop .example").click();
   await shows(page, "example.nc");

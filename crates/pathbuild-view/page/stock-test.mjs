@@ -1,4 +1,4 @@
-// Heights of the stock, without a browser: node stock-test.mjs PATHBUILD LIBRARY.
+// Tests the heights of the stock without a browser: node stock-test.mjs PATHBUILD LIBRARY.
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -20,7 +20,7 @@ function sceneOf(path) {
   return JSON.parse(readFileSync(file, "utf8"));
 }
 
-/** Numbers from 0 to 1, the same ones on every run. */
+/** Pseudorandom numbers from 0 to 1, the same in every run. */
 let seed = 12345;
 const random = () => (seed = (seed * 1103515245 + 12345) & 0x7fffffff) / 0x7fffffff;
 
@@ -40,7 +40,7 @@ function movesNear({ paths }, [x, y]) {
   return found;
 }
 
-/** The height at a point by the true shape of each move, without pieces and texels. */
+/** The exact height at a point, from the true shape of each move. */
 function exact(moves, top, [x, y]) {
   let height = top;
   for (const { path, move } of moves) {
@@ -122,7 +122,7 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
 }
 
 {
-  // Jumps to and fro leave the same heights and colours as fresh maps.
+  // Jumps back and forth give the same heights and colours as new maps.
   const scene = sceneOf("8001.1P");
   const stock = stockOf(scene);
   const total = stock.map.cutting.until.length;
@@ -134,7 +134,7 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
     assert.ok(Buffer.from(stock.colors.buffer).equals(Buffer.from(fresh.colors.buffer)), `jump ${jump} to move ${to}`);
     assert.ok(Buffer.from(stock.map.heights.buffer).equals(Buffer.from(fresh.map.heights.buffer)), `heights after jump ${jump}`);
   }
-  // A move that is cut in part leaves no trace once the tool is elsewhere.
+  // A partially cut move leaves no trace once the tool is elsewhere.
   for (let jump = 0; jump < 60; jump++) {
     stock.seek(Math.floor(random() * total), random());
     const to = Math.floor(random() * (total + 1));
@@ -161,7 +161,7 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
 }
 
 {
-  // Half of a move cuts half of its way.
+  // Half of a move cuts half of its length.
   const stock = stockOf(plain(2, 2, [move("mill", [0, 0, 0], [20, 0, 0]), move("mill", [20, 0, 0], [20, 20, 0])]));
   stock.seek(1, 0.5);
   assert.deepEqual([[20, 9], [20, 12], [10, 0]].map((at) => stock.map.at(...at)), [0, 2, 0]);

@@ -10,7 +10,7 @@ const [pathbuild, library, pictures] = process.argv.slice(2).map((argument) => r
 const directory = mkdtempSync(join(tmpdir(), "pathbuild-page-"));
 const browser = await launch();
 
-/** Writes a page and opens it; errors and requests to elsewhere fail the test. */
+/** Writes a page and opens it. Errors and requests to other servers fail the test. */
 async function open(what, options = {}, cwd = library) {
   const file = join(directory, `${basename(what)}.html`);
   const run = spawnSync(pathbuild, ["view", what, "-o", file], { cwd, encoding: "utf8" });
@@ -29,7 +29,7 @@ async function shot(page, name) {
   if (pictures) await page.screenshot({ path: join(pictures, `${name}${isFirefox ? "-firefox" : ""}.png`) });
 }
 
-/** Until no label stands over another or over the legend, and none is cut off. How many there are to be seen. */
+/** Waits until no label overlaps another or the legend, and none is cut off. Returns the number of visible labels. */
 async function apart(page) {
   const wrong = () => {
     const box = (node) => (({ left, top, right, bottom }) => ({ left, top, right, bottom, says: node.textContent }))(node.getBoundingClientRect());
@@ -49,7 +49,7 @@ async function apart(page) {
   return seen;
 }
 
-/** A picture of an element once it stands still: a busy machine paints late. */
+/** Takes a screenshot of an element once it no longer changes, because a busy machine paints late. */
 async function steady(page, locator) {
   for (let before = null; ; ) {
     const now = await locator.screenshot();
@@ -75,7 +75,7 @@ const text = (page, selector) => page.locator(selector).innerText();
   const line = await page.locator(".row.now i").innerText();
   assert.match(await text(page, ".row.now"), /G0[0-3]/);
   assert.match(await text(page, "#details"), /2050\.1P/);
-  // A click on a line runs to its move; lines beyond the window are made as the list is scrolled.
+  // A click on a line goes to its move; lines outside the window are rendered as the list is scrolled.
   await page.locator("#code").hover();
   for (let turn = 0; turn < 50 && (await page.locator(".row", { hasText: "G02" }).count()) === 0; turn++) {
     await page.mouse.wheel(0, 100);
@@ -99,9 +99,9 @@ const text = (page, selector) => page.locator(selector).innerText();
   }
   assert.match(found, /G-code/);
   assert.match(await text(page, ".row.now"), /G0/);
-  // Hovering tells of the element.
+  // Hovering describes the element.
   assert.match(found, /(LINE|CIRCLE|ARC) /);
-  // Each parameter with where it comes from.
+  // Each parameter with its origin.
   assert.match(found, /\n[A-Z]\s+\S+ · (own text|first segment of the chain|text of the path|option --|default)/);
   await shot(page, "picked");
   // The height of the stock under the pointer, until the stock is hidden.
@@ -142,7 +142,7 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.waitForTimeout(200);
   assert.ok((await apart(page)) > 40);
   await shot(page, "dark-space");
-  // As small as on a telephone, some labels have no room.
+  // On a picture as small as on a phone, some labels have no room.
   await page.setViewportSize({ width: 390, height: 800 });
   const left = await apart(page);
   assert.ok(left > 5 && left < 60, `${left} labels`);
@@ -160,7 +160,7 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.close();
 }
 {
-  // A clamp stands in the picture with its height.
+  // A clamp is shown with its height.
   const { page, faults } = await open("mistakes/3011.1P.dxf");
   assert.equal(await text(page, "#labels .clamp"), "Z25");
   assert.match(await text(page, "#findings"), /PB407/);
@@ -171,7 +171,7 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.close();
 }
 {
-  // The tool runs by time: along a long move while the count of moves stays, ten times as far at ten times the speed.
+  // The animation: along a long move, the count of moves stays the same; at ten times the speed, the tool gets ten times as far.
   const program = ["G21 G90 G94 G17", "G00 X0 Y0 Z5", "G01 Z-1 F600", "G01 X2000 F600", "G01 Y50", "G00 Z5", "M30", ""];
   const file = join(directory, "by-time.gcode");
   writeFileSync(file, program.join("\n"));
@@ -213,7 +213,7 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.close();
 }
 {
-  // Drilled holes are to be seen though nothing tells the cutter, and the time is told without that of rapid moves, whose speed is unknown.
+  // Drilled holes are visible although the cutter is unknown, and the time is given without that of rapid moves, whose speed is unknown.
   const file = join(directory, "holes.nc");
   const holes = [10, 20, 30].flatMap((x) => [`G0 X${x} Y5`, "G1 Z-2 F120", "G0 Z5"]);
   writeFileSync(file, ["G21 G90 G94 G17", "G0 Z5", "G0 X0 Y0", ...holes, "M30", ""].join("\n"));
@@ -239,7 +239,7 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.close();
 }
 {
-  // Operations: a click goes there and makes the moves stand out, and the row follows the tool.
+  // Operations: a click goes there and highlights the moves, and the highlighted row follows the tool.
   const { page, faults } = await open("8001.1P");
   await page.locator("#work summary").click();
   const rows = page.locator("#operations tr");
@@ -266,7 +266,7 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.close();
 }
 {
-  // What comes next is faint: at the beginning there is more to see than the tool.
+  // Pending moves are faint: at the beginning there is more to see than the tool.
   const { page, faults } = await open("2051.1P");
   const ahead = () => steady(page, page.locator("#picture canvas").last());
   for (const key of ["s", "n", "t", "o", "g", "Home"]) await page.keyboard.press(key);
@@ -281,7 +281,7 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.close();
 }
 {
-  // On a telephone whatever can be tapped is as large as a finger.
+  // On a phone, everything that can be tapped is as large as a finger.
   const { page, faults } = await open("8001.1P", { viewport: { width: 390, height: 800 }, hasTouch: true });
   await page.locator("#work summary").click();
   await page.waitForTimeout(100);
@@ -296,7 +296,7 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.close();
 }
 if (!isFirefox) {
-  // So many moves are kept as a picture; it is the same by whatever way a step is reached. By the same script, it takes half a minute in Firefox.
+  // This many moves are kept as a picture, which is the same however a step is reached. In Firefox, this takes half a minute.
   const program = ["G21 G90 G94 G17", "G00 Z5", "G00 X0 Y0", "G01 Z-1 F100"];
   for (let move = 0; move < 30_000; move++) program.push(`G01 X${(Math.cos(move * 0.7) * (10 + move / 500)).toFixed(3)} Y${(Math.sin(move * 0.7) * (10 + move / 500)).toFixed(3)}`);
   const file = join(directory, "long.gcode");
@@ -314,13 +314,13 @@ if (!isFirefox) {
   assert.ok(late.equals(await picture(30_000, 23_456)), "backwards");
   assert.ok(early.equals(await picture(12_345)), "far backwards");
   assert.ok(late.equals(await picture(...Array.from({ length: 10 }, (_, turn) => 14_456 + turn * 1000))), "by steps");
-  // From elsewhere it is another.
+  // From another position it is different.
   await page.keyboard.press("3");
   const above = await picture(12_345);
   assert.ok(!above.equals(early));
   assert.ok(above.equals(await picture(23_456, 12_345)), "in space");
   await shot(page, "long");
-  // There is stock once the cutter's diameter is typed in.
+  // The stock appears once the cutter's diameter is entered.
   assert.ok(await page.locator("#stock").isHidden());
   await page.locator("#assumedTool").fill("2");
   assert.ok(await page.locator("#stock").isVisible());
@@ -332,7 +332,7 @@ if (!isFirefox) {
 await browser.close();
 
 {
-  // Without WebGL the picture stands still, and the rest works.
+  // Without WebGL there is a still picture, and everything else works.
   const still = await launchWithoutWebGL();
   const page = await still.newPage({ viewport: { width: 1280, height: 800 } });
   await page.goto(`file://${join(directory, "8001.1P.html")}`);

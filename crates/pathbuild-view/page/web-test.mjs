@@ -1,4 +1,4 @@
-// The page in the browser alone: node web-test.mjs PATHBUILD LIBRARY HTML [PICTURES]. Needs Debian's chromium.
+// Tests the page without a server: node web-test.mjs PATHBUILD LIBRARY HTML [PICTURES]. Needs Debian's chromium.
 import { spawnSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -15,7 +15,7 @@ rmSync(join(library, "gcode"), { recursive: true, force: true });
 
 const browser = await launch();
 
-/** Opens the page from a file; errors and requests to elsewhere fail the test. */
+/** Opens the page from a file. Errors and requests to any server fail the test. */
 async function open(options = {}, file = html) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, locale: "en", ...options });
   const faults = [];
@@ -34,7 +34,7 @@ async function shot(page, name) {
 const text = (page, selector) => page.locator(selector).innerText();
 const checked = (page, paths) => page.waitForFunction((paths) => document.getElementById("count").textContent === `${paths} paths`, paths, { timeout: 120_000 });
 
-/** What a click downloads: its files by name. */
+/** The files that a click downloads, by name. */
 async function downloaded(page, button) {
   const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
   const bytes = readFileSync(await download.path());
@@ -42,7 +42,7 @@ async function downloaded(page, button) {
   return name.endsWith(".zip") ? unzipSync(bytes) : { [name]: bytes };
 }
 
-/** Runs the program itself. */
+/** Runs the command-line program. */
 function run(...line) {
   const done = spawnSync(pathbuild, [...line, "--no-cache"], { cwd: library, encoding: "utf8", maxBuffer: 1 << 28 });
   assert.equal(done.error, undefined);
@@ -58,7 +58,7 @@ function all(folder) {
   const { page, faults } = await open();
   assert.match(await text(page, "#drop"), /Nothing leaves this machine/);
   await shot(page, "web-empty");
-  // A folder: the paths of the library that its configuration describes, with the states and figures that `list` tells.
+  // A folder: the paths of the library in its configuration, with the states and figures of `list`.
   const listed = JSON.parse(`[${run("list", "--format", "json").stdout.trim().split("\n").join(",")}]`).filter((row) => row.type === "path");
   const begun = Date.now();
   await page.setInputFiles("#folder", library);
@@ -118,7 +118,7 @@ function all(folder) {
     const own = spawnSync(pathbuild, ["emit", "8001.1P", "--post", post, "--no-cache", "-o", "-"], { cwd: library });
     assert.ok(own.stdout.length > 1000 && own.stdout.equals(Buffer.from(program)), post);
     const first = own.stdout.toString("latin1").split(/\r?\n/).find((line) => line.trim() !== "");
-    // Only rows in sight are made, and those of the last move are.
+    // Only visible rows are rendered, and those of the last move are visible.
     await page.evaluate(() => (document.getElementById("code").scrollTop = 0));
     await page.waitForFunction((row) => document.getElementById("code").textContent.includes(row), first.trim(), { timeout: 5000 });
     // Moves lead to lines of this file, and back from the native text.
@@ -133,7 +133,7 @@ function all(folder) {
     await page.click("#native");
     await page.keyboard.press("Escape");
   }
-  // What was downloaded lies on no disk that the page knows.
+  // The page does not know where the download is stored.
   await checked(page, listed.length);
   await page.waitForSelector("#filter-ok");
   assert.equal(await text(page, "#filter-ok"), `ok ${listed.length}`);
@@ -189,7 +189,7 @@ function all(folder) {
   await page.close();
 }
 {
-  // What is dropped, a folder in a folder among it.
+  // Dropped files, including a folder within a folder.
   const { page, faults } = await open();
   const files = all(library).filter((name) => !name.startsWith("gcode")).map((name) => [name, readFileSync(join(library, name), "base64")]);
   const transfer = await page.evaluateHandle((files) => {
@@ -199,7 +199,7 @@ function all(folder) {
   }, files.filter(([name]) => /2051|2052|2053/.test(name)));
   await page.dispatchEvent("body", "drop", { dataTransfer: transfer });
   await page.waitForFunction(() => /2053\.1P/.test(document.getElementById("items").textContent));
-  // As a visitor does it: a folder from the file manager, and then a drawing.
+  // As a user does it: a folder from the file manager, and then a drawing.
   const client = await page.context().newCDPSession(page);
   const drop = async (...files) => {
     for (const type of ["dragEnter", "dragOver", "drop"]) await client.send("Input.dispatchDragEvent", { type, x: 600, y: 400, data: { items: [], files, dragOperationsMask: 1 } });
@@ -230,7 +230,7 @@ function all(folder) {
   await page.close();
 }
 
-/** A page whose compiler does something else when it is asked for a path, until it is told that this one was lost. */
+/** A page whose compiler fails on one path until it is told that this path was lost. */
 function broken(way) {
   const change = `const first=WebAssembly.instantiate;WebAssembly.instantiate=async(...given)=>{
     const own=(await first(...given)).instance.exports;let room=0,length=0,known=false;
@@ -250,7 +250,7 @@ function broken(way) {
   return file;
 }
 for (const [way, code] of [["own.room(-1)", "PB006"], ["for(;;);", "PB005"], ["(function deeper(){return deeper()+1})()", "PB006"]]) {
-  // A path that ends the compiler has a finding; all others are what they were.
+  // A path that terminates the compiler has a finding; all others are unchanged.
   const { page, faults } = await open({}, broken(way));
   const drawings = ["2051.1P", "2052.1P", "2053.1P"].map((name) => join(library, `components/${name}.dxf`));
   writeFileSync(join(place, "pathbuild.toml"), "feed = 150\nrapid = 1000\nsweep-height = 20\n[limits]\nseconds-per-path = 1\n");
@@ -287,7 +287,7 @@ function codePage(name) {
   return Buffer.concat([head, ...texts.flatMap(text), lines(0, "LINE", 8, "1000.1P", 6, "CONTINUOUS", 10, 0, 20, 0, 11, 9, 21, 0, 0, "ENDSEC", 0, "EOF")]);
 }
 
-/** In the page: what the compiler in it shows of each drawing. */
+/** In the page: the pictures of each drawing by its compiler. */
 async function scenesOf(drawings) {
   const inside = (id) => document.getElementById(id).textContent;
   const packed = Uint8Array.from(atob(inside("wasm")), (letter) => letter.charCodeAt(0));
@@ -306,7 +306,7 @@ async function scenesOf(drawings) {
   return scenes;
 }
 {
-  // Code pages: the browser decodes texts, and to the last character as the program does, damaged ones too.
+  // Code pages: the browser decodes texts exactly as the program does, damaged ones too.
   const folder = join(place, "pages");
   mkdirSync(folder);
   writeFileSync(join(folder, "pathbuild.toml"), "");
@@ -345,7 +345,7 @@ function level(number) {
   return ["0", "SECTION", "2", "ENTITIES", ...lines, "0", "ENDSEC", "0", "EOF", ""].join("\n");
 }
 {
-  // Deep nesting, where stacks are small: what is written, and what is refused, is what the program itself says.
+  // Deep nesting, where stacks are small: the results and refusals are those of the program.
   const deep = join(place, "deep");
   mkdirSync(deep);
   writeFileSync(join(deep, "pathbuild.toml"), "feed = 150\nrapid = 1000\nsweep-height = 40\n");
@@ -374,7 +374,7 @@ function level(number) {
   await page.close();
 }
 {
-  // On a telephone.
+  // On a phone.
   const { page, faults } = await open({ viewport: { width: 390, height: 800 }, colorScheme: "dark", locale: "de" });
   await page.setInputFiles("#folder", library);
   await page.waitForSelector("#filter-ok");

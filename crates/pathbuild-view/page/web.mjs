@@ -1,4 +1,4 @@
-// Makes the page for the browser alone: node web.mjs WASM HTML [ADDRESS OF THE BOOK]. One file, with the compiler and its worker in it.
+// Builds the page without a server: node web.mjs WASM HTML [ADDRESS OF THE BOOK]. It is a single file that contains the compiler and its worker.
 import { readFileSync, writeFileSync } from "node:fs";
 import { spawnSync } from "node:child_process";
 import { gzipSync } from "node:zlib";
@@ -8,13 +8,13 @@ const [wasm, html, book = "https://example.invalid/pathbuild"] = process.argv.sl
 const here = (name) => new URL(name, import.meta.url).pathname;
 const text = (name) => readFileSync(here(name), "utf8");
 
-/** A script in one piece, which cannot end the element that it stands in. */
+/** Bundles a script so that it cannot end the element that contains it. */
 async function script(entry, format) {
   const { outputFiles } = await build({ entryPoints: [here(entry)], bundle: true, minify: true, write: false, format, target: "es2022", charset: "utf8", legalComments: "eof" });
   return outputFiles[0].text.replaceAll("</script", "<\\/script").trim();
 }
 
-/** As small as can be: by Zopfli where it is installed, a twentieth less. */
+/** Compresses as well as possible: Zopfli, if installed, saves another five percent. */
 function pack(file) {
   const zopfli = spawnSync("zopfli", ["--i5", "-c", file], { maxBuffer: 1 << 28 });
   return zopfli.status === 0 ? zopfli.stdout : gzipSync(readFileSync(file), { level: 9 });
