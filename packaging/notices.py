@@ -11,7 +11,7 @@ from pathlib import Path
 target, notices, bill = sys.argv[1:4]
 crate = (sys.argv[4:] or ["pathbuild"])[0]
 
-# cargo tree knows what is linked: procedural macros and build scripts are not, nor what only features of other workspace members need.
+# cargo tree lists the linked crates, without procedural macros, build scripts, and crates that only other workspace members need.
 tree = ["cargo", "tree", "--locked", "--package", crate, "--target", target, "--edges", "normal,no-proc-macro", "--prefix", "none", "--format", "{p}"]
 linked = {tuple(line.split()[:2]) for line in subprocess.check_output(tree, text=True).splitlines() if line}
 metadata = json.loads(subprocess.check_output(["cargo", "metadata", "--format-version", "1", "--locked", "--filter-platform", target]))
@@ -20,7 +20,7 @@ packages = [package for package in metadata["packages"] if (package["name"], "v"
 root = next(package for package in packages if package["name"] == crate)
 parts = sorted((package for package in packages if package["id"] not in ours), key=lambda part: (part["name"], part["version"]))
 
-# Some crates leave out a text that their licence asks for: it is that of the licence itself.
+# Some crates lack a text that their licence requires; the text of the licence itself is used instead.
 TEXTS = {"MIT": "LICENSE-MIT", "Apache-2.0": "LICENSE-APACHE"}
 NAMES = ("LICENSE", "LICENCE", "COPYING", "NOTICE", "COPYRIGHT")
 texts, rows, without = {}, [], []

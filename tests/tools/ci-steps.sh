@@ -94,7 +94,7 @@ directory=other github Moves > /dev/null 2> "$place/log" || fail "the second use
 directory=other github Check > /dev/null 2> "$place/log" || fail "the second use finds errors: $(cat "$place/log")"
 git checkout -q main
 
-# Install obeys no file of the checkout: rustup would run any program as cargo.
+# The installation must obey no file of the checkout: rustup would run any program as cargo.
 mkdir -p "$place/toolchain/bin"
 printf '#!/bin/sh\ntouch "%s"\n' "$place/obeyed" > "$place/toolchain/bin/cargo"
 chmod +x "$place/toolchain/bin/cargo"

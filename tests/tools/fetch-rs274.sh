@@ -42,7 +42,7 @@ for library in $(apt-cache depends linuxcnc-uspace | sed -n 's/^ *Depends: \(lib
 done
 
 printf 'T1 P1 D2.0 ;2mm\nT2 P2 D3.0 ;3mm\n' > "$dir/tool.tbl"
-# Without a tool table it exits without a word; with the same home, runs at the same time disturb each other.
+# Without a tool table it exits silently; concurrent runs with the same home directory disturb each other.
 cat > "$dir/rs274" <<WRAPPER
 #!/bin/sh
 HOME=\$(mktemp -d)
