@@ -25,7 +25,7 @@ impl Write for Screen {
 
 impl Screen {
     fn text(&self) -> String {
-        String::from_utf8_lossy(&self.0.lock().expect("nobody panicked")).into_owned()
+        String::from_utf8_lossy(&self.0.lock().expect("no thread panicked")).into_owned()
     }
 }
 

@@ -1,9 +1,6 @@
 //! The C interface for the browser. It handles one message at a time: it requests a buffer ([`room`]), writes the question into it,
 //! requests the answer ([`answer`]), and reads it in place ([`answered`]).
-#![expect(
-    unsafe_code,
-    reason = "a function that is called from outside has a name that nobody else may have"
-)]
+#![expect(unsafe_code, reason = "an exported function needs a name that is unique in the program")]
 
 use std::cell::RefCell;
 use std::panic;

@@ -234,7 +234,7 @@ fn drawings_without_a_configuration_ask_for_values() {
     assert_eq!(page.head(&json!({ "ask": "scene", "file": "1000.1P.dxf", "path": "1.1P" }))["seen"], false);
 }
 
-/// A page has no date: a waiver that ends does not hold there, and the finding says so; one without an end holds.
+/// A page has no date, so a waiver with an end does not hold there, which the finding states; one without an end holds.
 #[test]
 fn a_waiver_that_ends_does_not_hold_without_a_date() {
     let drawing = "layer 1000.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 20,0 40,0\nturn 20,0\nend 40,0\n";

@@ -409,7 +409,7 @@ fn a_part_belongs_to_paths_within_the_cutter_diameter() {
     assert_eq!(beside(-1.01), ["PB220"]);
 }
 
-/// The path that is too far outside leaves nothing where another one cuts; what both leave is said once.
+/// The path that is too far outside leaves nothing where another one cuts; material that both leave is reported once.
 #[test]
 fn what_paths_leave_is_judged_on_their_union() {
     let path = |letter: &str, y: f64| {
@@ -595,7 +595,7 @@ fn a_groove_across_the_rim_leaves_nothing() {
     assert!(groove("41,5\nmill 41,5 41,15 \"B0.5\"", "41,15"));
 }
 
-/// What a path with errors cuts is unknown, so nothing is said about what remains; cuts into the part are found all the same.
+/// The cuts of a path with errors are unknown, so leftover material is not reported; cuts into the part are found nevertheless.
 #[test]
 fn beside_a_path_with_errors_only_gouges_are_found() {
     let path = |y: f64, other: &str| {
@@ -624,7 +624,7 @@ fn a_hole_in_the_part_is_told_without_a_length() {
     assert_eq!(found, ["PB213 the hole, O2, goes 7 mm into the part at (25, 20)"]);
 }
 
-/// A text that belongs to nothing hides nothing else, unless it may be the depth of the cut.
+/// A text without an element hides no other finding, unless it may be the depth of the cut.
 #[test]
 fn a_stray_text_hides_no_cut_into_the_part() {
     let with = |text: &str| {

@@ -35,7 +35,7 @@ fn a_gap_is_named_up_to_a_tenth_of_the_outline() {
 
 const CIRCLE: &str = "circle 20,10 d 5";
 
-/// The hole of an open outline is no part: nothing is said about it.
+/// The hole of an open outline is not a part, so nothing is reported about it.
 #[test]
 fn a_hole_in_an_open_outline_is_no_part() {
     let with_hole = |lines: &str| messages(&beside(&format!("{lines}\n{SIDES}\n{CIRCLE}")));
@@ -170,7 +170,7 @@ fn a_line_type_may_be_that_of_the_layer() {
     assert!(messages(&other("HIDDEN"))[0].contains("no closed outline"));
 }
 
-/// An annotation says nothing, but a curve that cannot be read is doubtful.
+/// An annotation is ignored, but a curve that cannot be read is doubtful.
 #[test]
 fn annotations_do_not_count() {
     let whole = format!("line 0,1 40,1\n{SIDES}");

@@ -130,7 +130,7 @@ fn a_path_that_was_moved_on_its_sheet() {
             "line at (140, 75): moved by (0, 5) mm"
         ]
     );
-    // Everything but the start: said once for all lines.
+    // Everything except the start: reported once for all lines.
     let lines = "mill 10,0 50,0\nmill 50,0 50,20\nmill 50,20 10,20\nend 10,20\n";
     let rest = lines.replace("10,", "15,").replace("50,", "55,");
     assert_eq!(

@@ -49,7 +49,7 @@ fn names_of_other_programs_are_known() {
     assert_eq!(named("ACAD_ISO06W100"), None);
 }
 
-/// An unknown name may be meant as a line type that begins like it, if it has three letters.
+/// A line type is suggested for an unknown name that begins like it, from three letters on.
 #[test]
 fn abbreviations_are_recognised() {
     assert_eq!(LineType::like("PHA"), Some(LineType::Phantom));

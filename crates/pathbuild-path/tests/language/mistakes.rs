@@ -312,7 +312,7 @@ fn markers_that_lost_their_line_type_are_recognised() {
         path("circle 0,0 d 1", "circle 20,30 d 2"),
         (strings(&["PB101", "PB102"]), strings(&[start, end]))
     );
-    // Nearly a marker's diameter: what follows from that is not said.
+    // Nearly a marker's diameter: the consequences are not reported.
     assert_eq!(path("circle PHANTOM 0,0 d 1.1", "circle PHANTOM 20,30 d 1.9").0, ["PB105", "PB105"]);
     assert_eq!(path("start 0,0", "circle PHANTOM 20,30 d 1.7").0, ["PB105", "PB102"]);
 }

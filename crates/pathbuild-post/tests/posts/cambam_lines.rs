@@ -332,6 +332,6 @@ fn stock_and_tool_values_come_from_whoever_knows_them() {
     assert_eq!(header(&all, ""), Ok("( 150 5.0 42.5 )".to_owned()));
     assert_eq!(header(&all[1..], "$stock_width=90"), Ok("( 90 5.0 42.5 )".to_owned()));
     assert_eq!(header(&all, "$stock_width=90"), Ok("( 150 5.0 42.5 )".to_owned()), "the configuration wins");
-    let missing = header(&all[..2], "").expect_err("nobody says the length");
+    let missing = header(&all[..2], "").expect_err("the length is missing");
     assert_eq!(texts(&missing)[0].split(' ').take(2).collect::<Vec<_>>(), ["4:", "PB754"]);
 }

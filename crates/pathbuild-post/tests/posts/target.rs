@@ -314,7 +314,7 @@ fn somebody_who_answers_for_the_moves_does_not_answer_for_rules() {
     let job = job(vec![feed(0.0, 0.0, -1.0), rapid(0.0, 0.0, 5.0)]);
     let errors = texts(&post("<Dialect>linuxcnc</Dialect>").write(&job, &options).unwrap_err());
     assert!(errors[0].starts_with("PB745 "), "{errors:?}");
-    assert!(post("").write(&job, &options).is_ok(), "without a dialect nobody knows what M5 means");
+    assert!(post("").write(&job, &options).is_ok(), "without a dialect the meaning of M5 is unknown");
 }
 
 #[test]
