@@ -85,8 +85,8 @@ const words = {
   what: ["what", "was"],
   depth: ["depth", "Tiefe"],
   nowebgl: [
-    "This browser has no WebGL2: the picture stands still.",
-    "Dieser Browser hat kein WebGL2: Das Bild steht still.",
+    "This browser has no WebGL2: only a still picture is shown.",
+    "Dieser Browser hat kein WebGL2: Es ist nur ein Standbild zu sehen.",
   ],
   library: ["Library", "Bibliothek"],
   search: ["Search  ( / )", "Suche  ( / )"],
@@ -125,13 +125,13 @@ const words = {
     "Nichts wird geprüft, bis das berichtigt ist:",
   ],
   unknown: [
-    "This page needs the whole address that pathbuild printed, with what stands behind the #.",
-    "Diese Seite braucht die ganze Adresse, die pathbuild ausgegeben hat, mit dem, was hinter dem # steht.",
+    "This page needs the complete address that pathbuild printed, including the part after the #.",
+    "Diese Seite braucht die vollständige Adresse, die pathbuild ausgegeben hat, mit dem Teil hinter dem #.",
   ],
   gone: ["is no longer there; this is what was drawn last.", "ist nicht mehr da; zu sehen ist der letzte Stand."],
   drop: [
     "Drop drawings, a folder or any G-code program here. Nothing leaves this machine: pathbuild runs in this page.",
-    "Zeichnungen, einen Ordner oder irgendein G-Code-Programm hier ablegen. Nichts verlässt diesen Rechner: pathbuild läuft in dieser Seite.",
+    "Zeichnungen, einen Ordner oder ein beliebiges G-Code-Programm hier ablegen. Nichts verlässt diesen Rechner: pathbuild läuft in dieser Seite.",
   ],
   pickDrawings: ["Files…", "Dateien…"],
   pickFolder: ["Folder…", "Ordner…"],
@@ -157,7 +157,7 @@ const words = {
   ],
   noWasm: [
     "This browser cannot run pathbuild; a current Firefox, Chrome, Edge or Safari can.",
-    "Dieser Browser kann pathbuild nicht ausführen; aktuelle Firefox, Chrome, Edge und Safari können es.",
+    "Dieser Browser kann pathbuild nicht ausführen; aktuelle Versionen von Firefox, Chrome, Edge und Safari können es.",
   ],
   preview: ["preview; emit writes no file of this", "Vorschau; emit schreibt davon keine Datei"],
   nativeText: ["native program; the machine gets", "eigenes Programm; die Maschine bekommt"],
