@@ -226,7 +226,7 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   const stranger = await browser.newPage();
   await stranger.goto(address.split("#")[0]);
   await stranger.waitForSelector("#trouble:not([hidden])");
-  assert.match(await text(stranger, "#trouble"), /whole address/);
+  assert.match(await text(stranger, "#trouble"), /complete address/);
   assert.equal(await stranger.locator(".item").count(), 0);
   await stranger.close();
   server.kill();
