@@ -93,7 +93,7 @@ fn compare(
     if new == old {
         context.printer.status(context.choose("nothing differs", "nichts weicht ab"));
     } else if !write {
-        let hint = "nothing was written; --write takes the values over";
+        let hint = "nothing was written; --write writes the values";
         context.printer.status(context.choose(hint, "nichts geschrieben; --write übernimmt die Werte"));
     } else if is_there {
         files::replace(context, &file, &new).map_err(|problem| vec![*problem])?;
