@@ -123,10 +123,12 @@ impl Diagnostic {
         self
     }
 
-    /// Sets the line and, if known, the column, both counted from 1.
-    pub fn at_line(mut self, line: u32, column: Option<u32>) -> Self {
-        self.place.line = Some(line);
-        self.place.column = column;
+    /// Sets the line and the column, both counted from 1, if they are known.
+    pub fn at_line(mut self, line: impl Into<Option<u32>>, column: Option<u32>) -> Self {
+        if let Some(line) = line.into() {
+            self.place.line = Some(line);
+            self.place.column = column;
+        }
         self
     }
 
@@ -145,10 +147,30 @@ impl Diagnostic {
         self
     }
 
-    /// Sets the faulty text.
-    pub fn with_text(mut self, text: TextFault) -> Self {
-        self.text = Some(text);
+    /// Sets the faulty text, if there is one.
+    pub fn with_text(mut self, text: impl Into<Option<TextFault>>) -> Self {
+        self.text = text.into().or(self.text);
         self
+    }
+
+    /// Says this instead, with the argument `nearest`, if there is a similar name.
+    pub fn or_nearest(mut self, message: &'static Message, nearest: Option<impl AsRef<str>>) -> Self {
+        let Some(nearest) = nearest else { return self };
+        self.message = message;
+        self.quoting("nearest", nearest)
+    }
+
+    /// The value of an argument of the message.
+    pub fn argument(&self, name: &str) -> Option<&Value> {
+        argument(&self.arguments, name)
+    }
+
+    /// The text of an argument that is quoted.
+    pub fn quoted(&self, name: &str) -> Option<&str> {
+        match self.argument(name)? {
+            Value::Quoted(text) => Some(text),
+            _ => None,
+        }
     }
 
     /// Fills in the line and handle of the element from the source map.
@@ -185,15 +207,23 @@ impl Diagnostic {
 
     /// The line named by the message, if that concerns something other than a file.
     fn named_line(&self) -> Option<u64> {
-        let line = self.arguments.iter().find(|(name, _)| *name == "line").map(|(_, value)| value);
-        match line {
+        match self.argument("line") {
             Some(Value::Count(line)) if self.place.line.is_none() => Some(*line),
             _ => None,
         }
     }
 }
 
+fn argument<'a>(arguments: &'a [(&'static str, Value)], name: &str) -> Option<&'a Value> {
+    arguments.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
+}
+
 impl Note {
+    /// The value of an argument.
+    pub fn argument(&self, name: &str) -> Option<&Value> {
+        argument(&self.arguments, name)
+    }
+
     /// The note as a sentence.
     pub fn text(&self, lang: Lang) -> String {
         fill(self.message.text.in_lang(lang), &self.arguments, lang)

@@ -78,10 +78,7 @@ impl<'a> Header<'a> {
 
     /// Attaches the place of `$INSUNITS` to a diagnostic.
     fn at_units(&self, diagnostic: Diagnostic) -> Diagnostic {
-        match self.units {
-            Some((_, pairs)) => diagnostic.at_line(pairs.counted_line().saturating_add(1), None),
-            None => diagnostic,
-        }
+        diagnostic.at_line(self.units.map(|(_, pairs)| pairs.counted_line().saturating_add(1)), None)
     }
 
     fn set(&mut self, variable: &[u8], pair: Pair<'a>, place: Pairs<'a>) {

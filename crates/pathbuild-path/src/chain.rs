@@ -203,11 +203,7 @@ impl Chain {
             .with("example", (path.thickness - self.infeed).max(bottom));
         let own = path.drawn.text(first.cut(path).chain_letters);
         let fault = own.and_then(|text| text.fault_of(Letter::W));
-        let problem = first.origin(path).at(problem);
-        Some(match fault {
-            Some(fault) => problem.with_text(fault),
-            None => problem,
-        })
+        Some(first.origin(path).at(problem).with_text(fault))
     }
 }
 

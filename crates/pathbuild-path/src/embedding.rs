@@ -538,11 +538,7 @@ impl<'a> Judge<'a> {
 
     /// Places a diagnostic at a segment.
     fn at(&self, call: &SubpathCall, diagnostic: Diagnostic, text: Option<&TextFault>) -> Diagnostic {
-        let diagnostic = call.origin.at(diagnostic.in_path(self.outer.name.as_str()));
-        match text {
-            Some(text) => diagnostic.with_text(text.clone()),
-            None => diagnostic,
-        }
+        call.origin.at(diagnostic.in_path(self.outer.name.as_str())).with_text(text.cloned())
     }
 
     /// Places a diagnostic at a segment, with the name underlined.

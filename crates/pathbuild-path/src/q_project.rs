@@ -298,11 +298,7 @@ fn differing(
     name: &PathName,
 ) -> Diagnostic {
     let problem = Diagnostic::new(message).quoting("name", name.as_str()).quoting("letter", letter);
-    let problem = problem.with("here", here).with("there", there);
-    match text {
-        Some(text) => problem.with_text(text),
-        None => problem,
-    }
+    problem.with("here", here).with("there", there).with_text(text)
 }
 
 /// The differences in T, O and M between a proxy line and its path.

@@ -205,10 +205,7 @@ impl<'t> Values<'t> {
 
     /// Adds the text with the letter's piece underlined to a diagnostic, if the text contains the letter.
     pub(crate) fn underline(&self, letter: Letter, diagnostic: Diagnostic) -> Diagnostic {
-        match self.fault(letter) {
-            Some(fault) => diagnostic.with_text(fault),
-            None => diagnostic,
-        }
+        diagnostic.with_text(self.fault(letter))
     }
 }
 

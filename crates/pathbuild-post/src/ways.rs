@@ -162,10 +162,7 @@ fn describe(difference: &Difference) -> Diagnostic {
         }
         (None, _) => Diagnostic::new(&posts::MOVES_LOST),
     };
-    match difference.found {
-        Some((line, _)) => diagnostic.at_line(line, None),
-        None => diagnostic,
-    }
+    diagnostic.at_line(difference.found.map(|(line, _)| line), None)
 }
 
 /// Reports a cut after the last one of the job.

@@ -15,6 +15,16 @@ pub enum Origin {
     CommandLine(&'static str),
 }
 
+impl Origin {
+    /// The line of the configuration, if the value comes from there.
+    pub fn line(self) -> Option<u32> {
+        match self {
+            Self::File(line) => Some(line),
+            Self::Default | Self::CommandLine(_) => None,
+        }
+    }
+}
+
 /// A value with its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourcedValue<T> {

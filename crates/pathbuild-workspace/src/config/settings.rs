@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::ConfinedSystem;
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_toolpath::ZModel;
 use toml::de::DeTable;
 
@@ -108,6 +108,14 @@ impl Settings {
             .zip(["feed", "sweep-height", "probe-feed"])
             .find(|(_, known)| *known == name)
             .map_or(Origin::Default, |(option, _)| option.origin)
+    }
+
+    /// Adds the place in the configuration that a value comes from, if it comes from there.
+    pub(crate) fn locate(&self, problem: Diagnostic, origin: Origin) -> Diagnostic {
+        match (&self.file, origin.line()) {
+            (Some(file), Some(line)) => problem.in_file(file).at_line(line, None),
+            _ => problem,
+        }
     }
 
     /// Directory that paths in the configuration are relative to, if there is a configuration.

@@ -8,7 +8,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_path::PathName;
 
-use crate::config::{Origin, Settings};
+use crate::config::Settings;
 use crate::memo::{Answer, DrawingResult, Memo, find, read_drawings};
 use crate::session::{Argument, ArgumentMatches, Selection, Session, several_paths};
 
@@ -189,10 +189,7 @@ impl<'a> TargetPatterns<'a> {
         let unmatched = targets.value.iter().zip(&self.is_met).filter(|(_, is_met)| !**is_met);
         unmatched.map(|(pattern, _)| {
             let problem = Diagnostic::new(&messages::NO_TARGET).quoting("pattern", pattern.text());
-            match (&self.settings.file, targets.origin) {
-                (Some(file), Origin::File(line)) => problem.in_file(file).at_line(line, None),
-                _ => problem,
-            }
+            self.settings.locate(problem, targets.origin)
         })
     }
 }

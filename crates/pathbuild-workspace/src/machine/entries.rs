@@ -90,19 +90,11 @@ impl Entries {
     pub(super) fn not_taken(&mut self, entry: &Entry, expected: &'static Text) {
         let problem = Diagnostic::new(&say::VALUE_NOT_TAKEN).quoting("name", entry.name.as_str());
         let problem = problem.quoting("value", entry.value.as_str()).with("expected", Shown::Prose(expected));
-        self.report_at(problem, entry.line);
+        self.report(problem.at_line(entry.line, None));
     }
 
     pub(super) fn report(&mut self, problem: Diagnostic) {
         self.problems.push(problem);
-    }
-
-    /// Reports a problem at a line, if it is known.
-    pub(super) fn report_at(&mut self, problem: Diagnostic, line: Option<u32>) {
-        self.report(match line {
-            Some(line) => problem.at_line(line, None),
-            None => problem,
-        });
     }
 
     /// Adds a value for a key.
@@ -135,7 +127,7 @@ impl Entries {
             && names.iter().any(|name| self.get(name).is_none())
         {
             let problem = Diagnostic::new(&say::AXES_INCOMPLETE).quoting("key", key);
-            self.report_at(problem.quoting("given", given.join(", ")), first.line);
+            self.report(problem.quoting("given", given.join(", ")).at_line(first.line, None));
         }
     }
 
@@ -153,7 +145,7 @@ impl Entries {
             self.set("spindle-speeds", Quantity::Numbers(vec![rounded(from), rounded(to)]), sources);
         } else {
             let problem = Diagnostic::new(&say::EMPTY_SPEEDS).with("from", from).with("to", to);
-            self.report_at(problem, line);
+            self.report(problem.at_line(line, None));
         }
     }
 

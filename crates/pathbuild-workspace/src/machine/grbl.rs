@@ -30,7 +30,7 @@ pub(super) fn read(text: &str) -> Description {
     if entries.get("$32").is_some_and(|mode| mode.value == "1") {
         let problem = Diagnostic::new(&say::LASER);
         let line = entries.take("$32").and_then(|mode| mode.line);
-        entries.report_at(problem, line);
+        entries.report(problem.at_line(line, None));
     } else {
         entries.set_speeds("$31", "$30");
     }

@@ -73,7 +73,7 @@ impl ToolEntry<'_> {
         let problem = problem.with("number", u64::from(self.tool.number.unwrap_or_default()));
         let problem = problem.quoting("earlier", &*earlier.tool.name).quoting("file", earlier.file);
         let problem = problem.with("line", u64::from(earlier.tool.line.unwrap_or_default()));
-        super::at(problem, self.tool.line).in_file(self.file)
+        problem.at_line(self.tool.line, None).in_file(self.file)
     }
 }
 

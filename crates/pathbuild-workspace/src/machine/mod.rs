@@ -160,13 +160,6 @@ pub fn read(
     }
 }
 
-fn at(problem: Diagnostic, line: Option<u32>) -> Diagnostic {
-    match line {
-        Some(line) => problem.at_line(line, None),
-        None => problem,
-    }
-}
-
 /// PB612 at a line: the description is broken.
 fn broken(reason: &str, line: usize) -> Box<Diagnostic> {
     let problem = Diagnostic::new(&say::BROKEN_DESCRIPTION).with("reason", Shown::foreign(reason));

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, Value as Shown};
 use serde_json::{Map, Value};
 
 use super::entries::rounded;
-use super::{DescribedTool, DescribedValue, Description, Entry, LengthUnit, Quantity, Target, at, broken};
+use super::{DescribedTool, DescribedValue, Description, Entry, LengthUnit, Quantity, Target, broken};
 use crate::config::is_too_round;
 
 /// Returns the text of a tool bit that a FreeCAD library names.
@@ -333,7 +333,7 @@ impl Tools {
             Err(_) => {
                 let problem = Diagnostic::new(&say::VALUE_NOT_TAKEN).quoting("name", name);
                 let problem = problem.quoting("value", text).with("expected", Shown::Prose(&COUNT));
-                self.problems.push(at(problem, line));
+                self.problems.push(problem.at_line(line, None));
                 None
             }
         }
@@ -343,7 +343,7 @@ impl Tools {
     fn without_diameter(&mut self, tool: &ToolDescription) {
         let problem = Diagnostic::new(&say::NO_DIAMETER).quoting("name", tool.name.as_str());
         let problem = problem.with("number", u64::from(tool.number.unwrap_or_default()));
-        self.problems.push(at(problem, tool.line));
+        self.problems.push(problem.at_line(tool.line, None));
     }
 
     /// Adds a tool, unless it has no diameter, which the configuration requires, or a tip that no tool can have.
@@ -353,7 +353,8 @@ impl Tools {
         if is_too_round(radius, diameter) {
             let problem = Diagnostic::new(&say::CORNER_TOO_ROUND).quoting("name", tool.name.as_str());
             let problem = problem.with("number", u64::from(tool.number.unwrap_or_default()));
-            self.problems.push(at(problem.with("radius", radius).with("diameter", diameter), tool.line));
+            self.problems
+                .push(problem.with("radius", radius).with("diameter", diameter).at_line(tool.line, None));
             return;
         }
         let target = Target::Tool { number: tool.number, name: tool.name.clone() };

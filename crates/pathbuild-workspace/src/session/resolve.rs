@@ -16,7 +16,7 @@ use rustc_hash::FxHashSet;
 
 use super::argument_matches::{Argument, ArgumentMatches, SearchedDirectory};
 use super::{Session, by_place};
-use crate::config::{Origin, SourcedValue};
+use crate::config::SourcedValue;
 use crate::inputs::Inputs;
 use crate::workspace::relative;
 
@@ -322,13 +322,8 @@ impl Session<'_> {
 
 /// The path that a subpath segment names and that was not found.
 fn missing_path(diagnostic: &Diagnostic) -> Option<PathName> {
-    if *diagnostic.message != paths::NOT_FOUND {
-        return None;
-    }
-    diagnostic.arguments.iter().find_map(|(argument, value)| match value {
-        Value::Quoted(name) if *argument == "name" => Some(PathName::new(name)),
-        _ => None,
-    })
+    let name = diagnostic.quoted("name").filter(|_| *diagnostic.message == paths::NOT_FOUND);
+    name.map(PathName::new)
 }
 
 impl Session<'_> {
@@ -341,7 +336,7 @@ impl Session<'_> {
                     self.near_file(file).map(|near| (&files::NEAR_FILE, near.into_string()))
                 }
                 (message, _) if *message == outputs::NO_SUCH_PATH || *message == outputs::NO_PATH_LIKE => {
-                    self.near_path(missing_name(&diagnostic), &known)
+                    self.near_path(diagnostic.quoted("name").unwrap_or_default(), &known)
                 }
                 _ => None,
             };
@@ -418,15 +413,6 @@ struct KnownNames {
     entries: Vec<String>,
 }
 
-/// The missing name that a diagnostic reports.
-fn missing_name(diagnostic: &Diagnostic) -> &str {
-    let missing_name = diagnostic.arguments.iter().find_map(|(argument, value)| match value {
-        Value::Quoted(name) if *argument == "name" => Some(&**name),
-        _ => None,
-    });
-    missing_name.unwrap_or_default()
-}
-
 impl Session<'_> {
     /// PB003 for each missing directory of the keys `library` and `search`.
     pub(crate) fn missing_directories(&self) -> Vec<Diagnostic> {
@@ -447,10 +433,7 @@ impl Session<'_> {
             let problem = Diagnostic::new(&configuration::NO_DIRECTORY)
                 .quoting("key", key)
                 .quoting("directory", self.normal(directory).as_str());
-            match (&self.context.settings.file, directories.origin) {
-                (Some(file), Origin::File(line)) => problem.in_file(file).at_line(line, None),
-                _ => problem,
-            }
+            self.context.settings.locate(problem, directories.origin)
         })
     }
 

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use camino::Utf8PathBuf;
 use pathbuild_db::{Db, Role, SourceFile, path_names};
-use pathbuild_diagnostic::{Code, Diagnostic, Value};
+use pathbuild_diagnostic::{Code, Diagnostic};
 
 use super::events::{Listener, Request};
 use crate::emit::{self, FileOwners, TargetPatterns};
@@ -146,11 +146,7 @@ impl<'a> Writer<'a> {
 
     /// The drawing that a diagnostic belongs to. Diagnostics about an output file name that file instead.
     fn drawing_of(&self, session: &Session<'_>, problem: &Diagnostic) -> Option<Utf8PathBuf> {
-        let name = problem.arguments.iter().find_map(|argument| match argument {
-            ("name", Value::Quoted(name)) => Some(&**name),
-            _ => None,
-        });
-        let file = problem.file.as_ref().map(|file| file.as_str()).or(name)?;
+        let file = problem.file.as_ref().map(|file| file.as_str()).or(problem.quoted("name"))?;
         match self.owners.get(&file.to_lowercase()) {
             Some(owner) => Some(owner.file(session.db()).path(session.db()).clone()),
             None => problem.file.clone(),
