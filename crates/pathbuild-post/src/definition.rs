@@ -5,15 +5,16 @@ use std::collections::{BTreeSet, HashMap};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::messages::posts;
-use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, nearest};
+use pathbuild_diagnostic::{Diagnostic, Lang, Note, Value, nearest};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::too_large;
 use pathbuild_gcode::verify::{Ends, Tolerance};
-use pathbuild_motion::{Coolant, Turning};
+use pathbuild_motion::Turning;
 
 use crate::PostMacro;
 use crate::PostOptions;
-use crate::findings::LineOrigin;
+use crate::Row;
+use crate::findings::EngineOutput;
 use crate::job::{Job, Operation, Units};
 use crate::read_back::{self, Expected};
 use crate::shadow::{CommentMarks, TranslatedText, first_other_line};
@@ -144,25 +145,18 @@ impl Post {
         self.check_spindle(job, options).map_err(|error| vec![*error])?;
         let target = self.target(options)?;
         let options = &self.within(options, target.as_ref());
-        let mut output = Output {
-            text: Vec::new(),
-            extension: self.extension().into(),
-            notes: Vec::new(),
-            warnings: self.warnings.clone(),
-            post_build: None,
-        };
         let target = target.as_ref();
-        let (shadow, origins) = match &self.engine {
-            Engine::CamBam(definition) => self.write_cambam(definition, job, target, options, &mut output)?,
-            Engine::Cad6(definition) => {
-                let written = cad6::write(definition, &self.file, job, target, options)?;
-                output.text = written.text;
-                output.warnings.extend(written.warnings);
-                output.note_switches(&written.switches, job, options.spin_up);
-                (written.shadow, written.origins)
-            }
+        let EngineOutput { text, shadow, origins, warnings, notes, post_build } = match &self.engine {
+            Engine::CamBam(definition) => cambam::write(definition, &self.file, job, target, options)?,
+            Engine::Cad6(definition) => cad6::write(definition, &self.file, job, target, options)?,
         };
-        output.text = target::plain(&output.text, target, options.charset);
+        let mut output = Output {
+            text: target::plain(&text, target, options.charset),
+            extension: self.extension().into(),
+            notes,
+            warnings: [self.warnings.clone(), warnings].concat(),
+            post_build,
+        };
         if output.text.len() > options.most_bytes {
             return Err(vec![*too_large(options.most_bytes)]);
         }
@@ -270,33 +264,6 @@ impl Post {
         let cycles = options.cycles && (has_cycles || !writes_cycles) && !is_wrapped;
         PostOptions { cycles, ..options.clone() }
     }
-
-    fn write_cambam(
-        &self,
-        definition: &cambam::Definition,
-        job: &Job,
-        target: Option<&Target>,
-        options: &PostOptions<'_>,
-        output: &mut Output,
-    ) -> Result<(TranslatedText, Vec<LineOrigin>), Vec<Diagnostic>> {
-        let cambam::EngineOutput { text: written, post_build, leaves_out_coolant } =
-            cambam::write(definition, &self.file, job, target, options)?;
-        output.text = written.text.into_bytes();
-        output.warnings.extend(written.warnings);
-        if leaves_out_coolant {
-            output.note(&posts::COOLANT_NOT_WRITTEN, "macro", "{$coolant}");
-        }
-        if options.spin_up > 0.0 && definition.switches_spindle() && !definition.waits_for_spindle() {
-            output.note(&posts::SPIN_UP_NOT_WRITTEN, "macro", "{$spindle(up)}");
-        }
-        match post_build {
-            Some(command) if !options.run_post_build => {
-                output.note(&posts::POST_BUILD_SKIPPED, "command", &command.join(" "));
-            }
-            command => output.post_build = command,
-        }
-        Ok((written.shadow, written.origins))
-    }
 }
 
 /// Decodes a definition in UTF-8, or in UTF-16 with a byte order mark, as some editors save XML.
@@ -341,33 +308,15 @@ fn one_speed_a_tool(job: &Job) -> Result<(), Box<Diagnostic>> {
 }
 
 fn unknown_dialect(name: &str) -> Diagnostic {
-    let diagnostic = match nearest(name, Target::names()) {
-        Some(nearest) => Diagnostic::new(&posts::DIALECT_UNKNOWN_NEAREST).quoting("nearest", nearest),
-        None => Diagnostic::new(&posts::DIALECT_UNKNOWN),
-    };
+    let nearest = nearest(name, Target::names());
+    let diagnostic =
+        Diagnostic::new(&posts::DIALECT_UNKNOWN).or_nearest(&posts::DIALECT_UNKNOWN_NEAREST, nearest);
     diagnostic.quoting("name", name).with("known", Target::names().into_iter().collect::<Value>())
 }
 
-impl Output {
-    /// Adds notes on what the job switches but the called texts do not. `switches` are the switch variables in those texts.
-    fn note_switches(&mut self, switches: &[&str], job: &Job, spin_up: f64) {
-        let cools = job.operations.iter().any(|operation| operation.coolant.is_some_and(Coolant::is_on));
-        let turns = job.operations.iter().any(|operation| operation.spindle.is_some_and(Turning::is_on));
-        let uses = |variable| switches.contains(&variable);
-        if cools && !uses("ToolControl1") && !uses("ToolControl2") {
-            self.note(&posts::COOLANT_NOT_WRITTEN, "macro", "~ToolControl1~");
-        }
-        if turns && spin_up > 0.0 && uses("MillingSpindleDir") && !uses("SpinUpTime") {
-            self.note(&posts::SPIN_UP_NOT_WRITTEN, "macro", "~SpinUpTime~");
-        }
-        if turns && !uses("MillingSpindleDir") {
-            self.note(&posts::SPINDLE_NOT_WRITTEN, "macro", "~MillingSpindleDir~");
-        }
-    }
-
-    fn note(&mut self, message: &'static Message, name: &'static str, value: &str) {
-        self.notes.push(Note { message, arguments: vec![(name, Value::quoted(value))] });
-    }
+/// The rows of a table of the book, or `None` if there is no such table.
+pub fn reference_table(name: &str, lang: Lang) -> Option<Vec<Row>> {
+    cad6::reference::table(name, lang).or_else(|| cambam::reference::table(name, lang))
 }
 
 /// The language in which a post is defined.

@@ -1,11 +1,15 @@
-//! Collects the errors and warnings of a definition. Their number is limited, because in a large file every byte might cause one.
+//! What both engines share: the findings of a definition, limits, and the output.
 
-use pathbuild_diagnostic::Diagnostic;
+use camino::Utf8Path;
+use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::{Diagnostic, Message, Note, Value};
+
+use crate::shadow::TranslatedText;
 
 /// Maximum number of findings reported per definition. After correcting them, the user sees the next ones.
 pub(crate) const MOST_FINDINGS: usize = 100;
 
-/// Findings in the order in which they were added.
+/// Findings in the order in which they were added. Their number is limited, because in a large file every byte might cause one.
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
     found: Vec<Diagnostic>,
@@ -61,7 +65,53 @@ impl LineStarts {
     }
 }
 
-// Records which text of a definition produced a line of the output.
+// The output.
+
+/// Maximum number of warnings reported about a text.
+pub(crate) const MOST_WARNINGS: usize = 50;
+
+/// The text that an engine writes.
+pub(crate) struct EngineOutput {
+    pub(crate) text: Vec<u8>,
+    /// The translation of the text to RS274.
+    pub(crate) shadow: TranslatedText,
+    /// The origin of each line.
+    pub(crate) origins: Vec<LineOrigin>,
+    /// Doubtful constructs.
+    pub(crate) warnings: Vec<Diagnostic>,
+    /// What the job switches but the text does not.
+    pub(crate) notes: Vec<Note>,
+    /// The command given in the definition.
+    pub(crate) post_build: Option<Vec<String>>,
+}
+
+impl EngineOutput {
+    pub(crate) fn note(&mut self, message: &'static Message, name: &'static str, value: &str) {
+        self.notes.push(Note { message, arguments: vec![(name, Value::quoted(value))] });
+    }
+}
+
+/// Number of bytes that a text may still have, so that macros that multiply text come to an end.
+pub(crate) struct Fuel(usize);
+
+impl Fuel {
+    /// The bytes allowed regardless of the program, and those for a number of steps of the program.
+    pub(crate) fn new(steps: usize) -> Self {
+        let mut fuel = Self(1 << 20);
+        fuel.add_steps(steps);
+        fuel
+    }
+
+    pub(crate) fn add_steps(&mut self, steps: usize) {
+        self.0 = self.0.saturating_add(steps.saturating_mul(1 << 12));
+    }
+
+    pub(crate) fn burn(&mut self, cost: usize, file: &Utf8Path) -> Result<(), Box<Diagnostic>> {
+        let left = self.0.checked_sub(cost);
+        self.0 = left.ok_or_else(|| Box::new(Diagnostic::new(&posts::MACRO_SIZE).in_file(file)))?;
+        Ok(())
+    }
+}
 
 /// The text of a definition that produced a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

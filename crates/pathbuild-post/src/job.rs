@@ -24,10 +24,6 @@ pub struct Job {
     pub operations: Vec<Operation>,
     /// Comments for the head of the text.
     pub remarks: Vec<Box<str>>,
-    /// Custom texts for the head and foot of the file, in which macros of the post may be used.
-    pub texts: Texts,
-    /// The raw material, if it is known.
-    pub stock: Option<Stock>,
     /// Whether the upper face of the material is unknown and assumed to be at Z 0.
     pub has_no_surface: bool,
 }
@@ -154,22 +150,6 @@ impl Units {
     }
 }
 
-/// Custom texts before and after the program or an operation.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub struct Texts {
-    pub header: Box<str>,
-    pub footer: Box<str>,
-}
-
-/// The raw material as a block, with its lower left corner and its size in mm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(missing_docs, reason = "coordinates")]
-pub struct Stock {
-    pub corner: [f64; 3],
-    pub size: [f64; 3],
-}
-
 /// The moves of one embedded path, as long as no setting changes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Operation {
@@ -199,10 +179,6 @@ pub struct Operation {
     pub target_depth: Option<f64>,
     /// Largest infeed in mm, if there is one.
     pub depth_increment: Option<f64>,
-    /// Free text.
-    pub tag: Box<str>,
-    /// Custom texts, in which macros of the post may be used.
-    pub texts: Texts,
     /// Plane of the arcs.
     pub plane: Plane,
     /// Behaviour at corners.
@@ -238,7 +214,7 @@ impl Operation {
     }
 
     fn is_finite(&self) -> bool {
-        let heights = [self.clearance, self.retract, self.surface, self.tool.diameter, self.tool.radius];
+        let heights = [self.clearance, self.retract, self.surface, self.tool.diameter];
         let known = [self.speed, self.cut_feed, self.plunge_feed, self.target_depth, self.depth_increment];
         heights.iter().chain(known.iter().flatten()).all(|number| number.is_finite())
             && self.steps.iter().all(JobStep::is_finite)
@@ -278,29 +254,12 @@ pub struct Tool {
     pub diameter: f64,
     /// Name in the tool table.
     pub name: Box<str>,
-    /// Corner radius in mm: 0 for an end mill, half the diameter for a ball cutter.
-    pub radius: f64,
-    /// Length in mm, if it is known.
-    pub length: Option<f64>,
-    /// Name of the cutter's shape.
-    pub profile: Box<str>,
-    /// Comment in the tool table.
-    pub comment: Box<str>,
-    /// Angle of a V cutter in degrees.
-    pub vee_angle: Option<f64>,
 }
 
 impl Tool {
-    /// Creates an end mill with otherwise unknown properties.
+    /// Creates a tool that the program names.
     pub fn new(index: u32, diameter: f64, name: &str) -> Self {
-        Self {
-            index,
-            is_named: true,
-            diameter,
-            name: name.into(),
-            profile: "EndMill".into(),
-            ..Self::default()
-        }
+        Self { index, is_named: true, diameter, name: name.into() }
     }
 
     /// The tool of a program that does not name any.

@@ -37,23 +37,17 @@ mod job;
 mod number;
 mod options;
 mod read_back;
-mod reference;
-mod samples;
 mod shadow;
 mod target;
 mod tools;
 mod ways;
 
-pub use built_in::{BUILT_IN, BuiltIn, load};
-pub use definition::{Language, Output, Post};
+pub use built_in::{BUILT_IN, BuiltIn, load, samples};
+pub use definition::{Language, Output, Post, reference_table};
 pub use from_program::{ToolEntry, ToolTable};
 pub use from_steps::{Remark, is_of_head, native_remark};
-pub use job::{
-    Entry, Hole, HoleKind, Job, JobStep, Operation, Stock, Texts, Tool, Units, VelocityMode, program_number,
-};
+pub use job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, Units, VelocityMode, program_number};
 pub use options::{NoFiles, PostFiles, PostMacro, PostOptions};
-pub use reference::{Row, reference_table};
-pub use samples::samples;
 pub use shadow::{Doubt, DoubtfulWord, TranslatedText};
 
 /// Extension of a file name, without the dot.
@@ -62,4 +56,12 @@ fn extension(text: &str) -> Option<Box<str>> {
     let is_extension =
         !text.is_empty() && text.len() <= 16 && text.chars().all(|c| c.is_ascii_alphanumeric());
     is_extension.then(|| text.into())
+}
+
+/// Cells of a row, in Markdown.
+pub type Row = Vec<String>;
+
+/// Formats a text as code. Line breaks are shown as `\n`.
+pub(crate) fn code(text: &str) -> String {
+    if text.is_empty() { String::new() } else { format!("`{}`", text.replace('\n', "\\n")) }
 }

@@ -208,10 +208,9 @@ impl ControlTextReader<'_> {
     }
 
     fn unknown_key(&mut self, key: &Spanned<Cow<'_, str>>, prefix: &str, known: &[&'static str]) {
-        let diagnostic = match nearest(key.get_ref(), known.iter().copied()) {
-            Some(nearest) => Diagnostic::new(&posts::POST_UNKNOWN_KEY_NEAREST).quoting("nearest", nearest),
-            None => Diagnostic::new(&posts::POST_UNKNOWN_KEY),
-        };
+        let nearest = nearest(key.get_ref(), known.iter().copied());
+        let diagnostic =
+            Diagnostic::new(&posts::POST_UNKNOWN_KEY).or_nearest(&posts::POST_UNKNOWN_KEY_NEAREST, nearest);
         self.report(diagnostic.quoting("key", format!("{prefix}{}", key.get_ref())), key.span());
     }
 

@@ -172,16 +172,8 @@ impl<'a> Evaluator<'a> {
         let first = self.rest().chars().next();
         let form = STATEMENTS.iter().find(|form| Some(form.sign) == first);
         self.at += form.map_or(0, |form| form.sign.len_utf8());
-        match form.map(|form| form.kind) {
-            Some(StatementKind::Assignment) => self.assignment()?,
-            Some(StatementKind::Condition) => self.conditional()?,
-            Some(StatementKind::NonExistence) => self.non_existence()?,
-            Some(StatementKind::Comparison) => self.comparison()?,
-            Some(StatementKind::Text) => self.text(true)?,
-            Some(StatementKind::Remark) => self.at = self.closing_brace(start)?,
-            Some(StatementKind::VariableName) => {
-                return Err(Fault::new(&posts::STATEMENT_UNKNOWN, start..self.at));
-            }
+        match form {
+            Some(form) => (form.run)(self, start)?,
             None => self.number(start)?,
         }
         self.close(start)?;
@@ -312,91 +304,54 @@ fn hex_byte(text: &str) -> Option<u8> {
 
 // Statements that can contain other statements: assignments, conditions, comparisons.
 
-/// Kind of a statement, identified by the character after its brace. Any other character starts a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum StatementKind {
-    Assignment,
-    Condition,
-    Comparison,
-    NonExistence,
-    Text,
-    Remark,
-    VariableName,
-}
-
-/// A statement that is not a number.
-#[derive(Debug)]
-pub(super) struct StatementForm {
-    pub(super) sign: char,
-    pub(super) kind: StatementKind,
+/// A statement that is not a number, identified by the character after its brace.
+pub(super) struct Statement {
+    sign: char,
+    /// Evaluates it, given the offset of its brace.
+    run: fn(&mut Evaluator<'_>, usize) -> Evaluated<()>,
     /// Notation, for the book.
     pub(super) form: &'static str,
     /// Result, for the book.
     pub(super) about: Text,
 }
 
-/// All statements that are not numbers.
-pub(super) static STATEMENTS: &[StatementForm] = &[
-    StatementForm {
-        sign: '=',
-        kind: StatementKind::Assignment,
-        form: "{=Name {…}}",
-        about: Text {
-            en: "gives a variable the result of a statement; later calls see it",
-            de: "gibt einer Variablen das Ergebnis einer Anweisung; spätere Aufrufe sehen es",
-        },
-    },
-    StatementForm {
-        sign: '?',
-        kind: StatementKind::Condition,
-        form: "{?Term {…}{…}}",
-        about: Text {
-            en: "the first statement if the term is not 0, else the second, which may be missing",
-            de: "die erste Anweisung, wenn der Term nicht 0 ist, sonst die zweite, die fehlen darf",
-        },
-    },
-    StatementForm {
-        sign: '"',
-        kind: StatementKind::Comparison,
-        form: "{\"{…}{…} {…}{…}}",
-        about: Text {
-            en: "the third statement if the first two give the same text, else the fourth, which may be missing",
-            de: "die dritte Anweisung, wenn die ersten zwei denselben Text ergeben, sonst die vierte, die fehlen darf",
-        },
-    },
-    StatementForm {
-        sign: '!',
-        kind: StatementKind::NonExistence,
-        form: "{!Name {…}{…}}",
-        about: Text {
-            en: "the first statement if the variable has no value, else the second, which may be missing",
-            de: "die erste Anweisung, wenn die Variable keinen Wert hat, sonst die zweite, die fehlen darf",
-        },
-    },
-    StatementForm {
-        sign: '$',
-        kind: StatementKind::Text,
-        form: "{$…}",
-        about: Text { en: "the text, with statements in it", de: "der Text, mit Anweisungen darin" },
-    },
-    StatementForm {
-        sign: '*',
-        kind: StatementKind::Remark,
-        form: "{*…}",
-        about: Text { en: "nothing: a comment", de: "nichts: ein Kommentar" },
-    },
-    StatementForm {
-        sign: '§',
-        kind: StatementKind::VariableName,
-        form: "{§…}",
-        about: Text {
-            en: "refused: its meaning is not known",
-            de: "abgelehnt: Die Bedeutung ist nicht bekannt",
-        },
-    },
-];
+macro_rules! statements {
+    ($($sign:literal $form:literal $run:expr, $en:literal, $de:literal;)*) => {
+        /// All statements that are not numbers.
+        pub(super) static STATEMENTS: &[Statement] = &[$(Statement {
+            sign: $sign,
+            run: $run,
+            form: $form,
+            about: Text { en: $en, de: $de },
+        },)*];
+    };
+}
+
+statements! {
+    '=' "{=Name {…}}" |it, _| it.assignment(),
+        "gives a variable the result of a statement; later calls see it",
+        "gibt einer Variablen das Ergebnis einer Anweisung; spätere Aufrufe sehen es";
+    '?' "{?Term {…}{…}}" |it, _| it.conditional(),
+        "the first statement if the term is not 0, else the second, which may be missing",
+        "die erste Anweisung, wenn der Term nicht 0 ist, sonst die zweite, die fehlen darf";
+    '"' "{\"{…}{…} {…}{…}}" |it, _| it.comparison(),
+        "the third statement if the first two give the same text, else the fourth, which may be missing",
+        "die dritte Anweisung, wenn die ersten zwei denselben Text ergeben, sonst die vierte, die fehlen darf";
+    '!' "{!Name {…}{…}}" |it, _| it.non_existence(),
+        "the first statement if the variable has no value, else the second, which may be missing",
+        "die erste Anweisung, wenn die Variable keinen Wert hat, sonst die zweite, die fehlen darf";
+    '$' "{$…}" |it, _| it.text(true), "the text, with statements in it", "der Text, mit Anweisungen darin";
+    '*' "{*…}" |it, start| it.remark(start), "nothing: a comment", "nichts: ein Kommentar";
+    '§' "{§…}" |it, start| Err(Fault::new(&posts::STATEMENT_UNKNOWN, start..it.at)),
+        "refused: its meaning is not known", "abgelehnt: Die Bedeutung ist nicht bekannt";
+}
 
 impl Evaluator<'_> {
+    fn remark(&mut self, start: usize) -> Evaluated<()> {
+        self.at = self.closing_brace(start)?;
+        Ok(())
+    }
+
     pub(super) fn assignment(&mut self) -> Evaluated<()> {
         let name = self.name()?;
         self.blanks();

@@ -18,6 +18,8 @@ mod variables;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::posts;
+use pathbuild_motion::{Coolant, Turning};
 
 pub(super) use definition::Definition;
 pub(super) use program::foreseen;
@@ -27,25 +29,9 @@ use super::PostOptions;
 use super::job::{Job, Units};
 use super::shadow::{Shadow, TranslatedText};
 use super::target::Target;
-use crate::findings::LineOrigin;
+use crate::findings::EngineOutput;
 use crate::shadow::{CommentMarks, words};
 use crate::target::Guard;
-
-/// The output of the engine.
-pub(super) struct EngineOutput {
-    pub(super) text: Vec<u8>,
-    /// The translation of the text to RS274.
-    pub(super) shadow: TranslatedText,
-    /// The origin of each line.
-    pub(super) origins: Vec<LineOrigin>,
-    /// Doubtful constructs.
-    pub(super) warnings: Vec<Diagnostic>,
-    /// The switch variables used by the texts that were called.
-    pub(super) switches: Vec<&'static str>,
-}
-
-/// The variables that describe the state of spindle and coolant.
-const SWITCHES: &[&str] = &["ToolControl1", "ToolControl2", "MillingSpindleDir", "SpinUpTime"];
 
 /// Writes a job, which must contain operations.
 pub(super) fn write(
@@ -58,11 +44,26 @@ pub(super) fn write(
     let guard = Guard::new(target, CommentMarks::default(), options.charset);
     let mut runner = Runner::new(definition, file, options.files, guard, options.most_bytes);
     program::run(job, target, options, &mut runner).map_err(|error| vec![*error])?;
-    let called = &runner.called;
-    let switches = SWITCHES.iter().copied().filter(|name| definition.uses_in(called, name)).collect();
-    let (text, origins, warnings) = runner.finish();
-    let shadow = translate(definition, &text, job.units);
-    Ok(EngineOutput { text, shadow, origins, warnings, switches })
+    let called = std::mem::take(&mut runner.called);
+    let mut output = runner.finish(job.units);
+    let uses = |name: &str| definition.uses_in(&called, name);
+    note_switches(&mut output, uses, job, options.spin_up);
+    Ok(output)
+}
+
+/// Adds notes on what the job switches but the called texts do not. `uses` says whether they use a variable.
+fn note_switches(output: &mut EngineOutput, uses: impl Fn(&str) -> bool, job: &Job, spin_up: f64) {
+    let cools = job.operations.iter().any(|operation| operation.coolant.is_some_and(Coolant::is_on));
+    let turns = job.operations.iter().any(|operation| operation.spindle.is_some_and(Turning::is_on));
+    if cools && !uses("ToolControl1") && !uses("ToolControl2") {
+        output.note(&posts::COOLANT_NOT_WRITTEN, "macro", "~ToolControl1~");
+    }
+    if turns && spin_up > 0.0 && uses("MillingSpindleDir") && !uses("SpinUpTime") {
+        output.note(&posts::SPIN_UP_NOT_WRITTEN, "macro", "~SpinUpTime~");
+    }
+    if turns && !uses("MillingSpindleDir") {
+        output.note(&posts::SPINDLE_NOT_WRITTEN, "macro", "~MillingSpindleDir~");
+    }
 }
 
 /// Translates a text to the words of RS274. `units` are those of the job, which apply if the definition names none.

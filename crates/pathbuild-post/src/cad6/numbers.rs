@@ -40,30 +40,22 @@ pub(super) struct CForm {
     letter: char,
 }
 
-/// The format characters with their meanings, for the book.
-pub(super) static FORMS: [(char, Form, Text); 7] = [
-    (
-        '\'',
-        Form::Money,
-        Text {
-            en: "two decimals, with a thousands separator",
-            de: "zwei Nachkommastellen, mit Tausendertrennzeichen",
-        },
-    ),
-    ('%', Form::Rounded, Text { en: "rounded to `decimals`", de: "gerundet auf `decimals`" }),
-    ('.', Form::Rounded, Text { en: "rounded to `decimals`", de: "gerundet auf `decimals`" }),
-    (',', Form::Comma, Text { en: "rounded, with a decimal comma", de: "gerundet, mit Dezimalkomma" }),
-    ('+', Form::Signed, Text { en: "rounded, always with a sign", de: "gerundet, immer mit Vorzeichen" }),
-    (
-        '&',
-        Form::SignedComma,
-        Text {
-            en: "rounded, always with a sign, with a decimal comma",
-            de: "gerundet, immer mit Vorzeichen, mit Dezimalkomma",
-        },
-    ),
-    ('#', Form::Whole, Text { en: "whole", de: "ganze Zahl" }),
-];
+macro_rules! forms {
+    ($($sign:literal $form:ident $en:literal, $de:literal;)*) => {
+        /// The format characters with their meanings, for the book.
+        pub(super) static FORMS: &[(char, Form, Text)] = &[$(($sign, Form::$form, Text { en: $en, de: $de }),)*];
+    };
+}
+
+forms! {
+    '\'' Money "two decimals, with a thousands separator", "zwei Nachkommastellen, mit Tausendertrennzeichen";
+    '%' Rounded "rounded to `decimals`", "gerundet auf `decimals`";
+    '.' Rounded "rounded to `decimals`", "gerundet auf `decimals`";
+    ',' Comma "rounded, with a decimal comma", "gerundet, mit Dezimalkomma";
+    '+' Signed "rounded, always with a sign", "gerundet, immer mit Vorzeichen";
+    '&' SignedComma "rounded, always with a sign, with a decimal comma", "gerundet, immer mit Vorzeichen, mit Dezimalkomma";
+    '#' Whole "whole", "ganze Zahl";
+}
 
 /// Maximum width; greater ones are taken for typing errors.
 const WIDEST: usize = 64;

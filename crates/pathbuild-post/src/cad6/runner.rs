@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::posts;
-use pathbuild_diagnostic::{Diagnostic, Message, nearest};
+use pathbuild_diagnostic::{Diagnostic, Lang, Message, nearest};
 use pathbuild_gcode::native::too_large;
 
 use super::control_text::{ControlText, ControlTextKind};
@@ -12,11 +12,12 @@ use super::definition::Definition;
 use super::evaluate::{Outcome, ResultLine, Surroundings, run};
 use super::expand::Expanded;
 use super::term::Doubt;
-use super::variables::{VARIABLES, Variables, byte_of, reason};
+use super::variables::{VARIABLES, Variable, Variables, byte_of};
 use crate::PostFiles;
 use crate::cad6::control_text::locate;
 use crate::cad6::term::Fault;
-use crate::findings::LineOrigin;
+use crate::findings::{EngineOutput, Fuel, LineOrigin, MOST_WARNINGS};
+use crate::job::Units;
 use crate::target::Guard;
 
 /// Success, or the diagnostic that aborts writing.
@@ -24,11 +25,6 @@ pub(super) type Called = Result<(), Box<Diagnostic>>;
 
 /// Prefix of each line if the definition has no text for it.
 const LINE_NUMBER: &str = "N{#~LineNumber~} {=LineNumber{#~LineNumber~+10}}";
-/// Number of bytes that texts may produce regardless of the program; each call adds more.
-const FUEL: usize = 1 << 20;
-const FUEL_PER_CALL: usize = 1 << 12;
-/// Maximum number of warnings reported.
-const MOST_WARNINGS: usize = 50;
 
 /// Executes control texts and collects the resulting lines.
 pub(super) struct Runner<'a> {
@@ -41,7 +37,7 @@ pub(super) struct Runner<'a> {
     text: Vec<u8>,
     most_bytes: usize,
     /// Number of bytes that texts may still produce, not counting inserted files.
-    fuel: usize,
+    fuel: Fuel,
     pub(super) warnings: Vec<Diagnostic>,
     /// The texts that were called.
     pub(super) called: Vec<ControlTextKind>,
@@ -68,7 +64,7 @@ impl<'a> Runner<'a> {
             guard,
             text: Vec::new(),
             most_bytes,
-            fuel: FUEL,
+            fuel: Fuel::new(0),
             warnings: Vec::new(),
             called: Vec::new(),
             origins: Vec::new(),
@@ -78,7 +74,7 @@ impl<'a> Runner<'a> {
     /// Calls a control text, if the definition has it, and adds the resulting lines.
     pub(super) fn call(&mut self, kind: ControlTextKind) -> Called {
         let Some(text) = self.definition.text(kind) else { return Ok(()) };
-        self.fuel += FUEL_PER_CALL;
+        self.fuel.add_steps(1);
         if !self.called.contains(&kind) {
             self.called.push(kind);
         }
@@ -98,7 +94,7 @@ impl<'a> Runner<'a> {
         if line.is_made && text.is_empty() {
             return Ok(());
         }
-        self.burn(if line.is_inserted { 0 } else { text.len() })?;
+        self.fuel.burn(if line.is_inserted { 0 } else { text.len() }, self.file)?;
         let has_text = text.chars().any(|c| byte_of(c).is_none());
         if self.definition.settings.number_lines && (has_text || !line.is_inserted) && !text.is_empty() {
             self.number()?;
@@ -108,20 +104,10 @@ impl<'a> Runner<'a> {
         if self.text.len() > self.most_bytes { Err(too_large(self.most_bytes)) } else { Ok(()) }
     }
 
-    fn burn(&mut self, cost: usize) -> Called {
-        match self.fuel.checked_sub(cost) {
-            Some(left) => {
-                self.fuel = left;
-                Ok(())
-            }
-            None => Err(Box::new(Diagnostic::new(&posts::MACRO_SIZE).in_file(self.file))),
-        }
-    }
-
     fn number(&mut self) -> Called {
         let text = self.line_number.clone();
         for line in self.evaluate(ControlTextKind::LineNumber, &text)? {
-            self.burn(line.text.len())?;
+            self.fuel.burn(line.text.len(), self.file)?;
             self.push(&line.text, ControlTextKind::LineNumber)?;
         }
         Ok(())
@@ -183,31 +169,27 @@ impl<'a> Runner<'a> {
 
     fn report(&self, fault: Fault, kind: ControlTextKind, text: &ControlText) -> Box<Diagnostic> {
         let Fault { span, mut diagnostic } = fault;
-        let is_assigned = |name: &str| text.text.contains(&format!("{{={name}"));
-        if diagnostic.message == &posts::VARIABLE_UNDEFINED {
-            let name =
-                diagnostic.arguments.first().map(|(_, value)| value.render(pathbuild_diagnostic::Lang::En));
-            if let Some(nearest) = name.as_deref().and_then(|name| {
-                nearest(name, VARIABLES.iter().map(|known| known.name).filter(|known| *known != name))
-            }) {
-                diagnostic.message = &posts::VARIABLE_UNDEFINED_NEAREST;
-                diagnostic = diagnostic.quoting("nearest", nearest);
-            }
-            if name.as_deref().is_some_and(is_assigned) {
+        if diagnostic.message == &posts::VARIABLE_UNDEFINED
+            && let Some((_, name)) = diagnostic.arguments.first()
+        {
+            let name = name.render(Lang::En);
+            let others = VARIABLES.iter().map(|known| known.name).filter(|known| *known != name);
+            diagnostic = diagnostic.or_nearest(&posts::VARIABLE_UNDEFINED_NEAREST, nearest(&name, others));
+            if text.text.contains(&format!("{{={name}")) {
                 diagnostic.message = &posts::VARIABLE_UNDEFINED_YET;
-            } else if let Some(reason) =
-                name.as_deref().and_then(|name| reason(self.variables.own_name(name)))
-            {
+            } else if let Some(variable) = Variable::named(self.variables.own_name(&name)) {
                 diagnostic.message = &posts::VARIABLE_WITHOUT_VALUE;
-                diagnostic = diagnostic.with("reason", reason);
+                diagnostic = diagnostic.with("reason", variable.reason());
             }
         }
         Box::new(locate(diagnostic, kind, text, span, self.file))
     }
 
-    /// Returns the content of the file, the origin of each line, and the warnings.
-    pub(super) fn finish(self) -> (Vec<u8>, Vec<LineOrigin>, Vec<Diagnostic>) {
-        (self.text, self.origins, self.warnings)
+    /// The output. `units` are those of the job.
+    pub(super) fn finish(self, units: Units) -> EngineOutput {
+        let Self { text, origins, warnings, .. } = self;
+        let shadow = super::translate(self.definition, &text, units);
+        EngineOutput { text, shadow, origins, warnings, notes: Vec::new(), post_build: None }
     }
 }
 

@@ -280,55 +280,36 @@ pub(super) struct Function {
     pub(super) about: Text,
 }
 
-/// All functions, in the order in which they are documented.
-pub(super) static FUNCTIONS: &[Function] = &[
-    Function::new("abs", Rule::One(f64::abs), "absolute value", "Betrag"),
-    Function::new("sqrt", Rule::One(f64::sqrt), "square root", "Quadratwurzel"),
-    Function::new("int", Rule::One(f64::trunc), "without decimals", "ohne Nachkommastellen"),
-    Function::new(
-        "round",
-        Rule::One(f64::round),
-        "nearest whole number, halves away from 0",
-        "nächste ganze Zahl, Hälften von 0 weg",
-    ),
-    Function::new("floor", Rule::One(f64::floor), "next smaller whole number", "nächstkleinere ganze Zahl"),
-    Function::new("ceil", Rule::One(f64::ceil), "next larger whole number", "nächstgrößere ganze Zahl"),
-    Function::new("sin", Rule::One(|x| libm::sin(x.to_radians())), "sine", "Sinus"),
-    Function::new("cos", Rule::One(|x| libm::cos(x.to_radians())), "cosine", "Kosinus"),
-    Function::new("tan", Rule::One(|x| libm::tan(x.to_radians())), "tangent", "Tangens"),
-    Function::new("asin", Rule::One(|x| libm::asin(x).to_degrees()), "arc sine", "Arkussinus"),
-    Function::new("acos", Rule::One(|x| libm::acos(x).to_degrees()), "arc cosine", "Arkuskosinus"),
-    Function::new("atan", Rule::One(|x| libm::atan(x).to_degrees()), "arc tangent", "Arkustangens"),
-    Function::new(
-        "atan2",
-        Rule::Two(|y, x| libm::atan2(y, x).to_degrees()),
-        "angle of the point (second, first)",
-        "Winkel des Punktes (zweites, erstes)",
-    ),
-    Function::new(
-        "mod",
-        Rule::Two(|a, b| a - b * (a / b).floor()),
-        "remainder, with the sign of the second",
-        "Rest, mit dem Vorzeichen des zweiten",
-    ),
-    Function::new(
-        "min",
-        Rule::Any(|all| all.iter().copied().fold(f64::INFINITY, f64::min)),
-        "the smallest",
-        "das Kleinste",
-    ),
-    Function::new(
-        "max",
-        Rule::Any(|all| all.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
-        "the largest",
-        "das Größte",
-    ),
-];
+macro_rules! functions {
+    ($($name:literal $rule:ident $value:expr, $en:literal, $de:literal;)*) => {
+        /// All functions, in the order in which they are documented.
+        pub(super) static FUNCTIONS: &[Function] = &[$(Function {
+            name: $name,
+            rule: Rule::$rule($value),
+            about: Text { en: $en, de: $de },
+        },)*];
+    };
+}
 
-impl Function {
-    const fn new(name: &'static str, rule: Rule, en: &'static str, de: &'static str) -> Self {
-        Self { name, rule, about: Text { en, de } }
-    }
+functions! {
+    "abs" One f64::abs, "absolute value", "Betrag";
+    "sqrt" One f64::sqrt, "square root", "Quadratwurzel";
+    "int" One f64::trunc, "without decimals", "ohne Nachkommastellen";
+    "round" One f64::round, "nearest whole number, halves away from 0", "nächste ganze Zahl, Hälften von 0 weg";
+    "floor" One f64::floor, "next smaller whole number", "nächstkleinere ganze Zahl";
+    "ceil" One f64::ceil, "next larger whole number", "nächstgrößere ganze Zahl";
+    "sin" One |x| libm::sin(x.to_radians()), "sine", "Sinus";
+    "cos" One |x| libm::cos(x.to_radians()), "cosine", "Kosinus";
+    "tan" One |x| libm::tan(x.to_radians()), "tangent", "Tangens";
+    "asin" One |x| libm::asin(x).to_degrees(), "arc sine", "Arkussinus";
+    "acos" One |x| libm::acos(x).to_degrees(), "arc cosine", "Arkuskosinus";
+    "atan" One |x| libm::atan(x).to_degrees(), "arc tangent", "Arkustangens";
+    "atan2" Two |y, x| libm::atan2(y, x).to_degrees(),
+        "angle of the point (second, first)", "Winkel des Punktes (zweites, erstes)";
+    "mod" Two |a, b| a - b * (a / b).floor(),
+        "remainder, with the sign of the second", "Rest, mit dem Vorzeichen des zweiten";
+    "min" Any |all| all.iter().copied().fold(f64::INFINITY, f64::min), "the smallest", "das Kleinste";
+    "max" Any |all| all.iter().copied().fold(f64::NEG_INFINITY, f64::max), "the largest", "das Größte";
 }
 
 /// Evaluates a function.

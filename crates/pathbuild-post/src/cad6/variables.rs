@@ -43,6 +43,41 @@ impl Variable {
     pub(super) fn named(name: &str) -> Option<&'static Self> {
         VARIABLES.iter().find(|variable| variable.name == name)
     }
+
+    /// The reason why it is not available in some places.
+    pub(super) fn reason(&self) -> &'static Text {
+        match self.presence {
+            Presence::Speed => &Text {
+                en: "the tool has no spindle speed (spindle in [tool.NAME])",
+                de: "das Werkzeug hat keine Spindeldrehzahl (spindle in [tool.NAME])",
+            },
+            Presence::Dated => &Text { en: "--date is not given", de: "--date ist nicht angegeben" },
+            Presence::ToolNumber => {
+                &Text { en: "the program names no tool", de: "das Programm nennt kein Werkzeug" }
+            }
+            Presence::Feed => {
+                &Text { en: "the program says no feed here", de: "das Programm sagt hier keinen Vorschub" }
+            }
+            Presence::Arcs => &Text { en: "only the text arc has it", de: "nur der Text arc hat sie" },
+            Presence::Never => &Text {
+                en: "only curves have it, and no program has any",
+                de: "nur Kurven haben sie, und kein Programm hat welche",
+            },
+            Presence::Holes => {
+                &Text { en: "only cycle and point have it", de: "nur cycle und point haben sie" }
+            }
+            Presence::Waits => &Text {
+                en: "only cycle, point and dwell have it",
+                de: "nur cycle, point und dwell haben sie",
+            },
+            Presence::Comments => {
+                &Text { en: "only the text comment has it", de: "nur der Text comment hat sie" }
+            }
+            Presence::Always | Presence::FirstMove | Presence::Contours | Presence::Elements => {
+                &Text { en: "no move has been made yet", de: "es gab noch keine Bewegung" }
+            }
+        }
+    }
 }
 
 /// Declares the variables set by pathbuild, in the order in which they are documented.
@@ -126,38 +161,6 @@ variables! {
     "CommentText" text Comments, "the comment", "der Kommentar";
     "SpinUpTime" number Always,
         "seconds until the spindle turns (`spin-up`)", "Sekunden, bis die Spindel dreht (`spin-up`)";
-}
-
-/// The reason why a variable is not available in some places, or `None` if pathbuild sets no such variable.
-pub(super) fn reason(name: &str) -> Option<&'static Text> {
-    let reason = match name {
-        "MillingSpindleRate" => &Text {
-            en: "the tool has no spindle speed (spindle in [tool.NAME])",
-            de: "das Werkzeug hat keine Spindeldrehzahl (spindle in [tool.NAME])",
-        },
-        "Date" => &Text { en: "--date is not given", de: "--date ist nicht angegeben" },
-        "MachineToolNo" => &Text { en: "the program names no tool", de: "das Programm nennt kein Werkzeug" },
-        "MovingVel" | "LoweringVel" => {
-            &Text { en: "the program says no feed here", de: "das Programm sagt hier keinen Vorschub" }
-        }
-        "XC" | "YC" | "IRel" | "JRel" | "Radius" | "StartAngle" | "EndAngle" | "SweepAngle" | "ArcDir" => {
-            &Text { en: "only the text arc has it", de: "nur der Text arc hat sie" }
-        }
-        "XB1" | "YB1" | "XB2" | "YB2" => &Text {
-            en: "only curves have it, and no program has any",
-            de: "nur Kurven haben sie, und kein Programm hat welche",
-        },
-        "PeckDepth" => &Text { en: "only cycle and point have it", de: "nur cycle und point haben sie" },
-        "DwellTime" => {
-            &Text { en: "only cycle, point and dwell have it", de: "nur cycle, point und dwell haben sie" }
-        }
-        "CommentText" => &Text { en: "only the text comment has it", de: "nur der Text comment hat sie" },
-        _ if Variable::named(name).is_some() => {
-            &Text { en: "no move has been made yet", de: "es gab noch keine Bewegung" }
-        }
-        _ => return None,
-    };
-    Some(reason)
 }
 
 /// Whether a name is that of a parameter that users may set: Q0, Q1 ..., T0, T1 ...

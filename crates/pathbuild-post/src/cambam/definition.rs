@@ -13,7 +13,7 @@ use super::options::{Options, Refusal};
 use super::section::Section;
 use super::template::{Fault, Template, TemplateError};
 use crate::findings::{Findings, LineStarts, MOST_FINDINGS};
-use crate::job::{Job, Texts, Units};
+use crate::job::{Job, Units};
 use crate::number::FEWEST_DECIMALS;
 use crate::shadow::{CommentMarks, words};
 use crate::target::Target;
@@ -369,16 +369,6 @@ pub(super) struct Plan<'a> {
     pub(super) options: &'a PostOptions<'a>,
     /// The macros of the configuration, which take precedence over those of the definition.
     macros: Vec<(Box<str>, Template)>,
-    /// Custom texts of the program.
-    pub(super) texts: CustomTexts,
-    /// Custom texts of each operation.
-    pub(super) operation_texts: Vec<CustomTexts>,
-}
-
-/// [`Texts`] parsed as templates.
-pub(super) struct CustomTexts {
-    pub(super) header: Template,
-    pub(super) footer: Template,
 }
 
 impl<'a> Plan<'a> {
@@ -391,23 +381,17 @@ impl<'a> Plan<'a> {
         options: &'a PostOptions<'a>,
     ) -> Result<Self, Vec<Diagnostic>> {
         let mut diagnostics = Vec::new();
-        let mut template = |section: Section, text: &str| {
-            Template::parse(section, text, 0).unwrap_or_else(|errors| {
-                diagnostics.extend(errors.iter().map(|error| template_error(section, error, file)));
-                Template { section, pieces: Vec::new() }
-            })
-        };
-        let mut custom = |texts: &Texts| CustomTexts {
-            header: template(Section::Custom, &texts.header),
-            footer: template(Section::Custom, &texts.footer),
-        };
-        let texts = custom(&job.texts);
-        let operation_texts = job.operations.iter().map(|operation| custom(&operation.texts)).collect();
-        let own = options.macros.iter().filter(|own| !is_built_in(&own.name));
-        let macros = own
-            .map(|PostMacro { name, value }| (name.clone(), template(Section::UserMacro, value)))
-            .collect();
-        let plan = Self { file, definition, job, target, options, macros, texts, operation_texts };
+        let section = Section::UserMacro;
+        let mut macros = Vec::new();
+        for PostMacro { name, value } in options.macros.iter().filter(|own| !is_built_in(&own.name)) {
+            match Template::parse(section, value, 0) {
+                Ok(template) => macros.push((name.clone(), template)),
+                Err(errors) => {
+                    diagnostics.extend(errors.iter().map(|error| template_error(section, error, file)));
+                }
+            }
+        }
+        let plan = Self { file, definition, job, target, options, macros };
         diagnostics.extend(plan.unknown_macros());
         if diagnostics.is_empty() { Ok(plan) } else { Err(diagnostics) }
     }
@@ -430,9 +414,7 @@ impl<'a> Plan<'a> {
 
     /// All templates that may be expanded.
     pub(super) fn templates(&self) -> impl Iterator<Item = &Template> {
-        let texts = std::iter::once(&self.texts).chain(&self.operation_texts);
-        let custom = texts.flat_map(|texts| [&texts.header, &texts.footer]);
-        self.definition.templates().chain(self.macros.iter().map(|(_, text)| text)).chain(custom)
+        self.definition.templates().chain(self.macros.iter().map(|(_, text)| text))
     }
 
     fn unknown_macros(&self) -> Vec<Diagnostic> {
@@ -450,19 +432,16 @@ impl<'a> Plan<'a> {
         let users = self.macros.iter().map(|(name, _)| &**name).chain(self.definition.macros.names());
         let users = users.take(MOST_COMPARED);
         let bare = name.split('(').next().unwrap_or(name);
-        let diagnostic = match nearest(bare, users).or_else(|| Macro::nearest(bare)) {
-            Some(nearest) => {
-                Diagnostic::new(&posts::UNKNOWN_MACRO_NEAREST).quoting("nearest", framed(nearest))
-            }
-            None => Diagnostic::new(&posts::UNKNOWN_MACRO),
-        };
+        let nearest = nearest(bare, users).or_else(|| Macro::nearest(bare)).map(framed);
+        let diagnostic =
+            Diagnostic::new(&posts::UNKNOWN_MACRO).or_nearest(&posts::UNKNOWN_MACRO_NEAREST, nearest);
         self.locate(diagnostic.quoting("macro", framed(name)), section, line)
     }
 
     /// Adds the position in the definition to a diagnostic.
     pub(super) fn locate(&self, diagnostic: Diagnostic, section: Section, line: u32) -> Diagnostic {
-        let diagnostic = diagnostic.quoting("section", section.name()).in_file(self.file);
-        if line > 0 { diagnostic.at_line(line, None) } else { diagnostic }
+        let line = (line > 0).then_some(line);
+        diagnostic.quoting("section", section.name()).in_file(self.file).at_line(line, None)
     }
 }
 

@@ -93,7 +93,7 @@ words! {
     OutFile "the file that is written", "die geschriebene Datei";
     PartName "the requested path", "der angeforderte Pfad";
     MopName "the operation: the path that is embedded", "die Operation: der eingebettete Pfad";
-    MopTag "where the operation's path is drawn", "wo der Pfad der Operation gezeichnet ist";
+    MopTag "nothing: paths have no tag", "nichts: Pfade haben keine Kennung";
     MopClearancePlane "the height of rapid moves in the plane", "die Höhe der Eilgänge in der Ebene";
     MopRetractHeight "the height at which a rapid move down ends",
         "die Höhe, in der der Eilgang abwärts endet";
@@ -114,8 +114,8 @@ words! {
     ToolName "the tool's name", "der Name des Werkzeugs";
     ToolRadius "half of O", "die Hälfte von O";
     ToolLength "length in the tool table", "Länge in der Werkzeugtabelle";
-    ToolProfile "profile in the tool table", "Form in der Werkzeugtabelle";
-    ToolComment "comment in the tool table", "Kommentar in der Werkzeugtabelle";
+    ToolProfile "profile in the tool table, else `EndMill`", "Form in der Werkzeugtabelle, sonst `EndMill`";
+    ToolComment "comment in the tool table, else nothing", "Kommentar in der Werkzeugtabelle, sonst nichts";
     ToolVeeAngle "angle in the tool table", "Winkel in der Werkzeugtabelle";
     MoveAxis(Register) "the number of the present move", "die Zahl der laufenden Bewegung";
     ArcOffset(Register) "from the start of the present arc to its centre",
@@ -125,9 +125,8 @@ words! {
     ArcEnd "where the present arc ends, degrees", "Ende des laufenden Bogens in Grad";
     ArcSweep "degrees, clockwise positive, of the present arc",
         "Grad, im Uhrzeigersinn positiv, des laufenden Bogens";
-    StockSize(usize) "size of the stock, if the program says it", "Maß des Rohteils, wenn das Programm es nennt";
-    StockCorner(usize) "corner of the stock, if the program says it",
-        "Ecke des Rohteils, wenn das Programm sie nennt";
+    StockSize(usize) "size of the stock", "Maß des Rohteils";
+    StockCorner(usize) "corner of the stock", "Ecke des Rohteils";
     StockCornerReversed(usize) "the same with the other sign", "dasselbe mit umgekehrtem Vorzeichen";
 }
 
@@ -259,48 +258,25 @@ fn with_arguments(name: &str) -> Option<&'static MacroWithArguments> {
     WITH.iter().find(|with| with.name == name)
 }
 
-impl MacroWithArguments {
-    const fn new(
-        name: &'static str,
-        read: fn(Option<&str>) -> Option<Macro>,
-        expected: &'static Text,
-    ) -> Self {
-        Self { name, expected, read }
-    }
+macro_rules! with_arguments {
+    ($($name:literal $read:ident $en:literal, $de:literal;)*) => {
+        /// All macros with arguments.
+        pub(super) static WITH: &[MacroWithArguments] = &[$(MacroWithArguments {
+            name: $name,
+            expected: &Text { en: $en, de: $de },
+            read: $read,
+        },)*];
+    };
 }
 
-/// All macros with arguments.
-pub(super) static WITH: &[MacroWithArguments] = &[
-    MacroWithArguments::new(
-        "cuttercomp",
-        cutter_compensation,
-        &Text { en: "off, L or R", de: "off, L oder R" },
-    ),
-    MacroWithArguments::new(
-        "toolchange",
-        tool_change,
-        &Text { en: "nothing or first", de: "nichts oder first" },
-    ),
-    MacroWithArguments::new(
-        "spindle",
-        spindle,
-        &Text { en: "nothing, up, cw, ccw or off", de: "nichts, up, cw, ccw oder off" },
-    ),
-    MacroWithArguments::new(
-        "coolant",
-        coolant,
-        &Text { en: "nothing, flood, mist or off", de: "nichts, flood, mist oder off" },
-    ),
-    MacroWithArguments::new("check", check, &Text { en: "three coordinates", de: "drei Koordinaten" }),
-    MacroWithArguments::new(
-        "set",
-        set,
-        &Text {
-            en: "x, y or z and a number or NaN, or tool",
-            de: "x, y oder z und eine Zahl oder NaN, oder tool",
-        },
-    ),
-];
+with_arguments! {
+    "cuttercomp" cutter_compensation "off, L or R", "off, L oder R";
+    "toolchange" tool_change "nothing or first", "nichts oder first";
+    "spindle" spindle "nothing, up, cw, ccw or off", "nichts, up, cw, ccw oder off";
+    "coolant" coolant "nothing, flood, mist or off", "nichts, flood, mist oder off";
+    "check" check "three coordinates", "drei Koordinaten";
+    "set" set "x, y or z and a number or NaN, or tool", "x, y oder z und eine Zahl oder NaN, oder tool";
+}
 
 /// The macro of an argument that is one of some words, in any case.
 fn of_word(argument: &str, words: &[(&str, Macro)]) -> Option<Macro> {

@@ -19,13 +19,14 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
 
 use crate::PostOptions;
+use crate::findings::EngineOutput;
 use crate::job::{Job, Units};
 use crate::shadow::{Shadow, TranslatedText, words};
 use crate::target::Target;
 use definition::{Plan, framed};
 use macros::{Macro, State};
 use template::Template;
-use writer::{Writer, WrittenText};
+use writer::Writer;
 
 pub(super) use definition::Definition;
 
@@ -40,8 +41,15 @@ pub(super) fn write(
     let plan = Plan::new(definition, file, job, target, options)?;
     let one = |error: Box<Diagnostic>| vec![*error];
     let post_build = post_build(definition, file, job, options).map_err(one)?;
-    let text = Writer::new(&plan).run().map_err(one)?;
-    Ok(EngineOutput { text, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
+    let mut output = Writer::new(&plan).run().map_err(one)?;
+    note_switches(&mut output, &plan);
+    match post_build {
+        Some(command) if !options.run_post_build => {
+            output.note(&posts::POST_BUILD_SKIPPED, "command", &command.join(" "));
+        }
+        command => output.post_build = command,
+    }
+    Ok(output)
 }
 
 /// Translates a text of this definition to the words of RS274. A definition may have its own words for motions, which are not G words;
@@ -59,19 +67,17 @@ pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText 
     shadow.finish()
 }
 
-/// The output of the engine.
-pub(super) struct EngineOutput {
-    pub(super) text: WrittenText,
-    /// The command given in the definition.
-    pub(super) post_build: Option<Vec<String>>,
-    /// Whether the program sets the coolant, but the definition has no macro for it.
-    pub(super) leaves_out_coolant: bool,
-}
-
-fn leaves_out_coolant(plan: &Plan<'_>) -> bool {
-    let writes_it =
-        || plan.templates().flat_map(Template::macros).any(|(what, _)| *what == Macro::State(State::Coolant));
-    plan.job.operations.iter().any(|operation| operation.coolant.is_some()) && !writes_it()
+/// Adds notes on what the job switches but the definition has no macro for.
+fn note_switches(output: &mut EngineOutput, plan: &Plan<'_>) {
+    let cools = plan.job.operations.iter().any(|operation| operation.coolant.is_some());
+    let mut macros = plan.templates().flat_map(Template::macros);
+    if cools && !macros.any(|(what, _)| *what == Macro::State(State::Coolant)) {
+        output.note(&posts::COOLANT_NOT_WRITTEN, "macro", "{$coolant}");
+    }
+    let definition = plan.definition;
+    if plan.options.spin_up > 0.0 && definition.switches_spindle() && !definition.waits_for_spindle() {
+        output.note(&posts::SPIN_UP_NOT_WRITTEN, "macro", "{$spindle(up)}");
+    }
 }
 
 // The command that a definition asks to run on the finished file, as a list of arguments. It is not run here.

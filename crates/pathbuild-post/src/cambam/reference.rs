@@ -3,12 +3,31 @@
 use pathbuild_diagnostic::{Lang, Text};
 
 use super::macros::{FIXED, Macro, WITH};
-use super::options::OPTIONS;
+use super::options::{ElementOption, OPTIONS};
 use super::section::Section;
-use crate::reference::{Row, code};
+use crate::{Row, code};
+
+/// The rows of a table.
+pub(crate) fn table(name: &str, lang: Lang) -> Option<Vec<Row>> {
+    Some(match name {
+        "cambam-sections" => sections(lang),
+        "cambam-options" => OPTIONS.iter().map(|option| option_row(option, lang)).collect(),
+        "cambam-macros" => FIXED
+            .iter()
+            .map(|(name, what)| vec![code(&format!("{{${name}}}")), meaning(what, lang)])
+            .collect(),
+        "cambam-calls" => WITH
+            .iter()
+            .map(|with| {
+                vec![code(&format!("{{${}(...)}}", with.name)), with.expected.in_lang(lang).to_owned()]
+            })
+            .collect(),
+        _ => return None,
+    })
+}
 
 /// Elements that contain a template: name, whether it is an extension of pathbuild, default.
-pub(crate) fn sections(lang: Lang) -> Vec<Row> {
+fn sections(lang: Lang) -> Vec<Row> {
     let own = |section: &Section| if section.is_own() { OWN.in_lang(lang) } else { "" }.to_owned();
     Section::ALL
         .iter()
@@ -16,31 +35,12 @@ pub(crate) fn sections(lang: Lang) -> Vec<Row> {
         .collect()
 }
 
-/// Elements that contain a value: name, permitted values, default, meaning.
-pub(crate) fn options(lang: Lang) -> Vec<Row> {
-    let row = |option: &super::options::ElementOption| {
-        let own = if option.is_own() { format!("{}: ", OWN.in_lang(lang)) } else { String::new() };
-        let about = format!("{own}{}", option.about.in_lang(lang));
-        vec![
-            code(option.element),
-            option.expected().map_or("", |text| text.in_lang(lang)).to_owned(),
-            code(option.default),
-            about,
-        ]
-    };
-    OPTIONS.iter().map(row).collect()
-}
-
-/// Macros without arguments: name, meaning.
-pub(crate) fn macros(lang: Lang) -> Vec<Row> {
-    FIXED.iter().map(|(name, what)| vec![code(&format!("{{${name}}}")), meaning(what, lang)]).collect()
-}
-
-/// Macros with arguments: name, permitted arguments.
-pub(crate) fn macros_with_arguments(lang: Lang) -> Vec<Row> {
-    WITH.iter()
-        .map(|with| vec![code(&format!("{{${}(...)}}", with.name)), with.expected.in_lang(lang).to_owned()])
-        .collect()
+/// An element that contains a value: name, permitted values, default, meaning.
+fn option_row(option: &ElementOption, lang: Lang) -> Row {
+    let own = if option.is_own() { format!("{}: ", OWN.in_lang(lang)) } else { String::new() };
+    let expected = option.expected().map_or("", |text| text.in_lang(lang)).to_owned();
+    let about = format!("{own}{}", option.about.in_lang(lang));
+    vec![code(option.element), expected, code(option.default), about]
 }
 
 const OWN: Text = Text { en: "pathbuild's own", de: "Zusatz von pathbuild" };

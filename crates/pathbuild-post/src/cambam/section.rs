@@ -10,8 +10,6 @@ macro_rules! sections {
             $($variant,)*
             /// The value of a user macro, which is not an element of its own.
             UserMacro,
-            /// Custom text of the program or of an operation.
-            Custom,
         }
 
         impl Section {
@@ -23,20 +21,19 @@ macro_rules! sections {
                 match self {
                     $(Self::$variant => $name,)*
                     Self::UserMacro => "PostProcessorMacros",
-                    Self::Custom => "custom text",
                 }
             }
 
             /// Whether the section contains entire lines instead of words of a line.
             pub(super) fn holds_lines(self) -> bool {
                 use Section::{
-                    ArcCcw, ArcCw, CannedCycleEnd, CannedCycleStart, Custom, Drill, DrillDwell, DrillPeck, Dwell,
+                    ArcCcw, ArcCw, CannedCycleEnd, CannedCycleStart, Drill, DrillDwell, DrillPeck, Dwell,
                     EndCut, FeedMove, Footer, Header, Mop, PostFile, Probe, Rapid, StartCut, ToolChange,
                     ToolTableItem, UserMacro,
                 };
                 matches!(
                     self,
-                    ArcCcw | ArcCw | CannedCycleEnd | CannedCycleStart | Custom | Drill | DrillDwell | DrillPeck
+                    ArcCcw | ArcCw | CannedCycleEnd | CannedCycleStart | Drill | DrillDwell | DrillPeck
                         | Dwell | EndCut | FeedMove | Footer | Header | Mop | PostFile | Probe | Rapid | StartCut
                         | ToolChange | ToolTableItem | UserMacro
                 )
@@ -46,7 +43,7 @@ macro_rules! sections {
             pub(super) fn default_text(self) -> &'static str {
                 match self {
                     $(Self::$variant => $default,)*
-                    Self::UserMacro | Self::Custom => "",
+                    Self::UserMacro => "",
                 }
             }
         }

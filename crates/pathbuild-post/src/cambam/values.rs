@@ -8,7 +8,7 @@ use super::machine::{ArcValues, Code, Form, Register};
 use super::macros::{Choice, State, Value};
 use super::section::{Section, coolant_section, spindle_section};
 use super::writer::{WriteResult, Writer};
-use crate::job::{Hole, HoleKind, JobStep, Stock, Units, VelocityMode};
+use crate::job::{Hole, HoleKind, JobStep, Units, VelocityMode};
 use crate::number::NumberFormat;
 
 impl Writer<'_> {
@@ -26,7 +26,6 @@ impl Writer<'_> {
             Value::OutFile => self.plan.options.output.as_deref().map(str::to_owned),
             Value::PartName => Some(operation.part.to_string()),
             Value::MopName => Some(operation.name.to_string()),
-            Value::MopTag => Some(operation.tag.to_string()),
             Value::MopClearancePlane => Some(self.length(operation.clearance)),
             Value::MopRetractHeight => Some(self.length(operation.retract)),
             Value::MopPlungeFeedrate => self.feeds().plunge.map(|feed| self.length(feed)),
@@ -43,29 +42,21 @@ impl Writer<'_> {
             Value::MopFirst(axis) => operation.first_point().axes()[axis as usize].map(|at| self.length(at)),
             Value::ToolIndex => Some(tool.index.to_string()),
             Value::ToolName => Some(tool.name.to_string()),
-            Value::ToolRadius => Some(self.length(tool.radius)),
-            Value::ToolLength => tool.length.map(|length| self.length(length)),
-            Value::ToolProfile => Some(tool.profile.to_string()),
-            Value::ToolComment => Some(tool.comment.to_string()),
-            Value::ToolVeeAngle => tool.vee_angle.map(|angle| self.number_format().format(angle)),
+            Value::ToolRadius => Some(self.length(tool.diameter / 2.0)),
+            Value::ToolProfile => Some("EndMill".to_owned()),
+            Value::MopTag | Value::ToolComment => Some(String::new()),
             Value::MoveAxis(register) | Value::ArcOffset(register) => self.register_value(register),
             Value::ArcRadius => self.arc_value(|arc| arc.radius),
             Value::ArcStart => self.arc_value(|arc| arc.start),
             Value::ArcEnd => self.arc_value(|arc| arc.end),
             Value::ArcSweep => self.arc_value(|arc| arc.sweep),
-            Value::StockSize(axis) => self.stock_value(|stock| stock.size[axis]),
-            Value::StockCorner(axis) => self.stock_value(|stock| stock.corner[axis]),
             Value::StockCornerReversed(axis) => {
-                let own = || self.own_number(Value::StockCorner(axis));
-                self.stock_value(|stock| -stock.corner[axis]).or_else(own)
+                let corner = self.plan.user_macro(Value::StockCorner(axis).name())?;
+                let number: f64 = corner.literal().trim().parse().ok()?;
+                Some(self.number_format().format(-number))
             }
+            Value::StockSize(_) | Value::StockCorner(_) | Value::ToolLength | Value::ToolVeeAngle => None,
         }
-    }
-
-    /// The value given by the definition or the configuration with reversed sign, if it is a number.
-    fn own_number(&self, value: Value) -> Option<String> {
-        let own = self.plan.user_macro(value.name())?;
-        own.literal().trim().parse().ok().map(|number: f64| self.number_format().format(-number))
     }
 
     fn register_value(&self, register: Register) -> Option<String> {
@@ -74,10 +65,6 @@ impl Writer<'_> {
 
     fn arc_value(&self, value: fn(&ArcValues) -> f64) -> Option<String> {
         self.move_values.arc.as_ref().map(|arc| self.number_format().format(value(arc)))
-    }
-
-    fn stock_value(&self, value: impl Fn(&Stock) -> f64) -> Option<String> {
-        self.plan.job.stock.as_ref().map(|stock| self.length(value(stock)))
     }
 
     /// Handles a macro without a value: a date may be omitted, anything else would leave a gap in the program.

@@ -11,25 +11,14 @@ use super::options::Options;
 use super::section::Section;
 use super::template::{Template, TemplatePart};
 use crate::arcs::chords;
-use crate::findings::LineOrigin;
+use crate::findings::{EngineOutput, Fuel, LineOrigin, MOST_WARNINGS};
 use crate::job::{Feeds, JobStep, Operation, Tool};
 use crate::number::NumberFormat;
-use crate::shadow::{CommentMarks, Shadow, TranslatedText, Word, Words, words};
+use crate::shadow::{CommentMarks, Shadow, Word, Words, words};
 use crate::target::Guard;
 
 /// Success, or the diagnostic that aborts writing.
 pub(super) type WriteResult = Result<(), Box<Diagnostic>>;
-
-/// The output of a writer.
-pub(crate) struct WrittenText {
-    pub(crate) text: String,
-    /// The translation of the text to RS274.
-    pub(crate) shadow: TranslatedText,
-    /// The origin of each line.
-    pub(crate) origins: Vec<LineOrigin>,
-    /// Doubtful constructs.
-    pub(crate) warnings: Vec<Diagnostic>,
-}
 
 /// Maximum nesting depth of user macros, and also of sections.
 const MOST_DEPTH: usize = 16;
@@ -73,7 +62,7 @@ pub(super) struct Writer<'a> {
     depth: [usize; 2],
     /// The blocks `{$mops}` and `{$blocks}` that are being expanded.
     open: Vec<Block>,
-    fuel: usize,
+    fuel: Fuel,
 }
 
 impl<'a> Writer<'a> {
@@ -110,7 +99,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Writes the whole program: its text, its translation to RS274, and doubtful constructs.
-    pub(super) fn run(mut self) -> Result<WrittenText, Box<Diagnostic>> {
+    pub(super) fn run(mut self) -> Result<EngineOutput, Box<Diagnostic>> {
         self.section(Section::PostFile)?;
         self.end_line();
         if let Some(fault) = self.fault {
@@ -120,7 +109,15 @@ impl<'a> Writer<'a> {
             self.warn(Diagnostic::new(&posts::WRAPPED_TWICE).with("degrees", most - least));
         }
         let Self { lines, shadow, origins, warnings, .. } = self;
-        Ok(WrittenText { text: lines.finish(), shadow: shadow.finish(), origins, warnings })
+        let text = lines.finish().into_bytes();
+        Ok(EngineOutput {
+            text,
+            shadow: shadow.finish(),
+            origins,
+            warnings,
+            notes: Vec::new(),
+            post_build: None,
+        })
     }
 
     /// The feeds of the current operation.
@@ -182,7 +179,7 @@ impl<'a> Writer<'a> {
     }
 
     fn expand(&mut self, what: &'a Macro, section: Section, line: u32) -> WriteResult {
-        self.burn(1)?;
+        self.fuel.burn(1, self.plan.file)?;
         match what {
             Macro::Section(text) => self.named_section(*text),
             Macro::Value(value) if value.is_open() && self.plan.user_macro(value.name()).is_some() => {
@@ -245,12 +242,9 @@ impl<'a> Writer<'a> {
             Block::Clearance => self.clearance(),
             Block::FileHeader => {
                 let remarks = &self.plan.job.remarks;
-                remarks.iter().try_for_each(|remark| self.comment(remark, ""))?;
-                self.template(&self.plan.texts.header)
+                remarks.iter().try_for_each(|remark| self.comment(remark, ""))
             }
-            Block::FileFooter => self.template(&self.plan.texts.footer),
-            Block::MopHeader => self.template(&self.plan.operation_texts[self.operation].header),
-            Block::MopFooter => self.template(&self.plan.operation_texts[self.operation].footer),
+            Block::FileFooter | Block::MopHeader | Block::MopFooter => Ok(()),
         }
     }
 
@@ -287,7 +281,7 @@ impl<'a> Writer<'a> {
 
     /// Adds text to the line; a line break ends it.
     pub(super) fn text(&mut self, text: &str) -> WriteResult {
-        self.burn(text.len())?;
+        self.fuel.burn(text.len(), self.plan.file)?;
         let most = self.plan.options.most_bytes;
         // Blanks of the current line may still be removed.
         if self.lines.length().max(self.line.text.len() + text.len()) > most {
@@ -409,17 +403,6 @@ impl<'a> Writer<'a> {
             self.warnings.push(warning);
         }
     }
-
-    /// Consumes fuel for text, so that macros that multiply text come to an end.
-    fn burn(&mut self, cost: usize) -> WriteResult {
-        match self.fuel.checked_sub(cost) {
-            Some(left) => {
-                self.fuel = left;
-                Ok(())
-            }
-            None => Err(Box::new(Diagnostic::new(&posts::MACRO_SIZE).in_file(self.plan.file))),
-        }
-    }
 }
 
 /// The letters of the angles around X, Y and Z.
@@ -427,9 +410,6 @@ pub(super) const ROTARY: [Register; 3] = [Register::A, Register::B, Register::C]
 
 /// Wider paths, in degrees, would overlap themselves. A closed ring may exceed a full turn slightly due to rounding.
 const FULL_TURN: f64 = 360.001;
-
-/// Maximum number of warnings reported.
-const MOST_WARNINGS: usize = 50;
 
 // The line that is being written.
 
@@ -540,20 +520,13 @@ impl<'a> Lines<'a> {
     }
 }
 
-// Limits how much a post may write, so that macros that multiply text come to an end.
-
-/// Number of bytes allowed regardless of the program; each move adds more.
-const FUEL: usize = 1 << 20;
-const FUEL_PER_MOVE: usize = 1 << 12;
-
-/// Number of bytes that a program may produce; each macro costs one more.
-pub(super) fn fuel(plan: &Plan<'_>) -> usize {
+/// Limits the text by the number of moves; each macro costs one byte more.
+fn fuel(plan: &Plan<'_>) -> Fuel {
     let moves = |operation: &Operation| -> usize {
         let of_steps: usize = operation.steps.iter().map(|step| moves_of(step, plan)).sum();
         of_steps + 1
     };
-    let moves: usize = plan.job.operations.iter().map(moves).sum();
-    FUEL + FUEL_PER_MOVE.saturating_mul(moves)
+    Fuel::new(plan.job.operations.iter().map(moves).sum())
 }
 
 /// Maximum number of moves that a step can become.

@@ -2,9 +2,7 @@
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_motion::{Coolant, Turning};
-use pathbuild_post::{
-    Hole, HoleKind, Job, JobStep, PostMacro, PostOptions, Stock, Texts, Units, VelocityMode,
-};
+use pathbuild_post::{Hole, HoleKind, Job, JobStep, PostMacro, PostOptions, Units, VelocityMode};
 
 use crate::support::{bare, definition, feed, job, lines, lines_with, operation, output, rapid, read, texts};
 
@@ -246,46 +244,35 @@ fn the_tool_table_lists_each_tool_once_in_order_of_use() {
 }
 
 #[test]
-fn custom_texts_of_program_and_operation_are_written() {
-    let mut job = job(vec![]);
-    job.texts = Texts { header: "(file {$tool.index})".into(), footer: "(end)".into() };
-    job.operations[0].texts = Texts { header: "M7".into(), footer: "M9".into() };
+fn custom_texts_of_program_and_operation_are_empty() {
     let text = definition(
-        "<PostFile>{$cbfile.header}\n{$mops}\n{$cbfile.footer}</PostFile><MOP>{$mop.header}\n{$mop.footer}</MOP>",
+        "<PostFile>{$cbfile.header}\n{$mops}\n{$cbfile.footer}</PostFile><MOP>{$mop.header}\nM7{$mop.footer}</MOP>",
     );
-    assert_eq!(lines(&text, &job), ["(file 1)", "M7", "M9", "(end)"]);
+    assert_eq!(lines(&text, &job(vec![])), ["M7"]);
 }
 
 #[test]
-fn every_value_has_its_macro() {
+fn values_of_the_program_have_their_macros() {
     let mut job = job(vec![rapid(1.0, 2.0, 3.0)]);
-    job.stock = Some(Stock { corner: [1.0, 2.0, -3.0], size: [100.0, 50.0, 10.0] });
     let operation = &mut job.operations[0];
     operation.part = "plate".into();
-    operation.tag = "t".into();
     operation.cut_feed = Some(400.0);
     operation.plunge_feed = Some(60.0);
     operation.depth_increment = Some(0.5);
     operation.target_depth = Some(-2.0);
-    operation.tool.radius = 1.5;
-    operation.tool.length = Some(30.0);
-    operation.tool.comment = "sharp".into();
-    operation.tool.vee_angle = Some(60.0);
     let text = definition(
-        "<PostFile>{$part.name} {$mop.tag} {$mop.clearanceplane} {$mop.retractheight} {$mop.stocksurface} {$mop.targetdepth}
+        "<PostFile>{$part.name}{$mop.tag} {$mop.clearanceplane} {$mop.retractheight} {$mop.stocksurface} {$mop.targetdepth}
 {$mop.cutfeedrate} {$mop.plungefeedrate} {$mop.depthincrement} {$mop.dwell} {$mop.peckdistance} {$mop.holediameter}
 {$mop.first.x} {$mop.first.y} {$mop.first.z}
-{$tool.index} {$tool.diameter} {$tool.radius} {$tool.length} {$tool.profile} {$tool.comment} {$tool.veeangle}
-{$stock_width} {$stock_length} {$stock_height} {$stock_x} {$stock_y} {$stock_z} {$-stock_z}
+{$tool.index} {$tool.diameter} {$tool.radius} {$tool.profile}{$tool.comment}
 {$units} {$distancemode} {$arccentermode} {$lathexmode} {$cuttercomp(off)} {$cuttercomp(L)} {$cuttercomp(R)}
 {$stop} {$repeat} {$endrewind}</PostFile><SuppressParserErrors>true</SuppressParserErrors>",
     );
     let expected = [
-        "plate t 5.0 1.0 0.0 -2.0",
+        "plate 5.0 1.0 0.0 -2.0",
         "400.0 60.0 0.5 0.0 0.0 3.0",
         "1.0 2.0 3.0",
-        "1 3.0 1.5 30.0 EndMill sharp 60.0",
-        "100.0 50.0 10.0 1.0 2.0 -3.0 3.0",
+        "1 3.0 1.5 EndMill",
         "G21 G90 G91.1 G8 G40 G41 G42",
         "M0 M47 M30",
     ];

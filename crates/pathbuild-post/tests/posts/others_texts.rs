@@ -104,7 +104,7 @@ fn no_text_ends_or_begins_a_comment_of_a_definition_s_own() {
 }
 
 /// Number of places for a text, plus one for all of them.
-const PLACES: usize = 9;
+const PLACES: usize = 8;
 
 fn written(post: &Post, place: usize, text: &str, is_own: bool) -> Option<String> {
     let mut job: Job = program();
@@ -119,24 +119,19 @@ fn written(post: &Post, place: usize, text: &str, is_own: bool) -> Option<String
             operation.tool.name = text.into();
         }
         if is(2) {
-            operation.tool.comment = text.into();
-            operation.tool.profile = text.into();
-            operation.tag = text.into();
-        }
-        if is(3) {
             operation.steps.insert(0, JobStep::Comment(text.into()));
         }
     }
-    if is(4) {
+    if is(3) {
         job.name = format!("8001 {text}").into();
     }
-    if is(5) {
+    if is(4) {
         job.drawing = text.into();
     }
-    if is(6) {
+    if is(5) {
         options.date = Some(text.into());
     }
-    if is(7) {
+    if is(6) {
         job.remarks = vec![text.into()];
     }
     match post.write(&job, &options) {
