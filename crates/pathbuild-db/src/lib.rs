@@ -9,15 +9,11 @@
 
 #![expect(missing_docs, reason = "salsa makes constructors and setters, which cannot be documented")]
 
-mod bugs;
 mod database;
 mod inputs;
 mod queries;
 
-pub use bugs::{bug, catch_bugs, too_slow};
-pub use database::PendingListing;
-pub use database::{Database, WorkInProgress};
-pub use database::{Db, ScratchPool};
+pub use database::{Database, Db, PendingListing, ScratchPool, WorkInProgress, bug, catch_bugs, too_slow};
 pub use inputs::{Directory, Limits, Reading, Role, Settings, SourceFile, Target};
 pub use pathbuild_files as system;
 pub use pathbuild_files::System;

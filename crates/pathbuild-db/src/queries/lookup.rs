@@ -7,8 +7,8 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{FilePattern, PathKey, PathName, RangeTable, SubpathName};
 use rustc_hash::FxHashSet;
 
-use crate::bugs::catch_bugs;
 use crate::database::Db;
+use crate::database::catch_bugs;
 use crate::inputs::{Directory, Settings, SourceFile};
 use crate::queries::index::{FileIndex, NameKey, file_index, path_index};
 use crate::system::{FileKind, Names, ReadError, is_drawing, join, readable};

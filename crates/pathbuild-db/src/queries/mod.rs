@@ -38,7 +38,8 @@ pub use lookup::{
     ResolvedPath, drawing_names, embeds_others, holders, likely_file, may_hold, name_table, prefetch,
     resolve_path, search_path, unlistable, unlisted,
 };
-pub use part::{PlacedPart, placed_parts, uncut_rings};
+pub use neighbours::{PlacedPart, placed_parts};
+pub use part::uncut_rings;
 pub use programs::{DrawnPath, Part, TracedProgram, drawn_path, in_force, other_layers, traced_program};
 pub use raw::{PathPlace, assigned_texts, combinations, path_place, raw_file};
 pub use results::{check_file, check_target, locate, program, q_project, q_project_findings};

@@ -141,10 +141,8 @@ impl<'a> LayerEnds<'a> {
 
     /// The element on another layer that is nearest to a text.
     fn element(&self, language: &Language, problem: &Diagnostic) -> Option<(Note, f64)> {
-        let argument =
-            |wanted| problem.arguments.iter().find(|(name, _)| *name == wanted).map(|(_, value)| value);
         let (Some(Value::Point(centre)), Some(Value::Number(Number(diameter)))) =
-            (argument("centre"), argument("diameter"))
+            (problem.argument("centre"), problem.argument("diameter"))
         else {
             return None;
         };
@@ -272,8 +270,8 @@ fn is_marker(language: &Language, layer: &str, entity: &Entity, radius: f64) -> 
 
 /// The distance in mm that a note gives.
 fn distance_of(note: &Note) -> Option<f64> {
-    match note.arguments.iter().find(|(name, _)| *name == "distance")? {
-        (_, Value::Number(Number(distance))) => Some(*distance),
+    match note.argument("distance")? {
+        Value::Number(Number(distance)) => Some(*distance),
         _ => None,
     }
 }

@@ -1,17 +1,22 @@
-//! Cuts into the parts of other components of a project, and through their support bars. (book: language/part)
+//! The parts in a program: their places, and the cuts of a project into the parts of other components and through their support bars.
+//! (book: language/part)
 
 use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
-use pathbuild_path::{Curve, NeighbourGouge, Origin, PlacedCuts, Placement, Xy};
+use pathbuild_path::{
+    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PlacedCuts, Placement, Way, Xy, gouging_ways,
+};
+use pathbuild_toolpath::way;
 
 use crate::database::Db;
 use crate::inputs::{Settings, Target};
 use crate::queries::closures::closure;
 use crate::queries::embedding::{Instance, Outcome, embeds};
 use crate::queries::index::soften;
-use crate::queries::part::{file_parts, parts_of, path_cuts};
+use crate::queries::part::{file_parts, part_findings, parts_of, path_cuts};
+use crate::queries::programs::{TracedProgram, traced_program};
 
 /// PB214 for cuts of one embedded path into the part of another, and PB218 for cuts through its support bars: one per part or bar and
 /// element, reported in the path that contains both.
@@ -21,7 +26,7 @@ pub(super) fn harmed_neighbours(db: &dyn Db, target: Target) -> &[Diagnostic] {
 }
 
 /// The middle lines of the support bars that cuts of other paths take away, in the program.
-pub(super) fn bars_lost_to_neighbours(db: &dyn Db, target: Target) -> Vec<Curve> {
+fn bars_lost_to_neighbours(db: &dyn Db, target: Target) -> Vec<Curve> {
     let program = has_neighbours(db, target).then(|| placed_program(db, target)).flatten();
     program.map(|program| program.lost_bars()).unwrap_or_default()
 }
@@ -104,7 +109,7 @@ impl<'db> PlacedProgram<'db> {
     }
 
     /// Whether another path of the same drawing has already placed a part here.
-    fn is_known(&self, instance: Instance<'db>, placement: &Placement, part: &pathbuild_path::Part) -> bool {
+    fn is_known(&self, instance: Instance<'db>, placement: &Placement, part: &Part) -> bool {
         let is_same = |other: &PlacedPath<'_>| {
             other.cuts.parts.iter().any(|known| std::ptr::eq(*known, part))
                 && self.is_at(other, instance, placement)
@@ -209,4 +214,81 @@ impl<'db> PlacedProgram<'db> {
         let (file, name) = place(path);
         Diagnostic { trace, ..origin.at(problem.in_file(file).in_path(name)) }
     }
+}
+
+/// A finished part as placed in a program.
+#[derive(Clone, Debug)]
+pub struct PlacedPart<'db> {
+    /// The part as drawn.
+    pub drawn: &'db Part,
+    /// The material that is left at its outline, as drawn.
+    pub left: &'db [LeftMaterial],
+    /// The middle lines of the support bars that its path loses, as drawn.
+    pub lost_bars: &'db [Curve],
+    /// The middle lines of the support bars that the paths of a project take away from each other, in the program; all of them with its
+    /// first part.
+    pub bars_lost_to_neighbours: Vec<Curve>,
+    /// The stretches on which cuts go into it, in the program.
+    pub gouges: Vec<Curve>,
+    /// Whether nothing holds it.
+    pub is_loose: bool,
+    /// Half the diameter of the cutter in mm.
+    pub radius: f64,
+    /// Its place in the program.
+    pub placement: Placement,
+    /// Z of its upper face in mm.
+    pub top: f64,
+    /// How far in mm a cut may miss its outline.
+    pub tolerance: f64,
+}
+
+/// The finished parts that the program of a target cuts. Empty without a program.
+pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
+    let Some(settings) = &Settings::get(db).language(db).part else { return Vec::new() };
+    let Some(traced) = traced_program(db, target).as_deref() else { return Vec::new() };
+    let mut all = Vec::new();
+    let mut foreign = bars_lost_to_neighbours(db, target);
+    let radius = traced.program.tool / 2.0;
+    let ways = milled_ways(traced);
+    for (number, occurrence) in (0_u32..).zip(&traced.trace.occurrences) {
+        let cutting = &traced.parts[occurrence.id];
+        let (Some(found), Some(findings)) = (file_parts(db, cutting.file), part_findings(db, cutting.file))
+        else {
+            continue;
+        };
+        let Some(place) = found.place(&cutting.path.name) else { continue };
+        // The material left and the bars are known by path, not by part: list them with the first part only.
+        let (mut left, mut lost_bars) = (&*findings.left[place], &*findings.lost_bars[place]);
+        for part in &findings.parts[place] {
+            let drawn = &found.parts[*part];
+            let near = ways.iter().filter(|(by, _)| {
+                let other = &traced.parts[traced.trace.occurrences[*by as usize].id];
+                *by == number || other.file != cutting.file || drawn.may_belong_to(&other.path.name)
+            });
+            let ways = near.map(|(_, way)| way);
+            let [tolerance, raised] = [settings.tolerance, occurrence.raised];
+            all.push(PlacedPart {
+                drawn,
+                left: std::mem::take(&mut left),
+                lost_bars: std::mem::take(&mut lost_bars),
+                bars_lost_to_neighbours: std::mem::take(&mut foreign),
+                gouges: gouging_ways(drawn, &occurrence.placement, raised, ways, [radius, tolerance]),
+                is_loose: findings.loose.contains(part),
+                radius,
+                placement: occurrence.placement,
+                top: raised + cutting.path.thickness,
+                tolerance,
+            });
+        }
+    }
+    all
+}
+
+/// The cuts of a program, each with the occurrence of its path.
+fn milled_ways(traced: &TracedProgram) -> Vec<(u32, Way)> {
+    let milled = traced.program.moves().filter(|(_, movement)| movement.pace.feed().is_some());
+    let ways = milled.filter_map(|(step, movement)| {
+        Some((traced.trace.steps.get(step as usize - 1)?.occurrence, way(&movement)?))
+    });
+    ways.collect()
 }

@@ -4,18 +4,12 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::part as messages;
-use pathbuild_path::{
-    Curve, LeftMaterial, Part, PartFindings, PathCuts, Placement, Way, check_parts, check_path, gouging_ways,
-    parts as read_parts,
-};
-use pathbuild_toolpath::way;
+use pathbuild_path::{Curve, Part, PartFindings, PathCuts, check_parts, check_path, parts as read_parts};
 
 use crate::database::Db;
-use crate::inputs::{Reading, Settings, SourceFile, Target};
+use crate::inputs::{Reading, Settings, SourceFile};
 use crate::queries::embedding::{Instance, chains, path};
 use crate::queries::index::{FileParts, cuts_of, file_index, path_index, soften};
-use crate::queries::neighbours::bars_lost_to_neighbours;
-use crate::queries::programs::{TracedProgram, traced_program};
 use crate::queries::raw::read_layers_as;
 
 /// The parts and cuts of a drawing; `None` without the setting, or if it has neither parts nor embedded paths.
@@ -94,83 +88,6 @@ pub(super) fn parts_of<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<&'d
     place
         .map(|place| findings.parts[place].iter().map(|part| &found.parts[*part]).collect())
         .unwrap_or_default()
-}
-
-/// A finished part as placed in a program.
-#[derive(Clone, Debug)]
-pub struct PlacedPart<'db> {
-    /// The part as drawn.
-    pub drawn: &'db Part,
-    /// The material that is left at its outline, as drawn.
-    pub left: &'db [LeftMaterial],
-    /// The middle lines of the support bars that its path loses, as drawn.
-    pub lost_bars: &'db [Curve],
-    /// The middle lines of the support bars that the paths of a project take away from each other, in the program; all of them with its
-    /// first part.
-    pub bars_lost_to_neighbours: Vec<Curve>,
-    /// The stretches on which cuts go into it, in the program.
-    pub gouges: Vec<Curve>,
-    /// Whether nothing holds it.
-    pub is_loose: bool,
-    /// Half the diameter of the cutter in mm.
-    pub radius: f64,
-    /// Its place in the program.
-    pub placement: Placement,
-    /// Z of its upper face in mm.
-    pub top: f64,
-    /// How far in mm a cut may miss its outline.
-    pub tolerance: f64,
-}
-
-/// The finished parts that the program of a target cuts. Empty without a program.
-pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
-    let Some(settings) = &Settings::get(db).language(db).part else { return Vec::new() };
-    let Some(traced) = traced_program(db, target).as_deref() else { return Vec::new() };
-    let mut all = Vec::new();
-    let mut foreign = bars_lost_to_neighbours(db, target);
-    let radius = traced.program.tool / 2.0;
-    let ways = milled_ways(traced);
-    for (number, occurrence) in (0_u32..).zip(&traced.trace.occurrences) {
-        let cutting = &traced.parts[occurrence.id];
-        let (Some(found), Some(findings)) = (file_parts(db, cutting.file), part_findings(db, cutting.file))
-        else {
-            continue;
-        };
-        let Some(place) = found.place(&cutting.path.name) else { continue };
-        // The material left and the bars are known by path, not by part: list them with the first part only.
-        let (mut left, mut lost_bars) = (&*findings.left[place], &*findings.lost_bars[place]);
-        for part in &findings.parts[place] {
-            let drawn = &found.parts[*part];
-            let near = ways.iter().filter(|(by, _)| {
-                let other = &traced.parts[traced.trace.occurrences[*by as usize].id];
-                *by == number || other.file != cutting.file || drawn.may_belong_to(&other.path.name)
-            });
-            let ways = near.map(|(_, way)| way);
-            let [tolerance, raised] = [settings.tolerance, occurrence.raised];
-            all.push(PlacedPart {
-                drawn,
-                left: std::mem::take(&mut left),
-                lost_bars: std::mem::take(&mut lost_bars),
-                bars_lost_to_neighbours: std::mem::take(&mut foreign),
-                gouges: gouging_ways(drawn, &occurrence.placement, raised, ways, [radius, tolerance]),
-                is_loose: findings.loose.contains(part),
-                radius,
-                placement: occurrence.placement,
-                top: raised + cutting.path.thickness,
-                tolerance,
-            });
-        }
-    }
-    all
-}
-
-/// The cuts of a program, each with the occurrence of its path.
-fn milled_ways(traced: &TracedProgram) -> Vec<(u32, Way)> {
-    let milled = traced.program.moves().filter(|(_, movement)| movement.pace.feed().is_some());
-    let ways = milled.filter_map(|(step, movement)| {
-        Some((traced.trace.steps.get(step as usize - 1)?.occurrence, way(&movement)?))
-    });
-    ways.collect()
 }
 
 fn is_example<'db>(db: &'db dyn Db, instance: Instance<'db>) -> bool {

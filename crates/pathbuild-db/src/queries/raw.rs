@@ -9,7 +9,7 @@ use pathbuild_path::{
     AssignedText, Bindings, Combinations, PathName, Position, RawPath, SourceMap, SpeltName,
 };
 
-use crate::bugs::catch_bugs;
+use crate::database::catch_bugs;
 use crate::database::{Db, abandon_query};
 use crate::inputs::{Reading, Settings, SourceFile};
 use crate::queries::index::{NameKey, file_index};
