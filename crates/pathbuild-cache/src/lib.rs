@@ -8,12 +8,12 @@
 //! reference/configuration: no configuration, no cache)
 
 mod catalogue;
-mod results_file;
 mod store;
 mod verify;
 
-pub use catalogue::{Catalogue, CorruptPayload, DirectoryFact, FileFact, Lookup, Record, decode, encode};
-pub use results_file::{CacheFault, Key};
+pub use catalogue::{
+    CacheFault, Catalogue, CorruptPayload, DirectoryFact, FileFact, Key, Lookup, Record, decode, encode,
+};
 pub use store::{Entry, Home, RemoveError, TreeStore};
 pub use verify::{CoversFn, FileState, Reason, StampedBytes, Verdict, VerifyContext, reasons, verify};
 pub use verify::{Listing, Listings};

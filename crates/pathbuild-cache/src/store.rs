@@ -13,8 +13,7 @@ use pathbuild_diagnostic::reasons::{self, HOLDS_OTHERS, NO_CACHE, reason};
 use pathbuild_diagnostic::{Text, Value};
 use pathbuild_files::{CLOCK, Clock, private};
 
-use crate::catalogue::Catalogue;
-use crate::results_file::{self, CacheFault, Key};
+use crate::catalogue::{CacheFault, Catalogue, Key, decode_file, encode_file, is_file_name, key_of};
 
 /// Where the results of all trees are stored.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,7 +75,7 @@ impl TreeStore {
     /// Why the results file cannot be used.
     pub fn load(&self, key: &Key) -> Result<Option<Catalogue>, CacheFault> {
         match private::read(&self.directory.join(key.file_name()), LARGEST) {
-            Ok(Some(file)) => results_file::decode(key, &file).map(Some),
+            Ok(Some(file)) => decode_file(key, &file).map(Some),
             Ok(None) => Ok(None),
             Err(_) => Err(CacheFault::Damaged),
         }
@@ -89,7 +88,7 @@ impl TreeStore {
     pub fn store(&self, key: &Key, mut catalogue: Catalogue) -> io::Result<()> {
         catalogue.records.sort_unstable_by(|a, b| a.subject.cmp(&b.subject));
         let too_much = || reasons::error(io::ErrorKind::Other, &reasons::TOO_MUCH_TO_KEEP);
-        let bytes = results_file::encode(key, &catalogue).ok_or_else(too_much)?;
+        let bytes = encode_file(key, &catalogue).ok_or_else(too_much)?;
         if bytes.len() as u64 > LARGEST {
             return Err(too_much());
         }
@@ -179,7 +178,7 @@ impl TreeStore {
     /// All results files, sorted by name, each with whether this build of the program can use it.
     pub fn entries(&self, build: &Key) -> Vec<Entry> {
         let mut entries: Vec<Entry> = entry_names(self.directory())
-            .filter(|name| results_file::is_file_name(name))
+            .filter(|name| is_file_name(name))
             .map(|name| self.directory().join(name))
             .map(|path| Entry {
                 size: fs::symlink_metadata(&path).map_or(0, |data| data.len()),
@@ -244,13 +243,13 @@ impl Home {
 
 /// Whether pathbuild creates files of this name in a results directory.
 fn is_ours(directory: &Utf8Path, name: &str) -> bool {
-    let is_named_so = results_file::is_file_name(name) || is_temporary(name) || name == TAG;
+    let is_named_so = is_file_name(name) || is_temporary(name) || name == TAG;
     is_named_so || name == TREE && is_own_tree(directory)
 }
 
 /// Whether the name is that of a temporary file for one of ours.
 fn is_temporary(name: &str) -> bool {
-    let is_ours = |name: &str| results_file::is_file_name(name) || matches!(name, TAG | TREE | CLOCK);
+    let is_ours = |name: &str| is_file_name(name) || matches!(name, TAG | TREE | CLOCK);
     pathbuild_files::is_temporary(name, is_ours)
 }
 
@@ -303,11 +302,11 @@ fn entry_names(directory: &Utf8Path) -> impl Iterator<Item = String> + use<> {
 
 fn fault(path: &Utf8Path, build: &Key) -> Option<CacheFault> {
     let Ok(Some(file)) = private::read(path, LARGEST) else { return Some(CacheFault::Damaged) };
-    let Some(key) = results_file::key_of(&file) else { return Some(CacheFault::Damaged) };
+    let Some(key) = key_of(&file) else { return Some(CacheFault::Damaged) };
     if key.build != build.build {
         return Some(CacheFault::Foreign);
     }
-    results_file::decode(&key, &file).err()
+    decode_file(&key, &file).err()
 }
 
 fn is_older(path: &Utf8Path, age: Duration) -> bool {

@@ -1,8 +1,7 @@
 //! Files, of the operating system or in memory. Queries see them through a single trait, so that tests run in memory and all files that a
 //! result depends on are known; [`private`] files belong to the program itself.
 
-mod based;
-mod confined;
+mod around;
 mod memory;
 // The WebAssembly build has no operating system, only the files it is given.
 #[cfg(not(target_family = "wasm"))]
@@ -11,8 +10,7 @@ pub mod private;
 mod replace;
 mod spelling;
 mod stamp;
-pub use based::BasedSystem;
-pub use confined::ConfinedSystem;
+pub use around::{BasedSystem, ConfinedSystem};
 pub use memory::{MemorySystem, OverlaySystem};
 #[cfg(not(target_family = "wasm"))]
 pub use os::OsSystem;

@@ -106,95 +106,50 @@ pub struct HeaderForm {
     read: fn(&str) -> Option<Statement>,
 }
 
-/// The known forms. All samples are written to the form, not copied from programs.
-///
-/// Estlcam, `SheetCam` and dxf2gcode name tools by free text only, so nothing is read from their programs.
-pub static FORMS: &[HeaderForm] = &[
-    HeaderForm {
-        name: "pathbuild",
-        source: "provenance.rs",
-        sample: "pathbuild 0.2.0 3f2a9c0d41b7e685-09c1d2e3 grbl O2 T5",
-        signature: None,
-        read: pathbuild,
-    },
-    HeaderForm {
-        name: "Fusion 360",
-        source: "shooshx/led_floor, cad/nc/6mm/1022_block2x2_17bit.nc; posts that Autodesk publishes",
-        sample: "T1  D=1.7 CR=0 - ZMIN=-3 - flat end mill",
-        signature: None,
-        read: fusion,
-    },
-    HeaderForm {
-        name: "CutViewer",
-        source: "TOOL/MILL, diameter, corner radius, height, taper angle: Carbide Create, CamBam, HeeksCNC",
-        sample: "TOOL/MILL,3.17, 0.00, 12.70, 0.00",
-        signature: None,
-        read: cut_viewer_tool,
-    },
-    HeaderForm {
-        name: "CutViewer",
-        source: "STOCK/BLOCK, sizes, program zero from the lower corner: Carbide Create, posts for Fusion",
-        sample: "STOCK/BLOCK,100.00, 100.00, 1.00,0.00, 0.00, 1.00",
-        signature: None,
-        read: cut_viewer_stock,
-    },
-    HeaderForm {
-        name: "Carbide Create",
-        source: "written above STOCK/BLOCK",
-        sample: "stockMin:0.00mm, 0.00mm, -1.00mm",
-        signature: None,
-        read: carbide_create,
-    },
-    HeaderForm {
-        name: "VCarve",
-        source: "the form named in issue 35; seen only in samples written in its style",
-        sample: "1 = End Mill {3.175 mm}",
-        signature: None,
-        read: vcarve,
-    },
-    HeaderForm {
-        name: "FreeCAD",
-        source: "programs by grbl_post and linuxcnc_post",
-        sample: "TC: 3.175mm Endmill",
-        signature: Some("Exported by FreeCAD"),
-        read: freecad_label,
-    },
-    HeaderForm {
-        name: "FreeCAD",
-        source: "SergeyPopovGit/CNC, Cicloid_Gear/Ecscentrick_0.5_8_12_mm_slote_33MM_cut.nc; FreeCAD calculates in millimetres",
-        sample: "Compensated Tool Path. Diameter: 6.35",
-        signature: Some("Exported by FreeCAD"),
-        read: freecad_diameter,
-    },
-    HeaderForm {
-        name: "FreeCAD",
-        source: "grbl_post, because GRBL has no M6",
-        sample: "M6 T4.0",
-        signature: Some("Exported by FreeCAD"),
-        read: freecad_change,
-    },
-    HeaderForm {
-        name: "Kiri:Moto",
-        source: "its list of tools",
-        sample: "tool#=1 flute=6 len=20 unit=metric",
-        signature: None,
-        read: kiri_moto,
-    },
-    HeaderForm {
-        name: "pcb2gcode",
-        source: "programs by pcb2gcode 2.5, in mm or in",
-        sample: "MSG, Change tool bit to cutter diameter 1.5mm",
-        signature: None,
-        read: pcb2gcode,
-    },
-    HeaderForm {
-        name: "CamBam",
-        source: "programs posted by CamBam's post-processor Default, with ( T2 : 2.0 ) before T2 M6",
-        sample: "T2 : 2.0",
-        signature: Some("Made using CamBam"),
-        read: cambam,
-    },
-];
+/// Declares the known forms: name, source, sample, signature if there is one, function.
+macro_rules! header_forms {
+    ($($name:literal, $source:literal, $sample:literal, $($signature:literal)? => $read:ident;)*) => {
+        /// The known forms. All samples are written to the form, not copied from programs.
+        ///
+        /// Estlcam, `SheetCam` and dxf2gcode name tools by free text only, so nothing is read from their programs.
+        pub static FORMS: &[HeaderForm] = &[$(HeaderForm {
+            name: $name,
+            source: $source,
+            sample: $sample,
+            signature: header_forms!(signature $($signature)?),
+            read: $read,
+        },)*];
+    };
+    (signature) => { None };
+    (signature $signature:literal) => { Some($signature) };
+}
+
+header_forms! {
+    "pathbuild", "provenance.rs",
+        "pathbuild 0.2.0 3f2a9c0d41b7e685-09c1d2e3 grbl O2 T5", => pathbuild;
+    "Fusion 360", "shooshx/led_floor, cad/nc/6mm/1022_block2x2_17bit.nc; posts that Autodesk publishes",
+        "T1  D=1.7 CR=0 - ZMIN=-3 - flat end mill", => fusion;
+    "CutViewer", "TOOL/MILL, diameter, corner radius, height, taper angle: Carbide Create, CamBam, HeeksCNC",
+        "TOOL/MILL,3.17, 0.00, 12.70, 0.00", => cut_viewer_tool;
+    "CutViewer", "STOCK/BLOCK, sizes, program zero from the lower corner: Carbide Create, posts for Fusion",
+        "STOCK/BLOCK,100.00, 100.00, 1.00,0.00, 0.00, 1.00", => cut_viewer_stock;
+    "Carbide Create", "written above STOCK/BLOCK",
+        "stockMin:0.00mm, 0.00mm, -1.00mm", => carbide_create;
+    "VCarve", "the form named in issue 35; seen only in samples written in its style",
+        "1 = End Mill {3.175 mm}", => vcarve;
+    "FreeCAD", "programs by grbl_post and linuxcnc_post",
+        "TC: 3.175mm Endmill", "Exported by FreeCAD" => freecad_label;
+    "FreeCAD", "SergeyPopovGit/CNC, Cicloid_Gear/Ecscentrick_0.5_8_12_mm_slote_33MM_cut.nc; FreeCAD calculates in millimetres",
+        "Compensated Tool Path. Diameter: 6.35", "Exported by FreeCAD" => freecad_diameter;
+    "FreeCAD", "grbl_post, because GRBL has no M6",
+        "M6 T4.0", "Exported by FreeCAD" => freecad_change;
+    "Kiri:Moto", "its list of tools",
+        "tool#=1 flute=6 len=20 unit=metric", => kiri_moto;
+    "pcb2gcode", "programs by pcb2gcode 2.5, in mm or in",
+        "MSG, Change tool bit to cutter diameter 1.5mm", => pcb2gcode;
+    "CamBam", "programs posted by CamBam's post-processor Default, with ( T2 : 2.0 ) before T2 M6",
+        "T2 : 2.0", "Made using CamBam" => cambam;
+}
 
 /// What a comment, without its brackets, states in the first form that it has. `is_signed` tells whether a form's signature has been met.
 pub fn stated(comment: &str, is_signed: &dyn Fn(&str) -> bool) -> Option<(&'static HeaderForm, Statement)> {

@@ -6,15 +6,19 @@
 mod check;
 mod scan;
 mod values;
-mod write;
+
+use std::ops::Range;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::probes as messages;
 
+use crate::native::{f3, push_exact};
 use crate::provenance::is_same_program;
 
 use check::{Check, Values};
-use values::ProbeTable;
+use scan::{Fault, Line, Probes, Spot, in_line, lines, located, mark, number, spots, value_of};
+use values::{ProbeTable, entry_of_line, is_header};
 pub(crate) use values::{ProgramProbe, probe_entry};
 
 /// A file in memory. Its text may be in any encoding that extends ASCII; other bytes are preserved.
@@ -56,7 +60,7 @@ pub struct AdjustedProgram {
 
 /// The first line, counted from 1, with a formula that has not been applied: `Z1.000(=...)` as opposed to `(==...)`.
 pub fn first_open_formula(program: &[u8]) -> Option<u32> {
-    let is_open = |line: &[u8]| scan::spots(line).any(|spot| line.get(spot.formula.start) != Some(&b'='));
+    let is_open = |line: &[u8]| spots(line).any(|spot| line.get(spot.formula.start) != Some(&b'='));
     (1..).zip(program.split(|byte| *byte == b'\n')).find(|(_, line)| is_open(line)).map(|(number, _)| number)
 }
 
@@ -73,7 +77,7 @@ pub(crate) struct FormulaText {
 /// The formulas of a program, in order.
 pub(crate) fn formula_texts(program: &[u8]) -> impl Iterator<Item = FormulaText> {
     (1..).zip(program.split(|byte| *byte == b'\n')).flat_map(|(line, content)| {
-        scan::spots(content).map(move |spot| {
+        spots(content).map(move |spot| {
             let text = String::from_utf8_lossy(&content[spot.formula]).into_owned();
             let applied = text.strip_prefix('=').map(str::to_owned);
             FormulaText { line, is_applied: applied.is_some(), text: applied.unwrap_or(text) }
@@ -83,11 +87,10 @@ pub(crate) fn formula_texts(program: &[u8]) -> impl Iterator<Item = FormulaText>
 
 /// The probes listed in the header of a program, without measured heights.
 pub(crate) fn probe_entries(program: &[u8]) -> Vec<FormulaText> {
-    let program = &program[scan::mark(program).len()..];
-    let lines =
-        (1..).zip(program.split(|byte| *byte == b'\n')).take_while(|(_, line)| values::is_header(line));
+    let program = &program[mark(program).len()..];
+    let lines = (1..).zip(program.split(|byte| *byte == b'\n')).take_while(|(_, line)| is_header(line));
     let entries = lines.filter_map(|(line, content)| {
-        let (number, probe) = values::entry_of_line(content)?;
+        let (number, probe) = entry_of_line(content)?;
         Some(FormulaText { line, text: format!("#{number} {probe}"), is_applied: false })
     });
     entries.collect()
@@ -96,7 +99,7 @@ pub(crate) fn probe_entries(program: &[u8]) -> Vec<FormulaText> {
 /// A line without its comments. Formulas are kept.
 pub(crate) fn without_comments(line: &str) -> String {
     let bytes = line.as_bytes();
-    let mut formulas = scan::spots(bytes).map(|spot| spot.formula.start - 2..spot.formula.end + 1).peekable();
+    let mut formulas = spots(bytes).map(|spot| spot.formula.start - 2..spot.formula.end + 1).peekable();
     let (mut kept, mut at) = (String::with_capacity(line.len()), 0);
     while at < line.len() {
         if let Some(formula) = formulas.next_if(|formula| formula.start == at) {
@@ -130,7 +133,7 @@ pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>>
     let survey = scan::Survey::of(clean, &mut problems);
     let has_all = problems.is_empty() && survey.probes.keys().all(|probe| values.contains_key(probe));
     let inputs = Inputs { program: clean, values: program, log: None, max_correction: f64::INFINITY };
-    has_all.then(|| write::adjusted(&inputs, &values).ok()).flatten().map(|adjusted| adjusted.program)
+    has_all.then(|| adjusted(&inputs, &values).ok()).flatten().map(|adjusted| adjusted.program)
 }
 
 /// Whether the header of a program lists measured heights, that is, whether it was adjusted.
@@ -165,8 +168,133 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     if !problems.is_empty() {
         return Err(problems);
     }
-    let mut adjusted = write::adjusted(inputs, &values)?;
+    let mut adjusted = adjusted(inputs, &values)?;
     adjusted.warnings = check.odd_probes(&lines);
     adjusted.unused = check.unused(&lines);
     Ok(adjusted)
+}
+
+// The adjusted program.
+
+/// Factor and amount in mm by which a height may exceed the largest correction, although no probe does: weights with three decimals need
+/// not sum to 1.
+const SLACK: (f64, f64) = (1.002, 0.002);
+
+/// Evaluates all formulas. Everything else is preserved byte for byte.
+///
+/// # Errors
+/// Formulas that cannot be evaluated, or whose result is too large.
+pub(super) fn adjusted(inputs: &Inputs<'_>, values: &Values) -> Result<AdjustedProgram, Vec<Diagnostic>> {
+    let bytes = inputs.program.bytes;
+    let mut writer = Writer { inputs, values, adjusted: AdjustedProgram::default(), problems: Vec::new() };
+    writer.adjusted.program.reserve(bytes.len() + bytes.len() / 32);
+    writer.adjusted.program.extend_from_slice(mark(bytes));
+    let mut is_in_header = true;
+    for line in lines(inputs.program) {
+        is_in_header &= is_header(line.content());
+        if is_in_header {
+            writer.header_line(line);
+        } else {
+            writer.line(line);
+        }
+    }
+    if writer.problems.is_empty() { Ok(writer.adjusted) } else { Err(writer.problems) }
+}
+
+struct Writer<'w> {
+    inputs: &'w Inputs<'w>,
+    values: &'w Values,
+    adjusted: AdjustedProgram,
+    problems: Vec<Diagnostic>,
+}
+
+impl Writer<'_> {
+    /// Copies a line of the header. The line of a probe gets the measured height, so that `verify` can evaluate the formulas again.
+    fn header_line(&mut self, line: Line<'_>) {
+        let content = line.content();
+        let entry = entry_of_line(content);
+        let value = entry.and_then(|(probe, _)| self.values.get(&probe));
+        let Some((value, end)) = value.zip(content.iter().rposition(|byte| *byte == b')')) else {
+            return self.line(line);
+        };
+        let mut text = String::from(" Z");
+        push_exact(&mut text, *value);
+        let (before, behind) = line.bytes.split_at(end);
+        let before =
+            entry.filter(|(_, probe)| probe.measured.is_some()).map_or(before, |_| without_last_word(before));
+        self.adjusted.program.extend_from_slice(before);
+        self.adjusted.program.extend_from_slice(text.as_bytes());
+        self.adjusted.program.extend_from_slice(behind);
+    }
+
+    fn line(&mut self, line: Line<'_>) {
+        let mut done = 0;
+        for spot in spots(line.content()) {
+            match self.height(line, &spot) {
+                Ok(height) => {
+                    let program = &mut self.adjusted.program;
+                    program.extend_from_slice(&line.bytes[done..spot.number.start]);
+                    program.extend_from_slice(f3(height).as_bytes());
+                    program.extend_from_slice(b"(==");
+                    done = spot.formula.start;
+                }
+                Err(problem) => {
+                    self.problems.push(*problem);
+                    return;
+                }
+            }
+        }
+        self.adjusted.program.extend_from_slice(&line.bytes[done..]);
+    }
+
+    fn height(&mut self, line: Line<'_>, spot: &Spot) -> Result<f64, Box<Diagnostic>> {
+        let formula = &line.content()[spot.formula.clone()];
+        let told = |fault: Fault| Box::new(located(line, &fault));
+        let height = value_of(formula, &mut MeasuredHeights(self.values))
+            .map_err(|fault| told(in_line(&fault, spot)))?;
+        if !height.is_finite() {
+            return Err(told(Fault { message: &messages::NOT_FINITE, at: spot.formula.clone() }));
+        }
+        self.adjusted.heights += 1;
+        if is_height(line.content(), spot) {
+            self.check(line, spot, height - number(line.content(), spot).unwrap_or(height))?;
+        }
+        Ok(height)
+    }
+
+    /// Checks a correction: far outside the probes, a plane can exceed the values of all of them.
+    fn check(&mut self, line: Line<'_>, spot: &Spot, correction: f64) -> Result<(), Box<Diagnostic>> {
+        let limit = self.inputs.max_correction;
+        if correction.abs() > SLACK.0 * limit + SLACK.1 {
+            let whole = spot.number.start..spot.formula.end;
+            let problem = line.fault(&messages::HEIGHT_TOO_FAR, whole).with("off", correction.abs());
+            return Err(Box::new(problem.with("limit", limit)));
+        }
+        let (lowest, highest) = &mut self.adjusted.corrections;
+        if self.adjusted.heights == 1 {
+            (*lowest, *highest) = (correction, correction);
+        }
+        *lowest = lowest.min(correction);
+        *highest = highest.max(correction);
+        Ok(())
+    }
+}
+
+/// The text up to its last blank.
+fn without_last_word(text: &[u8]) -> &[u8] {
+    text.iter().rposition(|byte| *byte == b' ').map_or(text, |end| &text[..end])
+}
+
+/// Whether the number belongs to a Z word.
+fn is_height(line: &[u8], spot: &Spot) -> bool {
+    line[..spot.number.start].trim_ascii_end().last().is_some_and(|letter| letter.eq_ignore_ascii_case(&b'Z'))
+}
+
+/// The measured heights. Every probe used by a formula has one, which was checked before.
+struct MeasuredHeights<'v>(&'v Values);
+
+impl Probes for MeasuredHeights<'_> {
+    fn value(&mut self, probe: u32, _at: Range<usize>) -> f64 {
+        self.0.get(&probe).copied().unwrap_or(f64::NAN)
+    }
 }

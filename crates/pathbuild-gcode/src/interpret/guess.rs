@@ -65,76 +65,44 @@ fn by_header(head: &[u8]) -> Option<Guess> {
 /// A feature of a dialect, with a function that detects it in a line.
 type Sign = (Dialect, fn(&[u8]) -> bool, &'static Text);
 
-const SIGNS: &[Sign] = &[
-    (
-        Dialect::Native,
-        |line| has(line, b"(=") && line.first().is_some_and(u8::is_ascii_alphabetic),
-        &Text { en: "it has correction formulas", de: "es hat Korrekturformeln" },
-    ),
-    (
-        Dialect::Xpertmill,
-        |line| without_round_comments(line).windows(2).any(|pair| pair == b"//"),
-        &Text { en: "it has comments with //", de: "es hat Kommentare mit //" },
-    ),
-    (
-        Dialect::Xpertmill,
-        |line| {
-            line.starts_with(b"M6 ") && is_number(&line[3..])
-                || line.starts_with(b"M06 ") && is_number(&line[4..])
-        },
-        &Text {
-            en: "it has a tool number without T behind M6",
-            de: "es hat hinter M6 eine Werkzeugnummer ohne T",
-        },
-    ),
-    (
-        Dialect::Din,
-        is_title,
-        &Text { en: "its first line is `%` and a name", de: "seine erste Zeile ist `%` und ein Name" },
-    ),
-    (
-        Dialect::Fanuc,
-        |line| matches!(line, [b'O', b'0'..=b'9', ..]) && !ends_in_keyword(line),
-        &Text { en: "it has a program number", de: "es hat eine Programmnummer" },
-    ),
-    (
-        Dialect::Marlin,
-        |line| {
-            [&b"M104"[..], b"M106", b"M107", b"M117", b"M400", b"M82", b"M84"]
-                .iter()
-                .any(|word| line.starts_with(word))
-        },
-        &Text { en: "it has words of Marlin", de: "es hat Wörter von Marlin" },
-    ),
-    (
-        Dialect::LinuxCnc,
-        |line| has(line, b"#<"),
-        &Text { en: "it has parameters with names", de: "es hat Parameter mit Namen" },
-    ),
-    (
-        Dialect::LinuxCnc,
-        |line| matches!(line, [b'O' | b'o', b'0'..=b'9' | b'<', ..]) && ends_in_keyword(line),
-        &Text { en: "it has O words", de: "es hat O-Wörter" },
-    ),
-    (
-        Dialect::Native,
-        |line| line == b"G17 G21 G40 G49 G54 G80 G90 G94",
-        &Text { en: "it has the native program's head", de: "es hat den Kopf des eigenen Programms" },
-    ),
-    (
-        Dialect::Mach3,
-        |line| {
-            let names = [&b"mach2/3"[..], b"mach3", b"mach4"];
-            line.first() == Some(&b'(') && names.iter().any(|name| has(&line.to_ascii_lowercase(), name))
-        },
-        &Text { en: "a comment names it", de: "ein Kommentar nennt es" },
-    ),
-    (
-        Dialect::Grbl,
-        |line| matches!(line.first(), Some(b'(' | b';')) && has(&line.to_ascii_lowercase(), b"grbl"),
-        &Text { en: "a comment names it", de: "ein Kommentar nennt es" },
-    ),
-];
+macro_rules! signs {
+    ($($dialect:ident $has_sign:expr, $en:literal, $de:literal;)*) => {
+        const SIGNS: &[Sign] = &[$((Dialect::$dialect, $has_sign, &Text { en: $en, de: $de }),)*];
+    };
+}
+
+signs! {
+    Native |line| has(line, b"(=") && line.first().is_some_and(u8::is_ascii_alphabetic),
+        "it has correction formulas", "es hat Korrekturformeln";
+    Xpertmill |line| without_round_comments(line).windows(2).any(|pair| pair == b"//"),
+        "it has comments with //", "es hat Kommentare mit //";
+    Xpertmill |line| {
+        line.starts_with(b"M6 ") && is_number(&line[3..])
+            || line.starts_with(b"M06 ") && is_number(&line[4..])
+    },
+        "it has a tool number without T behind M6", "es hat hinter M6 eine Werkzeugnummer ohne T";
+    Din is_title, "its first line is `%` and a name", "seine erste Zeile ist `%` und ein Name";
+    Fanuc |line| matches!(line, [b'O', b'0'..=b'9', ..]) && !ends_in_keyword(line),
+        "it has a program number", "es hat eine Programmnummer";
+    Marlin |line| {
+        [&b"M104"[..], b"M106", b"M107", b"M117", b"M400", b"M82", b"M84"]
+            .iter()
+            .any(|word| line.starts_with(word))
+    },
+        "it has words of Marlin", "es hat Wörter von Marlin";
+    LinuxCnc |line| has(line, b"#<"), "it has parameters with names", "es hat Parameter mit Namen";
+    LinuxCnc |line| matches!(line, [b'O' | b'o', b'0'..=b'9' | b'<', ..]) && ends_in_keyword(line),
+        "it has O words", "es hat O-Wörter";
+    Native |line| line == b"G17 G21 G40 G49 G54 G80 G90 G94",
+        "it has the native program's head", "es hat den Kopf des eigenen Programms";
+    Mach3 |line| {
+        let names = [&b"mach2/3"[..], b"mach3", b"mach4"];
+        line.first() == Some(&b'(') && names.iter().any(|name| has(&line.to_ascii_lowercase(), name))
+    },
+        "a comment names it", "ein Kommentar nennt es";
+    Grbl |line| matches!(line.first(), Some(b'(' | b';')) && has(&line.to_ascii_lowercase(), b"grbl"),
+        "a comment names it", "ein Kommentar nennt es";
+}
 
 fn by_sign(head: &[u8]) -> Option<Guess> {
     let lines = || (1_u32..).zip(head.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii));

@@ -5,7 +5,6 @@
 
 mod item;
 mod pairing;
-mod shape;
 
 use std::collections::BTreeMap;
 
@@ -17,9 +16,8 @@ use crate::geometry::Xy;
 use crate::in_force::ElementParameters;
 use crate::raw::{RawPath, SourceMap};
 
-use item::{Item, items};
+use item::{Item, ShapeChange, items, shape_changes};
 use pairing::{Frame, pair};
-use shape::{ShapeChange, shape_changes};
 
 /// One side of a comparison: a path as drawn.
 #[derive(Clone, Copy, Debug)]

@@ -7,8 +7,7 @@ use std::hash::Hash;
 use nalgebra::Vector2;
 
 use super::ElementKind;
-use super::item::Item;
-use super::shape::{is_equal, is_nothing, middle};
+use super::item::{Item, is_equal, is_nothing, middle};
 use crate::element::Shape;
 use crate::geometry::{Curve, Xy};
 

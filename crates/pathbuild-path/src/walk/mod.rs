@@ -2,7 +2,6 @@
 
 mod failure;
 mod order;
-mod twice;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,8 +14,8 @@ use crate::chain::{ChainBuilder, Passage, WalkedPath};
 use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
+use crate::walk::failure::Curves;
 use crate::walk::order::{Ends, Stars, Turns, comes_before};
-use crate::walk::twice::Curves;
 
 /// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning if no other ends coincide.
 pub fn walk(path: &Path, join_tolerance: f64) -> WalkedPath {
