@@ -16,7 +16,7 @@ use pathbuild_workspace::Inputs;
 use pathbuild_workspace::check::CheckedFile;
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::fingerprint::Fingerprint;
+use pathbuild_workspace::findings::Fingerprint;
 use pathbuild_workspace::{SilentReporter, Workspace};
 
 fn diagnostic() -> Diagnostic {

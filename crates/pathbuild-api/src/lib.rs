@@ -37,7 +37,6 @@
 //! `#[non_exhaustive]`. `public-items.txt` lists them all. The crates below it change as they need to.
 
 mod finding;
-mod graph;
 mod library;
 mod options;
 mod path;
@@ -46,13 +45,13 @@ mod verify;
 mod watch;
 
 pub use finding::{Embedding, Error, Finding};
-pub use graph::{GraphEdge, GraphReport};
 pub use library::Library;
 pub use options::{EmitOptions, LibraryOptions};
 pub use path::{Arc, Element, Move, MoveKind, Parameter, Path, Statistics};
 pub use pathbuild_diagnostic::Lang;
 pub use report::{
-    CheckReport, EmitReport, FileState, OutputFile, PathListing, PathSummary, ProgramState, ProgramText,
+    CheckReport, EmitReport, FileState, GraphEdge, GraphReport, OutputFile, PathListing, PathSummary,
+    ProgramState, ProgramText,
 };
 pub use verify::{CheckState, DrawingComparison, ProgramCheck, VerifiedProgram, VerifyOptions, VerifyReport};
 pub use watch::{WatchEnd, WatchReport};

@@ -14,7 +14,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message, TextFault, Value, sh
 use crate::config::clean;
 use crate::files;
 use crate::findings::Findings;
-use crate::fingerprint::Fingerprint;
+use crate::findings::Fingerprint;
 use crate::waivers::{Coverage, RunDate, WaivedFinding, Waiver};
 use crate::workspace::Workspace;
 

@@ -15,7 +15,6 @@ use pathbuild_diagnostic::{Diagnostic, Message, Place, TextFault, Value};
 use pathbuild_path::{Bindings, PathName};
 
 use crate::config::ResultKind;
-use crate::failure::Failure;
 use crate::memo::{
     Answer, Coverage, Dependencies, DrawingResult, Memo, check_query, find, read_drawings, subject,
 };
@@ -24,6 +23,7 @@ use crate::session::{
     ArgumentMatches, CheckedTarget, Checker, Pair, SelectedPath, Selection, Session, by_place,
     q_project_pairs,
 };
+use crate::workspace::Failure;
 use crate::workspace::{Workspace, relative};
 use crate::{Input, Inputs, waivers};
 

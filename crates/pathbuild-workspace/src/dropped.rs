@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::{number, positive};
 use crate::emit::SceneReport;
-use crate::failure::Failure;
 use crate::program::{Program, ReadingOptions};
 use crate::session::Session;
 use crate::verify::{CheckRecord, Outcome, RapidValues, VerifiedProgram, Verifier, VerifyOptions};
+use crate::workspace::Failure;
 
 /// A program that was dropped on the page.
 #[derive(Debug)]

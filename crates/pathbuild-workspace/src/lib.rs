@@ -8,10 +8,8 @@ pub mod config;
 pub mod diff;
 pub mod dropped;
 pub mod emit;
-mod failure;
 pub mod files;
 pub mod findings;
-pub mod fingerprint;
 mod inputs;
 pub mod list;
 #[cfg(not(target_family = "wasm"))]
@@ -29,6 +27,5 @@ mod workspace;
 
 pub use pathbuild_cache::Home as CacheHome;
 
-pub use failure::Failure;
 pub use inputs::{Input, Inputs};
-pub use workspace::{Advance, Reporter, SilentReporter, Workspace};
+pub use workspace::{Advance, Failure, Reporter, SilentReporter, Workspace};

@@ -11,11 +11,11 @@ use pathbuild_path::{PathName, PathSignature};
 use serde_json::{Value as Json, json};
 
 use crate::config::types::Pattern;
-use crate::failure::Failure;
 use crate::findings::Findings;
 use crate::inputs::Input;
 use crate::posting::{PostArguments, PostProcessor};
 use crate::session::{CheckedTarget, Session};
+use crate::workspace::Failure;
 use crate::workspace::Workspace;
 use crate::{Inputs, emit};
 
@@ -48,18 +48,8 @@ pub struct ListedPath {
     pub drawing: Utf8PathBuf,
     /// Diagnostics of the path and of what it embeds.
     pub diagnostics: Vec<Diagnostic>,
-    /// Value of M.
-    pub material: Option<Box<str>>,
-    /// Values of T and O; `None` if missing or invalid.
-    pub thickness: Option<f64>,
-    #[expect(missing_docs, reason = "see above")]
-    pub tool: Option<f64>,
-    /// Bounding box of the tool tip while cutting.
-    pub cutting_box: Extent,
-    /// Length of the program; `None` if there is none.
-    pub length: Option<f64>,
-    /// Machining time; `None` if there is no program, or if `rapid` is not set.
-    pub minutes: Option<f64>,
+    /// Its figures.
+    pub figures: Figures,
     /// State of the program on disk.
     pub program: ProgramState,
 }
@@ -71,12 +61,7 @@ impl ListedPath {
             diagnostics: vec![problem.in_file(&drawing).in_path(name.as_str())],
             name,
             drawing,
-            material: None,
-            thickness: None,
-            tool: None,
-            cutting_box: Extent::default(),
-            length: None,
-            minutes: None,
+            figures: Figures::default(),
             program: ProgramState::None,
         }
     }
@@ -176,7 +161,7 @@ fn compare(
     paths: &[(SourceFile, PathName)],
     listed: &mut [ListedPath],
 ) -> Vec<Diagnostic> {
-    let sound = paths.iter().zip(&*listed).filter(|(_, listed)| listed.minutes.is_some());
+    let sound = paths.iter().zip(&*listed).filter(|(_, listed)| listed.figures.minutes.is_some());
     let targets = sound.map(|((file, name), _)| session.target_in(*file, name, Role::Emitted));
     let targets: Vec<Target> = targets.collect();
     let states = emit::freshness_on_disk(session, post_processor, &targets);
@@ -265,12 +250,7 @@ fn known(session: &Session<'_>, paths: &[(SourceFile, PathName)]) -> Vec<ListedP
             name: name.clone(),
             drawing: file.path(db).clone(),
             diagnostics,
-            material: figures.material,
-            thickness: figures.thickness,
-            tool: figures.tool,
-            cutting_box: figures.cutting_box,
-            length: figures.length,
-            minutes: figures.minutes,
+            figures,
             program: ProgramState::None,
         }
     };
@@ -281,14 +261,20 @@ fn known(session: &Session<'_>, paths: &[(SourceFile, PathName)]) -> Vec<ListedP
 type CheckedFigures = (CheckedTarget, Result<Figures, Box<Diagnostic>>);
 
 /// Figures from a path's parameters and from its program.
-#[derive(Default)]
-struct Figures {
-    material: Option<Box<str>>,
-    thickness: Option<f64>,
-    tool: Option<f64>,
-    cutting_box: Extent,
-    length: Option<f64>,
-    minutes: Option<f64>,
+#[derive(Clone, Debug, Default)]
+pub struct Figures {
+    /// Value of M.
+    pub material: Option<Box<str>>,
+    /// Values of T and O; `None` if missing or invalid.
+    pub thickness: Option<f64>,
+    #[expect(missing_docs, reason = "see above")]
+    pub tool: Option<f64>,
+    /// Bounding box of the tool tip while cutting.
+    pub cutting_box: Extent,
+    /// Length of the program; `None` if there is none.
+    pub length: Option<f64>,
+    /// Machining time; `None` if there is no program, or if `rapid` is not set.
+    pub minutes: Option<f64>,
 }
 
 impl Figures {
@@ -370,7 +356,7 @@ impl Row {
 
     /// Width and height of the area that the tool tip reaches while cutting, in mm.
     pub fn size(&self) -> Option<[f64; 2]> {
-        let [x, y, _] = self.path.cutting_box;
+        let [x, y, _] = self.path.figures.cutting_box;
         let width = |(low, high): (f64, f64)| high - low;
         Some([width(x?), width(y?)])
     }
@@ -407,8 +393,8 @@ pub struct Total {
 impl Total {
     fn add(&mut self, row: &Row) {
         self.paths += 1;
-        self.length += row.path.length.unwrap_or_default();
-        self.minutes += row.path.minutes.unwrap_or_default();
+        self.length += row.path.figures.length.unwrap_or_default();
+        self.minutes += row.path.figures.minutes.unwrap_or_default();
     }
 }
 
@@ -438,8 +424,8 @@ impl Stats {
             stats.all.add(row);
             stats.warnings += usize::from(row.warnings > 0);
             *stats.states.entry(row.state()).or_default() += 1;
-            stats.materials.entry(row.path.material.clone()).or_default().add(row);
-            stats.cutters.entry(row.path.tool.map(micrometres)).or_default().add(row);
+            stats.materials.entry(row.path.figures.material.clone()).or_default().add(row);
+            stats.cutters.entry(row.path.figures.tool.map(micrometres)).or_default().add(row);
         }
         stats
     }
@@ -449,17 +435,17 @@ impl Stats {
 pub fn path_json(file: &str, row: &Row) -> Json {
     let path = &row.path;
     let axis = |ends: Option<(f64, f64)>| ends.map(|(low, high)| [low, high]);
-    let [x, y, z] = path.cutting_box.map(axis);
+    let [x, y, z] = path.figures.cutting_box.map(axis);
     json!({
         "path": path.name.as_str(),
         "file": file,
-        "material": path.material,
-        "thickness": path.thickness,
-        "tool": path.tool,
+        "material": path.figures.material,
+        "thickness": path.figures.thickness,
+        "tool": path.figures.tool,
         "size": row.size(),
         "cutting_box": { "x": x, "y": y, "z": z },
-        "length": path.length,
-        "minutes": path.minutes,
+        "length": path.figures.length,
+        "minutes": path.figures.minutes,
         "state": row.state().key(),
         "errors": row.errors,
         "warnings": row.warnings,

@@ -8,7 +8,7 @@ use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Home, TreeStore};
 use pathbuild_db::System;
 use pathbuild_db::system::spelt;
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::{Diagnostic, Lang};
 
 use crate::config::{Origin, Settings};
 
@@ -140,4 +140,15 @@ pub(crate) fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
     let up = start[common..].iter().map(|_| Utf8Component::ParentDir);
     let relative: Utf8PathBuf = up.chain(target[common..].iter().copied()).collect();
     if relative.as_str().is_empty() { Utf8PathBuf::from(".") } else { spelt(relative) }
+}
+
+/// Why a request has no outcome.
+#[derive(Debug)]
+pub enum Failure {
+    /// The request is invalid, for this reason in the language of messages.
+    Usage(String),
+    /// The post-processor does not exist, or is broken.
+    Post(Vec<Diagnostic>),
+    /// What the request is about has these errors, or is unknown.
+    Found(Vec<Diagnostic>),
 }

@@ -311,18 +311,10 @@ fn placed(
     }
 }
 
-/// All tables of `pathbuild.toml` with their keys, taken from the schema.
+/// All keys of `pathbuild.toml`, taken from the schema, each with the header of its table as written in the file, such as `[machine]` or
+/// `[tool.NAME]`; `None` for the keys before all tables.
 #[derive(Debug)]
-pub(super) struct KeyIndex {
-    tables: Vec<KeyTable>,
-}
-
-#[derive(Debug)]
-struct KeyTable {
-    /// Header as written in the file, such as `[machine]` or `[tool.NAME]`; `None` for the keys before all tables.
-    header: Option<String>,
-    keys: Vec<String>,
-}
+pub(super) struct KeyIndex(Vec<(Option<String>, String)>);
 
 /// A known key and its table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -339,7 +331,7 @@ impl KeyIndex {
     pub(super) fn new(schema: &Json) -> Self {
         let none = Map::new();
         let root = properties(schema).unwrap_or(&none);
-        let mut tables = vec![KeyTable::new(None, root)];
+        let mut all: Vec<_> = root.keys().map(|key| (None, key.clone())).collect();
         for (name, value) in root {
             let headers = [
                 (format!("[{name}]"), properties(value)),
@@ -347,11 +339,13 @@ impl KeyIndex {
                 (format!("[{name}]"), properties(&value["oneOf"][1])),
                 (format!("[[{name}]]"), properties(&value["items"])),
             ];
-            let known_tables =
-                headers.into_iter().filter_map(|(header, keys)| Some(KeyTable::new(Some(header), keys?)));
-            tables.extend(known_tables);
+            for (header, keys) in headers {
+                all.extend(
+                    keys.into_iter().flat_map(Map::keys).map(|key| (Some(header.clone()), key.clone())),
+                );
+            }
         }
-        Self { tables }
+        Self(all)
     }
 
     /// Finds the table of a key that its own table does not know: by this name, or else by a similar one.
@@ -365,21 +359,12 @@ impl KeyIndex {
     }
 
     fn keys(&self) -> impl Iterator<Item = KeyPlace<'_>> {
-        self.tables.iter().flat_map(|table| {
-            let header = table.header.as_deref();
-            table.keys.iter().map(move |key| KeyPlace { header, key, is_exact: true })
-        })
+        self.0.iter().map(|(header, key)| KeyPlace { header: header.as_deref(), key, is_exact: true })
     }
 }
 
 /// Minimum length of a name for which similar names in other tables are suggested: shorter names resemble too many others.
 const SHORTEST: usize = 5;
-
-impl KeyTable {
-    fn new(header: Option<String>, keys: &Map<String, Json>) -> Self {
-        Self { header, keys: keys.keys().cloned().collect() }
-    }
-}
 
 fn properties(table: &Json) -> Option<&Map<String, Json>> {
     table["properties"].as_object()

@@ -30,13 +30,6 @@ pub struct Tree<'s, 'w> {
     pub root: &'s Utf8Path,
 }
 
-/// How pictures of changes are drawn.
-#[derive(Clone, Copy, Debug)]
-pub struct Pictures {
-    /// Language of their legends.
-    pub lang: Lang,
-}
-
 /// The outcome of a comparison.
 #[derive(Debug, Default)]
 pub struct Comparison {
@@ -115,29 +108,28 @@ pub struct PictureSet {
     pub stock: Vec<String>,
 }
 
-/// Compares the moves of two programs.
-pub fn programs(old: &ScenePath, new: &ScenePath, pictures: Option<Pictures>) -> ProgramDiff {
+/// Compares the moves of two programs. `pictures` is the language of the pictures' legends, if pictures are requested.
+pub fn programs(old: &ScenePath, new: &ScenePath, pictures: Option<Lang>) -> ProgramDiff {
     let changes = compare(&old.moves, &new.moves);
-    let picture =
-        |which, Pictures { lang }: Pictures| changes_svg(&old.moves, &new.moves, &changes, which, lang);
+    let picture = |which, lang| changes_svg(&old.moves, &new.moves, &changes, which, lang);
     ProgramDiff {
         groups: groups(&changes, &old.moves, &new.moves),
         reasons: None,
         totals: [old.totals, new.totals],
-        pictures: pictures.filter(|_| !changes.is_empty()).map(|pictures| PictureSet {
-            changes: picture(Picture::Changes, pictures),
-            old: picture(Picture::Old, pictures),
-            new: picture(Picture::New, pictures),
+        pictures: pictures.filter(|_| !changes.is_empty()).map(|lang| PictureSet {
+            changes: picture(Picture::Changes, lang),
+            old: picture(Picture::Old, lang),
+            new: picture(Picture::New, lang),
             stock: [StockChange::Removed, StockChange::Left]
                 .into_iter()
-                .filter_map(|change| stock_change_svg(old, new, change, pictures.lang))
+                .filter_map(|change| stock_change_svg(old, new, change, lang))
                 .collect(),
         }),
     }
 }
 
 /// Compares all paths of two trees.
-pub fn trees(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Pictures>) -> Comparison {
+pub fn trees(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Lang>) -> Comparison {
     let Tree { session, inputs, root } = new;
     session.with_stable_files(|session| {
         let mut new = Tree { session, inputs, root };
@@ -148,7 +140,7 @@ pub fn trees(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Pi
     })
 }
 
-fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Pictures>) -> Comparison {
+fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Lang>) -> Comparison {
     let (old_path, old_problems) = old.paths();
     let (new_path, new_problems) = new.paths();
     let mut problems = [old_problems, new_problems];
@@ -246,7 +238,7 @@ impl Pair {
     fn compare(
         self,
         sessions: [&Session<'_>; 2],
-        pictures: Option<Pictures>,
+        pictures: Option<Lang>,
         problems: &mut [Vec<Diagnostic>; 2],
     ) -> Option<PathDiff> {
         let Self { old, new } = self;
@@ -276,7 +268,7 @@ impl Pair {
 fn changed(
     sessions: [&Session<'_>; 2],
     paths: [&SidePath; 2],
-    pictures: Option<Pictures>,
+    pictures: Option<Lang>,
     problems: &mut [Vec<Diagnostic>; 2],
 ) -> Option<Outcome> {
     let ([before, after], [old, new]) = (sessions, paths);

@@ -25,10 +25,10 @@ use pathbuild_diagnostic::Diagnostic;
 use crate::Inputs;
 use crate::config::ResultKind;
 use crate::config::types::SheetFormat;
-use crate::failure::Failure;
 use crate::memo::{Answer, Memo, is_transient};
 use crate::posting::{PostArguments, PostProcessor};
 use crate::session::{ArgumentMatches, Session};
+use crate::workspace::Failure;
 use crate::workspace::Workspace;
 
 pub use comparison::{DrawingComparison, compare_with_drawing, native_text};

@@ -131,10 +131,7 @@ impl Session<'_> {
         for parameter in elements.flat_map(|element| &mut element.parameters) {
             let option = parameter.which.as_deref().filter(|_| parameter.from == "option");
             let origin = option.map(|option| self.workspace().settings.origin_of_option(option));
-            parameter.line = match origin {
-                Some(Origin::File(line)) => Some(line),
-                Some(Origin::Default | Origin::CommandLine(_)) | None => None,
-            };
+            parameter.line = origin.and_then(Origin::line);
         }
     }
 

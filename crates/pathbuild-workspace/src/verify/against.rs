@@ -20,10 +20,10 @@ use super::MoveComparison;
 use crate::config::Settings;
 use crate::config::types::DwellTime;
 use crate::emit::{Provenances, missing_values, native_text, writing};
-use crate::failure::Failure;
 use crate::posting::PostProcessor;
 use crate::program::Program;
 use crate::session::{NamedPaths, NotOnePath, OutputKind, Session, several_paths};
+use crate::workspace::Failure;
 
 /// The program of a path, as its drawing defines it.
 #[derive(Debug)]

@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::types::Requirement;
 use crate::config::{Settings, number, positive};
-use crate::failure::Failure;
+use crate::workspace::Failure;
 use crate::posting::{PostArguments, PostProcessor, known_words, machine, tool_table};
 use crate::program::{ByDefinition, Program, ReadingOptions};
 use crate::session::Session;

@@ -5,11 +5,11 @@ use pathbuild_db::catch_bugs;
 use pathbuild_diagnostic::Diagnostic;
 
 use super::{VerifiedProgram, Verifier, VerifyOptions};
-use crate::failure::Failure;
 use crate::files::ExtraInput;
 use crate::memo::{Answer, Inputs, Memo, is_transient};
 use crate::program;
 use crate::session::Session;
+use crate::workspace::Failure;
 use crate::workspace::Workspace;
 
 /// A request to verify programs.

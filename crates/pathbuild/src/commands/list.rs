@@ -89,12 +89,12 @@ fn cells(row: &Row, context: &Context) -> Vec<String> {
     vec![
         path.name.as_str().to_owned(),
         path.drawing.to_string(),
-        path.material.as_deref().unwrap_or("-").to_owned(),
-        number(path.thickness, 3),
-        number(path.tool, 3),
+        path.figures.material.as_deref().unwrap_or("-").to_owned(),
+        number(path.figures.thickness, 3),
+        number(path.figures.tool, 3),
         size.unwrap_or_else(|| "-".to_owned()),
-        number(path.length, 0),
-        number(path.minutes, 0),
+        number(path.figures.length, 0),
+        number(path.figures.minutes, 0),
         state_text(row, context),
     ]
 }

@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 
 use super::{View, view};
 use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::fingerprint::Fingerprint;
+use pathbuild_workspace::findings::Fingerprint;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
     let fingerprints = Fingerprint::of(&findings.diagnostics);

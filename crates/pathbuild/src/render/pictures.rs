@@ -7,7 +7,7 @@ use pathbuild_view::{Places, Scene, Spot, cutout_svg, has_stock, stock_cutout_sv
 use pathbuild_workspace::Workspace;
 use pathbuild_workspace::files::cannot_write;
 use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::fingerprint::Fingerprint;
+use pathbuild_workspace::findings::Fingerprint;
 use pathbuild_workspace::session::Session;
 
 /// Upper bound on the number of findings that get a picture.
@@ -89,9 +89,8 @@ fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<Spot> {
     });
     let mut related: Vec<[f64; 2]> = points.filter(|point| *point != at).collect();
     related.dedup();
-    let argument = |key: &str| diagnostic.arguments.iter().find(|(name, _)| *name == key);
-    let circle = match (argument("centre"), argument("diameter")) {
-        (Some((_, Value::Point(centre))), Some((_, Value::Number(diameter)))) => {
+    let circle = match (diagnostic.argument("centre"), diagnostic.argument("diameter")) {
+        (Some(Value::Point(centre)), Some(Value::Number(diameter))) => {
             Some((pair(*centre), diameter.0 / 2.0))
         }
         _ => None,

@@ -8,7 +8,7 @@ use serde_json::{Value as Json, json};
 
 use super::{View, view};
 use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::fingerprint::Fingerprint;
+use pathbuild_workspace::findings::Fingerprint;
 use pathbuild_workspace::waivers::Waiver;
 
 /// Upper bound on results: GitHub refuses runs with more.

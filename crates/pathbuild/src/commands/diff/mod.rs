@@ -5,12 +5,12 @@ mod revision;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, is_drawing};
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::provenance::{HEAD, Provenance};
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
-use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, Pictures, Tree, programs, trees};
+use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, Tree, programs, trees};
 use pathbuild_workspace::emit::ShownText;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::program::Program;
@@ -31,7 +31,7 @@ pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
         Ok(output) => output,
         Err(reason) => return context.usage(&reason),
     };
-    let pictures = output.has_pictures().then(|| Pictures { lang: context.lang() });
+    let pictures = output.has_pictures().then(|| context.lang());
     let compared = match sides(context, args) {
         Ok([Side::Drawings(old), Side::Drawings(new)]) => Ok(drawings(context, &old, &new, pictures)),
         Ok([Side::Program(old), Side::Program(new)]) => Ok(single(*old, *new, pictures)),
@@ -52,7 +52,7 @@ pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
     finish(context, &output, &comparison)
 }
 
-fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<Pictures>) -> Comparison {
+fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<Lang>) -> Comparison {
     let mut sessions = [Session::new(&old.workspace), Session::new(&new.workspace)];
     let [before, after] = &mut sessions;
     let mut before = Tree { session: before, inputs: &old.inputs, root: &old.root };
@@ -65,7 +65,7 @@ fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<
 }
 
 /// Compares two programs, or a program and a path.
-fn single(old: ComparedProgram, new: ComparedProgram, pictures: Option<Pictures>) -> Comparison {
+fn single(old: ComparedProgram, new: ComparedProgram, pictures: Option<Lang>) -> Comparison {
     let changed = programs(&old.path, &new.path, pictures);
     let is_same = changed.groups.is_empty();
     let files = [&old, &new].map(|seen| Some(seen.path.file.clone().into()));
