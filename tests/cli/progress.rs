@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::sleep;
 use std::time::Duration;
 
-use pathbuild::progress::Progress;
+use pathbuild::printer::Progress;
 use pathbuild_workspace::Advance;
 
 /// A stream whose text can be inspected.

@@ -13,11 +13,11 @@ use serde_json::Value;
 
 use crate::args::Cli;
 use crate::environment::{self, system_of};
+use crate::exit;
 use crate::exit::ExitStatus;
 use crate::output::Output;
 use crate::printer::{Printer, Stream};
 use crate::render::{Format, View, json as lines, render};
-use crate::usage;
 
 /// Everything that a command needs besides its arguments.
 #[derive(Debug)]
@@ -120,7 +120,7 @@ impl Context {
     pub(crate) fn conclude(&self, diagnostics: Vec<Diagnostic>) -> ExitStatus {
         let findings = self.findings(diagnostics);
         self.show(&findings);
-        if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+        ExitStatus::of(&findings)
     }
 
     /// Shows only some of the findings to users; reports contain all of them.
@@ -241,7 +241,7 @@ impl Context {
 
     /// Reports wrong usage.
     pub fn usage(&self, reason: &str) -> ExitStatus {
-        usage::wrong(reason, self.lang(), &self.printer)
+        exit::wrong(reason, self.lang(), &self.printer)
     }
 
     /// The view for a stream in the chosen format.

@@ -11,9 +11,8 @@ use pathbuild_workspace::findings::Findings;
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::numbers::{count, counted};
 use crate::render::write_pictures;
-use crate::table::table;
+use crate::text::{DRAWING, ERROR, PATH, WARNING, count, counted, table};
 use crate::waivers;
 
 /// Ends a check of the given duration: applies severities and waivers, shows findings, writes reports and the summary, and returns the
@@ -72,12 +71,9 @@ fn show(context: &Context, most: Option<usize>, findings: &Findings) {
     let hidden = findings.diagnostics.len() - shown.len();
     context.show_some(findings, &Findings { diagnostics: shown, ..Findings::default() });
     if hidden > 0 {
-        let findings = match context.lang() {
-            Lang::En => ["finding", "findings"],
-            Lang::De => ["Meldung", "Meldungen"],
-        };
+        let findings = counted(hidden, [["finding", "findings"], ["Meldung", "Meldungen"]], context.lang());
         let phrase = context.choose("not shown (--max-errors)", "nicht gezeigt (--max-errors)");
-        context.printer.status(format_args!("{} {phrase}", counted(hidden, context.lang(), findings)));
+        context.printer.status(format_args!("{findings} {phrase}"));
     }
 }
 
@@ -102,27 +98,22 @@ fn by_code(context: &Context, findings: &Findings) -> String {
 /// The last line of a check: `2,014 paths in 812 drawings: 3 errors in 2 drawings, 14 warnings (0.4 s)`. `known` is the number of findings
 /// accepted by waivers.
 pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) -> String {
-    let words = match lang {
-        Lang::En => &EN,
-        Lang::De => &DE,
-    };
-    let paths = findings.checked.iter().map(|file| file.paths.len()).sum();
-    let drawings = findings.checked.len();
+    let counted = |number, noun| counted(number, noun, lang);
     let errors = match findings.errors() {
-        0 => words.no_errors.to_owned(),
-        errors => format!(
-            "{} in {}",
-            words.count(errors, words.errors),
-            words.count(erroneous(findings), words.drawings)
-        ),
+        0 => lang.choose("no errors", "keine Fehler").to_owned(),
+        errors => format!("{} in {}", counted(errors, ERROR), counted(erroneous(findings), DRAWING)),
     };
     let warnings = match findings.warnings() {
-        0 => words.no_warnings.to_owned(),
-        warnings => words.count(warnings, words.warnings),
+        0 => lang.choose("no warnings", "keine Warnungen").to_owned(),
+        warnings => counted(warnings, WARNING),
     };
-    let known = if known == 0 { String::new() } else { format!(", {} {}", count(known, lang), words.known) };
+    let known = match known {
+        0 => String::new(),
+        known => format!(", {} {}", count(known, lang), lang.choose("known", "bekannt")),
+    };
     let seconds = in_prose(format!("{:.1}", time.as_secs_f64()), lang);
-    let [paths, drawings] = [words.count(paths, words.paths), words.count(drawings, words.drawings)];
+    let paths = counted(findings.checked.iter().map(|file| file.paths.len()).sum(), PATH);
+    let drawings = counted(findings.checked.len(), DRAWING);
     format!("{paths} in {drawings}: {errors}, {warnings}{known} ({seconds} s)")
 }
 
@@ -130,43 +121,4 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
 fn erroneous(findings: &Findings) -> usize {
     let errors = findings.diagnostics.iter().filter(|diagnostic| diagnostic.is_error());
     errors.filter_map(|diagnostic| diagnostic.file.as_deref()).collect::<BTreeSet<_>>().len()
-}
-
-struct Words {
-    paths: [&'static str; 2],
-    drawings: [&'static str; 2],
-    errors: [&'static str; 2],
-    warnings: [&'static str; 2],
-    no_errors: &'static str,
-    no_warnings: &'static str,
-    known: &'static str,
-    lang: Lang,
-}
-
-const EN: Words = Words {
-    paths: ["path", "paths"],
-    drawings: ["drawing", "drawings"],
-    errors: ["error", "errors"],
-    warnings: ["warning", "warnings"],
-    no_errors: "no errors",
-    no_warnings: "no warnings",
-    known: "known",
-    lang: Lang::En,
-};
-
-const DE: Words = Words {
-    paths: ["Pfad", "Pfade"],
-    drawings: ["Zeichnung", "Zeichnungen"],
-    errors: ["Fehler", "Fehler"],
-    warnings: ["Warnung", "Warnungen"],
-    no_errors: "keine Fehler",
-    no_warnings: "keine Warnungen",
-    known: "bekannt",
-    lang: Lang::De,
-};
-
-impl Words {
-    fn count(&self, count: usize, noun: [&str; 2]) -> String {
-        counted(count, self.lang, noun)
-    }
 }

@@ -4,7 +4,7 @@
 use camino::Utf8Path;
 use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Code, Diagnostic, Lang};
+use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_workspace::baseline::Baseline;
 use pathbuild_workspace::files;
 use pathbuild_workspace::findings::Findings;
@@ -13,7 +13,7 @@ use pathbuild_workspace::waivers::{Coverage, RunDate, Waiver};
 use crate::args::WaiverArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::numbers::counted;
+use crate::text::counted;
 
 /// Splits findings into those to report and those that are accepted, and adds warnings about waivers that match nothing any more. With
 /// `--update-baseline` or `--accept`, writes the baseline instead.
@@ -67,10 +67,8 @@ fn update(context: &Context, file: &Utf8Path, findings: &[Diagnostic], coverage:
     if !faults.is_empty() {
         return context.refuse(faults);
     }
-    let known = match context.lang() {
-        Lang::En => counted(findings.len(), Lang::En, ["known finding", "known findings"]),
-        Lang::De => counted(findings.len(), Lang::De, ["bekannte Meldung", "bekannte Meldungen"]),
-    };
+    let known = [["known finding", "known findings"], ["bekannte Meldung", "bekannte Meldungen"]];
+    let known = counted(findings.len(), known, context.lang());
     write(context, file, &baseline.rewritten(findings, context, coverage), &known)
 }
 
@@ -97,10 +95,9 @@ fn accept(
             &code.to_string(),
         ));
     }
-    let accepted = match context.lang() {
-        Lang::En => counted(count, Lang::En, ["finding accepted", "findings accepted"]),
-        Lang::De => counted(count, Lang::De, ["Meldung hingenommen", "Meldungen hingenommen"]),
-    };
+    let accepted =
+        [["finding accepted", "findings accepted"], ["Meldung hingenommen", "Meldungen hingenommen"]];
+    let accepted = counted(count, accepted, context.lang());
     write(context, file, &text, &accepted)
 }
 

@@ -12,7 +12,7 @@ use pathbuild_workspace::machine::LengthUnit;
 use pathbuild_workspace::program::ReadingOptions;
 
 use super::shared::{Address, InputArgs, WaiverArgs};
-use crate::completion;
+use crate::commands::completions;
 
 /// `pathbuild check`
 #[derive(Clone, Debug, Default, Args)]
@@ -60,7 +60,7 @@ pub struct EmitArgs {
     #[arg(long)]
     pub force: bool,
     /// Write for this post-processor: a built-in name or a file
-    #[arg(long, value_name = "POST", add = completion::posts())]
+    #[arg(long, value_name = "POST", add = completions::posts())]
     pub post: Option<String>,
     /// Join the paths, in this order, into one program called NAME, with a tool change wherever O differs
     #[arg(long, value_name = "NAME")]
@@ -76,7 +76,7 @@ pub struct EmitArgs {
     #[arg(long, conflicts_with = "check")]
     pub remove_stale: bool,
     /// G-code dialect for checking the post's output, if the post names none
-    #[arg(long, value_name = "DIALECT", add = completion::dialects())]
+    #[arg(long, value_name = "DIALECT", add = completions::dialects())]
     pub dialect: Option<String>,
     /// Date for posts that write one
     #[arg(long, value_name = "DATE")]
@@ -146,10 +146,10 @@ pub struct GraphArgs {
 #[derive(Clone, Debug, Default, Args)]
 pub struct ListArgs {
     /// Patterns of path names (8*, 20[0-5]?.1P), drawings (.dxf), directories; without drawings or directories the library
-    #[arg(value_name = "GLOB|DRAWING|DIRECTORY", add = completion::paths())]
+    #[arg(value_name = "GLOB|DRAWING|DIRECTORY", add = completions::paths())]
     pub inputs: Vec<String>,
     /// Compare with programs written for this post-processor: a built-in name or a file
-    #[arg(long, value_name = "POST", add = completion::posts())]
+    #[arg(long, value_name = "POST", add = completions::posts())]
     pub post: Option<String>,
 }
 
@@ -234,7 +234,7 @@ pub struct VerifyArgs {
     #[arg(value_name = "FILE|DIRECTORY", required = true)]
     pub files: Vec<Utf8PathBuf>,
     /// Compare with the drawing of this path, which also gives the cutter and the material
-    #[arg(long, value_name = "PATH", add = completion::paths())]
+    #[arg(long, value_name = "PATH", add = completions::paths())]
     pub against: Option<String>,
     /// Diameter of the cutter; without it from T and `[tool.NAME]`, or from comments
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
@@ -246,7 +246,7 @@ pub struct VerifyArgs {
     #[arg(long, value_name = "CHECKS", value_delimiter = ',', value_parser = requirements(), hide_possible_values = true)]
     pub require: Vec<Requirement>,
     /// Post-processor that wrote the programs: sets the known words and the dialect
-    #[arg(long, value_name = "POST", add = completion::posts())]
+    #[arg(long, value_name = "POST", add = completions::posts())]
     pub post: Option<String>,
     /// What is accepted.
     #[command(flatten)]
@@ -276,7 +276,7 @@ pub struct PostArgs {
     #[arg(value_name = "FILE", required = true)]
     pub file: Option<Utf8PathBuf>,
     /// Post-processor: a built-in name or a file
-    #[arg(long, value_name = "POST", required = true, add = completion::posts())]
+    #[arg(long, value_name = "POST", required = true, add = completions::posts())]
     pub post: Option<String>,
     /// File to write; without it standard output
     #[arg(short, long, value_name = "FILE")]
@@ -285,7 +285,7 @@ pub struct PostArgs {
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub surface: Option<String>,
     /// G-code dialect for checking the post's output, if the post names none
-    #[arg(long, value_name = "DIALECT", add = completion::dialects())]
+    #[arg(long, value_name = "DIALECT", add = completions::dialects())]
     pub target: Option<String>,
     /// Date for posts that write one
     #[arg(long, value_name = "DATE")]
@@ -306,7 +306,7 @@ pub enum PostCommand {
     /// Print a built-in post's definition
     Show {
         /// Name of a built-in post
-        #[arg(add = completion::posts())]
+        #[arg(add = completions::posts())]
         name: String,
     },
 }
@@ -326,7 +326,7 @@ pub struct TextsArgs {
 #[derive(Clone, Debug, Args)]
 pub struct ViewArgs {
     /// Name of a path, drawing (.dxf), or G-code program
-    #[arg(value_name = "PATH|DRAWING|FILE", add = completion::paths())]
+    #[arg(value_name = "PATH|DRAWING|FILE", add = completions::paths())]
     pub what: String,
     /// File to write: .svg, .png, .pdf, .html or .json (the scene as data); without it the browser shows the picture
     #[arg(short, long, value_name = "FILE")]
@@ -349,13 +349,13 @@ pub struct ViewArgs {
 #[derive(Clone, Debug, Args)]
 pub struct SheetArgs {
     /// Name of a path, or drawing (.dxf) with one path
-    #[arg(value_name = "PATH|DRAWING", add = completion::paths())]
+    #[arg(value_name = "PATH|DRAWING", add = completions::paths())]
     pub what: String,
     /// File to write: .pdf, .html or .svg; without it the browser shows the setup sheet
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
     /// Write for this post-processor: a built-in name or a file
-    #[arg(long, value_name = "POST", add = completion::posts())]
+    #[arg(long, value_name = "POST", add = completions::posts())]
     pub post: Option<String>,
 }
 
@@ -417,7 +417,7 @@ pub enum CacheCommand {
 #[derive(Clone, Debug, Default, Args)]
 pub struct ExplainArgs {
     /// Code or name of a message: PB203, parameter-out-of-range
-    #[arg(value_name = "CODE", add = completion::codes())]
+    #[arg(value_name = "CODE", add = completions::codes())]
     pub codes: Vec<String>,
 }
 
@@ -497,262 +497,151 @@ pub struct CompatArgs {
     pub arguments: Vec<String>,
 }
 
-/// English and German of the help of the arguments of commands.
-pub(super) const GERMAN: &[(&str, &str)] = &[
-    ("List the built-in posts", "Listet die eingebauten Postprozessoren auf"),
-    ("Print a built-in post's definition", "Gibt die Definition eines eingebauten Postprozessors aus"),
-    ("Print the directory of the cached results", "Gibt das Verzeichnis der gespeicherten Ergebnisse aus"),
-    ("Print the size of the cached results", "Gibt die Größe der gespeicherten Ergebnisse aus"),
-    (
-        "Remove cached results that are no longer used",
-        "Löscht gespeicherte Ergebnisse, die nicht mehr gebraucht werden",
-    ),
-    ("Remove all cached results", "Löscht alle gespeicherten Ergebnisse"),
-    ("Check every cached result for damage", "Prüft jedes gespeicherte Ergebnis auf Schäden"),
-    ("Print the values in force", "Gibt die geltenden Werte aus"),
-    (
-        "Compare descriptions of the machine with `[machine]` and `[tool]`, and take them over with --write",
-        "Vergleicht Beschreibungen der Maschine mit `[machine]` und `[tool]` und übernimmt sie mit --write",
-    ),
-    (
-        "The answer of GRBL or grblHAL to $$, `FluidNC`'s YAML, `LinuxCNC`'s ini file or tool table, tools of FreeCAD or Fusion 360",
-        "Die Antwort von GRBL oder grblHAL auf $$, die YAML-Datei von `FluidNC`, ini-Datei oder Werkzeugtabelle von `LinuxCNC`, Werkzeuge von FreeCAD oder Fusion 360",
-    ),
-    ("UNIT", "EINHEIT"),
-    (
-        "Unit of the lengths in a tool table of `LinuxCNC`, if its ini file is not among the files",
-        "Einheit der Längen in einer Werkzeugtabelle von `LinuxCNC`, wenn deren ini-Datei nicht mit angegeben ist",
-    ),
-    ("Write the values into pathbuild.toml", "Schreibt die Werte in die pathbuild.toml"),
-    ("Print the JSON schema of pathbuild.toml", "Gibt das JSON-Schema von pathbuild.toml aus"),
-    (
-        "Patterns of path names (8*, 20[0-5]?.1P), drawings (.dxf), directories; without drawings or directories the library",
-        "Muster von Pfadnamen (8*, 20[0-5]?.1P), Zeichnungen (.dxf), Verzeichnisse; ohne Zeichnungen und Verzeichnisse die Bibliothek",
-    ),
-    (
-        "DRAWING.dxf, `DRAWING_Clean.gcode`, `DRAWING_Z.txt` or DRAWING",
-        "ZEICHNUNG.dxf, `ZEICHNUNG_Clean.gcode`, `ZEICHNUNG_Z.txt` oder ZEICHNUNG",
-    ),
-    (
-        "Name of a path, drawing (.dxf), or G-code program",
-        "Name eines Pfads, Zeichnung (.dxf) oder G-Code-Programm",
-    ),
-    (
-        "Name of a path, or drawing (.dxf) with one path",
-        "Name eines Pfads, oder Zeichnung (.dxf) mit einem Pfad",
-    ),
-    (
-        "File to write: .pdf, .html or .svg; without it the browser shows the setup sheet",
-        "Zieldatei: .pdf, .html oder .svg; sonst zeigt der Browser das Einrichteblatt",
-    ),
-    (
-        "Before the change: a directory, a drawing, a Git revision, or a G-code program",
-        "Vor der Änderung: ein Verzeichnis, eine Zeichnung, eine Git-Revision oder ein G-Code-Programm",
-    ),
-    (
-        "After the change: the same, or a path if OLD is a program (default: working directory)",
-        "Nach der Änderung: ebenso, zu einem Programm auch ein Pfad; sonst das Arbeitsverzeichnis",
-    ),
-    ("G-code programs", "G-Code-Programme"),
-    (
-        "G-code programs, directories with programs, or - for standard input",
-        "G-Code-Programme, Verzeichnisse mit Programmen oder - für die Standardeingabe",
-    ),
-    ("G-code program", "G-Code-Programm"),
-    ("Name of a built-in post", "Name eines eingebauten Postprozessors"),
-    ("Drawing to embed", "Zeichnung zum Einbetten"),
-    (
-        "Code or name of a message: PB203, parameter-out-of-range",
-        "Code oder Name einer Meldung: PB203, parameter-out-of-range",
-    ),
-    ("Shell to print the script for", "Shell, für die das Skript ist"),
-    (
-        "Options and files as `PathDxf2GCode` or `PathGCodeAdjustZ` takes them",
-        "Optionen und Dateien, wie `PathDxf2GCode` oder `PathGCodeAdjustZ` sie erwartet",
-    ),
-    (
-        "Check every combination of the variables' values, not one example of each",
-        "Prüft jede Kombination der Werte von Variablen, nicht nur je ein Beispiel",
-    ),
-    ("Exit with 1 on warnings too", "Endet auch bei Warnungen mit Exit-Status 1"),
-    (
-        "Check only what depends on files changed since this Git revision",
-        "Prüft nur, was von Dateien abhängt, die seit dieser Git-Revision geändert wurden",
-    ),
-    ("Show how long each stage took", "Zeigt, wie lange jede Stufe gedauert hat"),
-    (
-        "Show at most N errors; the last lines count all of them",
-        "Zeigt höchstens N Fehler; die letzten Zeilen zählen alle",
-    ),
-    (
-        "Write a picture of each finding into this directory: a detail of the drawing with the place circled",
-        "Schreibt zu jeder Meldung ein Bild in dieses Verzeichnis: einen Ausschnitt der Zeichnung mit eingekreister Stelle",
-    ),
-    (
-        "Write nothing; report the files on disk that are out of date",
-        "Schreibt nichts; meldet Dateien auf der Platte, die nicht aktuell sind",
-    ),
-    ("With --check: compare only the moves", "Mit --check: vergleicht nur die Bewegungen"),
-    ("Overwrite measured values in _Z.txt", "Überschreibt gemessene Werte in _Z.txt"),
-    (
-        "Write for this post-processor: a built-in name or a file",
-        "Schreibt für diesen Postprozessor: ein eingebauter Name oder eine Datei",
-    ),
-    (
-        "Join the paths, in this order, into one program called NAME, with a tool change wherever O differs",
-        "Fügt die Pfade in dieser Reihenfolge zu einem Programm NAME zusammen, mit Werkzeugwechsel, wo O ein anderes ist",
-    ),
-    (
-        "Write the dependencies of the files into FILE, for make and Ninja",
-        "Schreibt die Abhängigkeiten der Dateien in DATEI, für make und Ninja",
-    ),
-    ("Write the program to standard output: `-o -`", "Schreibt das Programm in die Standardausgabe: `-o -`"),
-    (
-        "Remove programs that pathbuild wrote earlier and would no longer write",
-        "Löscht Programme, die pathbuild früher geschrieben hat und nicht mehr schreiben würde",
-    ),
-    (
-        "G-code dialect for checking the post's output, if the post names none",
-        "G-Code-Dialekt, in dem die Ausgabe des Postprozessors geprüft wird, wenn er keinen nennt",
-    ),
-    ("Date for posts that write one", "Datum für Postprozessoren, die eines schreiben"),
-    (
-        "After writing, run the command that the post names",
-        "Führt nach dem Schreiben den Befehl aus, den der Postprozessor nennt",
-    ),
-    ("Post-processor: a built-in name or a file", "Postprozessor: ein eingebauter Name oder eine Datei"),
-    ("File to write; without it standard output", "Zieldatei; sonst die Standardausgabe"),
-    (
-        "Height of the material's upper face, for posts that need it; programs by pathbuild contain it",
-        "Höhe der Materialoberfläche, für Postprozessoren, die sie brauchen; in Programmen von pathbuild steht sie",
-    ),
-    (
-        "Largest allowed difference between a measured and a drawn height",
-        "Größte erlaubte Differenz zwischen gemessener und gezeichneter Höhe",
-    ),
-    (
-        "Print the lines of `DRAWING_Clean.gcode` that match",
-        "Gibt die Zeilen von `ZEICHNUNG_Clean.gcode` aus, die passen",
-    ),
-    (
-        "Take values that are missing in `DRAWING_Z.txt` from a sender's log, one `[PRB:X,Y,Z:1]` for each probe, in order",
-        "Nimmt Werte, die in `ZEICHNUNG_Z.txt` fehlen, aus dem Protokoll eines Senders: je Z-Probe ein `[PRB:X,Y,Z:1]`, der Reihe nach",
-    ),
-    ("Write the files of `[emit] targets` as well", "Schreibt auch die Dateien von `[emit] targets`"),
-    (
-        "Look for changes at intervals (for network drives)",
-        "Sucht in festen Abständen nach Änderungen (für Netzlaufwerke)",
-    ),
-    (
-        "Show the library as a page that stays up to date: on this computer at port 8347, or at ADDR (PORT, IP, IP:PORT or NAME:PORT)",
-        "Zeigt die Bibliothek als Seite, die sich selbst aktualisiert: auf diesem Rechner an Port 8347 oder an ADRESSE (PORT, IP, IP:PORT oder NAME:PORT)",
-    ),
-    ("With --serve: show the page in the browser", "Mit --serve: zeigt die Seite im Browser"),
-    (
-        "With --serve: end when the page has been closed",
-        "Mit --serve: endet, wenn die Seite geschlossen worden ist",
-    ),
-    ("Show only texts that match", "Zeigt nur Texte, die passen"),
-    (
-        "File to write: .svg, .png, .pdf, .html or .json (the scene as data); without it the browser shows the picture",
-        "Zieldatei: .svg, .png, .pdf, .html oder .json (das Bild als Daten); sonst zeigt der Browser das Bild",
-    ),
-    (
-        "Show the stock when all moves are done, from above, in a file .svg, .png or .pdf",
-        "Zeigt das Rohteil nach allen Bewegungen von oben, in einer Datei .svg, .png oder .pdf",
-    ),
-    (
-        "Diameter of a program's cutter; without it from T and `[tool.NAME]`, or from comments",
-        "Durchmesser des Fräsers eines Programms; sonst aus T und `[tool.NAME]` oder aus Kommentaren",
-    ),
-    (
-        "Height of a program's material; programs by pathbuild contain it",
-        "Materialhöhe eines Programms; Programme von pathbuild enthalten sie",
-    ),
-    (
-        "Also write a file: .html (with pictures) or .md (for a pull request)",
-        "Schreibt auch eine Datei: .html (mit Bildern) oder .md (für einen Pull-Request)",
-    ),
-    (
-        "Compare with the drawing of this path, which also gives the cutter and the material",
-        "Vergleicht mit der Zeichnung dieses Pfads, die auch Fräser und Material angibt",
-    ),
-    (
-        "Diameter of the cutter; without it from T and `[tool.NAME]`, or from comments",
-        "Durchmesser des Fräsers; sonst aus T und `[tool.NAME]` oder aus Kommentaren",
-    ),
-    (
-        "Fail unless these checks were made, separated by commas: rapids (or rapids=assumed), envelope, feeds, spindle, drawing, clamps",
-        "Scheitert, wenn eine dieser Prüfungen nicht möglich war, mit Kommas getrennt: rapids (oder rapids=assumed), envelope, feeds, spindle, drawing, clamps",
-    ),
-    (
-        "Height of the material's upper face; programs by pathbuild contain it",
-        "Höhe der Materialoberfläche; in Programmen von pathbuild steht sie",
-    ),
-    (
-        "Compare with programs written for this post-processor: a built-in name or a file",
-        "Vergleicht mit Programmen für diesen Postprozessor: ein eingebauter Name oder eine Datei",
-    ),
-    (
-        "Name of the Q-project's path; without it the drawing's first number with .0Q",
-        "Name des Q-Projekt-Pfads; sonst die erste Nummer der Zeichnung mit .0Q",
-    ),
-    ("File to write; without it `DRAWING_Q.dxf`", "Zieldatei; sonst `ZEICHNUNG_Q.dxf`"),
-    (
-        "Write a small library to learn on: a first drawing, two components, a project, templates for CAD programs",
-        "Schreibt eine kleine Bibliothek zum Lernen: eine erste Zeichnung, zwei Bauteile, ein Projekt, Vorlagen für CAD-Programme",
-    ),
-    ("Also say where each value comes from", "Gibt auch an, woher jeder Wert kommt"),
-    (
-        "Print the pathbuild command line instead of running it",
-        "Gibt die Befehlszeile von pathbuild aus, statt sie auszuführen",
-    ),
-    (
-        "Post-processor that wrote the programs: sets the known words and the dialect",
-        "Postprozessor, der die Programme geschrieben hat: legt die bekannten Wörter und den Dialekt fest",
-    ),
-    (
-        "G-code dialect: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas, marlin, estlcam or din; without it pathbuild guesses",
-        "G-Code-Dialekt: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas, marlin, estlcam oder din; sonst versucht pathbuild, ihn zu erkennen",
-    ),
-    (
-        "`XpertMILL`: din: G70 means inches and G71 millimetres; table: the other way round",
-        "`XpertMILL`: din: G70 heißt Zoll und G71 Millimeter; table: umgekehrt",
-    ),
-    (
-        "`XpertMILL`: I and J are the arc's centre itself, not its distance from the arc's start",
-        "`XpertMILL`: I und J sind der Bogenmittelpunkt selbst, nicht sein Abstand vom Bogenanfang",
-    ),
-    (
-        "`XpertMILL`: ignore F and use the feeds of the layers",
-        "`XpertMILL`: F wird ignoriert; es gelten die Vorschübe der Layer",
-    ),
-    ("G70 inches, G71 millimetres", "G70 Zoll, G71 Millimeter"),
-    ("The other way round", "Umgekehrt"),
-    ("FILE|DIRECTORY", "DATEI|VERZEICHNIS"),
-    ("GLOB|DRAWING|DIRECTORY", "MUSTER|ZEICHNUNG|VERZEICHNIS"),
-    ("PATH|DRAWING|FILE", "PFAD|ZEICHNUNG|DATEI"),
-    ("PATH|DRAWING", "PFAD|ZEICHNUNG"),
-    ("PATH", "PFAD"),
-    ("DRAWING", "ZEICHNUNG"),
-    ("FILE", "DATEI"),
-    ("ADDR", "ADRESSE"),
-    ("DIR", "VERZEICHNIS"),
-    ("OLD", "ALT"),
-    ("NEW", "NEU"),
-    ("DATE", "DATUM"),
-    ("DIALECT", "DIALEKT"),
-    ("CHECKS", "PRÜFUNGEN"),
-    ("CODE", "CODE"),
-    ("NAME", "NAME"),
-    ("POST", "POST"),
-    ("REGEX", "REGEX"),
-    ("REV", "REVISION"),
-    ("SHELL", "SHELL"),
-    ("ARGUMENT", "ARGUMENT"),
-    ("N", "N"),
-    ("MM", "MM"),
-    ("-", "-"),
-    ("din|table", "din|table"),
-    ("unknown dialect", "unbekannter Dialekt"),
-];
+german! {
+    /// English and German of the help of the arguments of commands.
+    pub(super) GERMAN:
+    "List the built-in posts", "Listet die eingebauten Postprozessoren auf";
+    "Print a built-in post's definition", "Gibt die Definition eines eingebauten Postprozessors aus";
+    "Print the directory of the cached results", "Gibt das Verzeichnis der gespeicherten Ergebnisse aus";
+    "Print the size of the cached results", "Gibt die Größe der gespeicherten Ergebnisse aus";
+    "Remove cached results that are no longer used", "Löscht gespeicherte Ergebnisse, die nicht mehr gebraucht werden";
+    "Remove all cached results", "Löscht alle gespeicherten Ergebnisse";
+    "Check every cached result for damage", "Prüft jedes gespeicherte Ergebnis auf Schäden";
+    "Print the values in force", "Gibt die geltenden Werte aus";
+    "Compare descriptions of the machine with `[machine]` and `[tool]`, and take them over with --write",
+        "Vergleicht Beschreibungen der Maschine mit `[machine]` und `[tool]` und übernimmt sie mit --write";
+    "The answer of GRBL or grblHAL to $$, `FluidNC`'s YAML, `LinuxCNC`'s ini file or tool table, tools of FreeCAD or Fusion 360",
+        "Die Antwort von GRBL oder grblHAL auf $$, die YAML-Datei von `FluidNC`, ini-Datei oder Werkzeugtabelle von `LinuxCNC`, Werkzeuge von FreeCAD oder Fusion 360";
+    "UNIT", "EINHEIT";
+    "Unit of the lengths in a tool table of `LinuxCNC`, if its ini file is not among the files",
+        "Einheit der Längen in einer Werkzeugtabelle von `LinuxCNC`, wenn deren ini-Datei nicht mit angegeben ist";
+    "Write the values into pathbuild.toml", "Schreibt die Werte in die pathbuild.toml";
+    "Print the JSON schema of pathbuild.toml", "Gibt das JSON-Schema von pathbuild.toml aus";
+    "Patterns of path names (8*, 20[0-5]?.1P), drawings (.dxf), directories; without drawings or directories the library",
+        "Muster von Pfadnamen (8*, 20[0-5]?.1P), Zeichnungen (.dxf), Verzeichnisse; ohne Zeichnungen und Verzeichnisse die Bibliothek";
+    "DRAWING.dxf, `DRAWING_Clean.gcode`, `DRAWING_Z.txt` or DRAWING",
+        "ZEICHNUNG.dxf, `ZEICHNUNG_Clean.gcode`, `ZEICHNUNG_Z.txt` oder ZEICHNUNG";
+    "Name of a path, drawing (.dxf), or G-code program", "Name eines Pfads, Zeichnung (.dxf) oder G-Code-Programm";
+    "Name of a path, or drawing (.dxf) with one path", "Name eines Pfads, oder Zeichnung (.dxf) mit einem Pfad";
+    "File to write: .pdf, .html or .svg; without it the browser shows the setup sheet",
+        "Zieldatei: .pdf, .html oder .svg; sonst zeigt der Browser das Einrichteblatt";
+    "Before the change: a directory, a drawing, a Git revision, or a G-code program",
+        "Vor der Änderung: ein Verzeichnis, eine Zeichnung, eine Git-Revision oder ein G-Code-Programm";
+    "After the change: the same, or a path if OLD is a program (default: working directory)",
+        "Nach der Änderung: ebenso, zu einem Programm auch ein Pfad; sonst das Arbeitsverzeichnis";
+    "G-code programs", "G-Code-Programme";
+    "G-code programs, directories with programs, or - for standard input",
+        "G-Code-Programme, Verzeichnisse mit Programmen oder - für die Standardeingabe";
+    "G-code program", "G-Code-Programm";
+    "Name of a built-in post", "Name eines eingebauten Postprozessors";
+    "Drawing to embed", "Zeichnung zum Einbetten";
+    "Code or name of a message: PB203, parameter-out-of-range", "Code oder Name einer Meldung: PB203, parameter-out-of-range";
+    "Shell to print the script for", "Shell, für die das Skript ist";
+    "Options and files as `PathDxf2GCode` or `PathGCodeAdjustZ` takes them",
+        "Optionen und Dateien, wie `PathDxf2GCode` oder `PathGCodeAdjustZ` sie erwartet";
+    "Check every combination of the variables' values, not one example of each",
+        "Prüft jede Kombination der Werte von Variablen, nicht nur je ein Beispiel";
+    "Exit with 1 on warnings too", "Endet auch bei Warnungen mit Exit-Status 1";
+    "Check only what depends on files changed since this Git revision",
+        "Prüft nur, was von Dateien abhängt, die seit dieser Git-Revision geändert wurden";
+    "Show how long each stage took", "Zeigt, wie lange jede Stufe gedauert hat";
+    "Show at most N errors; the last lines count all of them", "Zeigt höchstens N Fehler; die letzten Zeilen zählen alle";
+    "Write a picture of each finding into this directory: a detail of the drawing with the place circled",
+        "Schreibt zu jeder Meldung ein Bild in dieses Verzeichnis: einen Ausschnitt der Zeichnung mit eingekreister Stelle";
+    "Write nothing; report the files on disk that are out of date",
+        "Schreibt nichts; meldet Dateien auf der Platte, die nicht aktuell sind";
+    "With --check: compare only the moves", "Mit --check: vergleicht nur die Bewegungen";
+    "Overwrite measured values in _Z.txt", "Überschreibt gemessene Werte in _Z.txt";
+    "Write for this post-processor: a built-in name or a file", "Schreibt für diesen Postprozessor: ein eingebauter Name oder eine Datei";
+    "Join the paths, in this order, into one program called NAME, with a tool change wherever O differs",
+        "Fügt die Pfade in dieser Reihenfolge zu einem Programm NAME zusammen, mit Werkzeugwechsel, wo O ein anderes ist";
+    "Write the dependencies of the files into FILE, for make and Ninja",
+        "Schreibt die Abhängigkeiten der Dateien in DATEI, für make und Ninja";
+    "Write the program to standard output: `-o -`", "Schreibt das Programm in die Standardausgabe: `-o -`";
+    "Remove programs that pathbuild wrote earlier and would no longer write",
+        "Löscht Programme, die pathbuild früher geschrieben hat und nicht mehr schreiben würde";
+    "G-code dialect for checking the post's output, if the post names none",
+        "G-Code-Dialekt, in dem die Ausgabe des Postprozessors geprüft wird, wenn er keinen nennt";
+    "Date for posts that write one", "Datum für Postprozessoren, die eines schreiben";
+    "After writing, run the command that the post names", "Führt nach dem Schreiben den Befehl aus, den der Postprozessor nennt";
+    "Post-processor: a built-in name or a file", "Postprozessor: ein eingebauter Name oder eine Datei";
+    "File to write; without it standard output", "Zieldatei; sonst die Standardausgabe";
+    "Height of the material's upper face, for posts that need it; programs by pathbuild contain it",
+        "Höhe der Materialoberfläche, für Postprozessoren, die sie brauchen; in Programmen von pathbuild steht sie";
+    "Largest allowed difference between a measured and a drawn height",
+        "Größte erlaubte Differenz zwischen gemessener und gezeichneter Höhe";
+    "Print the lines of `DRAWING_Clean.gcode` that match", "Gibt die Zeilen von `ZEICHNUNG_Clean.gcode` aus, die passen";
+    "Take values that are missing in `DRAWING_Z.txt` from a sender's log, one `[PRB:X,Y,Z:1]` for each probe, in order",
+        "Nimmt Werte, die in `ZEICHNUNG_Z.txt` fehlen, aus dem Protokoll eines Senders: je Z-Probe ein `[PRB:X,Y,Z:1]`, der Reihe nach";
+    "Write the files of `[emit] targets` as well", "Schreibt auch die Dateien von `[emit] targets`";
+    "Look for changes at intervals (for network drives)", "Sucht in festen Abständen nach Änderungen (für Netzlaufwerke)";
+    "Show the library as a page that stays up to date: on this computer at port 8347, or at ADDR (PORT, IP, IP:PORT or NAME:PORT)",
+        "Zeigt die Bibliothek als Seite, die sich selbst aktualisiert: auf diesem Rechner an Port 8347 oder an ADRESSE (PORT, IP, IP:PORT oder NAME:PORT)";
+    "With --serve: show the page in the browser", "Mit --serve: zeigt die Seite im Browser";
+    "With --serve: end when the page has been closed", "Mit --serve: endet, wenn die Seite geschlossen worden ist";
+    "Show only texts that match", "Zeigt nur Texte, die passen";
+    "File to write: .svg, .png, .pdf, .html or .json (the scene as data); without it the browser shows the picture",
+        "Zieldatei: .svg, .png, .pdf, .html oder .json (das Bild als Daten); sonst zeigt der Browser das Bild";
+    "Show the stock when all moves are done, from above, in a file .svg, .png or .pdf",
+        "Zeigt das Rohteil nach allen Bewegungen von oben, in einer Datei .svg, .png oder .pdf";
+    "Diameter of a program's cutter; without it from T and `[tool.NAME]`, or from comments",
+        "Durchmesser des Fräsers eines Programms; sonst aus T und `[tool.NAME]` oder aus Kommentaren";
+    "Height of a program's material; programs by pathbuild contain it",
+        "Materialhöhe eines Programms; Programme von pathbuild enthalten sie";
+    "Also write a file: .html (with pictures) or .md (for a pull request)",
+        "Schreibt auch eine Datei: .html (mit Bildern) oder .md (für einen Pull-Request)";
+    "Compare with the drawing of this path, which also gives the cutter and the material",
+        "Vergleicht mit der Zeichnung dieses Pfads, die auch Fräser und Material angibt";
+    "Diameter of the cutter; without it from T and `[tool.NAME]`, or from comments",
+        "Durchmesser des Fräsers; sonst aus T und `[tool.NAME]` oder aus Kommentaren";
+    "Fail unless these checks were made, separated by commas: rapids (or rapids=assumed), envelope, feeds, spindle, drawing, clamps",
+        "Scheitert, wenn eine dieser Prüfungen nicht möglich war, mit Kommas getrennt: rapids (oder rapids=assumed), envelope, feeds, spindle, drawing, clamps";
+    "Height of the material's upper face; programs by pathbuild contain it",
+        "Höhe der Materialoberfläche; in Programmen von pathbuild steht sie";
+    "Compare with programs written for this post-processor: a built-in name or a file",
+        "Vergleicht mit Programmen für diesen Postprozessor: ein eingebauter Name oder eine Datei";
+    "Name of the Q-project's path; without it the drawing's first number with .0Q",
+        "Name des Q-Projekt-Pfads; sonst die erste Nummer der Zeichnung mit .0Q";
+    "File to write; without it `DRAWING_Q.dxf`", "Zieldatei; sonst `ZEICHNUNG_Q.dxf`";
+    "Write a small library to learn on: a first drawing, two components, a project, templates for CAD programs",
+        "Schreibt eine kleine Bibliothek zum Lernen: eine erste Zeichnung, zwei Bauteile, ein Projekt, Vorlagen für CAD-Programme";
+    "Also say where each value comes from", "Gibt auch an, woher jeder Wert kommt";
+    "Print the pathbuild command line instead of running it", "Gibt die Befehlszeile von pathbuild aus, statt sie auszuführen";
+    "Post-processor that wrote the programs: sets the known words and the dialect",
+        "Postprozessor, der die Programme geschrieben hat: legt die bekannten Wörter und den Dialekt fest";
+    "G-code dialect: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas, marlin, estlcam or din; without it pathbuild guesses",
+        "G-Code-Dialekt: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas, marlin, estlcam oder din; sonst versucht pathbuild, ihn zu erkennen";
+    "`XpertMILL`: din: G70 means inches and G71 millimetres; table: the other way round",
+        "`XpertMILL`: din: G70 heißt Zoll und G71 Millimeter; table: umgekehrt";
+    "`XpertMILL`: I and J are the arc's centre itself, not its distance from the arc's start",
+        "`XpertMILL`: I und J sind der Bogenmittelpunkt selbst, nicht sein Abstand vom Bogenanfang";
+    "`XpertMILL`: ignore F and use the feeds of the layers", "`XpertMILL`: F wird ignoriert; es gelten die Vorschübe der Layer";
+    "G70 inches, G71 millimetres", "G70 Zoll, G71 Millimeter";
+    "The other way round", "Umgekehrt";
+    "FILE|DIRECTORY", "DATEI|VERZEICHNIS";
+    "GLOB|DRAWING|DIRECTORY", "MUSTER|ZEICHNUNG|VERZEICHNIS";
+    "PATH|DRAWING|FILE", "PFAD|ZEICHNUNG|DATEI";
+    "PATH|DRAWING", "PFAD|ZEICHNUNG";
+    "PATH", "PFAD";
+    "DRAWING", "ZEICHNUNG";
+    "FILE", "DATEI";
+    "ADDR", "ADRESSE";
+    "DIR", "VERZEICHNIS";
+    "OLD", "ALT";
+    "NEW", "NEU";
+    "DATE", "DATUM";
+    "DIALECT", "DIALEKT";
+    "CHECKS", "PRÜFUNGEN";
+    "CODE", "CODE";
+    "NAME", "NAME";
+    "POST", "POST";
+    "REGEX", "REGEX";
+    "REV", "REVISION";
+    "SHELL", "SHELL";
+    "ARGUMENT", "ARGUMENT";
+    "N", "N";
+    "MM", "MM";
+    "-", "-";
+    "din|table", "din|table";
+    "unknown dialect", "unbekannter Dialekt";
+}

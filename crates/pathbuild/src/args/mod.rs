@@ -1,6 +1,14 @@
 //! Definition of commands and options, and nothing more: no defaults that depend on the configuration, no checks that need a file. (book:
 //! reference/commands)
 
+/// Declares a table of texts in English and German.
+macro_rules! german {
+    ($(#[$doc:meta])* $visibility:vis $name:ident: $($en:literal, $de:literal;)*) => {
+        $(#[$doc])*
+        $visibility const $name: &[(&str, &str)] = &[$(($en, $de),)*];
+    };
+}
+
 mod commands;
 mod shared;
 
@@ -265,86 +273,49 @@ fn drawing_as_command(error: &Error, arguments: &[OsString]) -> Option<Vec<OsStr
 /// English and German of all help texts.
 pub(crate) const GERMAN: [&[(&str, &str)]; 3] = [COMMANDS, commands::GERMAN, shared::GERMAN];
 
-/// English and German of the help of the program and its commands.
-const COMMANDS: &[(&str, &str)] = &[
-    ("Compiles drawings of milling paths to G-code", "Übersetzt Zeichnungen von Fräspfaden in G-Code"),
-    (
-        "Exit status: 0 nothing wrong (warnings allowed), 1 errors found, 2 wrong usage or configuration.",
-        "Exit-Status: 0 ohne Fehler (Warnungen sind erlaubt), 1 Fehler gefunden, 2 falscher Aufruf oder falsche Konfiguration.",
-    ),
-    (
-        "Check every path of the given drawings, paths or directories; without arguments the library. Writes no programs",
-        "Prüft jeden Pfad der genannten Zeichnungen, Pfade oder Verzeichnisse; ohne Angaben die Bibliothek. Schreibt keine Programme",
-    ),
-    (
-        "Write the files of one or more paths; without arguments those of `[emit] targets`",
-        "Schreibt die Dateien eines oder mehrerer Pfade; ohne Angaben die von `[emit] targets`",
-    ),
-    (
-        "Put measured heights into a program: `DRAWING_Clean.gcode` and `DRAWING_Z.txt` become `DRAWING_Milling.gcode`",
-        "Setzt gemessene Höhen in ein Programm ein: aus `ZEICHNUNG_Clean.gcode` und `ZEICHNUNG_Z.txt` wird `ZEICHNUNG_Milling.gcode`",
-    ),
-    ("Check again whenever a drawing changes", "Prüft erneut, sobald sich eine Zeichnung ändert"),
-    (
-        "Show which element each parameter text belongs to",
-        "Zeigt, zu welchem Element jeder Parametertext gehört",
-    ),
-    (
-        "Show a path, a drawing or a program: in the browser, or as SVG, PNG, PDF, HTML or JSON",
-        "Zeigt einen Pfad, eine Zeichnung oder ein Programm: im Browser oder als SVG, PNG, PDF, HTML oder JSON",
-    ),
-    (
-        "Make a path's setup sheet for the machine operator: PDF, HTML or SVG, or in the browser",
-        "Erstellt das Einrichteblatt eines Pfads für die Maschine: PDF, HTML oder SVG, oder im Browser",
-    ),
-    (
-        "Show how changed drawings change the moves: between directories, Git revisions, or a program and a path",
-        "Zeigt, wie geänderte Zeichnungen die Bewegungen ändern: zwischen Verzeichnissen, Git-Revisionen oder einem Programm und einem Pfad",
-    ),
-    (
-        "Read a G-code program and print what it does: moves, depths, feeds, times",
-        "Liest ein G-Code-Programm und gibt aus, was es tut: Bewegungen, Tiefen, Vorschübe, Zeiten",
-    ),
-    ("Check a G-code program", "Prüft ein G-Code-Programm"),
-    ("Write a G-code program for another machine", "Schreibt ein G-Code-Programm für eine andere Maschine"),
-    (
-        "Show which path embeds which, with the values of variables",
-        "Zeigt, welcher Pfad welchen einbettet, mit den Werten der Variablen",
-    ),
-    ("Show which paths a path embeds", "Zeigt, welche Pfade ein Pfad einbettet"),
-    ("Show which paths embed a path", "Zeigt, welche Pfade einen Pfad einbetten"),
-    (
-        "List paths with drawing, M, T, O, size, length, minutes and state; without arguments those of the library",
-        "Listet Pfade mit Zeichnung, M, T, O, Größe, Länge, Minuten und Zustand auf; ohne Angaben die der Bibliothek",
-    ),
-    ("Count the paths by material, cutter and state", "Zählt die Pfade nach Material, Fräser und Zustand"),
-    ("Show where a path is defined", "Zeigt, wo ein Pfad gezeichnet ist"),
-    (
-        "Show why drawings would be compiled again: what has changed since the last `check` of the library",
-        "Zeigt, warum Zeichnungen neu übersetzt würden: was sich seit dem letzten `check` der Bibliothek geändert hat",
-    ),
-    (
-        "Write a Q-project: a drawing that embeds every path of another",
-        "Schreibt ein Q-Projekt: eine Zeichnung, die jeden Pfad einer anderen einbettet",
-    ),
-    ("Manage the results cached between runs", "Verwaltet die zwischen Läufen gespeicherten Ergebnisse"),
-    (
-        "Explain the codes of messages; without a code list all of them",
-        "Erklärt die Codes der Meldungen; ohne Code werden alle aufgelistet",
-    ),
-    (
-        "Write a commented pathbuild.toml into the working directory",
-        "Schreibt eine kommentierte pathbuild.toml ins Arbeitsverzeichnis",
-    ),
-    ("Show the configuration", "Zeigt die Konfiguration"),
-    (
-        "Import machine settings from a controller, and tools from a CAM program",
-        "Übernimmt Maschinendaten und Werkzeuge aus Steuerung oder CAM-Programm",
-    ),
-    ("Print a completion script for a shell", "Gibt ein Skript aus, mit dem eine Shell Eingaben ergänzt"),
-    ("Print the manual page", "Gibt die Handbuchseite (man) aus"),
-    (
-        "Run a command line of `PathDxf2GCode` or `PathGCodeAdjustZ`",
-        "Führt eine Befehlszeile von `PathDxf2GCode` oder `PathGCodeAdjustZ` aus",
-    ),
-];
+german! {
+    /// English and German of the help of the program and its commands.
+    COMMANDS:
+    "Compiles drawings of milling paths to G-code", "Übersetzt Zeichnungen von Fräspfaden in G-Code";
+    "Exit status: 0 nothing wrong (warnings allowed), 1 errors found, 2 wrong usage or configuration.",
+        "Exit-Status: 0 ohne Fehler (Warnungen sind erlaubt), 1 Fehler gefunden, 2 falscher Aufruf oder falsche Konfiguration.";
+    "Check every path of the given drawings, paths or directories; without arguments the library. Writes no programs",
+        "Prüft jeden Pfad der genannten Zeichnungen, Pfade oder Verzeichnisse; ohne Angaben die Bibliothek. Schreibt keine Programme";
+    "Write the files of one or more paths; without arguments those of `[emit] targets`",
+        "Schreibt die Dateien eines oder mehrerer Pfade; ohne Angaben die von `[emit] targets`";
+    "Put measured heights into a program: `DRAWING_Clean.gcode` and `DRAWING_Z.txt` become `DRAWING_Milling.gcode`",
+        "Setzt gemessene Höhen in ein Programm ein: aus `ZEICHNUNG_Clean.gcode` und `ZEICHNUNG_Z.txt` wird `ZEICHNUNG_Milling.gcode`";
+    "Check again whenever a drawing changes", "Prüft erneut, sobald sich eine Zeichnung ändert";
+    "Show which element each parameter text belongs to", "Zeigt, zu welchem Element jeder Parametertext gehört";
+    "Show a path, a drawing or a program: in the browser, or as SVG, PNG, PDF, HTML or JSON",
+        "Zeigt einen Pfad, eine Zeichnung oder ein Programm: im Browser oder als SVG, PNG, PDF, HTML oder JSON";
+    "Make a path's setup sheet for the machine operator: PDF, HTML or SVG, or in the browser",
+        "Erstellt das Einrichteblatt eines Pfads für die Maschine: PDF, HTML oder SVG, oder im Browser";
+    "Show how changed drawings change the moves: between directories, Git revisions, or a program and a path",
+        "Zeigt, wie geänderte Zeichnungen die Bewegungen ändern: zwischen Verzeichnissen, Git-Revisionen oder einem Programm und einem Pfad";
+    "Read a G-code program and print what it does: moves, depths, feeds, times",
+        "Liest ein G-Code-Programm und gibt aus, was es tut: Bewegungen, Tiefen, Vorschübe, Zeiten";
+    "Check a G-code program", "Prüft ein G-Code-Programm";
+    "Write a G-code program for another machine", "Schreibt ein G-Code-Programm für eine andere Maschine";
+    "Show which path embeds which, with the values of variables", "Zeigt, welcher Pfad welchen einbettet, mit den Werten der Variablen";
+    "Show which paths a path embeds", "Zeigt, welche Pfade ein Pfad einbettet";
+    "Show which paths embed a path", "Zeigt, welche Pfade einen Pfad einbetten";
+    "List paths with drawing, M, T, O, size, length, minutes and state; without arguments those of the library",
+        "Listet Pfade mit Zeichnung, M, T, O, Größe, Länge, Minuten und Zustand auf; ohne Angaben die der Bibliothek";
+    "Count the paths by material, cutter and state", "Zählt die Pfade nach Material, Fräser und Zustand";
+    "Show where a path is defined", "Zeigt, wo ein Pfad gezeichnet ist";
+    "Show why drawings would be compiled again: what has changed since the last `check` of the library",
+        "Zeigt, warum Zeichnungen neu übersetzt würden: was sich seit dem letzten `check` der Bibliothek geändert hat";
+    "Write a Q-project: a drawing that embeds every path of another",
+        "Schreibt ein Q-Projekt: eine Zeichnung, die jeden Pfad einer anderen einbettet";
+    "Manage the results cached between runs", "Verwaltet die zwischen Läufen gespeicherten Ergebnisse";
+    "Explain the codes of messages; without a code list all of them", "Erklärt die Codes der Meldungen; ohne Code werden alle aufgelistet";
+    "Write a commented pathbuild.toml into the working directory", "Schreibt eine kommentierte pathbuild.toml ins Arbeitsverzeichnis";
+    "Show the configuration", "Zeigt die Konfiguration";
+    "Import machine settings from a controller, and tools from a CAM program",
+        "Übernimmt Maschinendaten und Werkzeuge aus Steuerung oder CAM-Programm";
+    "Print a completion script for a shell", "Gibt ein Skript aus, mit dem eine Shell Eingaben ergänzt";
+    "Print the manual page", "Gibt die Handbuchseite (man) aus";
+    "Run a command line of `PathDxf2GCode` or `PathGCodeAdjustZ`",
+        "Führt eine Befehlszeile von `PathDxf2GCode` oder `PathGCodeAdjustZ` aus";
+}

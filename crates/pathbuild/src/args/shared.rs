@@ -11,7 +11,7 @@ use pathbuild_workspace::config::sections::general::OPTIONS;
 use pathbuild_workspace::config::{GivenOptions, OptionValues, Overrides, SettingOption};
 use pathbuild_workspace::waivers::Date;
 
-use crate::completion;
+use crate::commands::completions;
 use crate::printer::{ColorChoice, Verbosity};
 use crate::render::Format;
 
@@ -195,7 +195,7 @@ pub struct InputArgs(Inputs);
 #[derive(Args)]
 struct InputArguments {
     /// Drawings (.dxf), names of paths or patterns of them (8*.1P), directories
-    #[arg(value_name = "DRAWING|PATH|DIRECTORY", add = completion::paths())]
+    #[arg(value_name = "DRAWING|PATH|DIRECTORY", add = completions::paths())]
     inputs: Vec<String>,
 }
 
@@ -356,89 +356,62 @@ fn define<T: Args>(command: Definition) -> Definition {
     }
 }
 
-/// English and German of the help of shared arguments and their values.
-pub(super) const GERMAN: &[(&str, &str)] = &[
-    (
-        "Drawings (.dxf), names of paths or patterns of them (8*.1P), directories",
-        "Zeichnungen (.dxf), Namen von Pfaden oder Muster dafür (8*.1P), Verzeichnisse",
-    ),
-    ("Common options", "Allgemeine Optionen"),
-    ("Language of messages (also: `PATHBUILD_LANG`)", "Sprache der Meldungen (auch: `PATHBUILD_LANG`)"),
-    (
-        "Use this configuration instead of the drawing's pathbuild.toml",
-        "Nimmt diese Konfiguration statt der pathbuild.toml der Zeichnung",
-    ),
-    ("Format of the messages", "Format der Meldungen"),
-    (
-        "Write a report of the findings into a file as well; `-` is standard output (repeatable)",
-        "Schreibt die Meldungen auch in eine Datei; `-` ist die Standardausgabe (wiederholbar)",
-    ),
-    ("When to use colours", "Wann Farben verwendet werden"),
-    (
-        "Print less: no status lines; given twice: results only",
-        "Gibt weniger aus: keine Statuszeilen; zweimal: nur Ergebnisse",
-    ),
-    ("Print more", "Gibt mehr aus"),
-    ("Number of threads", "Anzahl der Threads"),
-    (
-        "Do not trust the tree: read no file outside of it, and run no command that it names",
-        "Dem Verzeichnisbaum nicht trauen: keine Datei außerhalb lesen, keinen dort genannten Befehl ausführen",
-    ),
-    (
-        "Date that waivers are compared with (default: `SOURCE_DATE_EPOCH`, else today in UTC)",
-        "Datum für den Vergleich mit Ausnahmen (sonst `SOURCE_DATE_EPOCH`, sonst heute in UTC)",
-    ),
-    (
-        "Report only findings that are not in this file (default: pathbuild-baseline.txt beside pathbuild.toml)",
-        "Zeigt nur Meldungen, die nicht in dieser Datei stehen (sonst: pathbuild-baseline.txt neben pathbuild.toml)",
-    ),
-    (
-        "Write all findings into the baseline file instead of reporting them",
-        "Schreibt alle Meldungen in die Datei von --baseline, statt sie zu zeigen",
-    ),
-    (
-        "Accept the findings with this code: write them into the baseline file with --reason",
-        "Nimmt die Meldungen mit diesem Code hin: schreibt sie mit --reason in die Datei von --baseline",
-    ),
-    ("With --accept: why", "Mit --accept: warum"),
-    ("With --accept: the last day on which this holds", "Mit --accept: der letzte Tag, an dem das gilt"),
-    ("expected a date such as 2026-12-31", "erwartet wird ein Datum wie 2026-12-31"),
-    (
-        "there is no such diagnostic: `pathbuild explain` lists all of them",
-        "eine solche Meldung gibt es nicht: `pathbuild explain` führt alle auf",
-    ),
-    ("Use no cached results and cache none", "Verwendet keine gespeicherten Ergebnisse und speichert keine"),
-    (
-        "Directory for cached results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)",
-        "Verzeichnis für gespeicherte Ergebnisse, auch für Kopien des Verzeichnisbaums (auch: `PATHBUILD_CACHE_DIR`)",
-    ),
-    ("With the faulty text underlined, help and notes", "Mit unterstrichenem Text, Hilfe und Hinweisen"),
-    ("One line each", "Je eine Zeile"),
-    ("One JSON object a line", "Je Zeile ein JSON-Objekt"),
-    ("SARIF 2.1.0", "SARIF 2.1.0"),
-    ("Annotations of a GitHub workflow", "Anmerkungen eines GitHub-Workflows"),
-    ("GitLab code quality", "GitLab Code Quality"),
-    ("`JUnit` XML, a test case for each path", "`JUnit`-XML, je Pfad ein Testfall"),
-    ("A page with pictures: for `--report` only", "Eine Seite mit Bildern: nur für `--report`"),
-    ("A graph for Graphviz", "Ein Graph für Graphviz"),
-    ("A graph for Mermaid", "Ein Graph für Mermaid"),
-    ("English", "Englisch"),
-    ("German", "Deutsch"),
-    ("DRAWING|PATH|DIRECTORY", "ZEICHNUNG|PFAD|VERZEICHNIS"),
-    ("FORMAT=FILE", "FORMAT=DATEI"),
-    ("TEXT", "TEXT"),
-    ("en|de", "en|de"),
-    ("auto|always|never", "auto|always|never"),
-    ("full|concise|json|sarif|github|gitlab|junit", "full|concise|json|sarif|github|gitlab|junit"),
-    ("expected a number from 1 to 1024", "erwartet wird eine Zahl von 1 bis 1024"),
-    ("expected FORMAT=FILE", "erwartet wird FORMAT=DATEI"),
-    (
-        "the format is full, concise, json, sarif, github, gitlab, junit or html",
-        "das Format ist full, concise, json, sarif, github, gitlab, junit oder html",
-    ),
-    ("the name of the file is missing", "der Name der Datei fehlt"),
-    (
-        "an address is PORT, IP, IP:PORT, localhost or NAME:PORT (drawings, paths and directories stand before --serve)",
-        "eine Adresse ist PORT, IP, IP:PORT, localhost oder NAME:PORT (Zeichnungen, Pfade und Verzeichnisse stehen vor --serve)",
-    ),
-];
+german! {
+    /// English and German of the help of shared arguments and their values.
+    pub(super) GERMAN:
+    "Drawings (.dxf), names of paths or patterns of them (8*.1P), directories",
+        "Zeichnungen (.dxf), Namen von Pfaden oder Muster dafür (8*.1P), Verzeichnisse";
+    "Common options", "Allgemeine Optionen";
+    "Language of messages (also: `PATHBUILD_LANG`)", "Sprache der Meldungen (auch: `PATHBUILD_LANG`)";
+    "Use this configuration instead of the drawing's pathbuild.toml", "Nimmt diese Konfiguration statt der pathbuild.toml der Zeichnung";
+    "Format of the messages", "Format der Meldungen";
+    "Write a report of the findings into a file as well; `-` is standard output (repeatable)",
+        "Schreibt die Meldungen auch in eine Datei; `-` ist die Standardausgabe (wiederholbar)";
+    "When to use colours", "Wann Farben verwendet werden";
+    "Print less: no status lines; given twice: results only", "Gibt weniger aus: keine Statuszeilen; zweimal: nur Ergebnisse";
+    "Print more", "Gibt mehr aus";
+    "Number of threads", "Anzahl der Threads";
+    "Do not trust the tree: read no file outside of it, and run no command that it names",
+        "Dem Verzeichnisbaum nicht trauen: keine Datei außerhalb lesen, keinen dort genannten Befehl ausführen";
+    "Date that waivers are compared with (default: `SOURCE_DATE_EPOCH`, else today in UTC)",
+        "Datum für den Vergleich mit Ausnahmen (sonst `SOURCE_DATE_EPOCH`, sonst heute in UTC)";
+    "Report only findings that are not in this file (default: pathbuild-baseline.txt beside pathbuild.toml)",
+        "Zeigt nur Meldungen, die nicht in dieser Datei stehen (sonst: pathbuild-baseline.txt neben pathbuild.toml)";
+    "Write all findings into the baseline file instead of reporting them",
+        "Schreibt alle Meldungen in die Datei von --baseline, statt sie zu zeigen";
+    "Accept the findings with this code: write them into the baseline file with --reason",
+        "Nimmt die Meldungen mit diesem Code hin: schreibt sie mit --reason in die Datei von --baseline";
+    "With --accept: why", "Mit --accept: warum";
+    "With --accept: the last day on which this holds", "Mit --accept: der letzte Tag, an dem das gilt";
+    "expected a date such as 2026-12-31", "erwartet wird ein Datum wie 2026-12-31";
+    "there is no such diagnostic: `pathbuild explain` lists all of them",
+        "eine solche Meldung gibt es nicht: `pathbuild explain` führt alle auf";
+    "Use no cached results and cache none", "Verwendet keine gespeicherten Ergebnisse und speichert keine";
+    "Directory for cached results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)",
+        "Verzeichnis für gespeicherte Ergebnisse, auch für Kopien des Verzeichnisbaums (auch: `PATHBUILD_CACHE_DIR`)";
+    "With the faulty text underlined, help and notes", "Mit unterstrichenem Text, Hilfe und Hinweisen";
+    "One line each", "Je eine Zeile";
+    "One JSON object a line", "Je Zeile ein JSON-Objekt";
+    "SARIF 2.1.0", "SARIF 2.1.0";
+    "Annotations of a GitHub workflow", "Anmerkungen eines GitHub-Workflows";
+    "GitLab code quality", "GitLab Code Quality";
+    "`JUnit` XML, a test case for each path", "`JUnit`-XML, je Pfad ein Testfall";
+    "A page with pictures: for `--report` only", "Eine Seite mit Bildern: nur für `--report`";
+    "A graph for Graphviz", "Ein Graph für Graphviz";
+    "A graph for Mermaid", "Ein Graph für Mermaid";
+    "English", "Englisch";
+    "German", "Deutsch";
+    "DRAWING|PATH|DIRECTORY", "ZEICHNUNG|PFAD|VERZEICHNIS";
+    "FORMAT=FILE", "FORMAT=DATEI";
+    "TEXT", "TEXT";
+    "en|de", "en|de";
+    "auto|always|never", "auto|always|never";
+    "full|concise|json|sarif|github|gitlab|junit", "full|concise|json|sarif|github|gitlab|junit";
+    "expected a number from 1 to 1024", "erwartet wird eine Zahl von 1 bis 1024";
+    "expected FORMAT=FILE", "erwartet wird FORMAT=DATEI";
+    "the format is full, concise, json, sarif, github, gitlab, junit or html",
+        "das Format ist full, concise, json, sarif, github, gitlab, junit oder html";
+    "the name of the file is missing", "der Name der Datei fehlt";
+    "an address is PORT, IP, IP:PORT, localhost or NAME:PORT (drawings, paths and directories stand before --serve)",
+        "eine Adresse ist PORT, IP, IP:PORT, localhost oder NAME:PORT (Zeichnungen, Pfade und Verzeichnisse stehen vor --serve)";
+}

@@ -12,7 +12,7 @@ use pathbuild_gcode::read::quote;
 use regex::Regex;
 use serde_json::json;
 
-use super::output_row;
+use super::{output_row, state_word};
 use crate::args::AdjustArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -290,10 +290,7 @@ impl<'a> Adjustment<'a> {
             row["corrections"] = json!([adjusted.corrections.0, adjusted.corrections.1]);
             (kind, row)
         });
-        let state = match written {
-            WriteOutcome::Changed => self.context.choose("written", "geschrieben"),
-            WriteOutcome::Unchanged => self.context.choose("unchanged", "unverändert"),
-        };
+        let state = state_word(self.context, written);
         let heights = match adjusted.heights {
             1 => self.context.choose("height corrected by", "Höhe korrigiert um"),
             _ => self.context.choose("heights corrected by", "Höhen korrigiert um"),

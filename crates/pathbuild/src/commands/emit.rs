@@ -10,8 +10,8 @@ use pathbuild_workspace::posting::{PostArguments, run_post_build};
 use crate::args::EmitArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::numbers::count;
 use crate::render::Format;
+use crate::text::count;
 use serde_json::{Value, json};
 
 /// Runs the command.

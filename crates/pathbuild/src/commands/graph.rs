@@ -6,8 +6,7 @@ use std::fmt::Write;
 use pathbuild_diagnostic::{Code, Lang, shown};
 use pathbuild_path::{Bindings, PathName};
 use pathbuild_workspace::session::{Direction, Embedding, End, Graph, GraphOutcome, Node, Session};
-use serde::Serialize;
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 
 use crate::args::GraphArgs;
 use crate::context::Context;
@@ -272,61 +271,33 @@ fn escaped(text: &str) -> String {
     escaped
 }
 
-#[derive(Serialize)]
-struct Object<'a> {
-    paths: Vec<Path<'a>>,
-    embeddings: Vec<EmbeddingRow<'a>>,
-}
-
-#[expect(clippy::struct_field_names, reason = "the keys of the JSON")]
-#[derive(Serialize)]
-struct Path<'a> {
-    path: &'a str,
-    file: String,
-    values: Map<String, Value>,
-    /// Whether the values are only examples, with which nothing embeds the path.
-    example: bool,
-    /// Whether its drawing has errors, so that its embeddings may be incomplete.
-    erroneous: bool,
-}
-
-/// `to` is null if nothing is embedded; then `path` is the name in the segment, and `code` the reason.
-#[derive(Serialize)]
-struct EmbeddingRow<'a> {
-    from: usize,
-    to: Option<usize>,
-    count: usize,
-    path: Option<&'a str>,
-    code: Option<String>,
-}
-
 fn json(context: &Context, graph: &Graph) -> Value {
-    let object = Object {
-        paths: graph.nodes.iter().map(|node| path_json(context, node)).collect(),
-        embeddings: graph.embeddings.iter().map(|edge| embedding(graph, edge)).collect(),
-    };
-    // Serialization fails only for maps with keys that are not strings.
-    serde_json::to_value(&object).unwrap_or_default()
+    let paths: Vec<Value> = graph.nodes.iter().map(|node| path_json(context, node)).collect();
+    let embeddings: Vec<Value> = graph.embeddings.iter().map(|edge| embedding(graph, edge)).collect();
+    json!({ "paths": paths, "embeddings": embeddings })
 }
 
-fn path_json<'a>(context: &Context, node: &'a Node) -> Path<'a> {
-    Path {
-        path: node.name.as_str(),
-        file: context.file(&node.file),
-        values: values(&node.bindings),
-        example: node.is_example,
-        erroneous: !node.is_sound,
-    }
+/// `example`: whether the values are only examples, with which nothing embeds the path. `erroneous`: whether its drawing has errors, so that
+/// its embeddings may be incomplete.
+fn path_json(context: &Context, node: &Node) -> Value {
+    json!({
+        "path": node.name.as_str(),
+        "file": context.file(&node.file),
+        "values": values(&node.bindings),
+        "example": node.is_example,
+        "erroneous": !node.is_sound,
+    })
 }
 
 fn values(bindings: &Bindings) -> Map<String, Value> {
     bindings.iter().map(|(variable, value)| (variable.to_string(), value.into())).collect()
 }
 
-fn embedding<'a>(graph: &'a Graph, edge: &'a Embedding) -> EmbeddingRow<'a> {
+/// `to` is null if nothing is embedded; then `path` is the name in the segment, and `code` the reason.
+fn embedding(graph: &Graph, edge: &Embedding) -> Value {
     let (to, path, code) = match &edge.to {
         End::Node(to) => (Some(*to), Some(graph.nodes[*to].name.as_str()), None),
         End::Nowhere(name, code) => (None, name.as_ref().map(PathName::as_str), Some(code.to_string())),
     };
-    EmbeddingRow { from: edge.from, to, count: edge.count, path, code }
+    json!({ "from": edge.from, "to": to, "count": edge.count, "path": path, "code": code })
 }

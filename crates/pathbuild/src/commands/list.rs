@@ -8,9 +8,8 @@ use pathbuild_workspace::session::Session;
 use crate::args::ListArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::numbers::{self, count, decimal};
 use crate::render::Format;
-use crate::table::{Column, table};
+use crate::text::{Column, ERROR, WARNING, count, counted, decimal, table};
 
 /// Prints one line per path.
 pub fn list(context: &Context, args: &ListArgs) -> ExitStatus {
@@ -50,9 +49,7 @@ fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row],
     };
     let rows: Vec<Row> = paths.into_iter().map(|path| Row::new(context, path)).collect();
     print(context, &rows, drawings);
-    let findings = context.findings(diagnostics);
-    context.show(&findings);
-    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    context.conclude(diagnostics)
 }
 
 fn word(state: State, context: &Context) -> &'static str {
@@ -100,18 +97,15 @@ fn cells(row: &Row, context: &Context) -> Vec<String> {
 }
 
 fn state_text(row: &Row, context: &Context) -> String {
-    let counted = |count, noun| numbers::counted(count, context.lang(), noun);
+    let lang = context.lang();
     let errors = match row.state() {
-        State::Errors => {
-            counted(row.errors, [context.choose("error", "Fehler"), context.choose("errors", "Fehler")])
-        }
+        State::Errors => counted(row.errors, ERROR, lang),
         state => word(state, context).to_owned(),
     };
     if row.warnings == 0 {
         return errors;
     }
-    let warnings = [context.choose("warning", "Warnung"), context.choose("warnings", "Warnungen")];
-    format!("{errors}, {}", counted(row.warnings, warnings))
+    format!("{errors}, {}", counted(row.warnings, WARNING, lang))
 }
 
 fn text(stats: &Stats, context: &Context) -> String {

@@ -5,8 +5,7 @@ use std::cell::LazyCell;
 use pathbuild_db::{PathPlace, SourceFile, check_file, path_names, path_place};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
-use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use pathbuild_workspace::Input;
 
@@ -74,27 +73,14 @@ fn line(context: &Context, file: &str, place: &PathPlace) -> String {
     format!("{}  {file}{line}  {layer} {}{point}", place.name, place.layer)
 }
 
-#[derive(Serialize)]
-struct Object<'a> {
-    path: &'a str,
-    file: &'a str,
-    line: Option<u32>,
-    layer: &'a str,
-    handle: Option<String>,
-    x: Option<f64>,
-    y: Option<f64>,
-}
-
 fn json(file: &str, place: &PathPlace) -> Value {
-    let object = Object {
-        path: place.name.as_str(),
-        file,
-        line: place.position.map(|position| position.line),
-        layer: &place.layer,
-        handle: place.position.and_then(|position| position.handle).map(|handle| handle.to_string()),
-        x: place.point.map(|point| point.x.0),
-        y: place.point.map(|point| point.y.0),
-    };
-    // Serialization fails only for maps with keys that are not strings.
-    serde_json::to_value(&object).unwrap_or_default()
+    json!({
+        "path": place.name.as_str(),
+        "file": file,
+        "line": place.position.map(|position| position.line),
+        "layer": &*place.layer,
+        "handle": place.position.and_then(|position| position.handle).map(|handle| handle.to_string()),
+        "x": place.point.map(|point| point.x.0),
+        "y": place.point.map(|point| point.y.0),
+    })
 }

@@ -33,9 +33,9 @@ use serde_json::{Value, json};
 
 use crate::args::Command;
 use crate::context::Context;
+use crate::exit;
 use crate::exit::ExitStatus;
 use crate::render::Format;
-use crate::usage;
 
 /// A file that was written, as a line in JSON.
 fn output_row(context: &Context, file: &Utf8Path, written: WriteOutcome) -> (&'static str, Value) {
@@ -49,6 +49,10 @@ fn output_row(context: &Context, file: &Utf8Path, written: WriteOutcome) -> (&'s
 /// Adds a file that was written to the document. Returns its state for users.
 fn output_state(context: &Context, file: &Utf8Path, written: WriteOutcome) -> &'static str {
     context.json_row(|| output_row(context, file, written));
+    state_word(context, written)
+}
+
+fn state_word(context: &Context, written: WriteOutcome) -> &'static str {
     match written {
         WriteOutcome::Changed => context.choose("written", "geschrieben"),
         WriteOutcome::Unchanged => context.choose("unchanged", "unverändert"),
@@ -111,5 +115,5 @@ fn format_refusal(context: &Context, command: &Command) -> Option<String> {
 }
 
 fn refuse(context: &Context, reason: &str) -> ExitStatus {
-    usage::wrong(reason, context.lang(), &context.printer)
+    exit::wrong(reason, context.lang(), &context.printer)
 }

@@ -42,8 +42,7 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
     match session.with_stable_files(|session| drawn(context, session, drawing, &output, &name)) {
         Ok((bytes, count)) => write(context, &session, &output, &bytes, count),
         Err(problems) => {
-            let findings = context.findings(session.with_hints(problems));
-            context.show(&findings);
+            _ = context.conclude(session.with_hints(problems));
             ExitStatus::Errors
         }
     }

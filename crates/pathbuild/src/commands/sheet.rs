@@ -50,7 +50,6 @@ pub fn run(context: &Context, args: &SheetArgs) -> ExitStatus {
     };
     match delivered {
         Err(problem) => context.fail(vec![*problem]),
-        Ok(()) if findings.errors() > 0 => ExitStatus::Errors,
-        Ok(()) => ExitStatus::Success,
+        Ok(()) => ExitStatus::of(&findings),
     }
 }

@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 use crate::args::VerifyArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::numbers::count;
+use crate::text::count;
 use crate::waivers;
 
 /// Runs the command.
@@ -122,7 +122,7 @@ fn conclude(
         phrase("errors", "Fehler"),
         phrase("warnings", "Warnungen")
     ));
-    if errors > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    ExitStatus::of(&findings)
 }
 
 /// The checks of the programs of a run.

@@ -37,7 +37,7 @@ pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
     if let Err(problem) = output.deliver(context, &scene) {
         return context.fail(vec![*problem]);
     }
-    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    ExitStatus::of(&findings)
 }
 
 /// Reports that there is no stock to show: nothing is cut, or the cutter or the material is unknown.

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use camino::Utf8PathBuf;
 use pathbuild_db::SourceFile;
-use pathbuild_diagnostic::{Diagnostic, Lang, in_prose, shown};
+use pathbuild_diagnostic::{Diagnostic, in_prose, shown};
 use pathbuild_workspace::Inputs;
 use pathbuild_workspace::emit::ProgramOutcome;
 use pathbuild_workspace::posting::PostProcessor;
@@ -15,8 +15,8 @@ use super::emit::show_all;
 use crate::args::WatchArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::numbers::counted;
 use crate::serving::Server;
+use crate::text::{DRAWING, ERROR, PATH, WARNING, counted};
 use pathbuild_workspace::findings::Findings;
 
 /// Runs the command.
@@ -84,13 +84,6 @@ struct WatchPrinter<'a> {
     page: Option<Box<dyn Listener + 'a>>,
 }
 
-impl WatchPrinter<'_> {
-    fn counted(&self, number: usize, en: [&str; 2], de: [&str; 2]) -> String {
-        let lang = self.context.lang();
-        counted(number, lang, if lang == Lang::De { de } else { en })
-    }
-}
-
 impl Listener for WatchPrinter<'_> {
     fn set_bell(&self, bell: Bell) {
         if let Some(page) = &self.page {
@@ -129,12 +122,10 @@ impl Listener for WatchPrinter<'_> {
         let context = self.context;
         let findings = context.findings(diagnostics.clone());
         context.show(&findings);
-        let (errors, warnings) = (findings.errors(), findings.warnings());
+        let counted = |number, noun| counted(number, noun, context.lang());
         let milliseconds = time.as_secs_f64() * 1000.0;
-        let paths = self.counted(*paths, ["path", "paths"], ["Pfad", "Pfade"]);
-        let drawings = self.counted(*drawings, ["drawing", "drawings"], ["Zeichnung", "Zeichnungen"]);
-        let errors = self.counted(errors, ["error", "errors"], ["Fehler", "Fehler"]);
-        let warnings = self.counted(warnings, ["warning", "warnings"], ["Warnung", "Warnungen"]);
+        let (paths, drawings) = (counted(*paths, PATH), counted(*drawings, DRAWING));
+        let (errors, warnings) = (counted(findings.errors(), ERROR), counted(findings.warnings(), WARNING));
         let begin = context.choose("watching", "beobachtet:");
         context.printer.status(format_args!(
             "{begin} {paths} in {drawings}: {errors}, {warnings} ({milliseconds:.0} ms)"
@@ -160,14 +151,11 @@ impl Listener for WatchPrinter<'_> {
             0 => String::new(),
             open => format!(", {open} {}", phrase("still to check", "noch zu prüfen")),
         };
-        let checked = self.counted(
-            count,
-            ["drawing checked", "drawings checked"],
-            ["Zeichnung geprüft", "Zeichnungen geprüft"],
-        );
+        let counted = |number, noun| counted(number, noun, context.lang());
+        let checked = [["drawing checked", "drawings checked"], ["Zeichnung geprüft", "Zeichnungen geprüft"]];
+        let checked = counted(count, checked);
         let has_news = !new.is_empty() || gone > 0;
-        let new =
-            self.counted(new.len(), ["new finding", "new findings"], ["neue Meldung", "neue Meldungen"]);
+        let new = counted(new.len(), [["new finding", "new findings"], ["neue Meldung", "neue Meldungen"]]);
         let time = in_prose(format!("{milliseconds:.1}"), context.lang());
         let tail = format!("{checked}{open}, {new}, {gone} {} ({time} ms)", phrase("fixed", "behoben"));
         let changed = update.changed.iter().map(|path| {

@@ -5,8 +5,7 @@ use std::collections::HashSet;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Reason;
 use pathbuild_diagnostic::shown;
-use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::args::GraphArgs;
 use crate::context::Context;
@@ -73,17 +72,10 @@ impl DrawingState<'_> {
     }
 
     fn json(&self, context: &Context) -> Value {
-        let reasons = self
-            .reasons
-            .as_deref()
-            .unwrap_or_default()
-            .iter()
-            .map(|reason| object(context, reason))
-            .collect();
+        let reasons = self.reasons.iter().flatten().map(|reason| object(context, reason));
+        // `null` if nothing is cached.
         let holds = self.reasons.as_ref().map(Vec::is_empty);
-        let object = Object { file: context.file(self.drawing), holds, reasons };
-        // Serialization fails only for maps with keys that are not strings.
-        serde_json::to_value(&object).unwrap_or_default()
+        json!({ "file": context.file(self.drawing), "holds": holds, "reasons": reasons.collect::<Value>() })
     }
 }
 
@@ -116,37 +108,14 @@ fn describe(context: &Context, reason: &Reason) -> String {
     }
 }
 
-#[derive(Serialize)]
-struct Object<'a> {
-    file: String,
-    /// `null` if nothing is cached.
-    holds: Option<bool>,
-    reasons: Vec<ReasonObject<'a>>,
-}
-
-#[derive(Serialize)]
-struct ReasonObject<'a> {
-    file: String,
-    /// `changed`, `gone`, `new` or `links`.
-    change: &'static str,
-    /// The path that the file may contain or have contained.
-    path: Option<&'a str>,
-}
-
-fn object<'a>(context: &Context, reason: &'a Reason) -> ReasonObject<'a> {
-    match reason {
-        Reason::File { path, is_gone } => ReasonObject {
-            file: context.file(path),
-            change: if *is_gone { "gone" } else { "changed" },
-            path: None,
-        },
-        Reason::Name { file, path, is_gone } => ReasonObject {
-            file: context.file(Utf8Path::new(file.as_str())),
-            change: if *is_gone { "gone" } else { "new" },
-            path: Some(path),
-        },
-        Reason::Links { directory } => {
-            ReasonObject { file: context.file(directory), change: "links", path: None }
+/// `change` is `changed`, `gone`, `new` or `links`; `path` is the path that the file may contain or have contained.
+fn object(context: &Context, reason: &Reason) -> Value {
+    let (file, change, path) = match reason {
+        Reason::File { path, is_gone } => (&**path, if *is_gone { "gone" } else { "changed" }, None),
+        Reason::Name { file, path, is_gone } => {
+            (Utf8Path::new(file.as_str()), if *is_gone { "gone" } else { "new" }, Some(path))
         }
-    }
+        Reason::Links { directory } => (&**directory, "links", None),
+    };
+    json!({ "file": context.file(file), "change": change, "path": path })
 }

@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::WriteOutcome;
 use pathbuild_diagnostic::{Diagnostic, Lang, Number, shown};
 use pathbuild_path::{DrawnChange, ElementChange};
 use pathbuild_view::{ChangeKind, Group, Totals, escaped, moves, phrase};
@@ -12,8 +11,9 @@ use pathbuild_workspace::files::cannot_write;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use crate::commands::state_word;
 use crate::context::Context;
-use crate::numbers::counted;
+use crate::text::counted;
 
 /// A file to write with its format, if any.
 pub(super) struct Output(Option<(Format, Utf8PathBuf)>);
@@ -61,10 +61,7 @@ impl Output {
             Format::Markdown => markdown(comparison, context.lang()),
         };
         let refused = |reason| Box::new(cannot_write(file, reason));
-        let state = match context.system.write(file, text.as_bytes()).map_err(refused)? {
-            WriteOutcome::Changed => context.choose("written", "geschrieben"),
-            WriteOutcome::Unchanged => context.choose("unchanged", "unverändert"),
-        };
+        let state = state_word(context, context.system.write(file, text.as_bytes()).map_err(refused)?);
         context.printer.status(format_args!("{}: {state}", shown::line(file.as_str())));
         Ok(())
     }
@@ -201,13 +198,10 @@ fn totals(old: &Totals, new: &Totals, lang: Lang) -> String {
 pub(super) fn summary(comparison: &Comparison, lang: Lang) -> String {
     let count = |is: fn(&Outcome) -> bool| comparison.paths.iter().filter(|path| is(&path.outcome)).count();
     let changed = count(|outcome| matches!(outcome, Outcome::Changed(_)));
+    let paths = counted(comparison.path_count, [["path", "paths"], ["Pfad", "Pfaden"]], lang);
     let mut parts = vec![match lang {
-        Lang::En => {
-            format!("{changed} of {} changed", counted(comparison.path_count, lang, ["path", "paths"]))
-        }
-        Lang::De => {
-            format!("{changed} von {} geändert", counted(comparison.path_count, lang, ["Pfad", "Pfaden"]))
-        }
+        Lang::En => format!("{changed} of {paths} changed"),
+        Lang::De => format!("{changed} von {paths} geändert"),
     }];
     let mut add = |number: usize, en: &str, de: &str| {
         if number > 0 {
