@@ -1,5 +1,6 @@
 //! The graph of the curves on a layer with parts: rings, and chains that are not closed. (book: language/part)
 
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 use rstar::RTree;
@@ -247,8 +248,8 @@ impl Forest<'_> {
             }
             for half_edge in self.outgoing.get(&node).into_iter().flatten() {
                 let next = self.nodes[half_edge ^ 1];
-                if !reached.contains_key(&next) {
-                    reached.insert(next, Some(*half_edge));
+                if let Entry::Vacant(entry) = reached.entry(next) {
+                    entry.insert(Some(*half_edge));
                     open.push((next, length + self.graph.curves[half_edge / 2].length()));
                 }
             }

@@ -27,10 +27,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::types::Requirement;
 use crate::config::{Settings, number, positive};
-use crate::workspace::Failure;
 use crate::posting::{PostArguments, PostProcessor, known_words, machine, tool_table};
 use crate::program::{ByDefinition, Program, ReadingOptions};
 use crate::session::Session;
+use crate::workspace::Failure;
 use crate::workspace::Workspace;
 
 pub use checks::{ABOVE_FIRST, CheckRecord, Origin, Outcome, RapidValues, Reason, blind_text, summary};
