@@ -104,7 +104,7 @@ fn layers_blocks_and_line_types() {
             format!("{START}mill 0,0 40,0\nend 40,0\nlayer \"1234.1\u{420}\"\nline 5,5 20,5\n")
                 .replace("layer 1234.1P", "version R2010\nlayer 1234.1P"),
         ),
-        ("cyrillic_layer_alone", format!("version R2010\nlayer \"1234.1\u{420}\"\nline 5,5 20,5\n")),
+        ("cyrillic_layer_alone", "version R2010\nlayer \"1234.1\u{420}\"\nline 5,5 20,5\n".to_owned()),
         (
             "cut_into_clamp",
             format!(

@@ -338,7 +338,7 @@ fn from_unknown(program: &str) -> (Vec<String>, Option<(usize, u32)>) {
     let text = format!("G17 G21 G90 G94 F100\n{program}\nM30\n");
     let read = interpret(text.as_bytes(), pathbuild_gcode::dialect::Dialect::LinuxCnc, &Options::default());
     let stock = Stock::uniform(0.0, 2.0);
-    let mut blind = BlindRapidRules::new(&stock).unwrap();
+    let mut blind = BlindRapidRules::new(&stock).expect("the surface is known");
     read.steps.iter().for_each(|step| blind.step(step));
     let found = verify(&read.steps, Some(&stock)).iter().map(fault_text).collect();
     (found, blind.finish().map(|blind| (blind.count, blind.line)))
@@ -350,7 +350,7 @@ const SLOT_AT_5: &str = "G1 Z-5\nG1 X20\nG0 Z5";
 #[test]
 fn a_rapid_move_from_an_unknown_height_ends_above_the_material() {
     for start in ["G53 G0 Z0\nG0 X0 Y0", "G28 Z5\nG0 X0 Y0", "G30 Z5\nG0 X0 Y0", "T1 M6\nG0 X0 Y0"] {
-        let begin = start.lines().count() as u32 + 2;
+        let begin = u32::try_from(start.lines().count()).expect("a few lines") + 2;
         let down = |z: &str| from_unknown(&format!("{start}\nG0 Z{z}\n{SLOT_AT_5}"));
         assert_eq!(down("0").1, None, "{start}");
         assert!(down("0").0.iter().all(|found| !found.ends_with("rapid-plunge")), "{start}: {:?}", down("0"));

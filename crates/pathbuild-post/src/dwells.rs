@@ -38,14 +38,10 @@ fn duration(step: &JobStep) -> Option<f64> {
 }
 
 fn difference(seconds: f64, next: Option<(u32, f64)>, steps: &[Step]) -> Diagnostic {
-    match next {
-        Some((line, found)) => {
-            let diagnostic = Diagnostic::new(&posts::DWELL_DIFFERS).with("seconds", seconds);
-            diagnostic.with("found", found).at_line(line, None)
-        }
-        None => {
-            let last = steps.last().map_or(0, |step| step.line);
-            Diagnostic::new(&posts::DWELL_LOST).with("seconds", seconds).at_line(last, None)
-        }
+    if let Some((line, found)) = next {
+        let diagnostic = Diagnostic::new(&posts::DWELL_DIFFERS).with("seconds", seconds);
+        return diagnostic.with("found", found).at_line(line, None);
     }
+    let last = steps.last().map_or(0, |step| step.line);
+    Diagnostic::new(&posts::DWELL_LOST).with("seconds", seconds).at_line(last, None)
 }

@@ -94,7 +94,7 @@ pub(super) fn check(
             }
         }
         doubts.extend(translated.and_then(disputed));
-        doubts.extend(translated.into_iter().flat_map(|translated| translated.unstated.iter().cloned()));
+        doubts.extend(translated.iter().flat_map(|translated| translated.unstated.iter().cloned()));
         if target.is_some() {
             problems
                 .extend(dwells::check(&read.steps, job, tolerance.place.max(SHORTEST_DWELL)).map(as_post_s));

@@ -60,6 +60,7 @@ struct Checker<'j> {
 
 /// The kinds of tool words that a text contains.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 struct ToolWords {
     /// T, with or without M6.
     has_selection: bool,

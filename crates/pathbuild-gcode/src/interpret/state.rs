@@ -10,6 +10,7 @@ pub(super) const INCH: f64 = 25.4;
 
 /// The modal state.
 #[derive(Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "independent modes")]
 pub(super) struct State {
     pub(super) position: Position,
     /// The axes with a position specified since the last tool change; all of them before the first one.

@@ -141,7 +141,7 @@ fn fanuc_dwells_in_milliseconds() {
         let text = String::from_utf8(text).unwrap();
         let words = text.lines().filter(|line| line.starts_with("G4 ") || line.starts_with("G82 "));
         words
-            .flat_map(|line| line.split(' ').rfind(|word| word.starts_with(['P', 'X'])).map(str::to_owned))
+            .filter_map(|line| line.split(' ').rfind(|word| word.starts_with(['P', 'X'])).map(str::to_owned))
             .collect()
     };
     let of_fanuc: Vec<String> = dwells("fanuc", 0.5);

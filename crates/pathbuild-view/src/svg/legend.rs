@@ -67,13 +67,12 @@ impl<'a> Legend<'a> {
             kinds(canvas, self.scene, self.shown, [40.0, self.top + 3.0 * LINE], Frame::WIDTH);
         }
         self.scale_bar(canvas, self.top + 3.0 * LINE);
-        match self.stock {
-            Some(stock) => stock.legend(canvas, self.shown, [40.0, self.top + 4.0 * LINE], Frame::WIDTH),
-            None => {
-                depths(canvas, self.depths, [40.0, self.top + 4.0 * LINE]);
-                let left = 40.0 + DEPTHS_WIDTH;
-                self::hidden(canvas, hidden, self.shown, [left, self.top + 4.0 * LINE], Frame::WIDTH - left);
-            }
+        if let Some(stock) = self.stock {
+            stock.legend(canvas, self.shown, [40.0, self.top + 4.0 * LINE], Frame::WIDTH);
+        } else {
+            depths(canvas, self.depths, [40.0, self.top + 4.0 * LINE]);
+            let left = 40.0 + DEPTHS_WIDTH;
+            self::hidden(canvas, hidden, self.shown, [left, self.top + 4.0 * LINE], Frame::WIDTH - left);
         }
         for (row, (finding, line)) in self.findings.iter().enumerate() {
             let y = self.top + (5.0 + row as f64) * LINE;

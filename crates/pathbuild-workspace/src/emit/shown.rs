@@ -58,7 +58,9 @@ impl SceneReport {
         let findings = workspace.findings(self.diagnostics);
         let directory = Utf8Path::new(file).parent().unwrap_or(Utf8Path::new(""));
         let mut shown = findings.diagnostics.clone();
-        shown.iter_mut().for_each(|diagnostic| diagnostic.rename_files(|text| near_name(text, directory)));
+        for diagnostic in &mut shown {
+            diagnostic.rename_files(|text| near_name(text, directory));
+        }
         let own_name = |file: &str| near_name(file, directory).unwrap_or_else(|| outer_name(file));
         for path in &mut self.scene.paths {
             if path.name == path.file {

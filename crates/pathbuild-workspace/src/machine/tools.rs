@@ -314,14 +314,14 @@ impl ToolDescription {
 /// The tools of a description.
 struct Tools {
     format: &'static str,
-    tools: Vec<DescribedTool>,
+    described: Vec<DescribedTool>,
     unused: Vec<Entry>,
     problems: Vec<Diagnostic>,
 }
 
 impl Tools {
     fn new(format: &'static str) -> Self {
-        Self { format, tools: Vec::new(), unused: Vec::new(), problems: Vec::new() }
+        Self { format, described: Vec::new(), unused: Vec::new(), problems: Vec::new() }
     }
 
     /// Reads the number of a tool. 0 stands for none.
@@ -372,11 +372,11 @@ impl Tools {
         let values =
             tool.values.into_iter().map(|(key, quantity, source)| value(key, quantity, source, false));
         let values = values.chain(number).chain(shape).collect();
-        self.tools.push(DescribedTool { number: tool.number, name: tool.name, line: tool.line, values });
+        self.described.push(DescribedTool { number: tool.number, name: tool.name, line: tool.line, values });
     }
 
     fn finish(self) -> Description {
-        let Self { format, tools, unused, problems } = self;
+        let Self { format, described: tools, unused, problems } = self;
         Description { format, values: Vec::new(), tools, unused, problems }
     }
 }
