@@ -109,10 +109,11 @@ impl<'j> Checker<'j> {
     fn step(&mut self, step: &Step) {
         self.tools.step(step);
         if matches!(step.action, Action::Stop { .. }) {
+            // The tool is changed at the first stop, or where M6 is: later stops are pauses.
+            let changes = !self.has_stopped && !self.words.has_change;
+            let is_on = self.tools.spindle().turning.is_on();
+            self.spinning = self.spinning.or((changes && is_on).then_some(step.line));
             self.has_stopped = true;
-            // In a text with M6, a stop is not for changing the tool.
-            let is_on = self.tools.spindle().turning.is_on() && !self.words.has_change;
-            self.spinning = self.spinning.or(is_on.then_some(step.line));
         }
     }
 
