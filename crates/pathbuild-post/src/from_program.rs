@@ -238,7 +238,7 @@ pub struct ToolEntry {
     /// The paths it is for, if several cutters have the same diameter (S and T cutters). Matches anywhere in the name of the path, so use
     /// `T$`.
     pub paths: Option<Regex>,
-    /// Number in T words; without one the entry gets a free number: see [`ToolTable::numbers`].
+    /// Number in T words; without one the entry gets a free one, in the order of the entries.
     pub index: Option<u32>,
     /// State of the spindle; `None` if the operator controls it.
     pub spindle: Option<Turning>,
