@@ -321,7 +321,9 @@ fn clamps_of_one_drawing_hold_for_joined_paths_of_others() {
     assert_eq!(codes(&emit("9", "21", "5")), [""; 0]);
     // All rapids between the paths are at the greater S.
     assert_eq!(codes(&emit("9", "10", "5")), [""; 0]);
-    assert_eq!(codes(&emit("9", "21", "6")), ["211"]);
+    let thicker = emit("9", "21", "6");
+    assert_eq!(codes(&thicker), ["211"]);
+    assert!(thicker.stderr.contains("1300.1P.dxf") && thicker.stderr.contains("path 1300.1P"), "{thicker}");
 }
 
 #[test]

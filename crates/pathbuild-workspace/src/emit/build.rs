@@ -42,6 +42,7 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
     let machine = settings.machine.as_ref();
     let unsafe_moves = programs.iter().find_map(|program| unsafe_moves(db, job, program, machine));
     let unsafe_moves = unsafe_moves.or_else(|| unsafe_together(db, job, &programs));
+    delivered.problems.extend(joined::differing_thickness(db, job, &programs));
     let result =
         unsafe_moves.map_or_else(|| outputs(db, job, &programs, &line, settings, &mut delivered), Err);
     let result = result.and_then(|mut outputs| {
@@ -229,8 +230,7 @@ fn posted(
     let output = post_processor.write(&program, Some(path), &mut delivered.inserted);
     let output = output
         .map_err(|problems| problems.into_iter().map(|problem| in_job(problem, job)).collect::<Vec<_>>())?;
-    let warnings = warnings.into_iter().chain(joined::differing_thickness(programs));
-    delivered.problems.extend(warnings.chain(output.warnings).map(located));
+    delivered.problems.extend(warnings.into_iter().chain(output.warnings).map(located));
     delivered.notes.extend(output.notes);
     delivered.post_build = output.post_build.map(|command| (command, path.clone()));
     Ok(Output { kind: *kind, path: path.clone(), text: output.text })

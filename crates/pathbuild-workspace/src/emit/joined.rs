@@ -13,12 +13,13 @@ use pathbuild_toolpath::{Program, kind_of_move, way};
 use super::plan::Job;
 
 /// PB211: a path whose material is not as thick as that of the first path.
-pub(super) fn differing_thickness(programs: &[Arc<Program>]) -> Option<Diagnostic> {
-    let (first, rest) = programs.split_first()?;
-    let other = rest.iter().find(|other| !near(other.thickness, first.thickness))?;
+pub(super) fn differing_thickness(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Diagnostic> {
+    let first = programs.first()?;
+    let mut targets = programs.iter().zip(&job.targets);
+    let (other, target) = targets.find(|(other, _)| !near(other.thickness, first.thickness))?;
     let problem = Diagnostic::new(&parameters::JOINED_THICKNESS).in_path(&other.path);
     let problem = problem.with("thickness", other.thickness).with("other", first.thickness);
-    Some(problem.quoting("path", &*first.path))
+    Some(problem.quoting("path", &*first.path).in_file(target.file(db).path(db)))
 }
 
 /// PB407 for moves of one path into clamps of another path's drawing, and for rapid moves from one path to the next: one for each clamp,
