@@ -20,7 +20,7 @@ words! {
     /// A report or similar output with the name of the configuration.
     NAME_OF_CONFIGURATION: "it is the configuration, which would be lost", "sie ist die Konfiguration, die verloren ginge";
     /// A drawing that q-project would overwrite, although it did not write it.
-    DRAWN_BY_USER: "the drawing there was not written by q-project, or was edited since: rename it, or give another name with -o", "die Zeichnung dort stammt nicht von q-project oder wurde seither bearbeitet: sie umbenennen oder mit -o einen anderen Namen angeben";
+    DRAWN_BY_USER: "the drawing there was not written by q-project, or was edited since", "die Zeichnung dort stammt nicht von q-project oder wurde seither bearbeitet";
     /// A directory instead of a file to read.
     IS_DIRECTORY: "it is a directory", "es ist ein Verzeichnis";
     /// A directory instead of a file to write.

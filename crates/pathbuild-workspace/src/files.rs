@@ -108,7 +108,7 @@ fn already_there(file: &Utf8Path) -> Diagnostic {
 /// A diagnostic with the reason why the file cannot be written.
 pub fn replace_report(context: &Workspace, file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     match name_of_source_or_program(context, file) {
-        Some(reason) => Err(Box::new(cannot_write(file, Value::Prose(reason)))),
+        Some(reason) => Err(Box::new(would_replace(file, reason))),
         None => replace(context, file, text),
     }
 }
@@ -168,6 +168,12 @@ fn open_stream(path: &Utf8Path) -> std::io::Result<fs::File> {
 #[cfg(not(unix))]
 fn open_stream(path: &Utf8Path) -> std::io::Result<fs::File> {
     fs::File::options().write(true).open(path)
+}
+
+/// PB004 for an output that would replace a source, a program or a drawing of the user.
+pub fn would_replace(file: &Utf8Path, reason: &'static Text) -> Diagnostic {
+    let name = file.file_name().unwrap_or_default();
+    Diagnostic::new(&files::WOULD_REPLACE).quoting("name", name).with("reason", reason).in_file(file)
 }
 
 /// PB004.

@@ -146,6 +146,13 @@ messages! {
         help_en: "rename the file or the directory, or leave out --deps",
         help_de: "die Datei oder das Verzeichnis umbenennen oder --deps weglassen",
     }
+    /// A file that would replace another kind of file.
+    WOULD_REPLACE: CannotWrite {
+        en: "cannot write {name}: {reason}",
+        de: "{name} kann nicht geschrieben werden: {reason}",
+        help_en: "nothing was written: give another name",
+        help_de: "nichts wurde geschrieben: einen anderen Namen angeben",
+    }
     /// A file that cannot be written.
     CANNOT_WRITE: CannotWrite {
         en: "cannot write {name}: {reason}",

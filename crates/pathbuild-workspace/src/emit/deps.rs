@@ -5,12 +5,12 @@ use std::iter::repeat_n;
 
 use camino::Utf8Path;
 use pathbuild_db::Db;
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
-use pathbuild_diagnostic::{Diagnostic, Value};
 
 use super::outcome::cannot_write;
 use super::plan::Job;
-use crate::files::name_of_source_or_program;
+use crate::files::{name_of_source_or_program, would_replace};
 use crate::posting::PostProcessor;
 use crate::session::Session;
 
@@ -28,7 +28,7 @@ pub(super) fn write<'p>(
     let post = post_processor.and_then(PostProcessor::file).map(|file| session.normal(file));
     let file = session.normal(file);
     if let Some(reason) = name_of_source_or_program(session.workspace(), &file) {
-        return Some(cannot_write(file.as_str(), Value::Prose(reason)));
+        return Some(would_replace(&file, reason));
     }
     for job in jobs {
         let outputs: Vec<&Utf8Path> = job.files.iter().map(|(_, path)| path.as_path()).collect();

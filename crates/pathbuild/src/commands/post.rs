@@ -2,7 +2,7 @@
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::{gcode, posts};
-use pathbuild_diagnostic::{Diagnostic, Note, Severity, Value};
+use pathbuild_diagnostic::{Diagnostic, Note, Severity};
 use pathbuild_gcode::adjust::first_open_formula;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::provenance::Provenance;
@@ -15,7 +15,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::render::Format;
 use pathbuild_workspace::config::number;
-use pathbuild_workspace::files::{cannot_write, name_of_source};
+use pathbuild_workspace::files::{cannot_write, name_of_source, would_replace};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor, complete_tools, run_post_build};
 use pathbuild_workspace::program::Program;
 
@@ -121,7 +121,7 @@ fn written(
         return Ok(());
     };
     if let Some(reason) = name_of_source(context, to) {
-        return Err(vec![cannot_write(to, Value::Prose(reason))]);
+        return Err(vec![would_replace(to, reason)]);
     }
     let written = context.system.write(to, &output.text).map_err(|reason| vec![cannot_write(to, reason)])?;
     let state = output_state(context, to, written);
