@@ -1,8 +1,9 @@
 //! The diagnostics of a run, ready for display: with configured severities, without duplicates, in an order independent of threads.
 //! (book: reference/diagnostics)
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt;
+use std::hash::{Hash, Hasher};
 
 use camino::Utf8Path;
 use pathbuild_db::system::FileKind;
@@ -158,13 +159,60 @@ enum Verdict {
     Waived(Diagnostic, Waiver),
 }
 
-/// Whether two findings are the same except for their traces. Paths nested too deep may be reached from several projects, each with
-/// different arguments.
+/// Whether two findings are the same except for their traces and notes.
 fn is_same(a: &Diagnostic, b: &Diagnostic) -> bool {
-    let arguments_agree = a.arguments == b.arguments || a.code() == Code::NestingTooDeep;
-    arguments_agree
-        && (a.message, &a.file, &a.path, &a.place, &a.text)
-            == (b.message, &b.file, &b.path, &b.place, &b.text)
+    identity(a) == identity(b)
+}
+
+/// What tells a finding from others. Paths nested too deep may be reached from several projects, each with different arguments.
+fn identity(found: &Diagnostic) -> impl Eq + Hash + '_ {
+    let arguments = (found.code() != Code::NestingTooDeep).then_some(&found.arguments);
+    (found.message, &found.file, &found.path, &found.place, &found.text, arguments)
+}
+
+/// Number of reports of each finding: the checks of several drawings may report the same one.
+#[derive(Debug, Default)]
+pub(crate) struct FindingTally(HashMap<Counted, usize>);
+
+impl FindingTally {
+    /// Replaces findings. Returns those that were not known, and those that no check reports any more.
+    pub(crate) fn replace(
+        &mut self,
+        before: &[Diagnostic],
+        now: &[Diagnostic],
+    ) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
+        let counted = |found: &Diagnostic| Counted(found.clone());
+        let is_known = |tally: &Self, found: &Diagnostic| tally.0.contains_key(&counted(found));
+        let new = now.iter().filter(|found| !is_known(self, found)).cloned().collect();
+        for found in now {
+            *self.0.entry(counted(found)).or_default() += 1;
+        }
+        for found in before.iter().map(counted) {
+            match self.0.get_mut(&found) {
+                Some(count) if *count > 1 => *count -= 1,
+                _ => _ = self.0.remove(&found),
+            }
+        }
+        (new, before.iter().filter(|found| !is_known(self, found)).cloned().collect())
+    }
+}
+
+/// A finding, compared by its identity.
+#[derive(Debug)]
+struct Counted(Diagnostic);
+
+impl PartialEq for Counted {
+    fn eq(&self, other: &Self) -> bool {
+        is_same(&self.0, &other.0)
+    }
+}
+
+impl Eq for Counted {}
+
+impl Hash for Counted {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        identity(&self.0).hash(state);
+    }
 }
 
 // Fingerprints of findings: the same finding has the same one in every run, language and version.
@@ -178,7 +226,7 @@ impl Fingerprint {
     pub fn of(diagnostics: &[Diagnostic]) -> Vec<Self> {
         let mut met: BTreeMap<u128, u32> = BTreeMap::new();
         let mut fingerprint = |diagnostic| {
-            let hash = hash(diagnostic);
+            let hash = fnv(diagnostic);
             let number = met.entry(hash.0).and_modify(|number| *number += 1).or_insert(0);
             Self(hash.and(&number.to_le_bytes()).0)
         };
@@ -192,11 +240,11 @@ impl fmt::Display for Fingerprint {
     }
 }
 
-fn hash(diagnostic: &Diagnostic) -> Hash {
+fn fnv(diagnostic: &Diagnostic) -> Fnv {
     let place = &diagnostic.place;
     let point = place.point.map(|point| format!("{:.3} {:.3}", point.x.0 + 0.0, point.y.0 + 0.0));
     let fault = diagnostic.text.as_ref().map(|fault| &fault.text[fault.span()]);
-    Hash::NEW
+    Fnv::NEW
         .and(diagnostic.code().to_string().as_bytes())
         .and(diagnostic.file.as_ref().and_then(|file| file.file_name()).unwrap_or_default().as_bytes())
         .and(diagnostic.path.as_deref().unwrap_or_default().to_uppercase().as_bytes())
@@ -207,9 +255,9 @@ fn hash(diagnostic: &Diagnostic) -> Hash {
 
 /// 128-bit FNV-1a, which is the same on every machine and in every version.
 #[derive(Clone, Copy)]
-struct Hash(u128);
+struct Fnv(u128);
 
-impl Hash {
+impl Fnv {
     const NEW: Self = Self(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
     const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
 

@@ -170,6 +170,33 @@ fn drawings_that_come_go_and_are_renamed_are_noticed() {
     assert!(said.iter().any(|line| line.contains("7001.dxf: warning[PB521]")), "{said:#?}");
 }
 
+/// Two projects give a component the same wrong value. The error there goes with the second of them.
+#[test]
+fn a_finding_counts_as_fixed_once_no_drawing_leads_to_it() {
+    let component =
+        "layer 1003.1P\nstart 0,0 \":B?0123456789 T5 O2 I1 B=B MPlate\"\nmill 0,0 40,0\nend 40,0\n";
+    let place = library()
+        .file("library/parts/1003.dxf", sheet(component).unwrap().to_dxf())
+        .file("library/projects/8003.dxf", dxf("8003.1P", 5, &["1003.1P :B9"]))
+        .file("library/projects/8004.dxf", dxf("8004.1P", 5, &["1003.1P :B9"]));
+    let watch = Watch::begin(&place, "watch --format concise");
+    let counts: Vec<String> = ["8004", "8003"]
+        .map(|name| {
+            fs::remove_file(place.path().join(format!("library/projects/{name}.dxf"))).unwrap();
+            watch.until(&format!("{name}.dxf: removed")).pop().unwrap()
+        })
+        .into();
+    assert!(counts[0].contains(" 0 new findings, 1 fixed"), "{counts:#?}");
+    assert!(counts[1].contains(" 0 new findings, 2 fixed"), "{counts:#?}");
+
+    // A further project with the same mistake adds only its own error.
+    for (name, new) in [("8003", 2), ("8004", 1)] {
+        watch.write(&format!("library/projects/{name}.dxf"), dxf(&format!("{name}.1P"), 5, &["1003.1P :B9"]));
+        let said = watch.until(&format!("{name}.dxf: changed")).pop().unwrap();
+        assert!(said.contains(&format!(" {new} new finding")), "{said}");
+    }
+}
+
 /// Typed without a separator, it could be the name of a path.
 #[test]
 fn a_directory_by_its_name_is_watched() {

@@ -37,7 +37,7 @@ pub(super) struct Library<'a> {
 }
 
 /// The outcome of a batch of changes.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Batch {
     /// Files that changed.
     pub(super) changed: BTreeSet<Utf8PathBuf>,
@@ -146,11 +146,15 @@ impl<'a> Library<'a> {
         checked_files: &[SourceFile],
     ) -> Batch {
         let (mut update, mut concerned) = (Batch::default(), HashSet::new());
-        if self.problems.iter().any(is_transient) {
+        let is_passed = |result: &DrawingResult| result.diagnostics.iter().any(is_transient);
+        let system = &*self.session.workspace().system;
+        let is_missing = |path: &Utf8PathBuf| system.kind(path) == FileKind::Missing;
+        let has_missing = self.drawings.iter().any(|(path, result)| is_passed(result) && is_missing(path));
+        // No event tells about a drawing that was removed before its directory was watched.
+        if has_missing || self.problems.iter().any(is_transient) {
             self.find_drawings(&mut concerned, &mut update);
         }
         let db = self.session.db();
-        let is_passed = |result: &DrawingResult| result.diagnostics.iter().any(is_transient);
         let unsure = self.drawings.iter().filter(|(_, result)| is_passed(result));
         let unsure: Vec<SourceFile> = unsure.map(|(path, _)| db.file(path)).collect();
         let found = self.drawings.values().flat_map(|result| &result.diagnostics);
@@ -209,18 +213,24 @@ impl<'a> Library<'a> {
         }
     }
 
+    /// Whether a drawing was checked or is to be checked.
+    fn holds(&self, drawing: &Utf8Path) -> bool {
+        self.drawings.contains_key(drawing) || self.open.contains_key(drawing)
+    }
+
     /// The files affected by the changes: changed files, and the files in changed directories.
     fn changed_files(&self, changes: &Changes) -> BTreeSet<Utf8PathBuf> {
         let db = self.session.db();
         let mut files: BTreeSet<Utf8PathBuf> = BTreeSet::new();
+        let known = || self.reverse.files().chain(self.open());
         if changes.is_incomplete {
-            files.extend(self.reverse.files().map(|file| file.path(db).clone()));
+            files.extend(known().map(|file| file.path(db).clone()));
         }
         for path in &changes.paths {
             if is_drawing(path) {
                 files.insert(path.clone());
             } else {
-                let below = self.reverse.files().filter(|file| file.path(db).starts_with(path));
+                let below = known().filter(|file| file.path(db).starts_with(path));
                 files.extend(below.map(|file| file.path(db).clone()));
                 if self.session.is_directory(path) {
                     let drawings = self.session.drawings_below(path);
@@ -241,7 +251,7 @@ impl<'a> Library<'a> {
     ) -> bool {
         let system = &*self.session.workspace().system;
         let is_there = |path: &Utf8Path| system.kind(path) == FileKind::File;
-        let mut have_changed = files.iter().any(|path| is_there(path) != self.drawings.contains_key(path));
+        let mut have_changed = files.iter().any(|path| is_there(path) != self.holds(path));
         let mut directories: BTreeSet<Utf8PathBuf> = BTreeSet::new();
         for path in files {
             let (directory, name) = (parent(path), path.file_name().unwrap_or_default());
@@ -291,9 +301,13 @@ impl<'a> Library<'a> {
             .collect();
         let is_unsure =
             |drawing: &Utf8PathBuf| unlisted.iter().any(|place| drawing.starts_with(as_listed(place)));
-        let is_gone =
-            |drawing: &Utf8PathBuf, _: &mut DrawingResult| !existing.contains(drawing) && !is_unsure(drawing);
-        let gone: Vec<(Utf8PathBuf, DrawingResult)> = self.drawings.extract_if(.., is_gone).collect();
+        let is_gone = |drawing: &Utf8PathBuf| !existing.contains(drawing) && !is_unsure(drawing);
+        // Some may have been removed before they were checked for the first time.
+        let unchecked = self.open.extract_if(.., |drawing, _| is_gone(drawing));
+        update.removed.extend(unchecked.map(|(drawing, _)| drawing));
+        update.changed.extend(update.removed.iter().cloned());
+        let gone: Vec<(Utf8PathBuf, DrawingResult)> =
+            self.drawings.extract_if(.., |drawing, _| is_gone(drawing)).collect();
         for (drawing, result) in gone {
             self.reverse.remove(db.file(&drawing));
             self.pairs = None;

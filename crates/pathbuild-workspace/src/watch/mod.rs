@@ -8,12 +8,15 @@ mod changes;
 mod directories;
 mod events;
 mod library;
+#[cfg(test)]
+mod tests;
 mod writing;
 
 use std::time::Instant;
 
 use pathbuild_db::SourceFile;
 
+use crate::findings::FindingTally;
 use crate::session::Session;
 use crate::workspace::Workspace;
 
@@ -41,7 +44,8 @@ impl Request<'_> {
         match Watcher::new(&session, self, &writer.sources()) {
             Ok(watcher) => {
                 let library = Library::new(session, self.inputs);
-                WatchLoop { listener, library, writer, watcher, revision: 0 }.run()
+                let tally = FindingTally::default();
+                WatchLoop { listener, library, writer, watcher, tally, revision: 0 }.run()
             }
             Err(reason) => WatchEnd::CannotWatch(reason.to_string()),
         }
@@ -54,6 +58,7 @@ struct WatchLoop<'a> {
     library: Library<'a>,
     writer: Writer<'a>,
     watcher: Watcher,
+    tally: FindingTally,
     revision: u64,
 }
 
@@ -97,6 +102,7 @@ impl WatchLoop<'_> {
         let time = begun.elapsed();
         let (drawings, paths) = self.library.counts();
         let diagnostics = self.library.session().with_hints([found.now, written].concat());
+        self.tally.replace(&[], &diagnostics);
         self.listener.first_check_done(&FirstCheck { drawings, paths, diagnostics, time });
     }
 
@@ -139,6 +145,8 @@ impl WatchLoop<'_> {
         let library::Batch { changed, checked_files, open, removed, tried_again, before, now, problems } =
             found;
         let session = self.library.session();
+        let (before, now) = (session.with_hints(before), session.with_hints([now, written].concat()));
+        let (new, fixed) = self.tally.replace(&before, &now);
         self.listener.batch_done(&Update {
             revision: self.revision,
             changed,
@@ -147,8 +155,10 @@ impl WatchLoop<'_> {
             tried_again,
             checked: checked_files.len(),
             open,
-            before: session.with_hints(before),
-            now: session.with_hints([now, written].concat()),
+            before,
+            now,
+            new,
+            fixed,
             time,
         });
         checked_files

@@ -1,7 +1,5 @@
 //! `pathbuild watch`: checks drawings, and with `--emit` writes programs, whenever drawings change. (book: reference/commands)
 
-use std::collections::HashSet;
-
 use camino::Utf8PathBuf;
 use pathbuild_db::SourceFile;
 use pathbuild_diagnostic::{Diagnostic, in_prose, shown};
@@ -138,11 +136,7 @@ impl Listener for WatchPrinter<'_> {
         }
         let context = self.context;
         let judged = |found: &[Diagnostic]| context.findings(found.to_vec()).diagnostics;
-        let (before, now) = (judged(&update.before), judged(&update.now));
-        let known: HashSet<&Diagnostic> = before.iter().collect();
-        let still: HashSet<&Diagnostic> = now.iter().collect();
-        let gone = before.iter().filter(|found| !still.contains(found)).count();
-        let new: Vec<Diagnostic> = now.iter().filter(|found| !known.contains(found)).cloned().collect();
+        let (new, gone) = (judged(&update.new), judged(&update.fixed).len());
         context.show(&Findings { diagnostics: new.clone(), ..Findings::default() });
         let (count, revision) = (update.checked, update.revision);
         let milliseconds = update.time.as_secs_f64() * 1000.0;

@@ -1,0 +1,132 @@
+//! Drawings that are removed between two steps of a session. The watcher's events and their timing play no part.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot set up its files has failed")]
+
+use std::rc::Rc;
+use std::sync::Arc;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::System;
+use pathbuild_db::system::MemorySystem;
+use pathbuild_diagnostic::{Code, Diagnostic};
+use pathbuild_testkit::sheet;
+
+use super::events::Changes;
+use super::library::{Batch, Library};
+use crate::config::{self, Overrides};
+use crate::session::Session;
+use crate::{Inputs, SilentReporter, Workspace};
+
+const DRAWING: &str = "layer 1001.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0";
+
+/// A library in memory.
+struct Place {
+    system: Arc<MemorySystem>,
+    inputs: Inputs,
+    workspace: Workspace,
+}
+
+impl Place {
+    fn new() -> Self {
+        let system = Arc::new(MemorySystem::default());
+        system.put("pathbuild.toml", "library = [\"lib\"]\nfeed = 100\n");
+        let inputs = Inputs::default();
+        let shared: Arc<dyn System> = Arc::<MemorySystem>::clone(&system);
+        let given = Overrides { config: Some("pathbuild.toml".into()), ..Overrides::default() };
+        let (settings, faults) = config::load(&shared, &given, &inputs, Utf8Path::new(""));
+        assert!(faults.is_empty(), "{faults:?}");
+        let workspace = Workspace {
+            settings,
+            system: shared,
+            own_lang: None,
+            system_lang: None,
+            working_directory: Utf8PathBuf::new(),
+            jobs: Some(1),
+            cache: None,
+            reporter: Rc::new(SilentReporter),
+        };
+        let place = Self { system, inputs, workspace };
+        place.draw("lib/1001.1P.dxf");
+        place
+    }
+
+    fn draw(&self, file: &str) {
+        let name = file.rsplit('/').next().unwrap().trim_end_matches(".dxf");
+        self.system.put(file, sheet(&DRAWING.replace("1001.1P", name)).unwrap().to_dxf());
+    }
+
+    fn remove(&self, file: &str) {
+        self.system.remove(Utf8Path::new(file)).unwrap();
+    }
+
+    /// The watched library, after its first check.
+    fn watched(&self) -> Library<'_> {
+        let mut library = Library::new(Session::traced(&self.workspace), &self.inputs);
+        let mut found = library.find();
+        check_all(&mut library, &mut found);
+        assert!(found.now.is_empty(), "{found:#?}");
+        library
+    }
+}
+
+fn check_all(library: &mut Library<'_>, found: &mut Batch) {
+    while library.has_backlog() {
+        library.check_portion(64, found);
+    }
+}
+
+fn changed(paths: &[&str]) -> Changes {
+    Changes { paths: paths.iter().map(Utf8PathBuf::from).collect(), ..Changes::default() }
+}
+
+fn codes(found: &[Diagnostic]) -> Vec<Code> {
+    found.iter().map(Diagnostic::code).collect()
+}
+
+/// Adds two drawings, of which the first is checked, and removes those of `removed` before the second one is.
+fn removed_before_the_check(removed: &[&str], events: &[&str]) {
+    let place = Place::new();
+    let mut library = place.watched();
+    let new = ["lib/new/3001.1P.dxf", "lib/new/3002.1P.dxf"];
+    new.iter().for_each(|file| place.draw(file));
+    let mut found = library.apply(&changed(&["lib/new"]));
+    library.check_portion(1, &mut found);
+    library.postpone_rest(&mut found);
+    assert_eq!((found.open, library.counts().0), (1, 2));
+
+    removed.iter().for_each(|file| place.remove(file));
+    let mut found = library.apply(&changed(events));
+    check_all(&mut library, &mut found);
+    assert!(found.now.is_empty() && found.before.is_empty(), "{found:#?}");
+    let gone: Vec<&str> = found.removed.iter().map(|path| path.as_str()).collect();
+    assert_eq!(gone, removed);
+    assert_eq!(library.counts().0, 3 - removed.len());
+}
+
+/// Regression test: drawings of a backlog that were removed kept PB001 for as long as the session ran.
+#[test]
+fn a_new_drawing_may_be_removed_before_it_is_checked() {
+    let both = ["lib/new/3001.1P.dxf", "lib/new/3002.1P.dxf"];
+    removed_before_the_check(&both, &both);
+    removed_before_the_check(&both, &["lib/new"]);
+    removed_before_the_check(&both[1..], &both[1..]);
+    removed_before_the_check(&both[1..], &["lib/new"]);
+    removed_before_the_check(&[], &both);
+}
+
+/// The system cannot tell about drawings in a directory that it does not watch yet.
+#[test]
+fn a_drawing_whose_removal_was_not_told_is_dropped_after_the_next_change() {
+    let place = Place::new();
+    let mut library = place.watched();
+    place.draw("lib/3001.1P.dxf");
+    let mut found = library.apply(&changed(&["lib/3001.1P.dxf"]));
+    place.remove("lib/3001.1P.dxf");
+    check_all(&mut library, &mut found);
+    assert_eq!(codes(&found.now), [Code::UnreadableFile]);
+
+    let again = library.try_again(&[].into(), &found.checked_files);
+    assert_eq!(codes(&again.before), [Code::UnreadableFile]);
+    assert!(again.removed.iter().eq(["lib/3001.1P.dxf"]), "{again:#?}");
+    assert!(again.now.is_empty() && !library.has_backlog() && library.counts().0 == 1, "{again:#?}");
+}
