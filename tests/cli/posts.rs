@@ -500,6 +500,30 @@ fn a_post_that_does_not_state_its_modes_is_a_warning() {
     }
 }
 
+/// The table's speed is for cutting: a tool that only touches the material must not turn.
+#[test]
+fn a_tool_that_only_probes_gets_no_speed_from_the_table() {
+    let tools = |name: &str, number: u32| {
+        format!("[tool.{name}]\ndiameter = 2\nnumber = {number}\nspindle = 9{number}00\n")
+    };
+    let program = |second: &str| {
+        format!(
+            "G21 G90 G17 G94\nT1 M6\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG0 Z5\nT2 M6\nG0 Z5\nG0 X9 Y0\n{second}\nG0 Z5\nM2\n"
+        )
+    };
+    let place = Place::new()
+        .file("pathbuild.toml", tools("a", 1) + &tools("b", 2))
+        .file("cuts.nc", program("G1 Z-1 F100"))
+        .file("probes.nc", program("G38.2 Z-1 F100"));
+    let speeds = |file: &str| {
+        let run = place
+            .run(&format!("post {file} --dialect linuxcnc --post linuxcnc --surface 0 --format concise"));
+        assert_eq!(run.status, Some(0), "{run}");
+        ["S9100", "S9200"].map(|speed| run.stdout.matches(speed).count())
+    };
+    assert_eq!([speeds("cuts.nc"), speeds("probes.nc")], [[1, 1], [1, 0]]);
+}
+
 /// A post writes numbers, so it cannot write "2 mm above the place that the probe touched".
 #[test]
 fn values_that_only_the_machine_knows_are_refused() {

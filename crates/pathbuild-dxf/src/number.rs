@@ -1,8 +1,8 @@
 //! Parses numbers as CAD programs write them. (book: reference/dxf: "numbers")
 //!
 //! Nearly all numbers of a drawing are plain decimals. Their parser works on eight characters at a time, because branches on the number of
-//! digits or the place of the point cannot be predicted. The value is exactly that of a general parser: digits up to 2^53 and powers of ten
-//! up to 10^22 are exact, so a single division rounds correctly.
+//! digits or the place of the point cannot be predicted. The value is exactly that of a general parser: up to 15 digits and powers of ten up
+//! to 10^22 are exact, so a single division rounds correctly; 16 digits have no point, and are rounded once, by the conversion.
 
 /// Why a value is not a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub(crate) fn real(value: &[u8]) -> Result<f64, NotANumber> {
 pub(crate) fn whole(value: &[u8]) -> Result<i64, NotANumber> {
     let number = real(value)?;
     // Up to 2^53 every integer has an exact f64.
-    let is_whole = libm::trunc(number) == number && number.abs() <= LARGEST_EXACT as f64;
+    let is_whole = libm::trunc(number) == number && number.abs() <= LARGEST_EXACT;
     #[expect(clippy::cast_possible_truncation, reason = "whole and within range")]
     is_whole.then_some(number as i64).ok_or(NotANumber::Invalid)
 }
@@ -106,8 +106,7 @@ fn long_number(text: &[u8]) -> Option<(u64, usize)> {
         (None, (last, Some(decimals))) => (last, 10_000_000, decimals),
         (None, (last, None)) => (last, 100_000_000, 0),
     };
-    let number = first.number()? * scale + last.number()?;
-    (number <= LARGEST_EXACT).then_some((number, decimals))
+    Some((first.number()? * scale + last.number()?, decimals))
 }
 
 #[inline]
@@ -117,7 +116,7 @@ fn quotient(number: u64, decimals: usize, is_negative: bool) -> f64 {
 }
 
 /// 2^53, up to which every whole number is an exact f64.
-const LARGEST_EXACT: u64 = 1 << 53;
+const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
 
 /// Number of characters processed at once.
 const WIDTH: usize = 8;

@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use camino::Utf8Path;
-use pathbuild_files::{BasedSystem, Entry, FileKind, MemorySystem, OverlaySystem, ReadError, System};
+use pathbuild_files::{
+    BasedSystem, Entry, FileKind, MemorySystem, OverlaySystem, ReadError, System, WriteOutcome,
+};
 #[cfg(unix)]
 use pathbuild_files::{FileLink, OsSystem};
 
@@ -39,6 +41,16 @@ fn a_drawing_that_is_not_written_yet_is_listed_once_where_it_will_lie() {
     assert_eq!(names(&overlay("parts/1001.dxf"), "parts"), ["1001.dxf"]);
     assert_eq!(names(&overlay("new/1002.dxf"), "parts"), ["1001.dxf"]);
     assert_eq!(names(&overlay("new/1002.dxf"), "new"), ["1002.dxf"]);
+}
+
+#[test]
+fn a_file_in_memory_is_unchanged_by_writing_its_own_content() {
+    let (system, path) = (MemorySystem::default(), Utf8Path::new(NEW));
+    let write = |bytes: &[u8]| system.write(path, bytes).unwrap();
+    assert_eq!(write(b"old"), WriteOutcome::Changed);
+    assert_eq!(write(b"old"), WriteOutcome::Unchanged);
+    assert_eq!(write(b"new"), WriteOutcome::Changed);
+    assert_eq!(system.read(path, 9).as_deref(), Ok(&b"new"[..]));
 }
 
 #[test]

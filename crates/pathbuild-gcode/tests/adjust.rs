@@ -12,6 +12,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::messages::probes as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::adjust::{AdjustedProgram, Inputs, Source, adjust};
+use pathbuild_gcode::native::{self, Parts};
 
 /// A file with the value of one probe that was drawn at 2.
 const VALUES: &str = "([1.000 2.000]/T=2.000) #51=2.100\n";
@@ -130,6 +131,20 @@ fn what_is_no_number_with_a_formula_stays() {
         assert_eq!(adjusted(line, VALUES), line);
     }
     assert_eq!(adjusted("(a)X5(=1)(b", VALUES), "(a)X1.000(==1)(b");
+}
+
+#[test]
+fn comments_around_a_formula_belong_neither_to_it_nor_to_the_code() {
+    let program = |before: &str, after: &str| format!("G1 {before}Z-1.000(=[#51-2.000]-1.000){after} F9\n");
+    let commented = program("(up)", "(down (=#99)");
+    assert_eq!(adjusted(&commented, VALUES), commented.replace("-1.000(=[", "-0.900(==["));
+    let other = |found: &str, expected: &str| {
+        native::first_other_line(found.as_bytes(), expected.as_bytes(), Parts::Code).is_some()
+    };
+    for comment in ["(down)", "(=#51)", "(a)(b)"] {
+        assert!(!other(&program("", comment), &program(comment, "")), "{comment}");
+        assert!(other(&program("", &format!("{comment}X1")), &program("", comment)), "{comment}");
+    }
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use pathbuild_db::{Role, Settings};
+use pathbuild_diagnostic::TraceStep;
 use pathbuild_path::{Language, LayerPattern};
 use salsa::Setter;
 
@@ -37,6 +38,14 @@ fn an_edited_clamp_reaches_what_embeds_its_path() {
         assert_eq!(world.codes(label), ["PB407"]);
         assert_eq!(world.outcome(label).program, None);
     }
+    // The project's finding is that of the component, with the subpath that leads there.
+    let trace = |label: &str| {
+        let outcome = world.outcome(label);
+        let step = |step: &TraceStep| format!("{} {}", step.file, step.path);
+        outcome.diagnostics[0].trace.iter().map(step).collect::<Vec<_>>()
+    };
+    assert_eq!(trace("component"), [""; 0]);
+    assert_eq!(trace("project"), ["lib/8001.1P.dxf 8001.1P"]);
     world.draw("lib/1111.1P.dxf", &with_clamp("8"));
     assert_eq!(world.outcome("project"), right);
     // An unclear clamp stops both; without the setting it is ignored.

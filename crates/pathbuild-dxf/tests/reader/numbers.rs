@@ -32,6 +32,9 @@ fn usual_forms_are_read() {
         ("000000000000000000000000012.5", 12.5),
         ("0.1000000000000000055511151231257827", 0.1),
         ("9007199254740993", 9_007_199_254_740_992.0),
+        ("-9007199254740995", -9_007_199_254_740_996.0),
+        ("9999999999999999", 1e16),
+        ("9.99999999999999", 9.999_999_999_999_99),
     ] {
         assert_eq!(number(text), Ok(value), "{text:?}");
     }
@@ -110,7 +113,7 @@ proptest! {
 
     /// The fast path for plain decimals gives the same result as the general parser.
     #[test]
-    fn decimals_are_exact(text in "-?[0-9]{0,12}(\\.[0-9]{0,12})?") {
+    fn decimals_are_exact(text in "-?[0-9]{0,16}(\\.[0-9]{0,16})?") {
         match text.parse::<f64>() {
             Ok(value) => prop_assert_eq!(number(&text).map(f64::to_bits), Ok(value.to_bits())),
             Err(_) => prop_assert!(number(&text).is_err()),
