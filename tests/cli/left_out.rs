@@ -4,11 +4,12 @@
 use crate::support::{Place, Run};
 
 /// Each kind that is left out, and how it is called.
-const KINDS: [(&str, &str, &str); 5] = [
+const KINDS: [(&str, &str, &str); 6] = [
     ("", "spline CONTINUOUS control 10,10 15,20 25,10 30,20", "SPLINE"),
     ("", "ellipse CONTINUOUS centre 20,30 major 5,0 ratio 0.5", "ELLIPSE"),
     ("", "polyline spatial 7,50,0 10,50,5 20,50,0", "POLYLINE"),
     ("block HOLE\nlayer 1234.1P\ncircle 0,0 d 2\nendblock\n", "insert HOLE at 20,60 scale 1,2", "INSERT"),
+    ("block TITLE\nlayer Frame\ncircle 0,0 d 2\nendblock\n", "insert TITLE at 20,60", "INSERT"),
     (
         "block ODD\nlayer 1234.1P\nspline CONTINUOUS control 0,0 5,5 9,0 12,3\nendblock\n",
         "insert ODD at 20,60",

@@ -95,6 +95,7 @@ entities! {
     Attrib "ATTRIB",
     Body "BODY",
     Face "3DFACE",
+    Hatch "HATCH",
     Helix "HELIX",
     MLine "MLINE",
     Mesh "MESH",

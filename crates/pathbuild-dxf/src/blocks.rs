@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
+use std::sync::Arc;
 
 use smol_str::SmolStr;
 
@@ -41,6 +42,8 @@ struct Block<'a> {
     head: Pair<'a>,
     items: Option<Rc<[Item<'a>]>>,
     layers: LayersOf,
+    /// See [`Blocks::drawn_layers`].
+    drawn_layers: Option<Arc<[SmolStr]>>,
     /// Whether it stands for the content of another file.
     is_reference: bool,
 }
@@ -147,6 +150,37 @@ impl<'a> Blocks<'a> {
         Ok(wanted)
     }
 
+    /// The names of the layers, wanted or not, that a block and the blocks nested in it draw on with more than texts and annotations. Layer
+    /// `0`, which stands for the layer of the insertion, is left out.
+    pub(crate) fn drawn_layers(
+        &mut self,
+        block: BlockId,
+        reader: &mut EntityReader<'a, '_>,
+        steps: &mut Steps,
+    ) -> Result<Arc<[SmolStr]>, Fatal> {
+        if let Some(layers) = &self.all[block.0].drawn_layers {
+            return Ok(layers.clone());
+        }
+        let (mut layers, mut seen, mut ahead) = (Vec::new(), HashSet::from([block]), vec![block]);
+        while let Some(next) = ahead.pop() {
+            let mut records = self.all[next.0].records();
+            while let Some((layer, inserted)) =
+                reader.next_element(&mut records).map_err(|stop| stopped(stop, "BLOCKS"))?
+            {
+                steps.take(1)?;
+                let inner = inserted.and_then(|name| self.find(&name));
+                ahead.extend(inner.filter(|inner| seen.insert(*inner)));
+                let name = reader.layers.name(layer);
+                if !reader.layers.is_inheriting(layer) && !layers.iter().any(|known| known == name) {
+                    layers.push(SmolStr::new(name));
+                }
+            }
+        }
+        let layers: Arc<[SmolStr]> = layers.into();
+        self.all[block.0].drawn_layers = Some(layers.clone());
+        Ok(layers)
+    }
+
     /// Collects the wanted layers of a block and of all blocks nested in it, and the insertions that were visited.
     fn look_for_wanted(
         &mut self,
@@ -222,6 +256,7 @@ impl<'a> Blocks<'a> {
             head,
             items: None,
             layers: LayersOf::Unknown,
+            drawn_layers: None,
             is_reference: fields.whole(70).is_ok_and(|flags| flags.is_some_and(|bits| bits & REFERENCE != 0)),
         });
     }

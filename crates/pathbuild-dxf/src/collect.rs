@@ -6,12 +6,13 @@
 )]
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::sync::Arc;
 
 use pathbuild_diagnostic::limits::{ENTITIES, TEXT_LENGTH, exceeded};
 use pathbuild_diagnostic::messages::drawing::{
     BLOCK_MISSING, BLOCK_NESTED, INSERTED_FROZEN, INVISIBLE, NOT_COMPATIBLE, TILTED, TOO_LARGE,
 };
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Place, Point, Value};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Place, Point, Value};
 use smol_str::SmolStr;
 
 use crate::entities::Shape;
@@ -147,7 +148,7 @@ impl<'d> Collector<'d> {
             }
             Shape::Ellipse(ellipse) => ellipse.pieces(placement, tolerance),
             Shape::Spline(spline) => spline.pieces(placement, tolerance),
-            Shape::Plain(_) | Shape::Insert(_) => Ok(Vec::new()),
+            Shape::Plain(_) | Shape::Insert(_) | Shape::Hatch(_) => Ok(Vec::new()),
         };
         let parts = match parts {
             Ok(parts) if parts.iter().all(Geometry::is_sound) => parts,
@@ -188,9 +189,10 @@ impl<'d> Collector<'d> {
             EntityError::Tilted => Diagnostic::new(&TILTED).quoting("entity", placed.kind.name()),
             EntityError::TooLarge => Diagnostic::new(&TOO_LARGE).quoting("entity", placed.kind.name()),
             EntityError::Nested(block) => Diagnostic::new(&BLOCK_NESTED).quoting("block", &**block),
-            EntityError::LeftOut { message, point, block } => {
+            EntityError::LeftOut { message, point, block, layers } => {
                 self.count()?;
-                self.leave_out(placed, layer, message, *point, block.as_deref());
+                let problem = Diagnostic::new(message).quoting("entity", placed.kind.name());
+                self.leave_out(placed, layer, *point, with_block(problem, block.as_deref(), layers), layers);
                 return Ok(());
             }
             EntityError::TooManyParts => return Err(self.too_many()),
@@ -211,17 +213,22 @@ impl<'d> Collector<'d> {
         &mut self,
         placed: &PlacedEntity<'_>,
         layer: u32,
-        message: &'static Message,
         point: Option<Point>,
-        block: Option<&str>,
+        mut diagnostic: Diagnostic,
+        layers: &Arc<[SmolStr]>,
     ) {
-        let kind = placed.kind;
         let point = point.map(|point| placed.point(point));
-        let mut diagnostic = Diagnostic::new(message).quoting("entity", kind.name());
-        diagnostic.arguments.extend(block.map(|block| ("block", Value::quoted(block))));
         diagnostic.place.point = point;
         let diagnostic = self.located(diagnostic, placed, layer);
-        self.drawing.left_out.push(OmittedCurve { layer, kind, point, diagnostic });
+        let (kind, layers) = (placed.kind, layers.clone());
+        self.drawing.left_out.push(OmittedCurve { layer, kind, point, layers, diagnostic });
+    }
+
+    /// Records a hatch. It makes its layer no layer with entities.
+    pub(crate) fn add_hatch(&mut self, placed: &PlacedEntity<'_>, point: Option<Point>) -> Result<(), Fatal> {
+        self.count()?;
+        self.drawing.hatches.push(place_of(placed, point));
+        Ok(())
     }
 
     /// In compatible mode, skips an entity that PathDxf2GCode does not know. Reported once per drawing.
@@ -243,14 +250,7 @@ impl<'d> Collector<'d> {
     ) {
         if self.missing_blocks.insert(block.into()) {
             let mut diagnostic = Diagnostic::new(&BLOCK_MISSING).quoting("block", block);
-            diagnostic.place = Place {
-                line: Some(placed.own.line),
-                handle: placed.own.handle,
-                entity: Some(placed.kind),
-                layer: Some(placed.layer.name.as_str().into()),
-                point: point.map(|point| placed.point(point)),
-                ..Place::default()
-            };
+            diagnostic.place = place_of(placed, point);
             self.drawing.diagnostics.push(diagnostic);
         }
     }
@@ -309,7 +309,7 @@ impl<'d> Collector<'d> {
         let drawing = &self.drawing;
         let troubles = drawing.faults.len() + drawing.left_out.len();
         let dear = (DEAR - 1) * troubles.saturating_sub(CHEAP);
-        if drawing.entities.len() + troubles + dear < self.limits.entities {
+        if drawing.entities.len() + drawing.hatches.len() + troubles + dear < self.limits.entities {
             return Ok(());
         }
         Err(self.too_many())
@@ -320,6 +320,30 @@ impl<'d> Collector<'d> {
     fn too_many(&self) -> Fatal {
         too_many_entities(self.limits.entities)
     }
+}
+
+/// The place of an entity with a point in its own space.
+fn place_of(placed: &PlacedEntity<'_>, point: Option<Point>) -> Place {
+    Place {
+        line: Some(placed.own.line),
+        handle: placed.own.handle,
+        entity: Some(placed.kind),
+        layer: Some(placed.layer.name.as_str().into()),
+        point: point.map(|point| placed.point(point)),
+        ..Place::default()
+    }
+}
+
+/// Maximum number of layers of a block's contents to list.
+const MOST_NAMED: usize = 3;
+
+/// Adds a block to a problem: its name, and the layers of its contents.
+fn with_block(mut problem: Diagnostic, block: Option<&str>, layers: &[SmolStr]) -> Diagnostic {
+    problem.arguments.extend(block.map(|block| ("block", Value::quoted(block))));
+    if layers.is_empty() {
+        return problem;
+    }
+    problem.with("layers", layers.iter().take(MOST_NAMED).map(SmolStr::to_string).collect::<Value>())
 }
 
 /// PB005 with this limit of entities.

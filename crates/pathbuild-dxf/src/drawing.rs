@@ -1,4 +1,6 @@
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Point};
+use std::sync;
+
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Place, Point};
 use smol_str::SmolStr;
 
 /// Options of the reader.
@@ -50,6 +52,8 @@ pub struct Drawing {
     pub faults: Vec<Fault>,
     /// Unsupported curves on wanted layers (PB111).
     pub left_out: Vec<OmittedCurve>,
+    /// The hatches on wanted layers, which draw nothing themselves: each with a point of its boundary, or a centre of an arc of it.
+    pub hatches: Vec<Place>,
     /// Findings about the file as a whole. If one of them is an error, there are no entities.
     pub diagnostics: Vec<Diagnostic>,
     /// Whether a text on an unwanted layer, or any line of a block that may be inserted, satisfied [`Options::note_text`].
@@ -64,6 +68,7 @@ impl Drawing {
         self.layers.clear();
         self.faults.clear();
         self.left_out.clear();
+        self.hatches.clear();
         self.diagnostics.clear();
         self.has_noted_text = false;
     }
@@ -105,6 +110,9 @@ pub struct OmittedCurve {
     pub kind: EntityKind,
     /// Its first point, if known.
     pub point: Option<Point>,
+    /// For a block that draws on layers that were not wanted, and on no others: the names of those layers. If one of them is read for
+    /// another purpose, nothing is missing.
+    pub layers: sync::Arc<[SmolStr]>,
     /// PB111, with line and handle.
     pub diagnostic: Diagnostic,
 }

@@ -5,8 +5,9 @@
     reason = "an entity is made where it ends up, without copies from function to function"
 )]
 
-use pathbuild_diagnostic::EntityKind;
 use pathbuild_diagnostic::messages::drawing::{FOREIGN, NOT_APPROXIMATED};
+use pathbuild_diagnostic::{EntityKind, Point};
+use smol_str::SmolStr;
 
 use crate::block_prefilter::{has_text, may_hold_wanted};
 use crate::encoding::Decoder;
@@ -112,6 +113,35 @@ impl<'a, 'o> EntityReader<'a, 'o> {
                     let layer = self.traits(records, kind, Space::Block)?.map(|traits| traits.layer);
                     layers.extend(layer.filter(|layer| layers.last() != Some(layer)));
                 }
+            }
+        }
+    }
+
+    /// The next record up to the end of the block that is more than a text or an annotation, wanted or not: its layer and, if it is an
+    /// INSERT, the block's name.
+    pub(crate) fn next_element(
+        &mut self,
+        records: &mut Records<'a>,
+    ) -> Result<Option<(LayerId, Option<SmolStr>)>, Stop<'a>> {
+        loop {
+            let head = records.head;
+            match RecordKind::of(head.value) {
+                None if is_end(&head) => return Ok(None),
+                Some(kind) if kind.is_element() => {
+                    let Self { layers, decoder, fields, .. } = self;
+                    let mut found = None;
+                    let keep = |layer: Value<'a>| {
+                        found = Some(layer);
+                        Want::Keep
+                    };
+                    (records.head, _) = fields.fill(&mut records.groups, head.line, 0, keep)?;
+                    let layer = found.map_or(&b"0"[..], |layer| layer.bytes);
+                    let layer = layers.id(layer, || head.line, decoder);
+                    let inserted = fields.get(2).filter(|_| kind == RecordKind::Insert);
+                    let inserted = inserted.map(|name| decoder.decode(name.bytes, name.line).trim().into());
+                    return Ok(Some((layer, inserted)));
+                }
+                _ => records.skip()?,
             }
         }
     }
@@ -231,7 +261,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     #[inline(always)]
     fn shape(&mut self, kind: RecordKind) -> Result<Shape<'a>, EntityError<'a>> {
         let Self { fields, decoder, options, .. } = self;
-        if kind != RecordKind::MText && kind.repeated_codes() != 0 && fields.is_full() {
+        let may_be_cut_off = matches!(kind, RecordKind::MText | RecordKind::Hatch);
+        if !may_be_cut_off && kind.repeated_codes() != 0 && fields.is_full() {
             return Err(EntityError::TooManyParts);
         }
         Ok(match kind {
@@ -247,6 +278,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             }
             RecordKind::Ellipse => Shape::Ellipse(Box::new(Ellipse::read(fields)?)),
             RecordKind::Spline => Shape::Spline(Box::new(Spline::read(fields)?)),
+            RecordKind::Hatch => Shape::Hatch(shapes::hatch_point(fields)),
             RecordKind::Insert => Shape::Insert(Box::new(Insert::read(fields, decoder)?)),
             RecordKind::Foreign(_) => return Err(EntityError::left_out(&FOREIGN, fields)),
             _ => Shape::Parts(shapes::lightweight(fields)?),
@@ -313,18 +345,18 @@ pub(crate) enum RecordKind {
     Ellipse,
     Spline,
     Insert,
+    Hatch,
     /// A type that no path consists of.
     Foreign(EntityKind),
 }
 
 /// Records that only annotate a drawing. They may lie on the layer of a path, since they are clearly not to be milled.
-const ANNOTATIONS: [&str; 19] = [
+const ANNOTATIONS: [&str; 18] = [
     "ACAD_TABLE",
     "ARC_DIMENSION",
     "DGNUNDERLAY",
     "DIMENSION",
     "DWFUNDERLAY",
-    "HATCH",
     "IMAGE",
     "LARGE_RADIAL_DIMENSION",
     "LEADER",
@@ -362,6 +394,7 @@ impl RecordKind {
             b"MTEXT" => Self::MText,
             b"CIRCLE" => Self::Circle,
             b"INSERT" => Self::Insert,
+            b"HATCH" => Self::Hatch,
             b"VERTEX" => Self::Vertex,
             b"SEQEND" => Self::SequenceEnd,
             b"SPLINE" => Self::Spline,
@@ -375,6 +408,11 @@ impl RecordKind {
     /// Whether it belongs to a POLYLINE.
     fn is_part(self) -> bool {
         matches!(self, Self::Vertex | Self::SequenceEnd)
+    }
+
+    /// Whether it draws more than texts and annotations.
+    fn is_element(self) -> bool {
+        !(self.is_part() || self.is_template() || matches!(self, Self::Text | Self::MText | Self::Hatch))
     }
 
     /// Whether it draws nothing where its block is inserted: each insertion has an ATTRIB of its own instead.
@@ -396,11 +434,13 @@ impl RecordKind {
         }
         const CHUNKS: u64 = bits(&[1, 3]);
         const VERTICES: u64 = bits(&[10, 20, 42]);
+        const BOUNDARY: u64 = bits(&[10, 20]);
         const CONTROL: u64 = bits(&[10, 20, 30, 40, 41]);
         match self {
             Self::MText => CHUNKS,
             Self::LwPolyline => VERTICES,
             Self::Spline => CONTROL,
+            Self::Hatch => BOUNDARY,
             _ => 0,
         }
     }
@@ -418,6 +458,7 @@ impl RecordKind {
             Self::Ellipse => EntityKind::Ellipse,
             Self::Spline => EntityKind::Spline,
             Self::Insert => EntityKind::Insert,
+            Self::Hatch => EntityKind::Hatch,
             Self::Foreign(kind) => kind,
         }
     }
@@ -452,6 +493,8 @@ pub(crate) enum Shape<'a> {
     Ellipse(Box<Ellipse>),
     /// Approximated when it is placed.
     Spline(Box<Spline>),
+    /// A point of the boundary.
+    Hatch(Option<Point>),
     /// The contents of a block.
     Insert(Box<Insert<'a>>),
 }

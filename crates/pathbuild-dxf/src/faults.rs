@@ -1,10 +1,13 @@
 //! Diagnostics of the reader. Layer, line and handle are filled in where the place is known.
 
+use std::sync::Arc;
+
 use pathbuild_diagnostic::messages::drawing::{
     BAD_GROUP_CODE, DECIMAL_COMMA, GROUP_MISSING, NOT_POSITIVE, NUMBER_NOT_FINITE, SECTION_NOT_ENDED,
     TRUNCATED, VALUE_NOT_A_NUMBER,
 };
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, TextFault, Value};
+use smol_str::SmolStr;
 
 use crate::fields::{BadGroup, Fields};
 use crate::number::NotANumber;
@@ -80,6 +83,8 @@ pub(crate) enum EntityError<'a> {
         point: Option<Point>,
         /// The name of the block, for an insertion.
         block: Option<Box<str>>,
+        /// The layers that its block draws on, for [`OmittedCurve::layers`](crate::OmittedCurve::layers).
+        layers: Arc<[SmolStr]>,
     },
     /// The insertion of this block, which contains itself or is nested too deep: PB002.
     Nested(Box<str>),
@@ -96,15 +101,15 @@ impl<'a> From<BadGroup<'a>> for EntityError<'a> {
 }
 
 impl<'a> EntityError<'a> {
-    /// Leaves an entity out for this reason; its point is 10/20, if present.
+    /// Leaves an entity out for this reason, at its first point.
     pub(crate) fn left_out(message: &'static Message, fields: &Fields<'a>) -> Self {
-        Self::LeftOut { message, point: first_point(fields), block: None }
+        Self::LeftOut { message, point: first_point(fields), block: None, layers: Arc::default() }
     }
 }
 
-/// The point 10/20 of an entity, if present.
+/// The point 10/20 of an entity, or else 11/21, which is the first fit point of a spline without control points.
 pub(crate) fn first_point(fields: &Fields<'_>) -> Option<Point> {
-    fields.point(10).ok().map(|point| Point::new(point.x, point.y))
+    fields.point(10).or_else(|_| fields.point(11)).ok().map(|point| Point::new(point.x, point.y))
 }
 
 impl BadGroup<'_> {

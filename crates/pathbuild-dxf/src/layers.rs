@@ -109,6 +109,11 @@ impl<'a, 'o> Layers<'a, 'o> {
         self.found(id).is_kept
     }
 
+    /// The name: trimmed, decoded, without xref prefix.
+    pub(crate) fn name(&self, id: LayerId) -> &str {
+        without_xref(&self.found(id).full_name)
+    }
+
     /// The effective layer of an entity in an inserted block: that of the insertion if the entity is on layer `0`.
     pub(crate) fn inherited(&self, layer: LayerId, of_insert: LayerId) -> LayerId {
         if self.is_inheriting(layer) { of_insert } else { layer }

@@ -5,8 +5,10 @@
     reason = "an entity is made where it ends up, without copies from function to function"
 )]
 
+use std::sync::Arc;
+
 use pathbuild_diagnostic::Point;
-use pathbuild_diagnostic::messages::drawing::BLOCK_MISSING;
+use pathbuild_diagnostic::messages::drawing::{BLOCK_ELSEWHERE, BLOCK_MISSING};
 use smol_str::SmolStr;
 
 use crate::Origin;
@@ -86,6 +88,10 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         };
         match item.shape {
             Ok(Shape::Insert(insert)) => self.insert(&item.traits, layer, *insert, around),
+            Ok(Shape::Hatch(point)) if self.reader.layers.is_kept(layer) => {
+                let placed = placed(self.reader, &item.traits, layer, around)?;
+                self.collector.add_hatch(&placed, point)
+            }
             shape if self.reader.layers.is_kept(layer) => {
                 let is_compatible = self.reader.options.compatible;
                 let placed = placed(self.reader, &item.traits, layer, around)?;
@@ -120,12 +126,13 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
                 message: &BLOCK_MISSING,
                 point,
                 block: Some(insert.block.as_str().into()),
+                layers: Arc::default(),
             };
             return self.refuse(traits, &[layer], &trouble, around);
         };
         let wanted = self.blocks.wanted_layers(block, layer, self.reader, &mut self.steps)?;
         if wanted.is_empty() {
-            return Ok(());
+            return self.check_elsewhere(traits, layer, block, &insert, around);
         }
         if self.open.contains(&block) || self.open.len() >= DEEPEST {
             return self.refuse(traits, &wanted, &EntityError::Nested(insert.block.as_str().into()), around);
@@ -161,6 +168,36 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         }
         self.open.pop();
         Ok(())
+    }
+
+    /// PB111 if a block on a wanted layer draws something, but only on layers that are not read.
+    fn check_elsewhere(
+        &mut self,
+        traits: &Traits,
+        layer: LayerId,
+        block: BlockId,
+        insert: &Insert<'a>,
+        around: &EntityContext,
+    ) -> Result<(), Fatal> {
+        if !self.reader.layers.is_kept(layer) {
+            return Ok(());
+        }
+        let layers = self.blocks.drawn_layers(block, self.reader, &mut self.steps)?;
+        if layers.is_empty() {
+            return Ok(());
+        }
+        if self.reader.options.compatible {
+            let placed = placed(self.reader, traits, layer, around)?;
+            self.collector.ignore(&placed);
+            return Ok(());
+        }
+        let trouble = EntityError::LeftOut {
+            message: &BLOCK_ELSEWHERE,
+            point: insert.array.as_ref().ok().map(|array| array.begin()),
+            block: Some(insert.block.as_str().into()),
+            layers,
+        };
+        self.refuse(traits, &[layer], &trouble, around)
     }
 
     /// Reports a missing block on a layer that is not read, unless it is frozen.

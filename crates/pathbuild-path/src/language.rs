@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
-
+use pathbuild_dxf::{Drawing, OmittedCurve};
 use pathbuild_motion::ChipLoad;
 
 use crate::approx::above;
@@ -111,6 +111,16 @@ impl Language {
     /// Whether a layer holds clamps.
     pub fn is_keep_out(&self, layer: &str) -> bool {
         self.keep_out.as_ref().is_some_and(|pattern| pattern.is_layer(layer))
+    }
+
+    /// Whether something on a layer counts: a path, a clamp or a finished part.
+    fn is_read(&self, layer: &str) -> bool {
+        self.path_pattern.is_layer(layer) || self.is_keep_out(layer) || self.is_part(layer)
+    }
+
+    /// What was left out of a drawing. Blocks count only if everything that they draw lies on layers without a meaning.
+    pub(crate) fn left_out<'d>(&self, drawing: &'d Drawing) -> impl Iterator<Item = &'d OmittedCurve> {
+        drawing.left_out.iter().filter(|left_out| !left_out.layers.iter().any(|layer| self.is_read(layer)))
     }
 
     /// Whether a layer holds finished parts. Layers of paths and clamps never do.

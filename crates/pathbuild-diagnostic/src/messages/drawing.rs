@@ -320,6 +320,13 @@ messages! {
         help_en: "write Z and the height above the plate in mm, greater than 0, and nothing else: Z25",
         help_de: "Z und die Höhe über der Platte in mm schreiben, größer als 0, und sonst nichts: Z25",
     }
+    /// A clamp that is hardly higher than the plate.
+    LOW_CLAMP: DoubtfulValue {
+        en: "this clamp is only {height} mm high",
+        de: "dieses Spannmittel ist nur {height} mm hoch",
+        help_en: "check the decimal point: Z is the height of the clamp above the plate in mm, as in Z25",
+        help_de: "den Dezimalpunkt prüfen: Z ist die Höhe des Spannmittels über der Platte in mm, wie in Z25",
+    }
     /// A text on a layer with clamps that belongs to no clamp.
     TEXT_OUTSIDE_CLAMPS: InvalidKeepOut {
         en: "the text \"{text}\" is on a layer with clamps, but neither inside an outline nor overlapping one",
@@ -333,6 +340,13 @@ messages! {
         de: "{entity} auf einem Layer mit Spannmitteln wird nicht unterstützt; die Lage des Spannmittels ist daher unbekannt",
         help_en: "draw the outline with lines, arcs, a circle or a closed polyline; `approximate-curves` in pathbuild.toml reads ellipses and splines",
         help_de: "den Umriss mit Linien, Bögen, einem Kreis oder einer geschlossenen Polylinie zeichnen; mit `approximate-curves` in pathbuild.toml werden Ellipsen und Splines gelesen",
+    }
+    /// A block on a layer with clamps that draws on other layers only.
+    CLAMP_ELSEWHERE: InvalidKeepOut {
+        en: "block {block} is inserted on a layer with clamps, but what it contains lies on other layers ({layers}), so the position of the clamp is unknown",
+        de: "Block {block} ist auf einem Layer mit Spannmitteln eingefügt, sein Inhalt liegt aber auf anderen Layern ({layers}); die Lage des Spannmittels ist daher unbekannt",
+        help_en: "move its contents to layer 0 in the block editor, or explode it and move them to this layer; if it is no clamp, insert it on another layer",
+        help_de: "seinen Inhalt im Blockeditor auf Layer 0 legen oder den Block auflösen und den Inhalt auf diesen Layer legen; ist er kein Spannmittel, ihn auf einem anderen Layer einfügen",
     }
     /// An attribute of a block on a layer with clamps.
     NO_HEIGHT_TEXT: InvalidKeepOut {
@@ -508,6 +522,13 @@ messages! {
         de: "Block {block} wird ausgelassen: die Datei enthält ihn nicht",
         help_en: "bind external references before saving, or delete the insertion",
         help_de: "externe Referenzen vor dem Speichern binden oder die Einfügung löschen",
+    }
+    /// An INSERT on a wanted layer of a block that draws on other layers only.
+    BLOCK_ELSEWHERE: UnsupportedCurve {
+        en: "block {block} is inserted on this layer, but nothing in it belongs to it: what it contains lies on other layers ({layers}) and is ignored",
+        de: "Block {block} ist auf diesem Layer eingefügt, aber nichts darin gehört dazu: sein Inhalt liegt auf anderen Layern ({layers}) und wird nicht beachtet",
+        help_en: "move its contents to layer 0 in the block editor, or explode it and move them to this layer; if nothing in it is to be milled, insert it on another layer",
+        help_de: "seinen Inhalt im Blockeditor auf Layer 0 legen oder den Block auflösen und den Inhalt auf diesen Layer legen; soll nichts davon gefräst werden, ihn auf einem anderen Layer einfügen",
     }
     /// A block that contains itself or is nested too deeply.
     BLOCK_NESTED: InvalidDxf {

@@ -1,5 +1,7 @@
 //! INSERT: places a block, or rows and columns of it. (book: reference/dxf)
 
+use std::sync::Arc;
+
 use pathbuild_diagnostic::Point;
 use pathbuild_diagnostic::messages::drawing::INSERT_SCALED;
 use smol_str::SmolStr;
@@ -58,7 +60,12 @@ impl Array {
         let Some(scaled) = Placement::scaled_by(x, y, z) else {
             let at = object(is_mirrored).point(at);
             let point = Some(Point::new(at.x, at.y));
-            return Err(EntityError::LeftOut { message: &INSERT_SCALED, point, block: Some(block.into()) });
+            return Err(EntityError::LeftOut {
+                message: &INSERT_SCALED,
+                point,
+                block: Some(block.into()),
+                layers: Arc::default(),
+            });
         };
         Ok(Self {
             at,

@@ -5,6 +5,8 @@ mod insert;
 mod polyline;
 mod text;
 
+use pathbuild_diagnostic::Point;
+
 use crate::faults::EntityError;
 use crate::fields::{BadGroup, Fields, Value};
 use crate::number::real;
@@ -42,6 +44,16 @@ fn from_object_coordinates<'a>(
         Placement::MIRRORED.apply(&mut geometry);
     }
     Ok(geometry)
+}
+
+/// A point of a HATCH: the first of its boundary, or the centre of an arc there. The very first point is the elevation.
+pub(crate) fn hatch_point(fields: &Fields<'_>) -> Option<Point> {
+    let second = |code: i32| {
+        let of_code = fields.repeated.iter().filter(|pair| pair.code == code);
+        of_code.skip(1).find_map(|pair| repeated_number(pair).ok())
+    };
+    let is_mirrored = is_mirrored(fields).ok()?;
+    Some(Point::new(if is_mirrored { -second(10)? } else { second(10)? }, second(20)?))
 }
 
 /// Parses a repeated group as a number.

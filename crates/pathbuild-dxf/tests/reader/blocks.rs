@@ -403,3 +403,47 @@ fn a_block_inserted_on_a_frozen_layer_is_told() {
     assert_eq!(found("70 0"), [""; 0]);
     assert_eq!(found("70 0\n62 -7"), [""; 0], "off: what lies on other layers stays visible");
 }
+
+/// The findings about a block that is inserted on layer P, of which nothing else is read, with the layers that it draws on.
+fn left_out_on_p(blocks: &str) -> Vec<(String, Vec<String>)> {
+    let text = file("", LAYERS, blocks, "0 INSERT\n8 P\n2 B\n10 7\n20 8");
+    let drawing = read(text.as_bytes(), &Options { keep_layer: &|name| name == "P", ..options() });
+    let left_out = drawing.left_out.iter().map(|left_out| {
+        assert_eq!(left_out.point, Some(Point::new(7.0, 8.0)));
+        (left_out.diagnostic.text(Lang::En), left_out.layers.iter().map(ToString::to_string).collect())
+    });
+    left_out.collect()
+}
+
+#[test]
+fn a_block_that_draws_on_unread_layers_only_is_left_out() {
+    let on = |layer: &str| LINE.replace("8 P", &format!("8 {layer}"));
+    let [(text, layers)] = &left_out_on_p(&block("B", "", &format!("{}\n{}", on("X"), on("Y"))))[..] else {
+        panic!()
+    };
+    let said = "block B is inserted on this layer, but nothing in it belongs to it: what it contains lies on other layers (X, Y) and is ignored";
+    assert_eq!((text.as_str(), &layers[..]), (said, &["X".to_owned(), "Y".to_owned()][..]));
+    let nested = block("B", "", "0 INSERT\n8 0\n2 C\n10 0\n20 0\n0 INSERT\n8 Z\n2 D\n10 0\n20 0")
+        + &block("C", "", &on("X"))
+        + &block("D", "", &on("0"));
+    let mut layers = left_out_on_p(&nested).remove(0).1;
+    layers.sort();
+    assert_eq!(layers, ["X", "Z"]);
+}
+
+/// One element on the layer is enough, and neither texts nor annotations need to be on it.
+#[test]
+fn a_block_that_draws_on_its_layer_or_nothing_is_complete() {
+    let on = |layer: &str| LINE.replace("8 P", &format!("8 {layer}"));
+    for content in [
+        format!("{}\n{}", on("X"), on("0")),
+        format!("{}\n{}", on("X"), on("P")),
+        "0 TEXT\n8 X\n10 0\n20 0\n40 1\n1 A".into(),
+        "0 DIMENSION\n8 X".into(),
+        "0 HATCH\n8 X".into(),
+        "0 ATTDEF\n8 X".into(),
+        String::new(),
+    ] {
+        assert_eq!(left_out_on_p(&block("B", "", &content)), [], "{content}");
+    }
+}

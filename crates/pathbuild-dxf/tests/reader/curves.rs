@@ -371,6 +371,16 @@ fn coinciding_control_points_do_no_harm() {
     assert!(pieces.len() < 10, "{}", pieces.len());
 }
 
+/// A waiver compares places.
+#[test]
+fn a_spline_of_fit_points_is_left_out_at_the_first_of_them() {
+    let file = entities("0 SPLINE\n8 A\n70 8\n71 3\n74 1\n11 3\n21 4\n31 0");
+    for tolerance in [0.0, 0.01] {
+        let left_out = &approximated(&file, tolerance).left_out[0];
+        assert_eq!(left_out.point, Some(Point::new(3.0, 4.0)));
+    }
+}
+
 #[test]
 fn splines_that_are_no_curve_are_left_out() {
     let clamped = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];

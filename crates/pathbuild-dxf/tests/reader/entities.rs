@@ -168,9 +168,24 @@ fn an_attribute_definition_is_left_out_where_it_is_visible() {
     assert_eq!(drawing.left_out, []);
 }
 
+/// The first point of a hatch is its elevation, and the last ones need not lie on it.
+#[test]
+fn of_a_hatch_a_point_of_its_boundary_is_kept() {
+    let boundary = "10 0\n20 0\n30 0\n91 1\n93 2\n10 3\n20 4\n10 5\n20 6\n98 1\n10 0\n20 0";
+    let points = |groups: &str| {
+        let drawing = read_all(entities(&format!("0 HATCH\n5 A\n8 P\n{groups}")));
+        assert_eq!((drawing.entities.len(), drawing.layers.len(), drawing.left_out.len()), (0, 0, 0));
+        drawing.hatches.iter().map(|place| place.point).collect::<Vec<_>>()
+    };
+    assert_eq!(points(boundary), [Some(Point::new(3.0, 4.0))]);
+    assert_eq!(points(&format!("{boundary}\n210 0\n220 0\n230 -1")), [Some(Point::new(-3.0, 4.0))]);
+    assert_eq!(points("10 0\n20 0\n91 1\n10 x\n20 4"), [None]);
+    assert_eq!(read_all(entities(&format!("0 HATCH\n8 P\n67 1\n{boundary}"))).hatches, []);
+}
+
 #[test]
 fn annotations_are_passed_over() {
-    for name in ["HATCH", "DIMENSION", "ARC_DIMENSION", "LEADER", "MULTILEADER", "point", "VIEWPORT"] {
+    for name in ["DIMENSION", "ARC_DIMENSION", "LEADER", "MULTILEADER", "point", "VIEWPORT"] {
         let drawing = read_all(entities(&format!("0 {name}\n8 P\n10 x\n1 y")));
         assert_eq!(drawing, pathbuild_dxf::Drawing::default(), "{name}");
     }

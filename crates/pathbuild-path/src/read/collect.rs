@@ -95,7 +95,7 @@ pub(super) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<PathCo
             paths[path].add_fault(&fault.diagnostic);
         }
     }
-    for left_out in &drawing.left_out {
+    for left_out in language.left_out(drawing) {
         if let Some(Membership { path, .. }) = layers.membership(left_out.layer) {
             paths[path].left_out.push((left_out.kind, left_out.point));
             paths[path].add_located(&left_out.diagnostic);

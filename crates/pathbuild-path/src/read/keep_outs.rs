@@ -3,13 +3,13 @@
 use std::collections::HashSet;
 
 use pathbuild_diagnostic::messages::{configuration, drawing as messages};
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Value};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Place, Point, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry, Layer, Point3};
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 use smol_str::SmolStr;
 
-use crate::approx::{coincide, near};
+use crate::approx::{above, coincide, near};
 use crate::element::shown;
 use crate::geometry::{Arc, Curve, Line, Xy};
 use crate::keep_out::{KeepOut, KeepOutMap, KeepOuts, Way};
@@ -27,7 +27,7 @@ pub fn keep_outs(drawing: &Drawing, language: &Language) -> KeepOuts {
         if !pattern.is_layer(&layer.name) {
             continue;
         }
-        let mut reading = Reading { drawing, layer, number, problems: Vec::new() };
+        let mut reading = Reading { drawing, language, layer, number, problems: Vec::new() };
         if language.path_pattern.is_layer(&layer.name) {
             reading.report_path();
         } else {
@@ -35,7 +35,44 @@ pub fn keep_outs(drawing: &Drawing, language: &Language) -> KeepOuts {
         }
         found.problems.append(&mut reading.problems);
     }
+    // Beside an outline with an error, a hatch may belong to that.
+    if !found.problems.iter().any(Diagnostic::is_error) {
+        found.problems.extend(lone_hatches(drawing, language, &found.all));
+    }
     found
+}
+
+/// PB117 for each hatch on a layer with clamps that fills no outline of a clamp.
+fn lone_hatches(drawing: &Drawing, language: &Language, clamps: &[KeepOut]) -> Vec<Diagnostic> {
+    let is_clamp = |place: &&Place| {
+        let is_on = |layer: &str| language.is_keep_out(layer) && !language.path_pattern.is_layer(layer);
+        place.layer.as_deref().is_some_and(is_on)
+    };
+    let mut hatches = drawing.hatches.iter().filter(is_clamp).peekable();
+    if hatches.peek().is_none() {
+        return Vec::new();
+    }
+    let map = flat_map(clamps.iter().map(|clamp| &*clamp.outline));
+    let fills = |place: &Place| {
+        let touches = |point: Point| !at_point(&map, Xy::new(point.x.0, point.y.0), NEAR).is_empty();
+        place.point.is_some_and(touches)
+    };
+    let problem = |place: &Place| {
+        let problem = Diagnostic::new(&messages::NO_OUTLINE).quoting("entity", EntityKind::Hatch.name());
+        Diagnostic { place: place.clone(), ..problem }
+    };
+    hatches.filter(|place| !fills(place)).map(problem).collect()
+}
+
+/// A map of outlines to be searched with [`at_point`].
+fn flat_map<'k>(outlines: impl Iterator<Item = &'k [Curve]>) -> KeepOutMap {
+    KeepOutMap::new(outlines.map(|outline| (1.0, outline)))
+}
+
+/// The numbers of the outlines that a disc around a point overlaps. `radius` in mm.
+fn at_point(map: &KeepOutMap, centre: Xy, radius: f64) -> Vec<usize> {
+    let way = Way { curve: Curve::Line(Line { start: centre, end: centre }), from_z: 0.0, to_z: 0.0 };
+    map.entered(&way, radius, 0.0)
 }
 
 /// The indices of the entities on each layer.
@@ -50,6 +87,7 @@ fn by_layer(drawing: &Drawing) -> Vec<Vec<usize>> {
 /// State of reading the clamps of a layer.
 struct Reading<'d> {
     drawing: &'d Drawing,
+    language: &'d Language,
     layer: &'d Layer,
     number: u32,
     problems: Vec<Diagnostic>,
@@ -65,6 +103,9 @@ struct OutlineTexts<'d> {
 
 /// Maximum number of an outline's texts to list: in a crowd, each outline may contain all texts.
 const MOST_NAMED: usize = 3;
+
+/// Height in mm below which a clamp is doubted: it would be lower than any head of a screw.
+const LOWEST: f64 = 1.0;
 
 /// An outline without its height.
 struct ClosedOutline {
@@ -109,11 +150,16 @@ impl Reading<'_> {
     fn check_whole(&mut self) {
         let faults = self.drawing.faults.iter().filter(|fault| fault.layer == self.number);
         let mut problems: Vec<Diagnostic> = faults.map(|fault| fault.diagnostic.clone()).collect();
-        for left_out in self.drawing.left_out.iter().filter(|left_out| left_out.layer == self.number) {
-            let is_text = matches!(left_out.kind, EntityKind::Attrib | EntityKind::AttDef);
-            let message = if is_text { &messages::NO_HEIGHT_TEXT } else { &messages::NO_OUTLINE };
-            let problem = Diagnostic::new(message).quoting("entity", left_out.kind.name());
-            problems.push(Diagnostic { place: left_out.diagnostic.place.clone(), ..problem });
+        for left_out in self.language.left_out(self.drawing).filter(|left_out| left_out.layer == self.number)
+        {
+            let message = match left_out.kind {
+                EntityKind::Attrib | EntityKind::AttDef => &messages::NO_HEIGHT_TEXT,
+                _ if left_out.diagnostic.message == &messages::BLOCK_ELSEWHERE => &messages::CLAMP_ELSEWHERE,
+                _ => &messages::NO_OUTLINE,
+            };
+            // The arguments are those of the reader: the kind of entity and the name of a block.
+            let Diagnostic { arguments, place, .. } = left_out.diagnostic.clone();
+            problems.push(Diagnostic { arguments, place, ..Diagnostic::new(message) });
         }
         self.problems.append(&mut problems);
     }
@@ -188,14 +234,12 @@ impl Reading<'_> {
     /// The height of each outline, from the one text inside or overlapping it. PB117 if there is none, if there are several, or if the text
     /// gives no height.
     fn heights(&mut self, entities: &[usize], outlines: &[ClosedOutline]) -> Vec<Option<f64>> {
-        // Texts are searched like moves at Z 0, so give every outline the height 1.
-        let map = KeepOutMap::new(outlines.iter().map(|closed| (1.0, &*closed.outline)));
+        let map = flat_map(outlines.iter().map(|closed| &*closed.outline));
         let mut texts = vec![OutlineTexts::default(); outlines.len()];
         for number in entities {
             let Some(text) = AnyText::of(&self.drawing.entities[*number].geometry) else { continue };
             let TextCircle { centre, radius } = text.circle();
-            let way = Way { curve: Curve::Line(Line { start: centre, end: centre }), from_z: 0.0, to_z: 0.0 };
-            let over = map.entered(&way, radius, 0.0);
+            let over = at_point(&map, centre, radius);
             if over.is_empty() {
                 let problem = Diagnostic::new(&messages::TEXT_OUTSIDE_CLAMPS).quoting("text", one_line(text));
                 let problem = self.at(*number, centre, problem);
@@ -232,11 +276,15 @@ impl Reading<'_> {
         let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
         let read = texts.first().unwrap_or_default();
         let height = height(read);
-        if height.is_none() {
-            let problem = Diagnostic::new(&messages::NO_CLAMP_HEIGHT).quoting("text", one_line(text));
-            let problem = self.at(number, text.anchor(), problem.with_text(read.whole()));
-            self.report(problem);
-        }
+        let problem = match height {
+            None => Diagnostic::new(&messages::NO_CLAMP_HEIGHT).quoting("text", one_line(text)),
+            Some(height) if above(LOWEST, height) => {
+                Diagnostic::new(&messages::LOW_CLAMP).with("height", height)
+            }
+            Some(_) => return height,
+        };
+        let problem = self.at(number, text.anchor(), problem.with_text(read.whole()));
+        self.report(problem);
         height
     }
 
@@ -336,7 +384,7 @@ struct RingBuilder<'p> {
     is_done: Vec<bool>,
 }
 
-/// Search radius in mm for ends that may coincide.
+/// Distance in mm up to which ends may coincide and points are looked for on an outline.
 const NEAR: f64 = 1e-3;
 
 impl<'p> RingBuilder<'p> {

@@ -67,6 +67,7 @@ struct OutlineCurve {
 /// The curves of outlines.
 struct OutlineLayers<'d> {
     drawing: &'d Drawing,
+    language: &'d Language,
     /// The layers with parts.
     layers: Vec<bool>,
     /// The curves, by the name that the pattern captures in that of their layer.
@@ -74,7 +75,7 @@ struct OutlineLayers<'d> {
 }
 
 impl<'d> OutlineLayers<'d> {
-    fn read(drawing: &'d Drawing, language: &Language, pattern: &LayerPattern) -> Self {
+    fn read(drawing: &'d Drawing, language: &'d Language, pattern: &LayerPattern) -> Self {
         let layers: Vec<bool> = drawing.layers.iter().map(|layer| language.is_part(&layer.name)).collect();
         let path = |name: &str| Some(pattern.captured(name)?.replace('_', ".").to_uppercase().into());
         let paths: Vec<_> = drawing.layers.iter().map(|layer| path(&layer.name)).collect();
@@ -95,12 +96,13 @@ impl<'d> OutlineLayers<'d> {
                 curves.entry(paths[layer].clone()).or_default().push(OutlineCurve { curve, entity: number });
             }
         }
-        Self { drawing, layers, curves }
+        Self { drawing, language, layers, curves }
     }
 
     /// PB219 for curves that may be part of an outline and could not be read.
     fn unreadable(&self) -> impl Iterator<Item = Diagnostic> {
-        let left_out = self.drawing.left_out.iter().map(|left_out| (left_out.layer, &left_out.diagnostic));
+        let left_out =
+            self.language.left_out(self.drawing).map(|left_out| (left_out.layer, &left_out.diagnostic));
         let faults = self.drawing.faults.iter().map(|fault| (fault.layer, &fault.diagnostic));
         let on_layer = left_out.chain(faults).filter(|(layer, _)| self.layers[*layer as usize]);
         on_layer.map(|(_, cause)| {

@@ -11,6 +11,11 @@ use proptest::prelude::*;
 use crate::support::language;
 
 fn clamps_of(drawing: &str) -> KeepOuts {
+    clamps_among(drawing, "")
+}
+
+/// The clamps of a drawing with further entities as pairs of DXF.
+fn clamps_among(drawing: &str, entities: &str) -> KeepOuts {
     let language = Language { keep_out: LayerPattern::new("clamps?|2000[.]1P").ok(), ..language() };
     let options = Options {
         keep_layer: &|layer| language.is_keep_out(layer),
@@ -22,7 +27,9 @@ fn clamps_of(drawing: &str) -> KeepOuts {
         compatible: false,
     };
     let sheet = sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
-    keep_outs(&pathbuild_dxf::read(&sheet.to_dxf(), &options), &language)
+    let dxf = String::from_utf8(sheet.to_dxf()).expect("the sheet is text");
+    let dxf = dxf.replace("\r\n", "\n").replace("\nENTITIES\n", &format!("\nENTITIES\n{entities}"));
+    keep_outs(&pathbuild_dxf::read(dxf.as_bytes(), &options), &language)
 }
 
 /// The clamps of a drawing without findings.
@@ -100,7 +107,7 @@ fn a_name_counts_as_a_whole_and_in_any_case() {
 
 #[test]
 fn heights_are_numbers_greater_than_0() {
-    for (text, height) in [("Z25", 25.0), ("Z0,5", 0.5), (" Z12.25 ", 12.25)] {
+    for (text, height) in [("Z25", 25.0), ("Z1,5", 1.5), (" Z12.25 ", 12.25)] {
         assert_eq!(right(&SQUARE.replace("Z25", text))[0].height, height);
     }
     for text in ["25", "z25", "Z", "Z0", "Z-3", "Z25 B0", "Z25mm", "Z=h", "clamp"] {
@@ -336,4 +343,56 @@ fn winds(polygon: &[Xy], point: Xy) -> bool {
         libm::atan2(a.perp(&b), a.dot(&b))
     };
     libm::fabs(sides.map(angle).sum::<f64>()) > 1.0
+}
+
+/// A hatch with a rectangular boundary of two points that counts, and a seed point.
+fn hatch(layer: &str, x: f64, y: f64) -> String {
+    format!(
+        "0\nHATCH\n8\n{layer}\n10\n0\n20\n0\n30\n0\n91\n1\n93\n2\n10\n{x}\n20\n{y}\n10\n0\n20\n0\n98\n1\n10\n0\n20\n0\n"
+    )
+}
+
+#[test]
+fn a_hatch_alone_is_an_unclear_clamp() {
+    let said = "this HATCH on a layer with clamps is not supported, so the position of the clamp is unknown";
+    for (drawing, x, is_lone) in [
+        (SQUARE, 15.0, false),
+        (SQUARE, 20.0, false),
+        (SQUARE, 20.01, true),
+        ("layer other\nline 10,0 20,0\n", 15.0, true),
+    ] {
+        let KeepOuts { problems, .. } = clamps_among(drawing, &hatch("clamps", x, 5.0));
+        let texts: Vec<_> = problems.iter().map(|problem| problem.text(Lang::En)).collect();
+        assert_eq!(texts, if is_lone { vec![said] } else { vec![] }, "{drawing} {x}");
+    }
+    // On a layer without clamps, and beside an outline with an error, which may be its own.
+    assert_eq!(clamps_among(SQUARE, &hatch("other", 50.0, 5.0)).problems, []);
+    let open = "layer clamps\nline 10,0 20,0 20,10\n";
+    let beside = clamps_among(open, &hatch("clamps", 50.0, 5.0)).problems;
+    assert!(beside.len() == 1 && beside[0].text(Lang::En).contains("not closed"), "{beside:?}");
+}
+
+#[test]
+fn a_block_of_other_layers_is_an_unclear_clamp() {
+    let inserted = |layer: &str| {
+        format!("block screw\nlayer {layer}\ncircle 0,0 d 10\nendblock\nlayer clamps\ninsert screw at 15,5\n")
+    };
+    assert_wrong(
+        &inserted("parts"),
+        &[
+            "block screw is inserted on a layer with clamps, but what it contains lies on other layers (parts)",
+        ],
+    );
+    assert!(clamps_of(&inserted("parts")).problems[0].is_error());
+    // What lies on the layer of a path counts there.
+    assert_eq!(wrong(&inserted("1000.1P")), []);
+    assert_eq!(right(&format!("{}text 15,5 \"Z25\"\n", inserted("0"))).len(), 1);
+}
+
+#[test]
+fn a_clamp_lower_than_one_millimetre_is_doubted() {
+    let low = wrong(&SQUARE.replace("Z25", "Z0.25"));
+    assert_eq!(low, [(Code::DoubtfulValue, "this clamp is only 0.25 mm high".to_owned())]);
+    assert_eq!(clamps_of(&SQUARE.replace("Z25", "Z0.25")).all.len(), 1);
+    assert_eq!(wrong(&SQUARE.replace("Z25", "Z1")), []);
 }
