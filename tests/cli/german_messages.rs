@@ -55,7 +55,7 @@ fn told(text: &str) -> Vec<String> {
 #[test]
 fn english_is_recognised() {
     assert_eq!(english("die Datei überschreitet die Grenze von 1000 Bytes"), None);
-    assert_eq!(english("das ist kein TOML: „this is quoted“; did you mean `the key`?"), None);
+    assert_eq!(english("das ist kein gültiges TOML: „this is quoted“; did you mean `the key`?"), None);
     assert!(english("the file's size of 17219 bytes überschreitet die Grenze").is_some());
 }
 

@@ -39,8 +39,8 @@ fn numbers_of_one_message_are_told_apart() {
 fn words_of_a_library_are_quoted_in_german() {
     let problem =
         Diagnostic::new(&messages::configuration::TOML_SYNTAX).with("reason", Value::foreign("invalid key"));
-    assert_eq!(problem.text(Lang::En), "this is not TOML: invalid key");
-    assert_eq!(problem.text(Lang::De), "das ist kein TOML: „invalid key“");
+    assert_eq!(problem.text(Lang::En), "this is not valid TOML: invalid key");
+    assert_eq!(problem.text(Lang::De), "das ist kein gültiges TOML: „invalid key“");
 }
 
 #[test]

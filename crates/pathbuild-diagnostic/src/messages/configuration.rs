@@ -12,10 +12,10 @@ messages! {
     }
     /// The file is not valid TOML.
     TOML_SYNTAX: InvalidConfiguration {
-        en: "this is not TOML: {reason}",
-        de: "das ist kein TOML: {reason}",
+        en: "this is not valid TOML: {reason}",
+        de: "das ist kein gültiges TOML: {reason}",
         help_en: "texts are written in double quotes, patterns in single ones; `pathbuild init` shows how each key is written",
-        help_de: "Texte stehen in Anführungszeichen, Muster in einfachen; `pathbuild init` zeigt, wie jeder Schlüssel geschrieben wird",
+        help_de: "Texte stehen in doppelten Anführungszeichen, Muster in einfachen; `pathbuild init` zeigt, wie jeder Schlüssel geschrieben wird",
     }
     /// An unknown key that is similar to a known one.
     UNKNOWN_KEY: InvalidConfiguration {

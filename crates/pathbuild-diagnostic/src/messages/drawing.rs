@@ -55,13 +55,13 @@ messages! {
     }
     /// Note: a circle with the path's text and the line type of an element.
     MEANT_AS_PHANTOM_START: MissingStart {
-        en: "the circle at {point} has a text with O and T, but its line type is not PHANTOM: meant as the start? Draw it as a PHANTOM circle of 1 mm",
-        de: "der Kreis bei {point} hat einen Text mit O und T, sein Linientyp ist aber nicht PHANTOM: als Anfangsmarke gemeint? Als PHANTOM-Kreis mit 1 mm zeichnen",
+        en: "the circle at {point} has a text with O and T, but its line type is not PHANTOM; if it is meant as the start marker, draw it as a PHANTOM circle of 1 mm",
+        de: "der Kreis bei {point} hat einen Text mit O und T, sein Linientyp ist aber nicht PHANTOM; ist er als Anfangsmarke gemeint, als PHANTOM-Kreis mit 1 mm zeichnen",
     }
     /// Note: a circle of an end marker's diameter with the line type of an element.
     MEANT_AS_PHANTOM_END: MissingEnd {
-        en: "the circle at {point} has a diameter of 2 mm, but its line type is not PHANTOM: meant as the end?",
-        de: "der Kreis bei {point} hat 2 mm Durchmesser, sein Linientyp ist aber nicht PHANTOM: als Endmarke gemeint?",
+        en: "the circle at {point} has a diameter of 2 mm, but its line type is not PHANTOM: is it meant as the end marker?",
+        de: "der Kreis bei {point} hat 2 mm Durchmesser, sein Linientyp ist aber nicht PHANTOM: ist er als Endmarke gemeint?",
     }
     /// A path without an end marker.
     MISSING_END: MissingEnd {
@@ -93,8 +93,8 @@ messages! {
     UNKNOWN_SPECIAL_CIRCLE: UnknownSpecialCircle {
         en: "a {line_type} circle with a diameter of {diameter} mm has no meaning",
         de: "ein {line_type}-Kreis mit {diameter} mm Durchmesser hat keine Bedeutung",
-        help_en: "PHANTOM: 1 mm start, 1.5 mm turn marker, 2 mm end, 6 mm Z-probe; DASHDOT and DOT: 6 mm",
-        help_de: "PHANTOM: 1 mm Anfang, 1,5 mm Wendemarke, 2 mm Ende, 6 mm Z-Probe; DASHDOT und DOT: 6 mm",
+        help_en: "correct the diameter; PHANTOM: 1 mm start, 1.5 mm turn marker, 2 mm end, 6 mm Z-probe; DASHDOT and DOT: 6 mm",
+        help_de: "den Durchmesser berichtigen; PHANTOM: 1 mm Anfang, 1,5 mm Wendemarke, 2 mm Ende, 6 mm Z-Probe; DASHDOT und DOT: 6 mm",
     }
     /// A line type without a meaning.
     UNKNOWN_LINE_TYPE: UnknownLineType {
@@ -186,8 +186,8 @@ messages! {
     CIRCLE_TOO_SMALL: CircleTooSmall {
         en: "the circle's diameter of {diameter} mm is smaller than the cutter's, O{tool}",
         de: "der Kreisdurchmesser {diameter} mm ist kleiner als der des Fräsers, O{tool}",
-        help_en: "a circle of the cutter's diameter is a drilled hole, a larger one a helical circle",
-        help_de: "ein Kreis mit dem Durchmesser des Fräsers ist ein Bohrloch, ein größerer ein Helixkreis",
+        help_en: "draw the circle with the cutter's diameter to drill a hole, or larger to mill it along a helix",
+        help_de: "den Kreis zum Bohren mit dem Durchmesser des Fräsers zeichnen, größer zum Fräsen auf einer Helix",
     }
     /// A circle only slightly larger than the cutter.
     NEARLY_DRILLED: NearlyDrilled {
@@ -217,7 +217,7 @@ messages! {
     }
     /// A milled line from a point to the same point.
     CUT_WITHOUT_LENGTH: LeftoverElement {
-        en: "this line has no length: the cutter plunges here, and mills nothing",
+        en: "this line has no length: the cutter plunges here without milling anything",
         de: "diese Linie hat keine Länge: der Fräser taucht hier ein und fräst nichts",
         help_en: "delete it; to drill here, draw a circle of the cutter's diameter",
         help_de: "löschen; um hier zu bohren, einen Kreis mit dem Durchmesser des Fräsers zeichnen",
@@ -231,21 +231,21 @@ messages! {
     }
     /// A circle drawn on top of another.
     CIRCLE_TWICE: LeftoverElement {
-        en: "a circle of {diameter} mm diameter is drawn twice here: it is milled twice, and a text belongs to one of the two only",
+        en: "a circle of {diameter} mm diameter is drawn twice here: it is milled twice, and a text belongs to only one of the two",
         de: "hier ist ein Kreis von {diameter} mm Durchmesser doppelt gezeichnet: er wird zweimal gefräst, und ein Text gehört nur zu einem der beiden",
         help_en: "delete one of the two",
         help_de: "einen der beiden löschen",
     }
     /// A milled line or arc drawn on top of another.
     CURVE_TWICE: LeftoverElement {
-        en: "{element} at {point} is drawn twice: it is milled twice, and a text belongs to one of the two only",
+        en: "{element} at {point} is drawn twice: it is milled twice, and a text belongs to only one of the two",
         de: "{element} bei {point} ist doppelt gezeichnet: hier wird zweimal gefräst, und ein Text gehört nur zu einem der beiden",
         help_en: "delete one of the two; if the tool is to come back along it, draw a turn marker at its end (a PHANTOM circle of 1.5 mm)",
         help_de: "eines der beiden löschen; soll der Fräser darauf zurückkommen, am Ende eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm)",
     }
     /// A milled line or arc that is far shorter than the cutter is wide.
     CUT_HARDLY_LONG: LeftoverElement {
-        en: "{element} here is only {length} mm long: the cutter plunges here, and mills hardly anything",
+        en: "{element} here is only {length} mm long: the cutter plunges here and mills hardly anything",
         de: "hier ist {element} nur {length} mm lang: der Fräser taucht hier ein und fräst fast nichts",
         help_en: "delete it, and join its neighbours; otherwise the depth of its own text or of the path applies here",
         help_de: "löschen und die Nachbarn verbinden; sonst gilt hier die Tiefe des eigenen Textes oder des Pfads",
@@ -259,7 +259,7 @@ messages! {
     }
     /// A frozen or invisible path layer.
     LAYER_NOT_VISIBLE: LayerNotVisible {
-        en: "layer {layer} is frozen or off, but its path is used nevertheless",
+        en: "layer {layer} is frozen or off, but its path is still used",
         de: "Layer {layer} ist gefroren oder ausgeschaltet, sein Pfad gilt trotzdem",
         help_en: "make it visible, or rename it if the path is no longer needed",
         help_de: "sichtbar machen oder umbenennen, wenn der Pfad nicht mehr gebraucht wird",
@@ -268,8 +268,8 @@ messages! {
     TURN_WITHOUT_EFFECT: TurnMarkerWithoutEffect {
         en: "this turn marker has no effect",
         de: "diese Wendemarke hat keine Wirkung",
-        help_en: "a turn marker has an effect only at the tip of a dead end: where no segment continues although others are left",
-        help_de: "eine Wendemarke wirkt nur an der Spitze einer Sackgasse: wo kein Segment weiterführt, obwohl noch welche übrig sind",
+        help_en: "remove it, or move it to the tip of a dead end, where no segment continues although others are left",
+        help_de: "entfernen oder an die Spitze einer Sackgasse setzen, wo kein Segment weiterführt, obwohl noch welche übrig sind",
     }
     /// Ends that nearly meet and were joined.
     JOINED_ENDS: JoinedEnds {
@@ -280,7 +280,7 @@ messages! {
     }
     /// A frozen or invisible layer with clamps.
     CLAMPS_NOT_VISIBLE: LayerNotVisible {
-        en: "a layer with clamps is frozen or off, but its clamps are used nevertheless",
+        en: "a layer with clamps is frozen or off, but its clamps still apply",
         de: "ein Layer mit Spannmitteln ist gefroren oder ausgeschaltet, die Spannmittel gelten trotzdem",
         help_en: "make it visible, or move clamps that no longer exist to a layer that `keep-out` does not name",
         help_de: "sichtbar machen oder Spannmittel, die es nicht mehr gibt, auf einen Layer legen, den `keep-out` nicht nennt",
@@ -413,8 +413,8 @@ messages! {
     }
     /// A decimal comma.
     DECIMAL_COMMA: InvalidDxf {
-        en: "{entity}: \"{value}\" in group {code} has a decimal comma, DXF numbers have a point",
-        de: "{entity}: \"{value}\" in Gruppe {code} hat ein Dezimalkomma, DXF-Zahlen haben einen Punkt",
+        en: "{entity}: \"{value}\" in group {code} has a decimal comma, but DXF numbers need a point",
+        de: "{entity}: \"{value}\" in Gruppe {code} hat ein Dezimalkomma, DXF-Zahlen brauchen aber einen Punkt",
         help_en: "the program that wrote the file uses the system's number format; set the decimal separator there to a point",
         help_de: "das Programm, das die Datei schrieb, verwendet das Zahlenformat des Systems; dort den Dezimalpunkt einstellen",
     }
@@ -539,14 +539,14 @@ messages! {
     }
     /// An entity that is marked invisible.
     INVISIBLE: LayerNotVisible {
-        en: "{entity} is marked invisible, but is used nevertheless",
+        en: "{entity} is marked invisible, but is still used",
         de: "{entity} ist als unsichtbar markiert, gilt aber trotzdem",
         help_en: "show all hidden objects in the CAD and delete what is not meant to be milled",
         help_de: "im CAD alle verborgenen Objekte anzeigen und löschen, was nicht gefräst werden soll",
     }
     /// An entity in a block that is inserted on a frozen layer.
     INSERTED_FROZEN: LayerNotVisible {
-        en: "{entity} is in a block that is inserted on layer {layer}, which is frozen, but is used nevertheless",
+        en: "{entity} is in a block that is inserted on layer {layer}, which is frozen, but it is still used",
         de: "{entity} gehört zu einem Block, der auf dem gefrorenen Layer {layer} eingefügt ist, gilt aber trotzdem",
         help_en: "thaw the layer, or delete the insertion if it is not meant to be milled",
         help_de: "den Layer auftauen oder die Einfügung löschen, wenn sie nicht gefräst werden soll",

@@ -136,7 +136,7 @@ messages! {
     UNCLOSED_COMMENT: InvalidComment {
         en: "the comment is not closed; the line is left out",
         de: "der Kommentar ist nicht geschlossen; die Zeile bleibt unbeachtet",
-        help_en: "put `)` at its end; a comment cannot go on in the next line",
+        help_en: "put `)` at its end; a comment cannot continue on the next line",
         help_de: "`)` ans Ende setzen; ein Kommentar geht nicht über die Zeile hinaus",
     }
     /// A comment inside a comment.
@@ -171,8 +171,8 @@ messages! {
     ASSIGNMENT_EXPECTED: InvalidExpression {
         en: "`=` is missing after the parameter; the line is left out",
         de: "hinter dem Parameter fehlt `=`; die Zeile bleibt unbeachtet",
-        help_en: "a parameter at the beginning of a word is set: #1=2.5",
-        help_de: "ein Parameter am Anfang eines Worts wird gesetzt: #1=2.5",
+        help_en: "write the value after `=`, for example #1=2.5",
+        help_de: "den Wert hinter `=` schreiben, zum Beispiel #1=2.5",
     }
     /// An expression that is nested too deeply.
     NESTED_TOO_DEEPLY: InvalidExpression {
@@ -192,8 +192,8 @@ messages! {
     LINE_MUCH_TOO_LONG: LongLine {
         en: "the line has {length} characters, more than {most}; it is left out",
         de: "die Zeile hat {length} Zeichen, mehr als {most}; sie bleibt unbeachtet",
-        help_en: "this may not be G-code at all, or its line ends have got lost",
-        help_de: "vielleicht ist das kein G-Code, oder die Zeilenenden sind verloren gegangen",
+        help_en: "check whether this is G-code at all, and whether its line ends were lost",
+        help_de: "prüfen, ob das überhaupt G-Code ist und ob seine Zeilenenden verloren gegangen sind",
     }
     /// A space inside a number: `X1 2` means X12.
     BLANK_IN_NUMBER: DoubtfulSpelling {
@@ -255,8 +255,8 @@ messages! {
     AFTER_END: AfterProgramEnd {
         en: "the program ends in line {line}; this and what follows is not read",
         de: "das Programm endet in Zeile {line}; dies und alles danach wird nicht gelesen",
-        help_en: "remove it, or the earlier end",
-        help_de: "entfernen oder das frühere Ende",
+        help_en: "remove these lines, or the earlier end of the program",
+        help_de: "diese Zeilen oder das frühere Programmende entfernen",
     }
     /// Lines after M2 or M30 that the control runs.
     RUN_AFTER_END: AfterProgramEnd {
@@ -274,15 +274,15 @@ messages! {
     }
     /// An optional line, marked by `/`.
     OPTIONAL_LINE: OptionalLine {
-        en: "a switch at the machine can leave this line out; it is read as if it were run",
-        de: "ein Schalter an der Maschine kann diese Zeile auslassen; sie wird gelesen, als würde sie ausgeführt",
+        en: "a switch at the machine (block delete) can skip this line; it is read as if it were run",
+        de: "ein Schalter an der Maschine (Sätze ausblenden) kann diese Zeile überspringen; sie wird gelesen, als würde sie ausgeführt",
         help_en: "remove `/`, or the line",
         help_de: "`/` oder die ganze Zeile entfernen",
     }
     /// A `/` that has no effect.
     SLASH_DROPPED: OptionalLine {
-        en: "{dialect} drops `/` and runs the line",
-        de: "{dialect} lässt `/` weg und führt die Zeile aus",
+        en: "{dialect} ignores `/` and runs the line",
+        de: "{dialect} beachtet `/` nicht und führt die Zeile aus",
         help_en: "remove the line if it is not meant to run",
         help_de: "die Zeile entfernen, wenn sie nicht ausgeführt werden soll",
     }
@@ -402,8 +402,8 @@ messages! {
     CALLS_TOO_LONG: WordNotFollowed {
         en: "subprograms and loops execute more than {most} lines: the rest of the program is not read",
         de: "Unterprogramme und Schleifen führen mehr als {most} Zeilen aus: der Rest des Programms wird nicht gelesen",
-        help_en: "check the numbers of repetitions",
-        help_de: "die Anzahlen der Wiederholungen prüfen",
+        help_en: "check how often loops and subprograms are repeated",
+        help_de: "prüfen, wie oft Schleifen und Unterprogramme wiederholt werden",
     }
     /// A command that is not interpreted.
     NOT_FOLLOWED: WordNotFollowed {
@@ -430,8 +430,8 @@ messages! {
     AXIS_NOT_FOLLOWED: WordNotFollowed {
         en: "the axis {word} is not followed",
         de: "die Achse {word} wird nicht verfolgt",
-        help_en: "only X, Y and Z are read",
-        help_de: "nur X, Y und Z werden gelesen",
+        help_en: "only X, Y and Z are read: check at the control how this axis moves",
+        help_de: "nur X, Y und Z werden gelesen: an der Steuerung prüfen, wie sich diese Achse bewegt",
     }
     /// A word that the dialect knows but ignores.
     IGNORED: IgnoredWord {
@@ -491,20 +491,20 @@ messages! {
     OUT_OF_RANGE: ValueOutOfRange {
         en: "{word} cannot be {value}",
         de: "{word} kann nicht {value} sein",
-        help_en: "{word} is {limits}",
-        help_de: "{word} ist {limits}",
+        help_en: "the value must be {limits}",
+        help_de: "erlaubt: {limits}",
     }
     /// G53 together with G91.
     MACHINE_COORDINATES_RELATIVE: ConflictingWords {
-        en: "G53 counts from the machine's zero, and G91 from where the tool is",
-        de: "G53 zählt ab Maschinennull und G91 von da, wo das Werkzeug ist",
+        en: "G53 counts from the machine's zero, but G91 from where the tool is: together they give no position",
+        de: "G53 zählt ab Maschinennull, G91 aber ab der Werkzeugposition: zusammen ergeben sie kein Ziel",
         help_en: "switch to G90 first",
         help_de: "vorher auf G90 schalten",
     }
     /// G53 with another motion than G0 and G1.
     MACHINE_COORDINATES_MOTION: ConflictingWords {
         en: "G53 works only with G0 and G1",
-        de: "G53 geht nur mit G0 und G1",
+        de: "G53 wirkt nur zusammen mit G0 und G1",
         help_en: "write G0 or G1 in the same line",
         help_de: "G0 oder G1 in dieselbe Zeile schreiben",
     }
@@ -524,8 +524,8 @@ messages! {
     MACHINE_VALUE: MachineValue {
         en: "only the machine knows #{parameter}; {value} is assumed",
         de: "nur die Maschine kennt #{parameter}; {value} wird angenommen",
-        help_en: "what depends on it can be different at the machine",
-        help_de: "was davon abhängt, kann an der Maschine anders sein",
+        help_en: "check at the machine everything that depends on this value",
+        help_de: "an der Maschine alles prüfen, was von diesem Wert abhängt",
     }
     /// A work offset, such as G55, with an unknown position.
     OFFSET_UNKNOWN: UnknownOffset {
@@ -538,8 +538,8 @@ messages! {
     POSITION_UNKNOWN: UnknownOffset {
         en: "the target of {word} is unknown, so the next move begins at an unknown position",
         de: "das Ziel von {word} ist unbekannt; die nächste Bewegung beginnt daher an unbekannter Stelle",
-        help_en: "lengths and checks leave these moves out",
-        help_de: "Längen und Prüfungen lassen diese Bewegungen aus",
+        help_en: "check at the machine that its way is free: lengths and checks leave these moves out",
+        help_de: "an der Maschine prüfen, dass der Weg frei ist: Längen und Prüfungen lassen diese Bewegungen aus",
     }
     /// A program that does not state its unit.
     UNITS_NOT_STATED: UnitsNotStated {
@@ -648,13 +648,13 @@ messages! {
     RADIUS_ZERO: InvalidArc {
         en: "the arc's radius is 0",
         de: "der Radius des Bogens ist 0",
-        help_en: "check I and J: they count from the arc's beginning, unless the file means absolute centres",
-        help_de: "I und J prüfen: sie zählen ab dem Beginn des Bogens, außer die Datei meint absolute Mittelpunkte",
+        help_en: "correct I and J: they give the centre as seen from the start of the arc, except with G90.1 or --absolute-arc-centres",
+        help_de: "I und J berichtigen: sie geben den Mittelpunkt vom Anfang des Bogens aus an, außer mit G90.1 oder --absolute-arc-centres",
     }
     /// An arc given by its radius that is nearly a half circle, so that the centre is imprecise.
     NEAR_HALF_CIRCLE: DoubtfulArc {
-        en: "an arc with R: its centre moves by {shift} mm when the last digit of R changes",
-        de: "ein Bogen mit R: sein Mittelpunkt wandert um {shift} mm, wenn sich die letzte Ziffer von R ändert",
+        en: "the centre of this arc with R moves by {shift} mm when the last digit of R changes",
+        de: "der Mittelpunkt dieses Bogens mit R wandert um {shift} mm, wenn sich die letzte Ziffer von R ändert",
         help_en: "write it with I and J",
         help_de: "mit I und J schreiben",
     }
@@ -689,7 +689,7 @@ messages! {
     /// Arcs and ramps with too many pieces for simulating the material.
     TOO_MANY_PIECES: LimitReached {
         en: "to follow the material, the arcs and slopes of this program are cut into {count} pieces, which exceeds the limit of {limit}; not checked: rapid moves into material",
-        de: "um das Material zu verfolgen, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, das überschreitet die Grenze von {limit}; nicht geprüft: Eilgang ins Material",
+        de: "um das Material zu verfolgen, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, mehr als die Grenze von {limit}; nicht geprüft: Eilgang ins Material",
         help_en: "correct radii and heights that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Radien und Höhen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }

@@ -71,8 +71,8 @@ messages! {
     NO_SUCH_PATH: PathNotFound {
         en: "there is no path or drawing {name}",
         de: "es gibt keinen Pfad und keine Zeichnung {name}",
-        help_en: "looked in {directories}",
-        help_de: "gesucht in {directories}",
+        help_en: "check the name; searched in {directories}",
+        help_de: "den Namen prüfen; gesucht in {directories}",
     }
     /// A pattern that no path matches.
     NO_PATH_LIKE: PathNotFound {
@@ -114,8 +114,8 @@ messages! {
     STALE_OR_OF_OTHERS: StaleOutput {
         en: "{name} was written earlier from a drawing that this library does not have",
         de: "{name} wurde früher aus einer Zeichnung geschrieben, die diese Bibliothek nicht hat",
-        help_en: "the directory lies outside of the library, so another library may have written the program: if not, delete it",
-        help_de: "das Verzeichnis liegt außerhalb der Bibliothek, vielleicht hat eine andere Bibliothek das Programm geschrieben: sonst löschen",
+        help_en: "the directory lies outside of the library: delete the program only if no other library has written it",
+        help_de: "das Verzeichnis liegt außerhalb der Bibliothek: das Programm nur löschen, wenn keine andere Bibliothek es geschrieben hat",
     }
     /// An output file that is older than the errors in its path.
     OLDER_OUTPUT: OlderOutput {
@@ -127,14 +127,14 @@ messages! {
     /// A corrected program that was made from an older program.
     STALE_ADJUSTED: StaleOutput {
         en: "{name} was made from an older version of {clean}",
-        de: "{name} wurde aus einer älteren Fassung von {clean} gemacht",
-        help_en: "do not run it: adjust again with the present probe values; emit --remove-stale removes it",
-        help_de: "nicht laufen lassen: mit den jetzigen Messwerten neu korrigieren (adjust); emit --remove-stale entfernt es",
+        de: "{name} wurde aus einer älteren Fassung von {clean} erzeugt",
+        help_en: "do not run it: adjust again with the current probe values; emit --remove-stale removes it",
+        help_de: "nicht laufen lassen: adjust mit den aktuellen Messwerten noch einmal aufrufen; emit --remove-stale entfernt es",
     }
     /// A corrected program that was edited, or lacks the measured heights in its header.
     STALE_EDITED: StaleOutput {
         en: "{name} is not what adjust makes of {clean} with the measured heights in its header",
-        de: "{name} ist nicht das, was adjust mit den gemessenen Höhen seines Kopfs aus {clean} macht",
+        de: "{name} ist nicht das, was adjust mit den gemessenen Höhen seines Kopfs aus {clean} erzeugt",
         help_en: "it was edited, or an older version adjusted it: do not run it, adjust again",
         help_de: "es wurde bearbeitet, oder eine ältere Version hat es angepasst: nicht laufen lassen, noch einmal adjust aufrufen",
     }
@@ -164,14 +164,14 @@ messages! {
         en: "{letter} is {here} here, but {there} on the proxy line of path {name} in {drawing}",
         de: "{letter} ist hier {here}, auf der Stellvertreterlinie von Pfad {name} in {drawing} aber {there}",
         help_en: "make both agree, or write the Q-project again: pathbuild q-project {drawing}",
-        help_de: "beide in Übereinstimmung bringen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
+        help_de: "die Werte angleichen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
     }
     /// A length that differs from that of the proxy line.
     Q_LENGTH_DIFFERS: QProjectDiffers {
         en: "the segment is {here} mm long, but the proxy line of path {name} in {drawing} is {there} mm long",
         de: "das Segment ist {here} mm lang, die Stellvertreterlinie von Pfad {name} in {drawing} aber {there} mm",
         help_en: "make both agree, or write the Q-project again: pathbuild q-project {drawing}",
-        help_de: "beide in Übereinstimmung bringen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
+        help_de: "die Werte angleichen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
     }
     /// A proxy line for a path that does not exist.
     PROXY_OF_NOTHING: ProxyDiffers {

@@ -24,17 +24,17 @@ messages! {
     }
     /// A letter that is unknown to the element.
     UNKNOWN_LETTER: UnknownParameter {
-        en: "{element} does not know \"{letter}\"",
+        en: "{element} does not accept \"{letter}\"",
         de: "{element} kennt \"{letter}\" nicht",
-        help_en: "it knows {known}; values follow their letter without a space",
+        help_en: "it accepts {known}; values follow their letter without a space",
         help_de: "bekannt sind {known}; Werte folgen ihrem Buchstaben ohne Leerzeichen",
     }
     /// A known letter in lower case.
     LOWER_CASE_LETTER: UnknownParameter {
-        en: "{element} does not know \"{letter}\"",
+        en: "{element} does not accept \"{letter}\"",
         de: "{element} kennt \"{letter}\" nicht",
-        help_en: "letters are upper case: \"{upper}\"? It knows {known}",
-        help_de: "Buchstaben sind groß zu schreiben: \"{upper}\"? Bekannt sind {known}",
+        help_en: "write letters in upper case: \"{upper}\"; {element} accepts {known}",
+        help_de: "Buchstaben groß schreiben: \"{upper}\"; bekannt sind {known}",
     }
     /// A text in lower case, with a correction.
     LOWER_CASE_TEXT: UnknownParameter {
@@ -59,7 +59,7 @@ messages! {
     }
     /// A word among parameters.
     WORD: UnknownParameter {
-        en: "\"{word}\" is not a parameter: {element} knows {known}",
+        en: "\"{word}\" is not a parameter: {element} accepts {known}",
         de: "\"{word}\" ist kein Parameter: {element} kennt {known}",
         help_en: "remove it, or put it on a layer without a path; Q puts a comment into the program, for example Q{word}",
         help_de: "entfernen oder auf einen Layer legen, der kein Pfadlayer ist; mit Q kommt ein Kommentar ins Programm, zum Beispiel Q{word}",
@@ -80,14 +80,14 @@ messages! {
     }
     /// A zero instead of O.
     ZERO_FOR_O: UnknownParameter {
-        en: "{element} does not know \"0\"",
+        en: "{element} does not accept \"0\"",
         de: "{element} kennt \"0\" nicht",
         help_en: "if the zero is meant as the letter O, write \"{meant}\"",
         help_de: "ist die Null als Buchstabe O gemeint, \"{meant}\" schreiben",
     }
     /// `>` on an element that embeds nothing.
     NAME_ON_OTHER_ELEMENT: UnknownParameter {
-        en: "{element} does not know \"{letter}\": it embeds no path",
+        en: "{element} does not accept \"{letter}\": it embeds no path",
         de: "{element} kennt \"{letter}\" nicht: hier wird kein Pfad eingebettet",
         help_en: "draw a line that embeds a path with line type DASHDOT",
         help_de: "eine Linie, die einen Pfad einbettet, mit dem Linientyp DASHDOT zeichnen",
@@ -116,28 +116,28 @@ messages! {
     /// A value that must be greater than another one.
     NOT_ABOVE: ParameterOutOfRange {
         en: "{letter} is {value}, but must be greater than {limit_letter}, which is {limit}",
-        de: "{letter} ist {value}, muss aber größer sein als {limit_letter} mit {limit}",
+        de: "{letter} ist {value}, muss aber größer als {limit_letter} ({limit}) sein",
         help_en: "heights are measured from the clamping plate: S above T above D above B",
         help_de: "Höhen zählen ab der Aufspannplatte: S über T über D über B",
     }
     /// A value that must be less than another one.
     NOT_BELOW: ParameterOutOfRange {
         en: "{letter} is {value}, but must be less than {limit_letter}, which is {limit}",
-        de: "{letter} ist {value}, muss aber kleiner sein als {limit_letter} mit {limit}",
+        de: "{letter} ist {value}, muss aber kleiner als {limit_letter} ({limit}) sein",
         help_en: "heights are measured from the clamping plate: S above T above D above B",
         help_de: "Höhen zählen ab der Aufspannplatte: S über T über D über B",
     }
     /// A value of a letter without an effect that must be greater than another one.
     UNUSED_NOT_ABOVE: ParameterOutOfRange {
         en: "{letter} is {value}, but must be greater than {limit_letter}, which is {limit}",
-        de: "{letter} ist {value}, muss aber größer sein als {limit_letter} mit {limit}",
+        de: "{letter} ist {value}, muss aber größer als {limit_letter} ({limit}) sein",
         help_en: "remove it: {letter} has no effect here",
         help_de: "entfernen: {letter} hat hier keine Wirkung",
     }
     /// A value of a letter without an effect that must be less than another one.
     UNUSED_NOT_BELOW: ParameterOutOfRange {
         en: "{letter} is {value}, but must be less than {limit_letter}, which is {limit}",
-        de: "{letter} ist {value}, muss aber kleiner sein als {limit_letter} mit {limit}",
+        de: "{letter} ist {value}, muss aber kleiner als {limit_letter} ({limit}) sein",
         help_en: "remove it: {letter} has no effect here; line type CONTINUOUS goes down to B, DIVIDE to D",
         help_de: "entfernen: {letter} hat hier keine Wirkung; der Linientyp CONTINUOUS geht bis B, DIVIDE bis D",
     }
@@ -242,14 +242,14 @@ messages! {
     /// A chip load below the limits of the tool.
     CHIP_LOAD_SMALL: DoubtfulChipLoad {
         en: "a chip load of {load} mm per tooth is below {least}: feed {feed} mm/min, {speed} 1/min, {flutes} flutes",
-        de: "{load} mm je Zahn liegen unter {least}: Vorschub {feed} mm/min, {speed} 1/min, {flutes} Schneiden",
+        de: "der Zahnvorschub von {load} mm liegt unter {least}: Vorschub {feed} mm/min, {speed} 1/min, {flutes} Schneiden",
         help_en: "the tool rubs instead of cutting; raise F, lower the speed, or change `chip-load` of the tool ({least} to {most})",
         help_de: "das Werkzeug reibt, statt zu schneiden; F erhöhen, die Drehzahl senken oder `chip-load` des Werkzeugs ändern ({least} bis {most})",
     }
     /// A chip load above the limits of the tool.
     CHIP_LOAD_LARGE: DoubtfulChipLoad {
         en: "a chip load of {load} mm per tooth is above {most}: feed {feed} mm/min, {speed} 1/min, {flutes} flutes",
-        de: "{load} mm je Zahn liegen über {most}: Vorschub {feed} mm/min, {speed} 1/min, {flutes} Schneiden",
+        de: "der Zahnvorschub von {load} mm liegt über {most}: Vorschub {feed} mm/min, {speed} 1/min, {flutes} Schneiden",
         help_en: "the tool may break; lower F, raise the speed, or change `chip-load` of the tool ({least} to {most})",
         help_de: "das Werkzeug kann brechen; F senken, die Drehzahl erhöhen oder `chip-load` des Werkzeugs ändern ({least} bis {most})",
     }
@@ -292,8 +292,8 @@ messages! {
     NOT_A_NUMBER: NotANumber {
         en: "{letter} needs a number, not \"{value}\"",
         de: "{letter} braucht eine Zahl, nicht \"{value}\"",
-        help_en: "an optional sign, digits, and at most one decimal point or comma, for example {letter}-0.3",
-        help_de: "ein Vorzeichen, wenn nötig, Ziffern und höchstens ein Dezimalpunkt oder -komma, zum Beispiel {letter}-0.3",
+        help_en: "write digits with at most one decimal point or comma, and a sign if needed, for example {letter}-0.3",
+        help_de: "Ziffern mit höchstens einem Dezimalpunkt oder -komma schreiben, wenn nötig mit Vorzeichen, zum Beispiel {letter}-0.3",
     }
     /// A number with a unit.
     NUMBER_WITH_UNIT: NotANumber {
@@ -355,8 +355,8 @@ messages! {
     AT_WITH_OTHERS: InvalidAtReference {
         en: "@ cannot be combined with other parameters",
         de: "@ kann nicht mit anderen Parametern kombiniert werden",
-        help_en: "with @ the path has exactly the parameters of the other path",
-        help_de: "mit @ hat der Pfad genau die Parameter des anderen Pfads",
+        help_en: "remove the other parameters: with @, the path has exactly those of the path that @ names",
+        help_de: "die anderen Parameter entfernen: mit @ hat der Pfad genau die des genannten Pfads",
     }
     /// @ with an unknown path.
     AT_UNKNOWN: InvalidAtReference {
@@ -418,8 +418,8 @@ messages! {
     INVALID_DEFINITION: InvalidVariableDefinition {
         en: "\"{definition}\" does not define the values of a variable",
         de: "\"{definition}\" legt keine Variablenwerte fest",
-        help_en: "a range (:A-0.5~1.2), a list (:BP1,P2,P3) or single characters (:C?PQRS)",
-        help_de: "ein Bereich (:A-0.5~1.2), eine Liste (:BP1,P2,P3) oder einzelne Zeichen (:C?PQRS)",
+        help_en: "write a range (:A-0.5~1.2), a list (:BP1,P2,P3) or single characters (:C?PQRS)",
+        help_de: "einen Bereich (:A-0.5~1.2), eine Liste (:BP1,P2,P3) oder einzelne Zeichen (:C?PQRS) schreiben",
     }
     /// A range from a greater to a lesser number.
     REVERSED_RANGE: InvalidVariableDefinition {
@@ -474,8 +474,8 @@ messages! {
     VALUE_NOT_ALLOWED: VariableValueNotAllowed {
         en: "variable \"{variable}\" cannot be \"{value}\"",
         de: "Variable \"{variable}\" kann nicht \"{value}\" sein",
-        help_en: "path {name} defines it as {definition}",
-        help_de: "Pfad {name} legt sie als {definition} fest",
+        help_en: "use a value that path {name} allows: {definition}",
+        help_de: "einen Wert verwenden, den Pfad {name} erlaubt: {definition}",
     }
     /// A cyclic reference.
     ENDLESS: EndlessVariable {

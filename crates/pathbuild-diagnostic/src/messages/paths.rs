@@ -33,8 +33,8 @@ messages! {
     TURN_FOUND_NOTHING: NothingContinues {
         en: "no segment branches off on the way back from this turn marker; segments not reached: {left}",
         de: "auf dem Rückweg von dieser Wendemarke zweigt kein Segment ab; nicht erreichte Segmente: {left}",
-        help_en: "the way back leads to the start; something must branch off on it",
-        help_de: "der Rückweg führt bis zum Anfang; unterwegs muss etwas abzweigen",
+        help_en: "connect a segment that was not reached with the way back to the start, or remove the turn marker",
+        help_de: "ein nicht erreichtes Segment mit dem Rückweg zum Anfang verbinden oder die Wendemarke entfernen",
     }
     /// Note: the nearest open end.
     NEAREST_END: NothingContinues {
@@ -65,7 +65,7 @@ messages! {
     }
     /// A leftover segment that is drawn twice.
     UNREACHED_TWICE: UnreachedSegments {
-        en: "{element} at {point} is drawn twice, and the path runs along one of the two only; segments not reached: {left}",
+        en: "{element} at {point} is drawn twice, but the path runs along only one of the two; segments not reached: {left}",
         de: "{element} bei {point} ist doppelt gezeichnet, der Pfad läuft aber nur über eines der beiden Segmente; nicht erreichte Segmente: {left}",
         help_en: "delete one of the two",
         help_de: "eines der beiden löschen",
@@ -121,8 +121,8 @@ messages! {
     }
     /// Support bars without any gap.
     NO_GAP_BETWEEN_BARS: NoGapBetweenBars {
-        en: "everything is left standing up to D {top}: {length} mm is shorter than P + U, which is {pitch} mm",
-        de: "alles bleibt bis D {top} stehen: {length} mm ist kürzer als P + U mit {pitch} mm",
+        en: "everything is left standing up to D {top}: a length of {length} mm is shorter than P + U, which is {pitch} mm",
+        de: "alles bleibt bis D {top} stehen: eine Länge von {length} mm ist kürzer als P + U mit {pitch} mm",
         help_en: "for a gap, lower U, the minimum distance between bars; use line type DIVIDE to mill only to D, and CONTINUOUS to mill through",
         help_de: "für eine Lücke U, den Mindestabstand der Stege, verkleinern; Linientyp DIVIDE fräst nur bis D, CONTINUOUS ganz durch",
     }
@@ -158,8 +158,8 @@ messages! {
     LINE_INTO_CLAMP: InsideKeepOut {
         en: "here the tool, O{tool}, hits the clamp of layer {layer} at {clamp} of the program, which is {height} mm high: {what}, lowest Z {z}",
         de: "hier trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} bei {clamp} im Programm, das {height} mm hoch ist: {what}, tiefstes Z {z}",
-        help_en: "according to the drawing, the clamp is there; do not run this program",
-        help_de: "nach der Zeichnung steht dort das Spannmittel; dieses Programm nicht ausführen",
+        help_en: "do not run this program: according to the drawing, the clamp is there; move the clamp, or write the program with higher rapids",
+        help_de: "dieses Programm nicht ausführen: laut Zeichnung steht dort das Spannmittel; es versetzen oder das Programm mit höheren Eilgängen neu schreiben",
     }
     /// A subpath without `>`.
     MISSING_NAME: MissingSubpathName {
@@ -172,8 +172,8 @@ messages! {
     INVALID_NAME: InvalidPathName {
         en: "\"{value}\" is not a path name",
         de: "\"{value}\" ist kein Pfadname",
-        help_en: "path names match {pattern}",
-        help_de: "Pfadnamen entsprechen {pattern}",
+        help_en: "write a name that matches {pattern}",
+        help_de: "einen Namen schreiben, der {pattern} entspricht",
     }
     /// Further text after the name.
     MORE_THAN_NAME: InvalidPathName {
@@ -193,8 +193,8 @@ messages! {
     NOT_FOUND: PathNotFound {
         en: "path {name} was not found",
         de: "Pfad {name} wurde nicht gefunden",
-        help_en: "searched in {directories}; files that could contain it: {files}",
-        help_de: "gesucht in {directories}; Dateien, die ihn enthalten könnten: {files}",
+        help_en: "correct the name, or add the directory of its drawing to `search`; searched in {directories}; files that could contain it: {files}",
+        help_de: "den Namen berichtigen oder das Verzeichnis seiner Zeichnung zu `search` hinzufügen; gesucht in {directories}; Dateien, die ihn enthalten könnten: {files}",
     }
     /// Note: similar names.
     NEAR_NAMES: PathNotFound {
@@ -257,8 +257,8 @@ messages! {
     FORBIDDEN: SubpathForbidden {
         en: "path {name} may not be embedded here: it does not match {rule}",
         de: "Pfad {name} darf hier nicht eingebettet werden: er entspricht nicht {rule}",
-        help_en: "the rule is the path's E, or --restrict (`restrict` in pathbuild.toml)",
-        help_de: "die Regel ist das E des Pfads oder --restrict (`restrict` in pathbuild.toml)",
+        help_en: "embed another path, or change the rule: the path's E, or --restrict (`restrict` in pathbuild.toml)",
+        help_de: "einen anderen Pfad einbetten oder die Regel ändern: das E des Pfads oder --restrict (`restrict` in pathbuild.toml)",
     }
     /// Embedding that is nested too deeply.
     TOO_DEEP: NestingTooDeep {
@@ -285,7 +285,7 @@ messages! {
     HAS_ERRORS: SubpathHasErrors {
         en: "the embedded path {name} has errors",
         de: "der eingebettete Pfad {name} hat Fehler",
-        help_en: "they are reported with {file}",
-        help_de: "sie werden bei {file} gemeldet",
+        help_en: "correct them first; they are reported for {file}",
+        help_de: "zuerst diese Fehler beheben; sie sind bei {file} gemeldet",
     }
 }

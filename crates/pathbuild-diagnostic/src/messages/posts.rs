@@ -98,6 +98,8 @@ messages! {
     POST_SHADOWED_MACRO: DoubtfulPost {
         en: "{macro} is built in; its definition is ignored",
         de: "{macro} ist eingebaut; die Definition wird übergangen",
+        help_en: "give your macro another name",
+        help_de: "dem eigenen Makro einen anderen Namen geben",
     }
     /// Macros that contain each other.
     MACRO_DEPTH: EndlessMacro {
@@ -160,8 +162,8 @@ messages! {
     }
     /// An arc that is written as a line because of `MaximumArcRadius`.
     ARC_FLATTENED: FlattenedArc {
-        en: "the arc to {place} has the radius {radius}; the post writes a line that is up to {distance} mm away",
-        de: "der Bogen nach {place} hat den Radius {radius}; der Postprozessor schreibt eine Gerade, bis zu {distance} mm daneben",
+        en: "the arc to {place} has the radius {radius}; the post writes a line that deviates from it by up to {distance} mm",
+        de: "der Bogen nach {place} hat den Radius {radius}; der Postprozessor schreibt eine Gerade, die bis zu {distance} mm davon abweicht",
         help_en: "raise MaximumArcRadius in the post",
         help_de: "MaximumArcRadius im Postprozessor erhöhen",
     }
@@ -174,15 +176,15 @@ messages! {
     }
     /// A cutter diameter that is missing from the tool table.
     TOOL_UNKNOWN: UnknownTool {
-        en: "the tool table has no cutter with O = {diameter} for {path}; it becomes tool {index}",
-        de: "die Werkzeugtabelle hat keinen Fräser mit O = {diameter} für {path}; er wird Werkzeug {index}",
+        en: "the tool table has no cutter with O = {diameter} for {path}; it is written as tool {index}",
+        de: "die Werkzeugtabelle hat keinen Fräser mit O = {diameter} für {path}; er wird als Werkzeug {index} geschrieben",
         help_en: "add it as [tool.NAME] to pathbuild.toml",
         help_de: "als [tool.NAME] in pathbuild.toml aufnehmen",
     }
     /// A tool number that is missing from the tool table.
     TOOL_NUMBER_UNKNOWN: UnknownTool {
-        en: "the tool table has no number {index}: the diameter of T{index} is not known, and 0 is written where the post asks for it",
-        de: "die Werkzeugtabelle hat keine Nummer {index}: der Durchmesser von T{index} ist nicht bekannt, und wo der Postprozessor ihn verlangt, steht 0",
+        en: "the tool table has no tool with the number {index}: the diameter of T{index} is unknown, and the post writes 0 for it",
+        de: "die Werkzeugtabelle hat kein Werkzeug mit der Nummer {index}: der Durchmesser von T{index} ist unbekannt, und der Postprozessor schreibt dafür 0",
         help_en: "add it as [tool.NAME] with `number` to pathbuild.toml",
         help_de: "als [tool.NAME] mit `number` in pathbuild.toml aufnehmen",
     }
@@ -447,8 +449,8 @@ messages! {
     TERM_FUNCTION: InvalidControlText {
         en: "{text}, line {line}, column {column}: there is no function {name}",
         de: "{text}, Zeile {line}, Spalte {column}: es gibt keine Funktion {name}",
-        help_en: "abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, and pi",
-        help_de: "abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, und pi",
+        help_en: "known functions: abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, and pi",
+        help_de: "bekannte Funktionen: abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, und pi",
     }
     /// A wrong number of arguments.
     TERM_ARGUMENTS: InvalidControlText {
@@ -511,20 +513,22 @@ messages! {
     TEXT_NEVER_CALLED: InvalidControlText {
         en: "{text} is never called: programs contain nothing that needs it",
         de: "{text} wird nie aufgerufen: Programme enthalten nichts, wofür er da ist",
-        help_en: "delete it, so that its output is not relied on",
-        help_de: "ihn löschen, damit sich niemand auf seine Ausgabe verlässt",
+        help_en: "delete it: nothing that it writes gets into a program",
+        help_de: "ihn löschen: was er schreibt, kommt in kein Programm",
     }
     /// A text that is replaced by another and therefore never called.
     TEXT_NOT_CALLED: InvalidControlText {
         en: "{text} is never called, because the definition has {other}",
         de: "{text} wird nie aufgerufen, weil die Definition {other} hat",
-        help_en: "delete one of the two; what it switches (spindle, coolant) must stand in texts that are called, such as tool-change and program-end",
-        help_de: "einen der beiden löschen; was er schaltet (Spindel, Kühlung), muss in Texten stehen, die aufgerufen werden, etwa tool-change und program-end",
+        help_en: "delete one of the two; move words that switch spindle or coolant into texts that are called, such as tool-change and program-end",
+        help_de: "einen der beiden löschen; Wörter, die Spindel oder Kühlung schalten, in Texte verschieben, die aufgerufen werden, etwa tool-change und program-end",
     }
     /// A missing text.
     NO_TEXT_FOR: InvalidControlText {
         en: "{operation} needs the text {text}, which the post does not have",
         de: "{operation} braucht den Text {text}, den der Postprozessor nicht hat",
+        help_en: "add this text to the definition",
+        help_de: "diesen Text in die Definition aufnehmen",
     }
     /// Unknown dialect, without a suggestion.
     DIALECT_UNKNOWN: InvalidPost {
@@ -572,8 +576,8 @@ messages! {
     LINE_TOO_LONG: LineTooLong {
         en: "line {line} of the output has {length} characters; {dialect} accepts at most {longest}",
         de: "Zeile {line} der Ausgabe hat {length} Zeichen; {dialect} nimmt höchstens {longest} an",
-        help_en: "give the post's number format fewer decimals, or its texts several lines",
-        help_de: "dem Zahlenformat des Postprozessors weniger Nachkommastellen geben oder seinen Texten mehrere Zeilen",
+        help_en: "give the post's number format fewer decimals, or split its texts into several lines",
+        help_de: "dem Zahlenformat des Postprozessors weniger Nachkommastellen geben oder seine Texte auf mehrere Zeilen verteilen",
     }
     /// Output that differs from the program when read back.
     POST_DIFFERS: PostDiffers {
@@ -709,6 +713,8 @@ messages! {
     JOB_SYSTEM: NothingToPost {
         en: "a program in several coordinate systems cannot be written through a post",
         de: "ein Programm in mehreren Koordinatensystemen kann kein Postprozessor schreiben",
+        help_en: "split it into one program for each work offset",
+        help_de: "es in ein Programm je Nullpunktverschiebung teilen",
     }
     /// A cut from an unknown position, for example after G91.
     JOB_PLACE_UNKNOWN: NothingToPost {
@@ -742,6 +748,8 @@ messages! {
     JOB_NAMED_PLACE: NothingToPost {
         en: "a move to a position that only the machine knows cannot be written through a post",
         de: "eine Bewegung an eine Position, die nur die Maschine kennt, kann kein Postprozessor schreiben",
+        help_en: "remove the move, and put it into the texts of the post if the machine needs it",
+        help_de: "die Bewegung entfernen und, wenn die Maschine sie braucht, in die Texte des Postprozessors schreiben",
     }
     /// Arcs of several turns, or probing moves other than G38.2.
     JOB_MOVE: NothingToPost {

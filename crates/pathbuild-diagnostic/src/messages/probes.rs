@@ -5,8 +5,8 @@ messages! {
     NO_PROBE_LINE: InvalidProbeLine {
         en: "this is not a valid probe line",
         de: "das ist keine gültige Messzeile",
-        help_en: "a line is ([X Y]/T=HEIGHT) #NUMBER=VALUE; only the value is entered by hand",
-        help_de: "eine Zeile ist ([X Y]/T=HÖHE) #NUMMER=WERT; nur der Wert wird von Hand eingetragen",
+        help_en: "a line has the form ([X Y]/T=HEIGHT) #NUMBER=VALUE; enter only the value by hand",
+        help_de: "eine Zeile hat die Form ([X Y]/T=HÖHE) #NUMMER=WERT; von Hand nur den Wert eintragen",
     }
     /// A missing measured value.
     NO_VALUE: InvalidProbeLine {
@@ -46,28 +46,28 @@ messages! {
     /// A malformed line of a log.
     BROKEN_LOG_LINE: InvalidProbeLine {
         en: "this line is not a probe result",
-        de: "diese Zeile ist kein Ergebnis einer Probe",
-        help_en: "a result is [PRB:X,Y,Z:1]",
-        help_de: "ein Ergebnis ist [PRB:X,Y,Z:1]",
+        de: "diese Zeile ist kein Messergebnis",
+        help_en: "a result has the form [PRB:X,Y,Z:1]: measure again if the line was cut off, or remove it",
+        help_de: "ein Ergebnis hat die Form [PRB:X,Y,Z:1]: noch einmal messen, wenn die Zeile abgeschnitten ist, oder sie entfernen",
     }
     /// A log with another number of results.
     LOG_COUNT: InvalidProbeLine {
         en: "the log has {found} probe results, but {file} has {expected} probes",
-        de: "das Protokoll hat {found} Ergebnisse von Proben, {file} aber {expected} Proben",
+        de: "das Protokoll hat {found} Messergebnisse, {file} aber {expected} Proben",
         help_en: "the log must have one result [PRB:X,Y,Z:1] for each probe, in the order of the probing run, and no other",
         help_de: "das Protokoll muss für jede Probe genau ein Ergebnis [PRB:X,Y,Z:1] enthalten, in der Reihenfolge des Antastprogramms, und kein anderes",
     }
     /// A measured height too far from the drawn one.
     TOO_FAR: CorrectionTooLarge {
-        en: "#{probe} is {value}, which is {off} away from the drawn {expected}; up to {limit} is allowed",
-        de: "#{probe} ist {value}, das ist {off} entfernt von den gezeichneten {expected}; erlaubt ist bis {limit}",
+        en: "#{probe} is {value}, which is {off} mm away from the drawn height {expected}; at most {limit} mm are allowed",
+        de: "#{probe} ist {value} und weicht um {off} mm von der gezeichneten Höhe {expected} ab; erlaubt sind höchstens {limit} mm",
         help_en: "measure again; if it is right, correct T in the drawing, or allow more with --max-correction",
         help_de: "noch einmal messen; wenn es stimmt, T in der Zeichnung berichtigen oder mit --max-correction mehr erlauben",
     }
     /// A correction that is too large, although each measured height is near enough.
     HEIGHT_TOO_FAR: CorrectionTooLarge {
-        en: "this height would be changed by {off}; up to {limit} is allowed",
-        de: "diese Höhe würde um {off} verändert; erlaubt ist bis {limit}",
+        en: "this height would be changed by {off} mm; at most {limit} mm are allowed",
+        de: "diese Höhe würde um {off} mm verändert; erlaubt sind höchstens {limit} mm",
         help_en: "it lies far outside the probes: draw probes there, or allow more with --max-correction",
         help_de: "sie liegt weit außerhalb der Proben: dort Proben zeichnen oder mit --max-correction mehr erlauben",
     }
@@ -80,15 +80,15 @@ messages! {
     }
     /// A probe that is missing from the program.
     PROBE_OF_OTHER_PROGRAM: UnknownProbe {
-        en: "{file} was made without a probe #{probe}",
-        de: "{file} ist ohne eine Probe #{probe} entstanden",
+        en: "{file} was written without a probe #{probe}",
+        de: "{file} wurde ohne die Probe #{probe} geschrieben",
         help_en: "both files must come from the same run of emit: emit again, and measure with the new program",
         help_de: "beide Dateien müssen vom selben emit stammen: noch einmal ausgeben und mit dem neuen Programm messen",
     }
     /// A probe at another position.
     OTHER_PROBE: UnknownProbe {
-        en: "#{probe} is {here} here, but {file} was made with {there}",
-        de: "#{probe} ist hier {here}, aber {file} ist mit {there} entstanden",
+        en: "#{probe} is {here} here, but {file} was written with {there}",
+        de: "#{probe} ist hier {here}, aber {file} wurde mit {there} geschrieben",
         help_en: "the drawing has changed since; emit again, and measure with the new program",
         help_de: "die Zeichnung hat sich seither geändert; noch einmal ausgeben und mit dem neuen Programm messen",
     }
@@ -138,11 +138,15 @@ messages! {
     DIVISION_BY_ZERO: InvalidFormula {
         en: "the formula divides by 0 here",
         de: "die Formel teilt hier durch 0",
+        help_en: "it was damaged or edited: emit again and use the new program",
+        help_de: "sie wurde beschädigt oder bearbeitet: noch einmal ausgeben und das neue Programm verwenden",
     }
     /// A result that is too large.
     NOT_FINITE: InvalidFormula {
         en: "the formula's value is too large for a number",
         de: "der Wert der Formel ist zu groß für eine Zahl",
+        help_en: "it was damaged or edited: emit again and use the new program",
+        help_de: "sie wurde beschädigt oder bearbeitet: noch einmal ausgeben und das neue Programm verwenden",
     }
     /// A program that was adjusted already.
     ADJUSTED_BEFORE: InvalidFormula {

@@ -87,8 +87,8 @@ messages! {
     }
     /// `verify --against`, of a definition that writes words that are not followed.
     LINE_NOT_WRITTEN: MovesDiffer {
-        en: "the definition writes \"{expected}\" here, and not all of its words are followed",
-        de: "die Definition schreibt hier \"{expected}\", und nicht alle ihre Wörter werden verfolgt",
+        en: "the definition writes \"{expected}\" here, and this program something else, with words whose effect is unknown",
+        de: "die Definition schreibt hier \"{expected}\", dieses Programm aber etwas anderes, mit Wörtern unbekannter Wirkung",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
@@ -102,7 +102,7 @@ messages! {
     /// `verify --against`: O.
     NUMBERS_DIFFER: MovesDiffer {
         en: "the program's number is O{found}, but the drawing's is O{expected}: on the control, O{found} may be another program",
-        de: "die Programmnummer ist O{found}, für die Zeichnung ist sie O{expected}: in der Steuerung kann sie einem anderen Programm gehören",
+        de: "die Programmnummer ist O{found}, für die Zeichnung ist sie O{expected}: in der Steuerung kann O{found} ein anderes Programm sein",
         help_en: "write the program again with `pathbuild emit`; set `program-number` if the control has another number for it",
         help_de: "das Programm mit `pathbuild emit` neu schreiben; hat die Steuerung eine andere Nummer dafür, `program-number` setzen",
     }
@@ -213,8 +213,8 @@ messages! {
     }
     /// A formula without a value, for example because of a division by zero.
     FORMULA_WITHOUT_VALUE: UncheckedFormula {
-        en: "the formula has no value",
-        de: "die Formel hat keinen Wert",
+        en: "the formula has no value: it divides by 0, or its result is too large",
+        de: "die Formel hat keinen Wert: sie teilt durch 0, oder ihr Ergebnis ist zu groß",
         help_en: "the program was edited: emit again, and adjust it again",
         help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
     }
@@ -222,8 +222,8 @@ messages! {
     HEIGHT_WITHOUT_FORMULA: UncheckedFormula {
         en: "this height has no correction formula",
         de: "diese Höhe hat keine Korrekturformel",
-        help_en: "an editor or sender may have removed it: emit again, and adjust it again",
-        help_de: "ein Editor oder Sender hat sie vielleicht entfernt: noch einmal ausgeben und noch einmal anpassen",
+        help_en: "an editor or the sending program may have removed it: emit again, and adjust it again",
+        help_de: "ein Editor oder das Sendeprogramm hat sie vielleicht entfernt: noch einmal ausgeben und noch einmal anpassen",
     }
     /// A probe that is listed twice in the header.
     PROBE_STATED_TWICE: UncheckedFormula {
@@ -249,35 +249,35 @@ messages! {
     /// A cutter in the header or the tool table that differs from that of an option.
     OTHER_CUTTER_GIVEN: Disagreement {
         en: "{place} says that the cutter's diameter is {found} mm, but --cutter says {given} mm",
-        de: "{place} sagt, der Fräser hat {found} mm, --cutter sagt {given} mm",
+        de: "{place} gibt den Fräser mit {found} mm an, --cutter mit {given} mm",
         help_en: "correct the wrong value; until then, the check of rapid moves clears material with the smaller cutter and looks for collisions with the larger one",
         help_de: "den falschen Wert berichtigen; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren Fräser und bei Kollisionen mit dem größeren",
     }
     /// A cutter in the header or an option that differs from that of the drawing.
     OTHER_CUTTER_DRAWN: Disagreement {
         en: "{place} says O{found}, the drawing O{drawn}",
-        de: "{place} sagt O{found}, die Zeichnung O{drawn}",
+        de: "{place} nennt O{found}, die Zeichnung O{drawn}",
         help_en: "emit the program again, or leave the option out",
         help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
     }
     /// A surface in the header or an option that differs from that of the drawing.
     OTHER_SURFACE_DRAWN: Disagreement {
         en: "{place} says the surface is at {found}, the drawing at {drawn}",
-        de: "{place} sagt, die Oberfläche liegt bei {found}, die Zeichnung sagt {drawn}",
+        de: "{place} gibt die Oberfläche mit {found} an, die Zeichnung mit {drawn}",
         help_en: "emit the program again, or leave the option out",
         help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
     }
     /// A surface that the program states and that differs from that of an option.
     OTHER_SURFACE_GIVEN: Disagreement {
         en: "the header says that the surface is at Z {found}, but --surface says {given}",
-        de: "laut Kopf liegt die Oberfläche bei Z {found}, --surface sagt {given}",
+        de: "laut Kopf liegt die Oberfläche bei Z {found}, laut --surface bei {given}",
         help_en: "correct the wrong value; until then, the check of rapid moves assumes material up to the higher one",
         help_de: "den falschen Wert berichtigen; bis dahin rechnet die Prüfung der Eilgänge mit Material bis zum höheren",
     }
     /// Plunges of a native program that begin to cut at another height than that of an option.
     PLUNGES_ABOVE_SURFACE: Disagreement {
-        en: "plunges of this program begin to cut at Z {found}, but --surface says {given}",
-        de: "das Eintauchen beginnt in diesem Programm bei Z {found} zu fräsen, --surface sagt {given}",
+        en: "plunges of this program begin to cut at Z {found}, but according to --surface the material begins at {given}",
+        de: "beim Eintauchen beginnt das Fräsen in diesem Programm bei Z {found}, laut --surface liegt die Oberfläche bei {given}",
         help_en: "correct the wrong value; until then, the check of rapid moves assumes material up to the higher one",
         help_de: "den falschen Wert berichtigen; bis dahin rechnet die Prüfung der Eilgänge mit Material bis zum höheren",
     }
@@ -290,7 +290,7 @@ messages! {
     }
     /// A required check of rapid moves, some of which cannot be judged.
     CHECK_INCOMPLETE: UnmadeCheck {
-        en: "the required check `{check}` is incomplete: rapid moves below the material's surface begin at unknown positions, so their way is unknown; number of moves: {count}, the first in line {line}",
+        en: "the required check `{check}` is incomplete: rapid moves below the material's surface begin at unknown positions, so their route is unknown; number of moves: {count}, the first in line {line}",
         de: "die verlangte Prüfung `{check}` ist unvollständig: Eilgänge unter die Oberfläche des Materials beginnen an unbekannter Stelle, und ihr Weg ist daher unbekannt; Anzahl: {count}, der erste in Zeile {line}",
         help_en: "go to X and Y above the material first, then down",
         help_de: "zuerst über dem Material nach X und Y fahren, dann hinunter",
@@ -325,8 +325,8 @@ messages! {
     }
     /// Statistics at the end of a program that do not match its moves.
     LENGTH_DIFFERS: Disagreement {
-        en: "`{label}` says {stated} mm, the program's moves come to {length} mm",
-        de: "`{label}` sagt {stated} mm, die Bewegungen des Programms ergeben {length} mm",
+        en: "`{label}` states {stated} mm, but the program's moves add up to {length} mm",
+        de: "`{label}` nennt {stated} mm, die Bewegungen des Programms ergeben aber {length} mm",
         help_en: "the program was edited: emit it again",
         help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
     }
@@ -418,8 +418,8 @@ messages! {
     COARSE_ARCS: CoarseArcs {
         en: "arcs are written with {decimals} decimals of a millimetre",
         de: "Bögen sind mit {decimals} Nachkommastellen eines Millimeters geschrieben",
-        help_en: "set the post-processor to three or more: ends and centres of rounded arcs do not fit each other",
-        help_de: "den Postprozessor auf drei oder mehr einstellen: Enden und Mittelpunkte gerundeter Bögen passen nicht zueinander",
+        help_en: "set the post-processor to three or more: the ends and centres of rounded arcs do not match",
+        help_de: "den Postprozessor auf drei oder mehr einstellen: die Enden und Mittelpunkte gerundeter Bögen passen nicht zusammen",
     }
     /// A sideways move after probing without retracting.
     PROBE_NOT_RAISED: ProbeNotRaised {

@@ -398,7 +398,7 @@ fn a_block_inserted_on_a_frozen_layer_is_told() {
     };
     assert_eq!(
         found("70 1"),
-        ["LINE is in a block that is inserted on layer X, which is frozen, but is used nevertheless"]
+        ["LINE is in a block that is inserted on layer X, which is frozen, but it is still used"]
     );
     assert_eq!(found("70 0"), [""; 0]);
     assert_eq!(found("70 0\n62 -7"), [""; 0], "off: what lies on other layers stays visible");

@@ -51,7 +51,7 @@ fn other_forms_are_errors() {
 
 #[test]
 fn a_decimal_comma_is_named_as_such() {
-    let fault = "PB002 10 A: TEXT: \"1,5\" in group 50 has a decimal comma, DXF numbers have a point";
+    let fault = "PB002 10 A: TEXT: \"1,5\" in group 50 has a decimal comma, but DXF numbers need a point";
     assert_eq!(number("1,5"), Err(fault.into()));
     assert_eq!(number("1,5,0"), Err("PB002 10 A: TEXT: group 50 must be a number, not \"1,5,0\"".into()));
     let drawing = read_all(entities("0 CIRCLE\n8 A\n10 1,5\n20 0\n40 1"));

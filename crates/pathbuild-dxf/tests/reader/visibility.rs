@@ -23,7 +23,7 @@ fn invisible_entities_count_with_a_warning_for_each_layer() {
     assert_eq!(drawing.entities.len(), 4);
     assert_eq!(file_codes(&drawing), [Code::LayerNotVisible, Code::LayerNotVisible]);
     assert_eq!(drawing.diagnostics[0].severity, Severity::Warning);
-    assert_eq!(file_faults(&drawing)[0], "PB112 17 CIRCLE is marked invisible, but is used nevertheless");
+    assert_eq!(file_faults(&drawing)[0], "PB112 17 CIRCLE is marked invisible, but is still used");
 }
 
 #[test]

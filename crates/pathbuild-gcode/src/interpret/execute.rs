@@ -402,7 +402,7 @@ pub(super) mod limits {
         COUNT: "a whole number, 0 or more", "eine ganze Zahl ab 0";
         HOLES: "a whole number of holes, 1 or more", "eine ganze Zahl von Bohrungen ab 1";
         MOVES_OF_A_CYCLE: "at most 100000 moves in all", "höchstens 100000 Bewegungen insgesamt";
-        NOT_BELOW_Z: "not below Z", "nicht unter Z";
+        NOT_BELOW_Z: "at least Z", "mindestens Z";
         NOT_NEGATIVE: "0 or more", "0 oder mehr";
         NUMBER_OF_LAYER: "the number of a layer", "die Nummer eines Layers";
         OFFSETS: "0 to 9", "0 bis 9";

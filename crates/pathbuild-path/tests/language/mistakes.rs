@@ -302,10 +302,10 @@ fn markers_that_lost_their_line_type_are_recognised() {
     let path = |start: &str, end: &str| {
         noted(&format!("layer 1234.1P\n{start} \"T5 O3 I1 B0\"\nmill 0,0 20,0 20,30\n{end}"))
     };
-    let start = "the circle at (0, 0) has a text with O and T, but its line type is not PHANTOM: meant as the start? \
-                 Draw it as a PHANTOM circle of 1 mm";
-    let end =
-        "the circle at (20, 30) has a diameter of 2 mm, but its line type is not PHANTOM: meant as the end?";
+    let start = "the circle at (0, 0) has a text with O and T, but its line type is not PHANTOM; \
+                 if it is meant as the start marker, draw it as a PHANTOM circle of 1 mm";
+    let end = "the circle at (20, 30) has a diameter of 2 mm, but its line type is not PHANTOM: \
+               is it meant as the end marker?";
     let strings = |strings: &[&str]| strings.iter().map(ToString::to_string).collect::<Vec<_>>();
     assert_eq!(path("circle 0,0 d 1", "end 20,30"), (strings(&["PB101"]), strings(&[start])));
     assert_eq!(

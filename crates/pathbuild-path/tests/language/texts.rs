@@ -126,12 +126,15 @@ fn letters_are_upper_case_and_the_help_says_so() {
     let found = problems_of("b1", ElementClass::Mill);
     assert_eq!(codes(&found), ["PB202 b"]);
     assert!(
-        found[0].help(pathbuild_diagnostic::Lang::En).unwrap().starts_with("letters are upper case: \"B\"?")
+        found[0]
+            .help(pathbuild_diagnostic::Lang::En)
+            .unwrap()
+            .starts_with("write letters in upper case: \"B\";")
     );
     let found = problems_of("X1", ElementClass::Mill);
     assert_eq!(
         found[0].help(pathbuild_diagnostic::Lang::En).unwrap(),
-        "it knows B, C, F, I, N, Q, W; values follow their letter without a space"
+        "it accepts B, C, F, I, N, Q, W; values follow their letter without a space"
     );
 }
 

@@ -175,7 +175,7 @@ fn short_arcs_and_flat_arcs_become_lines() {
         .unwrap();
     assert_eq!(texts(&flat.warnings).len(), 1);
     assert!(texts(&flat.warnings)[0].starts_with(
-        "PB757 the arc to (0, 10) has the radius 10; the post writes a line that is up to 2.929 mm"
+        "PB757 the arc to (0, 10) has the radius 10; the post writes a line that deviates from it by up to 2.929 mm"
     ));
 }
 
