@@ -85,6 +85,23 @@ fn a_text_that_is_nobodys_has_its_circle() {
     assert_snapshot!(text);
 }
 
+/// The circle encloses the wrong text: a long text beside it makes room.
+#[test]
+fn a_wrong_text_stands_in_its_circle() {
+    let place = mistakes();
+    place.run("check 3004.1P.dxf --pictures seen");
+    let seen = pictures(&place, "seen");
+    let is_of = |name: &&String| name.starts_with("3004.1P-PB202");
+    let picture = &seen[seen.keys().find(is_of).unwrap()];
+    let value = |line: &str, name: &str| -> f64 {
+        line.split_once(&format!(" {name}=\"")).unwrap().1.split_once('"').unwrap().0.parse().unwrap()
+    };
+    let text = picture.lines().find(|line| line.ends_with(">b0.5</text>")).unwrap();
+    let circle = picture.lines().find(|line| line.contains("r=\"17\"")).unwrap();
+    let (across, down) = (value(text, "x") - value(circle, "cx"), value(text, "y") - value(circle, "cy"));
+    assert!(across.abs() < 1.0 && (0.0..8.0).contains(&down), "{text}\n{circle}");
+}
+
 #[test]
 fn a_clamp_in_the_way_is_seen() {
     let options = "feed = 150\nrapid = 1000\nsweep-height = 20\nkeep-out = 'Clamps'\n";

@@ -155,9 +155,12 @@ fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mu
     // The text at the start of an embedded path concerns that path's own drawing.
     let is_start = |index: &u32| path.elements[*index as usize].kind == ElementKind::Start;
     let is_shown = |label: &&Label| label.path == 0 || !label.elements.iter().any(is_start);
-    for label in path.texts.iter().filter(is_shown) {
+    let mut labels: Vec<&Label> = path.texts.iter().filter(is_shown).collect();
+    // Short texts stand where they are drawn, so that a circle around one encloses it; long ones make room.
+    labels.sort_by_key(|label| longest_line(label));
+    for label in labels {
         let lines: Vec<&str> = label.text.lines().collect();
-        let longest = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0).max(1);
+        let longest = longest_line(label).max(1);
         let rows = lines.len().max(1) as f64;
         let size = (label.height * place.scale()).min(14.0);
         // The path's own texts are always legible; those of embedded paths are shown only if they are large enough.
@@ -177,6 +180,11 @@ fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mu
         }
     }
     canvas.close();
+}
+
+/// Number of characters of the longest line of a text.
+fn longest_line(label: &Label) -> usize {
+    label.text.lines().map(|line| line.chars().count()).max().unwrap_or(0)
 }
 
 /// The point of a shape that is nearest to another point.
