@@ -63,7 +63,16 @@ fn shown(of: Code, example: &str, lang: Lang) -> String {
         Lang::En => format!("\n{of} concerns the part in « ».\n"),
         Lang::De => format!("\n{of} betrifft den Teil in « ».\n"),
     };
-    format!("{files}{}{said}", if files.contains('«') { means } else { String::new() })
+    let picture: String = runs.iter().map(|(command, _)| picture(of, command, lang)).collect();
+    format!("{files}{}{said}{picture}", if files.contains('«') { means } else { String::new() })
+}
+
+/// The command that shows what the part check has found, filled, in a picture of the stock; a page in the terminal has no pictures.
+fn picture(of: Code, command: &str, lang: Lang) -> String {
+    let is_of_part = (Code::GougedPart..=Code::OutlineNotCut).contains(&of);
+    let Some(drawing) = command.strip_prefix("check ").filter(|_| is_of_part) else { return String::new() };
+    let shows = say(lang, "shows it in a picture of the stock.", "zeigt es in einem Bild des Rohteils.");
+    format!("\n`pathbuild view {drawing} --stock -o stock.png` {shows}\n")
 }
 
 /// The output of a command under a code, without duplicates.
