@@ -3,6 +3,8 @@
 use super::data::{Sheet, SheetTool, Words, distinct};
 use super::flow::Block;
 use super::operations;
+use pathbuild_diagnostic::in_prose;
+
 use crate::scene::{BilingualText, MoveKind, Point};
 use crate::svg::canvas::mm;
 use crate::svg::sheet::data::cleared;
@@ -14,7 +16,7 @@ use crate::svg::sheet::data::rapid_heights;
 pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
     let mut checks = vec![program(sheet, words), material(sheet, words)];
     if let Some((deepest, _)) = sheet.cutting_box[2].filter(|(deepest, _)| *deepest < 0.0) {
-        let depth = mm(-deepest);
+        let depth = words.mm(-deepest);
         checks.push(words.either(
             format!("Sacrificial plate lies under it: it is cut {depth} mm deep"),
             format!("Opferplatte liegt darunter: sie wird {depth} mm tief angefräst"),
@@ -60,15 +62,17 @@ fn program(sheet: &Sheet, words: Words) -> String {
 }
 
 fn material(sheet: &Sheet, words: Words) -> String {
-    let facts: Vec<String> = materials(sheet)
-        .into_iter()
-        .chain(
-            thicknesses(sheet).map(|thickness| {
+    let facts: Vec<String> =
+        materials(sheet)
+            .into_iter()
+            .chain(thicknesses(sheet).map(|thickness| in_prose(thickness, words.0)).map(|thickness| {
                 words.either(format!("{thickness} mm thick"), format!("{thickness} mm dick"))
-            }),
-        )
-        .chain(size(sheet).map(|size| words.either(format!("at least {size}"), format!("mindestens {size}"))))
-        .collect();
+            }))
+            .chain(
+                size(sheet, words)
+                    .map(|size| words.either(format!("at least {size}"), format!("mindestens {size}"))),
+            )
+            .collect();
     let facts = facts.join(", ");
     words.either(format!("Material lies ready: {facts}"), format!("Material liegt bereit: {facts}"))
 }
@@ -135,10 +139,10 @@ pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
     facts.heading("Material", "Material");
     facts.fact("M", "M", materials(sheet));
     facts.fact("T", "T", thicknesses(sheet).map(|thickness| format!("{thickness} mm")));
-    facts.fact("at least", "mindestens", size(sheet));
+    facts.fact("at least", "mindestens", size(sheet, words));
     if let [tool] = sheet.tools.as_slice() {
         facts.heading("Cutter", "Fräser");
-        facts.fact("O", "O", Some(format!("Ø {} mm", mm(tool.diameter))));
+        facts.fact("O", "O", Some(format!("Ø {} mm", words.mm(tool.diameter))));
         facts.fact("number T", "Nummer T", tool.number.map(|number| number.to_string()));
         facts.fact("name", "Name", tool.name.clone());
         facts.fact("spindle", "Spindel", spindle(tool, words));
@@ -306,18 +310,20 @@ fn tool_text(tool: &SheetTool, words: Words) -> Vec<String> {
     let number = tool.number.map(|number| format!("T{number} "));
     let name = tool.name.as_ref().map(|name| format!(" ({name})"));
     let what =
-        format!("{}Ø {} mm{}", number.unwrap_or_default(), mm(tool.diameter), name.unwrap_or_default());
+        format!("{}Ø {} mm{}", number.unwrap_or_default(), words.mm(tool.diameter), name.unwrap_or_default());
     std::iter::once(what).chain(edges(tool, words)).chain(spindle(tool, words)).collect()
 }
 
 /// The cutting edges of a cutter: corner radius, number and length.
 fn edges(tool: &SheetTool, words: Words) -> Option<String> {
-    let radius =
-        Some(tool.corner_radius).filter(|radius| *radius > 0.0).map(|radius| format!("R {}", mm(radius)));
+    let radius = Some(tool.corner_radius)
+        .filter(|radius| *radius > 0.0)
+        .map(|radius| format!("R {}", words.mm(radius)));
     let flutes =
         tool.flutes.map(|flutes| words.either(format!("{flutes} flutes"), format!("{flutes} Schneiden")));
     let length = tool.length.map(|length| {
-        words.either(format!("cuts {} mm deep", mm(length)), format!("schneidet {} mm tief", mm(length)))
+        words
+            .either(format!("cuts {} mm deep", mm(length)), format!("schneidet {} mm tief", words.mm(length)))
     });
     let texts: Vec<String> = radius.into_iter().chain(flutes).chain(length).collect();
     (!texts.is_empty()).then(|| texts.join(", "))
@@ -347,9 +353,9 @@ fn thicknesses(sheet: &Sheet) -> Option<String> {
 }
 
 /// The size of the removed material in X and Y.
-fn size(sheet: &Sheet) -> Option<String> {
+fn size(sheet: &Sheet, words: Words) -> Option<String> {
     let [low, high] = cleared(sheet)?;
-    Some(format!("{} × {} mm", mm(high[0] - low[0]), mm(high[1] - low[1])))
+    Some(format!("{} × {} mm", words.mm(high[0] - low[0]), words.mm(high[1] - low[1])))
 }
 
 /// A list of numbers; only the first and the last of many.

@@ -1,6 +1,6 @@
 //! The data of a setup sheet, what is derived from it, and its vocabulary.
 
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::{Lang, in_prose};
 
 use crate::scene::{BilingualText, KeepOut, MoveKind, Point, Scene, SceneMove, Shape};
 use crate::svg::canvas::mm;
@@ -196,6 +196,11 @@ impl Words {
         self.0.choose(en, de)
     }
 
+    /// A length in a sentence.
+    pub(super) fn mm(self, length: f64) -> String {
+        in_prose(mm(length), self.0)
+    }
+
     /// The position of zero relative to the lower end of a length along X or Y.
     pub(super) fn beside(self, low: f64, is_across: bool) -> String {
         let (sides, edge) = match (is_across, self.0) {
@@ -208,7 +213,7 @@ impl Words {
             return self.either(format!("on the {edge}"), format!("auf dem {edge}"));
         }
         let side = if low < 0.0 { sides[0] } else { sides[1] };
-        let length = mm(low.abs());
+        let length = self.mm(low.abs());
         match (self.0, is_across) {
             (Lang::En, true) => format!("{length} mm {side} of the {edge}"),
             (Lang::En, false) => format!("{length} mm {side} the {edge}"),

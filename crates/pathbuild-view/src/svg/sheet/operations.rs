@@ -93,7 +93,11 @@ fn what(path: &ScenePath, element: &Element, words: Words) -> String {
     let Shape::Circle { radius, .. } = element.shape else { return work.to_owned() };
     let diameter = 2.0 * radius;
     if path.tool.is_some_and(|tool| (tool - diameter).abs() < 0.001) {
-        return words.either(format!("drilling Ø {}", mm(diameter)), format!("Bohren Ø {}", mm(diameter)));
+        return words
+            .either(format!("drilling Ø {}", mm(diameter)), format!("Bohren Ø {}", words.mm(diameter)));
     }
-    words.either(format!("{work}: circle Ø {}", mm(diameter)), format!("{work}: Kreis Ø {}", mm(diameter)))
+    words.either(
+        format!("{work}: circle Ø {}", mm(diameter)),
+        format!("{work}: Kreis Ø {}", words.mm(diameter)),
+    )
 }
