@@ -112,4 +112,8 @@ article { display: flex; flex-wrap: wrap; gap: 16px; margin: 14px 0; padding-lef
 article.error { border-color: #d55e00 } article > div { flex: 1 1 320px; min-width: 0 }
 svg { border: 1px solid #d5dadf; max-width: 100%; height: auto } pre { background: #f1f4f6; padding: 4px 8px; overflow-x: auto }
 .help { padding-left: 14px; border-left: 2px solid #d5dadf }
+@media screen and (prefers-color-scheme: dark) {
+  body { background: #11181f; color: #e4ebf1 } small, .place { color: #9dacba }
+  h2, svg, .help { border-color: #4a5a68 } pre { background: #1f2a34 }
+}
 </style>";
