@@ -114,6 +114,24 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   await page.close();
 }
 {
+  // The row of the open path is visible as a whole, though the list becomes narrower.
+  const { page, faults } = await open(`${address}#${new URLSearchParams({ file: "mistakes/3011.1P.dxf", path: "3011.1P" })}`);
+  await page.waitForFunction(() => /paths$/.test(document.getElementById("count").textContent) && document.getElementById("title").textContent === "3011.1P");
+  await settled(page);
+  const [row, list] = [await page.locator(".item[aria-selected=true]").boundingBox(), await page.locator("#list").boundingBox()];
+  assert.ok(row.y + row.height <= list.y + list.height + 1, JSON.stringify([row, list]));
+  // The counts of the states are those of the rows, among which are drawings that cannot be read.
+  const number = async (id) => Number(/ (\d+)$/.exec(await text(page, id))[1]);
+  const before = await number("#filter-errors");
+  writeFileSync(join(place, "mistakes", "4000.1P.dxf"), "0\nSECTION\n2\nENTITIES\n");
+  await page.waitForFunction((before) => document.getElementById("filter-errors").textContent.endsWith(` ${before + 1}`), before);
+  assert.equal(await number("#filter-all"), Number(/^(\d+) paths/.exec(await text(page, "#count"))[1]));
+  rmSync(join(place, "mistakes", "4000.1P.dxf"));
+  await page.waitForFunction((before) => document.getElementById("filter-errors").textContent.endsWith(` ${before}`), before);
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
   // A program opened here is checked by the server of the page, with the values of pathbuild.toml.
   const { page, faults } = await open(address);
   const file = join(place, "..", "slot.nc");

@@ -1,6 +1,6 @@
 // The page in a browser: node test.mjs PATHBUILD LIBRARY [PICTURES]; BROWSER=firefox tries Firefox.
 import { execFileSync, spawnSync } from "node:child_process";
-import { mkdtempSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import assert from "node:assert/strict";
@@ -258,11 +258,75 @@ const text = (page, selector) => page.locator(selector).innerText();
   // Scales and colours are explained, until they are hidden.
   assert.match(await text(page, "#scale"), /^[125]0* mm$/);
   assert.match(await text(page, "#legend"), /Z-0.2[^]*cuts ahead[^]*outline of a part/);
+  assert.doesNotMatch(await text(page, "#legend"), /rapid in material|cut into a part/);
   await page.keyboard.press("3");
   await page.waitForFunction(() => document.getElementById("scale").hidden);
   await page.keyboard.press("g");
   assert.ok(await page.locator("#legend").isHidden());
   assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // The legend names rapid moves in material from the first one that is shown.
+  const file = join(directory, "rapid.nc");
+  writeFileSync(file, ["G21 G90 G94 G17", "G0 Z5", "G0 X0 Y0", "G1 Z-2 F120", "G1 X20", "G0 X40", "G1 X60", "G0 Z5", "M30", ""].join("\n"));
+  const { page, faults } = await open(file, {}, directory);
+  await page.locator("#assumedTool").fill("3");
+  assert.match(await text(page, "#legend"), /rapid in material/);
+  await page.locator("#slider").fill("3");
+  await page.locator("#assumedTool").fill("2");
+  assert.doesNotMatch(await text(page, "#legend"), /rapid in material/);
+  await page.locator("#slider").fill("6");
+  assert.match(await text(page, "#legend"), /rapid in material/);
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // Everything that can be focused has a name, and every value has its own.
+  const { page, faults } = await open("8001.1P");
+  const nameless = await page.evaluate(() => {
+    const nameOf = (node) => node.getAttribute("aria-label") || node.labels?.[0]?.textContent || node.textContent;
+    return [...document.querySelectorAll("button, select, input, summary, dt, [tabindex], #picture")].filter((node) => node.offsetParent !== null && !nameOf(node).trim()).map((node) => node.id || node.outerHTML);
+  });
+  assert.deepEqual(nameless, []);
+  // On paper, the picture keeps its size, for which the labels are placed, and the controls are left out.
+  const placed = () => page.evaluate(() => [document.getElementById("picture").clientWidth, ...[...document.querySelectorAll("#labels .order")].map((node) => node.style.transform)].join());
+  const before = await placed();
+  await page.emulateMedia({ media: "print" });
+  await page.setViewportSize({ width: 1000, height: 1400 });
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  assert.equal(await placed(), before);
+  for (const id of ["play", "view3", "code"]) assert.ok(await page.locator(`#${id}`).isHidden(), id);
+  assert.ok(await page.locator("#details").isVisible());
+  await shot(page, "print");
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // At a zoom of 200 %, the picture keeps its room, and the page scrolls to what is below.
+  const { page, faults } = await open("8001.1P", { viewport: { width: 640, height: 400 } });
+  assert.ok((await page.locator("#picture").boundingBox()).height > 200);
+  await page.locator("#details").scrollIntoViewIfNeeded();
+  assert.ok(await page.evaluate(() => scrollY > 50));
+  assert.ok((await page.locator("#play").boundingBox()).y < 400);
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // Of very many numbers, some are shown everywhere.
+  const file = join(directory, "numbers.html");
+  const html = readFileSync(join(directory, "8001.1P.html"), "utf8");
+  const [begin, end] = [html.indexOf(">", html.indexOf('id="scene"')) + 1, html.indexOf("</script>", html.indexOf('id="scene"'))];
+  const scene = JSON.parse(html.slice(begin, end));
+  const numbered = scene.paths[0].elements.filter(({ order }) => order !== null);
+  for (let order = 1000; order < 2000; order++) scene.paths[0].elements.push({ ...numbered[order % numbered.length], order });
+  writeFileSync(file, html.slice(0, begin) + JSON.stringify(scene).replaceAll("<", "\\u003c") + html.slice(end));
+  const page = await browser.newPage();
+  await page.goto(`file://${file}`);
+  await page.waitForSelector("html[data-ready]");
+  const numbers = (await page.locator("#labels .order").allTextContents()).map(Number);
+  assert.ok(numbers.length > 300 && numbers.length <= 600, `${numbers.length} numbers`);
+  assert.ok(Math.min(...numbers) < 10 && Math.max(...numbers) > 1990, `${Math.min(...numbers)} to ${Math.max(...numbers)}`);
   await page.close();
 }
 {
@@ -341,7 +405,19 @@ await browser.close();
   await page.keyboard.press("Home");
   await page.keyboard.press("ArrowRight");
   assert.match(await text(page, "#where"), /^Move 1 of/);
+  // The stock leaves the picture its half, and what needs WebGL is not offered.
+  const [picture, drawn, stock] = await Promise.all(["#picture", "#still svg", "#flat"].map((name) => page.locator(name).boundingBox()));
+  assert.ok(Math.abs(drawn.y - picture.y) < 1 && drawn.y + drawn.height <= stock.y, JSON.stringify([picture, drawn, stock]));
+  assert.ok(stock.height > picture.height * 0.4 && stock.y + stock.height < picture.y + picture.height + 1);
+  for (const id of ["view3", "rapids", "texts", "measure"]) assert.ok(await page.locator(`#${id}`).isHidden(), id);
   await shot(page, "still");
+  await page.locator("#stock").click();
+  assert.ok((await page.locator("#still svg").boundingBox()).width > 0.95 * picture.width);
+  // Without scripts, the picture is all there is.
+  const plain = await still.newPage({ javaScriptEnabled: false });
+  await plain.goto(`file://${join(directory, "8001.1P.html")}`);
+  assert.ok(await plain.locator("#still svg").isVisible());
+  for (const name of ["aside", "#legend"]) assert.ok(await plain.locator(name).isHidden(), name);
   await still.close();
 }
 console.log(`page${isFirefox ? ", in Firefox" : ""}: all passed`);

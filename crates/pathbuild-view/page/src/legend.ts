@@ -17,6 +17,8 @@ const items = $("meanings");
 export interface Shown {
   rapids: boolean;
   stock: boolean;
+  /** Whether the stock shows rapid moves through material. */
+  rapidCuts: boolean;
   clamps: boolean;
   parts: FinishedPart[];
 }
@@ -28,12 +30,13 @@ export function sayLegend(model: Model, shown: Shown, lang: Lang): void {
   $("shallowest").textContent = hasCuts ? `Z${mm(model.shallowest)}` : "";
   $("deepest").textContent = hasCuts ? `Z${mm(model.deepest)}` : "";
   depths.classList.toggle("single", model.shallowest === model.deepest);
-  const all: [boolean, string, Word][] = [
+  const all: [boolean | undefined, string, Word][] = [
     [hasCuts, "ahead", "legendAhead"],
     [shown.rapids, "rapid", "rapids"],
     [shown.stock, "uncut", "legendUncut"],
     [shown.stock, "plate", "legendThrough"],
-    [shown.stock, "wrong", "legendWrong"],
+    [shown.stock && shown.rapidCuts, "wrong", "legendRapid"],
+    [shown.stock && shown.parts.some(({ gouges, lost_bars }) => gouges?.length || lost_bars?.length), "wrong", "legendGouge"],
     [shown.parts.length > 0, "outline", "legendOutline"],
     [shown.stock && shown.parts.some(({ left }) => left.length > 0), "leftover", "legendLeft"],
     [shown.stock && shown.parts.some((part) => part.is_loose), "loose", "legendLoose"],

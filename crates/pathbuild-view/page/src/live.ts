@@ -186,19 +186,20 @@ class Page {
   private relist(): void {
     const words = $<HTMLInputElement>("search").value.toLowerCase().split(/\s+/).filter((word) => word !== "");
     const isMeant = (row: LibraryRow) => {
-      if (this.filter === "warnings" ? !row.warnings : this.filter !== "all" && row.state !== this.filter) return false;
+      if (!isListed(row, this.filter)) return false;
       const text = `${row.path ?? ""} ${row.file} ${row.material ?? ""}`.toLowerCase();
       return words.every((word) => text.includes(word));
     };
     const all = this.rows();
     const rows = words.length === 0 && this.filter === "all" ? all : all.filter(isMeant);
-    this.list.set(rows, this.open);
     const count = new Intl.NumberFormat(lang);
     const shown = rows.length === all.length ? "" : `${count.format(rows.length)} ${say("of", lang)} `;
     const pending = all.filter((row) => row.state === undefined).length;
     const open = pending > 0 ? ` · ${count.format(pending)} ${say("unchecked", lang)}` : "";
     const nothing = rows.length > 0 || !this.isComplete ? "" : say(all.length === 0 ? "nothing" : "nothingFound", lang);
     $("count").textContent = nothing || `${shown}${count.format(all.length)} ${say(all.length === 1 ? "path" : "paths", lang)}${open}${this.isWhole ? "" : " …"}`;
+    // Last: the count takes a line of the room in which the list reveals its selected row.
+    this.list.set(rows, this.open);
   }
 
   /** Renders all texts. */
@@ -218,6 +219,9 @@ class Page {
     const { statistics } = this;
     if (!statistics) return $("states").replaceChildren();
     const numbers = { ...statistics.states, all: statistics.paths, warnings: statistics.with_warnings };
+    // The list has a row for each drawing without readable paths; the statistics are those of paths.
+    const whole = this.rows().filter(({ path }) => path === null);
+    for (const [filter] of FILTERS) numbers[filter] += whole.filter((row) => isListed(row, filter)).length;
     const shown = FILTERS.filter(([filter]) => filter === "all" || filter === this.filter || numbers[filter] > 0);
     const focused = document.activeElement?.id;
     const buttons = shown.map(([filter, word]) => {
@@ -366,6 +370,11 @@ class Page {
     image.addEventListener("load", () => URL.revokeObjectURL(image.src));
     $("still").replaceChildren(image);
   }
+}
+
+/** Whether a filter lets a row through. */
+function isListed(row: LibraryRow, filter: Filter): boolean {
+  return filter === "all" || (filter === "warnings" ? (row.warnings ?? 0) > 0 : row.state === filter);
 }
 
 /** Sorts files by path, so that the files of a directory are together. */

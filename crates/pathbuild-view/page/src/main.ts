@@ -23,7 +23,14 @@ function takePrograms(open: (program: DroppedProgram) => void): void {
   });
 }
 
+/** Shows the still picture of the page. Scripts get it as text: it is large, and only browsers without WebGL2 need it. */
+function drawStill(): void {
+  const still = document.getElementById("still")!;
+  const text = still.querySelector("noscript")?.textContent;
+  if (text) still.innerHTML = text;
+}
+
 const scene = document.getElementById("scene");
-if (scene) show(JSON.parse(scene.textContent!), false);
+if (scene) show(JSON.parse(scene.textContent!), false, drawStill);
 else takePrograms(live(new Connection()));
 document.documentElement.dataset.ready = "true";

@@ -368,6 +368,9 @@ export class Stage {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.host;
     this.size = [width, height];
+    // Labels are placed for this size; on paper the window has another one.
+    this.host.style.setProperty("--width", `${width}px`);
+    this.host.style.setProperty("--height", `${height}px`);
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height, false);
     Object.assign(this.camera, { left: -width / 2, right: width / 2, top: height / 2, bottom: -height / 2 });

@@ -98,11 +98,7 @@ function placeProgram(): void {
   document.getElementById("download")?.toggleAttribute("hidden", program !== undefined);
   for (const id of ["typeDialect", "typeSurface", "settings", "checked"]) $(id).hidden = !program;
   if (!program) return;
-  for (const finding of scene.findings) {
-    const move = scene.paths.flatMap((path) => path.moves).find((move) => move.line === finding.line);
-    const [x, y] = move?.to ?? [null, null];
-    if (!finding.at && x !== null && y !== null) finding.at = [x, y];
-  }
+  placeFindings();
   const dialect = $<HTMLSelectElement>("assumedDialect");
   const chosen = dialect.value;
   dialect.replaceChildren(new Option(`${say("asFound", lang)}: ${program.dialect}`, ""), ...program.dialects.map((name) => new Option(name, name)));
@@ -112,6 +108,19 @@ function placeProgram(): void {
   $<HTMLAnchorElement>("settings").href = `#${fragmentOf(settings())}`;
   const checks = program.checks.map(({ outcome, text: said }) => node("li", said[lang], outcome));
   $("checks").replaceChildren(...checks);
+}
+
+/** Places the findings of a program at the end of the first move of their line. */
+function placeFindings(): void {
+  const unplaced = new Map<number, Finding[]>();
+  for (const finding of scene.findings) {
+    if (finding.at || !finding.line) continue;
+    unplaced.set(finding.line, [...(unplaced.get(finding.line) ?? []), finding]);
+  }
+  for (const { line, to: [x, y] } of unplaced.size > 0 ? scene.paths.flatMap(({ moves }) => moves) : []) {
+    if (line === undefined || x === null || y === null) continue;
+    for (const finding of unplaced.get(line) ?? []) finding.at ??= [x, y];
+  }
 }
 
 /** Reads the settings entered for a program. */
@@ -209,7 +218,7 @@ function found({ path, handle, turn }: Mark): number | null {
 /** Starts or restarts the picture, whose buffers contain the colours. */
 function start(keepsView: boolean): void {
   made = model(scene);
-  placeWork();
+  share = 0;
   const view = keepsView ? stage?.view() : undefined;
   try {
     if (stage && stage.isThick !== isThick(made)) {
@@ -228,8 +237,6 @@ function start(keepsView: boolean): void {
   placeStock();
   if (view) stage?.restore(view);
   else stage?.fit(space);
-  spots();
-  go(count);
 }
 
 /** The values entered where the program states none. */
@@ -257,14 +264,15 @@ function placeStock(): void {
   if (shown.stock && stock === undefined) stock = Stock.of(scene, assumed(), stockColors());
   stage?.showStock(shown.stock ? stock! : null);
   $("flat").hidden = stage !== null || !shown.stock || !stock;
-  picture.classList.toggle("still", stage === null);
+  document.body.classList.toggle("still", stage === null);
+  picture.classList.toggle("halved", !$("flat").hidden);
   cutStock();
   legend();
 }
 
 function legend(): void {
   const hasStock = shown.stock && !!stock;
-  sayLegend(made, { rapids: shown.rapids && made.steps.length > 0, stock: hasStock, parts: scene.paths.flatMap(({ parts }) => parts ?? []), clamps: scene.keep_outs.length > 0 }, lang);
+  sayLegend(made, { rapids: shown.rapids && made.steps.length > 0, stock: hasStock, rapidCuts: !!stock?.map.hasRapidCut, parts: scene.paths.flatMap(({ parts }) => parts ?? []), clamps: scene.keep_outs.length > 0 }, lang);
   showLegend(shown.explain);
   stage?.placeLabels();
 }
@@ -336,7 +344,9 @@ function operationAt(step: number): number | null {
 /** Cuts the stock up to the current move. */
 function cutStock(): void {
   if (!shown.stock || !stock) return;
+  const { hasRapidCut } = stock.map;
   const changed = stock.seek(Math.min(count, made.steps.length), share);
+  if (hasRapidCut !== stock.map.hasRapidCut) legend();
   if (!stage) stock.paint($("flat"));
   else if (changed) stage.cut(changed);
 }
@@ -390,7 +400,15 @@ function spots(): void {
     add(finding.at, 0, circle);
   }
   for (const at of measured ?? []) add(at, 0, node("span", "+", "cross"));
-  stage?.setSpots(all.slice(-MOST_SPOTS));
+  const isNumber = ({ node }: Spot) => node.classList.contains("order");
+  const others = all.filter((spot) => !isNumber(spot)).slice(-MOST_SPOTS);
+  stage?.setSpots([...everyNth(all.filter(isNumber), MOST_SPOTS - others.length), ...others]);
+}
+
+/** At most so many of these, evenly distributed. */
+function everyNth<T>(all: T[], most: number): T[] {
+  const step = Math.ceil(all.length / most);
+  return all.filter((_, index) => most > 0 && index % step === 0);
 }
 
 function middle(shape: { from: [number, number]; centre: [number, number]; clockwise: boolean; degrees: number }): [number, number] {
@@ -519,7 +537,7 @@ function provider({ from, which, line }: Parameter): string {
 function summary(): void {
   const list: [string, string][] = [];
   for (const path of scene.paths) {
-    list.push(["", path.name === path.file ? path.name.replace(/^.*[\\/]/, "") : `${path.name} · ${path.file}`]);
+    list.push([say(path.name === path.file ? "program" : "path", lang), path.name === path.file ? path.name.replace(/^.*[\\/]/, "") : `${path.name} · ${path.file}`]);
     const box = path.elements.length === 0 ? extent(path) : "";
     if (scene.program) list.push([say("readAs", lang), scene.program.read_as[lang]]);
     if (box) list.push([say("extent", lang), box]);
@@ -617,6 +635,7 @@ export function speak(): void {
     node.textContent = say(node.dataset.word as Word, lang);
   });
   $("keys").setAttribute("aria-label", say("keys", lang));
+  picture.setAttribute("aria-label", say("picture", lang));
   sayKeys(lang);
   $("speed").setAttribute("aria-label", say("speed", lang));
   $<HTMLSelectElement>("speed").options[0].textContent = `1× (${say("realSpeed", lang)})`;
@@ -686,7 +705,7 @@ const acts = {
   view3: () => stage?.fit((space = true)),
   fit: () => stage?.fit(space),
   measure: () => {
-    measured = measured ? null : [];
+    measured = measured || !stage ? null : [];
     $("measured").textContent = measured ? say("pick", lang) : "";
     $("measure").setAttribute("aria-pressed", String(measured !== null));
     spots();
@@ -695,8 +714,11 @@ const acts = {
     dark = !dark;
     paint();
     stock = undefined;
-    if (isOpen) start(true);
-    if (isOpen) describe(chosen);
+    if (!isOpen) return;
+    start(true);
+    spots();
+    go(count);
+    describe(chosen);
   },
   lang: () => {
     lang = lang === "en" ? "de" : "en";

@@ -3,6 +3,8 @@
 export type Lang = "en" | "de";
 
 const words = {
+  program: ["program", "Programm"],
+  picture: ["Picture", "Bild"],
   view2: ["Top", "Oben"],
   view3: ["3D", "3D"],
   fit: ["Fit", "Einpassen"],
@@ -59,7 +61,8 @@ const words = {
   legendAhead: ["cuts ahead", "noch zu fräsen"],
   legendUncut: ["uncut stock", "ungeschnittenes Rohteil"],
   legendThrough: ["cut through", "durchgefräst"],
-  legendWrong: ["rapid in material, cut into a part or bar", "Eilgang im Material, Schnitt in Teil oder Steg"],
+  legendRapid: ["rapid in material", "Eilgang im Material"],
+  legendGouge: ["cut into a part or bar", "Schnitt in Teil oder Steg"],
   legendOutline: ["outline of a part", "Umriss eines Teils"],
   legendLeft: ["material left", "stehengebliebenes Material"],
   legendLoose: ["loose part", "loses Teil"],
@@ -85,8 +88,8 @@ const words = {
   what: ["what", "was"],
   depth: ["depth", "Tiefe"],
   nowebgl: [
-    "This browser has no WebGL2: only a still picture is shown.",
-    "Dieser Browser hat kein WebGL2: Es ist nur ein Standbild zu sehen.",
+    "This browser has no WebGL2: the picture can neither be zoomed nor turned.",
+    "Dieser Browser hat kein WebGL2: Das Bild lässt sich weder vergrößern noch drehen.",
   ],
   library: ["Library", "Bibliothek"],
   search: ["Search  ( / )", "Suche  ( / )"],

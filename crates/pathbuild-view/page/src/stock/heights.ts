@@ -36,6 +36,8 @@ export class Heights {
   readonly through: Float32Array;
   /** 255 where a rapid move has cut. */
   readonly rapid: Uint8Array;
+  /** Whether any rapid move so far has cut. */
+  hasRapidCut = false;
   private count = 0;
   /** Texels of a move that is cut in part, beyond the pieces that count. */
   private partial: Texels | null = null;
@@ -245,7 +247,10 @@ export class Heights {
           }
           if (heights[cell] > z) {
             heights[cell] = z;
-            if (isRapid) rapid[cell] = 255;
+            if (isRapid) {
+              rapid[cell] = 255;
+              this.hasRapidCut = true;
+            }
           }
         }
       }
