@@ -292,7 +292,9 @@ const text = (page, selector) => page.locator(selector).innerText();
   // On paper, the picture keeps its size, for which the labels are placed, and the controls are left out.
   const placed = () => page.evaluate(() => [document.getElementById("picture").clientWidth, ...[...document.querySelectorAll("#labels .order")].map((node) => node.style.transform)].join());
   const before = await placed();
+  await page.keyboard.press("d");
   await page.emulateMedia({ media: "print" });
+  assert.equal(await page.evaluate(() => getComputedStyle(document.body).color), "rgb(20, 32, 43)", "the ink of the light theme");
   await page.setViewportSize({ width: 1000, height: 1400 });
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   assert.equal(await placed(), before);

@@ -33,12 +33,12 @@ export class List {
     new ResizeObserver(() => this.fold()).observe(host);
   }
 
-  /** Sets the rows; `null` keeps them. Selects the row of the open path. */
+  /** Sets the rows; `null` keeps them. Selects the row of the open path; of a whole drawing, its first row. */
   set(rows: LibraryRow[] | null, open: { file: string; path: string | null } | null): void {
     const chosen = open ?? this.rows[this.at];
     this.rows = rows ?? this.rows;
     const before = this.at;
-    this.at = chosen ? this.rows.findIndex((row) => row.file === chosen.file && row.path === chosen.path) : -1;
+    this.at = chosen ? this.rows.findIndex((row) => row.file === chosen.file && (row.path === chosen.path || chosen.path === null)) : -1;
     this.draw();
     if (before !== this.at) this.reveal();
   }

@@ -41,7 +41,7 @@ const words = {
   pick: ["Click two points to measure.", "Zum Messen zwei Punkte anklicken."],
   keys: ["Keys", "Tasten"],
   close: ["Close", "Schließen"],
-  keyMove: ["one move on or back", "eine Bewegung vor oder zurück"],
+  keyMove: ["one move back or on", "eine Bewegung zurück oder vor"],
   keyTen: ["ten moves back or on", "zehn Bewegungen zurück oder vor"],
   keyEnds: ["first or last move", "erste oder letzte Bewegung"],
   keyRun: ["run or stop", "ablaufen lassen oder anhalten"],
