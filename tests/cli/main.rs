@@ -64,6 +64,7 @@ mod q_project;
 mod render;
 mod report;
 mod serve;
+mod severities;
 mod sheet;
 mod shown;
 mod since;

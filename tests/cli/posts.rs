@@ -92,6 +92,29 @@ fn the_configurations_post_is_the_default_and_native_can_be_asked_for() {
     assert!(run.stdout.starts_with("(mine)"), "a post's file is relative to the configuration: {run}");
 }
 
+/// Native programs always say T1; their head names O.
+#[test]
+fn a_native_program_gets_the_cutter_of_its_path() {
+    let tools = "[tool.fine]\ndiameter = 2\nSPINDLE = 12000\n[tool.coarse]\ndiameter = 6\nnumber = 1\nspindle = 3000\n";
+    let posted = |tools: &str| {
+        let place = Place::of(
+            "== pathbuild.toml ==\nfeed = 150\nrapid = 1000\nsweep-height = 20\n\n== 1234.1P.dxf ==\nlayer 1234.1P\nstart 0,0 \"T5 O2 I1 B4\"\nmill 0,0 40,0\nend 40,0\n",
+        );
+        let place =
+            place.file("pathbuild.toml", format!("feed = 150\nrapid = 1000\nsweep-height = 20\n{tools}"));
+        place.run("emit 1234.1P");
+        place.run("post 1234.1P_Milling.gcode --post linuxcnc --format concise")
+    };
+    for (tool, number) in [("number = 3\nspindle", "T3 M6"), ("spindle", "T2 M6")] {
+        let run = posted(&tools.replace("SPINDLE", tool));
+        assert_eq!(run.status, Some(0), "{run}");
+        assert!(run.stdout.contains(number) && run.stdout.contains("M3 S12000"), "{run}");
+    }
+    let run = posted(&tools.replace("SPINDLE", "spindle").replace("diameter = 2", "diameter = 2.5"));
+    assert!(run.stderr.contains("PB764") || run.stderr.contains("PB754"), "no tool is guessed: {run}");
+    assert!(!run.stdout.contains("S3000"), "{run}");
+}
+
 #[test]
 fn tools_come_from_the_configuration() {
     let place = library("");

@@ -172,6 +172,7 @@ codes! {
     521 StrayPath "stray-path" Warning "a path in a file whose name does not cover it";
     522 OlderOutput "older-output" Warning "a program of a path that has errors now";
     523 UnmadeCheck "unmade-check" Error "a check that --require or `[verify] require` demands was not made";
+    524 LoweredError "lowered-error" Error "a program is not written because of an error that pathbuild.toml lowers";
     601 InvalidProbeLine "invalid-probe-line" Error "invalid probe line";
     602 CorrectionTooLarge "correction-too-large" Error "correction too large";
     603 UnknownProbe "unknown-probe" Error "unknown probe";

@@ -45,6 +45,17 @@ impl Job {
     }
 }
 
+impl Job {
+    /// Gives all operations the cutter of a path with this diameter O, as in a job that is made from the path's program. Native programs
+    /// always say T1, whatever the cutter. Returns warnings about the tool.
+    pub fn set_cutter(&mut self, path: &str, diameter: f64, tools: &ToolTable) -> Vec<Diagnostic> {
+        let mut fitter = Fitter::new(tools);
+        let tool = fitter.fit(path, diameter).tool;
+        self.operations.iter_mut().for_each(|operation| operation.tool = tool.clone());
+        fitter.warnings
+    }
+}
+
 /// Converts a program to operations.
 struct Builder<'a> {
     program: &'a Program,
@@ -285,6 +296,16 @@ impl ToolTable {
         let stated: HashSet<u32> = self.entries.iter().filter_map(|entry| entry.index).collect();
         let mut free = (1..=u32::MAX).filter(|number| !stated.contains(number));
         self.entries.iter().map(|entry| entry.index.or_else(|| free.next()).unwrap_or(0)).collect()
+    }
+
+    /// The same table with a number for each entry.
+    pub fn numbered(&self) -> Self {
+        let entries = self.entries.iter().zip(self.numbers());
+        Self {
+            entries: entries
+                .map(|(entry, number)| ToolEntry { index: Some(number), ..entry.clone() })
+                .collect(),
+        }
     }
 
     /// The index of that tool.

@@ -5,13 +5,12 @@ use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
-use camino::Utf8Path;
 use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::{Code, Diagnostic};
 
 use crate::check::CheckedFile;
-use crate::config::clean;
-use crate::config::types::{FileSeverities, Pattern, Severities};
+use crate::config::types::{FileSeverities, Pattern};
+use crate::severities::Verdict;
 use crate::waivers::{Coverage, WaivedFinding, Waiver};
 use crate::workspace::Workspace;
 
@@ -59,9 +58,9 @@ impl Findings {
 impl Workspace {
     /// Applies the configured severities and their waivers, sorts, and drops duplicates.
     pub fn findings(&self, diagnostics: Vec<Diagnostic>) -> Findings {
-        let severities = self.settings.severities();
+        let severities = self.severities();
         let mut waived: Vec<(Diagnostic, Waiver)> = Vec::new();
-        let judge = |diagnostic: Diagnostic| match self.judge(diagnostic, &severities) {
+        let judge = |diagnostic: Diagnostic| match severities.judge(diagnostic) {
             Verdict::Reported(diagnostic) => Some(diagnostic),
             Verdict::Ignored => None,
             Verdict::Waived(diagnostic, waiver) => {
@@ -84,11 +83,12 @@ impl Workspace {
     /// Warnings about waivers of the configuration that match nothing, among those of files that the run covered. (PB610)
     pub fn unused_waivers(&self, findings: &Findings, coverage: &Coverage) -> Vec<Diagnostic> {
         let Some(configuration) = &self.settings.file else { return Vec::new() };
+        let severities = self.severities();
         let found: Vec<(Code, String)> = findings
             .all()
-            .filter_map(|found| Some((found.code(), self.configured(found.file.as_deref()?))))
+            .filter_map(|found| Some((found.code(), severities.configured(found.file.as_deref()?))))
             .collect();
-        let covered: Vec<String> = coverage.files.iter().map(|file| self.configured(file)).collect();
+        let covered: Vec<String> = coverage.files.iter().map(|file| severities.configured(file)).collect();
         let entries = self.settings.tables.severity_in.value.iter().filter(|entry| entry.waiver.is_stated());
         let is_covered = |pattern: &Pattern| match pattern.literal() {
             Some(file) if covered.iter().any(|covered| covered == file) => true,
@@ -104,59 +104,10 @@ impl Workspace {
         unused.map(|entry| entry.waiver.unused(configuration)).collect()
     }
 
-    fn judge(&self, diagnostic: Diagnostic, severities: &Severities) -> Verdict {
-        let code = diagnostic.code();
-        let run = self.settings.date;
-        let file = diagnostic.file.as_deref().map(|file| self.configured(file));
-        let entries = file.iter().flat_map(|file| severities.levels_in(code, Utf8Path::new(file)));
-        let mut ended = Vec::new();
-        let mut level = severities.level(code).map(|level| (level, None));
-        for (entry, in_file) in entries {
-            if entry.waiver.holds(run) {
-                level = Some((in_file, Some(&entry.waiver)));
-                break;
-            }
-            ended.push(&entry.waiver);
-        }
-        let place = self.settings.file.as_deref().and_then(Utf8Path::file_name).unwrap_or_default();
-        let noted = |diagnostic| {
-            ended.iter().fold(diagnostic, |diagnostic, waiver| waiver.note_end(diagnostic, place, run))
-        };
-        let Some((level, waiver)) = level else { return Verdict::Reported(noted(diagnostic)) };
-        match (level.severity(), waiver.filter(|waiver| waiver.is_stated())) {
-            (Some(severity), waiver) => {
-                let diagnostic = noted(Diagnostic { severity, ..diagnostic });
-                Verdict::Reported(match waiver {
-                    Some(waiver) => waiver.note_severity(diagnostic, place, run),
-                    None => diagnostic,
-                })
-            }
-            (None, Some(waiver)) => Verdict::Waived(diagnostic, waiver.clone()),
-            (None, None) => Verdict::Ignored,
-        }
-    }
-
-    /// Name of a file as patterns in the configuration see it: relative to the configuration's directory, with slashes.
-    fn configured(&self, file: &Utf8Path) -> String {
-        let file = clean(&self.working_directory.join(file));
-        let below = self.settings.directory().and_then(|directory| file.strip_prefix(directory).ok());
-        below.unwrap_or(&file).as_str().replace('\\', "/")
-    }
-
     fn has_configured(&self, file: &str) -> bool {
         let directory = self.settings.directory().unwrap_or(&self.working_directory);
         self.system.kind(&directory.join(file)) != FileKind::Missing
     }
-}
-
-/// A diagnostic after applying the configured severities and waivers.
-enum Verdict {
-    /// It is reported, with the severity that it has now.
-    Reported(Diagnostic),
-    /// It is dropped.
-    Ignored,
-    /// It is accepted for a stated reason.
-    Waived(Diagnostic, Waiver),
 }
 
 /// Whether two findings are the same except for their traces and notes.

@@ -18,6 +18,7 @@ pub mod memo;
 pub mod posting;
 pub mod program;
 pub mod session;
+mod severities;
 pub mod verify;
 pub mod waivers;
 // In the browser all files come from the page, so there is nothing to watch.

@@ -1,4 +1,4 @@
-//! Messages about output files and Q-projects. (PB512 to PB520)
+//! Messages about output files and Q-projects. (PB512 to PB524)
 
 messages! {
     /// A drawing with several paths where one is needed.
@@ -123,6 +123,13 @@ messages! {
         de: "Pfad {path} wurde nicht geschrieben, {name} ist daher veraltet",
         help_en: "do not mill with {name} before the path's errors are fixed and it is written again",
         help_de: "nicht mit {name} fräsen, bevor die Fehler des Pfads behoben sind und die Datei neu geschrieben ist",
+    }
+    /// Errors that stop a program, but are lowered by the configuration.
+    LOWERED_ERROR: LoweredError {
+        en: "nothing was written: {code} stops a program, also where pathbuild.toml ignores it or makes it a warning",
+        de: "nichts wurde geschrieben: {code} hält ein Programm auf, auch wo pathbuild.toml ihn übergeht oder zur Warnung macht",
+        help_en: "remove {code} from `[severity]` or `[[severity-in]]` to see where it is, and correct it",
+        help_de: "{code} aus `[severity]` oder `[[severity-in]]` entfernen, um die Stelle zu sehen, und den Fehler beheben",
     }
     /// A corrected program that was made from an older program.
     STALE_ADJUSTED: StaleOutput {

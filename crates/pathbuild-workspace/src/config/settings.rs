@@ -11,7 +11,6 @@ use toml::de::DeTable;
 use super::origin::{Key, Origin, ResultKind, ShownSetting};
 use super::reader::TomlReader;
 use super::sections::{emit, general, limits, machine, tables, verify, warnings, watch};
-use super::types::Severities;
 use crate::waivers::RunDate;
 
 /// A table: its header, its keys, and the function that returns their values.
@@ -121,14 +120,6 @@ impl Settings {
     /// Directory that paths in the configuration are relative to, if there is a configuration.
     pub fn directory(&self) -> Option<&Utf8Path> {
         self.file.as_deref().and_then(Utf8Path::parent)
-    }
-
-    /// Severities that differ from the defaults of the codes.
-    pub fn severities(&self) -> Severities {
-        Severities {
-            everywhere: self.tables.severity.value.clone(),
-            in_files: self.tables.severity_in.value.clone(),
-        }
     }
 
     /// Language of comments in programs.

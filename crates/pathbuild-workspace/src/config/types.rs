@@ -1,6 +1,6 @@
 //! Values more complex than a number or a string.
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8PathBuf;
 use globset::{GlobBuilder, GlobSet};
 use pathbuild_diagnostic::limits::text_too_long;
 use pathbuild_diagnostic::{Code, Lang, Severity, Value};
@@ -219,15 +219,6 @@ impl Pattern {
     }
 }
 
-/// Severities that differ from the defaults of the codes.
-#[derive(Clone, Debug, Default)]
-pub struct Severities {
-    /// Levels for all drawings.
-    pub everywhere: Vec<(Code, Level)>,
-    /// Levels for some drawings; if several entries apply to a code, the last one counts.
-    pub in_files: Vec<FileSeverities>,
-}
-
 /// Levels for some drawings.
 #[derive(Clone, Debug, Default)]
 pub struct FileSeverities {
@@ -239,24 +230,6 @@ pub struct FileSeverities {
     pub waiver: Waiver,
 }
 
-impl Severities {
-    /// The level of a code in all files; `None` if the default applies.
-    pub fn level(&self, code: Code) -> Option<Level> {
-        level_in(&self.everywhere, code)
-    }
-
-    /// The entries that set the level of a code in a file (relative to the configuration's directory), the one that counts first.
-    pub fn levels_in<'a>(
-        &'a self,
-        code: Code,
-        file: &Utf8Path,
-    ) -> impl Iterator<Item = (&'a FileSeverities, Level)> {
-        let file = file.as_str().replace('\\', "/");
-        let entries = self.in_files.iter().rev().filter(move |entry| entry.concerns(&file));
-        entries.filter_map(move |entry| Some((entry, level_in(&entry.levels, code)?)))
-    }
-}
-
 impl FileSeverities {
     /// Whether the entry concerns a file, which is named relative to the configuration's directory, with slashes.
     pub fn concerns(&self, file: &str) -> bool {
@@ -264,7 +237,7 @@ impl FileSeverities {
     }
 }
 
-fn level_in(levels: &[(Code, Level)], code: Code) -> Option<Level> {
+pub(crate) fn level_in(levels: &[(Code, Level)], code: Code) -> Option<Level> {
     levels.iter().find(|(known, _)| *known == code).map(|(_, level)| *level)
 }
 

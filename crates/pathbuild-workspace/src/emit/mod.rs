@@ -151,7 +151,7 @@ impl Emitter<'_> {
             let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
             comparison::name_compatible(workspace, jobs, emit);
         }
-        let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.clear_job()).collect();
+        let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.job.as_ref()).collect();
         let earlier = EarlierPrograms {
             session,
             task,
@@ -163,10 +163,12 @@ impl Emitter<'_> {
         };
         let StaleOutcome { older, removed, outdated } =
             earlier.clear(self.request.removes_stale, &mut diagnostics);
+        diagnostics.extend(plans.iter().filter_map(|plan| plan.value.lowered_error(workspace)));
         let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
         diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());
         if let Some(file) = deps {
-            diagnostics.extend(deps::write(session, file, jobs.iter().copied(), self.post_processor));
+            let jobs = plans.iter().filter_map(|plan| plan.value.clear_job());
+            diagnostics.extend(deps::write(session, file, jobs, self.post_processor));
         }
         let drawings = selection.drawings().filter_map(Answer::fresh);
         memo.keep(session, drawings.chain(plans.iter().filter_map(Answer::fresh)));
@@ -322,10 +324,12 @@ pub fn write(
         let mut diagnostics: Vec<Diagnostic> =
             plans.iter().flat_map(|plan| &plan.refusals).cloned().collect();
         mark_clashes(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), &mut diagnostics);
-        for job in plans.iter_mut().filter_map(|plan| plan.job.as_mut()).filter(|job| !job.clashes) {
-            job.clashes = !job.claim(session, owners, &mut diagnostics);
+        plans.iter_mut().for_each(|plan| plan.bar_raised(context));
+        for job in plans.iter_mut().filter_map(|plan| plan.job.as_mut()).filter(|job| !job.is_barred) {
+            job.is_barred = !job.claim(session, owners, &mut diagnostics);
         }
         deliver(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), task, post_processor);
+        diagnostics.extend(plans.iter().filter_map(|plan| plan.lowered_error(context)));
         let delivered: Vec<ProgramOutcome> = plans.into_iter().filter_map(Plan::outcome).collect();
         diagnostics.extend(delivered.iter().flat_map(|delivered| &delivered.problems).cloned());
         Ok(Emission { delivered, removed: Vec::new(), outdated: Vec::new(), diagnostics })

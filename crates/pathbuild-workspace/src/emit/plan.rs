@@ -17,6 +17,7 @@ use crate::config::types::SheetFormat;
 use crate::memo::{Answer, Inputs, Memo, OutputState};
 use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, OutputKind, ProgramFacts, Session, stem_fault};
+use crate::workspace::Workspace;
 
 /// The target that each file was written for. File names are in lower case.
 pub type FileOwners = HashMap<String, Target>;
@@ -50,9 +51,10 @@ pub(super) struct Job {
     /// Title of the program, which follows its provenance.
     #[serde(skip)]
     pub(super) title: String,
-    /// Whether another job writes one of these files, so that neither is generated.
+    /// Whether no files are generated although the paths have no errors: another job writes one of these files, or the configuration counts
+    /// a warning as an error.
     #[serde(skip)]
-    pub(super) clashes: bool,
+    pub(super) is_barred: bool,
     /// The outcome of the job; `None` until its files are generated.
     pub(super) outcome: Option<ProgramOutcome>,
 }
@@ -65,12 +67,31 @@ impl Plan {
 
     /// The outcome of the job, if it was not left out.
     pub(super) fn outcome(self) -> Option<ProgramOutcome> {
-        self.job.filter(|job| !job.clashes)?.outcome
+        self.job.filter(|job| !job.is_barred)?.outcome
     }
 
-    /// The job, unless its files clash with those of another.
+    /// Leaves out the job if the configuration counts a warning as an error.
+    pub(super) fn bar_raised(&mut self, workspace: &Workspace) {
+        let is_wrong = workspace.has_error(self.problems());
+        if let Some(job) = self.job.as_mut().filter(|_| is_wrong) {
+            job.is_barred = true;
+            // An earlier run may have written it.
+            job.outcome = None;
+        }
+    }
+
+    /// PB524: the configuration lowers the errors that keep the program from being written.
+    pub(super) fn lowered_error(&self, workspace: &Workspace) -> Option<Diagnostic> {
+        let outcome = self.job.as_ref().and_then(|job| job.outcome.as_ref());
+        let unwritten = outcome.filter(|outcome| outcome.files.is_empty());
+        workspace.lowered_error(
+            self.refusals.iter().chain(unwritten.into_iter().flat_map(|outcome| &outcome.problems)),
+        )
+    }
+
+    /// The job, unless it is left out.
     pub(super) fn clear_job(&self) -> Option<&Job> {
-        self.job.as_ref().filter(|job| !job.clashes)
+        self.job.as_ref().filter(|job| !job.is_barred)
     }
 }
 
@@ -165,6 +186,7 @@ pub(super) fn plan(
             (answer.value, answer.inputs) = (plan, Some(inputs));
         }
     }
+    plans.iter_mut().for_each(|answer| answer.value.bar_raised(workspace));
     refusal.map_or(Ok(plans), Err)
 }
 
@@ -187,6 +209,10 @@ fn still_suffices(
     if let Some(Job { files, outcome: Some(outcome), .. }) = &mut plan.job
         && !outcome.problems.iter().any(Diagnostic::is_error)
     {
+        // The severity of a warning may have changed since.
+        if session.workspace().has_error(&outcome.problems) {
+            return None;
+        }
         let states = memo.outputs(subject);
         if states.len() != files.len() {
             return None;
@@ -324,7 +350,7 @@ impl JobBuilder<'_> {
             files: kinds.map(|kind| (kind, name(&kind))).collect(),
             stem,
             sources: sources(db, checked),
-            clashes: false,
+            is_barred: false,
             outcome: None,
         }
     }
@@ -369,13 +395,13 @@ pub(super) fn mark_clashes<'p>(
     }
     for (path, owners) in owners.into_values().filter(|(_, owners)| owners.len() > 1) {
         // For two jobs that share several files, the first file is enough.
-        if owners.iter().any(|owner| !jobs[*owner].clashes) {
+        if owners.iter().any(|owner| !jobs[*owner].is_barred) {
             let [first, second] = [owners[0], owners[1]].map(|owner| jobs[owner].name(session));
             let drawing = jobs[owners[0]].drawing(session.db()).path(session.db());
             diagnostics.push(same_output(path.file_name(), first, second, drawing));
         }
         for owner in owners {
-            jobs[owner].clashes = true;
+            jobs[owner].is_barred = true;
         }
     }
 }

@@ -30,8 +30,9 @@ pub(super) fn deliver<'j>(
     task: Task,
     post_processor: Option<&PostProcessor>,
 ) {
-    let mut jobs: Vec<&mut Job> = jobs.filter(|job| !job.clashes && job.outcome.is_none()).collect();
+    let mut jobs: Vec<&mut Job> = jobs.filter(|job| !job.is_barred && job.outcome.is_none()).collect();
     let settings = &OutputSettings::new(session.workspace(), post_processor);
+    let severities = session.workspace().severities();
     let system = session.db().shared_system();
     let settled = |outputs| settle(&*system, outputs, task, settings);
     let write = |generated: Receiver<NumberedOutputs>| -> Vec<(usize, ProgramOutcome)> {
@@ -42,7 +43,10 @@ pub(super) fn deliver<'j>(
     let (mut generated, written) = thread::scope(|scope| {
         let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
         let generated = |db: &Database, (index, job): &(usize, &Job)| {
-            let Built { outcome: mut delivered, outputs } = build(db, job, settings);
+            let Built { outcome: mut delivered, mut outputs } = build(db, job, settings);
+            if severities.has_error(&delivered.problems) {
+                outputs.clear();
+            }
             // Last point to give up: after this, all files of the job are written.
             db.check_time_limit();
             // Without a receiver (the system had no thread left), write here.

@@ -260,6 +260,10 @@ fn of_target(
     let Plan { mut diagnostics, refusals, job } = builder.plan(&checked);
     diagnostics.extend(refusals);
     let sheet = job.and_then(|job| of_job(session, &job, post_processor, &mut diagnostics));
+    let sheet = sheet.filter(|_| !context.has_error(&diagnostics));
+    if sheet.is_none() {
+        diagnostics.extend(context.lowered_error(&diagnostics));
+    }
     Ok(SheetOutcome { sheet, diagnostics: session.with_hints(diagnostics) })
 }
 

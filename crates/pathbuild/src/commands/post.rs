@@ -5,9 +5,10 @@ use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Note, Severity};
 use pathbuild_gcode::adjust::first_open_formula;
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_motion::Step;
-use pathbuild_post::{BUILT_IN, Job, Output, Remark, is_of_head, native_remark};
+use pathbuild_post::{BUILT_IN, Job, Output, Remark, ToolTable, is_of_head, native_remark};
 use serde_json::json;
 
 use crate::args::{PostArgs, PostCommand};
@@ -83,6 +84,7 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
     let mut diagnostics = Vec::new();
     if let Err(errors) = written(context, file, args, &post_processor, &mut diagnostics) {
         diagnostics.extend(errors);
+        diagnostics.extend(context.lowered_error(&diagnostics));
         context.show(&context.findings(diagnostics));
         return ExitStatus::Errors;
     }
@@ -115,6 +117,9 @@ fn written(
         problems
     })?;
     diagnostics.extend(output.warnings.iter().cloned());
+    if context.has_error(&*diagnostics) {
+        return Err(Vec::new());
+    }
     say(context, &output.notes);
     let Some(to) = to else {
         context.printer.result_bytes(&output.text);
@@ -162,6 +167,9 @@ fn output(
         (_, Some(_)) => |text| if is_of_head(text) { Remark::Goes } else { Remark::Stays },
         (_, None) => |_| Remark::Stays,
     };
+    let native_cutter = head.as_ref().filter(|_| program.dialect == Dialect::Native);
+    let native_cutter = native_cutter
+        .and_then(|(provenance, title)| Some((path_of_title(title)?.to_owned(), provenance.cutter?)));
     let name = program.file.file_stem().unwrap_or_default();
     let mut job = Job::from_steps(name, &steps, program.dialect, &remark)?;
     drop(steps);
@@ -177,10 +185,20 @@ fn output(
     if let Some(feed) = post_processor.feed() {
         job.set_missing_feeds(feed);
     }
-    let unknown = complete_tools(&mut job, &post_processor.tools);
+    let unknown = complete(&mut job, native_cutter, &post_processor.tools);
     let mut output = post_processor.write(&job, to, &mut Vec::new())?;
     output.warnings.extend(unknown.into_iter().map(|warning| warning.in_file(&program.file)));
     Ok(output)
+}
+
+/// Completes the tools of a job from the table: by their numbers, or by the path and the cutter O in the head of a native program. Warns
+/// about unknown tools.
+fn complete(job: &mut Job, native_cutter: Option<(String, f64)>, tools: &ToolTable) -> Vec<Diagnostic> {
+    let Some((path, diameter)) = native_cutter else { return complete_tools(job, tools) };
+    let tools = tools.numbered();
+    let unknown = job.set_cutter(&path, diameter, &tools);
+    let by_number = complete_tools(job, &tools);
+    if unknown.is_empty() { by_number } else { unknown }
 }
 
 /// Shows the notes of a post-processor.
