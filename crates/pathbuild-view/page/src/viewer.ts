@@ -351,9 +351,10 @@ function cutStock(): void {
   else if (changed) stage.cut(changed);
 }
 
-/** Sets all colours outside of the picture. */
-function paint(): void {
-  document.documentElement.dataset.theme = dark ? "dark" : "light";
+/** Sets all colours outside of the WebGL picture. Paper is light, except under this picture, which is printed as it is. */
+function paint(isPaper = false): void {
+  document.documentElement.dataset.theme = dark && !isPaper ? "dark" : "light";
+  picture.dataset.theme = dark ? "dark" : "light";
 }
 
 /** Creates the labels of the picture: numbers, texts and findings. */
@@ -843,6 +844,9 @@ picture.addEventListener("pointermove", (event) => {
     if (step !== null || chosen === null) describe(step);
   });
 });
+
+addEventListener("beforeprint", () => paint(true));
+addEventListener("afterprint", () => paint());
 
 $("texts").setAttribute("aria-pressed", String(shown.texts));
 paint();
