@@ -18,7 +18,7 @@ pub use inputs::{Directory, Limits, Reading, Role, Settings, SourceFile, Target}
 pub use pathbuild_files as system;
 pub use pathbuild_files::System;
 pub use queries::{
-    Closure, Destination, DrawnPath, Edge, Embedding, FileIndex, Instance, MissingOption, NameKey,
+    Closure, Collision, Destination, DrawnPath, Edge, Embedding, FileIndex, Instance, MissingOption, NameKey,
     NameLookup, Outcome, Part, PathIndex, PathPlace, PathSummary, PlacedKeepOut, PlacedPart, ReachedPath,
     ResolvedPath, Trace, TracedProgram, assigned_texts, chains, check_file, check_target, closure,
     combinations, content, content_hash, drawing_names, drawn_path, embeds, embeds_others, file_index,

@@ -45,7 +45,7 @@ pub(super) fn check(
     job: &Job,
     expected: &Expected<'_>,
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    let Expected { target, tolerance, machine, translated, is_flat, milliseconds, .. } = expected;
+    let Expected { target, tolerance, machine, translated, is_manual, is_flat, milliseconds } = expected;
     let reader = target.map_or(Dialect::LinuxCnc, |target| target.reader);
     let options = Options { milliseconds: *milliseconds, ..Options::default() };
     let read = interpret::interpret(text, reader, &options);
@@ -74,7 +74,7 @@ pub(super) fn check(
             Ok(cuts) => {
                 let is_spinning_told =
                     broken.iter().any(|problem| problem.message == &gcode::SPINNING_AT_CHANGE);
-                let tools = tools::check(&read.steps, job, &cuts, reader, expected);
+                let tools = tools::check(&read.steps, job, &cuts, reader, *is_manual, *is_flat);
                 let is_told =
                     |problem: &Diagnostic| is_spinning_told && problem.message == &gcode::SPINNING_AT_CHANGE;
                 problems.extend(tools.into_iter().filter(|problem| !is_told(problem)).map(as_post_s));

@@ -8,21 +8,21 @@ use pathbuild_gcode::verify::{LengthFit, ToolState};
 use pathbuild_motion::{Action, Change, Move, Pace, Step, ToolLength, Turning};
 
 use crate::job::{Job, Operation};
-use crate::read_back::Expected;
 use crate::ways::MatchedCut;
 
 /// Difference in 1/min that is attributed to rounding: some definitions write whole numbers.
 const SAME_SPEED: f64 = 0.5 * (1.0 + 1e-6);
 
-/// Returns the first problem of each kind. `cuts` are the cuts of the text, in their order.
+/// Returns the first problem of each kind. `cuts` are the cuts of the text, in their order. `is_manual` and `is_flat`: as in `Expected`.
 pub(super) fn check(
     steps: &[Step],
     job: &Job,
     cuts: &[MatchedCut],
     reader: Dialect,
-    expected: &Expected<'_>,
+    is_manual: bool,
+    is_flat: bool,
 ) -> Vec<Diagnostic> {
-    let mut checker = Checker::new(steps, job, reader, expected);
+    let mut checker = Checker::new(steps, job, reader, is_manual, is_flat);
     let mut rest = cuts;
     let mut current: Option<MatchedCut> = None;
     for step in steps {
@@ -88,7 +88,7 @@ impl ToolWords {
 }
 
 impl<'j> Checker<'j> {
-    fn new(steps: &[Step], job: &'j Job, reader: Dialect, expected: &Expected<'_>) -> Self {
+    fn new(steps: &[Step], job: &'j Job, reader: Dialect, is_manual: bool, is_flat: bool) -> Self {
         let operations =
             job.operations.iter().flat_map(|operation| operation.steps.iter().map(move |_| operation));
         let cutting = job.operations.iter().filter(|operation| operation.cuts());
@@ -97,8 +97,8 @@ impl<'j> Checker<'j> {
             operations: operations.collect(),
             tools: ToolState::new(reader),
             words: ToolWords::of(steps, reader),
-            is_manual: expected.is_manual,
-            surface: surface.filter(|_| !job.has_no_surface && !expected.is_flat).unwrap_or(f64::INFINITY),
+            is_manual,
+            surface: surface.filter(|_| !job.has_no_surface && !is_flat).unwrap_or(f64::INFINITY),
             last: None,
             has_stopped: false,
             spinning: None,

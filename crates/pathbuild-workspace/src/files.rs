@@ -129,10 +129,12 @@ pub(crate) fn name_of_source_or_program(context: &Workspace, file: &Utf8Path) ->
     name_of_source(context, file).or_else(|| is_program(file).then_some(&NAME_OF_PROGRAM))
 }
 
+/// The extensions of G-code programs; the first is that of native ones. A definition may write another one.
+pub(crate) const PROGRAM_EXTENSIONS: [&str; 6] = ["gcode", "nc", "ngc", "tap", "cnc", "din"];
+
 /// Whether the file is a G-code program, by its extension.
 pub(crate) fn is_program(path: &Utf8Path) -> bool {
-    const EXTENSIONS: [&str; 6] = ["nc", "ngc", "gcode", "tap", "cnc", "din"];
-    path.extension().is_some_and(|own| EXTENSIONS.iter().any(|known| own.eq_ignore_ascii_case(known)))
+    path.extension().is_some_and(|own| PROGRAM_EXTENSIONS.iter().any(|known| own.eq_ignore_ascii_case(known)))
 }
 
 /// Atomically replaces a file. A device or a pipe cannot be replaced and is written to directly.

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::paths as messages;
-use pathbuild_diagnostic::{Diagnostic, Number, Point, Text, words};
-use pathbuild_path::{Curve, KeepOut, KeepOutMap};
+use pathbuild_diagnostic::{Diagnostic, Message, Number, Point, Text, words};
+use pathbuild_path::{Curve, KeepOut, KeepOutMap, Way};
 use pathbuild_toolpath::{ProbeOrigin, StepOrigin, kind_of_move, way};
 use rustc_hash::FxHashSet;
 
@@ -89,11 +89,43 @@ struct Entry {
     what: &'static str,
 }
 
-/// Number of moves, and their lowest Z in mm.
-struct Extent {
+/// Moves of one kind into one clamp: their number, and their lowest Z in mm.
+#[derive(Clone, Copy, Debug)]
+pub struct Collision {
     what: &'static Text,
     moves: u64,
     lowest: f64,
+}
+
+impl Collision {
+    /// Creates a collision without moves.
+    pub fn new(what: &'static Text) -> Self {
+        Self { what, moves: 0, lowest: f64::INFINITY }
+    }
+
+    /// Adds a move.
+    pub fn add(&mut self, way: &Way) {
+        self.moves += 1;
+        self.lowest = self.lowest.min(way.lowest());
+    }
+
+    /// PB407 without a place. Heights are relative to a path that is raised.
+    pub fn diagnostic(
+        &self,
+        message: &'static Message,
+        tool: f64,
+        clamp: &PlacedKeepOut,
+        raised: f64,
+    ) -> Diagnostic {
+        Diagnostic::new(message)
+            .with("tool", tool)
+            .quoting("layer", clamp.drawn.layer.as_str())
+            .with("clamp", Point::new(clamp.drawn.at.x, clamp.drawn.at.y))
+            .with("height", clamp.placed.height - raised)
+            .with("what", self.what)
+            .with("z", self.lowest - raised)
+            .with("count", self.moves)
+    }
 }
 
 impl<'t> Search<'t> {
@@ -106,7 +138,7 @@ impl<'t> Search<'t> {
         let map =
             KeepOutMap::new(self.clamps.iter().map(|clamp| (clamp.placed.height, &*clamp.placed.outline)));
         let radius = program.largest_cutter() / 2.0;
-        let mut entries: BTreeMap<Entry, Extent> = BTreeMap::new();
+        let mut entries: BTreeMap<Entry, Collision> = BTreeMap::new();
         // The last lift belongs to no step.
         let milling = program
             .moves()
@@ -121,31 +153,22 @@ impl<'t> Search<'t> {
             for clamp in map.entered(&way, radius, 0.0) {
                 let (occurrence, element) = self.occurrences().common(step, self.clamps[clamp].occurrence);
                 let entry = Entry { clamp, occurrence, element, probe, what: what.en };
-                let extent = entries.entry(entry).or_insert(Extent { what, moves: 0, lowest: f64::INFINITY });
-                extent.moves += 1;
-                extent.lowest = extent.lowest.min(way.lowest());
+                entries.entry(entry).or_insert(Collision::new(what)).add(&way);
             }
         }
-        entries.iter().map(|(entry, extent)| self.finding(entry, extent)).collect()
+        entries.iter().map(|(entry, collision)| self.finding(entry, collision)).collect()
     }
 
-    fn finding(&self, entry: &Entry, extent: &Extent) -> Diagnostic {
+    fn finding(&self, entry: &Entry, collision: &Collision) -> Diagnostic {
         let TracedProgram { program, trace, .. } = self.traced;
         let around = &trace.occurrences[entry.occurrence as usize];
         let clamp = &self.clamps[entry.clamp];
         let message = match entry.probe {
             Some(_) => &messages::PROBING_INTO_CLAMP,
-            None if extent.what == &words::RAPID_MOVE => &messages::MOVES_INTO_CLAMP,
+            None if collision.what == &words::RAPID_MOVE => &messages::MOVES_INTO_CLAMP,
             None => &messages::CUTS_INTO_CLAMP,
         };
-        let found = Diagnostic::new(message)
-            .with("tool", program.largest_cutter())
-            .quoting("layer", clamp.drawn.layer.as_str())
-            .with("clamp", Point::new(clamp.drawn.at.x, clamp.drawn.at.y))
-            .with("height", clamp.placed.height - around.raised)
-            .with("what", extent.what)
-            .with("z", extent.lowest - around.raised)
-            .with("count", extent.moves);
+        let found = collision.diagnostic(message, program.largest_cutter(), clamp, around.raised);
         let all = self.occurrences();
         match entry.probe.filter(|probe| probe.occurrence == entry.occurrence) {
             Some(ProbeOrigin { occurrence, probe }) => {

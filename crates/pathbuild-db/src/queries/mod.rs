@@ -33,7 +33,7 @@ pub use index::{
     FileIndex, NameKey, PathIndex, PathSummary, content, content_hash, file_index, keep_outs, path_index,
     path_names,
 };
-pub use keep_outs::{PlacedKeepOut, placed_keep_outs};
+pub use keep_outs::{Collision, PlacedKeepOut, placed_keep_outs};
 pub use lookup::{
     ResolvedPath, drawing_names, embeds_others, holders, likely_file, may_hold, name_table, prefetch,
     resolve_path, search_path, unlistable, unlisted,

@@ -6,7 +6,8 @@
 use pathbuild_motion::{Action, Axes, Move, Pace, Position, Step};
 use serde::{Deserialize, Serialize};
 
-use super::material::{RESIDUE, Stock};
+use super::height_map::RESIDUE;
+use super::material::Stock;
 
 /// Rapid moves that may pass through material on an unknown way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -8,7 +8,8 @@ use std::collections::BTreeSet;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_motion::{Action, Axes, Move, Pace, Step};
 
-use super::material::{self, RESIDUE, Stock};
+use super::height_map::RESIDUE;
+use super::material::{self, Stock};
 use crate::interpret::Program;
 use crate::read::Problems;
 

@@ -5,7 +5,7 @@
 use pathbuild_diagnostic::Point;
 use pathbuild_motion::{Move, Pace};
 
-use super::material::{RESIDUE, Stock};
+use super::height_map::RESIDUE;
 
 /// Follows the moves of a program to find such excursions.
 #[derive(Debug, Default)]
@@ -25,12 +25,12 @@ pub(super) struct Excursion {
 }
 
 impl Excursions {
-    /// Processes the next move, and returns the excursion that it ends. An excursion begins only at a place that `may_begin` accepts.
+    /// Processes the next move, and returns the excursion that it ends. An excursion begins only at a place that `may_begin` accepts, below a known `surface`.
     pub(super) fn step(
         &mut self,
         line: u32,
         movement: &Move,
-        stock: &Stock,
+        surface: Option<f64>,
         may_begin: impl FnOnce(&Move) -> bool,
     ) -> Option<Excursion> {
         let open = self.open.take().filter(|open| open.continues_with(movement));
@@ -42,7 +42,7 @@ impl Excursions {
             self.open = Some(open);
             return None;
         }
-        let surface = stock.at(line).map(|piece| piece.surface).filter(|surface| surface.is_finite())?;
+        let surface = surface.filter(|surface| surface.is_finite())?;
         let is_descent =
             movement.pace == Pace::Rapid && movement.is_known() && movement.to.z() < movement.from.z();
         if is_descent && movement.to.z() < surface - RESIDUE && may_begin(movement) {

@@ -5,6 +5,9 @@ mod tests;
 
 use std::collections::BTreeMap;
 
+/// Material less than this above the tip, in mm, is attributed to rounding.
+pub(super) const RESIDUE: f64 = 0.002;
+
 /// Number of cells along the side of a tile.
 const SIDE: i32 = 64;
 const CELLS: usize = (SIDE * SIDE) as usize;

@@ -10,12 +10,9 @@ use pathbuild_toolpath as toolpath;
 use pathbuild_toolpath::{Comment, ProgramStep as Emitted};
 
 use super::excursion::Excursions;
-use super::height_map::{Capsule, HeightMap};
+use super::height_map::{Capsule, HeightMap, RESIDUE};
 use crate::interpret::Program;
 use crate::read::Problems;
-
-/// Material less than this above the tip, in mm, is attributed to rounding.
-pub(super) const RESIDUE: f64 = 0.002;
 
 /// Maximum number of cells in memory. If the resolution of the stock would require more, it is made coarser.
 const MOST_KEPT: f64 = 16e6;
@@ -231,7 +228,7 @@ impl<'s> Bench<'s> {
             let tip = Capsule::new(place, place, piece.cutter.diameter / 2.0);
             self.map.highest_above(&tip, f64::NEG_INFINITY).is_none()
         };
-        if let Some(ended) = self.excursions.step(line, movement, self.stock, is_unknown) {
+        if let Some(ended) = self.excursions.step(line, movement, Some(piece.surface), is_unknown) {
             problems.add_at_line(&say::RAPID_DIP, ended.line, |d| {
                 d.with("z", ended.z()).with("surface", ended.surface).at_point(ended.place())
             });

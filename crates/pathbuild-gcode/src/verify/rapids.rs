@@ -15,6 +15,7 @@ use pathbuild_motion::{Move, MoveShape, Pace, Position, Step};
 use pathbuild_toolpath as toolpath;
 
 use super::excursion::Excursions;
+use super::height_map::RESIDUE;
 use super::machine::{Machine, MachineRules};
 use super::material;
 use super::material::{Stock, StockSpan, cutting_piece};
@@ -56,7 +57,8 @@ fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
     let mut recent: VecDeque<(u32, Move)> = VecDeque::with_capacity(MOST_CUTS);
     let (mut excursions, mut found) = (Excursions::default(), Vec::new());
     for (line, movement) in drawn.moves() {
-        let ended = excursions.step(line, &movement, stock, |_| true);
+        let surface = stock.at(line).map(|piece| piece.surface);
+        let ended = excursions.step(line, &movement, surface, |_| true);
         found.extend(ended.into_iter().flat_map(|excursion| excursion.moves));
         if movement.pace == Pace::Rapid {
             let has_room = || {
@@ -87,7 +89,7 @@ fn low_at<'s>(
     stock: &'s Stock,
     tops: &LazyCell<Tops, impl FnOnce() -> Tops>,
 ) -> Option<(&'s StockSpan, f64)> {
-    let low = movement.from.z().min(movement.to.z()) + material::RESIDUE;
+    let low = movement.from.z().min(movement.to.z()) + RESIDUE;
     let goes_up = movement.keeps_xy() && movement.to.z() >= movement.from.z();
     if goes_up || stock.highest().is_none_or(|highest| low >= highest) {
         return None;
@@ -103,7 +105,7 @@ fn is_in_circle(movement: &Move, cutter: f64, recent: &VecDeque<(u32, Move)>) ->
     let Some(MoveShape::Arc(last)) = recent.back().map(|(_, cut)| cut.shape) else { return false };
     let from_centre = |at: &Position| libm::hypot(at.x() - last.centre[0], at.y() - last.centre[1]);
     let radius = from_centre(&movement.from);
-    let low = movement.from.z().min(movement.to.z()) + material::RESIDUE;
+    let low = movement.from.z().min(movement.to.z()) + RESIDUE;
     // The angle of a cut on that circle, if it is deep enough to make room.
     let angle = |(_, cut): &(u32, Move)| match cut.shape {
         MoveShape::Arc(arc) => {

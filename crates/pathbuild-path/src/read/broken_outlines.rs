@@ -9,10 +9,10 @@ use rstar::Envelope as _;
 
 use crate::element::shown;
 use crate::geometry::{Curve, Line, Xy};
-use crate::keep_out::{Outline, around};
-use crate::part::{BoxIndex, Stretch, at_along, joined, square, within};
-use crate::read::outline_graph::{Chain, Graph, JOINED, NEARLY_JOINED};
-use crate::read::parts::nesting;
+use crate::keep_out::Outline;
+use crate::part::{BoxIndex, at_along, square};
+use crate::read::outline_graph::{Graph, NEARLY_JOINED};
+use crate::read::rings::{Chain, Crossing, MOST_COMPARED, curves_of, nesting, rims_crossed, self_crossing};
 
 /// Largest gap that counts as a mistake, relative to the length of the outline. Arcs that represent threads, leaders and letters have
 /// larger gaps.
@@ -20,10 +20,6 @@ const LARGEST_GAP: f64 = 0.1;
 
 /// Minimum share of a chain that lies between its two passages through a crossing if its ends are overlong.
 const MOST_OF_CHAIN: f64 = 0.9;
-
-/// Upper bound on the pairs that are compared to find a crossing, or a ring in an open outline: enough for outlines of a hundred thousand
-/// short lines. Only long lines close beside each other have more, and these outlines then count as sound.
-const MOST_COMPARED: usize = 1_000_000;
 
 /// An outline that cannot be compared with cuts.
 pub(super) struct BrokenOutline {
@@ -186,101 +182,6 @@ fn sorted(one: Xy, other: Xy) -> (Point, Point) {
     (one.min(other), one.max(other))
 }
 
-/// A place where two curves of a sequence cross: their indices, each with the distance in mm along it.
-pub(super) struct Crossing {
-    at: Xy,
-    first: (usize, f64),
-    second: (usize, f64),
-}
-
-impl Crossing {
-    /// The curves from the first passage to the second.
-    fn between(&self, curves: &[Curve]) -> Vec<Curve> {
-        let ((first, from), (second, to)) = (self.first, self.second);
-        let begin = curves[first].section(from, curves[first].length());
-        let end = curves[second].section(0.0, to);
-        [&[begin], &curves[first + 1..second], &[end]].concat()
-    }
-}
-
-/// The first curve of a sequence that crosses a later one, and the last that it crosses.
-pub(super) fn self_crossing(curves: &[Curve]) -> Option<Crossing> {
-    let boxes = BoxIndex::new(curves.iter().map(|curve| around(curve, 0.0)));
-    let mut compared = 0;
-    (0..curves.len()).find_map(|first| {
-        let near = boxes.near(around(&curves[first], JOINED)).into_iter().rev();
-        let mut later = near.take_while(|second| *second > first);
-        later.find_map(|second| {
-            compared += 1;
-            if compared > MOST_COMPARED {
-                return None;
-            }
-            let (from, to) =
-                (crossing(&curves[first], &curves[second])?, crossing(&curves[second], &curves[first])?);
-            let at = at_along(&curves[first], from);
-            Some(Crossing { at, first: (first, from), second: (second, to) })
-        })
-    })
-}
-
-/// The rings that cross the rim of a larger one, each with the place in its own curves.
-fn rims_crossed(rings: &[Chain], is_outermost: &[bool]) -> Vec<(usize, Crossing)> {
-    let all: Vec<(usize, usize, Curve)> = (0..)
-        .zip(rings)
-        .flat_map(|(ring, chain)| (0..).zip(chain).map(move |(place, (_, curve))| (ring, place, *curve)))
-        .collect();
-    let boxes = BoxIndex::new(all.iter().map(|(.., curve)| around(curve, 0.0)));
-    let areas: Vec<f64> = rings.iter().map(|ring| area(&curves_of(ring))).collect();
-    let mut compared = 0;
-    let mut found = Vec::new();
-    for (ring, place, curve) in &all {
-        for other in boxes.near(around(curve, JOINED)) {
-            let (rim, _, rim_curve) = &all[other];
-            let is_smaller = (areas[*ring], *ring) < (areas[*rim], *rim);
-            if ring == rim || !is_outermost[*rim] || !is_smaller || compared > MOST_COMPARED {
-                continue;
-            }
-            compared += 1;
-            if let (Some(along), Some(_)) = (crossing(curve, rim_curve), crossing(rim_curve, curve)) {
-                let place = (*place, along);
-                found.push((*ring, Crossing { at: at_along(curve, along), first: place, second: place }));
-            }
-        }
-    }
-    found
-}
-
 fn length(curves: &[Curve]) -> f64 {
     curves.iter().map(Curve::length).sum()
-}
-
-/// The area of a ring in mm².
-pub(super) fn area(ring: &[Curve]) -> f64 {
-    let origin = ring[0].start();
-    ring.iter().map(|curve| curve.area_from(origin)).sum::<f64>().abs()
-}
-
-/// The place in mm along a curve where it crosses another one. A curve that ends on the other only touches it.
-fn crossing(along: &Curve, other: &Curve) -> Option<f64> {
-    let mut near: Vec<Stretch> = Vec::new();
-    within(along, other, JOINED, &mut near);
-    let length = along.length();
-    let crosses = |(from, to): &Stretch| {
-        *from > 0.0
-            && *to < length
-            && side(other, at_along(along, *from)) != side(other, at_along(along, *to))
-    };
-    joined(near, JOINED).into_iter().find(crosses).map(|(from, to)| f64::midpoint(from, to))
-}
-
-/// Whether a point is on the left of a line, or inside the circle of an arc.
-fn side(curve: &Curve, at: Xy) -> bool {
-    match curve {
-        Curve::Line(line) => (line.end - line.start).perp(&(at - line.start)) > 0.0,
-        Curve::Arc(arc) => (at - arc.centre).norm() < arc.radius,
-    }
-}
-
-pub(super) fn curves_of(chain: &Chain) -> Vec<Curve> {
-    chain.iter().map(|(_, curve)| *curve).collect()
 }

@@ -21,7 +21,7 @@ use crate::names::{PathName, PathPattern};
 use crate::raw::{DrawingFaults, DrawnElements, Position, RawPath, SourceMap};
 use crate::read::candidates::{Candidate, Owner};
 use crate::read::entities::{plane_arc, xy};
-use crate::read::parameters::{PathCheck, Starts};
+use crate::read::parameters::{PathCheck, StartHints, Starts};
 use crate::read::texts::Texts;
 use crate::text::{ParameterText, ParameterTexts, TextId};
 
@@ -49,15 +49,6 @@ pub(crate) struct PathCollector<'d> {
     pub(super) hints: StartHints,
     /// Whether there is anything but texts: layers with texts alone form no path.
     pub(super) has_elements: bool,
-}
-
-/// Where the text of a path's start was found instead of on its start marker.
-#[derive(Default)]
-pub(super) struct StartHints {
-    /// A text with O and T that does not belong to the start marker, and its place.
-    pub(super) text: Option<(SmolStr, Xy)>,
-    /// An end marker with a text with O and T, in a path whose start marker has none.
-    pub(super) swapped: Option<Point>,
 }
 
 /// A circle without a meaning because of its line type or diameter.

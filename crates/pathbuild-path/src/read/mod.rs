@@ -11,6 +11,7 @@ mod listing;
 mod outline_graph;
 mod parameters;
 mod parts;
+mod rings;
 mod stray;
 mod texts;
 

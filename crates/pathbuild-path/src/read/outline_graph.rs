@@ -7,16 +7,10 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::geometry::{Curve, Xy};
-use crate::read::broken_outlines::self_crossing;
-
-/// Largest distance in mm of ends that join.
-pub(super) const JOINED: f64 = 0.01;
+use crate::read::rings::{Chain, JOINED, self_crossing};
 
 /// Largest distance in mm of two loose ends that were probably meant to meet.
 pub(super) const NEARLY_JOINED: f64 = 0.5;
-
-/// Consecutive curves, each with its number.
-pub(super) type Chain = Vec<(usize, Curve)>;
 
 /// Curves that meet at nodes. Half-edge `2 * n` runs along curve n, `2 * n + 1` against it.
 pub(super) struct Graph {

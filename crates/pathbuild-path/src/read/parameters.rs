@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing::BARS_ON_HOLE;
 use pathbuild_diagnostic::messages::{drawing, parameters};
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Number, Value};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Number, Point, Value};
+use smol_str::SmolStr;
 
 use crate::approx::coincide;
 use crate::element::{Cut, Element, Origin, Role, Shape, shown};
@@ -13,7 +14,6 @@ use crate::geometry::{Curve, Xy};
 use crate::letter::{ElementClass, Letter};
 use crate::names::PathName;
 use crate::raw::RawPath;
-use crate::read::collect::StartHints;
 use crate::text::{LetterValue, ParameterText};
 use crate::variables::Definition;
 
@@ -25,6 +25,15 @@ pub(super) struct Start {
     /// Whether it refers to another path itself.
     pub(super) borrows: bool,
     pub(super) origin: Origin,
+}
+
+/// Where the text of a path's start was found instead of on its start marker.
+#[derive(Default)]
+pub(super) struct StartHints {
+    /// A text with O and T that does not belong to the start marker, and its place.
+    pub(super) text: Option<(SmolStr, Xy)>,
+    /// An end marker with a text with O and T, in a path whose start marker has none.
+    pub(super) swapped: Option<Point>,
 }
 
 impl PathCheck<'_> {

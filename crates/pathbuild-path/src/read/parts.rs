@@ -5,19 +5,17 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Place};
 use pathbuild_dxf::{Drawing, Geometry};
-use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, RTree};
 use smol_str::SmolStr;
 
 use crate::geometry::{Arc, Curve};
-use crate::keep_out::Outline;
 use crate::language::Language;
 use crate::line_type::{LineType, LineTypes};
 use crate::names::LayerPattern;
 use crate::part::{DrawnParts, Part, PartRing};
-use crate::read::broken_outlines::{SortedOutlines, area, curves_of, gap_problem};
+use crate::read::broken_outlines::{SortedOutlines, gap_problem};
 use crate::read::entities::{AnyText, at_entity, begin, curve, xy};
-use crate::read::outline_graph::{Graph, JOINED};
+use crate::read::outline_graph::Graph;
+use crate::read::rings::{JOINED, curves_of, nesting};
 use crate::read::stray::may_be_stray_text;
 
 /// The parts of a drawing. At least the layers with parts must have been read.
@@ -178,36 +176,4 @@ impl<'d> OutlineLayers<'d> {
             found.places.push(places);
         }
     }
-}
-
-/// For each ring inside others: the outermost of them, and the second outermost, or itself if there is no other.
-pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
-    if rings.len() == 1 {
-        return vec![None];
-    }
-    let outlines: Vec<Outline> = rings.iter().map(|ring| Outline::new(ring)).collect();
-    let boxes = outlines.iter().enumerate();
-    let boxes = boxes.map(|(n, outline)| GeomWithData::new(Rectangle::from_aabb(outline.extent()), n));
-    let boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>> = RTree::bulk_load(boxes.collect());
-    // Rings that cross may contain points of each other: only the larger one encloses the other.
-    let areas: Vec<f64> = rings.iter().map(|ring| area(ring)).collect();
-    let is_larger = |other: usize, ring: usize| (areas[other], other) > (areas[ring], ring);
-    let around: Vec<Vec<usize>> = (0..rings.len())
-        .map(|ring| {
-            let curve = &rings[ring][0];
-            let point = curve.section(0.0, curve.length() / 2.0).end();
-            let near = boxes.locate_in_envelope_intersecting(AABB::from_point([point.x, point.y]));
-            let others = near.map(|near| near.data).filter(|other| is_larger(*other, ring));
-            let mut around: Vec<usize> = others.filter(|other| outlines[*other].contains(point)).collect();
-            around.sort_unstable();
-            around
-        })
-        .collect();
-    let outermost = |ring: usize| {
-        let outer = *around[ring].iter().min_by_key(|other| around[**other].len())?;
-        let mut between: Vec<usize> = around[ring].iter().copied().filter(|other| *other != outer).collect();
-        between.push(ring);
-        Some((outer, *between.iter().min_by_key(|other| around[**other].len())?))
-    };
-    (0..rings.len()).map(outermost).collect()
 }

@@ -4,7 +4,6 @@ use std::str::FromStr;
 
 use pathbuild_diagnostic::Text;
 
-use super::term::bits;
 use crate::number::NumberFormat;
 
 /// A number format, selected by the character after the brace.
@@ -81,6 +80,12 @@ impl Form {
             Self::C(form) => return form.write(value),
         })
     }
+}
+
+/// Converts the value to an integer if an `f64` can represent it exactly.
+pub(super) fn bits(value: f64) -> Option<i64> {
+    #[expect(clippy::cast_possible_truncation, reason = "the range is checked")]
+    (value.fract() == 0.0 && value.abs() <= 9_007_199_254_740_992.0).then_some(value as i64)
 }
 
 /// The shortest text that parses to the same number.

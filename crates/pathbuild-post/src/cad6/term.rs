@@ -9,6 +9,7 @@ use std::ops::Range;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Message, Text};
 
+use super::numbers::bits;
 use super::variables::is_mark;
 
 /// Maximum nesting depth of parentheses and signs.
@@ -229,12 +230,6 @@ fn apply(operator: &str, a: f64, b: f64) -> Option<f64> {
         "/" => a / b,
         _ => libm::pow(a, b),
     })
-}
-
-/// Converts the value to an integer if an `f64` can represent it exactly.
-pub(super) fn bits(value: f64) -> Option<i64> {
-    #[expect(clippy::cast_possible_truncation, reason = "the range is checked")]
-    (value.fract() == 0.0 && value.abs() <= 9_007_199_254_740_992.0).then_some(value as i64)
 }
 
 fn from_bits(bits: i64) -> f64 {

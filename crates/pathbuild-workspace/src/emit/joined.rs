@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use pathbuild_db::{Database, PlacedKeepOut, placed_keep_outs};
+use pathbuild_db::{Collision, Database, PlacedKeepOut, placed_keep_outs};
 use pathbuild_diagnostic::messages::{parameters, paths as messages};
-use pathbuild_diagnostic::{Diagnostic, Point, Text, words};
+use pathbuild_diagnostic::{Diagnostic, words};
 use pathbuild_path::approx::near;
 use pathbuild_path::{Curve, KeepOutMap, Line, Way, Xy};
 use pathbuild_toolpath::{Program, kind_of_move, way};
@@ -43,17 +43,15 @@ pub(super) fn moves_into_clamps(db: &Database, job: &Job, programs: &[Arc<Progra
         for (way, what) in ways {
             for clamp in map.entered(&way, program.largest_cutter() / 2.0, 0.0) {
                 let collision = collisions.entry((number, clamp, what.en));
-                let collision = collision.or_insert(Collision { what, moves: 0, lowest: f64::INFINITY });
-                collision.moves += 1;
-                collision.lowest = collision.lowest.min(way.lowest());
+                collision.or_insert(Collision::new(what)).add(&way);
             }
         }
     }
     let diagnostic = |((number, clamp, _), collision): (&(usize, usize, _), &Collision)| {
-        let (clamp, drawing) = &clamps[*clamp];
-        collision
-            .diagnostic(&programs[*number], clamp, drawing)
-            .in_file(job.targets[*number].file(db).path(db))
+        let ((clamp, drawing), program) = (&clamps[*clamp], &programs[*number]);
+        let found = collision.diagnostic(&messages::JOINED_INTO_CLAMP, program.largest_cutter(), clamp, 0.0);
+        let found = found.quoting("drawing", drawing.as_str()).in_path(&program.path);
+        found.in_file(job.targets[*number].file(db).path(db))
     };
     collisions.iter().map(diagnostic).collect()
 }
@@ -70,26 +68,4 @@ fn traverses(programs: &[Arc<Program>]) -> impl Iterator<Item = Option<Way>> {
         to_z: clearance,
     };
     std::iter::once(None).chain(ends.map(move |end| end.map(traverse)))
-}
-
-/// Moves of one kind into one clamp: their number, and their lowest Z in mm.
-struct Collision {
-    what: &'static Text,
-    moves: u64,
-    lowest: f64,
-}
-
-impl Collision {
-    fn diagnostic(&self, program: &Program, clamp: &PlacedKeepOut, drawing: &str) -> Diagnostic {
-        Diagnostic::new(&messages::JOINED_INTO_CLAMP)
-            .in_path(&program.path)
-            .with("tool", program.largest_cutter())
-            .quoting("layer", clamp.drawn.layer.as_str())
-            .quoting("drawing", drawing)
-            .with("clamp", Point::new(clamp.drawn.at.x, clamp.drawn.at.y))
-            .with("height", clamp.placed.height)
-            .with("what", self.what)
-            .with("z", self.lowest)
-            .with("count", self.moves)
-    }
 }

@@ -20,6 +20,7 @@ use pathbuild_gcode::provenance::{HEAD, Provenance};
 use super::outcome::{ProgramOutcome, State, Task};
 use super::plan::{Job, output_directory, program_name};
 use super::select::TargetSelection;
+use crate::files::{PROGRAM_EXTENSIONS, is_program};
 use crate::memo::{Answer, DrawingResult};
 use crate::posting::PostProcessor;
 use crate::session::{OutputKind, Session};
@@ -263,8 +264,9 @@ impl<'a> StaleSearch<'a> {
         let stems = stems.filter(move |stem| stem.parent().is_none_or(|parent| !searched.contains(parent)));
         let paths = stems.flat_map(|stem| {
             let native = OutputKind::ALL.map(|kind| Utf8PathBuf::from(format!("{stem}{}", kind.suffix())));
-            let posted =
-                EXTENSIONS[1..].iter().map(move |extension| format!("{stem}_Milling.{extension}").into());
+            let posted = PROGRAM_EXTENSIONS[1..]
+                .iter()
+                .map(move |extension| format!("{stem}_Milling.{extension}").into());
             native.into_iter().chain(posted)
         });
         paths.filter(|path| !self.outputs.contains(&**path))
@@ -353,19 +355,16 @@ fn is_of(job: &Job, session: &Session<'_>, title: &str) -> bool {
     native::is_title(title, drawing, &job.path)
 }
 
-/// Extensions of programs: the native one, then those of the built-in posts. Another extension of a definition is known only while that
-/// definition is in use.
-const EXTENSIONS: [&str; 4] = ["gcode", "nc", "ngc", "tap"];
-
 /// Endings of program names, without extension.
 const PROGRAMS: [&str; 3] = ["_Milling", "_Clean", "_Probing"];
 
+/// Whether a name is that of a program. Another extension of a definition is known only while that definition is in use.
 fn is_gcode(name: &str, post_processor: Option<&PostProcessor>) -> bool {
-    let is_like = |extension: &str, other: &str| extension.eq_ignore_ascii_case(other);
-    Utf8Path::new(name).extension().is_some_and(|extension| {
-        EXTENSIONS.iter().any(|known| is_like(extension, known))
-            || post_processor.is_some_and(|post_processor| is_like(extension, post_processor.extension()))
-    })
+    let name = Utf8Path::new(name);
+    let is_own = |post: &PostProcessor| {
+        name.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(post.extension()))
+    };
+    is_program(name) || post_processor.is_some_and(is_own)
 }
 
 /// Whether `emit` gives this name to a setup sheet.

@@ -7,7 +7,6 @@ use pathbuild_diagnostic::{Diagnostic, Lang, Number, Text};
 use pathbuild_gcode::verify::{BlindRapids, Machine};
 use serde::{Deserialize, Serialize};
 
-use super::stock::Sources;
 use crate::config::types::Requirement;
 
 /// A check of a program.
@@ -77,13 +76,11 @@ pub enum Reason {
     TooLarge,
 }
 
-/// The checks of a program.
+/// The checks of a program. `rapids`: the outcome of that of rapid moves.
 pub(super) fn records(
-    sources: &Sources<'_>,
+    rapids: Outcome,
     machine: Option<&Machine>,
     is_against: bool,
-    is_limit_reached: bool,
-    blind: Option<BlindRapids>,
     states_speed: bool,
 ) -> Vec<CheckRecord> {
     let made = |is_made: bool, reason| if is_made { Outcome::Made(None) } else { Outcome::NotMade(reason) };
@@ -93,7 +90,7 @@ pub(super) fn records(
         outcome => outcome,
     };
     let all = [
-        (Requirement::Rapids, rapids(sources, is_limit_reached, blind)),
+        (Requirement::Rapids, rapids),
         (Requirement::Envelope, limits(|machine| machine.travel.is_some())),
         (Requirement::Feeds, limits(|machine| machine.feed.is_some())),
         (Requirement::Spindle, spindle),
@@ -101,26 +98,6 @@ pub(super) fn records(
         (Requirement::Clamps, made(is_against, Reason::NoDrawing)),
     ];
     all.map(|(requirement, outcome)| CheckRecord { requirement, outcome }).into()
-}
-
-fn rapids(sources: &Sources<'_>, is_limit_reached: bool, blind: Option<BlindRapids>) -> Outcome {
-    if is_limit_reached {
-        return Outcome::NotMade(Reason::TooLarge);
-    }
-    let Some((cutter_origin, cutters)) = sources.cutter_origin().zip(sources.cutters()) else {
-        return Outcome::NotMade(Reason::NoCutter);
-    };
-    let Some((surface_origin, surface)) = sources.surface() else {
-        return Outcome::NotMade(Reason::NoSurface);
-    };
-    let cutters = cutters.iter().map(|(_, cutter)| cutter.diameter).collect();
-    let values =
-        RapidValues { cutters, cutter_origin, surface, is_level: sources.is_level(), surface_origin };
-    match blind {
-        Some(blind) => Outcome::Incomplete(values, blind),
-        None if sources.are_only_stated() => Outcome::Assumed(values),
-        None => Outcome::Made(Some(values)),
-    }
 }
 
 /// The checks of a program in a line.

@@ -430,8 +430,8 @@ impl<'v> Examination<'v> {
         let states_speed =
             !speeds.has_cut || speeds.has_started || self.program.dialect == Dialect::Xpertmill;
         let machine = verifier.machine.as_ref();
-        let records =
-            checks::records(&self.sources, machine, is_against, is_limit_reached, blind, states_speed);
+        let rapids = self.sources.rapids(is_limit_reached, blind);
+        let records = checks::records(rapids, machine, is_against, states_speed);
         found.extend(records.iter().filter_map(|record| record.unmade(verifier.required())));
         records
     }

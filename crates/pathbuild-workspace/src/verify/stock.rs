@@ -4,11 +4,11 @@ use pathbuild_diagnostic::messages::{gcode as say, posts};
 use pathbuild_diagnostic::{Code, Diagnostic, Severity, Text};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{CuttingTool, Header, StatedCutter};
-use pathbuild_gcode::verify::{Cutter, DepthRules, Stock, StockSpan};
+use pathbuild_gcode::verify::{BlindRapids, Cutter, DepthRules, Stock, StockSpan};
 use pathbuild_motion::{ChipLoad, Turning};
 
 use super::against::ReferenceProgram;
-use super::checks::Origin;
+use super::checks::{Origin, Outcome, RapidValues, Reason};
 use super::{Verifier, VerifyOptions};
 use crate::config::types::Tool;
 use crate::program::Program;
@@ -131,6 +131,27 @@ impl<'s> Sources<'s> {
     pub(super) fn are_only_stated(&self) -> bool {
         let is_surface_known = self.options().surface.or(self.drawn_surface()).is_some();
         !is_surface_known || self.cutter_origin() == Some(Origin::Program)
+    }
+
+    /// The outcome of the check of rapid moves. `blind`: those whose way is unknown.
+    pub(super) fn rapids(&self, is_limit_reached: bool, blind: Option<BlindRapids>) -> Outcome {
+        if is_limit_reached {
+            return Outcome::NotMade(Reason::TooLarge);
+        }
+        let Some((cutter_origin, cutters)) = self.cutter_origin().zip(self.cutters()) else {
+            return Outcome::NotMade(Reason::NoCutter);
+        };
+        let Some((surface_origin, surface)) = self.surface() else {
+            return Outcome::NotMade(Reason::NoSurface);
+        };
+        let cutters = cutters.iter().map(|(_, cutter)| cutter.diameter).collect();
+        let values =
+            RapidValues { cutters, cutter_origin, surface, is_level: self.is_level(), surface_origin };
+        match blind {
+            Some(blind) => Outcome::Incomplete(values, blind),
+            None if self.are_only_stated() => Outcome::Assumed(values),
+            None => Outcome::Made(Some(values)),
+        }
     }
 
     /// Reports rapid moves at cutting depth, unless the surface is known by more than the comments of another CAM, or the line has an

@@ -1,0 +1,145 @@
+//! Rings of curves: their areas, which of them lie inside others, and where they cross. (book: language/part)
+
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use crate::geometry::{Curve, Xy};
+use crate::keep_out::{Outline, around};
+use crate::part::{BoxIndex, Stretch, at_along, joined, within};
+
+/// Largest distance in mm of ends that join.
+pub(super) const JOINED: f64 = 0.01;
+
+/// Upper bound on the pairs that are compared to find a crossing, or a ring in an open outline: enough for outlines of a hundred thousand
+/// short lines. Only long lines close beside each other have more, and these outlines then count as sound.
+pub(super) const MOST_COMPARED: usize = 1_000_000;
+
+/// Consecutive curves, each with its number.
+pub(super) type Chain = Vec<(usize, Curve)>;
+
+pub(super) fn curves_of(chain: &Chain) -> Vec<Curve> {
+    chain.iter().map(|(_, curve)| *curve).collect()
+}
+
+/// The area of a ring in mm².
+fn area(ring: &[Curve]) -> f64 {
+    let origin = ring[0].start();
+    ring.iter().map(|curve| curve.area_from(origin)).sum::<f64>().abs()
+}
+
+/// For each ring inside others: the outermost of them, and the second outermost, or itself if there is no other.
+pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
+    if rings.len() == 1 {
+        return vec![None];
+    }
+    let outlines: Vec<Outline> = rings.iter().map(|ring| Outline::new(ring)).collect();
+    let boxes = outlines.iter().enumerate();
+    let boxes = boxes.map(|(n, outline)| GeomWithData::new(Rectangle::from_aabb(outline.extent()), n));
+    let boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>> = RTree::bulk_load(boxes.collect());
+    // Rings that cross may contain points of each other: only the larger one encloses the other.
+    let areas: Vec<f64> = rings.iter().map(|ring| area(ring)).collect();
+    let is_larger = |other: usize, ring: usize| (areas[other], other) > (areas[ring], ring);
+    let around: Vec<Vec<usize>> = (0..rings.len())
+        .map(|ring| {
+            let curve = &rings[ring][0];
+            let point = curve.section(0.0, curve.length() / 2.0).end();
+            let near = boxes.locate_in_envelope_intersecting(AABB::from_point([point.x, point.y]));
+            let others = near.map(|near| near.data).filter(|other| is_larger(*other, ring));
+            let mut around: Vec<usize> = others.filter(|other| outlines[*other].contains(point)).collect();
+            around.sort_unstable();
+            around
+        })
+        .collect();
+    let outermost = |ring: usize| {
+        let outer = *around[ring].iter().min_by_key(|other| around[**other].len())?;
+        let mut between: Vec<usize> = around[ring].iter().copied().filter(|other| *other != outer).collect();
+        between.push(ring);
+        Some((outer, *between.iter().min_by_key(|other| around[**other].len())?))
+    };
+    (0..rings.len()).map(outermost).collect()
+}
+
+/// A place where two curves of a sequence cross: their indices, each with the distance in mm along it.
+pub(super) struct Crossing {
+    pub(super) at: Xy,
+    pub(super) first: (usize, f64),
+    pub(super) second: (usize, f64),
+}
+
+impl Crossing {
+    /// The curves from the first passage to the second.
+    pub(super) fn between(&self, curves: &[Curve]) -> Vec<Curve> {
+        let ((first, from), (second, to)) = (self.first, self.second);
+        let begin = curves[first].section(from, curves[first].length());
+        let end = curves[second].section(0.0, to);
+        [&[begin], &curves[first + 1..second], &[end]].concat()
+    }
+}
+
+/// The first curve of a sequence that crosses a later one, and the last that it crosses.
+pub(super) fn self_crossing(curves: &[Curve]) -> Option<Crossing> {
+    let boxes = BoxIndex::new(curves.iter().map(|curve| around(curve, 0.0)));
+    let mut compared = 0;
+    (0..curves.len()).find_map(|first| {
+        let near = boxes.near(around(&curves[first], JOINED)).into_iter().rev();
+        let mut later = near.take_while(|second| *second > first);
+        later.find_map(|second| {
+            compared += 1;
+            if compared > MOST_COMPARED {
+                return None;
+            }
+            let (from, to) =
+                (crossing(&curves[first], &curves[second])?, crossing(&curves[second], &curves[first])?);
+            let at = at_along(&curves[first], from);
+            Some(Crossing { at, first: (first, from), second: (second, to) })
+        })
+    })
+}
+
+/// The rings that cross the rim of a larger one, each with the place in its own curves.
+pub(super) fn rims_crossed(rings: &[Chain], is_outermost: &[bool]) -> Vec<(usize, Crossing)> {
+    let all: Vec<(usize, usize, Curve)> = (0..)
+        .zip(rings)
+        .flat_map(|(ring, chain)| (0..).zip(chain).map(move |(place, (_, curve))| (ring, place, *curve)))
+        .collect();
+    let boxes = BoxIndex::new(all.iter().map(|(.., curve)| around(curve, 0.0)));
+    let areas: Vec<f64> = rings.iter().map(|ring| area(&curves_of(ring))).collect();
+    let mut compared = 0;
+    let mut found = Vec::new();
+    for (ring, place, curve) in &all {
+        for other in boxes.near(around(curve, JOINED)) {
+            let (rim, _, rim_curve) = &all[other];
+            let is_smaller = (areas[*ring], *ring) < (areas[*rim], *rim);
+            if ring == rim || !is_outermost[*rim] || !is_smaller || compared > MOST_COMPARED {
+                continue;
+            }
+            compared += 1;
+            if let (Some(along), Some(_)) = (crossing(curve, rim_curve), crossing(rim_curve, curve)) {
+                let place = (*place, along);
+                found.push((*ring, Crossing { at: at_along(curve, along), first: place, second: place }));
+            }
+        }
+    }
+    found
+}
+
+/// The place in mm along a curve where it crosses another one. A curve that ends on the other only touches it.
+fn crossing(along: &Curve, other: &Curve) -> Option<f64> {
+    let mut near: Vec<Stretch> = Vec::new();
+    within(along, other, JOINED, &mut near);
+    let length = along.length();
+    let crosses = |(from, to): &Stretch| {
+        *from > 0.0
+            && *to < length
+            && side(other, at_along(along, *from)) != side(other, at_along(along, *to))
+    };
+    joined(near, JOINED).into_iter().find(crosses).map(|(from, to)| f64::midpoint(from, to))
+}
+
+/// Whether a point is on the left of a line, or inside the circle of an arc.
+fn side(curve: &Curve, at: Xy) -> bool {
+    match curve {
+        Curve::Line(line) => (line.end - line.start).perp(&(at - line.start)) > 0.0,
+        Curve::Arc(arc) => (at - arc.centre).norm() < arc.radius,
+    }
+}
