@@ -346,12 +346,17 @@ export class Stage {
     this.isDue = true;
     requestAnimationFrame(() => {
       this.isDue = false;
-      this.camera.updateMatrixWorld();
-      this.stock?.prepare(this.renderer, this.camera);
-      for (const strokes of this.all) if (strokes.object.visible) strokes.prepare?.(this.renderer, this.camera);
-      this.renderer.render(this.scene, this.camera);
-      this.label();
+      this.render();
     });
+  }
+
+  /** Draws the picture at once: before printing, because Firefox keeps it only until it is on the screen. */
+  render(): void {
+    this.camera.updateMatrixWorld();
+    this.stock?.prepare(this.renderer, this.camera);
+    for (const strokes of this.all) if (strokes.object.visible) strokes.prepare?.(this.renderer, this.camera);
+    this.renderer.render(this.scene, this.camera);
+    this.label();
   }
 
   /** Places the labels, unless they are up to date. */

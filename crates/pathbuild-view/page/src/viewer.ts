@@ -845,7 +845,10 @@ picture.addEventListener("pointermove", (event) => {
   });
 });
 
-addEventListener("beforeprint", () => paint(true));
+addEventListener("beforeprint", () => {
+  paint(true);
+  stage?.render();
+});
 addEventListener("afterprint", () => paint());
 
 $("texts").setAttribute("aria-pressed", String(shown.texts));
