@@ -22,7 +22,7 @@ pub struct Embedding {
     pub file: String,
     /// The path of that drawing that embeds it.
     pub path: String,
-    /// Where, in the drawing, in mm.
+    /// Position in that drawing, in mm.
     pub position: [f64; 2],
 }
 

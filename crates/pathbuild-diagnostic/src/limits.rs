@@ -52,12 +52,12 @@ pub fn too_many_bytes(size: u64, limit: u64) -> Sentence {
     Sentence::new(&TOO_MANY_BYTES).with("size", size).with("limit", limit)
 }
 
-/// The reason why a file with a line of more bytes is not read.
+/// The reason why a file with a line of more than `limit` bytes is not read.
 pub fn line_too_long(limit: usize) -> Sentence {
     Sentence::new(&LONG_LINE).with("limit", limit)
 }
 
-/// The reason why a text of more bytes is refused.
+/// The reason why a text of more than `limit` bytes is refused.
 pub fn text_too_long(limit: usize) -> Sentence {
     Sentence::new(&LONG_TEXT).with("limit", limit)
 }

@@ -224,7 +224,7 @@ impl<'d> Collector<'d> {
         self.drawing.left_out.push(OmittedCurve { layer, kind, point, layers, diagnostic });
     }
 
-    /// Records a hatch. It makes its layer no layer with entities.
+    /// Records a hatch. It does not count as an entity of its layer.
     pub(crate) fn add_hatch(&mut self, placed: &PlacedEntity<'_>, point: Option<Point>) -> Result<(), Fatal> {
         self.count()?;
         self.drawing.hatches.push(place_of(placed, point));

@@ -58,7 +58,7 @@ fn placed_program(db: &dyn Db, target: Target) -> Option<PlacedProgram<'_>> {
     Some(program)
 }
 
-/// The paths of a program at their places.
+/// The paths of a program with their placements.
 struct PlacedProgram<'db> {
     db: &'db dyn Db,
     tolerance: f64,

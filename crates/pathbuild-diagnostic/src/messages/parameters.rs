@@ -256,7 +256,7 @@ messages! {
     /// A default sweep height that is too low.
     DEFAULT_SWEEP_TOO_LOW: ParameterOutOfRange {
         en: "the sweep height {value} used for this path is not greater than T, which is {limit}",
-        de: "die für diesen Pfad geltende Leerfahrthöhe {value} ist nicht größer als T mit {limit}",
+        de: "die für diesen Pfad geltende Leerfahrthöhe {value} ist nicht größer als T ({limit})",
         help_en: "give the path an S, or raise sweep-height",
         help_de: "dem Pfad ein S geben oder sweep-height erhöhen",
     }

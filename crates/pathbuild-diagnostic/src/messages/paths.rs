@@ -108,7 +108,7 @@ messages! {
     /// A helical circle larger than A.
     HELIX_TOO_LARGE: HelixTooLarge {
         en: "the helical circle's diameter {diameter} mm is greater than A, which is {limit}",
-        de: "der Durchmesser {diameter} mm des Helixkreises ist größer als A mit {limit}",
+        de: "der Durchmesser {diameter} mm des Helixkreises ist größer als A ({limit})",
         help_en: "a core would break loose; mill the circle as a path with support bars, or give the path an A (default 4 * O)",
         help_de: "ein Kern würde herausbrechen; den Kreis als Pfad mit Stützstegen fräsen oder dem Pfad ein A geben (sonst gilt 4 * O)",
     }

@@ -127,7 +127,7 @@ impl PathCollector<'_> {
         path
     }
 
-    /// The findings about a group of layers with texts only.
+    /// Findings about the texts of layers that have a path name but contain nothing else.
     pub(crate) fn orphans(mut self) -> Vec<Diagnostic> {
         take(&mut self.texts).assign(&mut self, 0.0);
         let mut diagnostics = take(&mut self.diagnostics);

@@ -56,7 +56,7 @@ impl Variable {
                 &Text { en: "the program names no tool", de: "das Programm nennt kein Werkzeug" }
             }
             Presence::Feed => {
-                &Text { en: "the program says no feed here", de: "das Programm sagt hier keinen Vorschub" }
+                &Text { en: "the program has no feed here", de: "das Programm nennt hier keinen Vorschub" }
             }
             Presence::Arcs => &Text { en: "only the text arc has it", de: "nur der Text arc hat sie" },
             Presence::Never => &Text {

@@ -83,9 +83,9 @@ pub struct Update {
     pub before: Vec<Diagnostic>,
     /// Current diagnostics of these drawings.
     pub now: Vec<Diagnostic>,
-    /// Those of them that no drawing had.
+    /// Current diagnostics that no drawing had before.
     pub new: Vec<Diagnostic>,
-    /// Those of the previous ones that no drawing has any more, not even an unchanged one.
+    /// Previous diagnostics that no drawing has any more, not even an unchanged one.
     pub fixed: Vec<Diagnostic>,
     /// Duration of the batch.
     pub time: Duration,

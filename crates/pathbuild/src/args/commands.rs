@@ -536,7 +536,7 @@ german! {
     "Name of a built-in post", "Name eines eingebauten Postprozessors";
     "Drawing to embed", "Zeichnung zum Einbetten";
     "Code or name of a message: PB203, parameter-out-of-range", "Code oder Name einer Meldung: PB203, parameter-out-of-range";
-    "Shell to print the script for", "Shell, für die das Skript ist";
+    "Shell to print the script for", "Shell, für die das Skript bestimmt ist";
     "Options and files as `PathDxf2GCode` or `PathGCodeAdjustZ` takes them",
         "Optionen und Dateien, wie `PathDxf2GCode` oder `PathGCodeAdjustZ` sie erwartet";
     "Check every combination of the variables' values, not one example of each",
@@ -572,7 +572,7 @@ german! {
         "Größte erlaubte Differenz zwischen gemessener und gezeichneter Höhe";
     "Print the lines of `DRAWING_Clean.gcode` that match", "Gibt die Zeilen von `ZEICHNUNG_Clean.gcode` aus, die passen";
     "Take values that are missing in `DRAWING_Z.txt` from a sender's log, one `[PRB:X,Y,Z:1]` for each probe, in order",
-        "Nimmt Werte, die in `ZEICHNUNG_Z.txt` fehlen, aus dem Protokoll eines Senders: je Z-Probe ein `[PRB:X,Y,Z:1]`, der Reihe nach";
+        "Nimmt Werte, die in `ZEICHNUNG_Z.txt` fehlen, aus dem Protokoll eines Sendeprogramms: je Z-Probe ein `[PRB:X,Y,Z:1]`, der Reihe nach";
     "Write the files of `[emit] targets` as well", "Schreibt auch die Dateien von `[emit] targets`";
     "Look for changes at intervals (for network drives)", "Sucht in festen Abständen nach Änderungen (für Netzlaufwerke)";
     "Show the library as a page that stays up to date: on this computer at port 8347, or at ADDR (PORT, IP, IP:PORT or NAME:PORT)",
