@@ -323,9 +323,35 @@ fn micrometres(value: f64) -> i64 {
 
 /// The change of a group of moves, for example "0.5 mm deeper, feed 150 instead of 300".
 pub fn phrase(group: &Group, lang: Lang) -> String {
-    match lang {
-        Lang::En => english(group.kind),
-        Lang::De => german(group.kind),
+    let choose = |en, de| lang.choose(en, de);
+    match group.kind {
+        None => choose("other rapid moves", "andere Eilgänge").into(),
+        Some(ChangeKind::Added) => choose("added", "dazugekommen").into(),
+        Some(ChangeKind::Removed) => choose("removed", "weggefallen").into(),
+        Some(ChangeKind::Reordered) => choose(
+            "the same in the end, in another order or by other passes",
+            "am Ende dasselbe, in anderer Reihenfolge oder anderen Durchgängen",
+        )
+        .into(),
+        Some(ChangeKind::Shifted([x, y])) => {
+            let by = format!("({}, {}) mm", Number(x), Number(y));
+            choose("shifted by {}", "um {} verschoben").replace("{}", &by)
+        }
+        Some(ChangeKind::Altered { raised, feed, passes }) => {
+            let height = (raised != 0.0).then(|| {
+                let way = if raised < 0.0 { choose("deeper", "tiefer") } else { choose("higher", "höher") };
+                format!("{} mm {way}", Number(raised.abs()).prose(lang))
+            });
+            let instead = choose("instead of", "statt");
+            let feed = feed.map(|[was, is]| {
+                let way =
+                    if is > was { choose("faster", "schneller") } else { choose("slower", "langsamer") };
+                format!("{way}: F{} {instead} F{}", Number(is), Number(was))
+            });
+            let passes =
+                passes.map(|[was, is]| format!("{}: {is} {instead} {was}", choose("passes", "Durchgänge")));
+            height.into_iter().chain(feed).chain(passes).collect::<Vec<_>>().join(", ")
+        }
     }
 }
 
@@ -338,52 +364,6 @@ pub fn moves(group: &Group, lang: Lang) -> String {
         (_, Lang::De) => "Bewegungen",
     };
     format!("{} {word}", group.moves)
-}
-
-fn english(kind: Option<ChangeKind>) -> String {
-    match kind {
-        None => "other rapid moves".into(),
-        Some(ChangeKind::Added) => "added".into(),
-        Some(ChangeKind::Removed) => "removed".into(),
-        Some(ChangeKind::Reordered) => "the same in the end, in another order or by other passes".into(),
-        Some(ChangeKind::Shifted([x, y])) => format!("shifted by ({}, {}) mm", Number(x), Number(y)),
-        Some(ChangeKind::Altered { raised, feed, passes }) => {
-            let height = (raised != 0.0).then(|| {
-                let way = if raised < 0.0 { "deeper" } else { "higher" };
-                format!("{} mm {way}", Number(raised.abs()))
-            });
-            let feed = feed.map(|[was, is]| {
-                let way = if is > was { "faster" } else { "slower" };
-                format!("{way}: F{} instead of F{}", Number(is), Number(was))
-            });
-            let passes = passes.map(|[was, is]| format!("passes: {is} instead of {was}"));
-            height.into_iter().chain(feed).chain(passes).collect::<Vec<_>>().join(", ")
-        }
-    }
-}
-
-fn german(kind: Option<ChangeKind>) -> String {
-    match kind {
-        None => "andere Eilgänge".into(),
-        Some(ChangeKind::Added) => "dazugekommen".into(),
-        Some(ChangeKind::Removed) => "weggefallen".into(),
-        Some(ChangeKind::Reordered) => {
-            "am Ende dasselbe, in anderer Reihenfolge oder anderen Durchgängen".into()
-        }
-        Some(ChangeKind::Shifted([x, y])) => format!("um ({}, {}) mm verschoben", Number(x), Number(y)),
-        Some(ChangeKind::Altered { raised, feed, passes }) => {
-            let height = (raised != 0.0).then(|| {
-                let way = if raised < 0.0 { "tiefer" } else { "höher" };
-                format!("{} mm {way}", Number(raised.abs()).prose(Lang::De))
-            });
-            let feed = feed.map(|[was, is]| {
-                let way = if is > was { "schneller" } else { "langsamer" };
-                format!("{way}: F{} statt F{}", Number(is), Number(was))
-            });
-            let passes = passes.map(|[was, is]| format!("Durchgänge: {is} statt {was}"));
-            height.into_iter().chain(feed).chain(passes).collect::<Vec<_>>().join(", ")
-        }
-    }
 }
 
 #[cfg(test)]

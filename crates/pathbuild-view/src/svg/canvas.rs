@@ -23,24 +23,20 @@ pub(super) enum Anchor {
 
 impl Canvas {
     pub(super) fn new(width: f64, height: f64) -> Self {
-        let mut text = String::with_capacity(1 << 14);
-        let (width, height) = (n(width), n(height));
-        _ = writeln!(
-            text,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" font-family=\"{FONT}\">"
-        );
-        let mut canvas = Self { text };
-        canvas.raw(&format!("<rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>"));
-        canvas
+        Self::sized([width, height], "", [width, height])
     }
 
     /// A sheet of paper: its size in mm, and its size in the units of the picture.
-    pub(super) fn paper([width, height]: Point, [across, down]: Point) -> Self {
+    pub(super) fn paper(size: Point, units: Point) -> Self {
+        Self::sized(size, "mm", units)
+    }
+
+    fn sized(size: Point, unit: &str, view: Point) -> Self {
         let mut text = String::with_capacity(1 << 14);
-        let [width, height, across, down] = [width, height, across, down].map(n);
+        let ([width, height], [across, down]) = (size.map(n), view.map(n));
         _ = writeln!(
             text,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" viewBox=\"0 0 {across} {down}\" font-family=\"{FONT}\">"
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}{unit}\" height=\"{height}{unit}\" viewBox=\"0 0 {across} {down}\" font-family=\"{FONT}\">"
         );
         let mut canvas = Self { text };
         canvas.raw(&format!("<rect width=\"{across}\" height=\"{down}\" fill=\"#fff\"/>"));
@@ -210,4 +206,46 @@ pub(super) fn color(share: f64) -> String {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
 fn index(value: f64) -> usize {
     value as usize
+}
+
+// Widths of texts.
+
+/// Wraps a text to a width, at spaces or, in long words, anywhere.
+pub(super) fn wrapped(text: &str, width: f64, size: f64) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.last_mut().expect("there is a line always");
+        if last.is_empty() || breadth(last, size) + breadth(word, size) + 0.32 * size > width {
+            if !last.is_empty() {
+                lines.push(String::new());
+            }
+        } else {
+            last.push(' ');
+        }
+        for letter in word.chars() {
+            let last = lines.last_mut().expect("there is a line always");
+            if !last.is_empty() && breadth(last, size) + advance(letter) * size > width {
+                lines.push(String::new());
+            }
+            lines.last_mut().expect("there is a line always").push(letter);
+        }
+    }
+    lines
+}
+
+/// Upper estimate of the width of a text.
+pub(super) fn breadth(text: &str, size: f64) -> f64 {
+    text.chars().map(advance).sum::<f64>() * size
+}
+
+/// The width of a character relative to the letter size. A few classes are precise enough for wrapping lines.
+fn advance(letter: char) -> f64 {
+    match letter {
+        ' ' | '.' | ',' | ':' | ';' | '\'' | '|' | 'i' | 'j' | 'l' | 'I' => 0.34,
+        '(' | ')' | '[' | ']' | 'f' | 't' | 'r' | '-' | '/' => 0.42,
+        'm' | 'w' | 'M' | 'W' | '@' | '%' | '→' | '×' => 1.0,
+        '0'..='9' | 'a'..='z' | '_' | 'ä' | 'ö' | 'ü' | 'ß' => 0.64,
+        'A'..='Z' | 'Ä' | 'Ö' | 'Ü' | '#' | 'Ø' | '…' | '<' | '>' => 0.84,
+        _ => 1.0,
+    }
 }

@@ -47,38 +47,38 @@ pub struct Spot {
 
 /// Draws the surroundings of a place, which is circled. Distant elements are omitted.
 pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
-    let window = window(spot);
-    let scale = SIZE[0] / (window[1][0] - window[0][0]);
-    let frame = Frame::at_scale(window, scale, [0.0, 0.0]);
-    let near = near(scene, window);
-    let mut canvas = Canvas::new(SIZE[0], SIZE[1]);
-    canvas.open("id=\"drawing\"");
-    let mut room = Room::new([[0.0; 2], SIZE]);
-    things::under(&mut canvas, &near, &frame, &mut room);
-    stock::uncut(&mut canvas, &near, &frame.of_drawing());
-    let shown = VisibleParts { rapids: false, order: false, arrows: false, ..VisibleParts::all(lang) };
-    for path in &near.paths {
-        let place = frame.of_path(path);
-        circles(&mut canvas, path, spot, &place);
-        things::over(&mut canvas, path, &place, shown, &mut room);
-    }
-    canvas.close();
-    mark(&mut canvas, spot, &frame.of_drawing());
-    ruler(&mut canvas, scale);
-    canvas.finish()
+    drawn(spot, |canvas, frame, window| {
+        let near = near(scene, window);
+        let mut room = Room::new([[0.0; 2], SIZE]);
+        things::under(canvas, &near, frame, &mut room);
+        stock::uncut(canvas, &near, &frame.of_drawing());
+        let shown = VisibleParts { rapids: false, order: false, arrows: false, ..VisibleParts::all(lang) };
+        for path in &near.paths {
+            let place = frame.of_path(path);
+            circles(canvas, path, spot, &place);
+            things::over(canvas, path, &place, shown, &mut room);
+        }
+    })
 }
 
 /// Draws the stock around a place as it is when all moves are done. `number` tells the pictures of a document apart.
 /// `has_corners`: whether to fill corners that the cutter does not reach.
 pub fn stock_cutout_svg(scene: &Scene, spot: &Spot, has_corners: bool, number: usize) -> String {
+    drawn(spot, |canvas, frame, window| {
+        let mut stock = MilledStock::of(scene).near(window);
+        stock.has_corners = has_corners;
+        stock.draw(canvas, frame, &format!("stock{number}"));
+    })
+}
+
+/// Draws the part of a picture around a place, and marks the place.
+fn drawn(spot: &Spot, draw: impl FnOnce(&mut Canvas, &Frame, [Point; 2])) -> String {
     let window = window(spot);
     let scale = SIZE[0] / (window[1][0] - window[0][0]);
     let frame = Frame::at_scale(window, scale, [0.0, 0.0]);
     let mut canvas = Canvas::new(SIZE[0], SIZE[1]);
     canvas.open("id=\"drawing\"");
-    let mut stock = MilledStock::of(scene).near(window);
-    stock.has_corners = has_corners;
-    stock.draw(&mut canvas, &frame, &format!("stock{number}"));
+    draw(&mut canvas, &frame, window);
     canvas.close();
     mark(&mut canvas, spot, &frame.of_drawing());
     ruler(&mut canvas, scale);

@@ -1,10 +1,10 @@
 //! The legend below the drawing: title, kinds of lines, depth scale and findings.
 
+use super::canvas::wrapped;
 use super::canvas::{Anchor, BAR, Canvas, Depths, ERROR, INK, PROBE, TEXT, WARNING, color, mm, n};
 use super::frame::Frame;
 use super::frame::VisibleParts;
 use super::stock::MilledStock;
-use super::text::wrapped;
 use super::things::SWEEP;
 use crate::scene::{Finding, MoveKind, Point, Scene};
 use pathbuild_diagnostic::Lang;

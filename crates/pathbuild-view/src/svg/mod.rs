@@ -8,7 +8,6 @@ mod legend;
 mod moves;
 mod sheet;
 mod stock;
-mod text;
 mod things;
 
 use crate::scene::Scene;

@@ -2,8 +2,8 @@
 
 use crate::scene::Point;
 use crate::svg::canvas::OTHER;
+use crate::svg::canvas::wrapped;
 use crate::svg::canvas::{Anchor, Canvas, INK, n};
-use crate::svg::text::wrapped;
 
 /// Letter size and line height in units of the page.
 pub(super) const LETTERS: f64 = 10.0;

@@ -8,7 +8,7 @@ use super::flow::{Block, Column, Item, LETTERS, PICTURE, lay};
 use super::picture::{self, PlacedPicture};
 use crate::scene::Point;
 use crate::svg::canvas::{Anchor, Canvas, INK, TEXT, n};
-use crate::svg::text::{breadth, wrapped};
+use crate::svg::canvas::{breadth, wrapped};
 
 /// The size of a page in units, and its margins.
 pub(super) const SIZE: Point = [PAPER[0] * UNITS, PAPER[1] * UNITS];

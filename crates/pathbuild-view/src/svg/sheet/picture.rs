@@ -3,11 +3,11 @@
 use pathbuild_diagnostic::Lang;
 
 use crate::scene::Point;
+use crate::svg::canvas::breadth;
 use crate::svg::canvas::{Anchor, Canvas, Depths, INK, PROBE, TEXT, mm, n};
 use crate::svg::frame::{Frame, PageTransform, Room, VisibleParts};
 use crate::svg::legend;
 use crate::svg::stock::{MilledStock, has_stock};
-use crate::svg::text::breadth;
 use crate::svg::{drawing, moves};
 
 use super::data::{Corners, Sheet, UNITS, Words, cleared, seen};
@@ -74,10 +74,7 @@ pub(super) fn first(sheet: &Sheet, area: Column) -> PlacedPicture {
 
 /// The picture on a whole page, if that makes it larger; at most at true scale.
 pub(super) fn larger(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
-    let upright = first(sheet, area);
-    let beneath = Column { left: 0.0, width: area.bottom - area.top, top: 0.0, bottom: area.width };
-    let turned = PlacedPicture { turned: Some([area.left, area.bottom]), ..first(sheet, beneath) };
-    let placed = if turned.scale.0 > upright.scale.0 { turned } else { upright };
+    let placed = upright_or_turned(area, |area| first(sheet, area));
     let on_first = first(sheet, Column { bottom: area.top + PICTURE, ..area });
     (placed.scale.0 > on_first.scale.0).then_some(placed)
 }
@@ -87,14 +84,18 @@ pub(super) fn stock(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
     let radius = sheet.tools.iter().map(|tool| tool.diameter / 2.0).fold(0.0, f64::max);
     let [low, high] = cleared(sheet).filter(|_| has_stock(&sheet.scene))?;
     let corners = padded([low.map(|at| at - radius), high.map(|at| at + radius)]);
-    let beneath = Column { left: 0.0, width: area.bottom - area.top, top: 0.0, bottom: area.width };
-    let placed = |area: Column| {
+    Some(upright_or_turned(area, |area| {
         let scale = Scale::within(limit(corners, area));
         PlacedPicture { is_stock: true, ..PlacedPicture::new(area, corners, scale, false) }
-    };
-    let (upright, turned) = (placed(area), placed(beneath));
-    let turned = PlacedPicture { turned: Some([area.left, area.bottom]), ..turned };
-    Some(if turned.scale.0 > upright.scale.0 { turned } else { upright })
+    }))
+}
+
+/// The larger of a picture upright on a page and rotated to landscape.
+fn upright_or_turned(area: Column, placed: impl Fn(Column) -> PlacedPicture) -> PlacedPicture {
+    let beneath = Column { left: 0.0, width: area.bottom - area.top, top: 0.0, bottom: area.width };
+    let turned = PlacedPicture { turned: Some([area.left, area.bottom]), ..placed(beneath) };
+    let upright = placed(area);
+    if turned.scale.0 > upright.scale.0 { turned } else { upright }
 }
 
 fn padded([mut low, mut high]: Corners) -> Corners {
