@@ -78,7 +78,7 @@ pub struct PostMacro {
 }
 
 /// The files below the directory of a definition.
-pub trait PostFiles: fmt::Debug {
+pub trait PostFiles: fmt::Debug + Sync {
     /// Reads a file. The path is relative and never leads upwards. Implementations must refuse links that lead outside the directory.
     ///
     /// # Errors

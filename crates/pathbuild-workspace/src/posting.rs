@@ -1,8 +1,7 @@
 //! The post-processor of a run with its settings, the configured tools, and the limits of the machine. (book: program/posts)
 
-use std::cell::RefCell;
 use std::process::{Command, Stdio};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
@@ -10,11 +9,11 @@ use pathbuild_db::system::{join, readable};
 use pathbuild_diagnostic::messages::{posts, posts as messages};
 use pathbuild_diagnostic::reasons::LEADS_OUT_OF_POST;
 use pathbuild_diagnostic::{Diagnostic, Value};
-use pathbuild_gcode::dialect::{Charset, Dialect};
+use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::verify::{Machine, PostWords, Travel};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{
-    BUILT_IN, Job, Operation, Output, Post, PostFiles, PostMacro, PostOptions, Tool, ToolEntry, ToolTable,
+    BUILT_IN, Job, Operation, Output, Post, PostFiles, PostOptions, Tool, ToolEntry, ToolTable,
     TranslatedText, samples,
 };
 use regex::Regex;
@@ -39,29 +38,13 @@ pub struct PostProcessor {
     insertions: Vec<Utf8PathBuf>,
     /// The configured tools.
     pub tools: ToolTable,
-    macros: Vec<PostMacro>,
-    /// Whether holes become canned cycles.
-    pub cycles: bool,
     /// Feed in mm/min for cuts without a feed of their own.
     feed: Option<f64>,
-    charset: Charset,
-    most_bytes: usize,
-    arguments: PostArguments,
-    manner: Manner,
-    machine: Option<Machine>,
+    /// The options of all programs, without the files of a definition.
+    pub(crate) options: PostOptions<'static>,
     system: Arc<dyn System>,
     /// Whether commands are refused because the definition is untrusted.
     runs_no_command: bool,
-}
-
-/// Configured details of how programs are written. The name is part of [`PostProcessor::identity`].
-#[derive(Clone, Copy, Debug)]
-struct Manner {
-    unchecked: bool,
-    program_number: Option<u32>,
-    manual_spindle: bool,
-    spin_up: f64,
-    milliseconds: bool,
 }
 
 /// Command-line options of a post-processor.
@@ -140,9 +123,26 @@ impl PostProcessor {
         arguments: PostArguments,
     ) -> Self {
         let (general, system) = (&settings.general, &**shared_system);
-        let macros = settings.tables.macros.value.clone();
+        let manual_spindle = general.spindle.value == types::SpindleControl::Manual;
+        let options = PostOptions {
+            date: arguments.date,
+            macros: settings.tables.macros.value.clone(),
+            cycles: general.cycles.value,
+            run_post_build: arguments.run_post_build,
+            charset: general.charset.value,
+            most_bytes: settings.limits.output_size(),
+            dialect: arguments.dialect,
+            unchecked: general.post.value.unchecked,
+            program_number: general.post.value.program_number,
+            manual_spindle,
+            needs_speed: !manual_spindle,
+            spin_up: settings.machine.spin_up.value,
+            milliseconds: settings.machine.dwell.value == types::DwellTime::Milliseconds,
+            machine: machine(settings),
+            ..PostOptions::default()
+        };
         let directory = file.as_deref().map(|file| file.parent().unwrap_or(Utf8Path::new("")).to_owned());
-        let insertions: Vec<Utf8PathBuf> = post.insertions(&macros).into_iter().collect();
+        let insertions: Vec<Utf8PathBuf> = post.insertions(&options.macros).into_iter().collect();
         let inserted = |directory| {
             let files = DirectoryFiles { directory, system };
             let hash = |file: &Utf8PathBuf| blake3::hash(&files.read(file).unwrap_or_default());
@@ -157,22 +157,10 @@ impl PostProcessor {
             file,
             insertions,
             tools: tool_table(settings),
-            macros,
-            cycles: general.cycles.value,
             feed: general.feed.value,
-            most_bytes: settings.limits.output_size(),
-            charset: general.charset.value,
-            arguments,
-            machine: machine(settings),
+            options,
             system: Arc::clone(shared_system),
             runs_no_command: settings.confined.is_some(),
-            manner: Manner {
-                unchecked: general.post.value.unchecked,
-                program_number: general.post.value.program_number,
-                manual_spindle: general.spindle.value == types::SpindleControl::Manual,
-                spin_up: settings.machine.spin_up.value,
-                milliseconds: settings.machine.dwell.value == types::DwellTime::Milliseconds,
-            },
         }
     }
 
@@ -196,12 +184,12 @@ impl PostProcessor {
 
     /// Dialect for reading its output back, if known.
     pub fn reader(&self) -> Option<Dialect> {
-        self.post.reader(self.arguments.dialect.as_deref())
+        self.post.reader(self.options.dialect.as_deref())
     }
 
     /// Whether programs start the spindle.
     pub fn starts_spindle(&self) -> bool {
-        !self.manner.manual_spindle
+        !self.options.manual_spindle
     }
 
     /// The configured feed in mm/min for cuts without a feed of their own.
@@ -220,14 +208,16 @@ impl PostProcessor {
         output: Option<&Utf8Path>,
         inserted: &mut Vec<ExtraInput>,
     ) -> Result<Output, Vec<Diagnostic>> {
-        self.write_with(job, output, (self.manner.unchecked, self.machine.as_ref()), inserted)
+        let output = output.map(|output| output.as_str().into());
+        self.write_with(job, PostOptions { output, ..self.options.clone() }, inserted)
     }
 
     /// The words that it writes in a dialect, collected from sample programs that use every feature, which the machine need not be able to
     /// run.
     pub fn words(&self, dialect: Dialect) -> PostWords {
         let written = samples().into_iter().filter_map(|job| {
-            let output = self.write_with(&job, None, (true, None), &mut Vec::new());
+            let options = PostOptions { unchecked: true, machine: None, ..self.options.clone() };
+            let output = self.write_with(&job, options, &mut Vec::new());
             output.ok().map(|output| output.text)
         });
         if !self.is_read_by_definition() {
@@ -251,7 +241,7 @@ impl PostProcessor {
 
     /// Whether its programs are written without being compared with the drawing.
     pub fn is_unchecked(&self) -> bool {
-        self.manner.unchecked
+        self.options.unchecked
     }
 
     /// The name of the definition's file.
@@ -268,36 +258,19 @@ impl PostProcessor {
     fn write_with(
         &self,
         job: &Job,
-        output: Option<&Utf8Path>,
-        (unchecked, machine): (bool, Option<&Machine>),
+        options: PostOptions<'static>,
         inserted: &mut Vec<ExtraInput>,
     ) -> Result<Output, Vec<Diagnostic>> {
         let system = &*self.system;
         let below = self.directory.as_deref().map(|directory| DirectoryFiles { directory, system });
-        let noted = below.map(|below| RecordedFiles { below, read: RefCell::default() });
-        let mut options = PostOptions {
-            date: self.arguments.date.clone(),
-            macros: self.macros.clone(),
-            cycles: self.cycles,
-            output: output.map(|output| output.as_str().into()),
-            run_post_build: self.arguments.run_post_build,
-            charset: self.charset,
-            most_bytes: self.most_bytes,
-            dialect: self.arguments.dialect.clone(),
-            unchecked,
-            program_number: self.manner.program_number,
-            manual_spindle: self.manner.manual_spindle,
-            needs_speed: !self.manner.manual_spindle,
-            spin_up: self.manner.spin_up,
-            milliseconds: self.manner.milliseconds,
-            machine: machine.cloned(),
-            ..PostOptions::default()
-        };
+        let noted = below.map(|below| RecordedFiles { below, read: Mutex::default() });
+        let mut options: PostOptions<'_> = options;
         if let Some(noted) = &noted {
             options.files = noted;
         }
         let output = self.post.write(job, &options);
-        inserted.extend(noted.iter().flat_map(|noted| noted.read.take()));
+        let noted = noted.map(|noted| noted.read.into_inner().unwrap_or_else(PoisonError::into_inner));
+        inserted.extend(noted.into_iter().flatten());
         let output = output?;
         match &output.post_build {
             Some(command) if self.runs_no_command => {
@@ -310,13 +283,25 @@ impl PostProcessor {
 
     /// Everything that a program's text depends on besides drawings and general options, for its provenance.
     pub fn identity(&self) -> Vec<u8> {
-        let Self { definition, tools, macros, arguments, cycles, manner, .. } = self;
-        let mut identity = definition.clone();
-        identity.extend(
-            format!("{:?}", (tools, macros, cycles, &arguments.date, &arguments.dialect, manner))
-                .into_bytes(),
+        let Self { definition, tools, options, .. } = self;
+        let PostOptions {
+            date,
+            macros,
+            cycles,
+            dialect,
+            unchecked,
+            program_number,
+            manual_spindle,
+            spin_up,
+            milliseconds,
+            ..
+        } = options;
+        // Programs contain a hash of this text: a different one makes all of them out of date.
+        let manner = format_args!(
+            "Manner {{ unchecked: {unchecked}, program_number: {program_number:?}, manual_spindle: {manual_spindle}, spin_up: {spin_up:?}, milliseconds: {milliseconds} }}"
         );
-        identity
+        let text = format!("{:?}", (tools, macros, cycles, date, dialect, manner));
+        [&**definition, text.as_bytes()].concat()
     }
 }
 
@@ -373,14 +358,15 @@ pub(super) struct DirectoryFiles<'a> {
 #[derive(Debug)]
 pub(super) struct RecordedFiles<'a> {
     pub(super) below: DirectoryFiles<'a>,
-    pub(super) read: RefCell<Vec<ExtraInput>>,
+    pub(super) read: Mutex<Vec<ExtraInput>>,
 }
 
 impl PostFiles for RecordedFiles<'_> {
     fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value> {
         let read = self.below.read(path);
         let hash = read.as_ref().ok().map(|bytes| *blake3::hash(bytes).as_bytes());
-        self.read.borrow_mut().push(ExtraInput { path: self.below.directory.join(path), hash });
+        let input = ExtraInput { path: self.below.directory.join(path), hash };
+        self.read.lock().unwrap_or_else(PoisonError::into_inner).push(input);
         read
     }
 }

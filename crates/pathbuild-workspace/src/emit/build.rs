@@ -222,7 +222,7 @@ fn posted(
     let program = job.files.iter().find(|(kind, _)| kind.is_program());
     let Some((kind, path)) = program else { return Err(Vec::new()) };
     let (mut program, warnings) =
-        PostJob::from_programs(&job.path, programs, &post_processor.tools, post_processor.cycles);
+        PostJob::from_programs(&job.path, programs, &post_processor.tools, post_processor.options.cycles);
     program.remarks = vec![provenance.into(), job.title.as_str().into()];
     let left_out = programs.iter().flat_map(|program| native::left_out_lines(program, lang));
     program.remarks.extend(left_out.map(Into::into));

@@ -176,7 +176,7 @@ impl ReferenceProgram {
         program: &Program,
     ) -> Result<RewrittenProgram, Vec<Diagnostic>> {
         let programs = std::slice::from_ref(&*self.drawn);
-        let (job, _) = Job::from_programs(&self.drawn.path, programs, &writer.tools, writer.cycles);
+        let (job, _) = Job::from_programs(&self.drawn.path, programs, &writer.tools, writer.options.cycles);
         let text = writer.write(&job, None, &mut Vec::new())?.text;
         let translated = writer.translate(&text).map(|translated| translated.text.into_bytes());
         let code = translated.as_deref().unwrap_or(&text);
