@@ -251,7 +251,8 @@ impl Curve {
 }
 
 impl Line {
-    fn nearest(&self, point: Xy) -> Xy {
+    /// The point of the line that is nearest to another one.
+    pub(crate) fn nearest(&self, point: Xy) -> Xy {
         let along = self.end - self.start;
         let squared = along.norm_squared();
         if squared == 0.0 {

@@ -123,6 +123,23 @@ pub enum PlannedMove {
     Arc { feed: f64, clockwise: bool, centre: Xy, to: Xy, z: Height, is_spiral: bool },
 }
 
+impl ProgramStep {
+    /// The target height of a move, if it has one.
+    pub fn height(&self) -> Option<Height> {
+        match *self {
+            Self::Comment(_) | Self::Move { to: PlannedMove::Sweep { .. }, .. } => None,
+            Self::Move {
+                to:
+                    PlannedMove::Lift { z }
+                    | PlannedMove::Drill { z, .. }
+                    | PlannedMove::Line { z, .. }
+                    | PlannedMove::Arc { z, .. },
+                ..
+            } => Some(z),
+        }
+    }
+}
+
 /// A height, and the point for which it is corrected in programs with probes. (book: program/gcode, `Z<expr(z, xy)>`)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Height {
@@ -368,14 +385,13 @@ impl Statistics {
     /// from those of the moves. Only compatible programs have them.
     pub fn of_reference(program: &Program, rapid: f64) -> Self {
         let mut statistics = Self::default();
-        let mut z = program.start_height();
         for step in &program.steps {
-            if let ProgramStep::Move { to, count } = step {
+            if let ProgramStep::Move { count, .. } = step {
                 statistics.add(count, rapid);
-                z = height_after(to).unwrap_or(z);
             }
         }
-        let last = (z - program.start_height()).abs();
+        let last = program.steps.iter().rev().find_map(ProgramStep::height);
+        let last = last.map_or(0.0, |last| (last.z - program.start_height()).abs());
         statistics.add(&Count { class: Class::Sweep, length: last, feed: None }, rapid);
         statistics
     }
@@ -411,16 +427,5 @@ impl Total {
     pub fn minutes(&self) -> f64 {
         let seconds = SLOWER * self.time * 60.0;
         ((seconds * 1e7).round() / 1e7 / 60.0).ceil()
-    }
-}
-
-/// Height at the end of a move, or `None` if it does not change.
-fn height_after(to: &PlannedMove) -> Option<f64> {
-    match to {
-        PlannedMove::Sweep { .. } => None,
-        PlannedMove::Lift { z }
-        | PlannedMove::Drill { z, .. }
-        | PlannedMove::Line { z, .. }
-        | PlannedMove::Arc { z, .. } => Some(z.z),
     }
 }

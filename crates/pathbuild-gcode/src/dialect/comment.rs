@@ -5,6 +5,7 @@ use std::borrow::Cow;
 
 use pathbuild_diagnostic::shown;
 
+use super::rules::OBEYED;
 use super::{Dialect, Percent, Style};
 
 /// The characters that may be written. (book: reference/configuration, `charset`)
@@ -138,20 +139,6 @@ pub(crate) fn beginning_of(text: &str, words: &[&'static str]) -> Option<&'stati
     };
     words.iter().copied().find(|word| begins(word))
 }
-
-/// Words obeyed by LinuxCNC: it writes files, runs programs or stops. A comma is included if the word only has an effect with it.
-pub(super) const OBEYED: &[&str] = &[
-    "LOG,",
-    "LOGOPEN,",
-    "LOGAPPEND,",
-    "LOGCLOSE",
-    "PROBEOPEN",
-    "PROBECLOSE",
-    "PY,",
-    "PYRUN,",
-    "PYRELOAD",
-    "ABORT,",
-];
 
 /// Words that change what the user sees on some control: messages, and which moves a preview shows.
 const SHOWN: &[&str] = &["MSG", "DEBUG", "PRINT", "AXIS", "PREVIEW,", "STAT", "TOUCH", "PAUSE"];

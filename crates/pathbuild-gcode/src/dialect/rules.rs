@@ -2,7 +2,6 @@
 
 use super::Dialect;
 use super::codes::{self, Words};
-use super::comment::OBEYED;
 
 /// All properties in which dialects differ.
 #[derive(Debug)]
@@ -571,3 +570,17 @@ pub enum Operators {
     /// `**`, then `* / MOD`, then `+ -`, then comparisons, then `AND OR XOR`.
     LinuxCnc,
 }
+
+/// Words obeyed by LinuxCNC: it writes files, runs programs or stops. A comma is included if the word only has an effect with it.
+pub(super) const OBEYED: &[&str] = &[
+    "LOG,",
+    "LOGOPEN,",
+    "LOGAPPEND,",
+    "LOGCLOSE",
+    "PROBEOPEN",
+    "PROBECLOSE",
+    "PY,",
+    "PYRUN,",
+    "PYRELOAD",
+    "ABORT,",
+];

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use pathbuild_motion::turn;
 use pathbuild_toolpath::{
-    Correction, Height, LAST_DIGIT, PlannedMove, ProbePoint, Program, ProgramStep, Surface, Xy,
+    Correction, Height, LAST_DIGIT, ProbePoint, Program, ProgramStep, Surface, Xy,
 };
 
 /// The format "F3" of the specification: three decimals, rounding the exact binary value with ties to even. Zero has no sign.
@@ -193,7 +193,7 @@ impl<'a> Formulas<'a> {
     /// Indices of the probes that do not correct any height of the given steps.
     pub(super) fn unused(&self, steps: &[ProgramStep]) -> Vec<usize> {
         let mut is_used = vec![false; self.probes.len()];
-        for height in steps.iter().filter_map(height_of) {
+        for height in steps.iter().filter_map(ProgramStep::height) {
             for (probe, weight) in self.surface.weights(height.at) {
                 is_used[probe] |= self.is_rounded || weight.abs() >= NOTHING;
             }
@@ -203,20 +203,6 @@ impl<'a> Formulas<'a> {
 
     fn push_number(&self, text: &mut String, number: f64) {
         if self.is_rounded { push_f3(text, number) } else { push_exact(text, number) }
-    }
-}
-
-/// The target height of a step, if it has one.
-pub(super) fn height_of(step: &ProgramStep) -> Option<Height> {
-    match step {
-        ProgramStep::Move { to, .. } => match *to {
-            PlannedMove::Sweep { .. } => None,
-            PlannedMove::Lift { z }
-            | PlannedMove::Drill { z, .. }
-            | PlannedMove::Line { z, .. }
-            | PlannedMove::Arc { z, .. } => Some(z),
-        },
-        ProgramStep::Comment(_) => None,
     }
 }
 

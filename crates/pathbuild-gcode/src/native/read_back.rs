@@ -12,7 +12,7 @@ use pathbuild_toolpath::{
 use crate::adjust::{FormulaText, formula_texts, probe_entries, without_comments};
 use crate::dialect::Dialect;
 use crate::interpret::{Heights, Options, interpret_each, interpret_parts};
-use crate::native::number::{FIRST_PARAMETER, Formulas, f3, height_of};
+use crate::native::number::{FIRST_PARAMETER, Formulas, f3};
 use crate::provenance::Provenance;
 use crate::verify::{Difference, Rules, Tolerance, compare, is_near, is_same_move};
 
@@ -183,7 +183,7 @@ pub fn formula_differences(text: &[u8], program: &Program, correction: Correctio
         return first.into_iter().collect();
     };
     let steps = correction.steps(program);
-    let mut expected = steps.iter().filter_map(height_of).map(|height| formulas.text(height));
+    let mut expected = steps.iter().filter_map(ProgramStep::height).map(|height| formulas.text(height));
     let difference = loop {
         match (found.next(), expected.next()) {
             (None, None) => break None,

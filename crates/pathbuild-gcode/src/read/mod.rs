@@ -4,7 +4,6 @@
 //! reported and skipped.
 
 mod block;
-mod checksum;
 mod expression;
 mod line;
 mod number;

@@ -2,8 +2,6 @@
 
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
-use nalgebra::Vector2;
-
 use super::boxes::{BoxIndex, may_be_near, square};
 use super::cuts::StandingBar;
 use super::intervals::{at as at_along, beside};
@@ -223,19 +221,11 @@ fn nearest_points(one: &Line, other: &Line) -> (Xy, Xy) {
         }
     }
     let pairs = [
-        (one.start, foot(other, across, one.start)),
-        (one.end, foot(other, across, one.end)),
-        (foot(one, along, other.start), other.start),
-        (foot(one, along, other.end), other.end),
+        (one.start, other.nearest(one.start)),
+        (one.end, other.nearest(one.end)),
+        (one.nearest(other.start), other.start),
+        (one.nearest(other.end), other.end),
     ];
     let distance = |pair: &(Xy, Xy)| (pair.1 - pair.0).norm_squared();
     pairs.into_iter().fold(pairs[0], |best, next| if distance(&next) < distance(&best) { next } else { best })
-}
-
-fn foot(line: &Line, along: Vector2<f64>, at: Xy) -> Xy {
-    let squared = along.norm_squared();
-    if squared == 0.0 {
-        return line.start;
-    }
-    line.start + along * (along.dot(&(at - line.start)) / squared).clamp(0.0, 1.0)
 }

@@ -203,15 +203,7 @@ impl Graph {
     /// The area inside half-edges in mm², positive if they run counterclockwise.
     fn area(&self, face: &[usize]) -> f64 {
         let origin = self.end(face[0]);
-        let area = |half_edge: &usize| {
-            let curve = self.directed(*half_edge);
-            let below = (curve.start() - origin).perp(&(curve.end() - origin)) / 2.0;
-            let Curve::Arc(arc) = curve else { return below };
-            let angle = arc.degrees.to_radians();
-            let segment = arc.radius * arc.radius * (angle - libm::sin(angle)) / 2.0;
-            below + if arc.clockwise { -segment } else { segment }
-        };
-        face.iter().map(area).sum()
+        face.iter().map(|half_edge| self.directed(*half_edge).area_from(origin)).sum()
     }
 }
 
