@@ -125,10 +125,7 @@ impl LibraryOptions {
         let overrides =
             Overrides { settings, config, date, untrusted: self.untrusted, ..Overrides::default() };
         let (settings, faults) = config::load(&system, &overrides, &Inputs::default(), &directory);
-        let system = match &settings.confined {
-            Some(confined) => Arc::new(confined.clone()),
-            None => system,
-        };
+        let system = settings.confine(system);
         let workspace = Workspace {
             settings,
             system,

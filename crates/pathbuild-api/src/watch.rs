@@ -3,7 +3,6 @@
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::rc::Rc;
-use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
@@ -41,14 +40,10 @@ pub enum WatchEnd {
 /// Makes all paths absolute, because the system watches directories relative to the working directory of the process.
 pub(crate) fn absolute(workspace: &Workspace) -> Workspace {
     Workspace {
-        settings: workspace.settings.clone(),
-        system: Arc::clone(&workspace.system),
-        own_lang: workspace.own_lang,
         system_lang: None,
         working_directory: Utf8PathBuf::new(),
-        jobs: workspace.jobs,
-        cache: workspace.cache.clone(),
         reporter: Rc::new(SilentReporter),
+        ..workspace.clone()
     }
 }
 

@@ -14,7 +14,6 @@ use pathbuild_diagnostic::reasons::{
 };
 use pathbuild_diagnostic::{Diagnostic, Text, Value};
 
-use crate::config::FILE_NAME;
 use crate::workspace::Workspace;
 
 /// A file other than a drawing that a result depends on.
@@ -128,6 +127,9 @@ pub fn name_of_source(context: &Workspace, file: &Utf8Path) -> Option<&'static T
 pub(crate) fn name_of_source_or_program(context: &Workspace, file: &Utf8Path) -> Option<&'static Text> {
     name_of_source(context, file).or_else(|| is_program(file).then_some(&NAME_OF_PROGRAM))
 }
+
+/// File name of a configuration.
+pub const FILE_NAME: &str = "pathbuild.toml";
 
 /// The extensions of G-code programs; the first is that of native ones. A definition may write another one.
 pub(crate) const PROGRAM_EXTENSIONS: [&str; 6] = ["gcode", "nc", "ngc", "tap", "cnc", "din"];

@@ -13,7 +13,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use crate::config::{Origin, Settings};
 
 /// The environment of a run: settings, files, languages and directories.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Workspace {
     /// Settings from the configuration and the command line.
     pub settings: Settings,
@@ -66,16 +66,7 @@ impl Workspace {
     pub fn in_mode(&self, is_compatible: bool) -> Self {
         let mut settings = self.settings.clone();
         settings.general.compatible.value = is_compatible;
-        Self {
-            settings,
-            system: self.system.clone(),
-            own_lang: self.own_lang,
-            system_lang: self.system_lang,
-            working_directory: self.working_directory.clone(),
-            jobs: self.jobs,
-            cache: None,
-            reporter: Rc::new(SilentReporter),
-        }
+        Self { settings, cache: None, reporter: Rc::new(SilentReporter), ..self.clone() }
     }
 
     /// Language of messages. Comments in programs use [`Settings::comment_lang`].

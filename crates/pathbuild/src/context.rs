@@ -12,9 +12,10 @@ use pathbuild_workspace::{Failure, Inputs, Workspace, files};
 use serde_json::Value;
 
 use crate::args::Cli;
-use crate::environment::{self, system_of};
-use crate::exit;
+use crate::environment;
+
 use crate::exit::ExitStatus;
+use crate::german;
 use crate::output::Output;
 use crate::printer::{Printer, Stream};
 use crate::render::{Format, View, json as lines, render};
@@ -93,14 +94,10 @@ impl Context {
         let (settings, faults) =
             config::load(&OsSystem::shared(), &self.overrides, inputs, &self.working_directory);
         let workspace = Workspace {
-            system: system_of(&settings),
+            system: settings.confine(OsSystem::shared()),
             settings,
-            own_lang: self.own_lang,
-            system_lang: self.system_lang,
-            working_directory: self.working_directory.clone(),
-            jobs: self.jobs,
             cache: None,
-            reporter: self.printer.clone(),
+            ..Workspace::clone(self)
         };
         (workspace, faults)
     }
@@ -241,7 +238,7 @@ impl Context {
 
     /// Reports wrong usage.
     pub fn usage(&self, reason: &str) -> ExitStatus {
-        exit::wrong(reason, self.lang(), &self.printer)
+        german::wrong(reason, self.lang(), &self.printer)
     }
 
     /// The view for a stream in the chosen format.

@@ -6,14 +6,12 @@
 
 use std::env::{self, VarError};
 use std::rc::Rc;
-use std::sync::Arc;
 use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::System;
 use pathbuild_db::system::{OsSystem, spelt};
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_workspace::config::{self, Overrides, Settings, User, clean};
+use pathbuild_workspace::config::{self, Overrides, User, clean};
 use pathbuild_workspace::waivers::{Date, DateSource, RunDate};
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 
@@ -33,7 +31,7 @@ pub(crate) fn workspace(overrides: &Overrides, user: &User, inputs: &Inputs) -> 
     let working_directory = working_directory();
     let (settings, faults) = config::load(&OsSystem::shared(), overrides, inputs, &working_directory);
     let workspace = Workspace {
-        system: system_of(&settings),
+        system: settings.confine(OsSystem::shared()),
         settings,
         own_lang: lang().or(user.lang),
         system_lang: system_lang(),
@@ -49,14 +47,6 @@ pub(crate) fn workspace(overrides: &Overrides, user: &User, inputs: &Inputs) -> 
 pub(crate) fn working_directory() -> Utf8PathBuf {
     let directory = env::current_dir().ok();
     directory.and_then(|directory| Utf8PathBuf::from_path_buf(directory).ok()).map(spelt).unwrap_or_default()
-}
-
-/// The files that a run with these settings may access.
-pub(crate) fn system_of(settings: &Settings) -> Arc<dyn System> {
-    match &settings.confined {
-        Some(confined) => Arc::new(confined.clone()),
-        None => OsSystem::shared(),
-    }
 }
 
 /// Path of the user's `config.toml`, whether it exists or not; `None` if its directory is unknown.

@@ -1,4 +1,5 @@
-//! The command line in German: definitions with German help, and error messages. The English texts come from `args` and from clap.
+//! The command line in German: definitions with German help, and error messages. The English texts come from `args` and from clap. Also the
+//! answers to arguments that cannot be processed, in both languages.
 
 use std::error::Error as _;
 use std::fmt::Write as _;
@@ -10,6 +11,8 @@ use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::config::sections::general::OPTIONS;
 
 use crate::args::{self, Cli};
+use crate::exit::ExitStatus;
+use crate::printer::Printer;
 
 const TEMPLATE: &str = "{before-help}{about-with-newline}\nAufruf: {usage}\n\n{all-args}{after-help}";
 
@@ -36,7 +39,7 @@ pub fn german(english: &str) -> Option<&'static str> {
 }
 
 /// Translates the words that clap itself inserts into help texts.
-pub(crate) fn shown(help: &str) -> String {
+fn shown(help: &str) -> String {
     let words = [
         ("[OPTIONS]", "[OPTIONEN]"),
         ("\nArguments:\n", "\nArgumente:\n"),
@@ -87,13 +90,47 @@ fn value(value: PossibleValue) -> PossibleValue {
     help.into_iter().fold(value, PossibleValue::help)
 }
 
+// Answers in both languages: help, and errors of usage. The arguments cannot be processed, whatever the drawings contain.
+
+/// Prints clap's answer in this language: help and version, or an error of usage.
+pub(crate) fn answer(error: &Error, lang: Lang, printer: &Printer) -> ExitStatus {
+    let text = error.render().to_string();
+    let text = if lang == Lang::De { shown(&text) } else { text };
+    match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => help(&text, printer),
+        _ if lang == Lang::De && error.kind() != ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            wrong(&reason(error), lang, printer)
+        }
+        _ => {
+            printer.usage(text);
+            ExitStatus::Usage
+        }
+    }
+}
+
+/// Prints requested help.
+pub(crate) fn help(text: &str, printer: &Printer) -> ExitStatus {
+    printer.result(text);
+    ExitStatus::Success
+}
+
+/// Prints an error of usage.
+pub(crate) fn wrong(reason: &str, lang: Lang, printer: &Printer) -> ExitStatus {
+    let (error, advice) = match lang {
+        Lang::En => ("error", "For more information, try '--help'."),
+        Lang::De => ("Fehler", ADVICE),
+    };
+    printer.usage(format_args!("{error}: {reason}\n\n{advice}\n"));
+    ExitStatus::Usage
+}
+
 // Messages for errors of the command line are built from the parts of clap's errors.
 
 /// Points to the help.
-pub(crate) const ADVICE: &str = "Mehr dazu mit '--help'.";
+const ADVICE: &str = "Mehr dazu mit '--help'.";
 
 /// The error with tips and usage.
-pub(crate) fn reason(error: &Error) -> String {
+fn reason(error: &Error) -> String {
     let mut text = what(error);
     let tips = tips(error);
     if !tips.is_empty() {

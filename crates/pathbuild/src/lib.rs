@@ -28,9 +28,9 @@ use pathbuild_diagnostic::{Lang, shown};
 pub use context::Context;
 pub use exit::ExitStatus;
 
+use args::completions::VARIABLE;
 use args::{Cli, Command, CommonArgs, CompatArgs};
 use commands::compat::{self, Translation};
-use commands::completions;
 use printer::{ColorChoice, Printer};
 
 /// Runs the program with its command-line arguments, of which the first is the program's own name.
@@ -46,7 +46,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
             let lang = lang_of(&arguments);
             // Parse again with the German definition to get the error message in German.
             let message = Cli::matches(&german::command(lang), &arguments).err().unwrap_or(error);
-            print(|printer| exit::answer(&message, lang, printer))
+            print(|printer| german::answer(&message, lang, printer))
         }
     }
 }
@@ -54,7 +54,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
 /// Answers a completion request of a shell; `None` if this is an ordinary run.
 fn complete(arguments: &[OsString]) -> Option<ExitStatus> {
     let definition = || german::command(lang_of(arguments));
-    match CompleteEnv::with_factory(definition).var(completions::VARIABLE).try_complete(arguments, None) {
+    match CompleteEnv::with_factory(definition).var(VARIABLE).try_complete(arguments, None) {
         Ok(false) => None,
         Ok(true) => Some(ExitStatus::Success),
         Err(_) => Some(ExitStatus::Usage),
@@ -67,14 +67,14 @@ fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) ->
     let translated = match compat::translate(&args.arguments, lang) {
         Ok(Translation::Commands(translated)) => translated,
         Ok(Translation::Help(own)) => {
-            return print(|printer| exit::help(compat::help(own.unwrap_or(lang)), printer));
+            return print(|printer| german::help(compat::help(own.unwrap_or(lang)), printer));
         }
-        Err(reason) => return print(|printer| exit::wrong(&reason, lang, printer)),
+        Err(reason) => return print(|printer| german::wrong(&reason, lang, printer)),
     };
     let line = |command: &Vec<String>| format!("pathbuild {}\n", compat::shown(command));
     if args.print {
         let lines: String = translated.iter().map(line).collect();
-        return print(|printer| exit::help(&lines, printer));
+        return print(|printer| german::help(&lines, printer));
     }
     let each = translated.iter().map(|command| {
         Printer::new(common.verbosity(), ColorChoice::Never).detail(line(command).trim_end());

@@ -133,9 +133,6 @@ fn syntax_fault(error: &toml::de::Error, source: &Source<'_>) -> Diagnostic {
     source.fault(&messages::TOML_SYNTAX, error.span().unwrap_or(0..0)).with("reason", Value::foreign(reason))
 }
 
-/// File name of a configuration.
-pub const FILE_NAME: &str = "pathbuild.toml";
-
 /// Searches for configurations.
 pub(super) struct Discovery<'a> {
     pub(super) system: &'a dyn System,
@@ -187,7 +184,7 @@ impl Discovery<'_> {
 
     /// The configuration of a directory: the one in it, or else in the nearest directory above.
     pub(super) fn above(&self, directory: &Utf8Path) -> Option<Utf8PathBuf> {
-        let mut files = directory.ancestors().map(|directory| join(directory, FILE_NAME));
+        let mut files = directory.ancestors().map(|directory| join(directory, files::FILE_NAME));
         // A directory of this name, or a dangling link, counts as a configuration that cannot be read.
         let is_one = |file: &Utf8PathBuf| match self.system.kind(file) {
             FileKind::File | FileKind::Directory => true,

@@ -23,7 +23,7 @@ pub mod types;
 
 pub use arguments::{GivenOptions, OptionValues, Overrides, SettingOption, number, positive, regex};
 pub use describe::{Setting, schema, settings, show, template};
-pub use load::{FILE_NAME, User, faults, load, repository};
+pub use load::{User, faults, load, repository};
 pub use origin::{Origin, ResultKind, SourcedValue};
 pub use pathbuild_db::system::clean;
 pub use settings::{Options, Settings};

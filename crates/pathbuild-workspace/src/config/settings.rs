@@ -1,8 +1,10 @@
 //! The settings of a run, each with its source, and which cached results depend on them.
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::System;
 use pathbuild_db::system::ConfinedSystem;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_toolpath::ZModel;
@@ -99,14 +101,15 @@ tables! {
 }
 
 impl Settings {
-    /// Source of an option's value that applies where drawings give none: `feed`, `sweep-height` or `probe-feed`.
+    /// The files that a run with these settings may access.
+    pub fn confine(&self, system: Arc<dyn System>) -> Arc<dyn System> {
+        self.confined.clone().map_or(system, |confined| Arc::new(confined))
+    }
+
+    /// Source of the value of a key outside any table.
     pub fn origin_of_option(&self, name: &str) -> Origin {
-        let general = &self.general;
-        [&general.feed, &general.sweep_height, &general.probe_feed]
-            .into_iter()
-            .zip(["feed", "sweep-height", "probe-feed"])
-            .find(|(_, known)| *known == name)
-            .map_or(Origin::Default, |(option, _)| option.origin)
+        let mut options = self.general.shown().into_iter();
+        options.find(|option| option.name == name).map_or(Origin::Default, |option| option.origin)
     }
 
     /// Adds the place in the configuration that a value comes from, if it comes from there.

@@ -11,8 +11,8 @@ use pathbuild_workspace::config::types::Requirement;
 use pathbuild_workspace::machine::LengthUnit;
 use pathbuild_workspace::program::ReadingOptions;
 
+use super::completions;
 use super::shared::{Address, InputArgs, WaiverArgs};
-use crate::commands::completions;
 
 /// `pathbuild check`
 #[derive(Clone, Debug, Default, Args)]

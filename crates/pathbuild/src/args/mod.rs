@@ -10,6 +10,7 @@ macro_rules! german {
 }
 
 mod commands;
+pub(crate) mod completions;
 mod shared;
 
 use std::ffi::OsString;

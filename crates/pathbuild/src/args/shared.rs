@@ -11,7 +11,7 @@ use pathbuild_workspace::config::sections::general::OPTIONS;
 use pathbuild_workspace::config::{GivenOptions, OptionValues, Overrides, SettingOption};
 use pathbuild_workspace::waivers::Date;
 
-use crate::commands::completions;
+use super::completions;
 use crate::printer::{ColorChoice, Verbosity};
 use crate::render::Format;
 

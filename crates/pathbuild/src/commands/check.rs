@@ -6,7 +6,8 @@ use std::time::Instant;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, is_drawing, join, spelt};
 use pathbuild_workspace::check::{EarlierFiles, Request};
-use pathbuild_workspace::config::{FILE_NAME, clean};
+use pathbuild_workspace::config::clean;
+use pathbuild_workspace::files::FILE_NAME;
 use pathbuild_workspace::{Input, Inputs, files};
 
 use super::git::{self, EntryKind, Repository};

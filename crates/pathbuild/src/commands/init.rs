@@ -5,8 +5,8 @@ use pathbuild_db::system::join;
 
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use pathbuild_workspace::config::{FILE_NAME, template};
-use pathbuild_workspace::files;
+use pathbuild_workspace::config::template;
+use pathbuild_workspace::files::{self, FILE_NAME};
 
 macro_rules! example {
     ($($name:literal),* $(,)?) => {

@@ -6,8 +6,8 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
 use pathbuild_diagnostic::messages::import as say;
 use pathbuild_diagnostic::{Diagnostic, Value, shown};
-use pathbuild_workspace::config::{FILE_NAME, faults};
-use pathbuild_workspace::files;
+use pathbuild_workspace::config::faults;
+use pathbuild_workspace::files::{self, FILE_NAME};
 use pathbuild_workspace::machine::{self, Change, DescribedValue, Description, Entry};
 use serde_json::json;
 

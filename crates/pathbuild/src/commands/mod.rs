@@ -33,8 +33,9 @@ use serde_json::{Value, json};
 
 use crate::args::Command;
 use crate::context::Context;
-use crate::exit;
+
 use crate::exit::ExitStatus;
+use crate::german;
 use crate::render::Format;
 
 /// A file that was written, as a line in JSON.
@@ -115,5 +116,5 @@ fn format_refusal(context: &Context, command: &Command) -> Option<String> {
 }
 
 fn refuse(context: &Context, reason: &str) -> ExitStatus {
-    exit::wrong(reason, context.lang(), &context.printer)
+    german::wrong(reason, context.lang(), &context.printer)
 }

@@ -7,7 +7,7 @@ use std::io::{self, Read};
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
-use pathbuild_workspace::config::FILE_NAME;
+use pathbuild_workspace::files::FILE_NAME;
 use tempfile::TempDir;
 
 use crate::commands::git::{self, Entry, EntryKind, Repository};
