@@ -241,6 +241,28 @@ fn removed_moves_are_wider_and_beneath() {
     assert!(legend.iter().all(|text| !text.rsplit(' ').nth(1).unwrap().contains('.')), "{picture}");
 }
 
+/// No two of six alterations have the same colour and dashes.
+#[test]
+fn alterations_differ_in_colour_or_dashes() {
+    let drawing = |step: f64| {
+        let piece = |number: u32| {
+            let (from, depth) = (6 * number, 4.0 - step * f64::from(number + 1));
+            format!("mill {from},0 {},0 \"B{depth:.1}\"\nsweep {},0 {},0\n", from + 4, from + 4, from + 6)
+        };
+        dxf("1001.1P", "1", &((0..6).map(piece).collect::<String>() + "mill 36,0 40,0"))
+    };
+    let place = two(drawing(0.0), drawing(0.1));
+    told(&place.run("diff old new -o d.html"), 0, &["0.6 mm deeper"]);
+    let page = place.read("d.html");
+    let picture = page.split("<svg").nth(1).unwrap().split_once("</svg>").unwrap().0;
+    let legend = picture.lines().filter(|line| line.starts_with("<line x1=\"40\""));
+    let mut styles: Vec<&str> = legend.map(|line| line.split_once("stroke=").unwrap().1).collect();
+    assert_eq!(styles.len(), 6, "{picture}");
+    styles.sort_unstable();
+    styles.dedup();
+    assert_eq!(styles.len(), 6, "{picture}");
+}
+
 /// A deeper cut removes more, a higher one leaves more, and another feed does neither.
 #[test]
 fn the_stock_shows_what_a_change_removes_or_leaves() {

@@ -17,11 +17,15 @@ const REORDERED: &str = "#4a5a68";
 const RAPIDS: &str = "#946200";
 
 /// Colours and dashes of moves that were altered, in turn for each alteration.
-const ALTERED: [[&str; 2]; 4] = [
+const ALTERED: [[&str; 2]; 8] = [
     ["#cc79a7", ""],
     ["#7b3294", " stroke-dasharray=\"12 3\""],
     ["#8c510a", " stroke-dasharray=\"2 4\""],
     ["#01665e", " stroke-dasharray=\"8 3 2 3 2 3\""],
+    ["#cc79a7", " stroke-dasharray=\"5 3\""],
+    ["#7b3294", ""],
+    ["#8c510a", " stroke-dasharray=\"12 3 2 3\""],
+    ["#01665e", ""],
 ];
 
 /// Height of a line of the legend, and size of its letters, in px.
