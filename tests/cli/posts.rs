@@ -386,6 +386,29 @@ fn the_leftover_of_another_post_counts_once_the_path_has_other_moves() {
     }
 }
 
+/// The extension of a definition that is not in use is unknown, unless it is a usual one.
+#[test]
+fn leftovers_of_a_former_definition_are_found_by_the_usual_extensions() {
+    let drawn = |end: &str| {
+        let text =
+            format!("layer 1234.1P\nstart 0,0 \"T5 O2 I5 B0 MPlate\"\nmill 0,0 {end},0\nend {end},0\n");
+        pathbuild_testkit::sheet(&text).unwrap().to_dxf()
+    };
+    for (extension, is_found) in [("cnc", true), ("xyz", false)] {
+        let post = format!(
+            "<PostProcessor><Dialect>linuxcnc</Dialect><FileExtension>{extension}</FileExtension>\
+             <Header>{{$cbfile.header}}\n{{$units}} {{$distancemode}}\n{{$toolchange(first)}}\n{{$clearance}}</Header></PostProcessor>"
+        );
+        let place = library("").file("my.cbpp", post).file("1234.dxf", drawn("40"));
+        let posted = place.run("emit 1234.1P --post my.cbpp");
+        assert_eq!(posted.status, Some(0), "{posted}");
+        let place = place.file("1234.dxf", drawn("41"));
+        let native = place.run("emit 1234.1P --format concise");
+        assert_eq!(native.status, Some(0), "{native}");
+        assert_eq!(native.stderr.contains("PB520"), is_found, "{extension}: {native}");
+    }
+}
+
 /// Programs are identified by their extension: a user's copies are not programs.
 #[test]
 fn copies_that_are_no_programs_by_name_are_left_alone() {

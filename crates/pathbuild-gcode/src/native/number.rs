@@ -4,9 +4,7 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use pathbuild_motion::turn;
-use pathbuild_toolpath::{
-    Correction, Height, LAST_DIGIT, ProbePoint, Program, ProgramStep, Surface, Xy,
-};
+use pathbuild_toolpath::{Correction, Height, LAST_DIGIT, ProbePoint, Program, ProgramStep, Surface, Xy};
 
 /// The format "F3" of the specification: three decimals, rounding the exact binary value with ties to even. Zero has no sign.
 pub fn f3(number: f64) -> String {
