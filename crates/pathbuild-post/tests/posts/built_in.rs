@@ -99,7 +99,12 @@ fn each_control_probes_in_its_own_words() {
         assert_eq!(found[0], word, "{name}");
     }
     let errors = load("xpertmill").unwrap().write(&probing_run(), &PostOptions::default()).unwrap_err();
-    assert_eq!(texts(&errors), ["PB759 8003.1P needs the text probe, which the post does not have"]);
+    assert_eq!(
+        texts(&errors),
+        [
+            "PB759 8003.1P needs the text probe, which the post does not have (add this text to the definition)"
+        ]
+    );
 }
 
 #[test]

@@ -685,10 +685,16 @@ fn a_text_for_rapids_writes_every_move_as_it_is() {
 fn what_a_post_has_no_text_for_is_an_error() {
     let dwell =
         output(CALLS, &job(vec![JobStep::Dwell { seconds: 1.0 }]), &PostOptions::default()).unwrap_err();
-    assert_eq!(texts(&dwell), ["PB759 mill needs the text dwell, which the post does not have"]);
+    assert_eq!(
+        texts(&dwell),
+        ["PB759 mill needs the text dwell, which the post does not have (add this text to the definition)"]
+    );
     let probe = JobStep::probe([0.0; 3], None);
     let probe = output(CALLS, &job(vec![probe]), &PostOptions::default()).unwrap_err();
-    assert_eq!(texts(&probe), ["PB759 mill needs the text probe, which the post does not have"]);
+    assert_eq!(
+        texts(&probe),
+        ["PB759 mill needs the text probe, which the post does not have (add this text to the definition)"]
+    );
     let with = format!("{CALLS}dwell = 'wait {{.~DwellTime~}}'");
     assert_eq!(calls(&with, vec![JobStep::Dwell { seconds: 1.5 }])[1], "wait 1.5");
 }

@@ -169,7 +169,7 @@ fn lines_that_define_no_macro_and_built_in_names_are_warnings() {
     let written = output(&text, &job(vec![]), &PostOptions::default()).unwrap();
     let expected = [
         "3: PB752 \"o=1\" defines no macro and is ignored (a macro is defined as $name=value)",
-        "4: PB752 $x is built in; its definition is ignored",
+        "4: PB752 $x is built in; its definition is ignored (give your macro another name)",
     ];
     assert_eq!(texts(&written.warnings), expected);
 }

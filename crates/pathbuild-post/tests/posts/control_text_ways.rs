@@ -157,7 +157,7 @@ fn pecks_and_dwells_that_the_text_does_not_name_are_moves_or_errors() {
     let dwelling = high(vec![at(), hole(20.0, 25.0, HoleKind::Dwell { seconds: 0.5 })]);
     assert_eq!(
         refused(&with_point(), &dwelling),
-        ["PB759 mill needs the text dwell, which the post does not have"]
+        ["PB759 mill needs the text dwell, which the post does not have (add this text to the definition)"]
     );
 }
 
