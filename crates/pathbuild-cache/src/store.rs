@@ -35,9 +35,9 @@ pub struct TreeStore {
 /// Name of the file that records the tree's path.
 const TREE: &str = "tree";
 /// Size limit of results files in bytes: a planted file must not exhaust the memory.
-const LARGEST: u64 = 1 << 30;
+const MAX_RESULTS_BYTES: u64 = 1 << 30;
 /// Size limit of the other files in bytes.
-const SMALL: u64 = 1 << 16;
+const MAX_TAG_BYTES: u64 = 1 << 16;
 /// Name of the file that marks a directory as a cache.
 const TAG: &str = "CACHEDIR.TAG";
 
@@ -61,7 +61,7 @@ impl TreeStore {
     /// Why the store must not be used: its directory is a symbolic link, belongs to another user, or holds other files.
     pub fn refusal(&self) -> Option<&'static Text> {
         let holds_others = || entry_names(&self.directory).any(|name| !is_ours(&self.directory, &name));
-        let is_right = || match private::read(&self.directory.join(TAG), SMALL) {
+        let is_right = || match private::read(&self.directory.join(TAG), MAX_TAG_BYTES) {
             Ok(Some(tag)) => is_own_tag(&tag),
             Ok(None) => !holds_others(),
             Err(_) => false,
@@ -74,7 +74,7 @@ impl TreeStore {
     /// # Errors
     /// Why the results file cannot be used.
     pub fn load(&self, key: &Key) -> Result<Option<Catalogue>, CacheFault> {
-        match private::read(&self.directory.join(key.file_name()), LARGEST) {
+        match private::read(&self.directory.join(key.file_name()), MAX_RESULTS_BYTES) {
             Ok(Some(file)) => decode_file(key, &file).map(Some),
             Ok(None) => Ok(None),
             Err(_) => Err(CacheFault::Damaged),
@@ -89,7 +89,7 @@ impl TreeStore {
         catalogue.records.sort_unstable_by(|a, b| a.subject.cmp(&b.subject));
         let too_much = || reasons::error(io::ErrorKind::Other, &reasons::TOO_MUCH_TO_KEEP);
         let bytes = encode_file(key, &catalogue).ok_or_else(too_much)?;
-        if bytes.len() as u64 > LARGEST {
+        if bytes.len() as u64 > MAX_RESULTS_BYTES {
             return Err(too_much());
         }
         self.make()?;
@@ -110,7 +110,7 @@ impl TreeStore {
     /// If it cannot be created.
     pub fn make(&self) -> io::Result<bool> {
         let is_new = private::make_directory(&self.directory)?;
-        let tag = private::read(&self.directory.join(TAG), SMALL);
+        let tag = private::read(&self.directory.join(TAG), MAX_TAG_BYTES);
         if tag.map_err(|_| reasons::error(io::ErrorKind::Other, &reasons::TAG_UNREADABLE))?.is_none() {
             private::replace(&self.directory, TAG, TAG_TEXT.as_bytes())?;
             if let Some(tree) = &self.tree {
@@ -133,7 +133,7 @@ fn is_own_tree(directory: &Utf8Path) -> bool {
 
 /// The tree that a directory's tree file names.
 fn recorded_tree(directory: &Utf8Path) -> Option<Utf8PathBuf> {
-    let tree = private::read(&directory.join(TREE), SMALL).ok().flatten()?;
+    let tree = private::read(&directory.join(TREE), MAX_TAG_BYTES).ok().flatten()?;
     String::from_utf8(tree).ok().map(Utf8PathBuf::from)
 }
 
@@ -277,7 +277,7 @@ fn refuse_others(directory: &Utf8Path) -> Result<(), RemoveError> {
         return Err(refused(word));
     }
     let tag = directory.join(TAG);
-    let tag = private::read(&tag, SMALL).map_err(|reason| RemoveError { path: tag, reason })?;
+    let tag = private::read(&tag, MAX_TAG_BYTES).map_err(|reason| RemoveError { path: tag, reason })?;
     // Another process may be about to write the tag, or may just have removed it; all other files must then be ours.
     let is_cache = tag
         .map_or_else(|| entry_names(directory).all(|name| is_ours(directory, &name)), |tag| is_own_tag(&tag));
@@ -301,7 +301,7 @@ fn entry_names(directory: &Utf8Path) -> impl Iterator<Item = String> + use<> {
 }
 
 fn fault(path: &Utf8Path, build: &Key) -> Option<CacheFault> {
-    let Ok(Some(file)) = private::read(path, LARGEST) else { return Some(CacheFault::Damaged) };
+    let Ok(Some(file)) = private::read(path, MAX_RESULTS_BYTES) else { return Some(CacheFault::Damaged) };
     let Some(key) = key_of(&file) else { return Some(CacheFault::Damaged) };
     if key.build != build.build {
         return Some(CacheFault::Foreign);

@@ -4,7 +4,7 @@
 use strsim::osa_distance;
 
 /// Maximum length in bytes of a name that is compared. Every known name is shorter, and the cost is the product of both lengths.
-const LONGEST: usize = 200;
+const MAX_NAME_BYTES: usize = 200;
 
 /// Minimum number of digits of a number that identifies something, in which a slip is likely. Shorter numbers are mere counters: `3101.2P`
 /// follows `3101.1P` and is not a misspelling of it.
@@ -13,7 +13,7 @@ const LONG_NUMBER: usize = 3;
 /// The known name nearest to a misspelt one: at most a third of its letters differ, and its numbers are the same except for a single slip.
 /// Of several equally near names, the first is returned.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    if name.len() > LONGEST {
+    if name.len() > MAX_NAME_BYTES {
         return None;
     }
     let numbers = Numbers::of(name);
@@ -45,7 +45,7 @@ pub fn is_slip(name: &str, other: &str) -> bool {
         let parts: Vec<&str> = name.split('.').map(|part| part.trim_start_matches('0')).collect();
         parts.join(".")
     };
-    name.len().max(other.len()) <= LONGEST
+    name.len().max(other.len()) <= MAX_NAME_BYTES
         && osa_distance(&plain(name), &plain(other)) <= 1
         && Numbers::of(name).may_mean(&Numbers::of(other))
 }

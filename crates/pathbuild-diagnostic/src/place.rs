@@ -146,18 +146,18 @@ pub struct TextFault {
 }
 
 /// Maximum length in bytes of a text that is kept in full.
-const LONGEST: usize = 4 * AROUND;
+const MAX_FULL_TEXT_BYTES: usize = 4 * EXCERPT_BYTES;
 
 /// Number of bytes of a longer text kept before a fault; twice as many are kept from the start of the fault on.
-const AROUND: usize = 1000;
+const EXCERPT_BYTES: usize = 1000;
 
 impl TextFault {
     /// A text with a faulty byte range, which is clamped to the text and to character boundaries. Only an excerpt of a long text is kept,
     /// so that a thousand faults do not keep a thousand copies.
     pub fn new(text: &str, span: Range<usize>) -> Self {
-        if text.len() > LONGEST {
-            let from = text.floor_char_boundary(span.start.min(text.len()).saturating_sub(AROUND));
-            let to = text.ceil_char_boundary(span.start.saturating_add(2 * AROUND).min(text.len()));
+        if text.len() > MAX_FULL_TEXT_BYTES {
+            let from = text.floor_char_boundary(span.start.min(text.len()).saturating_sub(EXCERPT_BYTES));
+            let to = text.ceil_char_boundary(span.start.saturating_add(2 * EXCERPT_BYTES).min(text.len()));
             return Self::new(
                 &text[from..to],
                 span.start.saturating_sub(from)..span.end.saturating_sub(from),

@@ -274,14 +274,14 @@ pub(crate) struct CodeEnd {
 }
 
 /// Longest line with a code that the fast path reads.
-const LONGEST: usize = 8;
+const FAST_CODE_BYTES: usize = 8;
 
 impl CodeEnd {
     /// Determines from the first line how group codes are written.
     pub(crate) fn of(pairs: &Pairs<'_>) -> Self {
         let last = pairs.line_end();
         let rest = &pairs.bytes()[pairs.consumed()..];
-        let end = rest.iter().take(LONGEST).position(|byte| *byte == last);
+        let end = rest.iter().take(FAST_CODE_BYTES).position(|byte| *byte == last);
         let has_cr = last != b'\r' && end.is_some_and(|end| rest[..end].ends_with(b"\r"));
         let (end, length) =
             if has_cr { (u64::from(last) << 8 | u64::from(b'\r'), 5) } else { (u64::from(last), 4) };
@@ -296,7 +296,7 @@ impl CodeEnd {
 
 impl Role {
     /// A code without any role.
-    const OTHER: Self = Self(83);
+    const WITHOUT_ROLE: Self = Self(83);
     /// Code 0, which starts an entity.
     pub(crate) const BEGIN: Self = Self(84);
     /// The entity's layer: 8.
@@ -318,7 +318,7 @@ impl Role {
             230 => Self(82),
             #[expect(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "below 80")]
             1..80 => Self(code as u8),
-            _ => Self::OTHER,
+            _ => Self::WITHOUT_ROLE,
         }
     }
 
@@ -340,9 +340,9 @@ impl Role {
     #[inline(never)]
     fn of_unusual_line(line: [u8; 8], line_end: u8) -> Option<(usize, Self)> {
         let word = u64::from_le_bytes(line);
-        let other = word ^ (ONES * u64::from(line_end));
+        let other = word ^ (ONE_PER_BYTE * u64::from(line_end));
         // Sets the top bit of each byte that is a line end. Bits above the lowest may be wrong.
-        let ends = other.wrapping_sub(ONES) & !other & (ONES * 0x80);
+        let ends = other.wrapping_sub(ONE_PER_BYTE) & !other & (ONE_PER_BYTE * 0x80);
         let length = ends.trailing_zeros() as usize / 8;
         let before = *line.get(length.wrapping_sub(1)).filter(|_| length < line.len())?;
         let bits = 8 * (length - usize::from(before == b'\r'));
@@ -350,11 +350,11 @@ impl Role {
             return None;
         }
         // Aligns the last digit to the last byte and fills with blanks before the first.
-        let code = number((word << (64 - bits)) | ((ONES * 0x20) >> bits))?;
+        let code = number((word << (64 - bits)) | ((ONE_PER_BYTE * 0x20) >> bits))?;
         Some((length + 1, Self::of(code)))
     }
 
-    /// The slot in which an entity keeps the value. [`Role::OTHER`] and the roles after it have none.
+    /// The slot in which an entity keeps the value. [`Role::WITHOUT_ROLE`] and the roles after it have none.
     #[inline]
     pub(crate) fn slot(self) -> usize {
         usize::from(self.0)
@@ -363,13 +363,13 @@ impl Role {
     /// Whether the value is stored unparsed or ignored.
     #[inline]
     pub(crate) fn is_plain(self) -> bool {
-        self.0 <= Self::OTHER.0
+        self.0 <= Self::WITHOUT_ROLE.0
     }
 
     /// The code with this role, if there is only one.
     pub(crate) fn code(self) -> Option<i32> {
         Some(match self {
-            Self::OTHER => return None,
+            Self::WITHOUT_ROLE => return None,
             Self::BEGIN => 0,
             Self::LAYER => 8,
             Self::EMBEDDED => 101,
@@ -385,10 +385,11 @@ impl Role {
 /// Parses eight bytes of blanks followed by digits.
 fn number(padded: u64) -> Option<i32> {
     // A blank is 0x20, a digit 0x30 to 0x39: bit 4 tells them apart.
-    let is_digit = (padded >> 4) & ONES;
-    let values = padded & (ONES * 0x0F);
-    let is_blank_or_digit = padded & (ONES * 0xE0) == ONES * 0x20;
-    let is_in_range = (is_digit * 9 + ONES * 0x80 - values) & (ONES * 0x80) == ONES * 0x80;
+    let is_digit = (padded >> 4) & ONE_PER_BYTE;
+    let values = padded & (ONE_PER_BYTE * 0x0F);
+    let is_blank_or_digit = padded & (ONE_PER_BYTE * 0xE0) == ONE_PER_BYTE * 0x20;
+    let is_in_range =
+        (is_digit * 9 + ONE_PER_BYTE * 0x80 - values) & (ONE_PER_BYTE * 0x80) == ONE_PER_BYTE * 0x80;
     let has_blank_after_digit = (is_digit << 8) & !is_digit != 0;
     let ends_with_digit = is_digit >> 56 == 1;
     if !is_blank_or_digit || !is_in_range || has_blank_after_digit || !ends_with_digit {
@@ -402,7 +403,7 @@ fn number(padded: u64) -> Option<i32> {
 }
 
 /// 0x01 in each byte.
-const ONES: u64 = u64::from_le_bytes([1; 8]);
+const ONE_PER_BYTE: u64 = u64::from_le_bytes([1; 8]);
 
 /// The codes 0 to 999 as three characters, by hash. Slots without a code match no text.
 static USUAL: [u32; PLACES] = usual().0;
@@ -414,7 +415,7 @@ const PLACES: usize = 1 << 12;
 
 const fn usual() -> ([u32; PLACES], [Role; PLACES]) {
     let mut texts = [0; PLACES];
-    let mut roles = [Role::OTHER; PLACES];
+    let mut roles = [Role::WITHOUT_ROLE; PLACES];
     let mut code = 0;
     while code < 1000 {
         let text = three_characters(code);

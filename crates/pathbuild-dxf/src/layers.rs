@@ -56,13 +56,13 @@ pub(crate) struct UsedLayer {
 }
 
 /// Number of layers to reserve room for.
-const USUAL: usize = 16;
+const RESERVED_LAYERS: usize = 16;
 
 impl<'a, 'o> Layers<'a, 'o> {
     /// Starts without layers.
     pub(crate) fn new(keep: &'o dyn Fn(&str) -> bool, table: LayerTable<'a>) -> Self {
         let by_spelling = Spellings::default();
-        Self { table, keep, by_spelling, found: Vec::with_capacity(USUAL), last: None }
+        Self { table, keep, by_spelling, found: Vec::with_capacity(RESERVED_LAYERS), last: None }
     }
 
     /// Returns the layer with this spelling. `line` is called only for new spellings.
@@ -191,10 +191,10 @@ pub(crate) struct LayerRecord<'a> {
 }
 
 /// Number of layers that are looked up one by one in the tables; most drawings of paths have no more.
-const FEW: usize = 4;
+const MAX_SINGLE_LOOKUPS: usize = 4;
 
 /// Shorter texts occur nearly everywhere, so searching for them does not pay.
-const SHORTEST: usize = 4;
+const MIN_SEARCHED_BYTES: usize = 4;
 
 impl<'a> LayerTable<'a> {
     /// The table of this TABLES section.
@@ -212,7 +212,11 @@ impl<'a> LayerTable<'a> {
         self.lookups += 1;
         let certain = part_certain(without_xref(full_name).as_bytes());
         let has_escapes = || memchr(b'\\', &tables.bytes()[tables.consumed()..]).is_some();
-        if self.all.is_none() && self.lookups <= FEW && certain.len() >= SHORTEST && !has_escapes() {
+        if self.all.is_none()
+            && self.lookups <= MAX_SINGLE_LOOKUPS
+            && certain.len() >= MIN_SEARCHED_BYTES
+            && !has_escapes()
+        {
             let some = reading.some(tables, certain, &folded(full_name))?;
             return Ok(some.get(full_name).cloned());
         }

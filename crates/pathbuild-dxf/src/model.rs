@@ -52,7 +52,7 @@ struct Insertion {
 }
 
 /// Deepest nesting of blocks, in levels.
-const DEEPEST: usize = 64;
+const MAX_BLOCK_DEPTH: usize = 64;
 
 impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     /// Starts without entities.
@@ -134,7 +134,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         if wanted.is_empty() {
             return self.check_elsewhere(traits, layer, block, &insert, around);
         }
-        if self.open.contains(&block) || self.open.len() >= DEEPEST {
+        if self.open.contains(&block) || self.open.len() >= MAX_BLOCK_DEPTH {
             return self.refuse(traits, &wanted, &EntityError::Nested(insert.block.as_str().into()), around);
         }
         match insert.array.and_then(|array| Ok(array.copies(self.blocks.base(block)?))) {

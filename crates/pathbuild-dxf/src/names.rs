@@ -42,7 +42,7 @@ fn bound_prefix(name: &str) -> usize {
 #[derive(Debug)]
 pub(crate) struct Spellings<'a, T> {
     /// Short spellings by open addressing. Some slots are always free.
-    short: [Option<(Short, T)>; PLACES],
+    short: [Option<(Short, T)>; SHORT_NAME_SLOTS],
     free: usize,
     others: HashMap<&'a [u8], T>,
 }
@@ -56,12 +56,12 @@ struct Short {
 }
 
 /// Number of slots for short spellings.
-const PLACES: usize = 1 << PLACE_BITS;
+const SHORT_NAME_SLOTS: usize = 1 << PLACE_BITS;
 const PLACE_BITS: u32 = 5;
 
 impl<T: Copy> Default for Spellings<'_, T> {
     fn default() -> Self {
-        Self { short: [None; PLACES], free: PLACES / 4 * 3, others: HashMap::new() }
+        Self { short: [None; SHORT_NAME_SLOTS], free: SHORT_NAME_SLOTS / 4 * 3, others: HashMap::new() }
     }
 }
 
@@ -75,7 +75,7 @@ impl<'a, T: Copy> Spellings<'a, T> {
                 if known == short {
                     return Some(value);
                 }
-                place = (place + 1) % PLACES;
+                place = (place + 1) % SHORT_NAME_SLOTS;
             }
         }
         if self.others.is_empty() { None } else { self.others.get(spelling).copied() }
@@ -87,7 +87,7 @@ impl<'a, T: Copy> Spellings<'a, T> {
             Some(short) => {
                 let mut place = short.place();
                 while self.short[place].is_some() {
-                    place = (place + 1) % PLACES;
+                    place = (place + 1) % SHORT_NAME_SLOTS;
                 }
                 self.short[place] = Some((short, value));
                 self.free -= 1;

@@ -126,10 +126,10 @@ const POWERS: [f64; 2 * WIDTH] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 /// 0x01 in each byte.
-const ONES: u64 = u64::from_le_bytes([1; WIDTH]);
+const ONE_PER_BYTE: u64 = u64::from_le_bytes([1; WIDTH]);
 
 /// `0` in each byte.
-const ZEROS: u64 = ONES * 0x30;
+const ZEROS: u64 = ONE_PER_BYTE * 0x30;
 
 /// Up to eight digits, the last in the highest byte, padded with zeros. A byte above 9 is some other character.
 #[derive(Clone, Copy)]
@@ -164,9 +164,9 @@ impl Digits {
     /// Removes the first point and returns how many digits follow it.
     #[inline]
     fn without_point(self) -> (Self, Option<usize>) {
-        let zero_where_point = self.0 ^ (ONES * u64::from(b'.' ^ b'0'));
+        let zero_where_point = self.0 ^ (ONE_PER_BYTE * u64::from(b'.' ^ b'0'));
         // The lowest bit is right; those above it may be wrong.
-        let points = zero_where_point.wrapping_sub(ONES) & !zero_where_point & (ONES * 0x80);
+        let points = zero_where_point.wrapping_sub(ONE_PER_BYTE) & !zero_where_point & (ONE_PER_BYTE * 0x80);
         if points == 0 {
             return (self, None);
         }
@@ -179,7 +179,7 @@ impl Digits {
     #[inline]
     fn number(self) -> Option<u64> {
         let Self(digits) = self;
-        let beyond_nine = (digits | digits.wrapping_add(ONES * 0x76)) & (ONES * 0x80);
+        let beyond_nine = (digits | digits.wrapping_add(ONE_PER_BYTE * 0x76)) & (ONE_PER_BYTE * 0x80);
         // Combines neighbours: digits to two-digit numbers, these to four-digit numbers, and these to the result. Everything that belongs
         // to no pair overflows at the top.
         let twos = (digits.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;

@@ -64,9 +64,9 @@ impl Placement {
     /// Scales x, y and z; `None` if x and y differ in more than sign.
     pub(crate) fn scaled_by(x: f64, y: f64, z: f64) -> Option<Self> {
         /// Relative difference up to which computed scales count as equal.
-        const NOISE: f64 = 2e-7;
+        const SCALE_TOLERANCE: f64 = 2e-7;
         let scale = x.abs();
-        let is_uniform = scale > 0.0 && (scale - y.abs()).abs() <= NOISE * scale;
+        let is_uniform = scale > 0.0 && (scale - y.abs()).abs() <= SCALE_TOLERANCE * scale;
         let mirrored = (x < 0.0) != (y < 0.0);
         let turn = if x < 0.0 { 180.0 } else { 0.0 };
         is_uniform.then_some(Self { x_axis: (x, 0.0), turn, scale, z_scale: z, mirrored, ..Self::IDENTITY })

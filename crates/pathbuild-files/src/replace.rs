@@ -86,14 +86,14 @@ fn again_while<T>(
 ) -> io::Result<T> {
     for _ in 0..PAUSES {
         match attempt() {
-            Err(error) if is_passing(&error) => pause(PAUSE),
+            Err(error) if is_passing(&error) => pause(RETRY_PAUSE),
             result => return result,
         }
     }
     attempt()
 }
 
-const PAUSE: Duration = Duration::from_millis(50);
+const RETRY_PAUSE: Duration = Duration::from_millis(50);
 /// Number of pauses between attempts: two seconds in total.
 const PAUSES: u32 = 40;
 
@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn a_held_file_is_waited_for_two_seconds_and_no_longer() {
         assert_eq!(held(0), (true, Duration::ZERO));
-        assert_eq!(held(3), (true, 3 * PAUSE));
+        assert_eq!(held(3), (true, 3 * RETRY_PAUSE));
         assert_eq!(held(PAUSES), (true, Duration::from_secs(2)));
         assert_eq!(held(PAUSES + 1), (false, Duration::from_secs(2)));
     }

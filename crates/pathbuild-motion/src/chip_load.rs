@@ -17,7 +17,7 @@ pub struct ChipLoad {
 }
 
 /// Relative difference within which a chip load is at its limit.
-const SAME: f64 = 1e-9;
+const RELATIVE_TOLERANCE: f64 = 1e-9;
 
 impl ChipLoad {
     /// The finding about a feed in mm/min and a spindle speed in 1/min, if the chip load is outside the limits. `None` stands for the speed
@@ -25,8 +25,8 @@ impl ChipLoad {
     pub fn check(&self, feed: f64, speed: Option<f64>) -> Option<Diagnostic> {
         let speed = speed.or(self.speed).filter(|speed| *speed > 0.0)?;
         let load = feed / (speed * f64::from(self.flutes));
-        let is_small = load < self.least * (1.0 - SAME);
-        let is_large = load > self.most * (1.0 + SAME);
+        let is_small = load < self.least * (1.0 - RELATIVE_TOLERANCE);
+        let is_large = load > self.most * (1.0 + RELATIVE_TOLERANCE);
         let message = if is_small { &say::CHIP_LOAD_SMALL } else { &say::CHIP_LOAD_LARGE };
         let problem = Diagnostic::new(message).with("load", rounded(load)).with("feed", feed);
         let problem = problem.with("speed", speed).with("flutes", u64::from(self.flutes));

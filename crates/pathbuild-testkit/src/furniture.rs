@@ -11,8 +11,8 @@ use crate::draw::{Block, Draft, DrawError, Sheet, Template};
 use crate::random::Random;
 
 /// Minimum size of a drawing in bytes of ASCII with CRLF in R2000, and the range above it.
-const LEAST: usize = 38_500;
-const SPAN: usize = 8_000;
+const MIN_BYTES: usize = 38_500;
+const BYTE_RANGE: usize = 8_000;
 
 /// Number of variants of furniture.
 const VARIANTS: usize = 16;
@@ -21,7 +21,7 @@ const VARIANTS: usize = 16;
 const HATCH_LINES: usize = 160;
 
 /// Cache of written furniture, since even a library of thousands of drawings uses only a few variants.
-static KEPT: [[OnceLock<Arc<Template>>; VARIANTS]; Version::ALL.len()] =
+static TEMPLATES: [[OnceLock<Arc<Template>>; VARIANTS]; Version::ALL.len()] =
     [const { [const { OnceLock::new() }; VARIANTS] }; Version::ALL.len()];
 
 /// Finishes a drawing with the furniture of a seed, padded to a typical size.
@@ -39,12 +39,12 @@ pub(crate) fn finish(mut draft: Draft, seed: Option<u64>) -> Result<Sheet, Vec<D
     let inner = blocks.iter().flat_map(|block| &block.entities);
     let all = sheet.entities().iter().chain(&room.entities).chain(inner);
     let size = estimate(sheet.layers().len(), blocks.len(), all);
-    let target = LEAST + random.below(SPAN);
+    let target = MIN_BYTES + random.below(BYTE_RANGE);
     // The estimate assumes CRLF: with one byte less per line, more lines are needed for the same size.
     let target = if sheet.options().line_ends == LineEnds::CrLf { target } else { target * 20 / 17 };
     let hatch_lines = (target.saturating_sub(size) / HATCH_LINE).min(HATCH_LINES);
     let version = sheet.options().version;
-    let template = KEPT[version as usize][variant].get_or_init(|| Arc::new(template(variant, version)));
+    let template = TEMPLATES[version as usize][variant].get_or_init(|| Arc::new(template(variant, version)));
     Ok(sheet.within(Arc::clone(template), HATCH_LINES - hatch_lines))
 }
 
@@ -263,8 +263,8 @@ fn remarks(room: &mut Room) {
 }
 
 /// Lower left and upper right corner of the part.
-const LOW: Point = Point::new(-5.0, 60.0);
-const HIGH: Point = Point::new(200.0, 225.0);
+const PART_LOW: Point = Point::new(-5.0, 60.0);
+const PART_HIGH: Point = Point::new(200.0, 225.0);
 
 /// Draws the part in two views, with holes, screws, centre lines and dimensions.
 fn draw_part(room: &mut Room) {
@@ -279,22 +279,22 @@ fn draw_part(room: &mut Room) {
             insert(room, "DIN912_M6", at, OUTLINE);
         }
         if index == 0 {
-            dimension(room, LOW, at, 1);
+            dimension(room, PART_LOW, at, 1);
         }
     }
-    dimension(room, LOW, HIGH, 2);
+    dimension(room, PART_LOW, PART_HIGH, 2);
 }
 
 /// Draws a polyline with rounded and chamfered corners.
 fn outline(room: &mut Room, corner: f64) {
     let at = |x: f64, y: f64, bulge: f64| Vertex { point: Point::new(x, y), bulge };
     let vertices = vec![
-        at(LOW.x + corner, LOW.y, 0.0),
-        at(HIGH.x, LOW.y, 0.0),
-        at(HIGH.x, HIGH.y - corner, 0.414_213_562_373),
-        at(HIGH.x - corner, HIGH.y, 0.0),
-        at(LOW.x, HIGH.y, 0.0),
-        at(LOW.x, LOW.y + corner, 0.0),
+        at(PART_LOW.x + corner, PART_LOW.y, 0.0),
+        at(PART_HIGH.x, PART_LOW.y, 0.0),
+        at(PART_HIGH.x, PART_HIGH.y - corner, 0.414_213_562_373),
+        at(PART_HIGH.x - corner, PART_HIGH.y, 0.0),
+        at(PART_LOW.x, PART_HIGH.y, 0.0),
+        at(PART_LOW.x, PART_LOW.y + corner, 0.0),
     ];
     room.add(
         Entity::new(Shape::Polyline(Polyline { kind: PolylineKind::Light, vertices, closed: true })),
@@ -310,9 +310,9 @@ fn outline(room: &mut Room, corner: f64) {
 
 fn side_view(room: &mut Room) {
     let thickness = room.random.pick(&[2.0, 4.0, 5.0, 8.0, 10.0]);
-    room.rectangle(Point::new(LOW.x, 240.0), Point::new(HIGH.x, 240.0 + thickness), OUTLINE);
+    room.rectangle(Point::new(PART_LOW.x, 240.0), Point::new(PART_HIGH.x, 240.0 + thickness), OUTLINE);
     let step = room.random.between(15.0, 40.0, 2.5);
-    for x in [LOW.x + step, HIGH.x - step] {
+    for x in [PART_LOW.x + step, PART_HIGH.x - step] {
         room.line(Point::new(x, 240.0), Point::new(x, 240.0 + thickness), HIDDEN);
     }
 }
@@ -321,8 +321,8 @@ fn holes(room: &mut Room) -> Vec<Point> {
     let count = 2 + room.random.below(2);
     (0..count)
         .map(|_| {
-            let x = room.random.between(LOW.x + 15.0, HIGH.x - 15.0, 0.25);
-            Point::new(x, room.random.between(LOW.y + 15.0, HIGH.y - 15.0, 0.25))
+            let x = room.random.between(PART_LOW.x + 15.0, PART_HIGH.x - 15.0, 0.25);
+            Point::new(x, room.random.between(PART_LOW.y + 15.0, PART_HIGH.y - 15.0, 0.25))
         })
         .collect()
 }
@@ -345,7 +345,7 @@ fn screw() -> Block {
 
 /// Draws a horizontal dimension with its block, as CAD programs write it.
 fn dimension(room: &mut Room, from: Point, to: Point, index: usize) {
-    let y = LOW.y - 6.0 - 4.0 * index as f64;
+    let y = PART_LOW.y - 6.0 - 4.0 * index as f64;
     let (left, right) = (Point::new(from.x, y), Point::new(to.x, y));
     let length = to.x - from.x;
     let label = format!("{length}").replace('.', ",");

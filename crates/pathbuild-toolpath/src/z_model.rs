@@ -64,10 +64,10 @@ impl Surface {
 
 /// If the extent of points across their main direction is less than this fraction of their extent along it, they are treated as collinear,
 /// because they say nothing reliable about the slope across.
-const FLAT: f64 = 0.01;
+const COLLINEAR_RATIO: f64 = 0.01;
 
 /// Points whose average distance from their mean is less than this, in mm, are treated as a single point.
-const NOTHING: f64 = 0.001;
+const SINGLE_POINT_SPREAD: f64 = 0.001;
 
 /// The distribution of points around their mean, as a matrix of second moments in mm².
 #[derive(Clone, Copy, Debug)]
@@ -97,7 +97,7 @@ impl Scatter {
     /// Whether the points span a plane.
     fn is_wide(&self) -> bool {
         let (long, short) = self.principal();
-        short > FLAT * FLAT * long && !self.is_point()
+        short > COLLINEAR_RATIO * COLLINEAR_RATIO * long && !self.is_point()
     }
 
     /// The matrix that converts a position to the contribution of each point to the slope: the inverse of the moments. For collinear points
@@ -114,7 +114,7 @@ impl Scatter {
     }
 
     fn is_point(&self) -> bool {
-        self.moments.trace() <= self.count * NOTHING * NOTHING
+        self.moments.trace() <= self.count * SINGLE_POINT_SPREAD * SINGLE_POINT_SPREAD
     }
 
     /// The moments along the main direction and across it.
@@ -170,7 +170,7 @@ impl Plane {
 }
 
 /// Number of probes used for a point.
-const HEAVIEST: usize = 4;
+const PROBES_PER_POINT: usize = 4;
 
 /// Weights with a smaller relative difference are considered equal by the tree and ordered by index.
 const SAME_WEIGHT: f64 = 1e-12;
@@ -189,7 +189,7 @@ impl Nearest {
             let place = places
                 .entry([at.x.to_bits(), at.y.to_bits()])
                 .or_insert_with(|| GeomWithData::new([at.x, at.y], Vec::new()));
-            if place.data.len() < HEAVIEST {
+            if place.data.len() < PROBES_PER_POINT {
                 place.data.push(number);
             }
         }
@@ -202,13 +202,16 @@ impl Nearest {
         for place in self.places.nearest_neighbor_iter([at.x, at.y]) {
             let weight = 1.0 / ((Xy::from(*place.geom()) - at).norm() + 0.001);
             // All further probes have lower weights.
-            if weights.get(HEAVIEST - 1).is_some_and(|(_, least)| weight < least * (1.0 - SAME_WEIGHT)) {
+            if weights
+                .get(PROBES_PER_POINT - 1)
+                .is_some_and(|(_, least)| weight < least * (1.0 - SAME_WEIGHT))
+            {
                 break;
             }
             weights.extend(place.data.iter().map(|probe| (*probe, weight)));
         }
         weights.sort_unstable_by(|(a, of_a), (b, of_b)| of_b.total_cmp(of_a).then(a.cmp(b)));
-        weights.truncate(HEAVIEST);
+        weights.truncate(PROBES_PER_POINT);
         let sum: f64 = weights.iter().map(|(_, weight)| weight).sum();
         weights.into_iter().map(|(probe, weight)| (probe, weight / sum)).collect()
     }
@@ -216,19 +219,19 @@ impl Nearest {
 
 // Finds probes that do not fit their neighbours. (PB607)
 //
-// Each probe is compared with the plane through all the others. It is odd if its distance from that plane exceeds [`LEAST`] and also
+// Each probe is compared with the plane through all the others. It is odd if its distance from that plane exceeds [`MIN_ODD_DISTANCE`] and also
 // [`FACTOR`] times the scatter of the others around it (externally studentized residual). So a bent sheet, on which all probes
 // scatter, has no odd probes, but a single typing error stands out. This requires five probes: three others always lie on a plane,
 // so that with four it is impossible to tell which one is wrong.
 
 /// Distance in mm below which a probe is never odd, however well the others fit.
-const LEAST: f64 = 0.1;
+const MIN_ODD_DISTANCE: f64 = 0.1;
 
 /// Minimum ratio of the distance to the scatter of the others.
 const FACTOR: f64 = 4.0;
 
 /// Degrees of freedom of a plane.
-const FREEDOM: f64 = 3.0;
+const PLANE_FREEDOM: f64 = 3.0;
 
 /// A probe that does not fit its neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -289,9 +292,9 @@ impl Fit {
         let free = 1.0 - 1.0 / self.scatter.count - place.dot(&(self.inverse * place));
         let residual = self.residual(probe);
         let off = residual / free;
-        let others = (self.residue - residual * off).max(0.0) / (self.scatter.count - 1.0 - FREEDOM);
+        let others = (self.residue - residual * off).max(0.0) / (self.scatter.count - 1.0 - PLANE_FREEDOM);
         let expected = libm::sqrt(others / free);
-        (off.abs() > LEAST && off.abs() > FACTOR * expected).then_some(off)
+        (off.abs() > MIN_ODD_DISTANCE && off.abs() > FACTOR * expected).then_some(off)
     }
 }
 

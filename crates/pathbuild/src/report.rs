@@ -37,7 +37,7 @@ fn deliver(context: &Context, args: &CheckArgs, findings: &Findings, time: Durat
     let pictures = args.pictures.as_ref();
     let failed = pictures.map(|directory| write_pictures(context, directory, findings)).unwrap_or_default();
     show(context, args.max_errors, findings);
-    if findings.diagnostics.len() > MANY && !context.format.is_for_machines() {
+    if findings.diagnostics.len() > MAX_LISTED_FINDINGS && !context.format.is_for_machines() {
         context.printer.status_lines(by_code(context, findings));
     }
     context.output.figure("paths", findings.checked.iter().map(|file| file.paths.len()).sum::<usize>());
@@ -55,7 +55,7 @@ fn deliver(context: &Context, args: &CheckArgs, findings: &Findings, time: Durat
 }
 
 /// Number of findings beyond which they are counted by code, because users do not read that many.
-const MANY: usize = 100;
+const MAX_LISTED_FINDINGS: usize = 100;
 
 /// Shows findings. Text output stops after `most` errors.
 fn show(context: &Context, most: Option<usize>, findings: &Findings) {

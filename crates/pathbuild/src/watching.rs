@@ -13,7 +13,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::shown;
 
 /// Interval at which an invalid configuration is checked again.
-const PAUSE: Duration = Duration::from_millis(200);
+const CONFIGURATION_INTERVAL: Duration = Duration::from_millis(200);
 
 /// Runs `watch` until it ends. An invalid configuration ends the run at the beginning; later the run waits until the configuration is valid
 /// again.
@@ -72,7 +72,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
                     if server.as_ref().is_some_and(Server::is_over) {
                         return context.printer.finish(ExitStatus::Success);
                     }
-                    thread::sleep(PAUSE);
+                    thread::sleep(CONFIGURATION_INTERVAL);
                     enter(&home);
                 }
             }
@@ -108,7 +108,7 @@ fn is_back(cli: &Cli, home: &Utf8Path, server: Option<&Server>) -> bool {
         if server.is_some_and(Server::is_over) {
             return false;
         }
-        thread::sleep(PAUSE);
+        thread::sleep(CONFIGURATION_INTERVAL);
     }
     true
 }

@@ -65,7 +65,7 @@ pub struct ReachedPath<'db> {
 }
 
 /// Maximum depth of embedding below the emitted path.
-const DEEPEST: u32 = 10;
+const MAX_EMBEDDING_DEPTH: u32 = 10;
 
 /// Collects everything that a target embeds, directly or indirectly.
 #[salsa::tracked]
@@ -314,7 +314,7 @@ impl<'db> Walk<'db> {
         let frame = Frame { instance, name: outer.clone(), point: origin.point };
         match &embedding.outcome {
             Outcome::Refused(problem) => self.report_all(instance, slice::from_ref(problem)),
-            _ if depth >= DEEPEST => {
+            _ if depth >= MAX_EMBEDDING_DEPTH => {
                 let problem = self.too_deep(&frame, embedding);
                 self.report_all(instance, &[origin.at(problem)])
             }
@@ -366,7 +366,7 @@ impl<'db> Walk<'db> {
         };
         Diagnostic::new(&messages::TOO_DEEP)
             .quoting("name", name)
-            .with("limit", u64::from(DEEPEST))
+            .with("limit", u64::from(MAX_EMBEDDING_DEPTH))
             .quoting("chain", names.join(" > "))
             .in_path(frame.name.as_str())
     }

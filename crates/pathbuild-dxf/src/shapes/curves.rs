@@ -83,7 +83,7 @@ enum Bend {
 }
 
 /// Largest height over the chord, in mm, of an arc that becomes a line: its radius would be too large to be accurate.
-const FLAT: f64 = 1e-7;
+const MAX_LINE_HEIGHT: f64 = 1e-7;
 
 /// The biarc between two rays, or `None` if there is none, for example between opposite directions along their chord.
 fn biarc(from: Ray, to: Ray) -> Option<[CurvePiece; 2]> {
@@ -114,7 +114,7 @@ fn piece(start: Vector, end: Vector, direction: Vector) -> CurvePiece {
     let aside = chord.dot(direction.left());
     let square = chord.dot(chord);
     // The height over the chord is about a quarter of the distance of the end from the tangent.
-    if aside.abs() < 4.0 * FLAT && chord.dot(direction) >= 0.0 {
+    if aside.abs() < 4.0 * MAX_LINE_HEIGHT && chord.dot(direction) >= 0.0 {
         return CurvePiece { start, end, bend: Bend::Straight };
     }
     let to_centre = square / (2.0 * aside);
@@ -224,7 +224,7 @@ const SAMPLES: u32 = 24;
 const MARGIN: f64 = 0.9;
 
 /// Number of halvings after which a piece becomes a line whatever its distance: shorter spans differ only by rounding.
-const DEEPEST: u32 = 24;
+const MAX_HALVINGS: u32 = 24;
 
 /// Appends the pieces of a curve between two parameters.
 pub(crate) fn approximate(
@@ -240,7 +240,7 @@ pub(crate) fn approximate(
         steps = steps.checked_sub(1).ok_or(ApproximationFailure::TooMany)?;
         if let Some(fitting) = fit(curve, from, to, tolerance.distance) {
             pieces.extend(fitting.iter().filter_map(|piece| piece.geometry(z)));
-        } else if depth == DEEPEST {
+        } else if depth == MAX_HALVINGS {
             pieces.extend(CurvePiece::line(curve.at(from).0, curve.at(to).0).geometry(z));
         } else {
             let middle = f64::midpoint(from, to);
@@ -272,10 +272,10 @@ fn ray(curve: &impl Curve, parameter: f64, inwards: f64) -> Option<Ray> {
     /// Fraction of the span to move inwards for a direction.
     const STEP: f64 = 1e-3;
     /// Derivatives shorter than this fraction of the distance count as zero.
-    const NOTHING: f64 = 1e-6;
+    const ZERO_DERIVATIVE: f64 = 1e-6;
     let (point, derivative) = curve.at(parameter);
     let way = curve.at(parameter + inwards * STEP).0.minus(point).times(1.0 / (inwards * STEP));
-    let has_direction = derivative.length() > NOTHING * way.length();
+    let has_direction = derivative.length() > ZERO_DERIVATIVE * way.length();
     let direction = if has_direction { derivative } else { way };
     Some(Ray { point, direction: direction.unit()? })
 }

@@ -23,13 +23,13 @@ pub(crate) use text::{mtext, text};
 /// Whether object coordinates are mirrored: extrusion (0, 0, -1).
 fn is_mirrored<'a>(fields: &Fields<'a>) -> Result<bool, EntityError<'a>> {
     /// Tolerance for the components of a normal that was computed.
-    const NOISE: f64 = 1e-9;
+    const NORMAL_TOLERANCE: f64 = 1e-9;
     if fields.get(210).is_none() && fields.get(220).is_none() && fields.get(230).is_none() {
         return Ok(false);
     }
     let [x, y] = [fields.number(210)?.unwrap_or(0.0), fields.number(220)?.unwrap_or(0.0)];
     let z = fields.number(230)?.unwrap_or(1.0);
-    if z == 0.0 || x.abs().max(y.abs()) > NOISE * z.abs() {
+    if z == 0.0 || x.abs().max(y.abs()) > NORMAL_TOLERANCE * z.abs() {
         return Err(EntityError::Tilted);
     }
     Ok(z < 0.0)

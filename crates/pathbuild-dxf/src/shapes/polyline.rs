@@ -85,7 +85,7 @@ const POLYFACE: i64 = 64;
 const FRAME_POINT: i64 = 16;
 
 /// Largest bulge that counts as straight: over a chord of one metre it is 5 nm high, and the radius would be too large to be accurate.
-const FLAT: f64 = 1e-8;
+const MAX_LINE_BULGE: f64 = 1e-8;
 
 /// Height in mm over the chord up to which an arc may become a line if its centre is too far away: the difference is invisible in printed
 /// programs.
@@ -124,7 +124,7 @@ fn piece(from: Corner, to: Corner) -> Option<Geometry> {
     if start == end {
         return None;
     }
-    if from.bulge.abs() < FLAT || (start.x == end.x && start.y == end.y) {
+    if from.bulge.abs() < MAX_LINE_BULGE || (start.x == end.x && start.y == end.y) {
         return Some(Geometry::Line(Line { start, end }));
     }
     let arc = Geometry::Arc(bulged(start, end, from.bulge));

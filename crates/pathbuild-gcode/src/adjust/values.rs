@@ -188,7 +188,7 @@ pub(crate) fn probe_entry(comment: &str) -> Option<(u32, ProgramProbe)> {
 }
 
 /// Values that differ by no more than this, in mm, are considered equal: users enter three decimals.
-const SAME: f64 = 0.0005;
+const VALUE_TOLERANCE: f64 = 0.0005;
 
 static LOG_REPORT: LazyLock<bytes::Regex> = LazyLock::new(|| {
     bytes::Regex::new(r"(?-u)\[PRB:(?<probe>[^\]\n]*)\]|WCO:(?<offset>[-+0-9.,]*)")
@@ -241,7 +241,7 @@ fn take<'a>(probe: &mut ProbeLine<'a>, measured: LoggedHeight<'a>, problems: &mu
             probe.value = EnteredValue::Value(measured.z);
             probe.value_at = (measured.line, measured.at);
         }
-        EnteredValue::Value(value) if (value - measured.z).abs() > SAME => {
+        EnteredValue::Value(value) if (value - measured.z).abs() > VALUE_TOLERANCE => {
             problems.push(probe.value_fault(&messages::VALUE_DIFFERS_FROM_LOG).with("measured", measured.z));
         }
         EnteredValue::Value(_) | EnteredValue::Wrong => {}

@@ -53,7 +53,7 @@ impl Words {
 }
 
 /// What most dialects have in common.
-const PLAIN: Words = Words {
+const COMMON_WORDS: Words = Words {
     letters: Letters(0),
     g: &[],
     g_own: &[],
@@ -71,7 +71,7 @@ pub(super) static RS274: Words = Words {
         890, 900, 910, 920, 921, 922, 923, 930, 940, 980, 990,
     ],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 300, 480, 490, 600],
-    ..PLAIN
+    ..COMMON_WORDS
 };
 
 pub(super) static LINUXCNC: Words = Words {
@@ -88,7 +88,7 @@ pub(super) static LINUXCNC: Words = Words {
         640, 650, 660, 670, 680, 700, 710, 720, 730, 980, 990,
     ],
     own_m_codes: true,
-    ..PLAIN
+    ..COMMON_WORDS
 };
 
 pub(super) static GRBL: Words = Words {
@@ -99,7 +99,7 @@ pub(super) static GRBL: Words = Words {
     ],
     m: &[0, 20, 30, 40, 50, 80, 90, 300],
     m_ignored: &[10],
-    ..PLAIN
+    ..COMMON_WORDS
 };
 
 pub(super) static XPERTMILL: Words = Words {
@@ -108,7 +108,7 @@ pub(super) static XPERTMILL: Words = Words {
     m: &[60, 300],
     m_ignored: &[30, 40, 50, 70, 80, 90],
     lenient: true,
-    ..PLAIN
+    ..COMMON_WORDS
 };
 
 /// The words common to GRBL and RS274/NGC, because the native program is written for senders of both.
@@ -120,7 +120,7 @@ pub(super) static NATIVE: Words = Words {
         820, 830, 840, 850, 860, 870, 880, 890, 900, 901, 910, 911, 920, 921, 922, 923, 930, 940, 980, 990,
     ],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 300, 480, 490, 600],
-    ..PLAIN
+    ..COMMON_WORDS
 };
 
 pub(super) static MACH3: Words = Words {
@@ -132,7 +132,7 @@ pub(super) static MACH3: Words = Words {
         950, 980, 990,
     ],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 300, 470, 480, 490, 980, 990],
-    ..PLAIN
+    ..COMMON_WORDS
 };
 
 pub(super) static FANUC: Words = Words {
@@ -144,7 +144,7 @@ pub(super) static FANUC: Words = Words {
         920, 940, 950, 960, 970, 980, 990,
     ],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 290, 300, 980, 990],
-    ..PLAIN
+    ..COMMON_WORDS
 };
 
 pub(super) static HAAS: Words = Words {
@@ -159,7 +159,7 @@ pub(super) static HAAS: Words = Words {
         0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 290, 300, 310, 330, 410, 420, 830, 840, 880, 890, 970,
         980, 990,
     ],
-    ..PLAIN
+    ..COMMON_WORDS
 };
 
 pub(super) static MARLIN: Words = Words {
@@ -174,7 +174,7 @@ pub(super) static MARLIN: Words = Words {
         0, 10, 30, 40, 50, 70, 80, 90, 170, 180, 420, 820, 830, 840, 850, 1050, 1100, 1140, 1170, 1180, 2010,
         2030, 2040, 2050, 2200, 2260, 2800, 3000, 4000, 4100,
     ],
-    ..PLAIN
+    ..COMMON_WORDS
 };
 
 /// The words of Estlcam, which has neither coordinate systems nor cycles. M10 and M11 switch an output.
@@ -182,7 +182,7 @@ pub(super) static ESTLCAM: Words = Words {
     letters: Letters::new(b"FGIJKMNRSTXYZ"),
     g: &[0, 10, 20, 30, 170, 200, 210, 900, 910],
     m: &[0, 10, 30, 40, 50, 60, 80, 90, 100, 110, 300],
-    ..PLAIN
+    ..COMMON_WORDS
 };
 
 pub(super) static DIN: Words = Words {
@@ -194,5 +194,5 @@ pub(super) static DIN: Words = Words {
     // G53 removes the offsets permanently, and G92 may limit the speed.
     g_own: &[530, 920],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 300],
-    ..PLAIN
+    ..COMMON_WORDS
 };

@@ -16,7 +16,7 @@ use super::switches::CALLS;
 use crate::read::{Block, BlockReader, Code, OWord, OWordKind, Place, Value};
 
 /// Maximum depth of calls and loops, as in LinuxCNC.
-const DEEPEST: usize = 10;
+const MAX_CALL_DEPTH: usize = 10;
 
 /// Maximum number of lines executed by all calls and loops of a file, so that a few bytes cannot describe hours of work.
 const MOST_LINES: u32 = 1_000_000;
@@ -384,8 +384,8 @@ impl<'r, 'i> Runner<'r, 'i> {
 
     /// Begins a call or a loop, unless too many are being executed.
     fn enter(&mut self, line: u32) -> bool {
-        if self.depth >= DEEPEST {
-            self.report(&say::CALLS_TOO_DEEP, line, "", DEEPEST as u64);
+        if self.depth >= MAX_CALL_DEPTH {
+            self.report(&say::CALLS_TOO_DEEP, line, "", MAX_CALL_DEPTH as u64);
             return false;
         }
         self.depth += 1;

@@ -8,7 +8,7 @@ use crate::adjust::ProgramProbe;
 use crate::read::{Binary, Block, Code, Function, Op, Span};
 
 /// LinuxCNC considers numbers equal if they differ by less than this.
-const EQUAL: f64 = 1e-6;
+const EQUALITY_TOLERANCE: f64 = 1e-6;
 
 /// Why an expression cannot be evaluated.
 #[derive(Clone, Copy, Debug)]
@@ -162,7 +162,7 @@ fn apply(function: Function, x: f64) -> Result<f64, Fault> {
 
 fn combine(operator: Binary, left: f64, right: f64) -> Result<f64, Fault> {
     let truth = |is_true: bool| Ok(f64::from(u8::from(is_true)));
-    let equal = libm::fabs(left - right) < EQUAL;
+    let equal = libm::fabs(left - right) < EQUALITY_TOLERANCE;
     match operator {
         Binary::Power if left < 0.0 && libm::floor(right) != right => Err(NEGATIVE_POWER),
         Binary::Power => Ok(libm::pow(left, right)),

@@ -159,9 +159,10 @@ fn interpret_parts_until(
 fn no_g_code(text: &[u8]) -> Diagnostic {
     let lines = text.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
     let first = lines.into_iter().find(|line| !line.is_empty()).unwrap_or_default();
-    let shown: String = String::from_utf8_lossy(&first[..first.len().min(SHOWN)]).escape_debug().collect();
+    let shown: String =
+        String::from_utf8_lossy(&first[..first.len().min(EXCERPT_BYTES)]).escape_debug().collect();
     Diagnostic::new(&NOT_G_CODE).quoting("found", format!("`{shown}`")).at_line(1, None)
 }
 
 /// Number of bytes of a line shown to illustrate the content of the file.
-const SHOWN: usize = 40;
+const EXCERPT_BYTES: usize = 40;

@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, Value};
 use super::block::{Block, Span, column, fault};
 
 /// Maximum number of times that a message is reported per file, since a doubtful word in each of a million lines is a single problem.
-const SHOWN: u64 = 20;
+const MAX_REPORTS_PER_MESSAGE: u64 = 20;
 
 /// A position in a file.
 #[derive(Clone, Copy, Debug)]
@@ -79,17 +79,17 @@ impl Problems {
             self.push(message, || diagnostic);
         }
         for (key, (count, _)) in other.counts {
-            self.counts.entry(key).or_default().0 += count.saturating_sub(SHOWN);
+            self.counts.entry(key).or_default().0 += count.saturating_sub(MAX_REPORTS_PER_MESSAGE);
         }
     }
 
     /// Returns the diagnostics in the order of lines. The last one of a limited message tells how many more there were.
     pub fn into_diagnostics(mut self) -> Vec<Diagnostic> {
-        for &(count, last) in self.counts.values().filter(|(count, _)| *count > SHOWN) {
-            let message = if count - SHOWN == 1 { &ONE_MORE } else { &MORE };
+        for &(count, last) in self.counts.values().filter(|(count, _)| *count > MAX_REPORTS_PER_MESSAGE) {
+            let message = if count - MAX_REPORTS_PER_MESSAGE == 1 { &ONE_MORE } else { &MORE };
             self.found[last].notes.push(pathbuild_diagnostic::Note {
                 message,
-                arguments: vec![("count", Value::Count(count - SHOWN))],
+                arguments: vec![("count", Value::Count(count - MAX_REPORTS_PER_MESSAGE))],
             });
         }
         self.found.sort_by_key(|diagnostic| diagnostic.place.line);
@@ -98,7 +98,7 @@ impl Problems {
 
     fn push(&mut self, message: &'static Message, diagnostic: impl FnOnce() -> Diagnostic) {
         let (count, last) = self.counts.entry(message.key).or_default();
-        if *count < SHOWN {
+        if *count < MAX_REPORTS_PER_MESSAGE {
             let diagnostic = diagnostic();
             // A line that is executed repeatedly has its problem once.
             if self.found.contains(&diagnostic) {

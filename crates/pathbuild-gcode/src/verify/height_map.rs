@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 pub(super) const RESIDUE: f64 = 0.002;
 
 /// Number of cells along the side of a tile.
-const SIDE: i32 = 64;
-const CELLS: usize = (SIDE * SIDE) as usize;
+const CELLS_PER_SIDE: i32 = 64;
+const CELLS: usize = (CELLS_PER_SIDE * CELLS_PER_SIDE) as usize;
 
 /// Cost of a row of a capsule, in cells; a capsule that meets nothing costs the same.
 const ROW: u64 = 16;
@@ -50,8 +50,8 @@ impl HeightMap {
             if !self.spend(column, last) {
                 return;
             }
-            for tile_column in column.div_euclid(SIDE)..=last.div_euclid(SIDE) {
-                let key = (row.div_euclid(SIDE), tile_column);
+            for tile_column in column.div_euclid(CELLS_PER_SIDE)..=last.div_euclid(CELLS_PER_SIDE) {
+                let key = (row.div_euclid(CELLS_PER_SIDE), tile_column);
                 let tile = self.tiles.entry(key).or_insert_with(|| Box::new([f32::NAN; CELLS]));
                 for height in &mut tile[cells(row, column, last, tile_column)] {
                     *height = if height.is_nan() { surface } else { height.min(surface) };
@@ -79,7 +79,9 @@ impl HeightMap {
         let mut place = None;
         for (key, row, (column, last)) in self.stretches(capsule) {
             let Some(tile) = self.tiles.get(&key) else { continue };
-            for column in column.max(key.1 * SIDE)..=last.min(key.1 * SIDE + SIDE - 1) {
+            for column in
+                column.max(key.1 * CELLS_PER_SIDE)..=last.min(key.1 * CELLS_PER_SIDE + CELLS_PER_SIDE - 1)
+            {
                 let height = tile[cell(row, column)];
                 if height > highest {
                     highest = height;
@@ -99,10 +101,12 @@ impl HeightMap {
         self.left = self.left.saturating_sub(ROW);
         let mut row = first;
         while row <= last {
-            let Some(((known, _), _)) = self.tiles.range((row.div_euclid(SIDE), i32::MIN)..).next() else {
+            let Some(((known, _), _)) = self.tiles.range((row.div_euclid(CELLS_PER_SIDE), i32::MIN)..).next()
+            else {
                 break;
             };
-            let (begin, end) = (row.max(known * SIDE), last.min(known * SIDE + SIDE - 1));
+            let (begin, end) =
+                (row.max(known * CELLS_PER_SIDE), last.min(known * CELLS_PER_SIDE + CELLS_PER_SIDE - 1));
             for row in begin..=end {
                 if let Some((column, last)) = self.columns(capsule, row) {
                     self.stretches_of_row(row, column, last, &mut found);
@@ -117,13 +121,14 @@ impl HeightMap {
     }
 
     fn stretches_of_row(&mut self, row: i32, column: i32, last: i32, found: &mut Vec<Stretch>) {
-        let tile_row = row.div_euclid(SIDE);
-        let tiles = (tile_row, column.div_euclid(SIDE))..=(tile_row, last.div_euclid(SIDE));
+        let tile_row = row.div_euclid(CELLS_PER_SIDE);
+        let tiles =
+            (tile_row, column.div_euclid(CELLS_PER_SIDE))..=(tile_row, last.div_euclid(CELLS_PER_SIDE));
         let before = found.len();
         if column <= last {
             found.extend(self.tiles.range(tiles).map(|(key, _)| (*key, row, (column, last))));
         }
-        let known = SIDE.saturating_mul(i32::try_from(found.len() - before).unwrap_or(i32::MAX));
+        let known = CELLS_PER_SIDE.saturating_mul(i32::try_from(found.len() - before).unwrap_or(i32::MAX));
         self.spend(0, (last - column).min(known));
     }
 
@@ -148,13 +153,13 @@ impl HeightMap {
 
 /// Indices within a tile of the cells of a row from one column to another, as far as they are in the tile.
 fn cells(row: i32, column: i32, last: i32, tile_column: i32) -> std::ops::Range<usize> {
-    let first = column.max(tile_column * SIDE);
-    let last = last.min(tile_column * SIDE + SIDE - 1);
+    let first = column.max(tile_column * CELLS_PER_SIDE);
+    let last = last.min(tile_column * CELLS_PER_SIDE + CELLS_PER_SIDE - 1);
     if last < first { 0..0 } else { cell(row, first)..cell(row, last) + 1 }
 }
 
 fn cell(row: i32, column: i32) -> usize {
-    let within = row.rem_euclid(SIDE) * SIDE + column.rem_euclid(SIDE);
+    let within = row.rem_euclid(CELLS_PER_SIDE) * CELLS_PER_SIDE + column.rem_euclid(CELLS_PER_SIDE);
     usize::try_from(within).unwrap_or(0)
 }
 

@@ -27,7 +27,7 @@ const CHORDS: f64 = 4.0;
 const CENTRE_LINE: f64 = 0.75;
 
 /// Number of visits of a cell within O of a cut: when the material is added, when half of it is cut, and for each row.
-const VISITS: f64 = 3.0;
+const VISITS_PER_CELL: f64 = 3.0;
 
 /// Applies the moves to the stock and reports rapid moves that hit material.
 pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
@@ -177,7 +177,7 @@ impl Extent {
     fn resolution(&self, stock: &Stock) -> Option<f64> {
         let in_box: f64 = self.sides.iter().flatten().map(|(low, high)| (high - low).max(0.0)).product();
         let kept = self.area.min(in_box);
-        let visited = VISITS * self.area + self.passed.min(self.passes * in_box);
+        let visited = VISITS_PER_CELL * self.area + self.passed.min(self.passes * in_box);
         #[expect(clippy::cast_precision_loss, reason = "a limit")]
         let cells = stock.cells() as f64;
         let resolution =
@@ -326,7 +326,7 @@ fn covered_area(movement: &Move, cutter: f64) -> f64 {
 const STEP: f64 = 0.05;
 
 /// Maximum number of parts per move.
-const MOST: f64 = 4096.0;
+const MAX_PARTS_PER_MOVE: f64 = 4096.0;
 
 /// A straight part of a move.
 #[derive(Clone, Copy, Debug)]
@@ -349,7 +349,7 @@ impl MovePiece {
 pub(super) fn slopes(movement: &Move) -> f64 {
     let is_plunge = movement.keeps_xy() && matches!(movement.shape, MoveShape::Line);
     let rise = libm::fabs(movement.to.z() - movement.from.z());
-    if is_plunge { 1.0 } else { (rise / STEP).ceil().clamp(1.0, MOST) }
+    if is_plunge { 1.0 } else { (rise / STEP).ceil().clamp(1.0, MAX_PARTS_PER_MOVE) }
 }
 
 /// Number of parts into which a move is divided, at least 1.
@@ -360,8 +360,12 @@ pub(super) fn count(movement: &Move, sagitta: f64) -> u32 {
         MoveShape::Arc(arc) => slope
             .max(arc.sweep(&movement.from, &movement.to) / widest_chord(arc.radius(&movement.from), sagitta)),
     };
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to MOST")]
-    let count = count.ceil().clamp(1.0, MOST) as u32;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "from 1 to MAX_PARTS_PER_MOVE"
+    )]
+    let count = count.ceil().clamp(1.0, MAX_PARTS_PER_MOVE) as u32;
     count
 }
 

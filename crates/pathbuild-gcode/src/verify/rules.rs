@@ -377,7 +377,7 @@ fn probe(line: u32, movement: &Move, problems: &mut Problems) {
 const FINE: u8 = 3;
 
 /// Radii are equal if they differ by less than this, in mm.
-const EXACT: f64 = 1e-4;
+const RADIUS_TOLERANCE: f64 = 1e-4;
 
 /// Reports the first arc of a program in millimetres if centres have decimals but never three of them. Numbers without decimals are
 /// considered to be written by hand and exact.
@@ -414,7 +414,7 @@ fn has_rounded_arc(text: &[u8], dialect: Dialect) -> bool {
     interpret_each(text, dialect, &Options::default(), &mut |step| {
         let Some((_, movement)) = step.as_move() else { return };
         let MoveShape::Arc(arc) = movement.shape else { return };
-        is_rounded |= libm::fabs(arc.radius(&movement.from) - arc.radius(&movement.to)) > EXACT;
+        is_rounded |= libm::fabs(arc.radius(&movement.from) - arc.radius(&movement.to)) > RADIUS_TOLERANCE;
     });
     is_rounded
 }

@@ -53,7 +53,7 @@ impl Passage {
 impl<'p> PreparedPart<'p> {
     pub(crate) fn new(part: &'p Part) -> Self {
         let ring = |ring: &PartRing| {
-            let boxes = ring.curves.iter().map(|curve| around(curve, SLACK));
+            let boxes = ring.curves.iter().map(|curve| around(curve, BOX_MARGIN));
             let extent = boxes.reduce(|one, other| one.merged(&other)).unwrap_or_else(AABB::new_empty);
             PreparedRing { extent, outline: OnceCell::new() }
         };
@@ -63,7 +63,7 @@ impl<'p> PreparedPart<'p> {
         Self {
             part,
             rings: part.rings.iter().map(ring).collect(),
-            curve_boxes: BoxIndex::new(curves.iter().map(|(_, curve)| around(curve, SLACK))),
+            curve_boxes: BoxIndex::new(curves.iter().map(|(_, curve)| around(curve, BOX_MARGIN))),
             curves,
         }
     }
@@ -118,8 +118,8 @@ impl<'p> PreparedPart<'p> {
                 let mut reach = radius.max(1.0);
                 loop {
                     let distance = self.distance(at, None, reach);
-                    if distance <= reach || reach > FARTHEST {
-                        return radius + distance.min(FARTHEST);
+                    if distance <= reach || reach > MAX_DISTANCE {
+                        return radius + distance.min(MAX_DISTANCE);
                     }
                     reach *= 4.0;
                 }
@@ -190,10 +190,10 @@ impl<'p> PreparedPart<'p> {
 }
 
 /// Margin in mm round boxes, larger than the rounding of ends that meet.
-const SLACK: f64 = 1e-4;
+const BOX_MARGIN: f64 = 1e-4;
 
 /// Upper bound on distances in mm: no part is larger.
-const FARTHEST: f64 = 1e7;
+const MAX_DISTANCE: f64 = 1e7;
 
 /// Distance in mm between the samples of a stretch.
 const SAMPLED: f64 = 0.5;

@@ -166,7 +166,7 @@ pub(crate) fn nearest_miss(
     budget: &SearchBudget,
 ) -> Option<NearMiss> {
     // A tree examines more nodes initially than it yields candidates.
-    if candidates.len() > FEW && budget.is_exhausted() {
+    if candidates.len() > MAX_SCANNED_CANDIDATES && budget.is_exhausted() {
         return None;
     }
     let mut nearest: Option<NearMiss> = None;
@@ -175,7 +175,7 @@ pub(crate) fn nearest_miss(
             break;
         }
         // The first few candidates are free for each text.
-        if number >= FEW && !budget.take() {
+        if number >= MAX_SCANNED_CANDIDATES && !budget.take() {
             return None;
         }
         if candidates[candidate].is_taken {
@@ -227,10 +227,10 @@ pub(crate) enum CandidateIndex {
 }
 
 /// Maximum number of candidates in a list.
-const FEW: usize = 128;
+const MAX_SCANNED_CANDIDATES: usize = 128;
 
 /// Margin in mm around each box, so that rounding does not decide which candidates a text touches.
-const SLACK: f64 = 1e-6;
+const BOX_MARGIN: f64 = 1e-6;
 
 impl Default for CandidateIndex {
     fn default() -> Self {
@@ -241,7 +241,7 @@ impl Default for CandidateIndex {
 impl CandidateIndex {
     pub(crate) fn new(candidates: &[Candidate]) -> Self {
         let boxes = candidates.iter().map(|candidate| around(&candidate.shape));
-        if candidates.len() <= FEW {
+        if candidates.len() <= MAX_SCANNED_CANDIDATES {
             return Self::List(boxes.collect());
         }
         let numbered = boxes.zip(0..).map(|(box_, index)| GeomWithData::new(box_.into(), index));
@@ -264,7 +264,7 @@ impl CandidateIndex {
 
     /// The candidates, each with a lower bound for its distance in mm from a point, in ascending order.
     fn nearest(&self, point: Xy) -> Box<dyn Iterator<Item = (usize, f64)> + '_> {
-        let at_least = |squared: f64| libm::sqrt(squared) - SLACK;
+        let at_least = |squared: f64| libm::sqrt(squared) - BOX_MARGIN;
         match self {
             // Sorting a few candidates is not worth the effort.
             Self::List(boxes) => Box::new((0..boxes.len()).map(|index| (index, f64::NEG_INFINITY))),
@@ -288,7 +288,7 @@ fn around(shape: &Shape) -> AABB<[f64; 2]> {
 }
 
 fn square(centre: Xy, half: f64) -> AABB<[f64; 2]> {
-    let half = half + SLACK;
+    let half = half + BOX_MARGIN;
     AABB::from_corners([centre.x - half, centre.y - half], [centre.x + half, centre.y + half])
 }
 

@@ -18,7 +18,7 @@ use crate::read::entities::{AnyText, at_entity, begin};
 use crate::text::{ParameterText, ParameterTexts, ValueKind};
 
 /// Letters that spoil a part if they are missing. A stray text must contain one of them to be reported.
-const WEIGHTY: Letters = Letters::of(&[Letter::B, Letter::D, Letter::F, Letter::I, Letter::W]);
+const ESSENTIAL_LETTERS: Letters = Letters::of(&[Letter::B, Letter::D, Letter::F, Letter::I, Letter::W]);
 
 /// Maximum number of candidates examined for the stray texts of a drawing.
 const MOST_EXAMINED: usize = 1_000_000;
@@ -143,7 +143,7 @@ fn stray_text(
 /// whose absence would spoil a part.
 fn is_weighty(text: ParameterText<'_>) -> bool {
     let is_number = |written: ValueKind| matches!(written, ValueKind::Number(_) | ValueKind::Reference);
-    text.letters.has_any(WEIGHTY)
+    text.letters.has_any(ESSENTIAL_LETTERS)
         && text.pieces().iter().all(|piece| {
             piece
                 .letter

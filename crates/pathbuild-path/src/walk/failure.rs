@@ -199,7 +199,7 @@ pub(super) struct Curves<'a> {
 struct CurveKey(u8, [[i64; 2]; 3]);
 
 /// Number of grid squares per mm: programs have three decimals.
-const SQUARES: f64 = 1000.0;
+const SQUARES_PER_MM: f64 = 1000.0;
 /// Offset of the grid in squares, so that points with few decimals, and the middles between them, are not on a border between squares.
 const SHIFT: f64 = 0.37;
 
@@ -272,5 +272,5 @@ fn middle(curve: &Curve) -> Xy {
 
 #[expect(clippy::cast_possible_truncation, reason = "far outside, all squares are one")]
 fn square(at: Xy) -> [i64; 2] {
-    [at.x, at.y].map(|coordinate| (coordinate * SQUARES + SHIFT).floor() as i64)
+    [at.x, at.y].map(|coordinate| (coordinate * SQUARES_PER_MM + SHIFT).floor() as i64)
 }

@@ -37,7 +37,7 @@ pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> 
 type Failure = Option<Box<Diagnostic>>;
 
 /// Number of segments at a point from which on they are sorted at once.
-const CROWDED: usize = 16;
+const MIN_CROWD: usize = 16;
 
 /// Number of segments between calls of the checkpoint.
 const SEGMENTS_PER_CHECKPOINT: usize = 256;
@@ -202,7 +202,7 @@ impl<'a> Walker<'a> {
         let (path, ends) = (self.path, &self.ends);
         let before = |best, other| if comes_before(path, ends, other, best) { other } else { best };
         let next = found.iter().copied().reduce(before);
-        if found.len() > CROWDED
+        if found.len() > MIN_CROWD
             && let Some(crowd) = ends.crowd(self.at, |segment| !self.is_traversed[segment])
         {
             self.stars.insert(self.at, crowd, path, ends);

@@ -208,17 +208,17 @@ const NONE: u32 = u32::MAX;
 /// Number of buckets per segment. With half as many, more than a few buckets would contain ends from elsewhere.
 const BUCKETS: usize = 4;
 /// Number of squares per mm. A square has room for only a few points that do not coincide, which bounds the work of a step.
-const SQUARES: f64 = 5000.0;
+const SQUARES_PER_MM: f64 = 5000.0;
 /// Offset of the grid in squares: drawings mostly use round numbers with up to four decimals, and points on a border between squares need
 /// two lookups.
 const SHIFT: f64 = 0.25;
 /// Search distance around a point in squares: slightly more than the distance at which points coincide (0.16).
-const REACH: f64 = 0.22;
+const SEARCH_DISTANCE: f64 = 0.22;
 /// Search distance in squares for points that coincide with a point only by way of others, each of which coincides with the next: slightly
 /// more than three times that distance.
 const WIDE_REACH: f64 = 0.5;
 /// So large that adding it rounds to an integer: the low bits of the sum count whole numbers. (1.5 * 2^52)
-const WHOLE: f64 = 6_755_399_441_055_744.0;
+const ROUNDING_ADDEND: f64 = 6_755_399_441_055_744.0;
 
 impl Ends {
     pub(super) fn new(path: &Path) -> Self {
@@ -289,7 +289,7 @@ impl Ends {
 
 impl Squares {
     pub(super) fn around(point: Xy) -> Self {
-        Self::within(REACH, point)
+        Self::within(SEARCH_DISTANCE, point)
     }
 
     fn within(reach: f64, point: Xy) -> Self {
@@ -311,20 +311,20 @@ pub(super) fn square(point: Xy) -> Square {
 /// The columns or rows near a coordinate: one, or two near a border.
 fn around(coordinate: f64, reach: f64) -> Range<u64> {
     let place = in_squares(coordinate);
-    let from_middle = place - (place + WHOLE - WHOLE);
+    let from_middle = place - (place + ROUNDING_ADDEND - ROUNDING_ADDEND);
     let (is_first, is_last) = (from_middle < reach - 0.5, from_middle > 0.5 - reach);
     let strip = strip(place);
     strip.wrapping_sub(is_first.into())..strip.wrapping_add(is_last.into()).wrapping_add(1)
 }
 
 fn in_squares(coordinate: f64) -> f64 {
-    coordinate * SQUARES + SHIFT
+    coordinate * SQUARES_PER_MM + SHIFT
 }
 
 /// Number of the column or row that contains a coordinate; adjacent ones differ by one. Very far from the origin they are wider, but
 /// there only equal points coincide.
 fn strip(place: f64) -> u64 {
-    (place + WHOLE).to_bits()
+    (place + ROUNDING_ADDEND).to_bits()
 }
 
 /// The bucket of a square. The upper bits of a product depend on all bits of its factors.
@@ -387,7 +387,7 @@ mod tests {
     }
 
     /// Approximate distance in mm below which points coincide.
-    const MEETING: f64 = 0.000_031_6;
+    const COINCIDENCE_DISTANCE: f64 = 0.000_031_6;
 
     fn ends([one, other]: [Xy; 2]) -> Ends {
         Ends::of_segments([[one; 2], [other; 2]].into_iter())
@@ -410,8 +410,8 @@ mod tests {
 
         #[test]
         fn ends_that_meet_are_found_whatever_square_they_are_in(
-            inside in apart(0.999 * MEETING),
-            outside in apart(1.003 * MEETING),
+            inside in apart(0.999 * COINCIDENCE_DISTANCE),
+            outside in apart(1.003 * COINCIDENCE_DISTANCE),
         ) {
             prop_assert_eq!(found(inside), [0, 1]);
             prop_assert_eq!(found(outside), [0]);
@@ -419,8 +419,8 @@ mod tests {
 
         #[test]
         fn who_may_meet_a_third_at_a_point_is_seen(
-            inside in apart(2.99 * MEETING),
-            outside in apart(3.01 * MEETING),
+            inside in apart(2.99 * COINCIDENCE_DISTANCE),
+            outside in apart(3.01 * COINCIDENCE_DISTANCE),
         ) {
             prop_assert!(!is_alone(inside));
             prop_assert!(is_alone(outside));

@@ -14,7 +14,7 @@ const MOST_DEPTH: usize = 32;
 /// Maximum number of variables resolved per call.
 const MOST_VARIABLES: usize = 10_000;
 /// Maximum length in bytes of the text produced by one call; no line of a program is as long.
-const LONGEST: usize = 1 << 16;
+const MAX_TEXT_BYTES: usize = 1 << 16;
 
 /// A control text with its variables replaced.
 #[derive(Debug, Default)]
@@ -73,7 +73,7 @@ impl Expanded {
         }
         self.resolved += 1;
         if self.resolved > MOST_VARIABLES {
-            return Err(Fault::new(&posts::TEXT_LENGTH, 0..0).with("limit", LONGEST));
+            return Err(Fault::new(&posts::TEXT_LENGTH, 0..0).with("limit", MAX_TEXT_BYTES));
         }
         let Some(value) = variables.get(name) else {
             self.undefined.push((self.text.len(), name.to_owned()));
@@ -90,8 +90,8 @@ impl Expanded {
     }
 
     fn push(&mut self, text: &str) -> Evaluated<()> {
-        if self.text.len() + text.len() > LONGEST {
-            return Err(Fault::new(&posts::TEXT_LENGTH, 0..0).with("limit", LONGEST));
+        if self.text.len() + text.len() > MAX_TEXT_BYTES {
+            return Err(Fault::new(&posts::TEXT_LENGTH, 0..0).with("limit", MAX_TEXT_BYTES));
         }
         self.text.push_str(text);
         Ok(())

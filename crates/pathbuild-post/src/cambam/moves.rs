@@ -339,7 +339,7 @@ const WIDEST_BY_RADIUS: f64 = PI * 2.0 / 3.0;
 // Canned drilling cycles.
 
 /// Registers that a control keeps only until the end of a cycle, so that the next cycle must write them again.
-const FORGOTTEN: [Register; 6] =
+const CYCLE_REGISTERS: [Register; 6] =
     [Register::X, Register::Y, Register::Z, Register::R, Register::P, Register::Q];
 
 impl<'a> Writer<'a> {
@@ -351,7 +351,7 @@ impl<'a> Writer<'a> {
         self.go(Section::Rapid, [None, None, Some(first.level)], MoveValues::default())?;
         self.go(Section::Rapid, [Some(first.at[0]), Some(first.at[1]), None], MoveValues::default())?;
         self.lines_of(Section::CannedCycleStart)?;
-        self.machine.forget(&FORGOTTEN);
+        self.machine.forget(&CYCLE_REGISTERS);
         for step in group {
             match as_hole(step) {
                 Some(hole) => self.cycle(hole)?,

@@ -10,7 +10,7 @@ use regex::Regex;
 use super::{Drawing, Finding, Instance, Model, directory, stem};
 
 /// Maximum depth of embedding below the checked path.
-const DEEPEST: usize = 10;
+const MAX_EMBEDDING_DEPTH: usize = 10;
 
 /// A traversal of everything that a path embeds.
 struct Visit<'m> {
@@ -90,7 +90,7 @@ impl<'m> Visit<'m> {
         if !self.is_allowed(path, name) {
             return self.stop(at("PB507", &[name.as_str()]));
         }
-        if self.open.len() > DEEPEST {
+        if self.open.len() > MAX_EMBEDDING_DEPTH {
             return self.stop(at("PB508", &[]));
         }
         match *model.holders(outer.0, name) {

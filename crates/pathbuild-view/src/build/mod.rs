@@ -65,13 +65,13 @@ impl Places<'_> {
         let (shape, zero) = self.elements.get(&line)?;
         let in_drawing = |[x, y]: Point| [x + zero[0], y + zero[1]];
         let [x, y] = in_drawing(shape.start());
-        let is_start = (x - at.x.0).abs() < NEAR && (y - at.y.0).abs() < NEAR;
+        let is_start = (x - at.x.0).abs() < POINT_TOLERANCE && (y - at.y.0).abs() < POINT_TOLERANCE;
         is_start.then(|| in_drawing(shape.middle()))
     }
 }
 
 /// Distance in mm up to which points are the same.
-const NEAR: f64 = 1e-6;
+const POINT_TOLERANCE: f64 = 1e-6;
 
 /// Whether findings with this code are about whole elements. All others about elements have a place of their own: where the way breaks off,
 /// or where the cutter enters something.

@@ -243,7 +243,7 @@ pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
 const SAME_PLACE: f64 = 0.006;
 
 /// Maximum number of moves in the text that are searched for the end of one move.
-const SEARCHED: usize = 4096;
+const MAX_SEARCHED_MOVES: usize = 4096;
 
 /// For each move of a program, its line in the text that was written from it; `None` if there is none.
 fn lines_of_moves(moves: &[Move], text: &[u8], dialect: Dialect) -> Vec<Option<u32>> {
@@ -279,7 +279,7 @@ impl Finder<'_> {
     /// The first line of a cut. The cut ends where its last piece ends.
     fn cut(&mut self, movement: &Move) -> Option<u32> {
         let is_cut = |(_, written): &(u32, Move)| !matches!(written.pace, Pace::Rapid);
-        let rest = &self.written[self.next..self.written.len().min(self.next + SEARCHED)];
+        let rest = &self.written[self.next..self.written.len().min(self.next + MAX_SEARCHED_MOVES)];
         let ends =
             |candidate: &(u32, Move)| is_cut(candidate) && is_same(&candidate.1.to, &movement.to, Axes::ALL);
         let end = rest.iter().position(ends)?;
@@ -294,7 +294,7 @@ impl Finder<'_> {
     fn rapid(&mut self, movement: &Move) -> Option<u32> {
         let rest = &self.written[self.next..];
         let rapids = rest.iter().take_while(|(_, written)| written.pace == Pace::Rapid);
-        let rapids: Vec<&Move> = rapids.take(SEARCHED).map(|(_, written)| written).collect();
+        let rapids: Vec<&Move> = rapids.take(MAX_SEARCHED_MOVES).map(|(_, written)| written).collect();
         let moved = if movement.is_vertical() { Axes::Z } else { Axes::XY };
         let has_both = |written: &&Move| {
             is_same(&written.from, &movement.from, Axes::ALL) && is_same(&written.to, &movement.to, Axes::ALL)

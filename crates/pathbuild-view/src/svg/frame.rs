@@ -36,13 +36,13 @@ impl VisibleParts {
 }
 
 /// Space for the drawing in px, without the legend.
-const ROOM: Point = [1080.0, 720.0];
+const DRAWING_SIZE: Point = [1080.0, 720.0];
 
 /// Margin around the drawing in px.
 const MARGIN: f64 = 40.0;
 
 /// Smallest extent shown in mm, for drawings without an extent, such as a single hole.
-const LEAST: f64 = 10.0;
+const MIN_EXTENT: f64 = 10.0;
 
 /// Transforms coordinates of the drawing to those of the page.
 #[derive(Clone, Copy, Debug)]
@@ -90,14 +90,14 @@ impl Frame {
 
     /// The frame around the corners of a bounding box.
     pub(super) fn around(corners: Option<[Point; 2]>) -> Self {
-        let [mut low, mut high] = corners.unwrap_or([[0.0; 2], [LEAST; 2]]);
+        let [mut low, mut high] = corners.unwrap_or([[0.0; 2], [MIN_EXTENT; 2]]);
         for axis in [0, 1] {
-            let missing = (LEAST - (high[axis] - low[axis])).max(0.0) / 2.0;
+            let missing = (MIN_EXTENT - (high[axis] - low[axis])).max(0.0) / 2.0;
             low[axis] -= missing;
             high[axis] += missing;
         }
-        let scale = (ROOM[0] / (high[0] - low[0])).min(ROOM[1] / (high[1] - low[1]));
-        let spare = (ROOM[0] - (high[0] - low[0]) * scale) / 2.0;
+        let scale = (DRAWING_SIZE[0] / (high[0] - low[0])).min(DRAWING_SIZE[1] / (high[1] - low[1]));
+        let spare = (DRAWING_SIZE[0] - (high[0] - low[0]) * scale) / 2.0;
         Self { low, high, scale, corner: [MARGIN + spare, MARGIN] }
     }
 
@@ -112,7 +112,7 @@ impl Frame {
     }
 
     /// The page's width in px.
-    pub(super) const WIDTH: f64 = ROOM[0] + 2.0 * MARGIN;
+    pub(super) const WIDTH: f64 = DRAWING_SIZE[0] + 2.0 * MARGIN;
 
     /// The lower edge of the drawing, with its margins.
     pub(super) fn bottom(&self) -> f64 {
@@ -192,10 +192,10 @@ pub(super) struct Room {
 const CELL: f64 = 4.0;
 
 /// Maximum distance at which a text is placed, in multiples of its height.
-const FARTHEST: u32 = 6;
+const MAX_TEXT_DISTANCE: u32 = 6;
 
 /// Number of candidate positions so near to a symbol that the label cannot be mistaken for another's.
-const NEAREST: usize = 13;
+const NEAR_CANDIDATES: usize = 13;
 
 /// A rectangle in px: left, top; right, bottom.
 pub(super) type Rectangle = [Point; 2];
@@ -243,7 +243,7 @@ impl Room {
     ) -> Option<Point> {
         let (starts, candidates) = beside(at, preferred, size, text);
         let is_free = |number: &usize| self.met(candidates[*number]) == 0;
-        let free = (0..NEAREST).filter(is_free);
+        let free = (0..NEAR_CANDIDATES).filter(is_free);
         let found = free.min_by_key(|number| self.crossed(candidates[*number]))?;
         self.take(candidates[found]);
         Some(starts[found])
@@ -318,7 +318,7 @@ fn length_within([from, to]: &[Point; 2], [low, high]: Rectangle) -> f64 {
 
 /// Offsets in rows and columns, nearest first.
 fn steps() -> impl Iterator<Item = Point> {
-    let rows = (0..=FARTHEST).flat_map(|row| [f64::from(row), -f64::from(row)]);
+    let rows = (0..=MAX_TEXT_DISTANCE).flat_map(|row| [f64::from(row), -f64::from(row)]);
     let mut steps: Vec<Point> =
         rows.flat_map(|row| [0.0, 1.0, -1.0, 2.0, -2.0].map(|across| [across, row])).collect();
     steps.sort_by(|a, b| libm::hypot(a[0] * 2.0, a[1]).total_cmp(&libm::hypot(b[0] * 2.0, b[1])));

@@ -14,7 +14,7 @@ use crate::scene::{MoveKind, Point, SceneMove, ScenePath};
 const ROOM_FOR_ARROW: f64 = 26.0;
 
 /// Number of pieces for flattening an arc in another plane.
-const PIECES: u32 = 24;
+const PIECES_PER_ARC: u32 = 24;
 
 /// All moves along one line, regardless of direction: the direction of the first and the depth of the deepest.
 struct Cut<'a> {
@@ -209,8 +209,8 @@ pub(super) fn data(way: &Move, place: &PageTransform) -> String {
             }
         }
         MoveShape::Arc(_) => {
-            for piece in 1..=PIECES {
-                _ = write!(data, "L{}", in_plane(way.point(f64::from(piece) / f64::from(PIECES))));
+            for piece in 1..=PIECES_PER_ARC {
+                _ = write!(data, "L{}", in_plane(way.point(f64::from(piece) / f64::from(PIECES_PER_ARC))));
             }
         }
     }

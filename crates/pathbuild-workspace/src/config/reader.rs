@@ -191,11 +191,11 @@ impl<'a> TomlReader<'a> {
 
 /// A name for messages, shortened if it is very long.
 fn short(name: &str) -> Cow<'_, str> {
-    const MOST: usize = 100;
-    if name.len() <= MOST {
+    const MAX_NAME_BYTES: usize = 100;
+    if name.len() <= MAX_NAME_BYTES {
         return name.into();
     }
-    format!("{}…", &name[..name.floor_char_boundary(MOST)]).into()
+    format!("{}…", &name[..name.floor_char_boundary(MAX_NAME_BYTES)]).into()
 }
 
 /// Keys of earlier versions, with their replacements.
@@ -352,7 +352,8 @@ impl KeyIndex {
     pub(super) fn find(&self, name: &str) -> Option<KeyPlace<'_>> {
         let exact = self.keys().find(|home| home.key == name);
         exact.or_else(|| {
-            let near = nearest(name, self.keys().map(|home| home.key)).filter(|_| name.len() >= SHORTEST)?;
+            let near = nearest(name, self.keys().map(|home| home.key))
+                .filter(|_| name.len() >= MIN_SUGGESTED_LENGTH)?;
             let home = self.keys().find(|home| home.key == near)?;
             Some(KeyPlace { is_exact: false, ..home })
         })
@@ -364,7 +365,7 @@ impl KeyIndex {
 }
 
 /// Minimum length of a name for which similar names in other tables are suggested: shorter names resemble too many others.
-const SHORTEST: usize = 5;
+const MIN_SUGGESTED_LENGTH: usize = 5;
 
 fn properties(table: &Json) -> Option<&Map<String, Json>> {
     table["properties"].as_object()

@@ -185,7 +185,7 @@ pub struct Pattern {
 }
 
 /// Upper bound on the length of a glob in bytes: nested braces need a deep stack.
-const LONGEST: usize = 1000;
+const MAX_GLOB_BYTES: usize = 1000;
 
 impl Pattern {
     /// Compiles a glob, in which `*` does not match `/`.
@@ -193,8 +193,8 @@ impl Pattern {
     /// # Errors
     /// A description of the error.
     pub fn new(text: &str) -> Result<Self, Value> {
-        if text.len() > LONGEST {
-            return Err(text_too_long(LONGEST).into());
+        if text.len() > MAX_GLOB_BYTES {
+            return Err(text_too_long(MAX_GLOB_BYTES).into());
         }
         let glob = GlobBuilder::new(text).literal_separator(true).case_insensitive(true).build();
         // Build a set because a single matcher would panic where a set returns an error: if the expression is too large or its braces are

@@ -93,7 +93,7 @@ pub(super) fn reasons(old: Side<'_>, new: Side<'_>) -> Vec<Reason> {
     let mut explainer = Explainer {
         old: old.db,
         new: new.db,
-        is_read_otherwise: changed_settings.keys().any(|name| READING.contains(name)),
+        is_read_otherwise: changed_settings.keys().any(|name| READING_KEYS.contains(name)),
         known: HashMap::new(),
         used_options: BTreeSet::new(),
         has_same_file: false,
@@ -103,13 +103,13 @@ pub(super) fn reasons(old: Side<'_>, new: Side<'_>) -> Vec<Reason> {
     let Explainer { used_options, has_same_file, has_other_order, .. } = explainer;
     let (used, others): (Vec<_>, Vec<_>) = changed_settings
         .into_iter()
-        .partition(|(name, _)| used_options.contains(name) || has_same_file && READING.contains(name));
+        .partition(|(name, _)| used_options.contains(name) || has_same_file && READING_KEYS.contains(name));
     let settings = |changes: Vec<(&str, ValueChange)>| {
         changes.into_iter().map(|(_, change)| Reason::Setting(change)).collect::<Vec<_>>()
     };
     let mut reasons: Vec<Reason> = settings(used).into_iter().chain(drawn).collect();
     if reasons.is_empty() {
-        reasons = settings(others.into_iter().filter(|(name, _)| WALKING.contains(name)).collect());
+        reasons = settings(others.into_iter().filter(|(name, _)| WALK_KEYS.contains(name)).collect());
     }
     if reasons.is_empty() && has_other_order {
         reasons.push(Reason::Reordered);
@@ -118,17 +118,17 @@ pub(super) fn reasons(old: Side<'_>, new: Side<'_>) -> Vec<Reason> {
 }
 
 /// Keys that decide what is read from a drawing.
-const READING: [&str; 4] = ["approximate-curves", "compatible", "line-types", "units"];
+const READING_KEYS: [&str; 4] = ["approximate-curves", "compatible", "line-types", "units"];
 
 /// Keys that decide how drawn elements are followed. They count where nothing else explains the moves.
-const WALKING: [&str; 2] = ["compatible", "join-tolerance"];
+const WALK_KEYS: [&str; 2] = ["compatible", "join-tolerance"];
 
 /// Keys whose values apply to elements without a value in a text.
 const DEFAULTS: [&str; 3] = ["feed", "probe-feed", "sweep-height"];
 
 /// The keys that can change moves, with values that differ.
 fn changed_settings(old: &Settings, new: &Settings) -> BTreeMap<&'static str, ValueChange> {
-    let can_move = |name: &str| [&READING[..], &WALKING, &DEFAULTS].concat().contains(&name);
+    let can_move = |name: &str| [&READING_KEYS[..], &WALK_KEYS, &DEFAULTS].concat().contains(&name);
     let values = |all: &Settings| {
         let all = settings(all).into_iter().filter(|setting| setting.section.is_empty());
         all.map(|setting| (setting.name, setting.value)).collect::<BTreeMap<_, _>>()

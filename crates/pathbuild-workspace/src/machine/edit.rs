@@ -122,8 +122,8 @@ fn toml(value: &Quantity) -> Value {
 /// Writes whole numbers as a user would, without decimals.
 #[expect(clippy::cast_possible_truncation, reason = "small whole numbers only")]
 fn toml_number(number: f64) -> Value {
-    const MOST: f64 = 1e15;
-    if number.fract() == 0.0 && number.abs() < MOST {
+    const MAX_INTEGER: f64 = 1e15;
+    if number.fract() == 0.0 && number.abs() < MAX_INTEGER {
         Value::from(number as i64)
     } else {
         Value::from(number)

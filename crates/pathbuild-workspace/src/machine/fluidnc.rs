@@ -10,7 +10,7 @@ use saphyr_parser::{Event, Parser};
 use super::{Description, Entries, broken};
 
 /// Upper bound on the depth of nested sections. Real files have up to five.
-const DEEPEST: usize = 64;
+const MAX_SECTION_DEPTH: usize = 64;
 
 /// Whether the text has a section for axes.
 pub(super) fn is_configuration(text: &str) -> bool {
@@ -105,7 +105,7 @@ struct Walk {
 
 impl Walk {
     fn open(&mut self, level: Level, line: usize) -> Result<(), Box<Diagnostic>> {
-        if self.levels.len() == DEEPEST {
+        if self.levels.len() == MAX_SECTION_DEPTH {
             return Err(broken("sections are nested too deeply", line));
         }
         self.levels.push(level);

@@ -49,7 +49,7 @@ pub(super) struct WalkResult {
 }
 
 /// Number of directories up to which listing them one after the other is faster than starting threads.
-const FEW: usize = 4;
+const MAX_SEQUENTIAL_DIRECTORIES: usize = 4;
 
 /// Settings of a recursive search.
 #[derive(Clone, Copy, Debug)]
@@ -98,7 +98,7 @@ impl Walk<'_> {
                 let list = || Directory::list(directory, above.clone(), self, &budget);
                 catch_bugs(list).unwrap_or_else(|bug| Ok(Some(Directory::failed(directory, *bug))))
             };
-            let is_parallel = self.is_parallel && open.len() > FEW;
+            let is_parallel = self.is_parallel && open.len() > MAX_SEQUENTIAL_DIRECTORIES;
             let listed: Vec<_> = if is_parallel {
                 open.par_iter().map(list).collect()
             } else {

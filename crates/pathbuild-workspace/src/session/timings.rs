@@ -27,7 +27,7 @@ pub static CHECKING: Text = Text { en: "checking paths", de: "Pfade prüfen" };
 pub static KEEPING: Text = Text { en: "storing results", de: "Ergebnisse speichern" };
 
 /// Number of slowest paths that are listed.
-const SLOWEST: usize = 10;
+const MAX_LISTED_PATHS: usize = 10;
 
 impl Timings {
     /// Starts measuring.
@@ -73,7 +73,7 @@ impl Timings {
             lock(&self.phases).iter().map(|(phase, time)| line(*time, phase.in_lang(lang))).collect();
         let mut paths = lock(&self.paths).clone();
         paths.sort_by(|(a, slow), (b, slower)| slower.cmp(slow).then_with(|| a.cmp(b)));
-        lines.extend(paths.iter().take(SLOWEST).map(|(name, time)| line(*time, name)));
+        lines.extend(paths.iter().take(MAX_LISTED_PATHS).map(|(name, time)| line(*time, name)));
         lines
     }
 }

@@ -359,11 +359,11 @@ fn disagreements_of(tool: &CuttingTool, diameters: &ToolDiameters) -> Vec<Diagno
 
 /// Both values, if they differ.
 fn different(one: Option<f64>, other: Option<f64>) -> Option<(f64, f64)> {
-    one.zip(other).filter(|(one, other)| (one - other).abs() > SAME)
+    one.zip(other).filter(|(one, other)| (one - other).abs() > TOLERANCE)
 }
 
 /// Tolerance in mm within which diameters and heights are equal.
-const SAME: f64 = 1e-6;
+const TOLERANCE: f64 = 1e-6;
 
 /// Diameter in mm of the widest cutter that is assumed where none is known. A wider one may have cleared whatever lies between two cuts.
 const WIDEST: f64 = 50.0;

@@ -61,10 +61,10 @@ const POLL_INTERVAL: Duration = Duration::from_secs(1);
 const DIRECTORY_CHECK_INTERVAL: Duration = Duration::from_secs(1);
 
 /// How long to wait for an incomplete drawing after its last change. Some programs never write the end marker.
-const PATIENCE: Duration = Duration::from_secs(2);
+const INCOMPLETE_DRAWING_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// Interval at which incomplete drawings are checked.
-const GLANCE: Duration = Duration::from_millis(50);
+const INCOMPLETE_DRAWING_INTERVAL: Duration = Duration::from_millis(50);
 
 impl Watcher {
     /// Starts watching. `post` lists the files that the post-processor is read from.
@@ -167,7 +167,7 @@ impl Watcher {
             return Some(Batch::Restart(restart));
         }
         self.hold_back(&mut changes);
-        self.due = Instant::now() + GLANCE;
+        self.due = Instant::now() + INCOMPLETE_DRAWING_INTERVAL;
         (!changes.is_empty() || library.has_backlog()).then_some(Batch::Changes(changes))
     }
 
@@ -275,7 +275,7 @@ impl Watcher {
         let now = Instant::now();
         for path in std::mem::take(&mut changes.paths) {
             if is_unfinished(&*self.system, &path) {
-                self.unfinished.insert(path, now + PATIENCE);
+                self.unfinished.insert(path, now + INCOMPLETE_DRAWING_TIMEOUT);
             } else {
                 self.unfinished.remove(&path);
                 changes.paths.insert(path);

@@ -66,7 +66,7 @@ struct WatchLoop<'a> {
 const FIRST_PORTION: usize = 512;
 
 /// Number of drawings checked between polls for new changes.
-const PORTION: usize = 64;
+const DRAWINGS_PER_POLL: usize = 64;
 
 impl WatchLoop<'_> {
     fn run(mut self) -> WatchEnd {
@@ -129,7 +129,7 @@ impl WatchLoop<'_> {
         let mut written = Vec::new();
         self.follow_links();
         while self.library.has_backlog() {
-            let portion = self.library.check_portion(PORTION, &mut found);
+            let portion = self.library.check_portion(DRAWINGS_PER_POLL, &mut found);
             self.follow_links();
             let writing = self.writer.write(self.library.session_mut(), &portion);
             found.before.extend(writing.before);

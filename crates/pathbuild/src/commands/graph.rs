@@ -122,14 +122,14 @@ fn tree(graph: &Graph, direction: Direction, words: &Words) -> String {
                 remarks.push(words.shown.to_owned());
             }
         }
-        _ = write!(text, "{:indent$}{label}", "", indent = 2 * step.level.min(DEEPEST));
+        _ = write!(text, "{:indent$}{label}", "", indent = 2 * step.level.min(MAX_INDENTATION));
         _ = if remarks.is_empty() { writeln!(text) } else { writeln!(text, "  ({})", remarks.join(", ")) };
     }
     text
 }
 
 /// Upper bound on the indentation level: deeper lines would be unreadable, and the output of a long chain would grow quadratically.
-const DEEPEST: usize = 100;
+const MAX_INDENTATION: usize = 100;
 
 /// A line of a tree.
 struct Step {

@@ -80,9 +80,14 @@ impl Page {
 /// fault.
 fn excerpt(fault: &TextFault) -> (String, Range<usize>) {
     let (text, span) = (&*fault.text, fault.span());
-    let start = if span.start <= AROUND { 0 } else { text.floor_char_boundary(span.start - AROUND) };
-    let last = span.end.min(span.start + AROUND);
-    let end = if text.len() - last <= AROUND { text.len() } else { text.ceil_char_boundary(last + AROUND) };
+    let start =
+        if span.start <= EXCERPT_BYTES { 0 } else { text.floor_char_boundary(span.start - EXCERPT_BYTES) };
+    let last = span.end.min(span.start + EXCERPT_BYTES);
+    let end = if text.len() - last <= EXCERPT_BYTES {
+        text.len()
+    } else {
+        text.ceil_char_boundary(last + EXCERPT_BYTES)
+    };
     let (before, after) = (if start > 0 { "…" } else { "" }, if end < text.len() { "…" } else { "" });
     let fault = span.start.clamp(start, end)..span.end.clamp(start, end);
     let mut excerpt = format!("{before}{}", shown::framed(&text[start..fault.start]));
@@ -94,7 +99,7 @@ fn excerpt(fault: &TextFault) -> (String, Range<usize>) {
 }
 
 /// Number of bytes shown before, within and after a fault.
-const AROUND: usize = 400;
+const EXCERPT_BYTES: usize = 400;
 
 fn header(diagnostic: &Diagnostic, view: &View) -> String {
     let severity = view::severity(diagnostic.severity, view);

@@ -8,17 +8,17 @@ use super::{View, concise, view};
 use pathbuild_workspace::findings::Findings;
 
 /// Number of annotations per severity that GitHub shows for a step.
-const SHOWN: usize = 10;
+const MAX_ANNOTATIONS: usize = 10;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
     let of_severity =
         |severity| findings.diagnostics.iter().filter(move |diagnostic| diagnostic.severity == severity);
     let annotations = [Severity::Error, Severity::Warning]
         .into_iter()
-        .flat_map(|severity| of_severity(severity).take(SHOWN));
+        .flat_map(|severity| of_severity(severity).take(MAX_ANNOTATIONS));
     let lines = [Severity::Error, Severity::Warning]
         .into_iter()
-        .flat_map(|severity| of_severity(severity).skip(SHOWN));
+        .flat_map(|severity| of_severity(severity).skip(MAX_ANNOTATIONS));
     let annotations = annotations.map(|diagnostic| annotation(diagnostic, view));
     let lines = lines.map(|diagnostic| shown::lines(&concise::line(diagnostic, view)).into_owned());
     annotations.chain(lines).collect()

@@ -11,15 +11,15 @@ use pathbuild_workspace::findings::Fingerprint;
 use pathbuild_workspace::session::Session;
 
 /// Upper bound on the number of findings that get a picture.
-const MOST: usize = 1000;
+const MAX_PICTURES: usize = 1000;
 
 /// Size in bytes of all pictures after which no more are drawn: pictures with thousands of elements each could add up to gigabytes.
-const MOST_BYTES: usize = 256 << 20;
+const MAX_PICTURE_BYTES: usize = 256 << 20;
 
 /// One picture per finding; `None` if the finding has no place in a drawing.
 pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic]) -> Vec<Option<String>> {
     let mut files: Vec<&Utf8Path> =
-        diagnostics.iter().take(MOST).filter_map(|diagnostic| drawing(diagnostic)).collect();
+        diagnostics.iter().take(MAX_PICTURES).filter_map(|diagnostic| drawing(diagnostic)).collect();
     files.sort_unstable();
     files.dedup();
     let scenes = Session::new(workspace).drawn_scenes(&files);
@@ -44,7 +44,7 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
     };
     let mut bytes = 0;
     let picture = |(index, diagnostic): (usize, &'d Diagnostic)| {
-        drawing(diagnostic).filter(|_| index < MOST && bytes < MOST_BYTES)?;
+        drawing(diagnostic).filter(|_| index < MAX_PICTURES && bytes < MAX_PICTURE_BYTES)?;
         let picture = stock(index, diagnostic).or_else(|| drawn(diagnostic))?;
         bytes += picture.len();
         Some(picture)

@@ -219,17 +219,17 @@ pub(super) const HEADERS: [(header::HeaderName, &str); 5] = [
 ];
 
 /// Upper bound on concurrent connections; further ones wait. A page uses two, and briefly a third.
-const MOST: usize = 256;
+const MAX_CONNECTIONS: usize = 256;
 
 /// Time that a connection may take to send a request. Responses, such as the event stream, may take longer.
-const SILENCE: Duration = Duration::from_secs(10);
+const REQUEST_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// Pause after a system error, such as too many open files.
-const PAUSE: Duration = Duration::from_secs(1);
+const ERROR_PAUSE: Duration = Duration::from_secs(1);
 
 /// Accepts and serves connections forever.
 pub(super) async fn answer(listener: tokio::net::TcpListener, router: Router) -> Infallible {
-    let free = Arc::new(Semaphore::new(MOST));
+    let free = Arc::new(Semaphore::new(MAX_CONNECTIONS));
     loop {
         // The semaphore is never closed, so a permit is always available eventually.
         let permit = Arc::clone(&free).acquire_owned().await.ok();
@@ -238,7 +238,7 @@ pub(super) async fn answer(listener: tokio::net::TcpListener, router: Router) ->
         tokio::spawn(async move {
             let _permit = permit;
             let mut http = http1::Builder::new();
-            http.timer(TokioTimer::new()).header_read_timeout(SILENCE);
+            http.timer(TokioTimer::new()).header_read_timeout(REQUEST_TIMEOUT);
             // Malformed or missing requests are answered by closing the connection.
             _ = http.serve_connection(TokioIo::new(stream), TowerToHyperService::new(router)).await;
         });
@@ -251,7 +251,7 @@ async fn next(listener: &tokio::net::TcpListener) -> TcpStream {
         match listener.accept().await {
             Ok((stream, _)) => return stream,
             Err(error) if is_gone(&error) => {}
-            Err(_) => sleep(PAUSE).await,
+            Err(_) => sleep(ERROR_PAUSE).await,
         }
     }
 }
