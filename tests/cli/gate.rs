@@ -148,3 +148,67 @@ fn the_post_for_freecad_writes_only_what_passes() {
     assert!(written.status.success(), "{written:?}");
     assert_eq!(place.read("out.nc"), SOUND);
 }
+
+/// A check with a probed height that pathbuild assumes has not examined the moves of the machine.
+#[test]
+fn rapid_moves_by_values_of_the_machine_are_checked_by_assumption() {
+    let program = |height: &str| {
+        format!(
+            "G17 G21 G40 G54 G90 G94 F100\nG0 Z5\nG0 X20 Y0\nG38.2 Z-10\nG0 Z{height}\nG0 X0\nG1 Z-1\nG1 X20\nG0 Z5\nM30\n"
+        )
+    };
+    let verify = |height: &str, arguments: &str| {
+        let place = Place::new().file("a.nc", program(height));
+        place.run(&format!("verify a.nc --dialect linuxcnc --cutter 2 --surface 0 {arguments}"))
+    };
+    assert_eq!(verify("5", "--require rapids").status, Some(0));
+    let run = verify("[#5063+5]", "--require rapids");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(
+        run.stderr.contains("PB523") && run.stderr.contains("values that only the machine knows"),
+        "{run}"
+    );
+    let run = verify("[#5063+5]", "--require rapids=assumed");
+    assert_eq!(run.status, Some(0), "{run}");
+    assert!(run.stderr.contains("(values that only the machine knows are assumed)"), "{run}");
+    let run = verify("[#5063+5]", "--lang de");
+    assert!(run.stderr.contains("(Werte, die nur die Maschine kennt, sind angenommen)"), "{run}");
+}
+
+/// Programs are generated, and generated files stand in .gitignore.
+#[test]
+fn programs_that_git_ignores_are_verified() {
+    let place = Place::new()
+        .file(".gitignore", "gcode/\n*.tap\n")
+        .file("gcode/wrong.nc", wrong())
+        .file("gcode/old/.ignore", "*.nc\n")
+        .file("gcode/old/left.nc", wrong())
+        .file("other.tap", wrong())
+        .file("ok/sound.nc", SOUND);
+    let run = place.run("verify . --format concise");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(run.stderr.contains("gcode/wrong.nc:") && run.stderr.contains("other.tap:"), "{run}");
+    assert!(!run.stderr.contains("left.nc"), "{run}");
+}
+
+/// Where the tool table says how a tool turns, or the program says how fast, the program must start the spindle.
+#[test]
+fn a_spindle_that_is_never_started_is_found() {
+    let program = |speed: &str| {
+        format!("G21 G90 G94 G17\n{speed}\nG0 Z15\nG0 X0 Y0\nG1 Z-2 F200\nG1 X40 F600\nG0 Z15\nM30\n")
+    };
+    let verify = |table: &str, speed: &str| {
+        let place = Place::new().file("pathbuild.toml", table).file("a.nc", program(speed));
+        let run = place.run("verify a.nc --dialect linuxcnc --format concise");
+        let found = run.stderr.lines().find(|line| line.contains("PB745")).map(str::to_owned);
+        found.map(|line| line.split("PB745").next().unwrap_or_default().to_owned())
+    };
+    let table = "[tool.a]\ndiameter = 2\nnumber = 1\nspindle = 12000\n";
+    assert_eq!(verify(table, "T1 M6").as_deref(), Some("a.nc:5:1: error["));
+    assert_eq!(verify(table, "T1 M6 M3 S900"), None);
+    assert_eq!(verify(&table.replace("spindle = 12000\n", ""), "T1 M6"), None);
+    assert_eq!(verify(&format!("spindle = \"manual\"\n{table}"), "T1 M6"), None);
+    assert_eq!(verify("", "T1 M6"), None);
+    assert_eq!(verify("", "S12000").as_deref(), Some("a.nc:5:1: warning["));
+    assert_eq!(verify("", "S0"), None);
+}

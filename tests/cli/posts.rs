@@ -600,6 +600,28 @@ fn values_that_only_the_machine_knows_are_refused() {
     }
 }
 
+/// Where the program stops, the operator may change the tool and set zero, so that the tip is on the plate.
+#[test]
+fn a_stop_of_the_program_is_followed_by_the_lift_of_the_program() {
+    let program = |height: &str| {
+        format!(
+            "G21 G90 G17 G94\nG0 Z20\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20\n{height}\nM0\nG0 X0 Y30\nG1 Z-1\nG1 X20\nG0 Z20\nM30\n"
+        )
+    };
+    let behind_stop = |height: &str, post: &str| {
+        let place =
+            Place::new().file("pathbuild.toml", "spindle = \"manual\"\n").file("a.nc", program(height));
+        let run = place.run(&format!("post a.nc --dialect grbl --post {post} --surface 0"));
+        run.stdout.lines().skip_while(|line| *line != "M0").nth(1).map(str::to_owned)
+    };
+    for post in ["grbl", "linuxcnc", "mach3", "estlcam"] {
+        assert_eq!(behind_stop("G0 Z20", post).as_deref(), Some("G0 Z20.0"), "{post}");
+    }
+    // A pause in the middle of a cut goes on from where it was.
+    let goes_on = "G0 Z20\nG0 X1\nG0 Z1\nG1 Z-1";
+    assert_eq!(behind_stop(goes_on, "grbl").as_deref(), Some("G0 X0.0 Y30.0 Z-1.0"));
+}
+
 #[test]
 fn post_writes_to_standard_output_as_emit_does() {
     let program = "G21 G90 G17 G94\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG0 Z5\nM2\n";

@@ -198,6 +198,34 @@ fn an_accepted_rapid_move_holds_while_it_is_not_deeper() {
     assert!(invalid.status == Some(2) && invalid.stderr.contains("`deep` is not a depth"), "{invalid}");
 }
 
+/// A move down and sideways, and one beyond the travel, hold only as far as they were accepted.
+#[test]
+fn slopes_and_moves_beyond_the_machine_are_accepted_up_to_a_depth() {
+    let program = |slope: &str, x: &str| {
+        format!(
+            "G21 G90 G17 G40 G94 G54\nM3 S12000\nG0 Z5\nG0 X0 Y0\nG1 Z-3 F100\nG1 X20 F200\nG0 Z5\nG0 X10 Z{slope}\nG0 Z5\nG0 X{x}\nM5\nM30\n"
+        )
+    };
+    let table = "[machine]\nx = [-10, 100]\ny = [-10, 100]\nz = [-10, 50]\n";
+    let place = Place::new().file("pathbuild.toml", table).file("p.nc", program("-1", "100.5"));
+    let verify = "verify p.nc --dialect linuxcnc --cutter 2 --surface 0";
+    for code in ["PB744", "PB748"] {
+        let accept: Vec<&str> = verify.split(' ').chain(["--accept", code, "--reason", "wax"]).collect();
+        let run = place.run_with(&accept);
+        assert!(run.stderr.contains("1 finding accepted"), "{run}");
+    }
+    let baseline = place.read("pathbuild-baseline.txt");
+    assert!(baseline.contains(" depth=1 ") && baseline.contains(" depth=0.5 "), "{baseline}");
+    let notes = |slope: &str, x: &str| {
+        std::fs::write(place.path().join("p.nc"), program(slope, x)).unwrap();
+        place.run(verify).stderr.matches("accepted up to a depth of").count()
+    };
+    assert_eq!(notes("-1", "100.5"), 0);
+    assert_eq!(notes("-0.9", "100.4"), 0);
+    assert_eq!(notes("-1.01", "100.5"), 1);
+    assert_eq!(notes("-1", "100.51"), 1);
+}
+
 #[test]
 fn invalid_dates_are_named_with_their_places() {
     let line = "0123456789abcdef0123456789abcdef";

@@ -131,7 +131,7 @@ pub struct ProgramCheck {
 pub enum CheckState {
     /// It was made.
     Made,
-    /// It was made with values that only comments of the program state.
+    /// It was made with values that only comments of the program state, or that only the machine knows.
     Assumed,
     /// It was not made, or not for all moves.
     NotMade,
@@ -176,7 +176,7 @@ impl ProgramCheck {
             Outcome::Made(values) => {
                 (CheckState::Made, values.as_ref().map(|values| values.in_lang(lang)).unwrap_or_default())
             }
-            Outcome::Assumed(values) => (CheckState::Assumed, values.in_lang(lang)),
+            Outcome::Assumed(values, _) => (CheckState::Assumed, values.in_lang(lang)),
             Outcome::Incomplete(_, blind) => (CheckState::NotMade, verify::blind_text(*blind, lang)),
             Outcome::NotMade(reason) => (CheckState::NotMade, reason.text().in_lang(lang).to_owned()),
         };

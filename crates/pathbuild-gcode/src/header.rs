@@ -376,12 +376,17 @@ impl Collector {
         }
     }
 
-    /// Reports listed tools that the program does not change to, unless none of its changes is to a listed one.
+    /// Reports listed tools that the program does not change to; only the first one if it changes to none of them. A program without any
+    /// change leaves the tool to the operator.
     fn never_selected(&mut self, changes: &[(u32, u32)]) {
         let is_used = |number: &u32| changes.iter().any(|(_, change)| change == number);
-        let is_list_of_program = self.numbered.keys().any(is_used);
-        let unused = self.numbered.iter().filter(|(number, _)| is_list_of_program && !is_used(number));
-        for (number, cutter) in unused {
+        let most = match changes {
+            [] => 0,
+            _ if self.numbered.keys().any(is_used) => usize::MAX,
+            _ => 1,
+        };
+        let unused = self.numbered.iter().filter(|(number, _)| !is_used(number));
+        for (number, cutter) in unused.take(most) {
             self.problems.add_at_line(&say::TOOL_NEVER_SELECTED, cutter.line, |d| {
                 d.with("number", u64::from(*number))
             });

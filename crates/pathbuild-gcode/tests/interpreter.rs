@@ -231,9 +231,19 @@ fn arcs_need_a_centre() {
 /// GRBL ends with "Unused words" (error 36) where a value word has no command, "No axis words" (26) and "G43.1 dynamic axis error" (37).
 #[test]
 fn words_without_a_command_stop_grbl() {
-    for words in
-        ["G61", "G4 P5", "G54", "G10 L2 P1 X1", "G43.1 Z1", "G49", "G0 X1", "G38.2 Z-1 F10", "M3 S1", "T1"]
-    {
+    for words in [
+        "G61",
+        "G4 P5",
+        "G54",
+        "G10 L2 P1 X1",
+        "G10 L20 P1 Z0",
+        "G43.1 Z1",
+        "G49",
+        "G0 X1",
+        "G38.2 Z-1 F10",
+        "M3 S1",
+        "T1",
+    ] {
         assert_eq!(wrong(Grbl, words), FINE, "{words}");
     }
     for words in [
@@ -242,10 +252,61 @@ fn words_without_a_command_stop_grbl() {
     ] {
         assert_eq!(wrong(Grbl, words), ["2 unused-word"], "{words}");
     }
-    for words in ["G38.2 F10", "G43.1", "G43.1 X1", "G43.1 X1 Z1", "G4", "G92"] {
+    for words in ["G38.2 F10", "G43.1", "G43.1 X1", "G43.1 X1 Z1", "G4", "G92", "G10 L2 P1", "G10 L20 P1"] {
         assert_eq!(wrong(Grbl, words), ["2 missing-word"], "{words}");
     }
     assert_eq!(wrong(LinuxCnc, "G43.1 X1"), FINE);
+    assert_eq!(wrong(LinuxCnc, "G10 L2 P1"), FINE);
+}
+
+/// P0 sets the external offset of Fanuc, L20 the additional systems, and with G91 the numbers are added.
+#[test]
+fn g10_of_fanuc_sets_other_offsets() {
+    for words in ["G10 L2 P0 Z-5.", "G10 L20 P1 Z0", "G91\nG10 L2 P1 Z-5.\nG90"] {
+        for dialect in [Fanuc, Haas, Mach3] {
+            let found = wrong(dialect, words);
+            assert!(found.len() == 1 && found[0].ends_with("word-not-followed"), "{words}: {found:?}");
+        }
+        assert_eq!(wrong(LinuxCnc, words), FINE, "{words}");
+    }
+    assert_eq!(wrong(Fanuc, "G10 L2 P1 Z-5."), FINE);
+}
+
+/// G43.1 replaces the length, so that the same coordinate is elsewhere afterwards.
+#[test]
+fn a_length_given_by_number_moves_the_tip_once_the_tool_has_cut() {
+    let cut = "G49\nG0 X0 Y0 Z5\nG1 X1 F100";
+    for dialect in [LinuxCnc, Grbl, Native] {
+        let moves = |then: &str| run(dialect, &format!("{cut}\n{then}"));
+        assert_eq!(
+            moves("G43.1 Z-10\nG0 Z5\nG0 X2\nG43.1 Z0\nG0 Z5")[2..],
+            ["6 rapid to 1 0 -5", "7 rapid to 2 0 -5", "9 rapid to 2 0 5"]
+        );
+        assert_eq!(moves("G43.1 Z0\nG0 Z5")[2..], ["6 rapid to 1 0 5"]);
+        assert_eq!(moves("G20 G43.1 Z1\nG21 G0 Z5")[2..], ["6 rapid to 1 0 30.4"]);
+        assert_eq!(wrong(dialect, &format!("{cut}\nG43.1 Z-10")), FINE);
+    }
+    // Another tool has a zero of its own, and so has one that has not cut yet.
+    let fine = "T1 M6\nG49\nG0 X0 Y0 Z5\nG43.1 Z-9\nG0 Z5\nG1 X1 F100\nT2 M6\nG43.1 Z7\nG0 Z5\nG1 X2";
+    assert_eq!(wrong(LinuxCnc, fine), FINE);
+    assert_eq!(run(LinuxCnc, fine)[2], "6 rapid to 0 0 5");
+    assert_eq!(run(LinuxCnc, fine).last().map(String::as_str), Some("11 feed 100 to 2 0 5"));
+}
+
+#[test]
+fn a_length_whose_difference_is_unknown_is_not_followed() {
+    let found = |length: &str, then: &str| {
+        wrong(LinuxCnc, &format!("T1 M6\n{length}\nG0 X0 Y0 Z5\nG1 X1 F100\n{then}\nG0 Z5\nG1 X2"))
+    };
+    assert_eq!(found("G43 H1", "G43.1 Z5"), ["6 word-not-followed"]);
+    assert_eq!(found("", "G43.1 Z5"), ["6 word-not-followed"], "that of the program before");
+    assert_eq!(found("G43.1 Z4", "G43.1 Z5"), FINE);
+    assert_eq!(found("G43 H1", "T2 M6\nG43.1 Z5"), FINE);
+    assert_eq!(found("G43 H1", "M0\nG43.1 Z5"), FINE, "the operator may have changed the tool");
+    assert_eq!(found("G43 H1", "G43.2 H2"), ["6 word-not-followed"]);
+    // Both words want Z.
+    assert_eq!(found("G43.1 Z4", "G0 G43.1 Z5"), ["6 conflicting-words"]);
+    assert_eq!(found("G43.1 Z4", "G80 G43.1 Z5"), FINE);
 }
 
 /// Fanuc keeps H and D, LinuxCNC refuses them where no word needs them.
@@ -782,6 +843,37 @@ fn parameters_end_where_the_dialects_do() {
 #[test]
 fn what_only_the_machine_knows_is_said() {
     assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z5\nG38.2 Z0 F10\nG0 Z[#5063+1]"), ["4 machine-value"]);
+}
+
+/// LinuxCNC, "Numbered Parameters": 5420 to 5428 are the current position in the active coordinate system and in the program's unit.
+#[test]
+fn the_present_position_and_system_are_known() {
+    let last = |program: &str| {
+        assert_eq!(wrong(LinuxCnc, program), FINE, "{program}");
+        run(LinuxCnc, program).pop().expect("a move")
+    };
+    let start = "G0 X20 Y-2 Z5\nG52 X1";
+    assert_eq!(last(&format!("{start}\nX[#5420+5]")), "4 rapid to 25 -2 5");
+    assert_eq!(last(&format!("{start}\nG20\nX0 Y[#5421] Z[#<_z>+1]")), "5 rapid to 1 -2 30.4");
+    assert_eq!(last(&format!("{start}\nX[#<_x>+#5220] Y[#<_metric>-#<_incremental>]")), "4 rapid to 21 1 5");
+    assert_eq!(wrong(LinuxCnc, "G0 Z5\nG0 X[#5420+5]"), ["3 machine-value"], "X is not known yet");
+    assert_eq!(
+        wrong(LinuxCnc, "G0 X0 Y0 Z5\nT1 M6\nG0 X[#5420]"),
+        ["4 machine-value"],
+        "moved by the change"
+    );
+    assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z5\nG38.2 Z0 F10\nG0 Z[#5422+1]"), ["4 machine-value"]);
+    assert_eq!(wrong(LinuxCnc, "G0 X[#5423]"), ["2 machine-value"]);
+}
+
+#[test]
+fn names_that_linuxcnc_defines_are_values_of_the_machine() {
+    for name in ["_task", "_abs_z", "_ini[axis_z]max_limit", "_hal[axis.0.pos]", "_VMAJOR"] {
+        assert_eq!(wrong(LinuxCnc, &format!("#1=#<{name}>")), ["2 machine-value"], "{name}");
+        assert_eq!(wrong(LinuxCnc, &format!("#1=EXISTS[#<{name}>]\nG0 X#1 Y[1/#1]")), FINE, "{name}");
+    }
+    assert_eq!(wrong(LinuxCnc, "#1=#<_tasks>"), ["2 cannot-evaluate"]);
+    assert_eq!(wrong(LinuxCnc, "#<_task>=2\n#1=#<_task>"), FINE, "what the program has set");
 }
 
 #[test]

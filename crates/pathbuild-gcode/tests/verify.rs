@@ -247,7 +247,11 @@ fn the_cutter_is_raised_before_it_moves_in_the_plane() {
     // Named positions.
     assert_eq!(wrong("G53 G0 Z0\nG0 X1 Y1"), FINE);
     assert_eq!(wrong("G28 G91 Z0\nG90\nG0 X1 Y1"), FINE);
-    assert_eq!(wrong("G53 G0 X5 Y5\nG0 X1 Y1"), ["3 start-not-raised"]);
+    // In the plane alone they do not raise it.
+    assert_eq!(wrong("G53 G0 X5 Y5\nG0 X1 Y1"), ["2 start-not-raised"]);
+    assert_eq!(wrong("G53 G0 X0\nG0 Z5\nG0 X1 Y1"), ["2 start-not-raised"]);
+    assert_eq!(wrong("G28 X0\nG0 Z5\nG0 X1 Y1"), ["2 start-not-raised"]);
+    assert_eq!(wrong("G28 Z0\nG53 G0 X5 Y5"), FINE);
 }
 
 #[test]
@@ -386,6 +390,8 @@ fn after_a_probe_the_height_is_not_above_everything() {
         |then: &str| from_unknown(&format!("G0 Z5\nG0 X0 Y0\nG38.2 Z-1 F50\n{then}\nG0 X0 Y0\nG0 Z5"));
     assert_eq!(program("G0 Z5").1, None);
     assert_eq!(program("G0 X50").1, Some((2, 5)));
+    assert_eq!(program("G53 G0 X50\nG0 X50").1, Some((2, 6)), "G53 raises nothing without Z");
+    assert_eq!(program("G53 G0 Z0\nG0 X50").1, None);
 }
 
 #[test]
@@ -404,6 +410,22 @@ fn a_probe_is_raised_before_it_moves_on() {
     assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 Z0\nG4 P4\nG0 X9"), ["5 probe-not-raised"]);
     assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 Z0\nG4 P4\nG0 Z5\nG0 X9"), FINE);
     assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 X9\nG0 X8"), FINE, "back from an edge");
+    assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 Z0\nG53 G0 X0"), ["4 probe-not-raised"]);
+    assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 Z0\nG53 G0 Z0"), FINE);
+}
+
+#[test]
+fn no_rapid_move_goes_further_down_after_a_probe() {
+    let then = |words: &str| wrong(&format!("G0 X0 Y0 Z5\nG38.2 Z-10 F50\n{words}\nG90 G0 Z5"), None);
+    assert_eq!(then("G91 G0 Z-2"), ["4 probe-not-raised"]);
+    assert_eq!(then("G91 G0 Z2"), FINE);
+    assert_eq!(then("G91 G0 Z2\nG0 Z-2"), FINE, "back to where it touched");
+    assert_eq!(then("G91 G0 Z2\nG0 Z-2.001"), ["5 probe-not-raised"]);
+    assert_eq!(then("G91 G0 Z2\nG38.2 Z-3\nG0 Z-0.1"), ["6 probe-not-raised"], "the second, slower probe");
+    assert_eq!(then("G91 G1 Z-2"), FINE, "at feed");
+    assert_eq!(then("G0 Z-10"), FINE);
+    assert_eq!(then("G0 Z-10.001"), ["4 probe-not-raised"]);
+    assert_eq!(then("G92 Z0\nG0 Z5\nG91 G0 Z-3\nG92.1"), FINE, "the height is known");
 }
 
 #[test]

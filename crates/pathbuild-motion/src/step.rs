@@ -220,6 +220,11 @@ impl WorkSystem {
         u8::try_from(number).ok().filter(|number| (1..=9).contains(number)).map(|number| Self(number - 1))
     }
 
+    /// From 1 (G54) to 9 (G59.3).
+    pub fn number(self) -> u8 {
+        self.0 + 1
+    }
+
     /// From 0 (G54) to 8 (G59.3).
     pub fn index(self) -> usize {
         usize::from(self.0)
@@ -333,11 +338,19 @@ impl Pace {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Named {
     /// G53: machine coordinates. If the machine's origin is unknown, the axes of the target that are not `known` hold machine coordinates.
-    Machine,
+    Machine(Axes),
     /// G28.
-    Home1,
+    Home1(Axes),
     /// G30.
-    Home2,
+    Home2(Axes),
+}
+
+impl Named {
+    /// The axes that go there.
+    pub fn axes(self) -> Axes {
+        let (Self::Machine(axes) | Self::Home1(axes) | Self::Home2(axes)) = self;
+        axes
+    }
 }
 
 impl Move {
@@ -357,6 +370,11 @@ impl Move {
     /// Whether all axes are known at both ends.
     pub fn is_known(&self) -> bool {
         self.from.known.and(self.to.known) == Axes::ALL
+    }
+
+    /// Whether it takes the Z axis to a position that the program specifies by name, which is assumed to be above everything.
+    pub fn homes_z(&self) -> bool {
+        self.named.is_some_and(|named| named.axes().has(Axes::Z))
     }
 
     /// Whether X and Y are the same at both ends.

@@ -5,19 +5,33 @@ use pathbuild_diagnostic::messages::posts;
 use pathbuild_motion::{Action, Step};
 
 use crate::job::{HoleKind, Job, JobStep};
+use crate::shadow::TranslatedText;
 
 /// Finds the first dwell of the job that the text lacks. Further dwells are allowed, such as those that wait for the spindle. `slack` is
-/// the permitted deviation in seconds; shorter dwells need not be written.
-pub(super) fn check(steps: &[Step], job: &Job, slack: f64) -> Option<Diagnostic> {
+/// the permitted deviation in seconds; shorter dwells need not be written. Where no dialect is named, a text without any G4 may have
+/// another word for it, and the number may count milliseconds.
+pub(super) fn check(
+    steps: &[Step],
+    translated: Option<&TranslatedText>,
+    job: &Job,
+    slack: f64,
+) -> Option<Diagnostic> {
     let dwells = steps.iter().filter_map(|step| match step.action {
         Action::Dwell(seconds) => Some((step.line, seconds)),
         _ => None,
     });
-    let mut found: Vec<(u32, f64)> = dwells.collect();
+    let left_out = translated.iter().flat_map(|translated| translated.dwells.iter().copied());
+    let mut found: Vec<(u32, f64)> = dwells.chain(left_out).collect();
+    if translated.is_some() && found.is_empty() {
+        return None;
+    }
+    found.sort_by_key(|(line, _)| *line);
     found.reverse();
+    let units: &[f64] = if translated.is_some() { &[1.0, 1000.0] } else { &[1.0] };
     let needed = job.operations.iter().flat_map(|operation| &operation.steps).filter_map(duration);
     for seconds in needed.filter(|seconds| *seconds > slack) {
-        let Some(at) = found.iter().rposition(|(_, found)| (found - seconds).abs() <= slack) else {
+        let lasts = |found: f64| units.iter().any(|unit| (found / unit - seconds).abs() <= slack);
+        let Some(at) = found.iter().rposition(|(_, found)| lasts(*found)) else {
             return Some(difference(seconds, found.last().copied(), steps));
         };
         found.truncate(at);

@@ -114,6 +114,8 @@ struct Builder {
     names: Vec<Box<str>>,
     /// Whether the last operation has ended.
     has_ended: bool,
+    /// Whether the last move was a rapid move to a known height.
+    is_raised: bool,
     /// Whether the last move was a probing move, so that only the machine knows the position.
     has_probed: bool,
     errors: Vec<Diagnostic>,
@@ -141,6 +143,7 @@ impl Builder {
             has_cut: false,
             names: Vec::new(),
             has_ended: false,
+            is_raised: false,
             has_probed: false,
             errors: Vec::new(),
         }
@@ -169,7 +172,7 @@ impl Builder {
                     self.has_ended = true;
                 }
             },
-            Action::Stop { .. } => self.push(JobStep::Stop),
+            Action::Stop { .. } => self.stop(),
             Action::SelectTool(_)
             | Action::System(_)
             | Action::Word(_)
@@ -249,6 +252,15 @@ impl Builder {
         self.operation().steps.push(step);
     }
 
+    /// Handles a stop for the operator, who may insert another tool or set zero anew. If the tool was raised before it, it is raised again
+    /// before it moves in the plane.
+    fn stop(&mut self) {
+        self.push(JobStep::Stop);
+        if self.is_raised {
+            self.push(JobStep::rapid([None, None, Some(self.at.z())]));
+        }
+    }
+
     /// Handles a tool change. Moves since the last cut only led to it.
     fn change_tool(&mut self, line: u32, tool: Option<u32>) {
         // In the head, M6 without T means the tool that is in the spindle; later it means a manual change.
@@ -291,6 +303,7 @@ impl Builder {
 
     fn hole(&mut self, hole: Hole) {
         self.leave_change([Some(hole.at[0]), Some(hole.at[1])]);
+        self.is_raised = true;
         self.at = Position::known(hole.at[0], hole.at[1], hole.exit);
         self.cutting().steps.push(JobStep::Hole(hole));
     }
@@ -333,6 +346,7 @@ impl Builder {
             self.cutting().steps.push(step);
         }
         self.has_probed = matches!(movement.pace, Pace::Probe { .. });
+        self.is_raised = movement.pace == Pace::Rapid && movement.to.known.has(Axes::Z);
         self.at = movement.to;
     }
 

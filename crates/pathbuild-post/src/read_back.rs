@@ -95,9 +95,9 @@ pub(super) fn check(
         }
         doubts.extend(translated.and_then(disputed));
         doubts.extend(translated.iter().flat_map(|translated| translated.unstated.iter().cloned()));
+        let shortest = tolerance.place.max(SHORTEST_DWELL);
+        problems.extend(dwells::check(&read.steps, *translated, job, shortest).map(as_post_s));
         if target.is_some() {
-            problems
-                .extend(dwells::check(&read.steps, job, tolerance.place.max(SHORTEST_DWELL)).map(as_post_s));
             doubts.extend(read.problems.into_iter().filter(is_of_modes));
         }
     }

@@ -15,6 +15,7 @@ pub(crate) struct Shadow {
     line: u32,
     doubtful: Vec<DoubtfulWord>,
     disputes: Disputes,
+    dwells: Vec<(u32, f64)>,
     /// The blank of a Heidenhain program has begun (G30), and ends with G31.
     is_blank_open: bool,
     modes: ModeWords,
@@ -64,6 +65,8 @@ pub struct TranslatedText {
     pub doubtful: Vec<DoubtfulWord>,
     /// Words whose meaning differs between controls, with the line of the first one.
     pub disputed: Option<(u32, Vec<String>)>,
+    /// The lines of G4, which the translation omits, each with its number. Whether it counts seconds or milliseconds is unknown.
+    pub dwells: Vec<(u32, f64)>,
     /// Warnings about the unit, the distance mode and the plane, if the program does not state them. The translation
     /// always does.
     pub unstated: Vec<Diagnostic>,
@@ -103,6 +106,7 @@ impl Shadow {
             line: 1,
             doubtful: Vec::new(),
             disputes: Disputes::default(),
+            dwells: Vec::new(),
             is_blank_open: false,
             modes: ModeWords::default(),
         }
@@ -118,7 +122,10 @@ impl Shadow {
         let codes = |word: &&Word| word.letter == 'G';
         let is_motion = |word: &Word| matches!(tenths(word), 0..=30 | 310 | 382..=385 | 730 | 810..=890);
         // The coordinates of G4 are not positions.
-        if !line.words.iter().filter(codes).any(|word| tenths(word) == 40) {
+        if line.words.iter().filter(codes).any(|word| tenths(word) == 40) {
+            let time = line.words.iter().find(|word| matches!(word.letter, 'P' | 'X' | 'U' | 'F' | 'S'));
+            self.dwells.extend(time.map(|time| (self.line, time.number)));
+        } else {
             let has_motion = line.words.iter().filter(codes).any(is_motion);
             if let Some(motion) = motion.filter(|_| !has_motion) {
                 self.code(i64::from(motion) * 10, is_mirrored);
@@ -200,8 +207,8 @@ impl Shadow {
 
     /// The program, and the words that are doubtful.
     pub(crate) fn finish(self) -> TranslatedText {
-        let Self { text, doubtful, disputes, modes, .. } = self;
-        TranslatedText { text, doubtful, disputed: disputes.finish(), unstated: modes.unstated }
+        let Self { text, doubtful, disputes, dwells, modes, .. } = self;
+        TranslatedText { text, doubtful, disputed: disputes.finish(), dwells, unstated: modes.unstated }
     }
 }
 

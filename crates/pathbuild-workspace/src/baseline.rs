@@ -265,18 +265,26 @@ const HEAD: &str = "\
 # Only the fingerprint at the beginning of a line counts, with until=DATE and reason=\"TEXT\" after it; the rest describes the finding.
 ";
 
-/// How deep in mm the tool is in the material, rounded up to 0.01 mm, if the finding is about that.
+/// How deep in mm the tool is in the material, or how far it leaves the travel of the machine, rounded up to 0.01 mm, if the finding is
+/// about that.
 fn depth(diagnostic: &Diagnostic) -> Option<f64> {
-    let is_in_material = matches!(
-        diagnostic.code(),
-        Code::RapidInMaterial | Code::RapidPlunge | Code::EndNotRaised | Code::ToolChangeAtDepth
-    );
     let number = |name| match diagnostic.arguments.iter().find(|(key, _)| *key == name) {
         Some((_, Value::Number(number))) => Some(number.0),
         _ => None,
     };
-    let top = number("height").or_else(|| number("surface")).filter(|_| is_in_material)?;
-    Some(((top - number("z")?) * 100.0 - ROUNDING).ceil() / 100.0)
+    let depth = match diagnostic.code() {
+        Code::RapidInMaterial
+        | Code::RapidPlunge
+        | Code::EndNotRaised
+        | Code::DiagonalRapid
+        | Code::ToolChangeAtDepth => number("height").or_else(|| number("surface"))? - number("z")?,
+        Code::OutsideMachine => match (number("value"), number("size")) {
+            (Some(value), _) => (number("least")? - value).max(value - number("most")?),
+            (None, size) => size? - number("most")?,
+        },
+        _ => return None,
+    };
+    Some((depth * 100.0 - ROUNDING).ceil() / 100.0)
 }
 
 /// Share of 0.01 mm that is attributed to rounding.

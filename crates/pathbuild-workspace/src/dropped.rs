@@ -156,7 +156,7 @@ fn equip(path: &mut ScenePath, cutter: Option<f64>, stated: &[ToolSpan], rapids:
 fn shown_check(record: &CheckRecord) -> ShownCheck {
     let outcome = match record.outcome {
         Outcome::Made(_) => "made",
-        Outcome::Assumed(_) => "assumed",
+        Outcome::Assumed(..) => "assumed",
         Outcome::Incomplete(..) | Outcome::NotMade(_) => "not-made",
     };
     ShownCheck { check: record.requirement.name(), outcome, text: bilingual(|lang| record.text(lang)) }

@@ -522,8 +522,8 @@ messages! {
     }
     /// A parameter that only the machine knows the value of.
     MACHINE_VALUE: MachineValue {
-        en: "only the machine knows #{parameter}; {value} is assumed",
-        de: "nur die Maschine kennt #{parameter}; {value} wird angenommen",
+        en: "only the machine knows {parameter}; {value} is assumed",
+        de: "nur die Maschine kennt {parameter}; {value} wird angenommen",
         help_en: "check at the machine everything that depends on this value",
         help_de: "an der Maschine alles prüfen, was von diesem Wert abhängt",
     }

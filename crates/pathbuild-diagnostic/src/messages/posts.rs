@@ -725,8 +725,8 @@ messages! {
     }
     /// A value that only the machine knows, such as the height that a probe found.
     JOB_MACHINE_VALUE: NothingToPost {
-        en: "only the machine knows #{parameter}, so what depends on it cannot be written through a post",
-        de: "nur die Maschine kennt #{parameter}; was davon abhängt, kann kein Postprozessor schreiben",
+        en: "only the machine knows {parameter}, so what depends on it cannot be written through a post",
+        de: "nur die Maschine kennt {parameter}; was davon abhängt, kann kein Postprozessor schreiben",
         help_en: "a post writes numbers: measure and calculate in a program of the machine's own",
         help_de: "ein Postprozessor schreibt Zahlen: in einem Programm der Maschine selbst messen und rechnen",
     }

@@ -404,8 +404,22 @@ messages! {
     SPINDLE_OFF: SpindleOff {
         en: "this is a cutting move with the spindle off",
         de: "das ist eine Fräsbewegung bei stehender Spindel",
-        help_en: "switch it on with M3 first; programs without any of M3 to M5 are not checked for this",
-        help_de: "sie vorher mit M3 einschalten; Programme ohne M3 bis M5 werden darauf nicht geprüft",
+        help_en: "switch it on with M3 first; programs without any of M3 to M5 are checked for this only if they have S or their tool has a speed in [tool]",
+        help_de: "sie vorher mit M3 einschalten; Programme ohne M3 bis M5 werden darauf nur geprüft, wenn sie S enthalten oder ihr Werkzeug in [tool] eine Drehzahl hat",
+    }
+    /// A program that never switches the spindle on, for a tool with a speed in the tool table.
+    SPINDLE_NEVER_STARTED: SpindleOff {
+        en: "the program cuts without ever switching the spindle on, but [tool] states how tools turn",
+        de: "das Programm fräst, ohne je die Spindel einzuschalten, aber [tool] gibt an, wie Werkzeuge drehen",
+        help_en: "write M3 and S before the cut, or spindle = \"manual\" in pathbuild.toml if the operator switches the spindle",
+        help_de: "M3 und S vor den Schnitt schreiben, oder spindle = \"manual\" in pathbuild.toml, wenn der Bediener die Spindel schaltet",
+    }
+    /// A program with S that never switches the spindle on.
+    SPINDLE_SPEED_WITHOUT_START: SpindleOff {
+        en: "the program cuts with a speed S, but never switches the spindle on",
+        de: "das Programm fräst mit einer Drehzahl S, schaltet aber die Spindel nie ein",
+        help_en: "write M3 before the cut, or switch the spindle on by hand before the program",
+        help_de: "M3 vor den Schnitt schreiben, oder die Spindel vor dem Programm von Hand einschalten",
     }
     /// A program that ends with the spindle on.
     SPINDLE_LEFT_ON: SpindleLeftOn {
@@ -427,6 +441,13 @@ messages! {
         de: "das Werkzeug fährt zur Seite, während es noch berührt, was es angetastet hat",
         help_en: "raise it first: G0 Z",
         help_de: "es vorher anheben: G0 Z",
+    }
+    /// A rapid move further down after a probe has made contact.
+    RAPID_BELOW_CONTACT: ProbeNotRaised {
+        en: "this rapid move ends {below} mm below the end of the probing move before it, in what the tool has touched",
+        de: "dieser Eilgang endet {below} mm unter dem Ende der Antastbewegung davor, in dem, was das Werkzeug berührt hat",
+        help_en: "after contact raise the tool: G91 G0 Z with a positive number, or a height above the end of the probing move",
+        help_de: "nach der Berührung das Werkzeug anheben: G91 G0 Z mit positiver Zahl, oder eine Höhe über dem Ende der Antastbewegung",
     }
     /// A spindle speed outside of the machine's range.
     SPINDLE_SPEED: SpindleSpeed {

@@ -51,6 +51,8 @@ pub struct Rules {
     pub least_increments: bool,
     /// Whether the control keeps H and D, so that they may stand beside any word for the tool length.
     pub keeps_offsets: bool,
+    /// Whether G10 needs an axis.
+    pub offsets_need_axis: bool,
     /// The letter for the repetitions of a drilling cycle.
     pub repeats: u8,
     /// Whether drilling cycles return to their initial height (G98) by default.
@@ -224,6 +226,7 @@ const BASE: Rules = Rules {
     program_numbers: false,
     least_increments: false,
     keeps_offsets: false,
+    offsets_need_axis: false,
     repeats: b'L',
     lifts_to_start: false,
     ends_cycles_beside_motion: false,
@@ -301,6 +304,8 @@ pub(super) static GRBL: Rules = Rules {
     lengths: RS274_LENGTHS,
     // gcode.c, M2 and M30: "gc_state.modal.program_flow = PROGRAM_FLOW_RUNNING; // Reset program flow."
     runs_past_end: true,
+    // gcode.c, G10: "if (!axis_words) { FAIL(STATUS_GCODE_NO_AXIS_WORDS) }; // [No axis words]".
+    offsets_need_axis: true,
     ..BASE
 };
 

@@ -16,6 +16,8 @@ pub(super) enum Command {
     Reference,
     /// G40, G43, G49, G61, G64 and others that do not change the programmed position of the tool tip.
     NoEffect(Group),
+    /// G43.1, which sets the tool length by the coordinates in its line.
+    LengthByNumber,
     LocalOffset,
     MachineCoordinates,
     System(WorkSystem),
@@ -100,6 +102,7 @@ impl Command {
             | Self::SetOrigin
             | Self::Origin(_) => Group::NonModal,
             Self::Plane(_) => Group::Plane,
+            Self::LengthByNumber => Group::ToolLength,
             Self::Inches(_) => Group::Units,
             Self::MachineCoordinates => Group::MachineCoordinates,
             Self::System(_) => Group::System,
@@ -125,7 +128,12 @@ impl Command {
     /// Whether it consumes the coordinates of the line.
     pub(super) fn takes_coordinates(self) -> bool {
         match self {
-            Self::SetOffsets | Self::Home(_) | Self::Reference | Self::LocalOffset | Self::SetOrigin => true,
+            Self::SetOffsets
+            | Self::Home(_)
+            | Self::Reference
+            | Self::LengthByNumber
+            | Self::LocalOffset
+            | Self::SetOrigin => true,
             Self::Motion(motion) => motion != Motion::None,
             _ => false,
         }
@@ -151,7 +159,8 @@ impl Command {
             301 => Self::StoreHome(1),
             400 => Self::NoEffect(CutterCompensation),
             410 | 411 | 420 | 421 => Self::NotFollowed(CutterCompensation),
-            430 | 431 | 432 | 490 => Self::NoEffect(ToolLength),
+            430 | 432 | 490 => Self::NoEffect(ToolLength),
+            431 => Self::LengthByNumber,
             520 => Self::LocalOffset,
             530 => Self::MachineCoordinates,
             540 | 550 | 560 | 570 | 580 | 590 => system(u32::from(code - 540) / 10 + 1),

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::Text;
 
+use super::state::{INCH, State};
 use crate::adjust::ProgramProbe;
 use crate::read::{Binary, Block, Code, Function, Op, Span};
 
@@ -20,8 +21,18 @@ pub(super) struct Parameters {
     numbered: BTreeMap<u32, f64>,
     named: BTreeMap<Box<str>, f64>,
     stack: Vec<f64>,
-    /// Parameters that were read although only the machine knows their values.
-    pub(super) machine_values: Vec<u32>,
+    /// Parameters that were read although only the machine knows their values, as they are spelled.
+    pub(super) machine_values: Vec<Box<str>>,
+}
+
+/// What expressions may refer to.
+pub(super) struct Scope<'s> {
+    /// Parameters are numbered from 1 to this.
+    pub(super) most: u32,
+    /// Whether the control names values of the machine, such as `#<_x>`.
+    pub(super) has_names: bool,
+    /// The state of the machine.
+    pub(super) state: &'s State,
 }
 
 /// Parameters that each subroutine has for itself: `#1` to `#30`, and names that do not begin with `_`.
@@ -64,24 +75,38 @@ impl Parameters {
         self.named.extend(of_caller.named);
     }
 
-    /// Evaluates an expression of a block. Parameters are numbered from 1 to `most`.
-    pub(super) fn evaluate(&mut self, block: &Block<'_>, code: Code, most: u32) -> Result<f64, Fault> {
+    /// Evaluates an expression of a block.
+    pub(super) fn evaluate(
+        &mut self,
+        block: &Block<'_>,
+        code: Code,
+        scope: &Scope<'_>,
+    ) -> Result<f64, Fault> {
         let mut stack = std::mem::take(&mut self.stack);
         stack.clear();
-        let result = self.run(block, block.code(code), most, &mut stack);
+        let result = self.run(block, block.code(code), scope, &mut stack);
         self.stack = stack;
         result
     }
 
-    fn run(&mut self, block: &Block<'_>, code: &[Op], most: u32, stack: &mut Vec<f64>) -> Result<f64, Fault> {
+    fn run(
+        &mut self,
+        block: &Block<'_>,
+        code: &[Op],
+        scope: &Scope<'_>,
+        stack: &mut Vec<f64>,
+    ) -> Result<f64, Fault> {
         for op in code {
             let value = match *op {
                 Op::Number(value) => value,
-                Op::Named(name) => self.by_name(block, name)?,
-                Op::Exists(name) => f64::from(u8::from(self.named.contains_key(&name_of(block, name)))),
+                Op::Named(name) => self.by_name(&name_of(block, name), scope)?,
+                Op::Exists(name) => {
+                    let name = name_of(block, name);
+                    f64::from(u8::from(self.named.contains_key(&name) || is_predefined(&name)))
+                }
                 Op::Parameter => {
                     let index = pop(stack);
-                    self.by_number(index, most)?
+                    self.by_number(index, scope)?
                 }
                 Op::Function(function) => apply(function, pop(stack))?,
                 Op::Atan => {
@@ -101,21 +126,120 @@ impl Parameters {
         Ok(pop(stack))
     }
 
-    fn by_number(&mut self, index: f64, most: u32) -> Result<f64, Fault> {
-        let number = parameter_number(index, most)?;
+    fn by_number(&mut self, index: f64, scope: &Scope<'_>) -> Result<f64, Fault> {
+        let number = parameter_number(index, scope.most)?;
         if let Some(value) = self.numbered.get(&number) {
             return Ok(*value);
         }
         if number <= LAST_OF_PROGRAMS {
             return Err(NEVER_SET);
         }
-        self.machine_values.push(number);
-        Ok(0.0)
+        let known = match number {
+            5220 => Some(f64::from(scope.state.offsets.active.number())),
+            5420 if scope.has_names => scope.state.coordinate(0),
+            5421 if scope.has_names => scope.state.coordinate(1),
+            5422 if scope.has_names => scope.state.coordinate(2),
+            _ => None,
+        };
+        Ok(known.unwrap_or_else(|| self.machine_value(format!("#{number}"))))
     }
 
-    fn by_name(&self, block: &Block<'_>, name: Span) -> Result<f64, Fault> {
-        self.named.get(&name_of(block, name)).copied().ok_or(NEVER_SET)
+    fn by_name(&mut self, name: &str, scope: &Scope<'_>) -> Result<f64, Fault> {
+        if let Some(value) = self.named.get(name) {
+            return Ok(*value);
+        }
+        if !is_predefined(name) {
+            return Err(NEVER_SET);
+        }
+        let state = scope.state;
+        let truth = |is_true: bool| f64::from(u8::from(is_true));
+        let known = match name {
+            "_x" => state.coordinate(0),
+            "_y" => state.coordinate(1),
+            "_z" => state.coordinate(2),
+            "_metric" => state.stated.units.then(|| truth(state.unit != INCH)),
+            "_imperial" => state.stated.units.then(|| truth(state.unit == INCH)),
+            "_absolute" => state.stated.distance.then(|| truth(!state.incremental)),
+            "_incremental" => state.stated.distance.then(|| truth(state.incremental)),
+            _ => None,
+        };
+        Ok(known.unwrap_or_else(|| self.machine_value(format!("#<{name}>"))))
     }
+
+    /// The value assumed for a parameter that only the machine knows.
+    fn machine_value(&mut self, parameter: String) -> f64 {
+        self.machine_values.push(parameter.into());
+        0.0
+    }
+}
+
+/// Names that LinuxCNC defines itself (interp_namedparams.cc and the chapter "Predefined Named Parameters" of its manual).
+const PREDEFINED: &[&str] = &[
+    "_a",
+    "_abs_a",
+    "_abs_b",
+    "_abs_c",
+    "_abs_u",
+    "_abs_v",
+    "_abs_w",
+    "_abs_x",
+    "_abs_y",
+    "_abs_z",
+    "_absolute",
+    "_adaptive_feed",
+    "_b",
+    "_c",
+    "_call_level",
+    "_ccomp",
+    "_coord_system",
+    "_current_pocket",
+    "_current_tool",
+    "_feed",
+    "_feed_hold",
+    "_feed_override",
+    "_flood",
+    "_ijk_absolute_mode",
+    "_imperial",
+    "_incremental",
+    "_inverse_time",
+    "_lathe_diameter_mode",
+    "_lathe_radius_mode",
+    "_line",
+    "_metric",
+    "_mist",
+    "_motion_mode",
+    "_plane",
+    "_remap_level",
+    "_retract_old_z",
+    "_retract_r_plane",
+    "_rpm",
+    "_selected_pocket",
+    "_selected_tool",
+    "_speed_override",
+    "_spindle_css_mode",
+    "_spindle_cw",
+    "_spindle_on",
+    "_spindle_rpm_mode",
+    "_task",
+    "_tool_offset",
+    "_u",
+    "_units_per_minute",
+    "_units_per_rev",
+    "_v",
+    "_value",
+    "_value_returned",
+    "_vmajor",
+    "_vminor",
+    "_w",
+    "_x",
+    "_y",
+    "_z",
+];
+
+/// Whether LinuxCNC defines a name itself: a state of the machine, or an entry of its configuration or of its signals.
+fn is_predefined(name: &str) -> bool {
+    let is_entry = ["_ini[", "_hal["].iter().any(|start| name.starts_with(start));
+    is_entry || PREDEFINED.binary_search(&name).is_ok()
 }
 
 /// Normalizes a name; case and blanks are irrelevant.

@@ -224,10 +224,9 @@ fn union_g_word(code: u16) -> UnionWord {
         310 => 382,
         other => other,
     };
-    let is_tool_offset = matches!(code, 431 | 432);
     match Command::of(code) {
-        Command::NotFollowed(_) => UnionWord::NotFollowed { is_dangerous: true },
-        Command::NoEffect(_) if is_tool_offset => UnionWord::NotFollowed { is_dangerous: true },
+        Command::NotFollowed(_) | Command::LengthByNumber => UnionWord::NotFollowed { is_dangerous: true },
+        Command::NoEffect(_) if code == 432 => UnionWord::NotFollowed { is_dangerous: true },
         Command::NoEffect(Group::CutterCompensation | Group::ToolLength | Group::PathControl)
             if Dialect::LinuxCnc.rules().words.has_g(code) =>
         {

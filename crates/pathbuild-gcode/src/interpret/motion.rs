@@ -168,7 +168,7 @@ impl Interpreter<'_> {
         let coordinates = self.words.values.take_coordinates();
         let to = if is_machine { self.machine_target(block, coordinates) } else { self.target(coordinates) };
         let from = self.state.position;
-        let named = is_machine.then_some(Named::Machine);
+        let named = is_machine.then(|| Named::Machine(given_axes(&coordinates)));
         let mut movement = Move { from, to, shape: MoveShape::Line, pace, named };
         movement.pace = match pace {
             Pace::Rapid => {
@@ -182,10 +182,7 @@ impl Interpreter<'_> {
         };
         self.emit_move(block, movement);
         if matches!(pace, Pace::Probe { .. }) {
-            let moved = (0..3)
-                .filter(|axis| coordinates[*axis].is_some())
-                .fold(Axes::NONE, |axes, axis| axes.with(Axes::of(axis)));
-            self.state.position.known = to.known.without(moved);
+            self.state.position.known = to.known.without(given_axes(&coordinates));
         }
     }
 
@@ -248,10 +245,16 @@ impl Interpreter<'_> {
         let coordinates = self.words.values.take_coordinates();
         let number = slot.and_then(|slot| whole(slot.value));
         let system = number.and_then(WorkSystem::from_number);
-        let (Some(kind @ (2 | 20)), Some(number)) = (kind, number) else {
+        // P0 and L20 set other offsets on Fanuc and its relatives, where G91 also adds to the offset.
+        let is_own =
+            self.rules.keeps_offsets && (kind == Some(20) || number == Some(0) || self.state.incremental);
+        let (Some(kind @ (2 | 20)), Some(number), false) = (kind, number, is_own) else {
             self.use_all_words();
             return self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", "G10"));
         };
+        if self.rules.offsets_need_axis && given_axes(&coordinates).is_empty() {
+            self.report(block, &say::NEEDS, span, |d| d.quoting("word", "G10").quoting("missing", "X, Y, Z"));
+        }
         if number > 9 {
             return self.report(block, &say::OUT_OF_RANGE, span, |d| {
                 d.quoting("word", "P").with("value", f64::from(number)).with("limits", &limits::OFFSETS)
@@ -281,8 +284,9 @@ impl Interpreter<'_> {
             self.emit_move(block, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named: None });
         }
         let from = self.state.position;
+        let axes = if given.is_empty() { Axes::ALL } else { given };
         let mut to = from;
-        for axis in (0..3).filter(|axis| given.is_empty() || given.has(Axes::of(*axis))) {
+        for axis in (0..3).filter(|axis| axes.has(Axes::of(*axis))) {
             self.state_axis(axis);
             match self.state.offsets.home(which, axis) {
                 Some(at) => {
@@ -295,7 +299,7 @@ impl Interpreter<'_> {
         if to.known != Axes::ALL {
             self.state.lost = Some((block.line, code));
         }
-        let named = Some(if which == 0 { Named::Home1 } else { Named::Home2 });
+        let named = Some(if which == 0 { Named::Home1(axes) } else { Named::Home2(axes) });
         self.emit_move(block, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named });
     }
 
@@ -311,7 +315,7 @@ impl Interpreter<'_> {
         if self.state.has_cut && self.rules.reference.loses_zero {
             self.state.referenced = Some((block.line, code));
         }
-        let named = Some(Named::Home1);
+        let named = Some(Named::Home1(axes));
         self.emit_move(block, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named });
     }
 

@@ -107,6 +107,14 @@ impl State {
     }
 }
 
+impl State {
+    /// The coordinate of the tool along an axis in the program's system and unit, if the program determines it.
+    pub(super) fn coordinate(&self, axis: usize) -> Option<f64> {
+        let is_known = self.position.known.and(self.stated_axes).has(Axes::of(axis));
+        is_known.then(|| (self.position.at[axis] - self.offsets.shift(axis)) / self.unit)
+    }
+}
+
 /// The active and the stored offsets, in mm.
 #[derive(Debug)]
 pub(super) struct Offsets {
@@ -117,6 +125,7 @@ pub(super) struct Offsets {
     suspended: [f64; 3],
     /// G52.
     local: [f64; 3],
+    length: AppliedLength,
     /// The sum of all offsets at the first move; `None` until then.
     base: Option<[f64; 3]>,
     home: [Option<[f64; 3]>; 2],
@@ -143,6 +152,7 @@ impl Offsets {
             origin: [0.0; 3],
             suspended: [0.0; 3],
             local: [0.0; 3],
+            length: AppliedLength::default(),
             base: None,
             home: [0, 1].map(|index| configured.map(|offsets| offsets.home[index])),
             is_configured: configured.is_some(),
@@ -158,7 +168,34 @@ impl Offsets {
 
     /// The amount added to the program's number of an axis to get its position.
     pub(super) fn shift(&self, axis: usize) -> f64 {
-        self.sum()[axis] - self.base(axis)
+        self.sum()[axis] - self.base(axis) + self.length.shift(axis)
+    }
+
+    /// Sets the tool length along the axes that have a value here; a length of `None` is known only to the machine.
+    pub(super) fn set_length(&mut self, lengths: [Option<Option<f64>>; 3]) {
+        for (current, new) in self.length.current.iter_mut().zip(lengths) {
+            *current = new.unwrap_or(*current);
+        }
+    }
+
+    /// Whether the difference of a stated length from the one with which the tool first cut is unknown along an axis.
+    pub(super) fn is_length_unknown(&self, axis: usize) -> bool {
+        self.length.at_cut.is_some_and(|lengths| lengths[axis].is_none())
+    }
+
+    /// Whether the tool has cut with its length.
+    pub(super) fn has_cut_with_length(&self) -> bool {
+        self.length.at_cut.is_some()
+    }
+
+    /// Fixes the current tool length as that of all positions of this tool.
+    pub(super) fn fix_length(&mut self) {
+        self.length.at_cut.get_or_insert(self.length.current);
+    }
+
+    /// Another tool may be in the spindle, with a zero of its own.
+    pub(super) fn release_length(&mut self) {
+        self.length.at_cut = None;
     }
 
     /// Activates a system. Returns false if its origin is unknown and the program has moved in another system.
@@ -177,13 +214,14 @@ impl Offsets {
 
     /// G10 L20: sets the coordinate of the tool in a system.
     pub(super) fn place_here(&mut self, system: Option<WorkSystem>, axis: usize, coordinate: f64, here: f64) {
+        let here = here - self.length.shift(axis);
         let zero = here + self.base(axis) - self.origin[axis] - self.local[axis] - coordinate;
         self.place(system, axis, zero);
     }
 
     /// G92: sets the coordinate of the tool at this position.
     pub(super) fn set_origin(&mut self, axis: usize, coordinate: f64, here: f64) {
-        self.origin[axis] = here + self.base(axis)
+        self.origin[axis] = here - self.length.shift(axis) + self.base(axis)
             - self.systems[self.active.index()].zero[axis]
             - self.local[axis]
             - coordinate;
@@ -228,6 +266,22 @@ impl Offsets {
     fn sum(&self) -> [f64; 3] {
         let zero = self.systems[self.active.index()].zero;
         std::array::from_fn(|axis| zero[axis] + self.origin[axis] + self.local[axis])
+    }
+}
+
+/// The tool lengths along the axes, in mm; `None` where only the machine knows them.
+#[derive(Debug, Default)]
+struct AppliedLength {
+    current: [Option<f64>; 3],
+    /// The lengths at the first cut of the tool in the spindle; `None` before it.
+    at_cut: Option<[Option<f64>; 3]>,
+}
+
+impl AppliedLength {
+    /// How far the tip has been moved by changes of the length since the first cut, as far as that is known.
+    fn shift(&self, axis: usize) -> f64 {
+        let at_cut = self.at_cut.and_then(|lengths| lengths[axis]);
+        self.current[axis].zip(at_cut).map_or(0.0, |(current, at_cut)| current - at_cut)
     }
 }
 

@@ -45,6 +45,7 @@ impl Interpreter<'_> {
             self.enter_layer(block, self.state.tool.unwrap_or(0));
         } else {
             self.state.stated_axes = Axes::NONE;
+            self.state.offsets.release_length();
         }
         let is_turning = self.state.spindle.turning.is_on();
         if is_turning && !self.rules.layers {
@@ -166,10 +167,8 @@ impl Interpreter<'_> {
                     self.state.stated.plane = true;
                 }
                 Command::Inches(inches) => self.units(block, inches, code, span),
-                Command::NoEffect(Group::ToolLength) => {
-                    self.check_length_axis(block, code, span);
-                    self.tool_length(block, code);
-                }
+                Command::NoEffect(Group::ToolLength) => self.tool_length(block, code, span),
+                Command::LengthByNumber => self.length_by_number(block, code, span),
                 Command::NoEffect(Group::PathControl) => self.corners(block, code),
                 Command::Incremental(incremental) => {
                     self.state.incremental = incremental;
@@ -189,17 +188,43 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Sets the tool length to the numbers in the line. Once the tool has cut, this moves its tip by the difference.
+    fn length_by_number(&mut self, block: &Block<'_>, code: u16, span: Span) {
+        self.check_length_axis(block, span);
+        self.tool_length(block, code, span);
+        let motion = self.words.of_group(Group::Motion);
+        if motion.is_some_and(|(command, ..)| command.takes_coordinates()) {
+            // The line is reported, because both words want its coordinates.
+            return;
+        }
+        let given = self.words.values.take_coordinates();
+        self.words.values.discard_coordinates();
+        let axes = || (0..3).filter(|axis| given[*axis].is_some());
+        if axes().any(|axis| self.state.offsets.is_length_unknown(axis)) {
+            self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", "G43.1"));
+        }
+        if !self.state.offsets.has_cut_with_length() {
+            let known = &mut self.state.position.known;
+            *known = axes().fold(*known, |known, axis| known.without(Axes::of(axis)));
+        }
+        let lengths = given.map(|slot| slot.map(|slot| Some(self.millimetres(slot))));
+        self.state.offsets.set_length(lengths);
+    }
+
     /// Reports G43.1 without Z, or with another axis, for GRBL: "G43.1 dynamic axis error". LinuxCNC takes all axes.
-    fn check_length_axis(&mut self, block: &Block<'_>, code: u16, span: Span) {
+    fn check_length_axis(&mut self, block: &Block<'_>, span: Span) {
         let axes = Values::AXES.map(|axis| self.words.values.has(axis));
         let takes_all = self.rules.words.has_g(432);
-        if code == 431 && !takes_all && axes != [false, false, true] {
+        if !takes_all && axes != [false, false, true] {
             self.report(block, &say::NEEDS, span, |d| d.quoting("word", "G43.1").quoting("missing", "Z"));
         }
     }
 
-    /// Sets the tool length by G43 with H and axis words. The position of the tool's tip does not depend on it.
-    fn tool_length(&mut self, block: &Block<'_>, code: u16) {
+    /// Sets the tool length by a word with H. The position of the tool's tip does not depend on it, unless G43.2 adds a second length.
+    fn tool_length(&mut self, block: &Block<'_>, code: u16, span: Span) {
+        if code == 432 {
+            self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", "G43.2"));
+        }
         let takes_offsets = self.rules.keeps_offsets;
         let entry =
             if takes_offsets || matches!(code, 430 | 432) { self.words.values.take(b'H') } else { None };
@@ -216,12 +241,11 @@ impl Interpreter<'_> {
             (430, Some(Some(number))) => ToolLength::OfTool(Some(number)),
             _ => ToolLength::Other,
         };
-        self.step(block, Action::Change(Change::ToolLength(length)));
-        if self.words.of_group(Group::Motion).is_none()
-            && self.words.commands.iter().any(|(_, code, _)| *code == 431)
-        {
-            self.words.values.discard_coordinates();
+        if code != 431 {
+            let known = (code == 490).then_some(0.0);
+            self.state.offsets.set_length([Some(known); 3]);
         }
+        self.step(block, Action::Change(Change::ToolLength(length)));
     }
 
     fn corners(&mut self, block: &Block<'_>, code: u16) {
@@ -258,6 +282,7 @@ impl Interpreter<'_> {
                 if self.rules.stop_is_complete {
                     self.switch_off(block);
                 }
+                self.state.offsets.release_length();
                 self.step(block, Action::Stop { optional: code == 10 });
             }
             None => {}

@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Message, Severity};
 use pathbuild_motion::{Action, Group, StatedWord, WordEffect};
 
 use super::codes::{self, Command, Motion};
-use super::evaluate::{name_of, parameter_number};
+use super::evaluate::{Scope, name_of, parameter_number};
 use super::execute::{Interpreter, Setting, Slot, ValueFault, limits};
 use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
 use crate::read::{At, Block, Span, Target, Value, Word};
@@ -62,11 +62,12 @@ impl Interpreter<'_> {
             Value::Number(number) => return Ok((number.value, number.decimals)),
             Value::Expression(code) => code,
         };
-        let most = self.most_parameters();
-        let value = self.parameters.evaluate(block, code, most).map_err(|fault| (fault, span))?;
+        let has_names = self.rules.spelling.grammar.as_ref().is_some_and(|grammar| grammar.names);
+        let scope = Scope { most: self.most_parameters(), has_names, state: &self.state };
+        let value = self.parameters.evaluate(block, code, &scope).map_err(|fault| (fault, span))?;
         for parameter in std::mem::take(&mut self.parameters.machine_values) {
             self.report(block, &say::MACHINE_VALUE, span, |d| {
-                d.with("parameter", u64::from(parameter)).with("value", value)
+                d.quoting("parameter", parameter).with("value", value)
             });
         }
         Ok((value, u8::MAX))

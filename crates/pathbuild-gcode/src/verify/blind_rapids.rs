@@ -50,7 +50,7 @@ impl BlindRapidRules {
                 }
                 self.is_raised = match movement.pace {
                     Pace::Probe { .. } => false,
-                    _ => self.is_raised || movement.named.is_some() || movement.to.known.has(Axes::Z),
+                    _ => self.is_raised || movement.homes_z() || movement.to.known.has(Axes::Z),
                 };
             }
             Action::ChangeTool(_) => self.is_raised = true,

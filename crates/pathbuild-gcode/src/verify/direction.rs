@@ -1,29 +1,36 @@
-//! Checks the direction in which the spindle turns against those of the tools. (book: reference/configuration, `[tool]`)
+//! Checks that the spindle turns in the direction of the tools. (book: reference/configuration, `[tool]`)
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{Action, Pace, Step, Turning};
 
-/// Finds cuts during which the spindle turns against the direction of the tool: pass every step of a program, then call
-/// [`finish`](Self::finish). Each tool is reported at most once.
+/// Finds cuts during which the spindle turns against the direction of the tool, and programs that cut without ever starting it: pass every
+/// step of a program, then call [`finish`](Self::finish). Each tool is reported at most once.
 #[derive(Debug)]
 pub struct DirectionRules {
     /// The directions of the tools, each with the line from which it cuts, in the order of the lines.
     tools: Vec<(u32, Option<Turning>)>,
     turning: Turning,
+    /// Whether the program sets a speed.
+    has_speed: bool,
+    /// The first cut, and the first one of a tool with a direction, before the program switches the spindle.
+    unstarted: [Option<u32>; 2],
     found: Vec<(usize, Diagnostic)>,
 }
 
 impl DirectionRules {
     /// Rules for tools, each with the line from which it cuts, in the order of the lines.
     pub fn new(tools: Vec<(u32, Option<Turning>)>) -> Self {
-        Self { tools, turning: Turning::Unstated, found: Vec::new() }
+        Self { tools, turning: Turning::Unstated, has_speed: false, unstarted: [None; 2], found: Vec::new() }
     }
 
     /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         match &step.action {
-            Action::Spindle(spindle) => self.turning = spindle.turning,
+            Action::Spindle(spindle) => {
+                self.turning = spindle.turning;
+                self.has_speed |= spindle.speed.is_some_and(|speed| speed > 0.0);
+            }
             Action::Move(motion) if matches!(motion.pace, Pace::Feed(_)) && !motion.is_nothing() => {
                 self.check(step.line);
             }
@@ -32,8 +39,14 @@ impl DirectionRules {
     }
 
     fn check(&mut self, line: u32) {
+        if self.turning == Turning::Unstated {
+            self.unstarted[0].get_or_insert(line);
+        }
         let Some(tool) = self.tools.partition_point(|(from, _)| *from <= line).checked_sub(1) else { return };
         let Some(wanted) = self.tools[tool].1 else { return };
+        if self.turning == Turning::Unstated {
+            self.unstarted[1].get_or_insert(line);
+        }
         let is_known = self.found.iter().any(|(known, _)| *known == tool);
         if self.turning.is_on() && self.turning != wanted && !is_known {
             let (found, expected, direction) = match wanted {
@@ -46,8 +59,24 @@ impl DirectionRules {
         }
     }
 
-    /// Returns all findings.
+    /// Returns all findings about directions.
     pub fn finish(self) -> impl Iterator<Item = Diagnostic> {
         self.found.into_iter().map(|(_, problem)| problem)
+    }
+
+    /// The finding that the program, in a dialect that switches the spindle, never does so: a speed of the tool table or an S show that it
+    /// should. (A spindle that is switched later is reported by [`Rules`](super::Rules).)
+    pub fn never_started(&self) -> Option<Diagnostic> {
+        if self.turning != Turning::Unstated {
+            return None;
+        }
+        let of_table =
+            self.unstarted[1].map(|line| Diagnostic::new(&say::SPINDLE_NEVER_STARTED).at_line(line, None));
+        let of_speed = || {
+            let line = self.unstarted[0].filter(|_| self.has_speed)?;
+            let problem = Diagnostic::new(&say::SPINDLE_SPEED_WITHOUT_START).at_line(line, None);
+            Some(Diagnostic { severity: Severity::Warning, ..problem })
+        };
+        of_table.or_else(of_speed)
     }
 }

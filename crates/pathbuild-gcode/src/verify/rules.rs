@@ -5,7 +5,7 @@ use std::fmt;
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{
-    Action, Arc, Axes, Change, Move, MoveShape, Pace, Plane, Position, Spindle, Step, Turning,
+    Action, Arc, Axes, Change, Move, MoveShape, Named, Pace, Plane, Position, Spindle, Step, Turning,
 };
 
 use super::material::Stock;
@@ -38,6 +38,8 @@ pub struct Rules<'c> {
     spindle_line: u32,
     /// Whether the last move probed downwards.
     has_probed: bool,
+    /// The height at which the last probe would have stopped without contact, until the program states a height.
+    probe_end: Option<f64>,
     /// Whether anything has been cut.
     has_cut: bool,
     /// Whether a cut at an unknown position has been reported.
@@ -70,6 +72,7 @@ impl<'c> Rules<'c> {
             turning_probe_said: false,
             spindle_line: 0,
             has_probed: false,
+            probe_end: None,
             has_cut: false,
             position_said: false,
             directions: ArcDirections::default(),
@@ -162,9 +165,10 @@ impl<'c> Rules<'c> {
         if self.is_raised {
             return;
         }
-        let goes_home = movement.named.is_some() && movement.keeps_xy();
-        self.is_raised = movement.to.known.has(Axes::Z) || goes_home;
-        let moves_in_plane = !movement.to.known.and(Axes::XY).is_empty();
+        // A move to a machine position in the plane alone says nothing about the height.
+        let homed = movement.named.filter(|_| !movement.homes_z()).map_or(Axes::NONE, Named::axes);
+        self.is_raised = movement.to.known.has(Axes::Z) || (movement.homes_z() && movement.keeps_xy());
+        let moves_in_plane = !movement.to.known.and(Axes::XY).is_empty() || !homed.and(Axes::XY).is_empty();
         if moves_in_plane && !self.is_raised {
             self.is_raised = true;
             self.problems.add_at_line(&say::START_NOT_RAISED, line, |d| d);
@@ -174,12 +178,14 @@ impl<'c> Rules<'c> {
     fn diagonal(&mut self, line: u32, movement: &Move) {
         let is_known = movement.is_known();
         let is_diagonal = !movement.keeps_xy() && movement.to.z() < movement.from.z();
+        let z = movement.to.z();
         if movement.pace == Pace::Rapid
             && is_known
             && is_diagonal
-            && self.surface_above(line, movement.to.z()).is_some()
+            && let Some(surface) = self.surface_above(line, z)
         {
-            self.problems.add_at_line(&say::DIAGONAL_RAPID, line, |d| d.with("z", movement.to.z()));
+            self.problems
+                .add_at_line(&say::DIAGONAL_RAPID, line, |d| d.with("z", z).with("surface", surface));
         }
     }
 
@@ -234,10 +240,31 @@ impl<'c> Rules<'c> {
     fn after_probe(&mut self, line: u32, movement: &Move) {
         let stays_in_plane = movement.keeps_xy();
         let is_known = movement.from.known.and(movement.to.known).and(Axes::XY) == Axes::XY;
-        if self.has_probed && is_known && !stays_in_plane {
+        let homed = movement.named.map_or(Axes::NONE, Named::axes);
+        let goes_home = !homed.and(Axes::XY).is_empty();
+        if self.has_probed && (is_known && !stays_in_plane || goes_home) {
             self.problems.add_at_line(&say::PROBE_NOT_RAISED, line, |d| d);
         }
+        self.below_contact(line, movement);
         self.has_probed = matches!(movement.pace, Pace::Probe { toward: true, .. }) && stays_in_plane;
+    }
+
+    /// Checks rapid moves after a probe downwards: whatever the probe touched is not below the end of its move.
+    fn below_contact(&mut self, line: u32, movement: &Move) {
+        let end = self.probe_end.take().filter(|_| !movement.from.known.has(Axes::Z) && !movement.homes_z());
+        let is_probe = matches!(movement.pace, Pace::Probe { toward: true, .. });
+        if let Some(end) = end.filter(|end| movement.pace == Pace::Rapid && movement.to.z() < *end) {
+            self.problems
+                .add_at_line(&say::RAPID_BELOW_CONTACT, line, |d| {
+                    let d = d.with("below", end - movement.to.z());
+                    Diagnostic { severity: Severity::Error, ..d }
+                });
+        }
+        self.probe_end = if is_probe && movement.keeps_xy() && movement.to.known.has(Axes::Z) {
+            Some(movement.to.z())
+        } else {
+            end.filter(|_| !movement.to.known.has(Axes::Z))
+        };
     }
 
     /// Checks the change of a tool by T and a stop, in any order, without a move between them.

@@ -215,7 +215,7 @@ impl<'w> WordRules<'w> {
             if moves_in_plane(movement) {
                 self.first_in_plane(step.line, movement);
             }
-            self.has_gone_home |= movement.named.is_some() && movement.keeps_xy();
+            self.has_gone_home |= movement.homes_z() && movement.keeps_xy();
         }
         let Action::Word(word) = &step.action else { return };
         if !self.is_known(*word) {

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::read::{Block, BlockReader, Value};
-use pathbuild_motion::{Action, Move, MoveShape, Pace, Position, Step};
+use pathbuild_motion::{Action, Move, MoveShape, Named, Pace, Position, Step};
 
 /// The effects of a program, with one text per step.
 pub(crate) fn trace(dialect: Dialect, program: &str) -> Vec<String> {
@@ -117,7 +117,11 @@ fn move_text(it: &Move) -> String {
             format!(" {way} round {} {} by {}", short(arc.centre[0]), short(arc.centre[1]), short(degrees))
         }
     };
-    let named = it.named.map_or(String::new(), |named| format!(" {named:?}"));
+    let named = it.named.map_or("", |named| match named {
+        Named::Machine(_) => " Machine",
+        Named::Home1(_) => " Home1",
+        Named::Home2(_) => " Home2",
+    });
     format!("{pace} to {}{path}{named}", position_text(&it.to))
 }
 

@@ -49,7 +49,12 @@ impl Writer<'_> {
                 values.set(Register::P, Some(self.dwell(*seconds)));
                 self.go(Section::Dwell, [None; 3], values)
             }
-            JobStep::Stop => self.lines_of(Section::Stop),
+            JobStep::Stop => {
+                self.lines_of(Section::Stop)?;
+                // The operator may have moved the tool, so the next height is written in full.
+                self.machine.forget(&[Register::Z]);
+                Ok(())
+            }
             JobStep::Comment(text) => self.comment(text, " "),
         }
     }

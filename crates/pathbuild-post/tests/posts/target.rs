@@ -417,3 +417,25 @@ fn dwells_are_compared() {
     assert!(written("linuxcnc", "", 0.0005).is_ok(), "too short for the control's decimals");
     assert!(written("linuxcnc", "G4 P0.501", 0.5005).is_ok(), "half a millisecond");
 }
+
+/// Without a dialect, the number of G4 may count seconds or milliseconds, but nothing else.
+#[test]
+fn dwells_of_texts_without_a_dialect_are_compared() {
+    let steps = |seconds| {
+        vec![rapid(1.0, 0.0, 1.0), feed(1.0, 0.0, -1.0), JobStep::Dwell { seconds }, rapid(1.0, 0.0, 5.0)]
+    };
+    let written = |dwell: &str, seconds| {
+        let text = format!(
+            "<PostFile>G21 G90 G17 G94\nG0 Z5\n{{$mops}}\nM30</PostFile><MOP>{{$blocks}}</MOP><Dwell>{dwell}</Dwell>"
+        );
+        read(&definition(&text)).unwrap().write(&job(steps(seconds)), &PostOptions::default())
+    };
+    for dwell in ["G4 P{$move.p}", "G04 X{$move.p}", "G4 F500", "G4 P9\nG4 {$p}", "WAIT {$move.p}"] {
+        let errors = written(dwell, 0.5).err();
+        assert!(errors.is_none(), "{dwell}: {errors:?}");
+    }
+    for dwell in ["G4 P5", "G4 P50", "G4 X0.6", "G4 F499"] {
+        let errors = texts(&written(dwell, 0.5).expect_err(dwell));
+        assert!(errors[0].contains("PB767 line 6 "), "{errors:?}");
+    }
+}

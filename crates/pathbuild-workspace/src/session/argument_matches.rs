@@ -338,6 +338,7 @@ impl Session<'_> {
             rules_limit: limits.ignore_file_size.value,
             is_parallel: self.context.jobs != Some(1),
             is_wanted,
+            obeys_git: true,
         }
     }
 }

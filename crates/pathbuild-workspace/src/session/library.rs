@@ -64,6 +64,8 @@ pub(super) struct Walk<'a> {
     pub(super) is_parallel: bool,
     /// Which files are searched for, by their names.
     pub(super) is_wanted: fn(&Utf8Path) -> bool,
+    /// Whether .gitignore files apply, besides .ignore.
+    pub(super) obeys_git: bool,
 }
 
 impl Walk<'_> {
@@ -85,6 +87,22 @@ impl Walk<'_> {
         walked.drawings.sort_by(|a, b| by_place(a, b));
         walked.directories.sort_by(|a, b| by_place(a, b));
         walked
+    }
+
+    /// The ignore rules of a directory that apply to this search.
+    fn rules(
+        self,
+        directory: &Utf8Path,
+        above: Option<Arc<Rules>>,
+        budget: &Budget,
+    ) -> Result<Arc<Rules>, Box<Diagnostic>> {
+        let mut rules = Rules::read(self.system, directory, above, budget)?;
+        if !self.obeys_git
+            && let Some(rules) = Arc::get_mut(&mut rules)
+        {
+            rules.git = Gitignore::empty();
+        }
+        Ok(rules)
     }
 
     /// Collects the contents unsorted, together with their number. Stops once the limit is exceeded.
@@ -176,8 +194,7 @@ impl Directory {
         });
         if has_own {
             // Most directories have no ignore file. One that has is listed again, with its rules.
-            found =
-                Self { rules: Some(Rules::read(walk.system, directory, above, budget)?), ..Self::default() };
+            found = Self { rules: Some(walk.rules(directory, above, budget)?), ..Self::default() };
             listed = walk.system.each_entry(directory, &mut |entry| {
                 found.add(directory, entry, walk.is_wanted);
                 if found.count > walk.limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -304,7 +321,8 @@ impl Session<'_> {
     fn add_directory(&self, directory: &Utf8Path, found: &mut ProgramMatches) {
         self.start_workers();
         let root = if directory == "." { Utf8Path::new("") } else { directory };
-        let walked = self.walk(is_program).through(root);
+        // Programs are generated, so that .gitignore often names them.
+        let walked = Walk { obeys_git: false, ..self.walk(is_program) }.through(root);
         if walked.drawings.is_empty() && walked.problems.is_empty() {
             let problem = Diagnostic::new(&outputs::NO_PROGRAM);
             found.problems.push(problem.quoting("directory", readable(directory).as_str()));

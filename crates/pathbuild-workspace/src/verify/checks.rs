@@ -23,12 +23,21 @@ pub struct CheckRecord {
 pub enum Outcome {
     /// It was made. The check of rapid moves states the values that it was made with.
     Made(Option<RapidValues>),
-    /// It was made with values that only the program itself states.
-    Assumed(RapidValues),
+    /// It was made with values that may be wrong.
+    Assumed(RapidValues, Assumption),
     /// It was made with these values, except for rapid moves whose way is unknown.
     Incomplete(RapidValues, BlindRapids),
     /// It was not made.
     NotMade(Reason),
+}
+
+/// Why the values of a check may be wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Assumption {
+    /// Only the program itself states the cutter or the material.
+    Stock,
+    /// The program moves by values that only the machine knows, such as those of a probe.
+    MachineValues,
 }
 
 /// The values that rapid moves were checked with.
@@ -107,7 +116,7 @@ pub fn summary(records: &[CheckRecord], lang: Lang) -> String {
     for record in records {
         let name = shown(record.requirement).in_lang(lang);
         match &record.outcome {
-            Outcome::Made(_) | Outcome::Assumed(_) => made.push(record.text(lang)),
+            Outcome::Made(_) | Outcome::Assumed(..) => made.push(record.text(lang)),
             Outcome::Incomplete(values, blind) => {
                 made.push(format!("{name} {}", with_cutter(values, lang)));
                 unmade.push(format!("{} ({})", blind_text(*blind, lang), ABOVE_FIRST.in_lang(lang)));
@@ -133,7 +142,7 @@ impl CheckRecord {
     pub fn values(&self) -> Option<&RapidValues> {
         match &self.outcome {
             Outcome::Made(values) => values.as_ref(),
-            Outcome::Assumed(values) | Outcome::Incomplete(values, _) => Some(values),
+            Outcome::Assumed(values, _) | Outcome::Incomplete(values, _) => Some(values),
             Outcome::NotMade(_) => None,
         }
     }
@@ -146,6 +155,9 @@ impl CheckRecord {
             (Outcome::Incomplete(values, blind), _) => {
                 let but = lang.choose("but not", "aber nicht");
                 format!("{name} {}, {but} {}", with_cutter(values, lang), blind_text(*blind, lang))
+            }
+            (Outcome::Assumed(values, Assumption::MachineValues), _) => {
+                format!("{name} {} ({})", with_cutter(values, lang), MACHINE_VALUES_ASSUMED.in_lang(lang))
             }
             (_, Some(values)) => format!("{name} {}", with_cutter(values, lang)),
             (_, None) => name.to_owned(),
@@ -182,8 +194,9 @@ impl CheckRecord {
                 let line = u64::from(blind.line);
                 return Some(problem.with("count", blind.count).with("line", line).at_line(blind.line, None));
             }
-            Outcome::Assumed(_) if may_be_assumed => return None,
-            Outcome::Assumed(_) => (&ONLY_COMMENTS, &GIVEN),
+            Outcome::Assumed(..) if may_be_assumed => return None,
+            Outcome::Assumed(_, Assumption::Stock) => (&ONLY_COMMENTS, &GIVEN),
+            Outcome::Assumed(_, Assumption::MachineValues) => (&MACHINE_VALUES, &NUMBERS),
             Outcome::NotMade(reason) => (reason.text(), self.option(*reason)),
         };
         let problem = Diagnostic::new(&say::CHECK_NOT_MADE).quoting("check", self.requirement.name());
@@ -290,6 +303,18 @@ static START: Text = Text { en: "M3 and S in the program", de: "M3 und S im Prog
 static ONLY_COMMENTS: Text = Text {
     en: "only the program itself states cutter or material",
     de: "nur das Programm selbst nennt Fräser oder Material",
+};
+static MACHINE_VALUES: Text = Text {
+    en: "the program moves by values that only the machine knows",
+    de: "das Programm fährt nach Werten, die nur die Maschine kennt",
+};
+static MACHINE_VALUES_ASSUMED: Text = Text {
+    en: "values that only the machine knows are assumed",
+    de: "Werte, die nur die Maschine kennt, sind angenommen",
+};
+static NUMBERS: Text = Text {
+    en: "numbers in place of these values, or rapids=assumed",
+    de: "Zahlen an Stelle dieser Werte, oder rapids=assumed",
 };
 static TRAVEL: Text = Text { en: "[machine] travel", de: "[machine] travel" };
 static FEED: Text = Text { en: "[machine] maximum-feed", de: "[machine] maximum-feed" };

@@ -25,7 +25,7 @@ use pathbuild_motion::{Action, Move, Pace, Step};
 use pathbuild_post::ToolTable;
 use serde::{Deserialize, Serialize};
 
-use crate::config::types::Requirement;
+use crate::config::types::{Requirement, SpindleControl};
 use crate::config::{Settings, number, positive};
 use crate::posting::{PostArguments, PostProcessor, known_words, machine, tool_table};
 use crate::program::{ByDefinition, Program, ReadingOptions};
@@ -33,7 +33,9 @@ use crate::session::Session;
 use crate::workspace::Failure;
 use crate::workspace::Workspace;
 
-pub use checks::{ABOVE_FIRST, CheckRecord, Origin, Outcome, RapidValues, Reason, blind_text, summary};
+pub use checks::{
+    ABOVE_FIRST, Assumption, CheckRecord, Origin, Outcome, RapidValues, Reason, blind_text, summary,
+};
 pub use run::{Request, Verification};
 use stock::Sources;
 
@@ -396,6 +398,9 @@ impl<'v> Examination<'v> {
         found.extend(coarse_arcs(program.code(), program.dialect));
         found.extend(written.limits);
         found.extend(chip_loads.finish());
+        let is_switched = verifier.settings.general.spindle.value != SpindleControl::Manual
+            && !matches!(program.dialect, Dialect::Xpertmill | Dialect::Native);
+        found.extend(directions.iter().filter(|_| is_switched).find_map(DirectionRules::never_started));
         found.extend(directions.into_iter().flat_map(DirectionRules::finish));
         found.extend(self.sources.unknown_tools());
         if program.dialect == Dialect::Native {

@@ -8,7 +8,7 @@ use pathbuild_gcode::verify::{BlindRapids, Cutter, DepthRules, Stock, StockSpan}
 use pathbuild_motion::{ChipLoad, Turning};
 
 use super::against::ReferenceProgram;
-use super::checks::{Origin, Outcome, RapidValues, Reason};
+use super::checks::{Assumption, Origin, Outcome, RapidValues, Reason};
 use super::{Verifier, VerifyOptions};
 use crate::config::types::Tool;
 use crate::program::Program;
@@ -147,9 +147,12 @@ impl<'s> Sources<'s> {
         let cutters = cutters.iter().map(|(_, cutter)| cutter.diameter).collect();
         let values =
             RapidValues { cutters, cutter_origin, surface, is_level: self.is_level(), surface_origin };
+        let has_machine_values =
+            self.program.read.problems.iter().any(|problem| problem.code() == Code::MachineValue);
         match blind {
             Some(blind) => Outcome::Incomplete(values, blind),
-            None if self.are_only_stated() => Outcome::Assumed(values),
+            None if has_machine_values => Outcome::Assumed(values, Assumption::MachineValues),
+            None if self.are_only_stated() => Outcome::Assumed(values, Assumption::Stock),
             None => Outcome::Made(Some(values)),
         }
     }

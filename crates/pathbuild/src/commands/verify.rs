@@ -183,7 +183,7 @@ fn row(record: &CheckRecord, lang: Lang) -> Value {
             let with = values.as_ref().map(|values| values.in_lang(lang)).unwrap_or_default();
             json!({ "check": check, "outcome": "made", "with": with })
         }
-        Outcome::Assumed(values) => {
+        Outcome::Assumed(values, _) => {
             json!({ "check": check, "outcome": "assumed", "with": values.in_lang(lang) })
         }
         Outcome::Incomplete(values, blind) => json!({

@@ -218,7 +218,9 @@ impl<'w> Setup<'w> {
     fn moves(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
         self.at = movement.to;
         self.head(line, problems);
-        if movement.named == Some(Named::Machine) && !movement.to.known.has(Axes::Z) && movement.to.z() != 0.0
+        if matches!(movement.named, Some(Named::Machine(_)))
+            && !movement.to.known.has(Axes::Z)
+            && movement.to.z() != 0.0
         {
             extra(line, "G53 Z".to_owned(), problems);
         }
