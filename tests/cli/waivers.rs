@@ -201,29 +201,26 @@ fn an_accepted_rapid_move_holds_while_it_is_not_deeper() {
 /// A move down and sideways, and one beyond the travel, hold only as far as they were accepted.
 #[test]
 fn slopes_and_moves_beyond_the_machine_are_accepted_up_to_a_depth() {
-    let program = |slope: &str, x: &str| {
-        format!(
-            "G21 G90 G17 G40 G94 G54\nM3 S12000\nG0 Z5\nG0 X0 Y0\nG1 Z-3 F100\nG1 X20 F200\nG0 Z5\nG0 X10 Z{slope}\nG0 Z5\nG0 X{x}\nM5\nM30\n"
-        )
-    };
-    let table = "[machine]\nx = [-10, 100]\ny = [-10, 100]\nz = [-10, 50]\n";
-    let place = Place::new().file("pathbuild.toml", table).file("p.nc", program("-1", "100.5"));
-    let verify = "verify p.nc --dialect linuxcnc --cutter 2 --surface 0";
+    let program = "G21 G90 G17 G40 G94 G54\nM3 S12000\nG0 Z5\nG0 X0 Y0\nG1 Z-3 F100\nG1 X20 F200\nG0 Z5\nG0 X10 Z-1\nG0 Z5\nG0 X100.5\nM5\nM30\n";
+    let table = |most: f64| format!("[machine]\nx = [-10, {most}]\ny = [-10, 100]\nz = [-10, 50]\n");
+    let place = Place::new().file("pathbuild.toml", table(100.0)).file("p.nc", program);
+    let verify = |surface: &str| format!("verify p.nc --dialect linuxcnc --cutter 2 --surface {surface}");
     for code in ["PB744", "PB748"] {
-        let accept: Vec<&str> = verify.split(' ').chain(["--accept", code, "--reason", "wax"]).collect();
+        let line = verify("0");
+        let accept: Vec<&str> = line.split(' ').chain(["--accept", code, "--reason", "wax"]).collect();
         let run = place.run_with(&accept);
         assert!(run.stderr.contains("1 finding accepted"), "{run}");
     }
     let baseline = place.read("pathbuild-baseline.txt");
     assert!(baseline.contains(" depth=1 ") && baseline.contains(" depth=0.5 "), "{baseline}");
-    let notes = |slope: &str, x: &str| {
-        std::fs::write(place.path().join("p.nc"), program(slope, x)).unwrap();
-        place.run(verify).stderr.matches("accepted up to a depth of").count()
+    let notes = |surface: &str, most: f64| {
+        std::fs::write(place.path().join("pathbuild.toml"), table(most)).unwrap();
+        place.run(&verify(surface)).stderr.matches("accepted up to a depth of").count()
     };
-    assert_eq!(notes("-1", "100.5"), 0);
-    assert_eq!(notes("-0.9", "100.4"), 0);
-    assert_eq!(notes("-1.01", "100.5"), 1);
-    assert_eq!(notes("-1", "100.51"), 1);
+    assert_eq!(notes("0", 100.0), 0);
+    assert_eq!(notes("-0.1", 100.1), 0);
+    assert_eq!(notes("0.01", 100.0), 1);
+    assert_eq!(notes("0", 99.99), 1);
 }
 
 #[test]

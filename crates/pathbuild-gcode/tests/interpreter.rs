@@ -565,7 +565,8 @@ fn g10_places_coordinate_systems() {
     assert_eq!(run(Native, "G0 X1 Y1 Z1\nG10 L2 P2 X10\nG55 G0 X2")[2], "4 rapid to 12 1 1");
     assert_eq!(run(Native, "G0 X1 Y1 Z1\nG10 L20 P2 X0\nG55 G0 X2")[2], "4 rapid to 3 1 1");
     assert_eq!(run(Native, "G0 X1 Y1 Z1\nG10 L2 P0 X10\nG0 X2")[1], "4 rapid to 12 1 1");
-    assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG10 L2 P2 X10\nG55 G0 X2"), FINE);
+    // G10 L2 counts from the machine's zero, and where G54 is, is not known.
+    assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG10 L2 P2 X10\nG55 G0 X2"), ["4 unknown-offset"]);
     assert_eq!(wrong(Native, "G10 L2 P9 X10\nG10 L2 P10 X10"), ["3 value-out-of-range"]);
 }
 
@@ -874,6 +875,137 @@ fn names_that_linuxcnc_defines_are_values_of_the_machine() {
     }
     assert_eq!(wrong(LinuxCnc, "#1=#<_tasks>"), ["2 cannot-evaluate"]);
     assert_eq!(wrong(LinuxCnc, "#<_task>=2\n#1=#<_task>"), FINE, "what the program has set");
+}
+
+/// Outputs, overrides and look-ahead take values of their own, and change no path.
+#[test]
+fn words_beside_the_path_have_their_values() {
+    for words in [
+        "M62 P0",
+        "M63 P1",
+        "M64 P0",
+        "M65 P0",
+        "M66 P0 L3 Q5",
+        "M66 E0 L0",
+        "M67 E0 Q5",
+        "M68 E0 Q5",
+        "M50 P0",
+        "M51 P0",
+        "M52 P1",
+        "M53 P1",
+        "M19 R45",
+    ] {
+        assert_eq!(wrong(LinuxCnc, words), FINE, "{words}");
+    }
+    for words in ["M62 E0", "M67 P0 Q5", "M50 Q0", "M48 P1"] {
+        assert!(wrong(LinuxCnc, words).contains(&"2 unused-word".to_owned()), "{words}");
+    }
+    for words in ["G05 P10000", "G05 P0", "G05.1 Q1", "G05.1 Q0", "G08 P1", "G08 P0"] {
+        assert_eq!(wrong(Fanuc, words), FINE, "{words}");
+    }
+    // P10001 runs stored data, and Q2 smooths the path.
+    for words in ["G05 P10001", "G05", "G05.1 Q2", "G08 P2"] {
+        assert_eq!(wrong(Fanuc, words), ["2 word-not-followed"], "{words}");
+    }
+    for words in ["G187 P1 E0.5", "G187 P3", "G187", "G103 P1", "G103"] {
+        assert_eq!(wrong(Haas, words), FINE, "{words}");
+    }
+    assert_eq!(wrong(Haas, "G103 E1"), ["2 unused-word"]);
+    assert_eq!(wrong(Fanuc, "G187 P1")[0], "2 unknown-word");
+}
+
+#[test]
+fn additional_systems_are_places_of_their_own() {
+    let begun = |first: &str, then: &str| format!("{first}\nG0 X0. Y0. Z5.\n{then}\nG0 X1.");
+    let systems = [(Haas, "G154 P"), (Fanuc, "G54.1 P"), (Mach3, "G59 P")];
+    for (dialect, word) in systems {
+        let [seven, eight] = [7, 8].map(|number| format!("{word}{number}"));
+        assert_eq!(wrong(dialect, &begun(&seven, "")), FINE, "{dialect}");
+        assert_eq!(wrong(dialect, &begun(&seven, &seven)), FINE, "{dialect}");
+        assert_eq!(wrong(dialect, &begun(&seven, &eight)), ["4 unknown-offset"], "{dialect}");
+        assert_eq!(wrong(dialect, &begun("G54", &seven)), ["4 unknown-offset"], "{dialect}");
+        assert_eq!(wrong(dialect, &begun(&seven, "G54")), ["4 unknown-offset"], "{dialect}");
+        assert_eq!(wrong(dialect, &format!("{word}0")), ["2 value-out-of-range"], "{dialect}");
+    }
+    assert_eq!(wrong(Haas, &begun("G110", "G154 P1")), FINE, "the same");
+    assert_eq!(wrong(Haas, &begun("G129", "G154 P20")), FINE, "the same");
+    assert_eq!(wrong(Mach3, &begun("G54", "G59 P1")), FINE, "the same");
+    assert_eq!([wrong(Haas, "G154 P99"), wrong(Mach3, "G59 P253"), wrong(Mach3, "G59")], [FINE; 3]);
+    assert_eq!(wrong(Haas, "G154 P100"), ["2 value-out-of-range"]);
+    assert_eq!(wrong(Mach3, "G59 P254"), ["2 value-out-of-range"]);
+    assert_eq!(wrong(Haas, "G154"), ["2 missing-word"]);
+    assert_eq!(wrong(Grbl, "G59 P7"), ["2 unused-word"]);
+}
+
+/// G10 L2 counts from the machine's zero, where the positions before are not known.
+#[test]
+fn g10_l2_after_the_first_move_is_doubtful() {
+    let found = |words: &str| wrong(LinuxCnc, words);
+    assert_eq!(found("G10 L2 P1 Z-3\nG0 X0 Y0 Z5"), FINE);
+    assert_eq!(found("G0 X0 Y0 Z5\nG10 L2 P1 Z-3\nG0 Z4"), ["3 unknown-offset"]);
+    assert_eq!(found("G10 L2 P1 X0 Y0 Z0\nG0 X0 Y0 Z5\nG10 L2 P1 Z-3\nG0 Z4"), FINE);
+    assert_eq!(found("G0 X0 Y0 Z5\nG10 L2 P2 X9\nG0 Z4\nG55\nG0 X0"), ["5 unknown-offset"]);
+    assert_eq!(found("G10 L2 P1 X0 Y0 Z0\nG10 L2 P2 X9\nG0 X0 Y0 Z5\nG55\nG0 X0"), FINE);
+    assert_eq!(found("G0 X0 Y0 Z5\nG10 L20 P2 X9\nG55\nG0 X0"), FINE);
+}
+
+/// With K0 (Haas: L0) the cycle is only stored, and the next position is drilled.
+#[test]
+fn a_cycle_may_be_stored_without_drilling() {
+    for (dialect, zero) in [(Fanuc, "K0"), (Haas, "L0")] {
+        let program = |words: &str| format!("G0 X0. Y0. Z5.\nG98 G81 Z-2. R1. F100. {words}\nX3.\nG80");
+        assert_eq!(wrong(dialect, &program(zero)), FINE);
+        assert_eq!(
+            run(dialect, &program(zero))[1..],
+            ["4 rapid to 3 0 5", "4 rapid to 3 0 1", "4 feed 100 to 3 0 -2", "4 rapid to 3 0 5"]
+        );
+        // Whether the tool goes to X1 is not known.
+        assert_eq!(wrong(dialect, &program(&format!("X1. {zero}"))), ["3 value-out-of-range"]);
+    }
+    let program = "G0 X0 Y0 Z5\nG98 G81 Z-2 R1 F100 L0";
+    assert_eq!([LinuxCnc, Rs274].map(|dialect| wrong(dialect, program)), [["3 value-out-of-range"]; 2]);
+}
+
+#[test]
+fn g30_of_fanuc_numbers_its_reference_points() {
+    let offsets = MachineOffsets { home: [[0.0; 3], [7.0, 8.0, 9.0]], ..MachineOffsets::default() };
+    let options = Options { offsets: Some(offsets), ..Options::default() };
+    let last = |words: &str| {
+        let program = format!("{HEAD}G0 X1. Y2. Z3.\n{words}\nM30\n");
+        assert_eq!(faults_with(Fanuc, &program, &options), FINE, "{words}");
+        trace_with(Fanuc, &program, &options).iter().rev().nth(1).cloned()
+    };
+    assert_eq!(last("G91 G30 Z0.").as_deref(), Some("3 rapid to 1 2 9 Home2"));
+    assert_eq!(last("G91 G30 P2 Z0.").as_deref(), Some("3 rapid to 1 2 9 Home2"));
+    assert_eq!(last("G91 G30 P3 Z0.").as_deref(), Some("3 rapid to 1 2 ? Home2"));
+    assert_eq!(wrong(Fanuc, "G91 G30 P1 Z0."), ["2 value-out-of-range"]);
+    assert_eq!(wrong(Mach3, "G91 G30 P2 Z0"), ["2 unused-word"]);
+}
+
+#[test]
+fn mach3_has_the_parameters_and_expressions_of_rs274() {
+    assert_eq!(run(Mach3, "#100=5\nG0 X#100 Y[10+20] Z0"), ["3 rapid to 5 30 0"]);
+    assert_eq!(wrong(Mach3, "#10320=1\nG0 X[2**3]"), FINE);
+    assert_eq!(wrong(Mach3, "#10321=1"), ["2 cannot-evaluate"]);
+    assert_eq!(wrong(Mach3, "G0 X#100"), ["2 cannot-evaluate"]);
+}
+
+/// Beckhoff's controls and others take F and S in the line of G04 for the time, and keep feed and speed.
+#[test]
+fn dwells_of_din_have_seconds_or_turns() {
+    let din = |program: &str| {
+        trace(Dialect::Din, &format!("G17 G71 G90\nS1200 M03\nG00 X+0 Y+0 Z+5\n{program}\nM05\nM30\n"))
+    };
+    assert_eq!(din("G04 F2")[2], "4 dwell 2");
+    assert_eq!(din("G04 S10")[2], "4 dwell 0.5");
+    assert_eq!(din("G04 X1.5")[2], "4 dwell 1.5");
+    assert_eq!(
+        din("G01 Z+4 F100\nG04 F2\nG01 Z+3").into_iter().filter(|step| step.contains("feed 100")).count(),
+        2
+    );
+    assert_eq!(faults(Dialect::Din, "G17 G71 G90\nG04 S2\nM30\n"), ["2 missing-word"]);
+    assert_eq!(faults(Dialect::Din, "G17 G71 G90\nG04\nM30\n"), ["2 missing-word"]);
+    assert_eq!(wrong(LinuxCnc, "G4 F2"), ["2 missing-word"]);
 }
 
 #[test]

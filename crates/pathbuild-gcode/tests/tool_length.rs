@@ -39,3 +39,15 @@ fn a_cut_without_the_length_is_reported() {
     assert_eq!(found("T1 M6\nG43 H1\ncut\nG49\ncut\ncut"), [7]);
     assert_eq!(found("T1 M6\nG43 H1\nG49\nG43 H1\ncut"), NOTHING);
 }
+
+#[test]
+fn a_selected_tool_is_inserted_before_it_cuts() {
+    assert_eq!(found("T1 M6\ncut\nT2\nG0 Z5\ncut"), [5]);
+    assert_eq!(found("T1 M6\nT2\ncut\nM6\ncut"), NOTHING, "prepared for the next change");
+    assert_eq!(found("T1 M6\nT2\ncut\nT2 M6\ncut\nT1"), NOTHING);
+    assert_eq!(found("T1 M6\ncut\nT2\ncut\nT3 M6\ncut"), [5]);
+    assert_eq!(found("T1 M6\ncut\nT2\ncut\nT3\nM6\ncut"), [5]);
+    assert_eq!(found("T1 M6\nT1\ncut"), NOTHING);
+    // Without any M6, the operator changes the tool.
+    assert_eq!(found("T1\ncut\nT2\ncut"), NOTHING);
+}

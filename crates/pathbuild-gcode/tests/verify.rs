@@ -293,6 +293,16 @@ fn cuts_are_made_where_the_program_has_stated_x_and_y() {
 }
 
 #[test]
+fn cuts_are_not_made_at_a_height_counted_from_a_machine_position() {
+    let wrong = |program: &str| wrong(&format!("G0 X0 Y0 Z5\n{program}\nG90 G0 Z5"), None);
+    for home in ["G91 G28 Z0", "G28 Z5\nG91", "G53 G0 Z0\nG91", "G30 Z5\nG91"] {
+        let last = home.lines().count() + 3;
+        assert_eq!(wrong(&format!("{home}\nG1 Z-6\nG1 X10")), [format!("{last} unknown-position")], "{home}");
+        assert_eq!(wrong(&format!("{home}\nG90\nG0 Z1\nG91\nG1 Z-6\nG1 X10")), FINE, "{home}");
+    }
+}
+
+#[test]
 fn an_arc_does_not_turn_back_from_both_its_neighbours() {
     let corner = |arc: &str, out: &str| {
         wrong(&format!("G0 X0 Y0 Z1\nG1 X10\n{arc} X15 Y5 I0 J5\nG1 {out}\nG0 Z9"), None)

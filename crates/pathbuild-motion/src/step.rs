@@ -1,5 +1,6 @@
 //! The canonical steps of a program, and the moves of the tool tip.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use pathbuild_diagnostic::Text;
@@ -210,7 +211,7 @@ pub enum Corners {
     Rounded(Option<f64>),
 }
 
-/// G54 (index 0) to G59 (5), and G59.1 to G59.3 (8).
+/// G54 (index 0) to G59 (5), G59.1 to G59.3 (8), and the additional systems that a control numbers by P (9 and up).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WorkSystem(u8);
 
@@ -220,19 +221,31 @@ impl WorkSystem {
         u8::try_from(number).ok().filter(|number| (1..=9).contains(number)).map(|number| Self(number - 1))
     }
 
-    /// From 1 (G54) to 9 (G59.3).
-    pub fn number(self) -> u8 {
-        self.0 + 1
+    /// Number of systems.
+    pub const COUNT: usize = 256;
+
+    /// The additional system with this number, from 1 to 247.
+    pub fn additional(number: u32) -> Option<Self> {
+        u8::try_from(number.saturating_add(8)).ok().filter(|_| number > 0).map(Self)
     }
 
-    /// From 0 (G54) to 8 (G59.3).
+    /// From 1 (G54) to 9 (G59.3); greater for an additional one.
+    pub fn number(self) -> u16 {
+        u16::from(self.0) + 1
+    }
+
+    /// From 0 (G54) to 8 (G59.3); greater for an additional one.
     pub fn index(self) -> usize {
         usize::from(self.0)
     }
 
-    /// Such as `G54`.
-    pub fn name(self) -> &'static str {
-        ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"][self.index()]
+    /// Such as `G54`, or `P1` for an additional one.
+    pub fn name(self) -> Cow<'static, str> {
+        const NAMES: [&str; 9] = ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"];
+        match NAMES.get(self.index()) {
+            Some(name) => Cow::Borrowed(*name),
+            None => Cow::Owned(format!("P{}", self.0 - 8)),
+        }
     }
 }
 
@@ -256,6 +269,8 @@ pub enum Group {
     LatheMode,
     /// Scaling, mirroring, rotation, polar coordinates.
     Transform,
+    /// Look-ahead and smoothing of the control.
+    LookAhead,
     /// G53, which accompanies a motion.
     MachineCoordinates,
     /// G4, which does not use coordinates.

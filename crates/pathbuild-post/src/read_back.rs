@@ -139,7 +139,7 @@ fn chosen_offsets(steps: &[Step]) -> Vec<Diagnostic> {
     for step in steps {
         let word = match &step.action {
             Action::System(system) if *system != WorkSystem::default() => system.name(),
-            Action::Change(Change::ToolLength(ToolLength::Other)) => "G43.1, G43.2",
+            Action::Change(Change::ToolLength(ToolLength::Other)) => "G43.1, G43.2".into(),
             _ => continue,
         };
         if doubts.len() < MOST_DOUBTS {

@@ -534,6 +534,13 @@ messages! {
         help_en: "lengths and the overall size are valid only within one work offset",
         help_de: "Längen und Abmessungen gelten nur innerhalb einer Nullpunktverschiebung",
     }
+    /// G10 L2 for the active system, whose origin before is unknown.
+    ORIGIN_UNKNOWN: UnknownOffset {
+        en: "G10 L2 counts from the machine's zero, and where {system} was before is unknown; it is assumed to have been there",
+        de: "G10 L2 zählt vom Maschinennullpunkt aus, und wo {system} vorher lag, ist unbekannt; angenommen wird: dort",
+        help_en: "set the origin before the first move",
+        help_de: "den Nullpunkt vor der ersten Bewegung setzen",
+    }
     /// G28, G30 or G53 with an unknown target.
     POSITION_UNKNOWN: UnknownOffset {
         en: "the target of {word} is unknown, so the next move begins at an unknown position",

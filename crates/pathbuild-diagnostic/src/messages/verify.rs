@@ -316,6 +316,13 @@ messages! {
         help_en: "check whether a tool change is missing",
         help_de: "prüfen, ob ein Werkzeugwechsel fehlt",
     }
+    /// T after a tool change, followed by cuts without M6.
+    TOOL_NOT_INSERTED: Disagreement {
+        en: "T{tool} is selected here, but no M6 inserts it: the cuts after it are made with the tool before",
+        de: "T{tool} wird hier gewählt, aber kein M6 wechselt es ein: die Schnitte danach macht das Werkzeug davor",
+        help_en: "write M6 after it, or remove T",
+        help_de: "M6 dahinter schreiben oder T entfernen",
+    }
     /// Two comments that place a corner of the stock differently.
     STOCK_STATED_TWICE: HeaderContradiction {
         en: "comments place a corner of the stock at {axis} {one} and at {axis} {other}",
@@ -364,6 +371,13 @@ messages! {
         de: "dieser Schnitt beginnt, bevor das Programm X und Y angegeben hat: bis dahin werden weder Verfahrwege noch Eilgänge geprüft",
         help_en: "go to a position in X and Y with G90 first, and check whether G91 is intended",
         help_de: "zuerst mit G90 eine Position in X und Y anfahren und prüfen, ob G91 gemeint ist",
+    }
+    /// A cut after G28, G30 or G53 at a height counted from there.
+    HEIGHT_OF_MACHINE: UnknownPosition {
+        en: "this cut is at a height that is counted from a machine position: since G28, G30 or G53, the program has not stated Z",
+        de: "die Höhe dieses Schnitts zählt von einer Maschinenposition aus: seit G28, G30 oder G53 hat das Programm kein Z angegeben",
+        help_en: "write G90 after G91 G28, and go to a height above the material before the cut",
+        help_de: "nach G91 G28 wieder G90 schreiben und vor dem Schnitt eine Höhe über dem Material anfahren",
     }
     /// A rapid move down into material.
     RAPID_PLUNGE: RapidPlunge {

@@ -13,10 +13,25 @@ pub struct Words {
     pub m: &'static [u16],
     /// M codes that are ignored.
     pub m_ignored: &'static [u16],
+    /// Accepted words that change neither where the tool goes nor which line is run.
+    pub inert: &'static [InertWord],
     /// Whether M100 to M199 run programs of the user.
     pub own_m_codes: bool,
     /// Whether unknown words are ignored with a warning, whereas other controls stop.
     pub lenient: bool,
+}
+
+/// A word that changes neither where the tool goes nor which line is run: the control's look-ahead, its outputs, its overrides.
+#[derive(Debug)]
+pub struct InertWord {
+    /// `G` or `M`.
+    pub letter: char,
+    /// The code, times ten.
+    pub code: u16,
+    /// The letters that it takes.
+    pub values: &'static [u8],
+    /// The values of the first of these letters that are known to be harmless; empty if all are.
+    pub harmless: &'static [f64],
 }
 
 /// A set of letters, with one bit for each ASCII character.
@@ -46,10 +61,20 @@ impl Words {
         self.g.binary_search(&code).is_ok()
     }
 
+    /// The entry of an inert word.
+    pub fn inert(&self, letter: char, code: u16) -> Option<&'static InertWord> {
+        self.inert.iter().find(|word| (word.letter, word.code) == (letter, code))
+    }
+
     /// Whether the dialect accepts an M code.
     pub fn has_m(&self, code: u16) -> bool {
         self.own_m_codes && (1000..2000).contains(&code) || self.m.binary_search(&code).is_ok()
     }
+}
+
+/// An inert word that is harmless with all values of these letters.
+const fn inert(letter: char, code: u16, values: &'static [u8]) -> InertWord {
+    InertWord { letter, code, values, harmless: &[] }
 }
 
 /// What most dialects have in common.
@@ -59,6 +84,7 @@ const COMMON_WORDS: Words = Words {
     g_own: &[],
     m: &[],
     m_ignored: &[],
+    inert: &[],
     own_m_codes: false,
     lenient: false,
 };
@@ -86,6 +112,22 @@ pub(super) static LINUXCNC: Words = Words {
     m: &[
         0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 300, 480, 490, 500, 510, 520, 530, 600, 610, 620, 630,
         640, 650, 660, 670, 680, 700, 710, 720, 730, 980, 990,
+    ],
+    // LinuxCNC, "M-Codes": M19 R Q P orients the spindle; M50 to M53 P switch overrides, adaptive feed and feed stop; M62 to M65 P switch
+    // digital outputs, M67 and M68 E Q set analogue ones; M66 P or E, L, Q waits for an input.
+    inert: &[
+        inert('M', 190, b"RQP"),
+        inert('M', 500, b"P"),
+        inert('M', 510, b"P"),
+        inert('M', 520, b"P"),
+        inert('M', 530, b"P"),
+        inert('M', 620, b"P"),
+        inert('M', 630, b"P"),
+        inert('M', 640, b"P"),
+        inert('M', 650, b"P"),
+        inert('M', 660, b"PELQ"),
+        inert('M', 670, b"EQ"),
+        inert('M', 680, b"EQ"),
     ],
     own_m_codes: true,
     ..COMMON_WORDS
@@ -138,12 +180,19 @@ pub(super) static MACH3: Words = Words {
 pub(super) static FANUC: Words = Words {
     letters: Letters::new(b"ABCDFGHIJKLMNOPQRSTXYZ"),
     g: &[
-        0, 10, 20, 30, 40, 90, 100, 110, 150, 160, 170, 180, 190, 200, 210, 270, 280, 290, 300, 310, 400,
-        410, 420, 430, 440, 490, 500, 510, 520, 530, 540, 541, 550, 560, 570, 580, 590, 610, 620, 630, 640,
-        650, 660, 670, 680, 690, 730, 740, 760, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890, 900, 910,
-        920, 940, 950, 960, 970, 980, 990,
+        0, 10, 20, 30, 40, 50, 51, 80, 90, 100, 110, 150, 160, 170, 180, 190, 200, 210, 270, 280, 290, 300,
+        310, 400, 410, 420, 430, 440, 490, 500, 510, 520, 530, 540, 541, 550, 560, 570, 580, 590, 610, 620,
+        630, 640, 650, 660, 670, 680, 690, 730, 740, 760, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890,
+        900, 910, 920, 940, 950, 960, 970, 980, 990,
     ],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 290, 300, 980, 990],
+    // Look-ahead: G05 P10000 and P0 (P10001 and up run stored data), G05.1 Q1 and Q0 (Q2 and Q3 smooth the path), G08 P1 and P0. The table of
+    // codes of the 30i at cncschool.pl, and blog.csdn.net/sinat_26528193, article 126620736.
+    inert: &[
+        InertWord { letter: 'G', code: 50, values: b"P", harmless: &[0.0, 10_000.0] },
+        InertWord { letter: 'G', code: 51, values: b"Q", harmless: &[0.0, 1.0] },
+        InertWord { letter: 'G', code: 80, values: b"P", harmless: &[0.0, 1.0] },
+    ],
     ..COMMON_WORDS
 };
 
@@ -153,8 +202,11 @@ pub(super) static HAAS: Words = Words {
         0, 10, 20, 30, 40, 90, 100, 120, 130, 170, 180, 190, 200, 210, 280, 290, 310, 350, 360, 370, 400,
         410, 420, 430, 440, 490, 500, 510, 520, 530, 540, 550, 560, 570, 580, 590, 600, 610, 640, 650, 680,
         690, 700, 710, 720, 730, 740, 760, 770, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890, 900, 910,
-        920, 930, 940, 950, 980, 990,
+        920, 930, 940, 950, 980, 990, 1030, 1100, 1110, 1120, 1130, 1140, 1150, 1160, 1170, 1180, 1190, 1200,
+        1210, 1220, 1230, 1240, 1250, 1260, 1270, 1280, 1290, 1540, 1870,
     ],
+    // Haas Mill Operator's Manual: G103 P limits the look-ahead, G187 P E sets the accuracy at corners.
+    inert: &[inert('G', 1030, b"P"), inert('G', 1870, b"PE")],
     m: &[
         0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 290, 300, 310, 330, 410, 420, 830, 840, 880, 890, 970,
         980, 990,

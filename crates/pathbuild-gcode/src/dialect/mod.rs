@@ -9,12 +9,12 @@ mod rules;
 use std::fmt;
 use std::str::FromStr;
 
-pub use codes::{Letters, Words};
+pub use codes::{InertWord, Letters, Words};
 pub(crate) use comment::beginning_of;
 pub use comment::{Charset, ascii, is_active_comment, within_comment};
 pub use rules::{
     ArcRules, Blanks, DwellRules, DwellUnit, FeedMode, Grammar, LengthRules, LineLength, Operators, Percent,
-    RadiusTolerance, Rules, Slash, Spelling, StartMotion, Style,
+    RadiusTolerance, Rules, Slash, Spelling, StartMotion, Style, SystemNumbers,
 };
 
 /// Declares the dialects, each with its name on the command line and its rules.

@@ -55,6 +55,12 @@ pub struct Rules {
     pub offsets_need_axis: bool,
     /// The letter for the repetitions of a drilling cycle.
     pub repeats: u8,
+    /// Whether a drilling cycle with 0 repetitions is only stored, for the lines after it.
+    pub stores_cycles: bool,
+    /// How P selects coordinate systems besides G54 to G59.
+    pub systems: Option<SystemNumbers>,
+    /// Whether P of G30 numbers the reference point, from 2.
+    pub numbers_references: bool,
     /// Whether drilling cycles return to their initial height (G98) by default.
     pub lifts_to_start: bool,
     /// Whether G80 may stand beside a motion word, which then applies.
@@ -90,6 +96,17 @@ pub struct Unusual {
     pub turns: bool,
 }
 
+/// How P selects additional coordinate systems.
+#[derive(Debug)]
+pub struct SystemNumbers {
+    /// The G code, times ten.
+    pub code: u16,
+    /// Number of values of P, from 1, that stand for G54 and those after it.
+    pub regular: u32,
+    /// Greatest P.
+    pub most: u32,
+}
+
 /// How G4 specifies its time.
 #[derive(Debug)]
 pub struct DwellRules {
@@ -97,6 +114,8 @@ pub struct DwellRules {
     pub p: DwellUnit,
     /// Letters other than P that specify seconds.
     pub seconds: &'static [u8],
+    /// Whether S specifies turns of the spindle.
+    pub counts_turns: bool,
 }
 
 /// Unit of P in G4.
@@ -214,7 +233,7 @@ const BASE: Rules = Rules {
     unit_synonyms: None,
     layers: false,
     motion_is_stated: false,
-    dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"" },
+    dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"", counts_turns: false },
     one_command: false,
     one_word_each: false,
     stop_is_complete: false,
@@ -228,6 +247,9 @@ const BASE: Rules = Rules {
     keeps_offsets: false,
     offsets_need_axis: false,
     repeats: b'L',
+    stores_cycles: false,
+    systems: None,
+    numbers_references: false,
     lifts_to_start: false,
     ends_cycles_beside_motion: false,
     lengths: LengthRules { keeps_entry: false, keeps_length: false },
@@ -350,14 +372,27 @@ pub(super) static NATIVE: Rules = Rules {
 
 pub(super) static MACH3: Rules = Rules {
     dialect: Dialect::Mach3,
+    // "Using Mach3Mill" takes parameters and expressions from RS274/NGC, with 10320 parameters. Its O is the number of a subprogram.
+    spelling: Spelling {
+        grammar: Some(Grammar {
+            operators: Operators::Nist,
+            names: false,
+            signs: false,
+            parameters: 10_320,
+            o_words: false,
+        }),
+        ..BASE_SPELLING
+    },
     words: &codes::MACH3,
     // Using Mach3Mill, "Reference axes G28.1": "The axes will move at the current feed rate towards the home switch(es)".
     reference: ReferenceRules { g: &[281], loses_zero: false },
     arcs: ArcRules { radius: NIST_RADIUS, axis_word: false, ..BASE.arcs },
-    dwell: DwellRules { p: DwellUnit::BySetting, seconds: b"" },
+    dwell: DwellRules { p: DwellUnit::BySetting, seconds: b"", counts_turns: false },
     program_numbers: true,
     keeps_offsets: true,
     lifts_to_start: true,
+    // "Using Mach3Mill", "Select Work Offset Coordinate System": G59 P selects one of 254, of which the first six are G54 to G59.
+    systems: Some(SystemNumbers { code: 590, regular: 6, most: 253 }),
     // Vectric's post for it begins programs with `G00G21G17G90G40G49G80` and `G71G91.1`.
     unit_synonyms: Some([700, 710]),
     ends_cycles_beside_motion: true,
@@ -381,17 +416,26 @@ const ISO: Rules = Rules {
 pub(super) static FANUC: Rules = Rules {
     dialect: Dialect::Fanuc,
     words: &codes::FANUC,
-    dwell: DwellRules { p: DwellUnit::Milliseconds, seconds: b"X" },
+    dwell: DwellRules { p: DwellUnit::Milliseconds, seconds: b"X", counts_turns: false },
     repeats: b'K',
+    // Operator's manual, "Canned cycle for drilling": with K0 the drilling data are stored, and nothing is drilled.
+    stores_cycles: true,
+    // G54.1 P1 to P48, or P300 with an option; G30 P2, P3 and P4 are the second to fourth reference points.
+    systems: Some(SystemNumbers { code: 541, regular: 0, most: 247 }),
+    numbers_references: true,
     ..ISO
 };
 
 pub(super) static HAAS: Rules = Rules {
     dialect: Dialect::Haas,
     words: &codes::HAAS,
-    dwell: DwellRules { p: DwellUnit::ByPoint, seconds: b"" },
+    dwell: DwellRules { p: DwellUnit::ByPoint, seconds: b"", counts_turns: false },
     // Haas Mill Operator's Manual, M00: "It stops the axes, spindle, and turns off the coolant".
     stop_is_complete: true,
+    // Haas Mill Operator's Manual, canned cycles: L0 defines the cycle without drilling at the present position.
+    stores_cycles: true,
+    // The same, G154: "Select Work Coordinates P1-P99".
+    systems: Some(SystemNumbers { code: 1540, regular: 0, most: 99 }),
     ..ISO
 };
 
@@ -418,7 +462,7 @@ pub(super) static MARLIN: Rules = Rules {
     arcs: ArcRules { axis_word: false, turns: true, ..BASE.arcs },
     start_motion: StartMotion::None,
     motion_is_stated: true,
-    dwell: DwellRules { p: DwellUnit::Milliseconds, seconds: b"S" },
+    dwell: DwellRules { p: DwellUnit::Milliseconds, seconds: b"S", counts_turns: false },
     one_command: true,
     rapids_at_feed: true,
     ..BASE
@@ -446,7 +490,9 @@ pub(super) static DIN: Rules = Rules {
     words: &codes::DIN,
     start_motion: StartMotion::None,
     unit_words: [700, 710],
-    dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"X" },
+    // Controls of this kind take F or X for seconds and S for turns of the main spindle: Beckhoff TF5100, "Dwell Time (G04)", and TF5200,
+    // "Dwell time (G04), (#TIME)".
+    dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"XF", counts_turns: true },
     program_numbers: false,
     least_increments: false,
     stops_last: true,

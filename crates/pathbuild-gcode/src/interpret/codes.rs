@@ -21,6 +21,8 @@ pub(super) enum Command {
     LocalOffset,
     MachineCoordinates,
     System(WorkSystem),
+    /// G54.1, G154: the additional system with the number P.
+    NumberedSystem,
     Incremental(bool),
     IncrementalCentres(bool),
     /// G92, which sets the coordinates of the current position.
@@ -105,7 +107,7 @@ impl Command {
             Self::LengthByNumber => Group::ToolLength,
             Self::Inches(_) => Group::Units,
             Self::MachineCoordinates => Group::MachineCoordinates,
-            Self::System(_) => Group::System,
+            Self::System(_) | Self::NumberedSystem => Group::System,
             Self::Incremental(_) => Group::Distance,
             Self::IncrementalCentres(_) => Group::ArcDistance,
             Self::FeedMode(_) => Group::FeedMode,
@@ -119,7 +121,7 @@ impl Command {
         match self {
             Self::NoEffect(Group::ToolLength | Group::PathControl) => WordEffect::Followed,
             Self::NoEffect(_) => WordEffect::NotFollowed,
-            Self::System(_) => WordEffect::System,
+            Self::System(_) | Self::NumberedSystem => WordEffect::System,
             Self::Home(_) | Self::Reference | Self::MachineCoordinates => WordEffect::Place,
             _ => WordEffect::Followed,
         }
@@ -165,6 +167,12 @@ impl Command {
             530 => Self::MachineCoordinates,
             540 | 550 | 560 | 570 | 580 | 590 => system(u32::from(code - 540) / 10 + 1),
             591..=593 => system(u32::from(code - 591) + 7),
+            541 | 1540 => Self::NumberedSystem,
+            // Haas: G110 to G129 are G154 P1 to P20.
+            1100..=1290 if code % 10 == 0 => {
+                let additional = WorkSystem::additional(u32::from(code - 1090) / 10);
+                additional.map_or(Self::NotFollowed(Group::System), Self::System)
+            }
             90 | 610 | 611 | 640 => Self::NoEffect(PathControl),
             // These switch polar coordinates, scaling, mirroring and rotation off, which is always the case.
             150 | 500 | 690 => Self::NoEffect(Transform),

@@ -40,8 +40,12 @@ impl Interpreter<'_> {
 
     pub(super) fn cycle(&mut self, block: &Block<'_>, cycle: Cycle) {
         let coordinates = self.words.values.take_coordinates();
-        let repeats = self.repeats(block);
         let axis = self.state.plane.third();
+        if self.is_only_stored(&coordinates) {
+            self.words.values.take(self.rules.repeats);
+            return self.remember(block, coordinates[axis]);
+        }
+        let repeats = self.repeats(block);
         self.remember(block, coordinates[axis]);
         let Some(hole) = self.hole(block, cycle) else { return };
         let mut old = self.old_height();
@@ -71,6 +75,13 @@ impl Interpreter<'_> {
             self.drill(block, &hole);
             old = hole.clear;
         }
+    }
+
+    /// Whether the line only defines the cycle. Whether the tool goes to coordinates in such a line is not known.
+    fn is_only_stored(&self, coordinates: &[Option<Slot>; 3]) -> bool {
+        let repeats = self.words.values.peek(self.rules.repeats);
+        let stays = self.state.plane.axes().iter().all(|axis| coordinates[*axis].is_none());
+        self.rules.stores_cycles && stays && repeats.is_some_and(|slot| slot.value == 0.0)
     }
 
     fn repeats(&mut self, block: &Block<'_>) -> u32 {

@@ -162,6 +162,7 @@ impl<'i> Interpreter<'i> {
         if self.rules.program_numbers {
             self.program_number(block);
         }
+        let pause = self.dwell_time(block);
         self.feed_mode(block);
         self.set_feed(block);
         self.set_speed(block);
@@ -170,8 +171,11 @@ impl<'i> Interpreter<'i> {
         if !stops_last {
             self.spindle_and_coolant(block);
         }
-        self.dwell(block);
+        if let Some(seconds) = pause {
+            self.step(block, Action::Dwell(seconds));
+        }
         self.modes(block);
+        self.take_inert(block);
         let has_moved = self.coordinates_taken(block) || self.motion(block);
         if stops_last {
             self.spindle_and_coolant(block);
@@ -409,7 +413,9 @@ pub(super) mod limits {
         OFFSETS: "0 to 9", "0 bis 9";
         POSITIVE: "more than 0", "größer als 0";
         POSITIVE_COUNT: "a whole number, 1 or more", "eine ganze Zahl ab 1";
+        REFERENCES: "2, 3 or 4", "2, 3 oder 4";
         SECONDS: "0 seconds or more", "0 Sekunden oder mehr";
+        SYSTEMS: "the number of a coordinate system", "die Nummer eines Koordinatensystems";
         TURNS: "a whole number of turns from 1 to 100000", "eine ganze Zahl von Umläufen von 1 bis 100000";
     }
 }

@@ -225,7 +225,12 @@ fn union_g_word(code: u16) -> UnionWord {
         other => other,
     };
     match Command::of(code) {
-        Command::NotFollowed(_) | Command::LengthByNumber => UnionWord::NotFollowed { is_dangerous: true },
+        Command::NotFollowed(_) | Command::LengthByNumber | Command::NumberedSystem => {
+            UnionWord::NotFollowed { is_dangerous: true }
+        }
+        Command::System(_) if !Dialect::LinuxCnc.rules().words.has_g(code) => {
+            UnionWord::NotFollowed { is_dangerous: true }
+        }
         Command::NoEffect(_) if code == 432 => UnionWord::NotFollowed { is_dangerous: true },
         Command::NoEffect(Group::CutterCompensation | Group::ToolLength | Group::PathControl)
             if Dialect::LinuxCnc.rules().words.has_g(code) =>

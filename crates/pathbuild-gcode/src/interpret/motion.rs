@@ -263,19 +263,25 @@ impl Interpreter<'_> {
         if self.words.values.take(b'R').is_some() {
             self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", "G10 R"));
         }
+        let mut is_followed = true;
         for (axis, slot) in coordinates.into_iter().enumerate() {
             let Some(coordinate) = slot.map(|slot| self.millimetres(slot)) else { continue };
             if kind == 2 {
-                self.state.offsets.place(system, axis, coordinate);
+                is_followed &= self.state.offsets.place(system, axis, coordinate);
             } else {
                 let here = self.state.position.at[axis];
                 self.state.offsets.place_here(system, axis, coordinate, here);
             }
         }
+        if !is_followed {
+            let system = self.system_name(self.state.offsets.active);
+            self.report(block, &say::ORIGIN_UNKNOWN, span, |d| d.quoting("system", system));
+        }
     }
 
     fn home(&mut self, block: &Block<'_>, which: usize, code: u16) {
         self.state.offsets.fix_base();
+        let is_other = self.is_other_reference(block, code);
         let coordinates = self.words.values.take_coordinates();
         let given = given_axes(&coordinates);
         if !given.is_empty() {
@@ -288,7 +294,7 @@ impl Interpreter<'_> {
         let mut to = from;
         for axis in (0..3).filter(|axis| axes.has(Axes::of(*axis))) {
             self.state_axis(axis);
-            match self.state.offsets.home(which, axis) {
+            match self.state.offsets.home(which, axis).filter(|_| !is_other) {
                 Some(at) => {
                     to.at[axis] = at;
                     to.known = to.known.with(Axes::of(axis));
@@ -301,6 +307,19 @@ impl Interpreter<'_> {
         }
         let named = Some(if which == 0 { Named::Home1(axes) } else { Named::Home2(axes) });
         self.emit_move(block, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named });
+    }
+
+    /// Whether P of G30 names another reference point than the second one; where it is, is not known.
+    fn is_other_reference(&mut self, block: &Block<'_>, code: u16) -> bool {
+        if code != 300 || !self.rules.numbers_references {
+            return false;
+        }
+        let Some(slot) = self.words.values.take_slot(b'P') else { return false };
+        let number = whole(slot.value);
+        if !matches!(number, Some(2..=4)) {
+            self.out_of_range(block, "P", slot, &limits::REFERENCES);
+        }
+        number != Some(2)
     }
 
     /// Moves the axes in the line, or all of them, to their switches. Where they are in the program is unknown afterwards.
@@ -360,14 +379,52 @@ impl Interpreter<'_> {
         }
     }
 
+    /// The system that P selects beside this word; the given one without P.
+    pub(super) fn numbered_system(
+        &mut self,
+        block: &Block<'_>,
+        code: u16,
+        span: Span,
+        without: Option<WorkSystem>,
+    ) -> Option<WorkSystem> {
+        let numbers = self.rules.systems.as_ref().filter(|numbers| numbers.code == code);
+        let Some((numbers, slot)) = numbers.zip(self.words.values.peek(b'P')) else {
+            if without.is_none() {
+                let word = codes::name('G', code);
+                self.report(block, &say::NEEDS, span, |d| d.quoting("word", word).quoting("missing", "P"));
+            }
+            return without;
+        };
+        self.words.values.take(b'P');
+        let number = whole(slot.value).filter(|number| (1..=numbers.most).contains(number));
+        let system = number.and_then(|number| match number.checked_sub(numbers.regular) {
+            None | Some(0) => WorkSystem::from_number(number),
+            Some(additional) => WorkSystem::additional(additional),
+        });
+        if system.is_none() {
+            self.out_of_range(block, "P", slot, &limits::SYSTEMS);
+        }
+        system
+    }
+
+    /// The name of a system on this control: a word, or the number that P has for it.
+    fn system_name(&self, system: WorkSystem) -> String {
+        let regular = self.rules.systems.as_ref().map_or(0, |numbers| numbers.regular);
+        match u32::from(system.number()).checked_sub(9) {
+            Some(additional) if additional > 0 => format!("P{}", additional + regular),
+            _ => system.name().into_owned(),
+        }
+    }
+
     pub(super) fn select_system(&mut self, block: &Block<'_>, system: WorkSystem, span: Span) {
         let before = self.state.offsets.active;
         if before == system {
             return;
         }
         if !self.state.offsets.select(system) {
+            let [name, base] = [system, before].map(|system| self.system_name(system));
             self.report(block, &say::OFFSET_UNKNOWN, span, |d| {
-                d.quoting("system", system.name()).quoting("base", before.name())
+                d.quoting("system", name).quoting("base", base)
             });
         }
         self.step(block, Action::System(system));

@@ -118,7 +118,7 @@ impl State {
 /// The active and the stored offsets, in mm.
 #[derive(Debug)]
 pub(super) struct Offsets {
-    systems: [System; 9],
+    systems: [System; WorkSystem::COUNT],
     pub(super) active: WorkSystem,
     /// G92, which is added to the active system.
     origin: [f64; 3],
@@ -128,6 +128,8 @@ pub(super) struct Offsets {
     length: AppliedLength,
     /// The sum of all offsets at the first move; `None` until then.
     base: Option<[f64; 3]>,
+    /// Whether that sum is known in machine coordinates.
+    is_base_known: bool,
     home: [Option<[f64; 3]>; 2],
     /// Whether the configuration contains the offsets.
     is_configured: bool,
@@ -136,15 +138,26 @@ pub(super) struct Offsets {
 #[derive(Clone, Copy, Debug, Default)]
 struct System {
     zero: [f64; 3],
-    /// Whether the origin is known, from the configuration or from G10.
-    is_known: bool,
+    origin: SystemOrigin,
+}
+
+/// How far the origin of a system is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum SystemOrigin {
+    #[default]
+    Unknown,
+    /// In machine coordinates, from the configuration or from G10 L2.
+    Machine,
+    /// Beside the positions of the program, from G10 L20.
+    Program,
 }
 
 impl Offsets {
     pub(super) fn new(configured: Option<&MachineOffsets>) -> Self {
-        let system = |index: usize| System {
-            zero: configured.map_or([0.0; 3], |offsets| offsets.systems[index]),
-            is_known: configured.is_some(),
+        let system = |index: usize| {
+            let zero = configured.and_then(|offsets| offsets.systems.get(index)).copied();
+            let origin = if zero.is_some() { SystemOrigin::Machine } else { SystemOrigin::Unknown };
+            System { zero: zero.unwrap_or_default(), origin }
         };
         Self {
             systems: std::array::from_fn(system),
@@ -154,6 +167,7 @@ impl Offsets {
             local: [0.0; 3],
             length: AppliedLength::default(),
             base: None,
+            is_base_known: false,
             home: [0, 1].map(|index| configured.map(|offsets| offsets.home[index])),
             is_configured: configured.is_some(),
         }
@@ -163,6 +177,7 @@ impl Offsets {
     pub(super) fn fix_base(&mut self) {
         if self.base.is_none() {
             self.base = Some(self.sum());
+            self.is_base_known = self.systems[self.active.index()].origin == SystemOrigin::Machine;
         }
     }
 
@@ -202,21 +217,34 @@ impl Offsets {
     pub(super) fn select(&mut self, system: WorkSystem) -> bool {
         let is_other = self.active != system;
         self.active = system;
-        !is_other || self.base.is_none() || self.systems[system.index()].is_known
+        let is_known = match self.systems[system.index()].origin {
+            SystemOrigin::Unknown => false,
+            SystemOrigin::Machine => self.is_base_known,
+            SystemOrigin::Program => true,
+        };
+        !is_other || self.base.is_none() || is_known
     }
 
-    /// G10 L2: sets the origin of a system in machine coordinates.
-    pub(super) fn place(&mut self, system: Option<WorkSystem>, axis: usize, at: f64) {
-        let system = &mut self.systems[system.unwrap_or(self.active).index()];
+    /// G10 L2: sets the origin of a system in machine coordinates. Returns false if the positions before, which are in the same system, are
+    /// not known in machine coordinates.
+    pub(super) fn place(&mut self, system: Option<WorkSystem>, axis: usize, at: f64) -> bool {
+        let system = system.unwrap_or(self.active);
+        self.set_zero(system, axis, at, SystemOrigin::Machine);
+        system != self.active || self.base.is_none() || self.is_base_known
+    }
+
+    fn set_zero(&mut self, system: WorkSystem, axis: usize, at: f64, origin: SystemOrigin) {
+        let system = &mut self.systems[system.index()];
         system.zero[axis] = at;
-        system.is_known = true;
+        system.origin = origin;
     }
 
     /// G10 L20: sets the coordinate of the tool in a system.
     pub(super) fn place_here(&mut self, system: Option<WorkSystem>, axis: usize, coordinate: f64, here: f64) {
         let here = here - self.length.shift(axis);
         let zero = here + self.base(axis) - self.origin[axis] - self.local[axis] - coordinate;
-        self.place(system, axis, zero);
+        let origin = if self.is_base_known { SystemOrigin::Machine } else { SystemOrigin::Program };
+        self.set_zero(system.unwrap_or(self.active), axis, zero, origin);
     }
 
     /// G92: sets the coordinate of the tool at this position.

@@ -115,18 +115,36 @@ impl Interpreter<'_> {
         is_jump(m_code) && !self.calls(m_code) || is_own
     }
 
-    pub(super) fn dwell(&mut self, block: &Block<'_>) {
-        let Some((.., span)) = self.words.of_group(Group::Dwell) else { return };
-        let seconds = self.rules.dwell.seconds.iter().find_map(|letter| self.words.values.remove(*letter));
-        let time = seconds.map(|slot| (slot, slot.value));
-        match time.or_else(|| self.words.values.take_slot(b'P').map(|slot| (slot, self.seconds(block, slot))))
-        {
+    /// The time in seconds of G4 in the block. Its letters are removed before F and S take effect.
+    pub(super) fn dwell_time(&mut self, block: &Block<'_>) -> Option<f64> {
+        let (.., span) = self.words.of_group(Group::Dwell)?;
+        let rules = &self.rules.dwell;
+        let stated = rules.seconds.iter().find_map(|letter| self.words.values.remove(*letter));
+        let turns = if rules.counts_turns { self.words.values.remove(b'S') } else { None };
+        let time = match (stated, turns) {
+            (Some(slot), _) => Some((slot, slot.value)),
+            (None, Some(slot)) => Some((slot, self.seconds_of_turns(block, slot))),
+            (None, None) => self.words.values.take_slot(b'P').map(|slot| (slot, self.seconds(block, slot))),
+        };
+        match time {
             Some((slot, time)) if time < 0.0 => self.out_of_range(block, "P", slot, &limits::SECONDS),
-            Some((_, time)) => self.step(block, Action::Dwell(time)),
+            Some((_, time)) => return Some(time),
             None => {
                 self.report(block, &say::NEEDS, span, |d| d.quoting("word", "G4").quoting("missing", "P"));
             }
         }
+        None
+    }
+
+    /// The time that the spindle needs for a number of turns.
+    fn seconds_of_turns(&mut self, block: &Block<'_>, turns: Slot) -> f64 {
+        let speed = self.state.spindle.speed.filter(|speed| *speed > 0.0);
+        if speed.is_none() {
+            self.report(block, &say::NEEDS, turns.span, |d| {
+                d.quoting("word", "G4 S").quoting("missing", "S")
+            });
+        }
+        speed.map_or(0.0, |speed| 60.0 * turns.value / speed)
     }
 
     /// The time given by P in a dwell or a cycle.
@@ -176,7 +194,16 @@ impl Interpreter<'_> {
                 }
                 Command::IncrementalCentres(incremental) => self.state.incremental_centres = incremental,
                 Command::RetractToR(to_r) => self.state.retract_to_r = to_r,
-                Command::System(system) => self.select_system(block, system, span),
+                Command::System(system) => {
+                    if let Some(system) = self.numbered_system(block, code, span, Some(system)) {
+                        self.select_system(block, system, span);
+                    }
+                }
+                Command::NumberedSystem => {
+                    if let Some(system) = self.numbered_system(block, code, span, None) {
+                        self.select_system(block, system, span);
+                    }
+                }
                 Command::NotFollowed(group) if group != Group::Motion => {
                     self.report(block, &say::NOT_FOLLOWED, span, |d| {
                         d.quoting("word", codes::name('G', code))

@@ -112,6 +112,11 @@ impl Interpreter<'_> {
         let is_length = matches!(letter, b'X' | b'Y' | b'Z' | b'I' | b'J' | b'R' | b'Q')
             || letter == b'K' && self.rules.repeats != b'K';
         let has_point = block.slice(slot.span).contains(&b'.');
+        let is_of =
+            |code: u16| self.rules.words.inert('G', code).is_some_and(|word| word.values.contains(&letter));
+        if self.words.commands.iter().any(|(_, code, _)| is_of(*code)) {
+            return;
+        }
         if is_length && !has_point && slot.value != 0.0 {
             let name = block.text_of(slot.span).into_owned();
             self.report(block, &say::NO_DECIMAL_POINT, slot.span, |d| d.quoting("word", name));
@@ -161,6 +166,7 @@ impl Interpreter<'_> {
             let command = match self.unit_word(code) {
                 Some(unit) => unit,
                 None if self.rules.reference.g.contains(&code) => Command::Reference,
+                None if words.inert('G', code).is_some() => Command::NoEffect(Group::LookAhead),
                 None if words.g_own.contains(&code) => Command::NotFollowed(Group::NonModal),
                 None => Command::of(code),
             };
@@ -307,6 +313,30 @@ impl Interpreter<'_> {
         self.problems.add(message, At::block(block, span), |d| {
             d.quoting("first", first).quoting("second", second).quoting("dialect", dialect)
         });
+    }
+
+    /// Takes the values of words that do not change the path, as far as their values are known to be harmless.
+    pub(super) fn take_inert(&mut self, block: &Block<'_>) {
+        let words = self.rules.words;
+        if words.inert.is_empty() {
+            return;
+        }
+        let codes = self.words.commands.iter().map(|(_, code, span)| ('G', *code, *span));
+        let codes = codes.chain(self.words.m_codes.iter().map(|(code, span)| ('M', *code, *span)));
+        let found: Vec<_> =
+            codes.filter_map(|(letter, code, span)| Some((words.inert(letter, code)?, span))).collect();
+        for (word, span) in found {
+            let first = word.values.first().and_then(|letter| self.words.values.peek(*letter));
+            let is_harmless =
+                word.harmless.is_empty() || first.is_some_and(|slot| word.harmless.contains(&slot.value));
+            for letter in word.values {
+                self.words.values.take(*letter);
+            }
+            if !is_harmless {
+                let name = codes::name(word.letter, word.code);
+                self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", name));
+            }
+        }
     }
 
     pub(super) fn report_unused(&mut self, block: &Block<'_>) {

@@ -1,4 +1,5 @@
-//! Cuts with the length of another tool, or without any length. (book: program/reading, "Tool lengths")
+//! Cuts with the length of another tool, or without any length, and with a tool that was to be changed. (book: program/reading, "Tool
+//! lengths")
 //!
 //! On every control with G43 the length in effect survives M6, so a program must set the length of each tool. A program that never uses G43
 //! works with one zero per tool and is not judged.
@@ -30,6 +31,10 @@ pub struct LengthRules<'c> {
     fitting: BTreeSet<u32>,
     /// Whether the current tool and length have been judged.
     is_judged: bool,
+    /// Whether M6 has inserted a tool.
+    has_changed: bool,
+    /// A tool that T has selected after an M6, and M6 has not inserted yet.
+    waiting: Option<WaitingTool>,
     problems: Problems,
 }
 
@@ -40,6 +45,16 @@ struct OtherEntry {
     line: u32,
     tool: u32,
     entry: u32,
+}
+
+/// A tool that is selected but not inserted.
+#[derive(Clone, Copy, Debug)]
+struct WaitingTool {
+    /// The line that selects it.
+    line: u32,
+    number: u32,
+    /// Whether the program has cut since.
+    has_cut: bool,
 }
 
 impl<'c> LengthRules<'c> {
@@ -53,6 +68,8 @@ impl<'c> LengthRules<'c> {
             of_entries: Vec::new(),
             fitting: BTreeSet::new(),
             is_judged: false,
+            has_changed: false,
+            waiting: None,
             problems: Problems::default(),
         }
     }
@@ -61,16 +78,48 @@ impl<'c> LengthRules<'c> {
     pub fn step(&mut self, step: &Step) {
         self.tools.step(step);
         match &step.action {
-            Action::ChangeTool(_) => self.is_judged = false,
+            Action::SelectTool(number) => self.select(step.line, *number),
+            Action::ChangeTool(number) => {
+                self.is_judged = false;
+                self.has_changed = true;
+                self.leave_waiting(*number);
+            }
             Action::Change(Change::ToolLength(length)) => {
                 self.is_judged = false;
                 if !matches!(length, ToolLength::Off | ToolLength::OfTool(Some(0))) {
                     self.first.get_or_insert(step.line);
                 }
             }
-            Action::Move(movement) if !self.is_judged => self.cut(step.line, movement),
+            Action::Move(movement) => self.moves(step.line, movement),
             _ => {}
         }
+    }
+
+    fn moves(&mut self, line: u32, movement: &Move) {
+        if let Some(waiting) = &mut self.waiting {
+            waiting.has_cut |= is_cut_in_stock(line, movement, self.stock);
+        }
+        if !self.is_judged {
+            self.cut(line, movement);
+        }
+    }
+
+    /// Handles T, which on controls with a tool changer may only prepare the next change.
+    fn select(&mut self, line: u32, number: u32) {
+        self.leave_waiting(Some(number));
+        let is_new = self.has_changed && self.tools.inserted() != Some(number);
+        self.waiting = is_new.then_some(WaitingTool { line, number, has_cut: false });
+    }
+
+    /// Reports the waiting tool if another one takes its place after cuts that were probably meant for it.
+    fn leave_waiting(&mut self, next: Option<u32>) {
+        let Some(waiting) = self.waiting.take().filter(|waiting| waiting.has_cut) else { return };
+        if next == Some(waiting.number) {
+            return;
+        }
+        self.problems.add_at_line(&say::TOOL_NOT_INSERTED, waiting.line, |d| {
+            d.with("tool", u64::from(waiting.number))
+        });
     }
 
     fn cut(&mut self, line: u32, movement: &Move) {
@@ -108,6 +157,7 @@ impl<'c> LengthRules<'c> {
 
     /// Returns all problems, ordered by line.
     pub fn finish(mut self) -> Vec<Diagnostic> {
+        self.leave_waiting(None);
         if let Some(((line, tool), first)) = self.bare.zip(self.first) {
             self.problems.add_at_line(&say::LENGTH_OF_FIRST_TOOL, line, |d| {
                 let d = d.with("tool", u64::from(tool)).with("first", u64::from(first));

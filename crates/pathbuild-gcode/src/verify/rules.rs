@@ -44,6 +44,8 @@ pub struct Rules<'c> {
     has_cut: bool,
     /// Whether a cut at an unknown position has been reported.
     position_said: bool,
+    /// Whether the height is only known to be that of a machine position.
+    is_height_homed: bool,
     directions: ArcDirections,
     /// Whether a tool was selected, and whether the program stopped, since the last move.
     by_hand: ChangeByHand,
@@ -75,6 +77,7 @@ impl<'c> Rules<'c> {
             probe_end: None,
             has_cut: false,
             position_said: false,
+            is_height_homed: false,
             directions: ArcDirections::default(),
             by_hand: ChangeByHand::default(),
             shifted: None,
@@ -122,6 +125,8 @@ impl<'c> Rules<'c> {
         self.after_probe(line, movement);
         self.cutting(line, movement);
         self.directions.add(line, movement, &mut self.problems);
+        self.is_height_homed =
+            !movement.to.known.has(Axes::Z) && (self.is_height_homed || movement.homes_z());
         self.at = movement.to;
     }
 
@@ -234,6 +239,13 @@ impl<'c> Rules<'c> {
         if is_unknown && movement.named.is_none() && !std::mem::replace(&mut self.position_said, true) {
             self.problems.add_at_line(&say::UNKNOWN_POSITION, line, |d| d);
         }
+        let is_homed = self.is_height_homed && !movement.to.known.has(Axes::Z) && movement.named.is_none();
+        if is_homed && std::mem::take(&mut self.is_height_homed) {
+            self.problems.add_at_line(&say::HEIGHT_OF_MACHINE, line, |d| Diagnostic {
+                severity: Severity::Error,
+                ..d
+            });
+        }
     }
 
     /// Checks the move after a probe, when the touched material is still below the tool.
@@ -254,11 +266,10 @@ impl<'c> Rules<'c> {
         let end = self.probe_end.take().filter(|_| !movement.from.known.has(Axes::Z) && !movement.homes_z());
         let is_probe = matches!(movement.pace, Pace::Probe { toward: true, .. });
         if let Some(end) = end.filter(|end| movement.pace == Pace::Rapid && movement.to.z() < *end) {
-            self.problems
-                .add_at_line(&say::RAPID_BELOW_CONTACT, line, |d| {
-                    let d = d.with("below", end - movement.to.z());
-                    Diagnostic { severity: Severity::Error, ..d }
-                });
+            self.problems.add_at_line(&say::RAPID_BELOW_CONTACT, line, |d| {
+                let d = d.with("below", end - movement.to.z());
+                Diagnostic { severity: Severity::Error, ..d }
+            });
         }
         self.probe_end = if is_probe && movement.keeps_xy() && movement.to.known.has(Axes::Z) {
             Some(movement.to.z())
