@@ -92,7 +92,7 @@ fn settings(db: &mut Database) {
         join_tolerance: 0.0,
         text_limit: 65_536,
         doubts: pathbuild_path::DoubtThresholds::default(),
-        chip_loads: pathbuild_path::ChipLoads::default(),
+        tools: pathbuild_path::PathTools::default(),
     };
     let (files, search) = (FilePattern::default(), vec!["parts".into()]);
     let fold = PathOptions { feed: Some(150.0), sweep_height: Some(20.0), ..PathOptions::default() };

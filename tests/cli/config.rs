@@ -196,6 +196,18 @@ fn the_schema_refuses_what_the_reader_refuses() {
 }
 
 #[test]
+fn a_line_type_is_named_once_in_whatever_case() {
+    let twice = complaints("[line-types]\nfoo = \"DIVIDE\"\nbar = \"CENTER\"\nFOO = \"BORDER\"");
+    assert!(
+        twice.contains("`line-types` has FOO and foo") || twice.contains("`line-types` has foo and FOO"),
+        "{twice}"
+    );
+    let different = "[line-types]\nfoo = \"DIVIDE\"\nfo = \"BORDER\"";
+    let run = Place::new().file("pathbuild.toml", different).run("config show");
+    assert_eq!(run.status, Some(0), "{run}");
+}
+
+#[test]
 fn everything_that_is_wrong_is_said_at_once() {
     let text = r#"fed = 1
 rapid = "fast"

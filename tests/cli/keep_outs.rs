@@ -141,7 +141,7 @@ fn without_the_setting_nothing_is_looked_at() {
     let place = place(&path("21", "mill 0,0 0,15\nmill 0,15 50,15\nend 50,15"));
     assert_eq!(codes(&place.run("check . --format concise")), ["407"]);
     fs::write(place.path().join("pathbuild.toml"), OPTIONS.replace("clamps?", "other")).unwrap();
-    assert_found(&place, &[]);
+    assert_found(&place, &["119"]);
     fs::write(place.path().join("pathbuild.toml"), OPTIONS).unwrap();
     for command in ["check .", "emit .", "emit . --check"] {
         assert_eq!(codes(&place.run(&format!("{command} --format concise")))[0], "407");
@@ -182,7 +182,7 @@ fn a_clamp_that_is_not_clear_stops_its_paths() {
 fn a_layer_that_is_both_is_a_wrong_configuration() {
     let place = place(&path("21", "mill 0,0 9,0\nend 9,0"));
     fs::write(place.path().join("pathbuild.toml"), OPTIONS.replace("clamps?", "1234.*")).unwrap();
-    assert_found(&place, &["003"]);
+    assert_found(&place, &["003", "119"]);
     fs::write(place.path().join("pathbuild.toml"), OPTIONS.replace("clamps?", "(")).unwrap();
     assert!(place.run("check .").stderr.contains("PB003"));
 }

@@ -113,8 +113,8 @@ codes! {
     116 DoubtfulText "doubtful-text" Warning "a text that almost belongs to another element";
     117 InvalidKeepOut "invalid-keep-out" Error "a clamp with an unclear outline or height";
     118 NearlyDrilled "nearly-drilled" Warning "a circle only slightly larger than the cutter";
-    119 TextOnOtherLayer "text-on-other-layer" Warning "a parameter text on a layer that is not a path layer";
-    120 NearlyPathLayer "nearly-path-layer" Warning "a layer whose name resembles that of a path layer";
+    119 TextOnOtherLayer "text-on-other-layer" Warning "a parameter text on a layer that is not a path layer, or the height of a clamp on a layer without clamps";
+    120 NearlyPathLayer "nearly-path-layer" Warning "a layer whose name resembles that of a path layer, or of one with clamps or finished parts";
     121 LeftoverElement "leftover-element" Warning "a line or arc of almost no length, or an element on another one";
     201 MissingParameter "missing-parameter" Error "a required parameter that is neither specified nor inherited";
     202 UnknownParameter "unknown-parameter" Error "a letter that has no meaning for this element";
@@ -173,6 +173,7 @@ codes! {
     522 OlderOutput "older-output" Warning "a program of a path that has errors now";
     523 UnmadeCheck "unmade-check" Error "a check that --require or `[verify] require` demands was not made";
     524 LoweredError "lowered-error" Error "a program is not written because of an error that pathbuild.toml lowers";
+    525 MirroredSubpath "mirrored-subpath" Warning "a subpath segment in a block that is inserted mirrored" no example;
     601 InvalidProbeLine "invalid-probe-line" Error "invalid probe line";
     602 CorrectionTooLarge "correction-too-large" Error "correction too large";
     603 UnknownProbe "unknown-probe" Error "unknown probe";

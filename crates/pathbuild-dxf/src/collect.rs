@@ -173,7 +173,9 @@ impl<'d> Collector<'d> {
         self.count()?;
         let line_type = placed.line_type.clone();
         self.drawing.origins.push(placed.origin);
-        self.drawing.entities.push(Entity { layer, line_type, kind: placed.kind, group, geometry });
+        let is_mirrored = placed.placement.is_some_and(Placement::is_mirrored);
+        let entity = Entity { layer, line_type, kind: placed.kind, group, is_mirrored, geometry };
+        self.drawing.entities.push(entity);
         Ok(())
     }
 

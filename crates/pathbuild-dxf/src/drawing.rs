@@ -129,6 +129,8 @@ pub struct Entity {
     pub kind: EntityKind,
     /// Shared by all parts of one polyline or approximated curve: a text that overlaps one part belongs to all of them.
     pub group: Option<u32>,
+    /// Whether it is in a block that is inserted mirrored.
+    pub is_mirrored: bool,
     /// The shape.
     pub geometry: Geometry,
 }

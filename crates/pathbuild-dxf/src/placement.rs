@@ -72,6 +72,11 @@ impl Placement {
         is_uniform.then_some(Self { x_axis: (x, 0.0), turn, scale, z_scale: z, mirrored, ..Self::IDENTITY })
     }
 
+    /// Whether left and right change places.
+    pub(crate) fn is_mirrored(&self) -> bool {
+        self.mirrored
+    }
+
     /// Transforms a point.
     pub(crate) fn point(&self, point: Point3) -> Point3 {
         let (x, y) = self.direction(point.x, point.y);

@@ -121,7 +121,7 @@ fn settle(db: &Database) {
         line_types: LineTypeAliases::default(),
         text_limit: 4096,
         doubts: pathbuild_path::DoubtThresholds::default(),
-        chip_loads: pathbuild_path::ChipLoads::default(),
+        tools: pathbuild_path::PathTools::default(),
         join_tolerance: 0.0,
     };
     let (files, search) = (FilePattern::default(), Vec::new());

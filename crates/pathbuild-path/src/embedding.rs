@@ -11,8 +11,9 @@ use smol_str::SmolStr;
 use crate::approx::{above, at_least, near};
 use crate::effective::{PathNumbers, PathOptions, PathRole};
 use crate::element::Origin;
+use crate::language::Language;
 use crate::letter::{Letter, Letters};
-use crate::names::{PathName, PathPattern, SpeltName};
+use crate::names::{PathName, SpeltName};
 use crate::path::{Path, Segment, SegmentKind, Subpath, SubpathName, SubpathValue};
 use crate::raw::RawPath;
 use crate::text::TextId;
@@ -287,7 +288,7 @@ impl Restriction {
 #[derive(Debug)]
 pub struct Judge<'a> {
     outer: &'a PathSignature,
-    pattern: &'a PathPattern,
+    language: &'a Language,
     rule: Rule<'a>,
     /// Whether embeddings that `PathDxf2GCode` accepts in spite of its manual are warnings instead of errors.
     is_compatible: bool,
@@ -312,7 +313,7 @@ impl<'a> Judge<'a> {
     pub fn new(
         outer: &'a PathSignature,
         restrictions: &'a [Restriction],
-        pattern: &'a PathPattern,
+        language: &'a Language,
         is_compatible: bool,
     ) -> Self {
         let restriction = || restrictions.iter().find(|rule| rule.concerns(&outer.name));
@@ -321,7 +322,7 @@ impl<'a> Judge<'a> {
             None if outer.unknown.contains(Letter::E) => Rule::Any,
             None => restriction().map_or(Rule::Any, |rule| Rule::Restriction(rule.child())),
         };
-        Self { outer, pattern, rule, is_compatible }
+        Self { outer, language, rule, is_compatible }
     }
 
     /// PB502 as a warning if `>` is followed by more than a name.
@@ -352,7 +353,7 @@ impl<'a> Judge<'a> {
             }
             SubpathName::Invalid { value } => {
                 let problem = Diagnostic::new(&messages::INVALID_NAME).quoting("value", &**value);
-                self.at_name(call, problem.quoting("pattern", self.pattern.as_str()))
+                self.at_name(call, problem.quoting("pattern", self.language.path_pattern.as_str()))
             }
             SubpathName::Found { name, has_more: Some(value) } if self.is_other_name(name, value) => {
                 let problem = Diagnostic::new(&messages::NAME_GOES_ON).quoting("value", &**value);
@@ -466,8 +467,12 @@ impl<'a> Judge<'a> {
         }
         let differs_here = !subpath.hides(Letter::O) && !near(subpath.tool, inner.tool);
         let is_known = !self.outer.unknown.and(inner.unknown).contains(Letter::O);
-        if is_known && !differs_here && !near(self.outer.tool, inner.tool) {
-            problems.push(self.other_cutter(call, inner));
+        if is_known && !differs_here {
+            let is_same = near(self.outer.tool, inner.tool);
+            let problem = if is_same { self.other_tool(inner) } else { Some(self.other_cutter(inner)) };
+            let at = |problem| self.at(call, problem, call.fault(Letter::O));
+            let soften = |problem| if self.is_compatible { as_warning(problem) } else { problem };
+            problems.extend(problem.map(at).map(soften));
         }
         let is_known = !self.outer.unknown.and(subpath.unknown).contains(Letter::T);
         if is_known && !at_least(self.outer.thickness, subpath.thickness) {
@@ -488,14 +493,26 @@ impl<'a> Judge<'a> {
     }
 
     /// Reports a path that is drawn for another cutter: a program has a single one, that of the emitted path, whatever O a segment gives.
-    fn other_cutter(&self, call: &SubpathCall, inner: &PathSignature) -> Diagnostic {
-        let problem = Diagnostic::new(&messages::CUTTER_OF_PROJECT)
+    fn other_cutter(&self, inner: &PathSignature) -> Diagnostic {
+        Diagnostic::new(&messages::CUTTER_OF_PROJECT)
             .quoting("outer", self.outer.name.as_str())
             .with("here", self.outer.tool)
             .quoting("name", inner.name.as_str())
-            .with("there", inner.tool);
-        let problem = self.at(call, problem, call.fault(Letter::O));
-        if self.is_compatible { as_warning(problem) } else { problem }
+            .with("there", inner.tool)
+    }
+
+    /// A path whose name selects another tool of the same diameter. A path that gets just any tool of its diameter fits all of them.
+    fn other_tool(&self, inner: &PathSignature) -> Option<Diagnostic> {
+        let tool = |path: &PathSignature| self.language.tools.of(path.name.as_str(), path.tool);
+        let (here, there) = (tool(self.outer)?, tool(inner)?);
+        let problem = || {
+            Diagnostic::new(&messages::TOOL_OF_PROJECT)
+                .quoting("outer", self.outer.name.as_str())
+                .quoting("here", here.name.as_str())
+                .quoting("name", inner.name.as_str())
+                .quoting("there", there.name.as_str())
+        };
+        (there.is_named && here.name != there.name).then(problem)
     }
 
     fn material(&self, call: &SubpathCall, inner: &PathSignature) -> Option<Diagnostic> {

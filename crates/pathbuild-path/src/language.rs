@@ -7,6 +7,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_dxf::{Drawing, OmittedCurve};
 use pathbuild_motion::ChipLoad;
+use smol_str::SmolStr;
 
 use crate::approx::above;
 use crate::line_type::LineTypeAliases;
@@ -30,38 +31,54 @@ pub struct Language {
     pub text_limit: usize,
     /// Thresholds beyond which something is doubtful.
     pub doubts: DoubtThresholds,
-    /// The chip loads that the user allows.
-    pub chip_loads: ChipLoads,
+    /// The configured tools.
+    pub tools: PathTools,
 }
 
-/// Finds the chip load allowed for the tool of a path by the path's name and its O in mm.
+/// A configured tool.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathTool {
+    /// Name of its table.
+    pub name: SmolStr,
+    /// Whether it is meant for the path in particular, by the path's name.
+    pub is_named: bool,
+    /// The chip load that the user allows.
+    pub chip_load: Option<ChipLoad>,
+}
+
+/// Finds the tool of a path by the path's name and its O in mm.
 #[derive(Clone)]
-pub struct ChipLoads(Arc<FindChipLoad>);
+pub struct PathTools(Arc<FindTool>);
 
-type FindChipLoad = dyn Fn(&str, f64) -> Option<ChipLoad> + Send + Sync;
+type FindTool = dyn Fn(&str, f64) -> Option<PathTool> + Send + Sync;
 
-impl ChipLoads {
-    /// Looks up chip loads with a function.
-    pub fn new(find: impl Fn(&str, f64) -> Option<ChipLoad> + Send + Sync + 'static) -> Self {
+impl PathTools {
+    /// Looks up tools with a function.
+    pub fn new(find: impl Fn(&str, f64) -> Option<PathTool> + Send + Sync + 'static) -> Self {
         Self(Arc::new(find))
     }
 
-    /// The chip load allowed for the tool of a path.
-    pub fn of(&self, path: &str, diameter: f64) -> Option<ChipLoad> {
+    /// The tool of a path.
+    pub fn of(&self, path: &str, diameter: f64) -> Option<PathTool> {
         (self.0)(path, diameter)
+    }
+
+    /// The chip load allowed for the tool of a path.
+    pub fn chip_load(&self, path: &str, diameter: f64) -> Option<ChipLoad> {
+        self.of(path, diameter)?.chip_load
     }
 }
 
-impl Default for ChipLoads {
+impl Default for PathTools {
     /// None.
     fn default() -> Self {
         Self::new(|_, _| None)
     }
 }
 
-impl fmt::Debug for ChipLoads {
+impl fmt::Debug for PathTools {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("ChipLoads")
+        f.write_str("PathTools")
     }
 }
 

@@ -39,7 +39,7 @@ pub use embedding::{PathHeader, PathSignature, ProbeTop, Restriction, SubpathCal
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
 pub use in_force::{ElementParameters, Parameter, parameters_in_force};
 pub use keep_out::{KeepOut, KeepOutMap, KeepOuts, Way};
-pub use language::{ChipLoads, DoubtThresholds, Language};
+pub use language::{DoubtThresholds, Language, PathTool, PathTools};
 pub use letter::Letter;
 pub use letter::{ElementClass, Use};
 pub use line_type::{LineType, LineTypeAliases};
@@ -62,7 +62,7 @@ pub use q_project::{Component, QProject, QProjectFindings, QProjectLine, judge_q
 pub use raw::{DrawnElements, Position, RawFile, RawPath, SourceMap};
 pub use read::{
     AssignedElement, AssignedText, NearNames, ProxyLine, TextCircle, assigned_texts, has_text_on_part,
-    keep_outs, may_be_stray_text, parts, proxy_lines, raw_file, stray_findings,
+    is_near_clamps_or_parts, keep_outs, may_be_stray_text, parts, proxy_lines, raw_file, stray_findings,
 };
 pub use text::{LetterValue, ParameterText, ParameterTexts, TextId, parse_integer, parse_number};
 pub use variables::{AllowedValues, Bindings, Combinations, Definition};

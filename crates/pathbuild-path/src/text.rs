@@ -108,6 +108,11 @@ impl ParameterTexts {
         self.texts.get(text.0.get() as usize - 1).map(|text| self.text(text))
     }
 
+    /// All texts.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = ParameterText<'_>> {
+        self.texts.iter().map(|text| self.text(text))
+    }
+
     /// The first text.
     pub fn first(&self) -> Option<ParameterText<'_>> {
         self.texts.first().map(|text| self.text(text))

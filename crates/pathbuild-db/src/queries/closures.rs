@@ -289,7 +289,7 @@ impl<'db> Walk<'db> {
         }
         let Some(feed) = self.options.feed else { return self.miss(MissingOption::Feed) };
         let language = Settings::get(self.db).language(self.db);
-        let limits = language.chip_loads.of(signature.name.as_str(), signature.tool);
+        let limits = language.tools.chip_load(signature.name.as_str(), signature.tool);
         let chips = limits.and_then(|limits| limits.check(feed, None));
         let doubts = language.doubts.fallback_feed(feed).into_iter().chain(chips);
         let doubts: Vec<_> = doubts.map(|problem| problem.in_path(signature.name.as_str())).collect();

@@ -60,12 +60,8 @@ pub fn embeds<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Embedding<
 fn embeddings<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Embedding<'db>> {
     let Some(outer) = summary(db, instance).known_signature() else { return Vec::new() };
     let settings = Settings::get(db);
-    let judge = Judge::new(
-        outer,
-        settings.restrictions(db),
-        &settings.language(db).path_pattern,
-        settings.reading(db).compatible,
-    );
+    let judge =
+        Judge::new(outer, settings.restrictions(db), settings.language(db), settings.reading(db).compatible);
     let read_all = || read_layers(db, instance.file(db), &|_| true);
     let embedder = Embedder { db, file: instance.file(db), judge, ends: LayerEnds::new(&read_all) };
     outer.subpaths.iter().map(|call| embedder.embedding(call)).collect()

@@ -11,7 +11,7 @@ use pathbuild_files::Stamp;
 use pathbuild_path::{
     Bindings, DrawnParts, ExaminedPath, Item, KeepOut, KeepOuts, Language, NearNames, Part, Path, PathCuts,
     PathHeader, PathName, PathRole, PathSignature, RawFile, RawPath, WalkedPath, Xy, has_text_on_part,
-    judge_file_name, stray_findings,
+    is_near_clamps_or_parts, judge_file_name, stray_findings,
 };
 use pathbuild_toolpath::{own_moves, part_cuts};
 use smol_str::SmolStr;
@@ -72,13 +72,18 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
     let index = read(db, file, |bytes, stamp, drawing| {
         let has_keep_outs = Cell::new(false);
         let has_parts = Cell::new(false);
+        let is_near = Cell::new(false);
         let others = RefCell::new(Vec::new());
         let is_wanted = |layer: &str| {
-            if language.is_keep_out(layer) {
+            let is_keep_out = language.is_keep_out(layer);
+            if is_keep_out {
                 has_keep_outs.set(true);
             }
             let is_path = language.path_pattern.is_layer(layer);
             let is_part = !is_path && language.is_part(layer);
+            if !is_path && !is_part && !is_keep_out && is_near_clamps_or_parts(layer, language) {
+                is_near.set(true);
+            }
             if is_part {
                 has_parts.set(true);
             } else if !is_path && language.path_pattern.may_begin(layer) {
@@ -90,7 +95,7 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
             read_entities(bytes, drawing, reading, &is_wanted);
             let mut raw = pathbuild_path::raw_file(drawing, language);
             let is_noted = drawing.has_noted_text || has_text_on_part(drawing, language);
-            if is_noted || has_near_layer(&raw, &others.borrow()) {
+            if is_noted || is_near.get() || has_near_layer(&raw, &others.borrow()) {
                 let all = entities(bytes, reading, &|_| true);
                 raw.diagnostics.extend(stray_findings(&all, language));
             }

@@ -64,7 +64,7 @@ pub(crate) fn set_up(db: &Database, search: &[&str]) {
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
         doubts: pathbuild_path::DoubtThresholds::default(),
-        chip_loads: pathbuild_path::ChipLoads::default(),
+        tools: pathbuild_path::PathTools::default(),
         join_tolerance: 0.0,
     };
     let search = search.iter().map(Utf8PathBuf::from).collect();

@@ -85,7 +85,7 @@ impl PartTest<'_> {
             line_types: LineTypeAliases::default(),
             text_limit: 65_536,
             doubts: DoubtThresholds::default(),
-            chip_loads: pathbuild_path::ChipLoads::default(),
+            tools: pathbuild_path::PathTools::default(),
             join_tolerance: 0.0,
         };
         let reading = Reading {

@@ -188,3 +188,26 @@ fn blocks_are_expanded() {
     assert_eq!(messages(&drawing("0,1")), [""; 0]);
     assert_eq!(codes(&drawing("0,0.9")), ["PB213"]);
 }
+
+/// Four lines that are all too long form an outline between their crossings, unless too much of them lies beyond these.
+#[test]
+fn lines_that_overshoot_all_corners_form_an_outline() {
+    let with_hole = |over: f64| {
+        let [left, right, low, high] = [-over, 40.0 + over, 1.0 - over, 20.0 + over];
+        let lines = [
+            format!("line {left},1 {right},1"),
+            format!("line 40,{low} 40,{high}"),
+            format!("line {left},20 {right},20"),
+            format!("line 0,{low} 0,{high}"),
+        ];
+        messages(&beside(&format!("{}\n{CIRCLE}", lines.join("\n"))))
+    };
+    // The outline is 118 mm long, and eight ends lie beyond it.
+    for over in [0.6, 1.6] {
+        let found = with_hole(over);
+        assert!(found.len() == 1 && found[0].starts_with("PB219"), "{over}: {found:?}");
+        assert!(found[0].contains("crosses itself at ("), "{over}: {found:?}");
+    }
+    let far = with_hole(1.7);
+    assert!(far.len() == 1 && far[0].starts_with("PB220"), "{far:?}");
+}

@@ -118,6 +118,13 @@ messages! {
         help_en: "give each cutter a number of its own: programs name the tool by its number, and change it where the number changes",
         help_de: "jedem Fräser eine eigene Nummer geben: Programme nennen das Werkzeug mit seiner Nummer und wechseln es, wo sich die Nummer ändert",
     }
+    /// Two names of a line type that differ in case only.
+    SAME_LINE_TYPE: InvalidConfiguration {
+        en: "`{key}` has {name} and {first}, which are the same name",
+        de: "`{key}` hat {name} und {first}, das ist derselbe Name",
+        help_en: "remove one of the two: names of line types are compared without regard to case",
+        help_de: "eines von beiden entfernen: bei Namen von Linientypen zählt Groß- und Kleinschreibung nicht",
+    }
     /// A missing directory.
     NO_DIRECTORY: InvalidConfiguration {
         en: "`{key}` names {directory}, which is not a directory",

@@ -152,6 +152,13 @@ messages! {
         help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters after the name",
         help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
     }
+    /// A text on a sweep that takes no text.
+    ON_SILENT_SWEEP: DoubtfulText {
+        en: "{other} at {other_point} lies exactly under the text \"{text}\", but line type HIDDEN takes no text: it belongs to {element} at {point}",
+        de: "genau unter dem Text \"{text}\" liegt {other} bei {other_point}, der Linientyp HIDDEN nimmt aber keinen Text auf: zum Text gehört {element} bei {point}",
+        help_en: "give the element under the text a line type that takes texts, such as CONTINUOUS, or move the text to its element",
+        help_de: "dem Element unter dem Text einen Linientyp geben, der einen Text aufnimmt, etwa CONTINUOUS, oder den Text zu seinem Element schieben",
+    }
     /// Note: the nearest element.
     NEAREST_ELEMENT: TextWithoutElement {
         en: "the nearest element is {element} at {point}, {distance} mm away from the text's circle",
@@ -202,6 +209,27 @@ messages! {
         de: "der Text \"{text}\" hat keine Wirkung: Layer {layer} gehört zu keinem Pfad",
         help_en: "move it to layer {path_layer}, where it would belong to {element} at {point}; if it is a remark, move it off the element",
         help_de: "auf Layer {path_layer} legen, wo {element} bei {point} zu ihm gehören würde; ist er eine Bemerkung, vom Element wegschieben",
+    }
+    /// The height of a clamp in an outline on a layer without clamps.
+    HEIGHT_ON_OTHER_LAYER: TextOnOtherLayer {
+        en: "the text \"{text}\" looks like the height of a clamp, but `keep-out` does not name layer {layer}: nothing on it is a clamp",
+        de: "der Text \"{text}\" sieht aus wie die Höhe eines Spannmittels, `keep-out` nennt aber Layer {layer} nicht: nichts darauf ist ein Spannmittel",
+        help_en: "move the clamp to a layer that matches `keep-out`, or let `keep-out` match this one; if it is no clamp, give the text another form",
+        help_de: "das Spannmittel auf einen Layer legen, auf den `keep-out` passt, oder `keep-out` auf diesen passen lassen; ist es keines, den Text anders schreiben",
+    }
+    /// A layer with a name similar to that of a layer with clamps.
+    NEARLY_CLAMP_LAYER: NearlyPathLayer {
+        en: "`keep-out` does not match layer {layer}, but it matches a similar name: what is drawn on the layer is no clamp ({elements})",
+        de: "`keep-out` passt nicht auf Layer {layer}, aber auf einen ähnlichen Namen: was darauf liegt, ist kein Spannmittel ({elements})",
+        help_en: "rename the layer, or extend `keep-out`: a regular expression that must match the whole name, as in 'Clamps.*'; if it holds no clamps, give it a quite different name",
+        help_de: "den Layer umbenennen oder `keep-out` erweitern, einen regulären Ausdruck, der auf den ganzen Namen passen muss, wie 'Clamps.*'; sind es keine Spannmittel, den Layer ganz anders nennen",
+    }
+    /// A layer with a name similar to that of a layer with finished parts.
+    NEARLY_PART_LAYER: NearlyPathLayer {
+        en: "`part` does not match layer {layer}, but it matches a similar name: what is drawn on the layer is no finished part ({elements})",
+        de: "`part` passt nicht auf Layer {layer}, aber auf einen ähnlichen Namen: was darauf liegt, ist kein fertiges Teil ({elements})",
+        help_en: "rename the layer, or extend `part`: a regular expression that must match the whole name; if it holds no finished parts, give it a quite different name",
+        help_de: "den Layer umbenennen oder `part` erweitern, einen regulären Ausdruck, der auf den ganzen Namen passen muss; sind es keine fertigen Teile, den Layer ganz anders nennen",
     }
     /// A layer with a name similar to that of a path layer.
     NEARLY_PATH_LAYER: NearlyPathLayer {

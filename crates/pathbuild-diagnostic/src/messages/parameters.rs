@@ -386,6 +386,13 @@ messages! {
         help_en: "remove it",
         help_de: "entfernen",
     }
+    /// A variable that no text refers to.
+    UNUSED_VARIABLE: ParameterWithoutEffect {
+        en: "the variable {variable} has no effect: no text of the path uses it",
+        de: "die Variable {variable} hat keine Wirkung: kein Text des Pfads verwendet sie",
+        help_en: "write ={variable} where its value belongs, as in B={variable}, or remove the definition",
+        help_de: "={variable} schreiben, wo ihr Wert hingehört, wie in B={variable}, oder die Definition entfernen",
+    }
     /// W of a path without a milling chain.
     FIRST_DEPTH_WITHOUT_CHAIN: ParameterWithoutEffect {
         en: "{letter} has no effect here: the path has no milling chain",

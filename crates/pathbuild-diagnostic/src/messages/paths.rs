@@ -239,6 +239,20 @@ messages! {
         help_en: "a program has one cutter: embed the path in a project with its O, and write both programs into one with --join",
         help_de: "ein Programm hat einen Fräser: den Pfad in einem Projekt mit seinem O einbetten und beide Programme mit --join zusammen schreiben",
     }
+    /// An embedding path with another tool of the same diameter.
+    TOOL_OF_PROJECT: SubpathParameterDiffers {
+        en: "path {name} is for the tool {there} ([tool] in pathbuild.toml), but path {outer} is milled with the tool {here}, of the same diameter",
+        de: "Pfad {name} ist für das Werkzeug {there} ([tool] in pathbuild.toml), Pfad {outer} wird aber mit dem Werkzeug {here} desselben Durchmessers gefräst",
+        help_en: "a program has one cutter: embed the path in a project whose name `paths` of {there} matches too, and write both programs into one with --join",
+        help_de: "ein Programm hat einen Fräser: den Pfad in einem Projekt einbetten, auf dessen Namen `paths` von {there} auch passt, und beide Programme mit --join zusammen schreiben",
+    }
+    /// A subpath segment in a mirrored block.
+    MIRRORED_SUBPATH: MirroredSubpath {
+        en: "this subpath segment is in a block that is inserted mirrored, but the embedded path is never mirrored",
+        de: "dieses Unterpfadsegment gehört zu einem Block, der gespiegelt eingefügt ist; der eingebettete Pfad wird aber nie gespiegelt",
+        help_en: "draw the segment outside of the block, or insert the block without mirroring it; a mirrored component needs a path of its own",
+        help_de: "das Segment außerhalb des Blocks zeichnen oder den Block nicht gespiegelt einfügen; ein gespiegeltes Bauteil braucht einen eigenen Pfad",
+    }
     /// A segment with another thickness than its path.
     THICKNESS_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",

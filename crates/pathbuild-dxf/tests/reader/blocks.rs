@@ -447,3 +447,19 @@ fn a_block_that_draws_on_its_layer_or_nothing_is_complete() {
         assert_eq!(left_out_on_p(&block("B", "", &content)), [], "{content}");
     }
 }
+
+#[test]
+fn entities_of_mirrored_insertions_are_marked() {
+    let is_mirrored = |groups: &str| {
+        let drawing =
+            drawing(&block("B", "", LINE), &format!("0 INSERT\n8 X\n2 B\n10 0\n20 0\n{groups}\n{LINE}"));
+        drawing.entities.iter().map(|entity| entity.is_mirrored).collect::<Vec<_>>()
+    };
+    for groups in ["41 -1", "42 -1", "230 -1"] {
+        assert_eq!(is_mirrored(groups), [true, false], "{groups}");
+    }
+    // Two mirrors make a rotation.
+    for groups in ["41 1", "41 -1\n42 -1", "41 -1\n230 -1", "50 90"] {
+        assert_eq!(is_mirrored(groups), [false, false], "{groups}");
+    }
+}

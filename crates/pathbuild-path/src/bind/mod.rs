@@ -266,7 +266,7 @@ impl<'a> Binder<'a> {
             .values
             .number(Letter::O)
             .number()
-            .and_then(|diameter| self.language.chip_loads.of(self.raw.name.as_str(), diameter));
+            .and_then(|diameter| self.language.tools.chip_load(self.raw.name.as_str(), diameter));
         let doubts = &self.language.doubts;
         let class = ElementClass::PathStart;
         problems.extend(check_doubts(&self.values, &self.values, class, doubts, self.chip_load));

@@ -12,7 +12,9 @@ use crate::geometry::{Curve, Line, Xy};
 use crate::keep_out::Outline;
 use crate::part::{BoxIndex, at_along, square};
 use crate::read::outline_graph::{Graph, NEARLY_JOINED};
-use crate::read::rings::{Chain, Crossing, MOST_COMPARED, curves_of, nesting, rims_crossed, self_crossing};
+use crate::read::rings::{
+    Chain, Crossing, MOST_COMPARED, crossings, curves_of, nesting, rims_crossed, self_crossing,
+};
 
 /// Largest gap that counts as a mistake, relative to the length of the outline. Arcs that represent threads, leaders and letters have
 /// larger gaps.
@@ -66,7 +68,14 @@ impl SortedOutlines {
         }
         let outermost = rings.iter().zip(&is_outermost).filter(|(_, is_outermost)| **is_outermost);
         let rims = Rims::new(outermost.map(|(ring, _)| curves_of(ring)).collect());
-        broken.extend(graph.open_chains().iter().filter_map(|chain| BrokenOutline::of_chain(chain, &rims)));
+        let mut others = Vec::new();
+        for chain in graph.open_chains() {
+            match BrokenOutline::of_chain(&chain, &rims) {
+                Some(outline) => broken.push(outline),
+                None => others.push(chain),
+            }
+        }
+        broken.extend(overshooting(&others));
         let mut is_kept = is_left_out.into_iter().map(|is_left_out| !is_left_out);
         rings.retain(|_| is_kept.next().unwrap_or(true));
         let boxes = BoxIndex::new(broken.iter().map(|broken| broken.border.0.extent()));
@@ -129,6 +138,39 @@ impl BrokenOutline {
         let problem = (gap > NEARLY_JOINED).then(|| gap_problem(at, other));
         Some(Self { curve, at, problem, overlong: None, border })
     }
+}
+
+/// The outlines that open chains form between the points where they cross each other, if hardly anything of the chains lies beyond those
+/// points: lines that overshoot all corners, as in `#`.
+fn overshooting(chains: &[Chain]) -> Vec<BrokenOutline> {
+    let curves: Vec<(usize, usize, Curve)> = (0..)
+        .zip(chains)
+        .flat_map(|(chain, curves)| curves.iter().map(move |(number, curve)| (chain, *number, *curve)))
+        .collect();
+    let cuts = crossings(&curves.iter().map(|(.., curve)| *curve).collect::<Vec<_>>());
+    if cuts.iter().all(Vec::is_empty) {
+        return Vec::new();
+    }
+    let mut pieces = Vec::new();
+    for (index, ((.., curve), cuts)) in curves.iter().zip(&cuts).enumerate() {
+        let ends = [&[0.0], &cuts[..], &[curve.length()]].concat();
+        pieces.extend(ends.windows(2).map(|ends| (index, curve.section(ends[0], ends[1]))));
+    }
+    let graph = Graph::new(pieces.iter().map(|(_, curve)| *curve).collect());
+    let outline = |ring: Chain| {
+        let own: BTreeSet<usize> = ring.iter().map(|(piece, _)| curves[pieces[*piece].0].0).collect();
+        let whole: f64 = own.iter().map(|chain| length(&curves_of(&chains[*chain]))).sum();
+        let inside = curves_of(&ring);
+        let at = inside[0].start();
+        (length(&inside) >= MOST_OF_CHAIN * whole).then(|| BrokenOutline {
+            curve: curves[pieces[ring[0].0].0].1,
+            at,
+            problem: Some(Diagnostic::new(&messages::OUTLINE_CROSSES_ITSELF).with("point", shown(at))),
+            overlong: None,
+            border: Border::new(&inside),
+        })
+    };
+    graph.rings().into_iter().filter_map(outline).collect()
 }
 
 /// PB219 for two ends that should meet.

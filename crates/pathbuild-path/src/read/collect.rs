@@ -3,7 +3,7 @@
 use std::mem::take;
 use std::sync;
 
-use pathbuild_diagnostic::messages::drawing as messages;
+use pathbuild_diagnostic::messages::{drawing as messages, paths};
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Message, Point, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry, Layer, Point3};
 use smol_str::SmolStr;
@@ -496,8 +496,17 @@ impl<'d> PathCollector<'d> {
     }
 
     fn add_element(&mut self, found: &LayerEntity<'_>, shape: Shape, role: Role) {
-        if role != Role::SilentSweep {
-            self.candidate(found, shape, Owner::Element(self.elements.len()));
+        let owner = Owner::Element(self.elements.len());
+        if role == Role::SilentSweep {
+            let LayerEntity { source, entity, .. } = *found;
+            let sweep = Candidate { id: source.id, shape, group: entity.group, owner, is_taken: false };
+            self.texts.add_silent(source.layer, sweep);
+        } else {
+            self.candidate(found, shape, owner);
+        }
+        if role == Role::Subpath && found.entity.is_mirrored {
+            let problem = Diagnostic::new(&paths::MIRRORED_SUBPATH);
+            self.report(self.origin(found.source, shape.point()).at(problem));
         }
         self.elements.push(Element { source: found.source, shape, role, text: None });
     }

@@ -64,6 +64,44 @@ fn lone_hatches(drawing: &Drawing, language: &Language, clamps: &[KeepOut]) -> V
     hatches.filter(|place| !fills(place)).map(problem).collect()
 }
 
+/// PB119 for the first height of a clamp in a closed outline on each layer that is neither of a path nor one with clamps, if any layer is to
+/// have clamps. `is_other`: whether a layer is to be searched.
+pub(super) fn unread_clamps(
+    drawing: &Drawing,
+    language: &Language,
+    is_other: impl Fn(u32) -> bool,
+) -> Vec<Diagnostic> {
+    if language.keep_out.is_none() {
+        return Vec::new();
+    }
+    let height_at = |entity: &usize| {
+        let text = AnyText::of(&drawing.entities[*entity].geometry)?;
+        let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
+        texts.first().and_then(height).map(|_| (*entity, text))
+    };
+    let mut found = Vec::new();
+    for ((number, layer), entities) in (0..).zip(&drawing.layers).zip(by_layer(drawing)) {
+        let heights: Vec<_> =
+            if is_other(number) { entities.iter().filter_map(height_at).collect() } else { Vec::new() };
+        if heights.is_empty() {
+            continue;
+        }
+        let outlines = Reading { drawing, language, layer, number, problems: Vec::new() }.outlines(&entities);
+        let map = flat_map(outlines.iter().map(|closed| &*closed.outline));
+        let is_inside = |(_, text): &&(usize, AnyText<'_>)| {
+            let TextCircle { centre, radius } = text.circle();
+            !at_point(&map, centre, radius).is_empty()
+        };
+        found.extend(heights.iter().find(is_inside).map(|(entity, text)| {
+            let problem = Diagnostic::new(&messages::HEIGHT_ON_OTHER_LAYER)
+                .quoting("text", one_line(*text))
+                .quoting("layer", &*layer.name);
+            at_entity(drawing, *entity, text.anchor(), problem)
+        }));
+    }
+    found
+}
+
 /// A map of outlines to be searched with [`at_point`].
 fn flat_map<'k>(outlines: impl Iterator<Item = &'k [Curve]>) -> KeepOutMap {
     KeepOutMap::new(outlines.map(|outline| (1.0, outline)))

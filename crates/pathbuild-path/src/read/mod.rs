@@ -29,7 +29,7 @@ pub use keep_outs::keep_outs;
 pub(crate) use keep_outs::{Part, Ring, rings};
 pub use listing::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines};
 pub use parts::{has_text_on_part, parts};
-pub use stray::{NearNames, may_be_stray_text, stray_findings};
+pub use stray::{NearNames, is_near_clamps_or_parts, may_be_stray_text, stray_findings};
 
 /// Finds the paths of a drawing; none if the drawing itself has errors.
 pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {

@@ -11,7 +11,7 @@ use smol_str::SmolStr;
 use crate::approx::coincide;
 use crate::element::{Cut, Element, Origin, Role, Shape, shown};
 use crate::geometry::{Curve, Xy};
-use crate::letter::{ElementClass, Letter};
+use crate::letter::{ElementClass, Letter, Letters};
 use crate::names::PathName;
 use crate::raw::RawPath;
 use crate::text::{LetterValue, ParameterText};
@@ -63,6 +63,7 @@ impl PathCheck<'_> {
             self.report(self.raw.at_parameters(problem));
         }
         self.define_variables();
+        self.check_uses(starts);
         self.check_elements(self.raw.tool());
     }
 
@@ -134,6 +135,37 @@ impl PathCheck<'_> {
         self.raw.definitions = definitions;
         self.raw.faults.variables = faulty;
         for problem in problems {
+            self.report(problem);
+        }
+    }
+}
+
+impl PathCheck<'_> {
+    /// PB210 for each variable that no text of the path refers to. If paths of the drawing borrow texts from each other, it may be meant for
+    /// one of them, and what errors hide may refer to it as well.
+    fn check_uses(&mut self, starts: &Starts) {
+        let faults = &self.raw.faults;
+        let may_be_hidden = faults.has_broken_entity || faults.stray_letters != Letters::default();
+        if self.raw.definitions.is_empty() || !starts.is_empty() || may_be_hidden {
+            return;
+        }
+        let texts = self.raw.drawn.texts.iter();
+        let after_signs = texts.flat_map(|text| text.as_str().split('=').skip(1));
+        let used: HashSet<char> = after_signs.filter_map(|after| after.chars().next()).collect();
+        let is_defined = |name: &char| self.raw.definitions.iter().any(|definition| definition.name == *name);
+        // A reference to a variable that does not exist (PB303) was meant for one that does.
+        if !used.iter().all(is_defined) {
+            return;
+        }
+        let parameters = self.raw.parameters();
+        let unused = parameters.pieces().iter().filter_map(|piece| {
+            let name = parameters.value(piece).chars().next()?;
+            let is_unused =
+                piece.letter == Some(Letter::Variable) && !used.contains(&name) && is_defined(&name);
+            let problem = Diagnostic::new(&parameters::UNUSED_VARIABLE).with("variable", name);
+            is_unused.then(|| self.raw.at_parameters(problem.with_text(parameters.fault(piece))))
+        });
+        for problem in unused.collect::<Vec<_>>() {
             self.report(problem);
         }
     }

@@ -96,6 +96,26 @@ pub(super) fn self_crossing(curves: &[Curve]) -> Option<Crossing> {
     })
 }
 
+/// The places in mm along each curve where others cross it, in ascending order. None if there are too many to compare.
+pub(super) fn crossings(curves: &[Curve]) -> Vec<Vec<f64>> {
+    let boxes = BoxIndex::new(curves.iter().map(|curve| around(curve, 0.0)));
+    let mut compared = 0;
+    let mut cuts = vec![Vec::new(); curves.len()];
+    for (index, curve) in curves.iter().enumerate() {
+        for other in boxes.near(around(curve, JOINED)).into_iter().filter(|other| *other != index) {
+            compared += 1;
+            if compared > MOST_COMPARED {
+                return vec![Vec::new(); curves.len()];
+            }
+            if crossing(&curves[other], curve).is_some() {
+                cuts[index].extend(crossing(curve, &curves[other]));
+            }
+        }
+        cuts[index].sort_by(f64::total_cmp);
+    }
+    cuts
+}
+
 /// The rings that cross the rim of a larger one, each with the place in its own curves.
 pub(super) fn rims_crossed(rings: &[Chain], is_outermost: &[bool]) -> Vec<(usize, Crossing)> {
     let all: Vec<(usize, usize, Curve)> = (0..)

@@ -1,5 +1,5 @@
-//! Finds things that were drawn for a path but do not reach it: parameter texts on other layers (PB119), and layers whose names resemble
-//! those of paths (PB120). (book: language/layers-and-names, book: language/parameter-texts)
+//! Finds things that were drawn for a path, a clamp or a finished part but do not reach it: texts on other layers (PB119), and layers whose
+//! names resemble those that count (PB120). (book: language/layers-and-names, book: language/parameter-texts, book: language/keep-outs)
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -15,6 +15,7 @@ use crate::names::PathName;
 use crate::read::candidates::{Candidate, Owner, SearchBudget};
 use crate::read::collect::{self, PathCollector, PathLayers};
 use crate::read::entities::{AnyText, at_entity, begin};
+use crate::read::keep_outs::unread_clamps;
 use crate::text::{ParameterText, ParameterTexts, ValueKind};
 
 /// Letters that spoil a part if they are missing. A stray text must contain one of them to be reported.
@@ -28,7 +29,7 @@ const LONGEST_SLIP: usize = 2;
 
 /// Whether the undecoded bytes of a text may be a parameter text that [`stray_findings`] reports. `false` is definitive.
 pub fn may_be_stray_text(text: &[u8]) -> bool {
-    let is_weighty = |byte: u8| matches!(byte, b'B' | b'D' | b'F' | b'I' | b'W');
+    let is_weighty = |byte: u8| matches!(byte, b'B' | b'D' | b'F' | b'I' | b'W' | b'Z');
     let is_value = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b',' | b'=');
     // A colon begins a variable, as in `:D0.5`, which is never reported; a backslash begins a format code of MTEXT, as in `\\W0.8;`, or a
     // line break: `\\P`.
@@ -50,7 +51,7 @@ impl NearNames {
     }
 
     /// The path whose name the name of another layer resembles: followed by a tilde and anything else, or by at most two more characters.
-    /// Spaces and case are ignored.
+    /// Spaces, points and other separators, and case are ignored; letters that look like digits are taken for those.
     pub fn path(&self, layer: &str) -> Option<&PathName> {
         let layer = folded(layer);
         let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));
@@ -60,19 +61,16 @@ impl NearNames {
     }
 }
 
-/// Normalizes a name for comparison: upper case, no spaces, points for `_` and `,`, and plain characters for those that look like them.
+/// Normalizes a name for comparison: upper case, no spaces and separators, and plain characters and digits for those that look like them.
 fn folded(name: &str) -> String {
-    let visible = name.chars().filter(|letter| !letter.is_whitespace());
-    let upper = visible.flat_map(char::to_uppercase);
-    let letters = upper.map(|letter| match look_alikes::ascii(letter).unwrap_or(letter) {
-        '_' | ',' => '.',
-        '\u{2dc}' | '\u{223c}' => '~',
-        letter => letter,
-    });
-    letters.collect()
+    let plain = look_alikes::with_digits(&look_alikes::replaced(name));
+    let seen =
+        plain.chars().filter(|letter| !letter.is_whitespace() && !matches!(letter, '.' | '_' | ',' | '-'));
+    let tildes = seen.map(|letter| if matches!(letter, '\u{2dc}' | '\u{223c}') { '~' } else { letter });
+    tildes.flat_map(char::to_uppercase).collect()
 }
 
-/// PB119 and PB120 for a drawing with all its layers.
+/// PB119 and PB120 for a drawing that was read with all its layers.
 pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic> {
     let layers = PathLayers::find(drawing, &language.path_pattern);
     let mut paths = collect::paths(drawing, language);
@@ -82,36 +80,86 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
         path.texts.prepare();
     }
     let names = NearNames::new(paths.iter().map(|path| &path.name));
-    let near_layers: Vec<Option<&PathName>> = (0_u32..)
+    let is_other: Vec<bool> = (0_u32..)
         .zip(&drawing.layers)
         .map(|(number, layer)| {
-            let is_other = layers.membership(number).is_none();
-            let is_other = is_other && !layer.hidden && !language.is_keep_out(&layer.name);
-            is_other.then(|| names.path(&layer.name)).flatten()
+            layers.membership(number).is_none() && !layer.hidden && !language.is_keep_out(&layer.name)
         })
+        .collect();
+    let near_layers: Vec<Option<NearLayer<'_>>> = drawing
+        .layers
+        .iter()
+        .zip(&is_other)
+        .map(|(layer, is_other)| is_other.then(|| NearLayer::of(&layer.name, &names, language)).flatten())
         .collect();
     let budget = SearchBudget::new(MOST_EXAMINED);
     let mut on_near_layers: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     let mut findings = Vec::new();
     for (number, entity) in drawing.entities.iter().enumerate() {
-        let layer = &drawing.layers[entity.layer as usize];
         if near_layers[entity.layer as usize].is_some() {
             on_near_layers.entry(entity.layer).or_default().push(number);
         } else if let Some(text) = AnyText::of(&entity.geometry)
-            && layers.membership(entity.layer).is_none()
-            && !layer.hidden
-            && !language.is_keep_out(&layer.name)
+            && is_other[entity.layer as usize]
         {
             findings.extend(stray_text(drawing, number, text, &paths, &budget));
         }
     }
-    findings.extend(
-        on_near_layers.into_iter().filter_map(|(layer, entities)| {
-            near_layer(drawing, near_layers[layer as usize]?, layer, &entities)
-        }),
-    );
+    findings.extend(on_near_layers.into_iter().filter_map(|(layer, entities)| {
+        near_layer(drawing, near_layers[layer as usize].as_ref()?, layer, &entities)
+    }));
+    findings.extend(unread_clamps(drawing, language, |layer| {
+        let is_part = language.is_part(&drawing.layers[layer as usize].name);
+        is_other[layer as usize] && !is_part && near_layers[layer as usize].is_none()
+    }));
     findings
 }
+
+/// What the name of a layer without a meaning resembles.
+enum NearLayer<'n> {
+    Path(&'n PathName),
+    Clamps,
+    Parts,
+}
+
+impl<'n> NearLayer<'n> {
+    fn of(layer: &str, names: &'n NearNames, language: &Language) -> Option<Self> {
+        if let Some(path) = names.path(layer) {
+            return Some(Self::Path(path));
+        }
+        let is_part = language.is_part(layer);
+        let is_near = |is_layer: &dyn Fn(&str) -> bool| !is_part && nearly_matches(layer, is_layer);
+        if is_near(&|name| language.is_keep_out(name)) {
+            return Some(Self::Clamps);
+        }
+        is_near(&|name| language.is_part(name)).then_some(Self::Parts)
+    }
+}
+
+/// Whether the name of a layer resembles one with clamps or finished parts, of which [`stray_findings`] reports what is drawn there.
+pub fn is_near_clamps_or_parts(layer: &str, language: &Language) -> bool {
+    let has_patterns = language.keep_out.is_some() || language.part.is_some();
+    has_patterns && NearLayer::of(layer, &NearNames::new(std::iter::empty()), language).is_some()
+}
+
+/// Length in characters below which a name resembles too many others.
+const SHORTEST_NAME: usize = 4;
+
+/// Whether a pattern that does not match a name would match it without a tilde and what follows, without up to two characters at its end, or
+/// with another ending of the plural. Spaces are ignored, and characters are taken for those that they look like.
+fn nearly_matches(layer: &str, is_layer: &dyn Fn(&str) -> bool) -> bool {
+    let plain = look_alikes::replaced(layer);
+    let plain = plain.split('~').next().unwrap_or_default().trim_end();
+    let ends = plain.char_indices().rev().map(|(at, _)| at).take(LONGEST_SLIP);
+    let shorter = std::iter::once(plain.len()).chain(ends).map(|end| plain[..end].trim_end());
+    let mut shorter = shorter.filter(|name| name.chars().count() >= SHORTEST_NAME);
+    let is_long = plain.chars().count() >= SHORTEST_NAME;
+    let longer = || PLURALS.iter().any(|plural| is_layer(&format!("{plain}{plural}")));
+    let closed = || is_layer(&plain.split_whitespace().collect::<String>());
+    !is_layer(layer) && (shorter.any(is_layer) || is_long && (longer() || closed()))
+}
+
+/// Endings of plurals, in English and German.
+const PLURALS: [&str; 4] = ["s", "e", "n", "en"];
 
 /// PB119 if a text would have an effect on the layer of a path.
 fn stray_text(
@@ -172,19 +220,23 @@ impl PathCollector<'_> {
 }
 
 /// PB120 for a layer with these entities.
-fn near_layer(drawing: &Drawing, path: &PathName, layer: u32, entities: &[usize]) -> Option<Diagnostic> {
+fn near_layer(drawing: &Drawing, near: &NearLayer<'_>, layer: u32, entities: &[usize]) -> Option<Diagnostic> {
     let first = *entities.first()?;
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for entity in entities {
         *counts.entry(drawing.entities[*entity].kind.name()).or_default() += 1;
     }
     let elements: Value = counts.into_iter().map(|(kind, count)| format!("{count} {kind}")).collect();
-    let problem = Diagnostic::new(&messages::NEARLY_PATH_LAYER)
-        .quoting("layer", &*drawing.layers[layer as usize].name)
-        .quoting("path", path.as_str())
-        .with("elements", elements)
-        .in_path(path.as_str());
-    let problem = match look_alikes::first(&drawing.layers[layer as usize].name) {
+    let problem = match near {
+        NearLayer::Path(path) => Diagnostic::new(&messages::NEARLY_PATH_LAYER)
+            .quoting("path", path.as_str())
+            .in_path(path.as_str()),
+        NearLayer::Clamps => Diagnostic::new(&messages::NEARLY_CLAMP_LAYER),
+        NearLayer::Parts => Diagnostic::new(&messages::NEARLY_PART_LAYER),
+    };
+    let name = &*drawing.layers[layer as usize].name;
+    let problem = problem.quoting("layer", name).with("elements", elements);
+    let problem = match look_alikes::first(name) {
         Some(character) => problem.note(&messages::LOOK_ALIKE_IN_NAME, character),
         None => problem,
     };

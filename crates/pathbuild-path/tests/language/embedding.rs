@@ -3,9 +3,11 @@
 use std::sync::LazyLock;
 
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_path::{Judge, PathHeader, PathName, PathPattern, PathSignature, Restriction, SubpathCall};
+use pathbuild_path::{
+    Judge, Language, PathHeader, PathName, PathSignature, PathTool, PathTools, Restriction, SubpathCall,
+};
 
-use crate::support::{codes, compile, path, raw};
+use crate::support::{codes, compile, language, path, raw};
 
 /// A path with one subpath segment of 20 mm.
 fn project(parameters: &str, segment: &str) -> PathSignature {
@@ -31,7 +33,7 @@ fn judged<R>(
     restrictions: &[Restriction],
     judge: impl FnOnce(Judge<'_>, &SubpathCall) -> R,
 ) -> R {
-    judge(Judge::new(outer, restrictions, &COMMON, false), &outer.subpaths[0])
+    judge(Judge::new(outer, restrictions, &LANGUAGE, false), &outer.subpaths[0])
 }
 
 /// The mismatches with their letters.
@@ -50,9 +52,9 @@ fn restriction(parent: &str, child: &str) -> Restriction {
     Restriction::new(parent, child).unwrap()
 }
 
-const RIGHT: [&str; 0] = [];
+static LANGUAGE: LazyLock<Language> = LazyLock::new(language);
 
-static COMMON: LazyLock<PathPattern> = LazyLock::new(PathPattern::default);
+const RIGHT: [&str; 0] = [];
 
 #[test]
 fn the_segment_is_as_long_as_the_path() {
@@ -83,7 +85,7 @@ fn o_is_that_of_the_embedding_path() {
     let with = |outer: &str, segment: &str, inner: &str, is_compatible| {
         let outer = project(&format!("T5 O{outer} I1 B0 Mx"), &format!(">1111.1P {segment}"));
         let inner = component(&format!("T5 O{inner} I1 B0 Mx"));
-        let judge = Judge::new(&outer, &[], &COMMON, is_compatible);
+        let judge = Judge::new(&outer, &[], &LANGUAGE, is_compatible);
         let found = judge.misfits(&outer.subpaths[0], &inner);
         found.into_iter().map(|problem| (problem.code().to_string(), problem.is_error())).collect::<Vec<_>>()
     };
@@ -98,6 +100,34 @@ fn o_is_that_of_the_embedding_path() {
     assert_eq!(with("3", "O2", "3", false), error);
     assert_eq!(with("3", "O2", "3", true), error);
     assert_eq!(with("3", "O2", "1", false), error);
+}
+
+/// Tools for 1111.1P and for all other paths, of the same diameter.
+#[test]
+fn the_tool_is_that_of_the_embedding_path() {
+    let found = |of_inner: &'static str, is_named, inner_tool: &str, is_compatible| {
+        let tools = PathTools::new(move |path, _| {
+            let is_inner = path == "1111.1P";
+            let name = if is_inner { of_inner } else { "mill" };
+            Some(PathTool { name: name.into(), is_named: is_named && is_inner, chip_load: None })
+        });
+        let outer = project("T5 O3 I1 B0 Mx", &format!(">1111.1P O{inner_tool}"));
+        let inner = path(&format!("T5 O{inner_tool} I1 B0 Mx"), "mill 0,0 20,0\nend 20,0");
+        let inner = signature(&inner.replace("1234.1P", "1111.1P"));
+        let language = Language { tools, ..language() };
+        let judge = Judge::new(&outer, &[], &language, is_compatible);
+        let found = judge.misfits(&outer.subpaths[0], &inner);
+        found.into_iter().map(|problem| (problem.text(Lang::En), problem.is_error())).collect::<Vec<_>>()
+    };
+    let said = "path 1111.1P is for the tool slot ([tool] in pathbuild.toml), but path 1234.1P is milled with the tool mill, of the same diameter";
+    assert_eq!(found("slot", true, "3", false), [(said.to_owned(), true)]);
+    assert_eq!(found("slot", true, "3", true), [(said.to_owned(), false)]);
+    assert_eq!(found("mill", true, "3", false), []);
+    // Any tool of its diameter will do for a path that no tool names.
+    assert_eq!(found("slot", false, "3", false), []);
+    // Another diameter is another tool, and reported as such.
+    let [(text, true)] = &found("slot", true, "2", false)[..] else { panic!() };
+    assert!(text.contains("is drawn for a cutter of 2 mm"), "{text}");
 }
 
 /// An embedded path lies in the material of the embedding path.
@@ -170,7 +200,7 @@ fn a_segment_names_a_path_and_no_more() {
 fn a_name_that_goes_on_is_another() {
     let named = |segment: &str, is_compatible| {
         let outer = project("T5 O3 I1 B0 Mx", segment);
-        let (judge, call) = (Judge::new(&outer, &[], &COMMON, is_compatible), &outer.subpaths[0]);
+        let (judge, call) = (Judge::new(&outer, &[], &LANGUAGE, is_compatible), &outer.subpaths[0]);
         let error = judge.name(call).err().map(|problem| problem.code().to_string());
         (error, codes(&judge.warnings(call)))
     };

@@ -121,6 +121,8 @@ fn path_start() {
         let expected = match cell(row, letter) {
             Cell::Unknown if letter == '@' => vec!["PB208".to_owned()],
             Cell::Unknown => vec![format!("PB202 {letter}")],
+            // No text refers to the variable.
+            _ if letter == ':' => vec!["PB210".to_owned()],
             _ => vec![],
         };
         let others = without(PATH, letter);

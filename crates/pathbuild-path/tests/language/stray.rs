@@ -1,7 +1,7 @@
 //! Things drawn for a path that do not reach it: PB119 and PB120.
 
 use pathbuild_dxf::{Drawing, Options, Units};
-use pathbuild_path::{Language, LayerPattern, may_be_stray_text, stray_findings};
+use pathbuild_path::{Language, LayerPattern, PartSettings, SlotPaths, may_be_stray_text, stray_findings};
 use pathbuild_testkit::sheet;
 
 use crate::support::{codes, language};
@@ -95,6 +95,11 @@ fn a_layer_that_is_nearly_a_path_s_is_named() {
         "1234.1P A",
         "1234.1P~Aß1",
         "12 34.1P",
+        "1234-1P",
+        "12341P",
+        "1234.lP",
+        "1234.1_P",
+        "1234.1P_~A",
     ] {
         assert_eq!(circle(layer), ["PB120"], "{layer}");
     }
@@ -112,10 +117,94 @@ fn a_layer_is_named_once_however_much_is_on_it() {
 /// Texts that the preliminary test must not miss.
 #[test]
 fn the_first_look_at_bytes_is_certain() {
-    for text in ["B2", "F120 B-0.3", " B2", "B=D", "N1 B.5", "{\\fArial|b0|i0;B2}", "N1\\PB2"] {
+    for text in [
+        "B2",
+        "F120 B-0.3",
+        " B2",
+        "B=D",
+        "N1 B.5",
+        "{\\fArial|b0|i0;B2}",
+        "N1\\PB2",
+        "Z25",
+        "{\\fArial;Z2.5}",
+    ] {
         assert!(may_be_stray_text(text.as_bytes()), "{text}");
     }
     for text in ["R5", "M6", "Maßstab 1:1", "AB2", ">1234.1P :D0.5", "\\W0.8;Text", "Bohrung", ""] {
         assert!(!may_be_stray_text(text.as_bytes()), "{text}");
     }
+}
+
+/// The findings about a drawing with layers other than those of paths.
+fn strays_beside(keep_out: &str, part: Option<&str>, others: &str) -> Vec<String> {
+    let drawing = format!("layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0\n{others}");
+    let part = part.map(|pattern| PartSettings {
+        pattern: LayerPattern::new(pattern).expect("a pattern"),
+        tolerance: 0.01,
+        is_held_otherwise: false,
+        slots: SlotPaths::default(),
+    });
+    let language = Language { keep_out: LayerPattern::new(keep_out).ok(), part, ..language() };
+    codes(&stray_findings(&drawn(&drawing), &language))
+}
+
+#[test]
+fn a_layer_that_keep_out_nearly_matches_is_named() {
+    let circle = |keep_out: &str, layer: &str| {
+        strays_beside(keep_out, None, &format!("layer \"{layer}\"\ncircle 20,40 d 9"))
+    };
+    for (keep_out, layer) in [
+        ("Clamps", "Clamps 1"),
+        ("Clamps", "Clamps0"),
+        ("Clamps", "Clamp"),
+        ("Clamps", "Clamps~A"),
+        ("Clamps", "clamps_1"),
+        ("Clamp", "Clamps"),
+        ("Clamps|Vise", "Vises"),
+        ("Spanneisen", "Spann eisen"),
+        ("Spannmittel", "Spаnnmittel"),
+    ] {
+        assert_eq!(circle(keep_out, layer), ["PB120"], "{keep_out} {layer}");
+    }
+    for (keep_out, layer) in [
+        ("Clamps", "Clamps"),
+        ("Clamps.*", "Clamps 1"),
+        ("Clamps", "Clamps old"),
+        ("Clamps", "Frame"),
+        ("Clamps", "0"),
+        // A short name resembles too many others.
+        ("CL", "CLX"),
+        ("CLA", "CLAX"),
+    ] {
+        assert_eq!(circle(keep_out, layer), [""; 0], "{keep_out} {layer}");
+    }
+}
+
+#[test]
+fn a_layer_that_part_nearly_matches_is_named() {
+    let circle =
+        |layer: &str| strays_beside("Clamps", Some("Outline"), &format!("layer {layer}\ncircle 20,40 d 9"));
+    assert_eq!(circle("Outlines"), ["PB120"]);
+    assert_eq!(circle("Outline"), [""; 0]);
+    assert_eq!(circle("Contours"), [""; 0]);
+}
+
+#[test]
+fn a_height_in_an_outline_on_an_unread_layer_is_told() {
+    let clamp =
+        |layer: &str, text: &str, at: &str| format!("layer {layer}\ncircle 20,40 d 9\ntext {at} \"{text}\"");
+    let found = |others: &str| strays_beside("Clamps", Some("Outline"), others);
+    assert_eq!(found(&clamp("Vise", "Z25", "20,40")), ["PB119"]);
+    assert_eq!(found(&clamp("Clamps", "Z25", "20,40")), [""; 0]);
+    assert_eq!(found(&clamp("Outline", "Z25", "20,40")), [""; 0]);
+    assert_eq!(found(&clamp("Vise", "Z25", "20,60")), [""; 0], "outside of the outline");
+    assert_eq!(found(&clamp("Vise", "Z25 Z1", "20,40")), [""; 0], "no height");
+    let open = "layer Vise\nline 10,40 20,40 20,50\ntext 15,40 \"Z25\"";
+    assert_eq!(found(open), [""; 0]);
+    // One finding for each layer, and none beside that about its name.
+    let two = format!("{}\ncircle 60,40 d 9\ntext 60,40 \"Z30\"", clamp("Vise", "Z25", "20,40"));
+    assert_eq!(found(&two), ["PB119"]);
+    assert_eq!(found(&clamp("Clamp", "Z25", "20,40")), ["PB120"]);
+    // Without `keep-out`, nothing is a clamp.
+    assert_eq!(strays_beside("(", None, &clamp("Vise", "Z25", "20,40")), [""; 0]);
 }

@@ -45,7 +45,7 @@ pub(crate) fn language() -> Language {
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
         doubts: NO_DOUBTS,
-        chip_loads: pathbuild_path::ChipLoads::default(),
+        tools: pathbuild_path::PathTools::default(),
         join_tolerance: 0.0,
     }
 }

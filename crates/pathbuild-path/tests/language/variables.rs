@@ -2,7 +2,7 @@
 
 use pathbuild_path::{Bindings, Definition};
 
-use crate::support::{codes, compile_raw, language, path, raw, wrong};
+use crate::support::{codes, compile_raw, language, path, raw, read, wrong};
 
 fn definition(text: &str) -> Definition {
     Definition::parse(text).unwrap_or_else(|problem| panic!("{text}: {problem:?}"))
@@ -71,7 +71,7 @@ fn anything_else_is_no_definition() {
 fn a_wrong_definition_is_reported_at_the_start() {
     let with =
         |definition: &str| wrong(&path(&format!("T5 O3 I1 B0 {definition}"), "mill 0,0 40,0\nend 40,0"));
-    assert_eq!(with(":x1~2"), [""; 0]);
+    assert_eq!(with(":x1~2"), ["PB210"]);
     assert_eq!(with(":x1"), ["PB301"]);
     assert_eq!(with(":"), ["PB301"]);
 }
@@ -116,7 +116,10 @@ fn filled(text: &str, values: &[(char, &str)]) -> String {
     let compiled = bound(&format!("Q{text}"), values);
     match compiled.path {
         Some(path) => path.cuts[0].comment.clone().unwrap().into(),
-        None => codes(&compiled.found).join(" "),
+        None => {
+            let found = codes(&compiled.found);
+            found.into_iter().filter(|code| code != "PB210").collect::<Vec<_>>().join(" ")
+        }
     }
 }
 
@@ -212,4 +215,38 @@ fn bindings_compare_without_order() {
         |values: [(char, &str); 2]| Bindings::new(values.map(|(name, value)| (name, value.into())));
     assert_eq!(bindings([('a', "1"), ('b', "2")]), bindings([('b', "2"), ('a', "1")]));
     assert_ne!(bindings([('a', "1"), ('b', "2")]), bindings([('a', "2"), ('b', "1")]));
+}
+
+#[test]
+fn a_variable_that_no_text_uses_has_no_effect() {
+    let found = |start: &str, text: &str| {
+        codes(
+            &raw(&path(&format!("T5 O3 I1 B0 {start}"), &format!("mill 0,0 40,0 \"{text}\"\nend 40,0")))
+                .diagnostics,
+        )
+    };
+    assert_eq!(found(":D0~1", "B1"), ["PB210"]);
+    assert_eq!(found(":D0~1 :E0~1", "B=D"), ["PB210"]);
+    assert_eq!(found(":D0~1", "B=D"), [""; 0]);
+    assert_eq!(found(":D0~1", "Qdeep=D"), [""; 0]);
+    assert_eq!(found(":D0~1 F=D", "B1"), [""; 0]);
+    // `=E` is wrong (PB303), and D was probably meant.
+    assert_eq!(found(":D0~1", "B=E"), [""; 0]);
+    // Used by the value of another variable.
+    assert_eq!(found(":D0~1 :Ea,=D", "B=E"), [""; 0]);
+}
+
+/// What is not read may use it: a text without an element, and a path that borrows the text of the start.
+#[test]
+fn a_variable_that_may_be_used_elsewhere_is_not_reported() {
+    let with = |text: &str| {
+        codes(&raw(&path("T5 O3 I1 B0 :D0~1", &format!("mill 0,0 40,0\n{text}end 40,0"))).diagnostics)
+    };
+    assert_eq!(with("text 20,90 \"B=D\"\n"), ["PB107"]);
+    assert_eq!(with(""), ["PB210"]);
+    let borrowed = path("T5 O3 I1 B0 :D0~1", "mill 0,0 40,0\nend 40,0")
+        + "\nlayer 1234.2P\nstart 0,50 \"@1234.1P\"\nmill 0,50 40,50 \"B=D\"\nend 40,50\n";
+    let codes: Vec<String> =
+        read(&borrowed).paths.iter().flat_map(|(raw, _)| codes(&raw.diagnostics)).collect();
+    assert_eq!(codes, [""; 0]);
 }

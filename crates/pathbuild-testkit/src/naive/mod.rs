@@ -61,7 +61,7 @@ pub fn language() -> Language {
         join_tolerance: 0.0,
         text_limit: 65_536,
         doubts: pathbuild_path::DoubtThresholds::default(),
-        chip_loads: pathbuild_path::ChipLoads::default(),
+        tools: pathbuild_path::PathTools::default(),
     }
 }
 

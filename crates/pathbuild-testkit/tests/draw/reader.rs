@@ -31,7 +31,7 @@ pub(crate) fn language() -> Language {
         join_tolerance: 0.0,
         text_limit: 65_536,
         doubts: pathbuild_path::DoubtThresholds::default(),
-        chip_loads: pathbuild_path::ChipLoads::default(),
+        tools: pathbuild_path::PathTools::default(),
     }
 }
 

@@ -63,7 +63,7 @@ fn drawn(drawing: &str) -> Drawn {
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
         doubts: pathbuild_path::DoubtThresholds::default(),
-        chip_loads: pathbuild_path::ChipLoads::default(),
+        tools: pathbuild_path::PathTools::default(),
         join_tolerance: 0.0,
     };
     let reading = Options {

@@ -22,6 +22,17 @@ use pathbuild_post::PostMacro;
 pub(in crate::config) const LINE_TYPES: ValueType<Vec<LineTypeAlias>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;
+        let mut known: Vec<(String, &str)> = Vec::new();
+        for (name, _) in &entries {
+            let folded = name.get_ref().trim().to_uppercase();
+            match known.iter().find(|(other, _)| *other == folded) {
+                Some((_, first)) => {
+                    let fault = reader.fault(&messages::SAME_LINE_TYPE, name.span());
+                    reader.report(fault.quoting("name", &**name.get_ref()).quoting("first", *first));
+                }
+                None => known.push((folded, name.get_ref())),
+            }
+        }
         Some(entries.into_iter().filter_map(|entry| alias(entry, reader)).collect())
     },
     show: |aliases| inline(aliases.iter().map(|alias| (&*alias.name, name_of(alias.line_type).map(quoted)))),

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use pathbuild_db::{Database, Limits, Reading, Settings};
 use pathbuild_path::{
-    ChipLoads, DoubtThresholds, FilePattern, Language, LayerPattern, LineTypeAliases, PartSettings,
-    PathOptions, PathPattern, Restriction, SlotPaths,
+    DoubtThresholds, FilePattern, Language, LayerPattern, LineTypeAliases, PartSettings, PathOptions,
+    PathPattern, PathTool, PathTools, Restriction, SlotPaths,
 };
 
 use super::normal;
@@ -25,7 +25,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
         join_tolerance: general.join_tolerance.value,
         text_limit: reading.text_length,
         doubts: doubts(&context.settings),
-        chip_loads: chip_loads(context),
+        tools: path_tools(context),
     };
     let search = general.search.value.iter();
     let file_pattern = FilePattern::new(&general.file_pattern.value).unwrap_or_default();
@@ -42,14 +42,19 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     _ = Settings::new(db, reading, Arc::new(language), file_pattern, search, restrictions, fold, limits);
 }
 
-/// The chip loads allowed for paths, by the tool that posts choose for them.
-fn chip_loads(context: &Workspace) -> ChipLoads {
-    let loads: Vec<_> = context.settings.tables.tools.value.iter().map(types::Tool::chip_load).collect();
-    if loads.iter().all(Option::is_none) {
-        return ChipLoads::default();
+/// The tools that posts choose for paths.
+fn path_tools(context: &Workspace) -> PathTools {
+    let tool = |tool: &types::Tool| PathTool {
+        name: (&*tool.name).into(),
+        is_named: tool.paths.is_some(),
+        chip_load: tool.chip_load(),
+    };
+    let tools: Vec<PathTool> = context.settings.tables.tools.value.iter().map(tool).collect();
+    if tools.is_empty() {
+        return PathTools::default();
     }
     let table = tool_table(&context.settings);
-    ChipLoads::new(move |path, diameter| table.position(path, diameter).and_then(|tool| loads[tool]))
+    PathTools::new(move |path, diameter| table.position(path, diameter).map(|tool| tools[tool].clone()))
 }
 
 fn part(context: &Workspace) -> Option<PartSettings> {
