@@ -151,6 +151,27 @@ fn where_says_file_line_layer_and_start() {
     assert_snapshot!(runs(&place, lines));
 }
 
+/// A copy in the project's own drawing would be milled whatever becomes of the component.
+#[test]
+fn a_second_definition_is_noticed_even_in_the_drawing_that_embeds_it() {
+    let component =
+        |layer: &str| format!("layer {layer}\nstart 0,0 \"T5 O2 I1 B0 MPlate\"\nmill 0,0 40,0\nend 40,0\n");
+    let project = "layer 8001.1P\nstart 0,0 \"T5 O2 MPlate\"\nsubpath 0,0 40,0 \">1234.1P\"\nend 40,0\n";
+    let check = |beside: &str, layer: &str| {
+        let (own, other) = (component("1234.1P"), component(layer));
+        let place = Place::of(&format!("== 8001.dxf ==\n{project}{own}== {beside} ==\n{other}"));
+        place.run("check 8001.dxf --feed 1 --rapid 1 --sweep-height 20 --format concise")
+    };
+    let run = check("1234.dxf", "1234.1P");
+    let expected = "path 1234.1P is defined twice: in 8001.dxf and in 1234.dxf";
+    assert!(run.status == Some(1) && run.stderr.contains(expected), "{run}");
+    // Another path in a drawing of that name, and a drawing whose name does not promise the path.
+    for (beside, layer) in [("1234.dxf", "1234.2P"), ("1300.dxf", "1234.1P")] {
+        let run = check(beside, layer);
+        assert_eq!(run.status, Some(0), "{run}");
+    }
+}
+
 /// This command helps with PB504.
 #[test]
 fn where_lists_every_definition_of_a_path_that_has_two() {

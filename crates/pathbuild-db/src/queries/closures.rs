@@ -548,7 +548,7 @@ pub fn trace(db: &dyn Db, target: Target) -> Trace {
         let from = reached.instance.file(db);
         files.push(from);
         for name in embeds(db, reached.instance).iter().filter_map(|embedding| embedding.name.as_ref()) {
-            let Some(resolved) = find_path(db, from, NameKey::of(db, name)) else { continue };
+            let resolved = find_path(db, from, NameKey::of(db, name));
             resolved.searched.iter().for_each(|file| files.push(*file));
             let directories =
                 search_path(db, own_directory(db, from)).iter().map(|directory| directory.path(db).clone());

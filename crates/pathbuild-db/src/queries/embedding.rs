@@ -93,12 +93,10 @@ impl<'db> Embedder<'_, 'db> {
 
     fn named(&self, call: &SubpathCall, name: &PathName) -> Outcome<'db> {
         let key = NameKey::of(self.db, name);
-        let Some(resolved) = find_path(self.db, self.file, key) else {
-            return self.bound(call, self.file, key);
-        };
+        let resolved = find_path(self.db, self.file, key);
         match resolved.files.as_slice() {
             _ if !resolved.unlisted.is_empty() => Outcome::Unlisted(resolved.unlisted.clone()),
-            [] => Outcome::NotFound(self.not_found(call, name, resolved)),
+            [] => Outcome::NotFound(self.not_found(call, name, &resolved)),
             [file] => self.bound(call, *file, key),
             [first, second, ..] => {
                 let [first, second] = [first, second].map(|file| file.path(self.db).as_str());

@@ -1,5 +1,7 @@
 //! Finds the files that define a path, by the name ranges in file names. (book: language/layers-and-names)
 
+use std::borrow::Cow;
+
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::files as messages;
 use pathbuild_diagnostic::reasons::NO_DIRECTORY;
@@ -96,16 +98,25 @@ pub struct ResolvedPath {
     pub unlisted: Vec<Diagnostic>,
 }
 
-/// Looks for a path that a drawing refers to, in its own directory and the search directories. `None` if the drawing itself defines it.
+/// Looks for a path that a drawing refers to, in the drawing itself, whatever its file name, in its directory, and in the search directories.
 pub(super) fn find_path<'db>(
     db: &'db dyn Db,
     from: SourceFile,
     name: NameKey<'db>,
-) -> Option<&'db ResolvedPath> {
-    if path_index(db, from, name).is_some() {
-        return None;
+) -> Cow<'db, ResolvedPath> {
+    let resolved = resolve_path(db, own_directory(db, from), name);
+    if path_index(db, from, name).is_none() {
+        return Cow::Borrowed(resolved);
     }
-    Some(resolve_path(db, own_directory(db, from), name))
+    let canonical = |file: SourceFile| db.system().canonical(file.path(db));
+    let is_other = |file: &SourceFile| *file != from && canonical(*file) != canonical(from);
+    let others = resolved.files.iter().copied().filter(is_other);
+    // What is in the drawing is found even if a directory cannot be listed.
+    Cow::Owned(ResolvedPath {
+        files: std::iter::once(from).chain(others).collect(),
+        searched: resolved.searched.clone(),
+        unlisted: Vec::new(),
+    })
 }
 
 /// Looks for a path that drawings in a directory refer to. Unaffected by files that cannot define it, by their names.

@@ -274,16 +274,14 @@ pub(super) fn pattern(text: &str) -> Regex {
 impl Model {
     /// The drawings that define a path which a drawing refers to.
     pub(super) fn holders(&self, from: usize, name: &PathName) -> Vec<usize> {
-        if self.defines(from, name) {
-            return vec![from];
-        }
         let own = directory(&self.drawings[from].path);
         let is_searched = |at: &str| at == own || self.rules.search.iter().any(|searched| searched == at);
         let may_hold = |number: &usize| {
             let path = &self.drawings[*number].path;
             is_searched(directory(path)) && may_hold(stem(path), name.as_str())
         };
-        (0..self.drawings.len()).filter(may_hold).filter(|number| self.defines(*number, name)).collect()
+        let others = (0..self.drawings.len()).filter(|number| *number != from).filter(may_hold);
+        std::iter::once(from).chain(others).filter(|number| self.defines(*number, name)).collect()
     }
 
     fn defines(&self, drawing: usize, name: &PathName) -> bool {
