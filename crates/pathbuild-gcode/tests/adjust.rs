@@ -450,6 +450,22 @@ fn the_offset_of_the_workpiece_is_taken_off() {
     assert_eq!(problems, ["sender.log:2:1 PB602", "sender.log:4:1 PB602"]);
 }
 
+/// The results may be shifted together, because a log need not state the offset, but not among each other.
+#[test]
+fn the_results_of_a_log_are_at_the_places_of_the_probes() {
+    let values =
+        "([0.000 0.000]/T=2.000 @ [8.000|4.000]) #51=\n([1.000 0.000]/T=2.000 @ [8.000|18.000]) #52=\n";
+    let places = |second: &str| {
+        let log = format!("[PRB:-292.000,-196.000,2.1:1]\n[PRB:{second},2.2:1]\n");
+        run_with_log(USES_TWO, values, &log)
+    };
+    assert!(places("-292.000,-182.000").is_ok());
+    assert!(places("-292.090,-182.090").is_ok());
+    for elsewhere in ["-292.110,-182.000", "-292.000,-181.890", "-292.000,-196.000"] {
+        assert_eq!(refused(places(elsewhere)), ["sender.log:2:1 PB601"], "{elsewhere}");
+    }
+}
+
 #[test]
 fn a_failed_probe_is_an_error() {
     let log = "[PRB:0,0,2.1:1]\n ok [PRB:0,0,0.0:0]\n";

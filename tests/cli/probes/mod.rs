@@ -437,14 +437,30 @@ fn the_largest_correction_must_be_said() {
     }
 }
 
+/// The places of the probes in the program, in the order of their numbers: `... @ [8.000|4.000]) #51=`.
+fn places_of_probes(values: &str) -> Vec<(f64, f64)> {
+    let place = |line: &str| {
+        let (x, y) = line.split_once("@ [")?.1.split_once(']')?.0.split_once('|')?;
+        Some((x.parse().ok()?, y.parse().ok()?))
+    };
+    values.lines().filter_map(place).collect()
+}
+
 #[test]
 fn a_senders_log_replaces_typing() {
     let place = plate("z-model = \"tin\"\n");
     succeed(&emit(&place, "a.dxf"));
-    let results = (0..9)
-        .map(|probe| format!("ok\n[PRB:0.000,0.000,{:.3}:1]\n", 5.1 + 0.01 * f64::from(probe)))
-        .collect::<Vec<_>>()
-        .concat();
+    // The machine's zero is elsewhere, and the log does not say where.
+    let results: Vec<String> = places_of_probes(&place.read("a_Z.txt"))
+        .into_iter()
+        .zip(0..)
+        .map(|((x, y), probe)| {
+            let z = 5.1 + 0.01 * f64::from(probe);
+            format!("ok\n[PRB:{:.3},{:.3},{z:.3}:1]\n", x - 300.0, y - 200.0)
+        })
+        .collect();
+    let swapped = [&results[1..2], &results[..1], &results[2..]].concat().concat();
+    let results = results.concat();
     let place = place.file("sender.log", &results).file("failed.log", results.replacen(":1]", ":0]", 1));
     let typed = (0..9).fold(place.read("a_Z.txt"), |text, probe| {
         text.replace(
@@ -457,6 +473,12 @@ fn a_senders_log_replaces_typing() {
     let failed = place.run("adjust a --max-correction 1 --log failed.log");
     assert!(failed.status == Some(1) && failed.stderr.contains("failed.log:2:1"), "{failed}");
     assert_eq!(place.run("adjust a --max-correction 1 --log nothing.log").status, Some(1));
+    write(&place, "swapped.log", &swapped);
+    let elsewhere = place.run("adjust a --max-correction 1 --log swapped.log --format concise");
+    assert!(
+        elsewhere.status == Some(1) && elsewhere.stderr.contains("swapped.log:4:1: error[PB601]"),
+        "{elsewhere}"
+    );
     assert_eq!(place.run("adjust a b --max-correction 1 --log sender.log").status, Some(2));
     write(&place, "a_Z.txt", &typed);
     succeed(&place.run("adjust a --max-correction 1"));

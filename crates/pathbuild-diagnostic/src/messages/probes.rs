@@ -57,6 +57,13 @@ messages! {
         help_en: "the log must have one result [PRB:X,Y,Z:1] for each probe, in the order of the probing run, and no other",
         help_de: "das Protokoll muss für jede Probe genau ein Ergebnis [PRB:X,Y,Z:1] enthalten, in der Reihenfolge des Antastprogramms, und kein anderes",
     }
+    /// A result of a log that was not measured at the place of its probe.
+    LOG_ELSEWHERE: InvalidProbeLine {
+        en: "this result was measured at {found}, but #{probe} is at {expected}, counted from the first probe",
+        de: "dieses Ergebnis wurde bei {found} gemessen, #{probe} liegt aber, von der ersten Probe aus gezählt, bei {expected}",
+        help_en: "the log must be that of this drawing's probing run, with its results in the order of the run: measure again",
+        help_de: "das Protokoll muss vom Antastprogramm dieser Zeichnung stammen, mit den Ergebnissen in dessen Reihenfolge: noch einmal messen",
+    }
     /// A measured height too far from the drawn one.
     TOO_FAR: CorrectionTooLarge {
         en: "#{probe} is {value}, which is {off} mm away from the drawn height {expected}; at most {limit} mm are allowed",

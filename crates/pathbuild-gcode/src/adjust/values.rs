@@ -10,7 +10,7 @@ use std::ops::Range;
 use std::sync::LazyLock;
 
 use pathbuild_diagnostic::messages::probes as messages;
-use pathbuild_diagnostic::{Diagnostic, Message};
+use pathbuild_diagnostic::{Diagnostic, Message, Point};
 use pathbuild_path::{Xy, parse_number};
 use regex::Regex;
 use regex::bytes::{self, Captures};
@@ -200,7 +200,7 @@ static LOG_REPORT: LazyLock<bytes::Regex> = LazyLock::new(|| {
 struct LoggedHeight<'a> {
     line: Line<'a>,
     at: Range<usize>,
-    z: f64,
+    place: [f64; 3],
 }
 
 /// Assigns the values of the log to the probes that have none, in the order of their numbers, which is that of the probing program.
@@ -223,6 +223,10 @@ pub(super) fn fill_from_log<'a>(
     }
     let mut in_order: Vec<&mut ProbeLine<'_>> = probes.iter_mut().collect();
     in_order.sort_by_key(|probe| probe.probe);
+    if let Some(problem) = misplaced(&in_order, &measured) {
+        problems.push(problem);
+        return give_up(probes);
+    }
     for (probe, measured) in in_order.into_iter().zip(measured) {
         take(probe, measured, problems);
     }
@@ -238,11 +242,12 @@ fn give_up(probes: &mut [ProbeLine<'_>]) {
 fn take<'a>(probe: &mut ProbeLine<'a>, measured: LoggedHeight<'a>, problems: &mut Vec<Diagnostic>) {
     match probe.value {
         EnteredValue::Nothing => {
-            probe.value = EnteredValue::Value(measured.z);
+            probe.value = EnteredValue::Value(measured.place[2]);
             probe.value_at = (measured.line, measured.at);
         }
-        EnteredValue::Value(value) if (value - measured.z).abs() > VALUE_TOLERANCE => {
-            problems.push(probe.value_fault(&messages::VALUE_DIFFERS_FROM_LOG).with("measured", measured.z));
+        EnteredValue::Value(value) if (value - measured.place[2]).abs() > VALUE_TOLERANCE => {
+            let problem = probe.value_fault(&messages::VALUE_DIFFERS_FROM_LOG);
+            problems.push(problem.with("measured", measured.place[2]));
         }
         EnteredValue::Value(_) | EnteredValue::Wrong => {}
     }
@@ -250,16 +255,19 @@ fn take<'a>(probe: &mut ProbeLine<'a>, measured: LoggedHeight<'a>, problems: &mu
 
 fn read_log<'a>(log: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<LoggedHeight<'a>> {
     let mut measured = Vec::new();
-    let mut offset = 0.0;
+    let mut offset = [0.0; 3];
     for line in lines(log) {
         for report in LOG_REPORT.captures_iter(line.content()) {
             if let Some(found) = report.name("offset") {
-                offset = third(found.as_bytes()).unwrap_or(offset);
+                offset = first_three(found.as_bytes()).unwrap_or(offset);
                 continue;
             }
             let at = report.get_match().range();
-            match height(&report) {
-                Ok(z) => measured.push(LoggedHeight { line, at, z: z - offset }),
+            match position(&report) {
+                Ok(machine) => {
+                    let place = std::array::from_fn(|axis| machine[axis] - offset[axis]);
+                    measured.push(LoggedHeight { line, at, place });
+                }
                 Err(message) => {
                     problems.push(line.fault(message, at));
                     break;
@@ -270,20 +278,40 @@ fn read_log<'a>(log: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<LoggedHe
     measured
 }
 
-/// The height in `x,y,z:1`.
-fn height(report: &Captures<'_>) -> Result<f64, &'static Message> {
+/// The first result that was measured elsewhere than its probe, up to the distance that all results have in common: the log may lack the
+/// offset of the workpiece. Probes whose place in the program is not stated are not compared.
+fn misplaced(probes: &[&mut ProbeLine<'_>], measured: &[LoggedHeight<'_>]) -> Option<Diagnostic> {
+    let mut common: Option<[f64; 2]> = None;
+    probes.iter().zip(measured).find_map(|(probe, measured)| {
+        let at = probe.at?;
+        let [x, y, _] = measured.place;
+        let [right, up] = *common.get_or_insert([x - at.x, y - at.y]);
+        let is_there = (x - at.x - right).abs() <= PLACE_TOLERANCE && (y - at.y - up).abs() <= PLACE_TOLERANCE;
+        (!is_there).then(|| {
+            let problem = measured.line.fault(&messages::LOG_ELSEWHERE, measured.at.clone());
+            let problem = problem.with("probe", u64::from(probe.probe)).with("found", Point::new(x, y));
+            problem.with("expected", Point::new(at.x + right, at.y + up))
+        })
+    })
+}
+
+/// Distance in mm along an axis within which a result counts as measured at its probe: a machine stops at whole steps.
+const PLACE_TOLERANCE: f64 = 0.1;
+
+/// The position in `x,y,z:1`.
+fn position(report: &Captures<'_>) -> Result<[f64; 3], &'static Message> {
     let text = report.name("probe").map_or(&b""[..], |found| found.as_bytes());
     let colon = text.iter().rposition(|byte| *byte == b':').ok_or(&messages::BROKEN_LOG_LINE)?;
-    let z = third(&text[..colon]).ok_or(&messages::BROKEN_LOG_LINE)?;
+    let place = first_three(&text[..colon]).ok_or(&messages::BROKEN_LOG_LINE)?;
     match &text[colon + 1..] {
-        b"1" => Ok(z),
+        b"1" => Ok(place),
         b"0" => Err(&messages::PROBE_FAILED),
         _ => Err(&messages::BROKEN_LOG_LINE),
     }
 }
 
-/// The third of several comma-separated numbers; machines with more axes report more.
-fn third(text: &[u8]) -> Option<f64> {
+/// The first three of several comma-separated numbers; machines with more axes report more.
+fn first_three(text: &[u8]) -> Option<[f64; 3]> {
     let numbers: Option<Vec<f64>> = text.split(|byte| *byte == b',').map(parse).collect();
-    numbers?.get(2).copied()
+    numbers?.first_chunk().copied()
 }
