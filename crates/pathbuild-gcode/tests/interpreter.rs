@@ -528,6 +528,11 @@ fn g92_renames_where_the_tool_is() {
         ["2 rapid to 1 1 1", "4 rapid to 2 1 1", "6 rapid to 1 1 1"]
     );
     assert_eq!(run(LinuxCnc, "G0 X1 Y1 Z1\nG92 X0\nG92.2\nG0 X1\nG92.3\nX1")[2], "7 rapid to 2 1 1");
+    assert_eq!(
+        run(LinuxCnc, "G0 X1 Y1 Z1\nG92 X0\nG92.3\nX1")[1],
+        "5 rapid to 2 1 1",
+        "it is in effect already"
+    );
     // G92.1 leaves nothing that G92.3 could restore.
     assert_eq!(run(LinuxCnc, "G0 X1 Y1 Z1\nG92 X0\nG92.1\nG0 X1\nG92.3\nX1")[2], "7 rapid to 1 1 1");
     assert_eq!(wrong(Native, "G92"), ["2 missing-word"]);
@@ -1493,4 +1498,12 @@ fn grbl_runs_what_follows_m30() {
     assert_eq!(after(Grbl, "G0 Z-5\nG1 X1"), found(Severity::Error));
     assert_eq!(after(LinuxCnc, "G0 Z-5\nG1 X1"), found(Severity::Warning));
     assert_eq!(after(Grbl, "(end)\n\n; end\n"), []);
+}
+
+/// A cycle that begins below R rises first, but on Fanuc it goes to the hole first.
+#[test]
+fn a_cycle_below_its_level_rises_before_or_above_the_hole() {
+    let program = "G0 X0. Y0. Z-1.\nG81 X5. Y0. Z-2. R1. F80.";
+    assert_eq!(run(LinuxCnc, program)[1..3], ["3 rapid to 0 0 1", "3 rapid to 5 0 1"]);
+    assert_eq!(run(Fanuc, program)[1..3], ["3 rapid to 5 0 -1", "3 rapid to 5 0 1"]);
 }

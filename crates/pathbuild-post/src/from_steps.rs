@@ -65,6 +65,11 @@ impl Job {
                 rest = after;
                 continue;
             }
+            if plain_line != Some(step.line) && rises_to_hole(step, after) {
+                builder.step(step, remark);
+                rest = after;
+                continue;
+            }
             let hole = if plain_line == Some(step.line) { None } else { hole(rest) };
             plain_line = hole.is_none().then_some(step.line);
             rest = match hole {
@@ -394,7 +399,20 @@ fn is_known(movement: &Move, has_probed: bool) -> bool {
 
 // Recognises drilling cycles among the moves of a parsed program. The reader has expanded them to moves.
 
-/// Returns the hole that some steps begin with, and the remaining steps. All its moves must come from one line that has no others.
+/// Whether a step raises the tool to the level at which it then moves to a hole of the same line. The tool must not move there aslant.
+fn rises_to_hole(step: &Step, after: &[Step]) -> bool {
+    let is_rise =
+        step.as_move().is_some_and(|(_, movement)| movement.pace == Pace::Rapid && rises(&movement));
+    is_rise && after.first().is_some_and(|next| next.line == step.line) && hole(after).is_some()
+}
+
+/// Whether a move goes straight up, from a known height.
+fn rises(movement: &Move) -> bool {
+    movement.from.known.has(Axes::Z) && movement.keeps_xy() && movement.to.z() > movement.from.z()
+}
+
+/// Returns the hole that some steps begin with, and the remaining steps. All its moves must come from one line that has no others. The
+/// rapid moves to it become one, unless one of them rises: the tool may then be in the material.
 pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     let [first, second, ..] = steps else { return None };
     if first.line != second.line {
@@ -402,7 +420,7 @@ pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     }
     let mut moves = Moves { line: first.line, steps };
     let mut level = None;
-    while let Some(way) = moves.take(|movement| movement.pace == Pace::Rapid) {
+    while let Some(way) = moves.take(|movement| movement.pace == Pace::Rapid && !rises(movement)) {
         level = Some(if way.to.z() < way.from.z() && way.keeps_xy() { way.from.z() } else { way.to.z() });
     }
     let first = moves.take(is_drilling)?;

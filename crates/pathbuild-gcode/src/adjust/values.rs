@@ -286,7 +286,8 @@ fn misplaced(probes: &[&mut ProbeLine<'_>], measured: &[LoggedHeight<'_>]) -> Op
         let at = probe.at?;
         let [x, y, _] = measured.place;
         let [right, up] = *common.get_or_insert([x - at.x, y - at.y]);
-        let is_there = (x - at.x - right).abs() <= PLACE_TOLERANCE && (y - at.y - up).abs() <= PLACE_TOLERANCE;
+        let is_there =
+            (x - at.x - right).abs() <= PLACE_TOLERANCE && (y - at.y - up).abs() <= PLACE_TOLERANCE;
         (!is_there).then(|| {
             let problem = measured.line.fault(&messages::LOG_ELSEWHERE, measured.at.clone());
             let problem = problem.with("probe", u64::from(probe.probe)).with("found", Point::new(x, y));

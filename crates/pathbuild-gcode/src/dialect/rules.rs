@@ -61,6 +61,8 @@ pub struct Rules {
     pub systems: Option<SystemNumbers>,
     /// Whether P of G30 numbers the reference point, from 2.
     pub numbers_references: bool,
+    /// Whether a drilling cycle that begins below R first rises to it and then goes to the hole, as in RS274/NGC, 3.5.16.1.
+    pub rises_before_holes: bool,
     /// Whether drilling cycles return to their initial height (G98) by default.
     pub lifts_to_start: bool,
     /// Whether G80 may stand beside a motion word, which then applies.
@@ -250,6 +252,7 @@ const BASE: Rules = Rules {
     stores_cycles: false,
     systems: None,
     numbers_references: false,
+    rises_before_holes: true,
     lifts_to_start: false,
     ends_cycles_beside_motion: false,
     lengths: LengthRules { keeps_entry: false, keeps_length: false },
@@ -406,6 +409,8 @@ const ISO: Rules = Rules {
     program_numbers: true,
     least_increments: true,
     keeps_offsets: true,
+    // Fanuc Operator's Manual, "Canned cycle for drilling": operation 1 is the positioning of X and Y, operation 2 the rapid move to R.
+    rises_before_holes: false,
     lifts_to_start: true,
     // G80 is in a group of its own.
     ends_cycles_beside_motion: true,

@@ -50,7 +50,7 @@ impl Interpreter<'_> {
         let Some(hole) = self.hole(block, cycle) else { return };
         let mut old = self.old_height();
         self.state_axis(axis);
-        if old < hole.r {
+        if old < hole.r && self.rules.rises_before_holes {
             self.lift_to(block, hole.r);
             old = hole.r;
         }

@@ -214,7 +214,7 @@ impl Interpreter<'_> {
             Command::LocalOffset => self.local_offset(),
             Command::SetOrigin => self.set_origins(block, span),
             Command::Origin(other) => {
-                self.change_origin(other);
+                self.change_origin(block, span, other);
                 return false;
             }
             _ => return false,
@@ -347,11 +347,15 @@ impl Interpreter<'_> {
         }
     }
 
-    fn change_origin(&mut self, origin: Origin) {
+    fn change_origin(&mut self, block: &Block<'_>, span: Span, origin: Origin) {
         match origin {
             Origin::Clear => self.state.offsets.clear_origin(false),
             Origin::Suspend => self.state.offsets.clear_origin(true),
-            Origin::Resume => self.state.offsets.resume_origin(),
+            Origin::Resume if self.state.offsets.resume_origin() => {}
+            // The offsets are stored in #5211 and the parameters after it, which outlive the program.
+            Origin::Resume => self.report(block, &say::MACHINE_VALUE, span, |d| {
+                d.quoting("parameter", "#5211").with("value", 0.0)
+            }),
         }
     }
 

@@ -122,7 +122,8 @@ pub(super) struct Offsets {
     pub(super) active: WorkSystem,
     /// G92, which is added to the active system.
     origin: [f64; 3],
-    suspended: [f64; 3],
+    /// The G92 that G92.3 restores; `None` until the program says which, because the control keeps that of the program before.
+    saved: Option<[f64; 3]>,
     /// G52.
     local: [f64; 3],
     length: AppliedLength,
@@ -163,7 +164,7 @@ impl Offsets {
             systems: std::array::from_fn(system),
             active: WorkSystem::default(),
             origin: [0.0; 3],
-            suspended: [0.0; 3],
+            saved: None,
             local: [0.0; 3],
             length: AppliedLength::default(),
             base: None,
@@ -253,17 +254,21 @@ impl Offsets {
             - self.systems[self.active.index()].zero[axis]
             - self.local[axis]
             - coordinate;
+        self.saved = Some(self.origin);
     }
 
     /// G92.1, and G92.2 if it can be resumed.
     pub(super) fn clear_origin(&mut self, resumable: bool) {
-        self.suspended = if resumable { self.origin } else { [0.0; 3] };
+        if !resumable {
+            self.saved = Some([0.0; 3]);
+        }
         self.origin = [0.0; 3];
     }
 
-    /// G92.3.
-    pub(super) fn resume_origin(&mut self) {
-        self.origin = self.suspended;
+    /// G92.3. Returns false if only the control knows what it restores.
+    pub(super) fn resume_origin(&mut self) -> bool {
+        self.origin = self.saved.unwrap_or(self.origin);
+        self.saved.is_some()
     }
 
     /// G52.

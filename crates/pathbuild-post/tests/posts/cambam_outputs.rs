@@ -3,7 +3,8 @@
 use camino::Utf8Path;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
-use pathbuild_post::{Job, Post, PostOptions, Remark, Units, VelocityMode};
+use pathbuild_motion::Pace;
+use pathbuild_post::{Job, JobStep, Post, PostOptions, Remark, Units, VelocityMode};
 
 use crate::support::shared;
 
@@ -132,4 +133,23 @@ fn a_definition_with_tool_lengths() {
     let written = post.write(&read(&original, "Untitled"), &options).unwrap();
     let lines = |text: &str| text.lines().map(str::to_owned).collect::<Vec<_>>();
     assert_same(&lines(&original), &lines(std::str::from_utf8(&written.text).unwrap()));
+}
+
+/// The tool is below the surface: it must not move to the hole and up at once.
+#[test]
+fn a_cycle_below_its_level_rises_in_a_move_of_its_own() {
+    let before_hole = |z: &str| {
+        let text =
+            format!("G17 G21 G90 G94\nG0 X0 Y0 Z5\nG1 Z{z} F100\nG81 X50 Y30 Z-2 R1 F80\nG80\nG0 Z5\n");
+        let steps = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default()).steps;
+        let job = Job::from_steps("a", &steps, Dialect::LinuxCnc, &|_| Remark::Stays).unwrap();
+        let steps: Vec<JobStep> = job.operations.into_iter().flat_map(|operation| operation.steps).collect();
+        let hole = steps.iter().position(|step| matches!(step, JobStep::Hole(_))).expect("a hole");
+        match &steps[hole - 1] {
+            JobStep::Move(movement) => (movement.to.at, movement.pace == Pace::Rapid),
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(before_hole("-1"), ([0.0, 0.0, 1.0], true));
+    assert_eq!(before_hole("1"), ([0.0, 0.0, 1.0], false), "it is at R already");
 }
