@@ -20,7 +20,7 @@ use crate::groups::Records;
 use crate::layers::{LayerId, LineType, Reading};
 use crate::pairs::Pairs;
 use crate::placement::Placement;
-use crate::shapes::Insert;
+use crate::shapes::{Array, Insert};
 
 /// Reads a drawing's model space.
 pub(crate) struct Model<'r, 'a, 'o> {
@@ -193,7 +193,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         }
         let trouble = EntityError::LeftOut {
             message: &BLOCK_ELSEWHERE,
-            point: insert.array.as_ref().ok().map(|array| array.begin()),
+            point: insert.array.as_ref().ok().map(Array::begin),
             block: Some(insert.block.as_str().into()),
             layers,
         };

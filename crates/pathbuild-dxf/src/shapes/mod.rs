@@ -16,7 +16,7 @@ use crate::{Arc, Circle, Geometry, Line};
 
 pub(crate) use curves::Ellipse;
 pub(crate) use curves::Spline;
-pub(crate) use insert::Insert;
+pub(crate) use insert::{Array, Insert};
 pub(crate) use polyline::{OpenPolyline, lightweight};
 pub(crate) use text::{mtext, text};
 

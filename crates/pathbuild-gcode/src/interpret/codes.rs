@@ -169,7 +169,7 @@ impl Command {
             591..=593 => system(u32::from(code - 591) + 7),
             541 | 1540 => Self::NumberedSystem,
             // Haas: G110 to G129 are G154 P1 to P20.
-            1100..=1290 if code % 10 == 0 => {
+            1100..=1290 if code.is_multiple_of(10) => {
                 let additional = WorkSystem::additional(u32::from(code - 1090) / 10);
                 additional.map_or(Self::NotFollowed(Group::System), Self::System)
             }

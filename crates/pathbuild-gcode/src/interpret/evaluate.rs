@@ -173,7 +173,7 @@ impl Parameters {
     }
 }
 
-/// Names that LinuxCNC defines itself (interp_namedparams.cc and the chapter "Predefined Named Parameters" of its manual).
+/// Names that LinuxCNC defines itself (`interp_namedparams.cc` and the chapter "Predefined Named Parameters" of its manual).
 const PREDEFINED: &[&str] = &[
     "_a",
     "_abs_a",

@@ -187,10 +187,15 @@ impl Offsets {
         self.sum()[axis] - self.base(axis) + self.length.shift(axis)
     }
 
-    /// Sets the tool length along the axes that have a value here; a length of `None` is known only to the machine.
-    pub(super) fn set_length(&mut self, lengths: [Option<Option<f64>>; 3]) {
+    /// Sets the tool length along all axes; `None` if only the machine knows it.
+    pub(super) fn set_length(&mut self, length: Option<f64>) {
+        self.length.current = [length; 3];
+    }
+
+    /// Sets the tool length along the axes that have a value here.
+    pub(super) fn set_length_along(&mut self, lengths: [Option<f64>; 3]) {
         for (current, new) in self.length.current.iter_mut().zip(lengths) {
-            *current = new.unwrap_or(*current);
+            *current = new.or(*current);
         }
     }
 

@@ -234,8 +234,8 @@ impl Interpreter<'_> {
             let known = &mut self.state.position.known;
             *known = axes().fold(*known, |known, axis| known.without(Axes::of(axis)));
         }
-        let lengths = given.map(|slot| slot.map(|slot| Some(self.millimetres(slot))));
-        self.state.offsets.set_length(lengths);
+        let lengths = given.map(|slot| slot.map(|slot| self.millimetres(slot)));
+        self.state.offsets.set_length_along(lengths);
     }
 
     /// Reports G43.1 without Z, or with another axis, for GRBL: "G43.1 dynamic axis error". LinuxCNC takes all axes.
@@ -269,8 +269,7 @@ impl Interpreter<'_> {
             _ => ToolLength::Other,
         };
         if code != 431 {
-            let known = (code == 490).then_some(0.0);
-            self.state.offsets.set_length([Some(known); 3]);
+            self.state.offsets.set_length((code == 490).then_some(0.0));
         }
         self.step(block, Action::Change(Change::ToolLength(length)));
     }

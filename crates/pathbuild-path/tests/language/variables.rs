@@ -114,13 +114,11 @@ fn bound(text: &str, values: &[(char, &str)]) -> crate::support::Compiled {
 /// The value of Q, or the codes of the findings.
 fn filled(text: &str, values: &[(char, &str)]) -> String {
     let compiled = bound(&format!("Q{text}"), values);
-    match compiled.path {
-        Some(path) => path.cuts[0].comment.clone().unwrap().into(),
-        None => {
-            let found = codes(&compiled.found);
-            found.into_iter().filter(|code| code != "PB210").collect::<Vec<_>>().join(" ")
-        }
+    if let Some(path) = compiled.path {
+        return path.cuts[0].comment.clone().unwrap().into();
     }
+    let found = codes(&compiled.found);
+    found.into_iter().filter(|code| code != "PB210").collect::<Vec<_>>().join(" ")
 }
 
 #[test]

@@ -324,7 +324,9 @@ pub fn write(
         let mut diagnostics: Vec<Diagnostic> =
             plans.iter().flat_map(|plan| &plan.refusals).cloned().collect();
         mark_clashes(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), &mut diagnostics);
-        plans.iter_mut().for_each(|plan| plan.bar_raised(context));
+        for plan in &mut plans {
+            plan.bar_raised(context);
+        }
         for job in plans.iter_mut().filter_map(|plan| plan.job.as_mut()).filter(|job| !job.is_barred) {
             job.is_barred = !job.claim(session, owners, &mut diagnostics);
         }

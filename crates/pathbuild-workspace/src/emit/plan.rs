@@ -186,7 +186,9 @@ pub(super) fn plan(
             (answer.value, answer.inputs) = (plan, Some(inputs));
         }
     }
-    plans.iter_mut().for_each(|answer| answer.value.bar_raised(workspace));
+    for answer in &mut plans {
+        answer.value.bar_raised(workspace);
+    }
     refusal.map_or(Ok(plans), Err)
 }
 

@@ -1,7 +1,5 @@
 //! Drawings that are removed between two steps of a session. The watcher's events and their timing play no part.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot set up its files has failed")]
-
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -88,13 +86,17 @@ fn removed_before_the_check(removed: &[&str], events: &[&str]) {
     let place = Place::new();
     let mut library = place.watched();
     let new = ["lib/new/3001.1P.dxf", "lib/new/3002.1P.dxf"];
-    new.iter().for_each(|file| place.draw(file));
+    for file in new {
+        place.draw(file);
+    }
     let mut found = library.apply(&changed(&["lib/new"]));
     library.check_portion(1, &mut found);
     library.postpone_rest(&mut found);
     assert_eq!((found.open, library.counts().0), (1, 2));
 
-    removed.iter().for_each(|file| place.remove(file));
+    for file in removed {
+        place.remove(file);
+    }
     let mut found = library.apply(&changed(events));
     check_all(&mut library, &mut found);
     assert!(found.now.is_empty() && found.before.is_empty(), "{found:#?}");
