@@ -169,7 +169,7 @@ fn an_edited_clamp_is_a_change() {
 fn a_clamp_that_is_not_clear_stops_its_paths() {
     let drawing = path("21", "mill 0,0 9,0\nend 9,0");
     assert_found(&place(&drawing.replace("Z20", "20")), &["117"]);
-    assert_found(&place(&drawing.replace(" closed", "")), &["117", "117"]);
+    assert_found(&place(&drawing.replace(" closed", "")), &["117"]);
     assert_found(&place(&drawing.replace("layer clamps", "layer clamp")), &[]);
     // Neither the drawing nor what embeds it is written.
     let project = "layer 8001.1P\nstart 0,0 \"T5 O2 S21 MAl\"\nsubpath 0,0 9,0 \">1234.1P\"\nend 9,0\n";
@@ -324,6 +324,23 @@ fn clamps_of_one_drawing_hold_for_joined_paths_of_others() {
     let thicker = emit("9", "21", "6");
     assert_eq!(codes(&thicker), ["211"]);
     assert!(thicker.stderr.contains("1300.1P.dxf") && thicker.stderr.contains("path 1300.1P"), "{thicker}");
+}
+
+#[test]
+fn joined_paths_of_different_materials_are_doubtful() {
+    let emit = |material: &str, paths: &str| {
+        let other = format!("layer 1300.1P\nstart 0,0 \"T5 O2 I5 B0 S21{material}\"\nmill 0,0 9,0\nend 9,0");
+        let place = place(&path("21", "mill 0,0 10,0\nend 10,0")).file("1300.1P.dxf", dxf(&other));
+        place.run(&format!("emit {paths} --join both --post linuxcnc --format concise"))
+    };
+    assert_eq!(codes(&emit(" MAl", "1234.1P 1300.1P")), [""; 0]);
+    assert_eq!(codes(&emit("", "1234.1P 1300.1P")), [""; 0]);
+    let differing = emit(" MSteel", "1234.1P 1300.1P");
+    assert_eq!(codes(&differing), ["211"], "{differing}");
+    assert!(differing.stderr.contains("M is Steel here, but Al in path 1234.1P"), "{differing}");
+    let twice = emit(" MAl", "1300.1P 1234.1P 1300.1P");
+    assert_eq!(codes(&twice), ["211"], "{twice}");
+    assert!(twice.stderr.contains("path 1300.1P is joined with itself"), "{twice}");
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod book;
 #[cfg(unix)]
 mod build_systems;
 mod cache;
+mod cascades;
 mod check;
 mod chip_loads;
 mod compat;

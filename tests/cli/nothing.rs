@@ -170,3 +170,84 @@ fn paths_that_cannot_be_joined_leave_an_older_program() {
     let run = emit();
     assert!(run.stderr.contains("PB522") && run.stderr.contains("all_Milling"), "{run}");
 }
+
+#[test]
+fn an_empty_program_is_no_program() {
+    let place = place(&[]).file("empty.nc", "").file("blank.nc", " \r\n").file("end.nc", "M30\n");
+    for name in ["empty.nc", "blank.nc"] {
+        assert_found(&place, &format!("verify {name}"), 1, &["701"]);
+    }
+    assert_found(&place, "verify end.nc", 0, &[]);
+    assert!(!place.run("verify empty.nc --format json").stdout.contains("\"line\":0"));
+}
+
+#[test]
+fn a_pattern_shows_where_its_paths_are() {
+    let other = PATH.replace("1234", "1235");
+    let place =
+        place(&[("pathbuild.toml", "library = [\".\"]\n"), ("1234.1P.dxf", PATH), ("1235.1P.dxf", &other)]);
+    let shown = |pattern: &str| place.run_with(&["where", pattern]);
+    let files = |pattern: &str| shown(pattern).stdout.matches(".dxf").count();
+    assert_eq!([files("123*"), files("*5.1P"), files("1234.1P")], [2, 1, 1]);
+    assert_eq!(found(&shown("13*")), (Some(1), vec!["503"]));
+    let several = place.run_with(&["view", "123*", "-o", "x.svg"]);
+    assert_eq!(found(&several), (Some(1), vec!["512"]), "{several}");
+    assert!(several.stderr.contains("1234.1P, 1235.1P"), "{several}");
+    assert_eq!(place.run_with(&["view", "*5.1P", "-o", "x.svg", "--feed", "9"]).status, Some(0));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_that_leads_nowhere_is_not_called_misspelled() {
+    let place = place(&[("pathbuild.toml", "library = [\".\"]\n"), ("1234.1P.dxf", PATH)]);
+    std::os::unix::fs::symlink("gone.dxf", place.path().join("1235.1P.dxf")).unwrap();
+    let run = place.run("check --lang en");
+    assert_eq!(found(&run), (Some(1), vec!["001"]), "{run}");
+    assert!(
+        run.stderr.contains("the file that this link leads to") && !run.stderr.contains("did you mean"),
+        "{run}"
+    );
+    let missing = place.run("check 1236.1P.dxf --lang en");
+    assert!(missing.stderr.contains("there is no such file"), "{missing}");
+}
+
+#[test]
+fn a_feed_that_a_program_cannot_state_is_an_error() {
+    let with = |feed: &str| PATH.replace("B0", &format!("B0 F{feed}"));
+    let drawn = |feed: &str| place(&[("1234.1P.dxf", &with(feed))]);
+    assert_found(&drawn("0.0004"), "check 1234.1P.dxf", 1, &["203"]);
+    assert_found(&drawn("0.0005"), "check 1234.1P.dxf", 0, &[]);
+    let written = drawn("0.0005").run("emit 1234.1P.dxf --rapid 1000 --sweep-height 20 -o -");
+    assert_eq!(written.status, Some(0), "{written}");
+    for (key, value, status) in [
+        ("feed", "0.0009", 2),
+        ("feed", "0.001", 0),
+        ("rapid", "1e-300", 2),
+        ("sweep-height", "1000000", 0),
+        ("sweep-height", "1e300", 2),
+    ] {
+        let place = place(&[("pathbuild.toml", &format!("{key} = {value}\n")), ("1234.1P.dxf", PATH)]);
+        let run = place.run("check 1234.1P.dxf");
+        assert_eq!(run.status.map(|status| status.min(1)), Some(status.min(1)), "{key} {run}");
+    }
+}
+
+#[test]
+fn a_write_protected_program_stays() {
+    let place = place(&[("1234.1P.dxf", PATH)]);
+    let emit = || place.run(&format!("emit 1234.1P.dxf {OPTIONS} --format concise --lang en"));
+    assert_eq!(emit().status, Some(0));
+    let program = place.path().join("1234.1P_Milling.gcode");
+    fs::write(&program, "mine").unwrap();
+    let mut permissions = fs::metadata(&program).unwrap().permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(&program, permissions.clone()).unwrap();
+    let refused = emit();
+    assert_eq!(found(&refused), (Some(1), vec!["004"]), "{refused}");
+    assert!(refused.stderr.contains("write-protected"), "{refused}");
+    assert_eq!(fs::read_to_string(&program).unwrap(), "mine");
+    #[expect(clippy::permissions_set_readonly_false, reason = "the file is removed with its directory")]
+    permissions.set_readonly(false);
+    fs::set_permissions(&program, permissions).unwrap();
+    assert_eq!(emit().status, Some(0));
+}

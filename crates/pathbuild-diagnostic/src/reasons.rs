@@ -11,6 +11,8 @@ words! {
     NO_FILE: "there is no such file", "es gibt sie nicht";
     /// The directory of the file does not exist.
     NO_DIRECTORY: "there is no such directory", "das Verzeichnis gibt es nicht";
+    /// A file that its owner protects.
+    WRITE_PROTECTED: "it is write-protected", "sie ist schreibgeschützt";
     /// The file would be overwritten.
     IS_THERE: "it is there already", "sie ist schon da";
     /// A report or similar output with the name of a drawing.

@@ -10,13 +10,17 @@ use std::thread;
 use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::reasons::{TOO_MANY_TEMPORARY, error, is_held};
+use pathbuild_diagnostic::reasons::{TOO_MANY_TEMPORARY, WRITE_PROTECTED, error, is_held};
 
-/// Replaces a file, whatever it was; an existing link is not followed. A private file has access for its owner only.
+/// Replaces a file, unless it is write-protected; an existing link is not followed. A private file has access for its owner only.
 ///
 /// # Errors
 /// If it cannot be written; the previous file remains.
 pub(crate) fn write(path: &Utf8Path, bytes: &[u8], is_private: bool) -> io::Result<()> {
+    // Renaming asks for access to the directory only.
+    if fs::symlink_metadata(path).is_ok_and(|data| data.is_file() && data.permissions().readonly()) {
+        return Err(error(ErrorKind::PermissionDenied, &WRITE_PROTECTED));
+    }
     let (temporary, mut file) = temporary(path, is_private)?;
     let written = file.write_all(bytes).and_then(|()| file.flush());
     // The lock is held until the file has its final name.

@@ -398,6 +398,12 @@ impl<'a> Judge<'a> {
         self.at_name(call, with_near_names(problem, name, known))
     }
 
+    /// PB511: errors of a drawing hide its paths.
+    pub fn has_errors(&self, call: &SubpathCall, name: &PathName, file: &str) -> Diagnostic {
+        let problem = Diagnostic::new(&messages::HAS_ERRORS).quoting("name", name.as_str());
+        self.at_name(call, problem.quoting("file", file))
+    }
+
     /// PB504: two files define the path.
     pub fn defined_twice(
         &self,

@@ -10,6 +10,7 @@ use pathbuild_diagnostic::{Diagnostic, TextFault};
 
 use crate::letter::{ElementClass, Letter, Letters, Use};
 use crate::look_alikes;
+use crate::variables::Definition;
 
 /// The parameter texts of a path, parsed once for all stages.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -251,6 +252,14 @@ impl<'t> ParameterText<'t> {
     fn problem(self, piece: &LetterValue, is_repeated: bool, class: ElementClass) -> Option<Diagnostic> {
         let first = self.string[piece.span()].chars().next()?;
         let Some(letter) = piece.letter else {
+            if class == ElementClass::PathStart
+                && let Some((definition, meant)) = definition_apart(self, piece)
+            {
+                let is_first =
+                    self.pieces.iter().skip_while(|other| *other != definition).nth(1) == Some(piece);
+                let problem = Diagnostic::new(&messages::VALUE_APART).quoting("meant", meant);
+                return is_first.then_some(problem);
+            }
             let mistake = mistake_in_piece(self, piece, class).or_else(|| self.word(piece, class));
             return Some(mistake.unwrap_or_else(|| unknown_letter(first, class)));
         };
@@ -567,6 +576,26 @@ pub(crate) fn equals_sign_mistake(letter: Letter, value: &str, problem: &Diagnos
 /// Whether a letter stands alone or only with a sign, because a space separates it from its number.
 pub(crate) fn is_without_value(text: ParameterText<'_>, piece: &LetterValue) -> bool {
     piece.letter.is_some_and(|letter| !letter.is_text()) && matches!(text.value(piece), "" | "-" | "+")
+}
+
+/// The definition of a variable that spaces separate from this piece, and how it was meant: `:D 0 ~ 1`.
+fn definition_apart<'t>(text: ParameterText<'t>, piece: &LetterValue) -> Option<(&'t LetterValue, String)> {
+    let at = text.pieces().iter().position(|other| other == piece)?;
+    let definition = text.pieces()[..at].iter().rfind(|other| other.letter.is_some())?;
+    Some((definition, definition_in_pieces(text, definition)?))
+}
+
+/// The definition that the piece of a variable and the pieces after it would be without the spaces between them, if it is valid only so.
+pub(crate) fn definition_in_pieces(text: ParameterText<'_>, definition: &LetterValue) -> Option<String> {
+    let is_valid = |piece: &str| Definition::parse(&piece[Letter::Variable.as_char().len_utf8()..]).is_ok();
+    let own = text.piece_text(definition);
+    if definition.letter != Some(Letter::Variable) || is_valid(own) {
+        return None;
+    }
+    let after = text.pieces().iter().skip_while(|piece| *piece != definition).skip(1);
+    let values = after.take_while(|piece| piece.letter.is_none()).map(|piece| text.piece_text(piece));
+    let meant: String = std::iter::once(own).chain(values).collect();
+    is_valid(&meant).then_some(meant)
 }
 
 /// Whether a subpath's variable has no value, because a space separates it from its name: `:B 1`.

@@ -245,6 +245,9 @@ fn other_characters(letter: Letter, value: &str) -> Option<Diagnostic> {
 const POSITIVE: [Letter; 8] =
     [Letter::F, Letter::I, Letter::C, Letter::O, Letter::T, Letter::A, Letter::W, Letter::Z];
 
+/// Feed in mm/min below which a program's three decimals leave none.
+const SLOWEST: f64 = 0.0005;
+
 /// Letters that must be positive on paths and on elements with bars.
 const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
 
@@ -292,8 +295,12 @@ impl LimitCheck<'_> {
     fn check_positive(&mut self, letters: impl Iterator<Item = Letter>) {
         for letter in letters {
             let GivenNumber::Number(value) = self.own.number(letter) else { continue };
-            if !above(value, 0.0) {
-                let problem = Diagnostic::new(&messages::NOT_POSITIVE)
+            let is_feed = matches!(letter, Letter::F | Letter::Z);
+            let is_rounded_off = is_feed && value > 0.0 && value < SLOWEST;
+            if is_rounded_off || !above(value, 0.0) {
+                let message =
+                    if is_rounded_off { &messages::FEED_ROUNDED_OFF } else { &messages::NOT_POSITIVE };
+                let problem = Diagnostic::new(message)
                     .with("letter", letter.as_char())
                     .with("value", value)
                     .quoting("example", example(letter));

@@ -106,8 +106,12 @@ impl Interpolation<'_> {
         let mut rest = value;
         while let Some((before, after)) = rest.split_once('=') {
             let name = after.chars().next();
+            // A project may set a variable whose definition is wrong.
+            if name.is_some_and(|name| self.unknown.contains(&name)) {
+                return Err(None);
+            }
             let replacement =
-                name.and_then(|name| self.bindings.get(name)).ok_or_else(|| self.unknown(name))?;
+                name.and_then(|name| self.bindings.get(name)).ok_or_else(|| self.undefined(name))?;
             filled.push_str(before);
             filled.push_str(replacement);
             if filled.len() > self.limit {
@@ -119,10 +123,7 @@ impl Interpolation<'_> {
         Ok(filled)
     }
 
-    fn unknown(&self, name: Option<char>) -> Problem {
-        if name.is_some_and(|name| self.unknown.contains(&name)) {
-            return None;
-        }
+    fn undefined(&self, name: Option<char>) -> Problem {
         let known: Value = self.bindings.iter().map(|(name, _)| name.to_string()).collect();
         let problem = Diagnostic::new(&messages::UNKNOWN_REFERENCE)
             .quoting("variable", name.map(String::from).unwrap_or_default())

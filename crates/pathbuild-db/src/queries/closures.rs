@@ -159,14 +159,48 @@ struct Walk<'db> {
     /// Indices of the reported diagnostics, by hash of their identity.
     known: FxHashMap<u64, Vec<usize>>,
     moves: u64,
-    /// Whether a path at a depth has errors, in itself or below. The depth is part of the key because embedding may be too deep only there.
-    visited: FxHashMap<(Instance<'db>, u32), bool>,
+    /// The errors of a path at a depth, in itself or below. The depth is part of the key because embedding may be too deep only there.
+    visited: FxHashMap<(Instance<'db>, u32), PathErrors<'db>>,
     /// Height in mm of the highest point of a path and everything it embeds, above the plane it lies on.
     tops: FxHashMap<Instance<'db>, f64>,
     seen: FxHashSet<Instance<'db>>,
     /// The embeddings that lead to the path being visited.
     stack: Vec<Frame<'db>>,
     is_full: bool,
+}
+
+/// Whether a path has errors, in itself or below. What embeds it repeats only errors of its own.
+#[derive(Clone, Copy, PartialEq)]
+enum PathErrors<'db> {
+    /// None.
+    None,
+    /// Embedding is too deep below the target, so that the target alone is wrong.
+    TooDeep,
+    /// It is part of a cycle that begins with this path, whose embeddings are all reported.
+    Cycle(Instance<'db>),
+    /// Errors of its own.
+    Own,
+}
+
+impl<'db> PathErrors<'db> {
+    fn of(has_errors: bool) -> Self {
+        if has_errors { Self::Own } else { Self::None }
+    }
+
+    fn are_none(self) -> bool {
+        self == Self::None
+    }
+
+    /// The errors of a path with both.
+    fn and(self, other: Self) -> Self {
+        let rank = |errors: &Self| match errors {
+            Self::None => 0,
+            Self::TooDeep => 1,
+            Self::Cycle(_) => 2,
+            Self::Own => 3,
+        };
+        if rank(&other) > rank(&self) { other } else { self }
+    }
 }
 
 struct Frame<'db> {
@@ -196,25 +230,25 @@ impl<'db> Walk<'db> {
         }
     }
 
-    /// Visits a path and everything it embeds. Returns whether any of them has errors.
-    fn visit(&mut self, instance: Instance<'db>, depth: u32) -> bool {
-        if let Some(has_errors) = self.visited.get(&(instance, depth)) {
-            return *has_errors;
+    /// Visits a path and everything it embeds. Returns their errors.
+    fn visit(&mut self, instance: Instance<'db>, depth: u32) -> PathErrors<'db> {
+        if let Some(errors) = self.visited.get(&(instance, depth)) {
+            return *errors;
         }
         self.db.unwind_if_revision_cancelled();
         if self.seen.insert(instance) {
             self.reached.push(ReachedPath { instance, depth });
         }
         if self.is_crowded(instance) {
-            return true;
+            return PathErrors::Own;
         }
-        let has_errors = self.visit_stages(instance, depth);
-        self.visited.insert((instance, depth), has_errors);
-        has_errors
+        let errors = self.visit_stages(instance, depth);
+        self.visited.insert((instance, depth), errors);
+        errors
     }
 
     /// Runs the stages for one path. Each stage skips errors that merely follow from those of earlier stages.
-    fn visit_stages(&mut self, instance: Instance<'db>, depth: u32) -> bool {
+    fn visit_stages(&mut self, instance: Instance<'db>, depth: u32) -> PathErrors<'db> {
         let summary = summary(self.db, instance);
         let mut has_errors = self.report_all(instance, keep_out_problems(self.db, instance.file(self.db)));
         has_errors |= self.report_all(instance, &summary.problems);
@@ -225,15 +259,15 @@ impl<'db> Walk<'db> {
         }
         has_errors |= self.report_all(instance, &summary.walk_problems);
         has_errors |= self.report_all(instance, part_problems(self.db, instance));
-        let Some(signature) = summary.known_signature() else { return true };
+        let Some(signature) = summary.known_signature() else { return PathErrors::Own };
+        let mut errors = PathErrors::of(has_errors || summary.signature.is_none());
         for embedding in embeds(self.db, instance) {
-            has_errors |= self.visit_embedding(instance, &signature.name, embedding, depth);
+            errors = errors.and(self.visit_embedding(instance, &signature.name, embedding, depth));
         }
-        has_errors |= summary.signature.is_none();
-        if !has_errors {
-            has_errors |= self.visit_raised(instance, signature, depth);
+        if errors.are_none() {
+            errors = PathErrors::of(self.visit_raised(instance, signature, depth));
         }
-        has_errors
+        errors
     }
 
     /// Checks the heights that H adds against the sweep height of a path. Returns whether there are errors.
@@ -308,37 +342,56 @@ impl<'db> Walk<'db> {
         outer: &PathName,
         embedding: &Embedding<'db>,
         depth: u32,
-    ) -> bool {
+    ) -> PathErrors<'db> {
         self.report_all(instance, &embedding.warnings);
         let origin = &embedding.origin;
         let frame = Frame { instance, name: outer.clone(), point: origin.point };
-        match &embedding.outcome {
+        let has_errors = match &embedding.outcome {
             Outcome::Refused(problem) => self.report_all(instance, slice::from_ref(problem)),
             _ if depth >= MAX_EMBEDDING_DEPTH => {
                 let problem = self.too_deep(&frame, embedding);
-                self.report_all(instance, &[origin.at(problem)])
+                self.report_all(instance, &[origin.at(problem)]);
+                return PathErrors::TooDeep;
             }
             Outcome::NotFound(problem) => self.report_all(instance, slice::from_ref(problem)),
-            Outcome::Unlisted(problems) | Outcome::Unbound(problems) => self.report_all(instance, problems),
+            Outcome::Unread(problems) | Outcome::Unbound(problems) => self.report_all(instance, problems),
             Outcome::Found { child, .. } if self.is_open(*child, instance) => {
                 let problem = self.cycle(&frame, *child);
-                self.report_all(instance, &[origin.at(problem)])
+                self.report_all(instance, &[origin.at(problem)]);
+                return PathErrors::Cycle(*child);
             }
             Outcome::Found { child, problems } => {
                 self.stack.push(frame);
-                let has_errors = self.visit(*child, depth + 1);
+                let errors = self.visit(*child, depth + 1);
                 self.stack.pop();
-                if has_errors {
+                let is_reported = match errors {
+                    PathErrors::None | PathErrors::Own => false,
+                    PathErrors::TooDeep => true,
+                    PathErrors::Cycle(first) => self.is_within(first, instance),
+                };
+                if is_reported {
+                    return errors;
+                }
+                if !errors.are_none() {
                     // Errors in the embedded path may hide whether it fits.
                     let problem = Diagnostic::new(&messages::HAS_ERRORS)
                         .quoting("name", self.name_of(*child))
                         .quoting("file", child.file(self.db).path(self.db).as_str())
                         .in_path(outer.as_str());
-                    return self.report_all(instance, &[origin.at(problem)]);
+                    self.report_all(instance, &[origin.at(problem)]);
+                    return PathErrors::Own;
                 }
                 self.report_all(instance, problems)
             }
-        }
+        };
+        PathErrors::of(has_errors)
+    }
+
+    /// Whether the path being visited is part of a cycle that begins with `first`, whatever its values.
+    fn is_within(&self, first: Instance<'db>, visiting: Instance<'db>) -> bool {
+        let place = |instance: Instance<'db>| (instance.file(self.db), instance.name(self.db));
+        place(first) == place(visiting)
+            || self.stack.iter().any(|frame| place(frame.instance) == place(first))
     }
 
     /// Whether a path is already being visited, so that embedding it again would recurse for ever.
@@ -512,9 +565,8 @@ fn edge<'db>(from: Instance<'db>, embedding: &Embedding<'db>) -> Edge<'db> {
     let to = match &embedding.outcome {
         Outcome::Found { child, .. } => Destination::Path(*child),
         Outcome::Refused(problem) | Outcome::NotFound(problem) => nowhere(problem.code()),
-        Outcome::Unlisted(_) => nowhere(Code::UnreadableFile),
-        // An unbound segment has at least one problem.
-        Outcome::Unbound(problems) => {
+        // A segment that was not read or bound has at least one problem.
+        Outcome::Unread(problems) | Outcome::Unbound(problems) => {
             nowhere(problems.first().map_or(Code::MissingVariableValue, Diagnostic::code))
         }
     };

@@ -35,8 +35,8 @@ pub struct Embedding<'db> {
 pub enum Outcome<'db> {
     /// The segment has no name, or names a path that must not be embedded: PB501, PB502, PB507.
     Refused(Diagnostic),
-    /// The path may be in a directory that cannot be listed: PB001.
-    Unlisted(Vec<Diagnostic>),
+    /// The path may be in a directory that cannot be listed, or in a drawing whose errors hide its paths: PB001, PB113, with PB511.
+    Unread(Vec<Diagnostic>),
     /// The path was found nowhere, or in several files: PB503, PB504.
     NotFound(Diagnostic),
     /// The values do not fit its variables: PB302 to PB304.
@@ -95,14 +95,36 @@ impl<'db> Embedder<'_, 'db> {
         let key = NameKey::of(self.db, name);
         let resolved = find_path(self.db, self.file, key);
         match resolved.files.as_slice() {
-            _ if !resolved.unlisted.is_empty() => Outcome::Unlisted(resolved.unlisted.clone()),
-            [] => Outcome::NotFound(self.not_found(call, name, &resolved)),
+            _ if !resolved.unlisted.is_empty() => Outcome::Unread(resolved.unlisted.clone()),
+            [] => match self.unread(call, name, &resolved) {
+                Some(problems) => Outcome::Unread(problems),
+                None => Outcome::NotFound(self.not_found(call, name, &resolved)),
+            },
             [file] => self.bound(call, *file, key),
             [first, second, ..] => {
                 let [first, second] = [first, second].map(|file| file.path(self.db).as_str());
                 Outcome::NotFound(self.judge.defined_twice(call, name, first, second))
             }
         }
+    }
+
+    /// The errors of the only drawing that may define a path by its name, if they hide all of its paths.
+    fn unread(
+        &self,
+        call: &SubpathCall,
+        name: &PathName,
+        resolved: &ResolvedPath,
+    ) -> Option<Vec<Diagnostic>> {
+        let [file] = resolved.searched[..] else { return None };
+        let index = file_index(self.db, file);
+        let path = file.path(self.db);
+        let errors = index.diagnostics().iter().filter(|found| found.is_error());
+        let mut problems: Vec<Diagnostic> = errors.map(|error| error.clone().in_file(path)).collect();
+        if problems.is_empty() || !index.names().is_empty() {
+            return None;
+        }
+        problems.push(self.judge.has_errors(call, name, path.as_str()));
+        Some(problems)
     }
 
     fn not_found(&self, call: &SubpathCall, name: &PathName, resolved: &ResolvedPath) -> Diagnostic {

@@ -288,6 +288,8 @@ words! {
     /// A number.
     NUMBER: "a number", "eine Zahl";
     /// A number greater than 0.
+    MEASURE: "a number from 0.001 to 1000000", "eine Zahl von 0.001 bis 1000000";
+    /// A number greater than 0.
     POSITIVE: "a number greater than 0", "eine Zahl größer als 0";
     /// A number of at least 0.
     NOT_NEGATIVE: "a number of at least 0", "eine Zahl von mindestens 0";

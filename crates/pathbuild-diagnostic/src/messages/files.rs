@@ -34,6 +34,13 @@ messages! {
         en: "did you mean {near}?",
         de: "ist {near} gemeint?",
     }
+    /// A link to a file that does not exist.
+    DANGLING_LINK: UnreadableFile {
+        en: "the file that this link leads to does not exist",
+        de: "die Datei, zu der diese Verknüpfung führt, gibt es nicht",
+        help_en: "restore that file, or remove the link",
+        help_de: "jene Datei wiederherstellen oder die Verknüpfung entfernen",
+    }
     /// A directory instead of a drawing.
     IS_DIRECTORY: UnreadableFile {
         en: "this is a directory, not a drawing",

@@ -83,6 +83,13 @@ messages! {
         help_en: "name a program for the machine, a text file with words such as G01 X10",
         help_de: "ein Programm für die Maschine nennen, eine Textdatei mit Wörtern wie G01 X10",
     }
+    /// A program without any text.
+    EMPTY_PROGRAM: NotGCode {
+        en: "the file is empty",
+        de: "die Datei ist leer",
+        help_en: "write or copy the program again: it was probably cut off, or the disk was full",
+        help_de: "das Programm neu schreiben oder kopieren: wahrscheinlich wurde es abgeschnitten, oder der Datenträger war voll",
+    }
     /// A character that cannot begin a word.
     UNKNOWN_CHARACTER: UnknownCharacter {
         en: "no word begins with `{found}`; the line is left out",

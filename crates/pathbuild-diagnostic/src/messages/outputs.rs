@@ -8,6 +8,13 @@ messages! {
         help_en: "name the paths to emit: pathbuild emit {first}",
         help_de: "die gewünschten Pfade nennen: pathbuild emit {first}",
     }
+    /// A pattern of several paths where one is meant.
+    SEVERAL_MATCHES: SeveralPaths {
+        en: "{pattern} matches several paths: {names}",
+        de: "{pattern} entspricht mehreren Pfaden: {names}",
+        help_en: "name one of them",
+        help_de: "einen davon nennen",
+    }
     /// A drawing without a path.
     NO_PATH: NoPath {
         en: "the drawing contains no path",

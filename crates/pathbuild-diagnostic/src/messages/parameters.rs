@@ -8,6 +8,13 @@ messages! {
         help_en: "{element} needs {letter}: write it on the element, or on the path's start marker",
         help_de: "{element} braucht {letter}: ans Element schreiben oder an die Anfangsmarke des Pfads",
     }
+    /// A missing letter, on several elements of one kind.
+    MISSING_ON_SEVERAL: MissingParameter {
+        en: "{letter} is missing here; further elements of this kind without {letter}: {count}",
+        de: "{letter} fehlt hier; weitere Elemente dieser Art ohne {letter}: {count}",
+        help_en: "{element} needs {letter}: write it on the path's start marker for all of them, or on each element",
+        help_de: "{element} braucht {letter}: für alle an die Anfangsmarke des Pfads schreiben oder an jedes Element",
+    }
     /// A path without O or T.
     MISSING_AT_START: MissingParameter {
         en: "{letter} is missing at the path's start",
@@ -147,6 +154,27 @@ messages! {
         de: "{letter} ist {value}, muss aber größer als 0 sein",
         help_en: "write a value above 0, for example {example}",
         help_de: "einen Wert über 0 schreiben, zum Beispiel {example}",
+    }
+    /// A feed that is zero in a program.
+    FEED_ROUNDED_OFF: ParameterOutOfRange {
+        en: "{letter} is less than 0.0005 mm/min, which is 0 with the three decimals of a program",
+        de: "{letter} ist kleiner als 0,0005 mm/min und damit 0 mit den drei Dezimalen eines Programms",
+        help_en: "write a feed in mm/min, for example {example}",
+        help_de: "einen Vorschub in mm/min schreiben, zum Beispiel {example}",
+    }
+    /// Joined paths with different M.
+    JOINED_MATERIAL: DoubtfulValue {
+        en: "M is {material} here, but {other} in path {path} of the same program",
+        de: "M ist hier {material}, in Pfad {path} desselben Programms aber {other}",
+        help_en: "join only paths that are milled from one plate, or give both the same M",
+        help_de: "nur Pfade verbinden, die aus einer Platte gefräst werden, oder beiden dasselbe M geben",
+    }
+    /// A path that is joined with itself.
+    JOINED_TWICE: DoubtfulValue {
+        en: "path {path} is joined with itself: everything is milled twice",
+        de: "Pfad {path} wird mit sich selbst verbunden: alles wird zweimal gefräst",
+        help_en: "name each path once",
+        help_de: "jeden Pfad nur einmal nennen",
     }
     /// Joined paths with different T.
     JOINED_THICKNESS: DoubtfulValue {

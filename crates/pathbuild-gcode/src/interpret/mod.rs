@@ -19,7 +19,7 @@ mod words;
 use std::ops::ControlFlow;
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::gcode::NOT_G_CODE;
+use pathbuild_diagnostic::messages::gcode::{EMPTY_PROGRAM, NOT_G_CODE};
 use pathbuild_motion::{Move, Step};
 
 pub use self::guess::{Disputes, UnionWord, union_word};
@@ -74,6 +74,9 @@ pub fn interpret_until(
     options: &Options,
     each: &mut dyn FnMut(Step) -> ControlFlow<()>,
 ) -> Vec<Diagnostic> {
+    if text.trim_ascii().is_empty() {
+        return vec![Diagnostic::new(&EMPTY_PROGRAM)];
+    }
     let (problems, has_words) = interpret_parts_until([text], dialect, options, each);
     let is_other = !has_words && problems.iter().any(Diagnostic::is_error);
     if is_other { vec![no_g_code(text)] } else { problems }

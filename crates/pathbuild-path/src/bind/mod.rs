@@ -49,7 +49,9 @@ pub fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> (Option<
 pub fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> ExaminedPath {
     let mut binder = Binder::new(raw, bindings, language);
     let path = binder.path();
-    ExaminedPath { path, problems: binder.problems }
+    let mut problems = binder.problems;
+    group_missing(&mut problems);
+    ExaminedPath { path, problems }
 }
 
 /// State of binding a path.
@@ -519,6 +521,30 @@ impl Binder<'_> {
         self.unknown.infeed |= letter == Letter::I && given == GivenNumber::Faulty;
         given.number()
     }
+}
+
+/// Combines the reports that a letter is missing on elements of one kind, as if it was forgotten in the path's own text, into one at the
+/// first of them.
+pub(crate) fn group_missing(problems: &mut Vec<Diagnostic>) {
+    let mut kept: Vec<Diagnostic> = Vec::with_capacity(problems.len());
+    let mut groups: Vec<(usize, u64)> = Vec::new();
+    for problem in problems.drain(..) {
+        if problem.message == &messages::MISSING {
+            match groups.iter_mut().find(|(first, _)| kept[*first].arguments == problem.arguments) {
+                Some((_, further)) => {
+                    *further += 1;
+                    continue;
+                }
+                None => groups.push((kept.len(), 0)),
+            }
+        }
+        kept.push(problem);
+    }
+    for (first, further) in groups.into_iter().filter(|(_, further)| *further > 0) {
+        kept[first].message = &messages::MISSING_ON_SEVERAL;
+        kept[first].arguments.push(("count", further.into()));
+    }
+    *problems = kept;
 }
 
 /// Whether a text contains pieces that do not begin with a letter.

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use nalgebra::Vector2;
 use pathbuild_diagnostic::messages::{configuration, drawing as messages};
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Place, Point, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry, Layer, Point3};
@@ -86,7 +87,8 @@ pub(super) fn unread_clamps(
         if heights.is_empty() {
             continue;
         }
-        let outlines = Reading { drawing, language, layer, number, problems: Vec::new() }.outlines(&entities);
+        let (outlines, _) =
+            Reading { drawing, language, layer, number, problems: Vec::new() }.outlines(&entities);
         let map = flat_map(outlines.iter().map(|closed| &*closed.outline));
         let is_inside = |(_, text): &&(usize, AnyText<'_>)| {
             let TextCircle { centre, radius } = text.circle();
@@ -165,8 +167,8 @@ impl Reading<'_> {
             return Vec::new();
         }
         self.check_plane(entities);
-        let outlines = self.outlines(entities);
-        let heights = self.heights(entities, &outlines);
+        let (outlines, broken) = self.outlines(entities);
+        let heights = self.heights(entities, &outlines, &broken);
         let clamp = |(closed, height): (ClosedOutline, Option<f64>)| {
             let (layer, height) = (SmolStr::new(&self.layer.name), height?);
             Some(KeepOut { layer, at: closed.at, height, outline: closed.outline })
@@ -223,9 +225,9 @@ impl Reading<'_> {
         points.iter().find(|point| !near(point.z, 0.0)).copied()
     }
 
-    /// The closed outlines; PB117 for all others.
-    fn outlines(&mut self, entities: &[usize]) -> Vec<ClosedOutline> {
-        let (mut outlines, mut parts) = (Vec::new(), Vec::new());
+    /// The closed outlines, and the boxes around all others, which are PB117.
+    fn outlines(&mut self, entities: &[usize]) -> (Vec<ClosedOutline>, Vec<[Xy; 2]>) {
+        let (mut outlines, mut parts, mut broken) = (Vec::new(), Vec::new(), Vec::new());
         for number in entities {
             let Entity { group, geometry, .. } = &self.drawing.entities[*number];
             parts.extend(curve(geometry).map(|curve| Part { curve, group: *group, entity: *number }));
@@ -244,6 +246,7 @@ impl Reading<'_> {
                     outline: ring.iter().map(|part| part.curve).collect(),
                 }),
                 Ring::Open { part, curves } => {
+                    broken.extend(box_around(&curves));
                     if let ([first, ..], [.., last]) = (&curves[..], &curves[..]) {
                         self.report_open(&part, last.end(), first.start());
                     }
@@ -257,7 +260,7 @@ impl Reading<'_> {
                 Ring::Branch { .. } => {}
             }
         }
-        outlines
+        (outlines, broken)
     }
 
     fn report_open(&mut self, part: &Part, end: Xy, other: Xy) {
@@ -270,15 +273,24 @@ impl Reading<'_> {
     }
 
     /// The height of each outline, from the one text inside or overlapping it. PB117 if there is none, if there are several, or if the text
-    /// gives no height.
-    fn heights(&mut self, entities: &[usize], outlines: &[ClosedOutline]) -> Vec<Option<f64>> {
+    /// gives no height. A text in the box around a broken outline probably belongs to that.
+    fn heights(
+        &mut self,
+        entities: &[usize],
+        outlines: &[ClosedOutline],
+        broken: &[[Xy; 2]],
+    ) -> Vec<Option<f64>> {
         let map = flat_map(outlines.iter().map(|closed| &*closed.outline));
         let mut texts = vec![OutlineTexts::default(); outlines.len()];
         for number in entities {
             let Some(text) = AnyText::of(&self.drawing.entities[*number].geometry) else { continue };
             let TextCircle { centre, radius } = text.circle();
             let over = at_point(&map, centre, radius);
-            if over.is_empty() {
+            let is_over = |[low, high]: &[Xy; 2]| {
+                (low.x - radius..=high.x + radius).contains(&centre.x)
+                    && (low.y - radius..=high.y + radius).contains(&centre.y)
+            };
+            if over.is_empty() && !broken.iter().any(is_over) {
                 let problem = Diagnostic::new(&messages::TEXT_OUTSIDE_CLAMPS).quoting("text", one_line(text));
                 let problem = self.at(*number, centre, problem);
                 self.report(problem);
@@ -339,6 +351,18 @@ impl<'d> OutlineTexts<'d> {
             self.first.push((number, text));
         }
     }
+}
+
+/// The corners of the box around curves.
+fn box_around(curves: &[Curve]) -> Option<[Xy; 2]> {
+    let boxes = curves.iter().map(|curve| match curve {
+        Curve::Line(line) => [line.start.inf(&line.end), line.start.sup(&line.end)],
+        Curve::Arc(arc) => {
+            let reach = Vector2::repeat(arc.radius);
+            [arc.centre - reach, arc.centre + reach]
+        }
+    });
+    boxes.reduce(|[low, high], [other_low, other_high]| [low.inf(&other_low), high.sup(&other_high)])
 }
 
 /// The height in a text of the form `Z25`.

@@ -14,7 +14,7 @@ use crate::geometry::{Curve, Xy};
 use crate::letter::{ElementClass, Letter, Letters};
 use crate::names::PathName;
 use crate::raw::RawPath;
-use crate::text::{LetterValue, ParameterText};
+use crate::text::{LetterValue, ParameterText, definition_in_pieces};
 use crate::variables::Definition;
 
 /// The start texts of all paths, for references by @; empty if there are no references.
@@ -128,6 +128,10 @@ impl PathCheck<'_> {
                 Ok(definition) => definitions.push(definition),
                 Err(problem) => {
                     faulty.extend(parameters.value(piece).chars().next());
+                    // The spaces in it are reported.
+                    if definition_in_pieces(parameters, piece).is_some() {
+                        continue;
+                    }
                     problems.push(self.raw.at_parameters(problem.with_text(parameters.fault(piece))));
                 }
             }

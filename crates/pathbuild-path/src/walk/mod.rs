@@ -10,6 +10,7 @@ use pathbuild_diagnostic::messages::{drawing as messages, parameters, paths};
 use rstar::RTree;
 
 use crate::approx::{above, at_least, coincide};
+use crate::bind::group_missing;
 use crate::chain::{ChainBuilder, Passage, WalkedPath};
 use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
@@ -118,6 +119,7 @@ impl<'a> Walker<'a> {
         if path.faults.as_ref().is_some_and(|faults| faults.is_infeed_unknown) {
             walked.diagnostics.retain(|found| found.message != &parameters::MISSING);
         }
+        group_missing(&mut walked.diagnostics);
         walked.diagnostics.append(&mut joined);
         if is_complete && !walked.items.is_empty() {
             walked.diagnostics.extend(idle);

@@ -16,6 +16,9 @@ const LINE: f64 = 17.0;
 const LETTERS: f64 = 11.0;
 const WIDTH: f64 = Frame::WIDTH - 80.0;
 
+/// Upper bound on the lines of findings: each adds to the height of a picture, and thereby to its size in memory.
+const MOST_LINES: usize = 40;
+
 /// Number of steps in the depth scale.
 const STEPS: u32 = 24;
 
@@ -27,14 +30,25 @@ pub(super) struct Legend<'a> {
     scale: f64,
     top: f64,
     findings: Vec<(Option<&'a Finding>, String)>,
+    /// Number of findings that are listed.
+    pub(super) listed: usize,
     /// The stock, if it is shown instead of the moves.
     stock: Option<&'a MilledStock<'a>>,
 }
 
 impl<'a> Legend<'a> {
     pub(super) fn new(scene: &'a Scene, frame: &Frame, depths: &'a Depths, shown: VisibleParts) -> Self {
-        let findings = scene.findings.iter().flat_map(|finding| lines(finding, shown)).collect();
-        Self { scene, depths, shown, scale: frame.scale(), top: frame.bottom(), findings, stock: None }
+        let (findings, listed) = first_findings(&scene.findings, shown);
+        Self {
+            scene,
+            depths,
+            shown,
+            scale: frame.scale(),
+            top: frame.bottom(),
+            findings,
+            listed,
+            stock: None,
+        }
     }
 
     /// The legend of the stock after all moves.
@@ -241,6 +255,24 @@ pub(super) fn depths(canvas: &mut Canvas, depths: &Depths, [left, y]: Point) {
         x += 8.0;
     }
     canvas.text([x + 8.0, y], 10.5, Anchor::Start, "", &label(low));
+}
+
+/// The lines of the findings for which there is room, and their number.
+fn first_findings(findings: &[Finding], shown: VisibleParts) -> (Vec<(Option<&Finding>, String)>, usize) {
+    let mut all = Vec::new();
+    for (number, finding) in findings.iter().enumerate() {
+        let next = lines(finding, shown);
+        if number > 0 && all.len() + next.len() > MOST_LINES {
+            let more = shown.either(
+                "further findings, circled without a number: `pathbuild check` lists them",
+                "weitere Meldungen, ohne Nummer eingekreist: `pathbuild check` zeigt sie",
+            );
+            all.push((None, format!("… {} {more}", findings.len() - number)));
+            return (all, number);
+        }
+        all.extend(next);
+    }
+    (all, findings.len())
 }
 
 /// The lines of a finding, the first with its number.

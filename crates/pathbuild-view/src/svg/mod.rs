@@ -37,7 +37,9 @@ pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
     canvas.title(&scene.title);
     canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
     canvas.clip("frame", frame.area());
-    let hidden = drawing(&mut canvas, scene, &frame, &depths, shown, &mut Room::new(frame.area()));
+    let mut room = Room::new(frame.area());
+    let hidden = drawing(&mut canvas, scene, &frame, &depths, shown, &mut room);
+    things::findings(&mut canvas, scene, &frame, &mut room, legend.listed);
     canvas.close();
     legend.draw(&mut canvas, &hidden);
     canvas.finish()
@@ -60,7 +62,6 @@ fn drawing(
         things::reserve(path, &place, room);
         hidden.extend(things::over(canvas, path, &place, shown, room));
     }
-    things::findings(canvas, scene, frame, room);
     hidden
 }
 
@@ -75,7 +76,7 @@ fn stock_svg(scene: &Scene, shown: VisibleParts) -> String {
     canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
     canvas.clip("frame", frame.area());
     stock.draw(&mut canvas, &frame, "stock");
-    things::findings(&mut canvas, scene, &frame, &mut Room::new(frame.area()));
+    things::findings(&mut canvas, scene, &frame, &mut Room::new(frame.area()), legend.listed);
     canvas.close();
     legend.draw(&mut canvas, &[]);
     canvas.finish()

@@ -454,28 +454,32 @@ fn label(canvas: &mut Canvas, room: &mut Room, at: Point, offset: Point, text: &
     canvas.text(at, 9.5, Anchor::Start, &format!("fill=\"{color}\" {halo}"), text);
 }
 
-/// Circles and numbers findings. Findings at the same place share a circle.
-pub(super) fn findings(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mut Room) {
+/// Circles findings, and numbers the first ones. Findings at the same place share a circle.
+pub(super) fn findings(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mut Room, numbered: usize) {
     let place = frame.of_drawing();
     let mut circles: Vec<(Point, Vec<usize>, bool)> = Vec::new();
-    for finding in &scene.findings {
+    for (index, finding) in scene.findings.iter().enumerate() {
         let Some(at) = finding.at else { continue };
         let at = place.at(at);
+        let number = (index < numbered).then_some(finding.number);
         let is_same = |known: &&mut (Point, Vec<usize>, bool)| {
             libm::hypot(known.0[0] - at[0], known.0[1] - at[1]) < 6.0
         };
         match circles.iter_mut().find(is_same) {
             Some((_, numbers, is_error)) => {
-                numbers.push(finding.number);
+                numbers.extend(number);
                 *is_error |= finding.is_error;
             }
-            None => circles.push((at, vec![finding.number], finding.is_error)),
+            None => circles.push((at, number.into_iter().collect(), finding.is_error)),
         }
     }
     canvas.open("id=\"findings\"");
     for (at, numbers, is_error) in circles {
         let color = if is_error { ERROR } else { WARNING };
         canvas.circle(at, 13.0, &format!("fill=\"none\" stroke=\"{color}\" stroke-width=\"2.4\""));
+        if numbers.is_empty() {
+            continue;
+        }
         let numbers = numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
         let halo = "stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\" font-weight=\"bold\"";
         let style = format!("fill=\"{color}\" {halo}");

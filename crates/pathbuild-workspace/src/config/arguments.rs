@@ -7,7 +7,7 @@ use pathbuild_db::system::join;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Lang, Message, Text, TextFault, Value};
 
-use super::kinds::number_from_text;
+use super::kinds::{MEASURES, number_from_text};
 use super::kinds::{regex_fault, split_restriction};
 use super::origin::SourcedValue;
 use super::types::{Directories, Restriction};
@@ -162,8 +162,9 @@ pub(super) struct GivenOption<'a> {
 }
 
 impl GivenOption<'_> {
-    pub(super) fn positive(&self) -> Result<Option<f64>, Vec<Diagnostic>> {
-        positive(self.name, self.last()).map(Some).map_err(|fault| vec![*fault])
+    pub(super) fn measure(&self) -> Result<Option<f64>, Vec<Diagnostic>> {
+        let number = number_from_text(self.last()).filter(|number| MEASURES.contains(number));
+        number.map(Some).ok_or_else(|| vec![invalid(self.name, self.last(), &messages::MEASURE)])
     }
 
     pub(super) fn regex(&self) -> Result<Box<str>, Vec<Diagnostic>> {

@@ -1,7 +1,7 @@
 //! Types of values: numbers, sizes, times, texts, choices and patterns.
 
 use std::fmt::Write;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -24,6 +24,19 @@ pub(in crate::config) const POSITIVE: ValueType<Option<f64>> = ValueType {
     show: |number| number.map(|number| number.to_string()),
     schema: || json!({ "type": "number", "exclusiveMinimum": 0 }),
 };
+
+/// A length in mm or a speed in mm/min, as programs state it with three decimals.
+pub(in crate::config) const MEASURE: ValueType<Option<f64>> = ValueType {
+    read: |value, reader| {
+        let measure = number(value).filter(|number| MEASURES.contains(number));
+        reader.require(measure, &messages::MEASURE, value).map(Some)
+    },
+    show: |number| number.map(|number| number.to_string()),
+    schema: || json!({ "type": "number", "minimum": MEASURES.start(), "maximum": MEASURES.end() }),
+};
+
+/// Bounds on such a value: rounded, it must be greater than 0, and no machine is larger or faster.
+pub(super) const MEASURES: RangeInclusive<f64> = 0.001..=1e6;
 
 /// A time in seconds greater than 0.
 pub(in crate::config) const SECONDS: ValueType<Duration> = ValueType {

@@ -78,7 +78,7 @@ pub mod general {
     };
     use crate::config::arguments::{GivenOption, OptionReader, SettingOption};
     use crate::config::kinds::{
-        DIRECTORIES, DIRECTORY, NOT_NEGATIVE, OPTIONAL_REGEX, PART_TOLERANCE, PIECE, POSITIVE, REGEX,
+        DIRECTORIES, DIRECTORY, MEASURE, NOT_NEGATIVE, OPTIONAL_REGEX, PART_TOLERANCE, PIECE, REGEX,
         RESTRICTIONS, SWITCH, choice,
     };
     use crate::config::table_kinds::POST;
@@ -117,17 +117,17 @@ pub mod general {
 
     overridable! {
         /// mm/min: F of paths that give none; needed to emit, not to check
-        feed: Option<f64> = "feed", POSITIVE, None, "150", Check,
-            option 0: GivenOption::positive, Text("MM/MIN"), "Milling feed of paths that give none", "Fräsvorschub für Pfade, die keinen angeben";
+        feed: Option<f64> = "feed", MEASURE, None, "150", Check,
+            option 0: GivenOption::measure, Text("MM/MIN"), "Milling feed of paths that give none", "Fräsvorschub für Pfade, die keinen angeben";
         /// mm/min: speed of rapid moves, for times; needed to emit
-        rapid: Option<f64> = "rapid", POSITIVE, None, "1000", Emit,
-            option 1: GivenOption::positive, Text("MM/MIN"), "Speed of rapid moves, for the times shown", "Eilganggeschwindigkeit, für die angezeigten Zeiten";
+        rapid: Option<f64> = "rapid", MEASURE, None, "1000", Emit,
+            option 1: GivenOption::measure, Text("MM/MIN"), "Speed of rapid moves, for the times shown", "Eilganggeschwindigkeit, für die angezeigten Zeiten";
         /// mm: S of an emitted path that gives none; needed to emit
-        sweep_height: Option<f64> = "sweep-height", POSITIVE, None, "20", Check,
-            option 2: GivenOption::positive, Text("MM"), "Sweep height of an emitted path that gives none", "Leerfahrthöhe, wenn der geschriebene Pfad keine angibt";
+        sweep_height: Option<f64> = "sweep-height", MEASURE, None, "20", Check,
+            option 2: GivenOption::measure, Text("MM"), "Sweep height of an emitted path that gives none", "Leerfahrthöhe, wenn der geschriebene Pfad keine angibt";
         /// mm/min: Z of probes without a Z of their own; default: like feed
-        probe_feed: Option<f64> = "probe-feed", POSITIVE, None, "40", Emit,
-            option 3: GivenOption::positive, Text("MM/MIN"), "Probing feed of paths that give none", "Vorschub beim Antasten für Pfade, die keinen angeben";
+        probe_feed: Option<f64> = "probe-feed", MEASURE, None, "40", Emit,
+            option 3: GivenOption::measure, Text("MM/MIN"), "Probing feed of paths that give none", "Vorschub beim Antasten für Pfade, die keinen angeben";
         /// directories that `check` and `emit` use without arguments, and in which paths are found by name;
         /// includes subdirectories, respects .gitignore and .ignore
         library: Directories = "library", DIRECTORIES, Vec::new(), r#"["."]"#, Neither;

@@ -42,7 +42,7 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
     let machine = settings.machine.as_ref();
     let unsafe_moves = programs.iter().find_map(|program| unsafe_moves(db, job, program, machine));
     let unsafe_moves = unsafe_moves.or_else(|| unsafe_together(db, job, &programs));
-    delivered.problems.extend(joined::differing_thickness(db, job, &programs));
+    delivered.problems.extend(joined::doubts(db, job, &programs));
     let result =
         unsafe_moves.map_or_else(|| outputs(db, job, &programs, &line, settings, &mut delivered), Err);
     let result = result.and_then(|mut outputs| {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use pathbuild_db::{Collision, Database, PlacedKeepOut, placed_keep_outs};
+use pathbuild_db::{Collision, Database, PlacedKeepOut, Target, closure, placed_keep_outs, summary};
 use pathbuild_diagnostic::messages::{parameters, paths as messages};
 use pathbuild_diagnostic::{Diagnostic, words};
 use pathbuild_path::approx::near;
@@ -12,8 +12,35 @@ use pathbuild_toolpath::{Program, kind_of_move, way};
 
 use super::plan::Job;
 
-/// PB211: a path whose material is not as thick as that of the first path.
-pub(super) fn differing_thickness(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Diagnostic> {
+/// PB211: paths that do not belong into one program with the first one.
+pub(super) fn doubts(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Vec<Diagnostic> {
+    let thickness = differing_thickness(db, job, programs);
+    thickness.into_iter().chain(differing_material(db, job)).chain(repeated(db, job)).collect()
+}
+
+/// The first path whose material has another name than that of the first path.
+fn differing_material(db: &Database, job: &Job) -> Option<Diagnostic> {
+    let material =
+        |target: &Target| summary(db, closure(db, *target).root?).signature.as_ref()?.material.clone();
+    let first = job.targets.first()?;
+    let expected = material(first)?;
+    let differing = |target: &&Target| material(target).is_some_and(|material| material != expected);
+    let target = job.targets.iter().find(differing)?;
+    let problem = Diagnostic::new(&parameters::JOINED_MATERIAL).in_path(target.name(db));
+    let problem = problem.quoting("material", material(target)?).quoting("other", expected);
+    Some(problem.quoting("path", &**first.name(db)).in_file(target.file(db).path(db)))
+}
+
+/// The first path that the program contains twice.
+fn repeated(db: &Database, job: &Job) -> Option<Diagnostic> {
+    let mut targets = job.targets.iter().enumerate();
+    let (_, target) = targets.find(|(number, target)| job.targets[..*number].contains(target))?;
+    let problem = Diagnostic::new(&parameters::JOINED_TWICE).in_path(target.name(db));
+    Some(problem.quoting("path", &**target.name(db)).in_file(target.file(db).path(db)))
+}
+
+/// A path whose material is not as thick as that of the first path.
+fn differing_thickness(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Diagnostic> {
     let first = programs.first()?;
     let mut targets = programs.iter().zip(&job.targets);
     let (other, target) = targets.find(|(other, _)| !near(other.thickness, first.thickness))?;

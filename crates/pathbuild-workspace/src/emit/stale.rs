@@ -120,7 +120,9 @@ impl EarlierPrograms<'_> {
     ) -> StaleOutcome {
         let mut dealt = StaleOutcome::default();
         for stale in stale {
-            if !is_removed || matches!(stale.reason, Reason::OfOthers) {
+            // Another library may need the one, and edits would be lost with the other.
+            let is_kept = matches!(stale.reason, Reason::OfOthers | Reason::Edited { .. });
+            if !is_removed || is_kept {
                 diagnostics.push(stale.diagnostic());
                 dealt.outdated.extend(stale.is_outdated().then_some(stale.path));
                 continue;

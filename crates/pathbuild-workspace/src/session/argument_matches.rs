@@ -79,6 +79,14 @@ impl ArgumentMatches {
         self.arguments.iter().filter_map(Argument::directory)
     }
 
+    /// The names of the arguments that may be paths, and of the paths that match a pattern.
+    pub fn names(&self) -> impl Iterator<Item = &PathName> {
+        self.arguments.iter().filter_map(|argument| match argument {
+            Argument::Name { name, .. } => Some(name),
+            Argument::Drawing(_) | Argument::Directory(_) => None,
+        })
+    }
+
     /// The drawings that were named, or may define a named path.
     pub fn named(&self) -> impl Iterator<Item = SourceFile> {
         let named = self.arguments.iter().filter_map(|argument| match argument {

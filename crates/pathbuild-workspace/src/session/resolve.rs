@@ -52,7 +52,11 @@ pub type NamesOf<'a> = &'a dyn Fn(SourceFile) -> &'a [PathName];
 impl Session<'_> {
     /// Resolves the arguments; without any, selects the library.
     pub fn select(&self, inputs: &Inputs) -> Selection {
-        let matches = self.match_arguments(inputs);
+        self.select_matches(self.match_arguments(inputs))
+    }
+
+    /// Resolves matched arguments.
+    pub fn select_matches(&self, matches: ArgumentMatches) -> Selection {
         let mut selection =
             self.select_arguments(&matches, &matches.arguments, &|file| path_names(&self.db, file));
         selection.problems.splice(..0, matches.problems);
@@ -239,6 +243,12 @@ impl Session<'_> {
             ([], [], [file]) => {
                 Some(NamedPaths { file: *file, names: path_names(self.db(), *file).to_vec() })
             }
+            ([], paths, named) if paths.len() + named.len() > 1 => {
+                let named = named.iter().map(|file| file.path(self.db()).as_str());
+                let names: Value = paths.iter().map(|path| path.name.as_str()).chain(named).collect();
+                let problem = Diagnostic::new(&messages::SEVERAL_MATCHES).quoting("pattern", argument);
+                return Err(vec![problem.with("names", names)]);
+            }
             _ => None,
         })
     }
@@ -330,7 +340,11 @@ impl Session<'_> {
     /// Adds suggestions to diagnostics about missing files and paths: another location, or a similar name.
     pub fn with_hints(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         let known = LazyCell::new(|| self.known());
-        let with_near = |diagnostic: Diagnostic| {
+        let with_near = |mut diagnostic: Diagnostic| {
+            let is_dangling = |file: &Utf8PathBuf| crate::files::is_named(file);
+            if *diagnostic.message == files::MISSING && diagnostic.file.as_ref().is_some_and(is_dangling) {
+                diagnostic.message = &files::DANGLING_LINK;
+            }
             let near = match (diagnostic.message, &diagnostic.file) {
                 (message, Some(file)) if *message == files::MISSING => {
                     self.near_file(file).map(|near| (&files::NEAR_FILE, near.into_string()))

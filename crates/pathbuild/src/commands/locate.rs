@@ -7,8 +7,6 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 use serde_json::{Value, json};
 
-use pathbuild_workspace::Input;
-
 use crate::args::GraphArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -22,9 +20,11 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
         return context.refuse_empty_input();
     }
     let (found, problems) = session.with_stable_files(|session| {
-        let selection = session.select(&args.inputs);
+        let matches = session.match_arguments(&args.inputs);
+        let names: Vec<PathName> = matches.names().cloned().collect();
+        let selection = session.select_matches(matches);
         let mut problems = selection.problems.clone();
-        let found = definitions(session, args, &selection, &mut problems);
+        let found = definitions(session, &names, &selection, &mut problems);
         (found, session.with_hints(problems))
     });
     for (file, place) in found {
@@ -40,20 +40,16 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
 /// The definitions of each path. A path that is defined twice, which is an error, is listed at both places.
 fn definitions(
     session: &Session<'_>,
-    args: &GraphArgs,
+    names: &[PathName],
     selection: &Selection,
     problems: &mut Vec<Diagnostic>,
 ) -> Vec<(SourceFile, PathPlace)> {
     let db = session.db();
     let mut found = Vec::new();
-    let names = args.inputs.iter().filter_map(|input| match input {
-        Input::Name(name) => Some(PathName::new(name)),
-        Input::Place(_) => None,
-    });
     let directories = LazyCell::new(|| session.name_directories());
     for name in names {
-        let files = session.definitions(&name, &directories);
-        found.extend(files.into_iter().filter_map(|file| Some((file, path_place(db, file, &name)?))));
+        let files = session.definitions(name, &directories);
+        found.extend(files.into_iter().filter_map(|file| Some((file, path_place(db, file, name)?))));
     }
     let files = selection.whole(session);
     session.parse_ahead(&files);

@@ -8,7 +8,7 @@ use crate::svg::canvas::{Anchor, Canvas, Depths, INK, PROBE, TEXT, mm, n};
 use crate::svg::frame::{Frame, PageTransform, Room, VisibleParts};
 use crate::svg::legend;
 use crate::svg::stock::{MilledStock, has_stock};
-use crate::svg::{drawing, moves};
+use crate::svg::{drawing, moves, things};
 
 use super::data::{Corners, Sheet, UNITS, Words, cleared, seen};
 use super::flow::{Column, PICTURE};
@@ -177,6 +177,7 @@ impl PlacedPicture {
         room.lines.extend(axes);
         room.lines.extend(cleared(sheet).into_iter().flat_map(|corners| sides(corners, &place)));
         let hidden = drawing(canvas, &sheet.scene, &frame, &depths, shown, &mut room);
+        things::findings(canvas, &sheet.scene, &frame, &mut room, sheet.scene.findings.len());
         canvas.close();
         if let Some(box_) = cleared(sheet) {
             draw(canvas, box_, &place, [left, bottom]);
