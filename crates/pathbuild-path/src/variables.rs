@@ -111,7 +111,7 @@ impl Interpolation<'_> {
                 return Err(None);
             }
             let replacement =
-                name.and_then(|name| self.bindings.get(name)).ok_or_else(|| self.undefined(name))?;
+                name.and_then(|name| self.bindings.get(name)).ok_or_else(|| Some(self.undefined(name)))?;
             filled.push_str(before);
             filled.push_str(replacement);
             if filled.len() > self.limit {
@@ -123,12 +123,12 @@ impl Interpolation<'_> {
         Ok(filled)
     }
 
-    fn undefined(&self, name: Option<char>) -> Problem {
+    fn undefined(&self, name: Option<char>) -> Box<Diagnostic> {
         let known: Value = self.bindings.iter().map(|(name, _)| name.to_string()).collect();
         let problem = Diagnostic::new(&messages::UNKNOWN_REFERENCE)
             .quoting("variable", name.map(String::from).unwrap_or_default())
             .with("known", known);
-        Some(Box::new(problem))
+        Box::new(problem)
     }
 
     fn too_long(&self) -> Box<Diagnostic> {
