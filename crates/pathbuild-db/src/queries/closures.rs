@@ -182,7 +182,7 @@ enum PathErrors<'db> {
     Own,
 }
 
-impl<'db> PathErrors<'db> {
+impl PathErrors<'_> {
     fn of(has_errors: bool) -> Self {
         if has_errors { Self::Own } else { Self::None }
     }
