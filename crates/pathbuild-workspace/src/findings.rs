@@ -1,9 +1,9 @@
 //! The diagnostics of a run, ready for display: with configured severities, without duplicates, in an order independent of threads.
 //! (book: reference/diagnostics)
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::fmt;
-use std::hash::{Hash, Hasher};
+use std::hash::Hash as Hashed;
 
 use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::{Code, Diagnostic};
@@ -116,54 +116,9 @@ fn is_same(a: &Diagnostic, b: &Diagnostic) -> bool {
 }
 
 /// What tells a finding from others. Paths nested too deep may be reached from several projects, each with different arguments.
-fn identity(found: &Diagnostic) -> impl Eq + Hash + '_ {
+pub(crate) fn identity(found: &Diagnostic) -> impl Eq + Hashed + '_ {
     let arguments = (found.code() != Code::NestingTooDeep).then_some(&found.arguments);
     (found.message, &found.file, &found.path, &found.place, &found.text, arguments)
-}
-
-/// Number of reports of each finding: the checks of several drawings may report the same one.
-#[derive(Debug, Default)]
-pub(crate) struct FindingTally(HashMap<Counted, usize>);
-
-impl FindingTally {
-    /// Replaces findings. Returns those that were not known, and those that no check reports any more.
-    pub(crate) fn replace(
-        &mut self,
-        before: &[Diagnostic],
-        now: &[Diagnostic],
-    ) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
-        let counted = |found: &Diagnostic| Counted(found.clone());
-        let is_known = |tally: &Self, found: &Diagnostic| tally.0.contains_key(&counted(found));
-        let new = now.iter().filter(|found| !is_known(self, found)).cloned().collect();
-        for found in now {
-            *self.0.entry(counted(found)).or_default() += 1;
-        }
-        for found in before.iter().map(counted) {
-            match self.0.get_mut(&found) {
-                Some(count) if *count > 1 => *count -= 1,
-                _ => _ = self.0.remove(&found),
-            }
-        }
-        (new, before.iter().filter(|found| !is_known(self, found)).cloned().collect())
-    }
-}
-
-/// A finding, compared by its identity.
-#[derive(Debug)]
-struct Counted(Diagnostic);
-
-impl PartialEq for Counted {
-    fn eq(&self, other: &Self) -> bool {
-        is_same(&self.0, &other.0)
-    }
-}
-
-impl Eq for Counted {}
-
-impl Hash for Counted {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        identity(&self.0).hash(state);
-    }
 }
 
 // Fingerprints of findings: the same finding has the same one in every run, language and version.

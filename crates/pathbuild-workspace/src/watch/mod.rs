@@ -8,6 +8,7 @@ mod changes;
 mod directories;
 mod events;
 mod library;
+mod tally;
 #[cfg(test)]
 mod tests;
 mod writing;
@@ -16,7 +17,6 @@ use std::time::Instant;
 
 use pathbuild_db::SourceFile;
 
-use crate::findings::FindingTally;
 use crate::session::Session;
 use crate::workspace::Workspace;
 
@@ -24,6 +24,7 @@ use changes::{Batch, Watcher};
 pub use events::{Bell, FirstCheck, Listener, Request, Update, WatchEnd};
 use events::{Changes, Restart};
 use library::Library;
+use tally::FindingTally;
 use writing::Writer;
 
 impl Request<'_> {

@@ -1,0 +1,53 @@
+//! How often a session's checks report each finding. (book: reference/commands, `watch`)
+
+use std::collections::HashMap;
+use std::hash::{Hash, Hasher};
+
+use pathbuild_diagnostic::Diagnostic;
+
+use crate::findings::identity;
+
+/// Number of reports of each finding: the checks of several drawings may report the same one.
+#[derive(Debug, Default)]
+pub(super) struct FindingTally(HashMap<Counted, usize>);
+
+impl FindingTally {
+    /// Replaces findings. Returns those that were not known, and those that no check reports any more.
+    pub(super) fn replace(
+        &mut self,
+        before: &[Diagnostic],
+        now: &[Diagnostic],
+    ) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
+        let counted = |found: &Diagnostic| Counted(found.clone());
+        let is_known = |tally: &Self, found: &Diagnostic| tally.0.contains_key(&counted(found));
+        let new = now.iter().filter(|found| !is_known(self, found)).cloned().collect();
+        for found in now {
+            *self.0.entry(counted(found)).or_default() += 1;
+        }
+        for found in before.iter().map(counted) {
+            match self.0.get_mut(&found) {
+                Some(count) if *count > 1 => *count -= 1,
+                _ => _ = self.0.remove(&found),
+            }
+        }
+        (new, before.iter().filter(|found| !is_known(self, found)).cloned().collect())
+    }
+}
+
+/// A finding, compared by its identity.
+#[derive(Debug)]
+struct Counted(Diagnostic);
+
+impl PartialEq for Counted {
+    fn eq(&self, other: &Self) -> bool {
+        identity(&self.0) == identity(&other.0)
+    }
+}
+
+impl Eq for Counted {}
+
+impl Hash for Counted {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        identity(&self.0).hash(state);
+    }
+}
