@@ -16,7 +16,7 @@ mill 0,0 40,0
 end 40,0
 layer 1234.2P
 start 0,20 "T6 O2 I1 MPlate2 :B0~1 :CA,B"
-mill 0,20 40,20 "B=B"
+mill 0,20 40,20 "B=B Q=C"
 mill 40,20 40,40 "B=B"
 mill 40,40 0,20 "B=B"
 end 0,20

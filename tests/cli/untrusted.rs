@@ -316,7 +316,7 @@ fn faults_of_a_persons_configuration_are_told() {
         ("[cache]\ndir = \"relative\"\n", "an absolute path"),
         ("[trust]\nroots = [\"relative\"]\n", "a list of absolute paths"),
         ("[trust]\nroot = []\n", "did you mean `roots`"),
-        ("lang = \n", "not TOML"),
+        ("lang = \n", "not valid TOML"),
     ] {
         let run = run(&repository("").users(text), "check .");
         assert_eq!(run.status, Some(2), "{text}: {run}");

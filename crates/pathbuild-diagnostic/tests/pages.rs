@@ -2,8 +2,8 @@
 
 use pathbuild_diagnostic::{Code, Lang};
 
-/// Codes whose example would require a bug, earlier output, or measured values.
-const WITHOUT_EXAMPLE: [Code; 1] = [Code::InternalError];
+/// Codes whose example would require a bug, or a block, which the tables of examples do not show.
+const WITHOUT_EXAMPLE: [Code; 2] = [Code::InternalError, Code::MirroredSubpath];
 
 fn codes() -> impl Iterator<Item = Code> {
     Code::ALL.iter().copied()

@@ -1420,17 +1420,17 @@ fn limits_of_values_are_said_in_both_languages() {
         faults.iter().find(|fault| fault.code().name() == "value-out-of-range").unwrap().help(lang).unwrap()
     };
     for (program, en, de) in [
-        ("G1 X1 F-5", "F is 0 or more", "F ist 0 oder mehr"),
-        ("T-1 M6", "T is a whole number, 0 or more", "T ist eine ganze Zahl ab 0"),
-        ("G4 P-1", "P is 0 seconds or more", "P ist 0 Sekunden oder mehr"),
+        ("G1 X1 F-5", "the value must be 0 or more", "erlaubt: 0 oder mehr"),
+        ("T-1 M6", "the value must be a whole number, 0 or more", "erlaubt: eine ganze Zahl ab 0"),
+        ("G4 P-1", "the value must be 0 seconds or more", "erlaubt: 0 Sekunden oder mehr"),
         (
             "G0 X0 Y0 Z0\nG81 X1 Z-1 R1 L0 F9",
-            "L is a whole number of holes, 1 or more",
-            "L ist eine ganze Zahl von Bohrungen ab 1",
+            "the value must be a whole number of holes, 1 or more",
+            "erlaubt: eine ganze Zahl von Bohrungen ab 1",
         ),
-        ("G0 X0 Y0 Z0\nG83 X1 Z-1 R1 Q0 F9", "Q is more than 0", "Q ist größer als 0"),
-        ("G0 X0 Y0 Z0\nG81 X1 Z1 R0 F9", "R is not below Z", "R ist nicht unter Z"),
-        ("G10 L2 P11 X0", "P is 0 to 9", "P ist 0 bis 9"),
+        ("G0 X0 Y0 Z0\nG83 X1 Z-1 R1 Q0 F9", "the value must be more than 0", "erlaubt: größer als 0"),
+        ("G0 X0 Y0 Z0\nG81 X1 Z1 R0 F9", "the value must be not below Z", "erlaubt: nicht unter Z"),
+        ("G10 L2 P11 X0", "the value must be 0 to 9", "erlaubt: 0 bis 9"),
     ] {
         assert_eq!(help(program, Lang::En), en, "{program}");
         assert_eq!(help(program, Lang::De), de, "{program}");

@@ -152,13 +152,6 @@ messages! {
         help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters after the name",
         help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
     }
-    /// A text on a sweep that takes no text.
-    ON_SILENT_SWEEP: DoubtfulText {
-        en: "{other} at {other_point} lies exactly under the text \"{text}\", but line type HIDDEN takes no text: it belongs to {element} at {point}",
-        de: "genau unter dem Text \"{text}\" liegt {other} bei {other_point}, der Linientyp HIDDEN nimmt aber keinen Text auf: zum Text gehört {element} bei {point}",
-        help_en: "give the element under the text a line type that takes texts, such as CONTINUOUS, or move the text to its element",
-        help_de: "dem Element unter dem Text einen Linientyp geben, der einen Text aufnimmt, etwa CONTINUOUS, oder den Text zu seinem Element schieben",
-    }
     /// Note: the nearest element.
     NEAREST_ELEMENT: TextWithoutElement {
         en: "the nearest element is {element} at {point}, {distance} mm away from the text's circle",

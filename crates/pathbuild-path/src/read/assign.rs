@@ -7,7 +7,7 @@ use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 
 use crate::approx::near;
-use crate::element::{Element, Shape, shown};
+use crate::element::{Element, shown};
 use crate::letter::{Letters, Use};
 use crate::read::candidates::{
     AssignedCandidate, Candidate, Owner, SearchBudget, find, find_taken, nearest_miss,
@@ -22,9 +22,6 @@ const MOST_NAMED: usize = 3;
 
 /// Upper bound on the elements that are examined for hints about texts without an element, in addition to those examined to assign texts.
 const MOST_EXAMINED_FOR_HINTS: usize = 1_000_000;
-
-/// Distance in mm from the middle of a text up to which an element counts as lying exactly under it.
-const ON_ELEMENT: f64 = 0.1;
 
 impl Texts<'_> {
     /// Assigns each text to its element; PB107 if there is none. `margin`: minimum difference in mm between the distances from this element
@@ -71,11 +68,7 @@ impl<'d> LayerTexts<'d> {
     ) -> Option<Diagnostic> {
         let last = self.each_match(budget, |layer, text, _, owners, found| {
             let has_owner = !owners.is_empty();
-            let doubt = found.and_then(|found| {
-                let doubt = layer.doubt(text, found, margin, &path.elements);
-                doubt.or_else(|| layer.on_silent_sweep(text, found, budget))
-            });
-            path.diagnostics.extend(doubt);
+            path.diagnostics.extend(found.and_then(|found| layer.doubt(text, found, margin, &path.elements)));
             if has_owner {
                 let id = path.given.push_drawn(text.string());
                 layer.give(id, owners.clone(), path);
@@ -142,31 +135,6 @@ impl<'d> LayerTexts<'d> {
             .with("other_point", shown(other.shape.point()))
             .with("margin", farther);
         doubt.text = texts.first().map(ParameterText::whole);
-        Some(self.origin(text.source, text.anchor()).at(doubt))
-    }
-
-    /// PB116 if a text lies exactly on a sweep that takes no text, and therefore belongs to a line or arc beside it.
-    fn on_silent_sweep(
-        &self,
-        text: &FoundText<'_>,
-        found: AssignedCandidate,
-        budget: &SearchBudget,
-    ) -> Option<Diagnostic> {
-        let element = &self.candidates[found.candidate];
-        let (Owner::Element(_), Shape::Curve(curve)) = (element.owner, &element.shape) else { return None };
-        let middle = TextCircle { radius: ON_ELEMENT, ..text.circle() };
-        if middle.gap_to(curve) == 0.0 {
-            return None;
-        }
-        let sweep = &self.silent[find(&middle, &self.silent, &self.silent_boxes, budget)?.candidate];
-        let string = without_percent_codes(text.string());
-        let mut doubt = Diagnostic::new(&messages::ON_SILENT_SWEEP)
-            .quoting("text", string.replace('\n', " "))
-            .with("element", element.word())
-            .with("point", shown(element.shape.point()))
-            .with("other", sweep.word())
-            .with("other_point", shown(sweep.shape.point()));
-        doubt.text = ParameterTexts::from(&*string).first().map(ParameterText::whole);
         Some(self.origin(text.source, text.anchor()).at(doubt))
     }
 

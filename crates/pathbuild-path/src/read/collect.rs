@@ -496,13 +496,8 @@ impl<'d> PathCollector<'d> {
     }
 
     fn add_element(&mut self, found: &LayerEntity<'_>, shape: Shape, role: Role) {
-        let owner = Owner::Element(self.elements.len());
-        if role == Role::SilentSweep {
-            let LayerEntity { source, entity, .. } = *found;
-            let sweep = Candidate { id: source.id, shape, group: entity.group, owner, is_taken: false };
-            self.texts.add_silent(source.layer, sweep);
-        } else {
-            self.candidate(found, shape, owner);
+        if role != Role::SilentSweep {
+            self.candidate(found, shape, Owner::Element(self.elements.len()));
         }
         if role == Role::Subpath && found.entity.is_mirrored {
             let problem = Diagnostic::new(&paths::MIRRORED_SUBPATH);

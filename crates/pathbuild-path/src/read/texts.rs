@@ -25,10 +25,6 @@ pub(crate) struct Texts<'d> {
 pub(super) struct LayerTexts<'d> {
     pub(super) name: SmolStr,
     pub(super) candidates: Vec<Candidate>,
-    /// The sweeps that take no text.
-    pub(super) silent: Vec<Candidate>,
-    /// The spatial index of the sweeps that take no text, built on demand.
-    pub(super) silent_boxes: CandidateIndex,
     /// The spatial index of the candidates, built on demand.
     pub(super) boxes: CandidateIndex,
     pub(super) texts: Vec<FoundText<'d>>,
@@ -71,10 +67,6 @@ impl<'d> Texts<'d> {
 
     pub(crate) fn add_mtext(&mut self, text: &'d MText, source: Source) {
         self.layer(source.layer).texts.push(FoundText { source, text: AnyText::MText(text) });
-    }
-
-    pub(crate) fn add_silent(&mut self, layer: u32, sweep: Candidate) {
-        self.layer(layer).silent.push(sweep);
     }
 
     pub(crate) fn add_candidate(&mut self, layer: u32, candidate: Candidate) {
@@ -183,7 +175,6 @@ impl<'d> LayerTexts<'d> {
             return None;
         }
         self.boxes = CandidateIndex::new(&self.candidates);
-        self.silent_boxes = CandidateIndex::new(&self.silent);
         let mut texts = std::mem::take(&mut self.texts);
         texts.sort_by_key(FoundText::is_mtext);
         let mut last = None;

@@ -159,22 +159,6 @@ fn an_element_that_does_not_know_the_letters_is_no_rival() {
     assert_eq!(said("N100"), ["PB116"]);
 }
 
-/// A sweep without a text has no kind that would come later: its line type takes none.
-#[test]
-fn a_text_exactly_on_a_silent_sweep_is_doubtful() {
-    let silent = |y: f64| format!("mill 0,0 40,0\nline HIDDEN 0,{y} 40,{y}");
-    let on = |y: f64, at: f64| texts(&format!("{}\n{}", silent(y), text(at)), 0.1);
-    assert_eq!(on(0.6, 0.6), ["PB116"]);
-    assert_eq!(on(0.6, 0.69), ["PB116"]);
-    assert_eq!(on(0.6, 0.71), [""; 0], "beside it");
-    assert_eq!(on(0.04, 0.04), [""; 0], "on both");
-    assert_eq!(on(9.0, 9.0), ["PB107"], "nothing else is near");
-    let hole = "circle 20,0 d 3\nline HIDDEN 0,0.6 40,0.6";
-    assert_eq!(texts(&format!("{hole}\n{}", text(0.6)), 0.1), [""; 0], "the middle of a hole");
-    let dashed = "mill 0,0 40,0\nline DASHED 0,0.6 40,0.6";
-    assert_eq!(texts(&format!("{dashed}\n{}", text(0.6)), 0.1), ["PB202 F"], "it has the text itself");
-}
-
 #[test]
 fn a_tilde_layer_settles_it() {
     let lines = "mill 0,0 40,0\nlayer 1234.1P~A\nmill 0,3 40,3";

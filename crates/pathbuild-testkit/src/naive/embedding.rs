@@ -12,6 +12,35 @@ use super::{Drawing, Finding, Instance, Model, directory, stem};
 /// Maximum depth of embedding below the checked path.
 const MAX_EMBEDDING_DEPTH: usize = 10;
 
+/// Errors of a path, in itself or below. What embeds it repeats only errors of its own.
+#[derive(Clone, PartialEq)]
+pub(super) enum Errors {
+    /// None.
+    None,
+    /// Embedding is too deep below the checked path.
+    TooDeep,
+    /// The path is part of a cycle that begins with this one.
+    Cycle(Instance),
+    /// Errors of its own.
+    Own,
+}
+
+impl Errors {
+    fn of(is_wrong: bool) -> Self {
+        if is_wrong { Self::Own } else { Self::None }
+    }
+
+    fn and(self, other: Self) -> Self {
+        let rank = |errors: &Self| match errors {
+            Self::None => 0,
+            Self::TooDeep => 1,
+            Self::Cycle(_) => 2,
+            Self::Own => 3,
+        };
+        if rank(&other) > rank(&self) { other } else { self }
+    }
+}
+
 /// A traversal of everything that a path embeds.
 struct Visit<'m> {
     model: &'m Model,
@@ -25,8 +54,8 @@ impl<'m> Visit<'m> {
         Self { model, open: Vec::new(), found: Vec::new() }
     }
 
-    /// Visits a path and everything it embeds. Returns whether there are errors.
-    pub(super) fn path(&mut self, instance: &Instance) -> bool {
+    /// Visits a path and everything it embeds.
+    pub(super) fn path(&mut self, instance: &Instance) -> Errors {
         let drawing = &self.model.drawings[instance.0];
         self.found.extend(drawing.faults());
         let raw = self.model.raw(instance);
@@ -34,7 +63,7 @@ impl<'m> Visit<'m> {
         let mut is_wrong =
             self.report(instance, &raw.findings_beside(&problems)) | drawing.has_unclear_clamps;
         is_wrong |= self.report(instance, &problems);
-        let Some(path) = path else { return true };
+        let Some(path) = path else { return Errors::Own };
         is_wrong |= path.has_faults();
         if !path.has_faults() {
             let height = path.embedded_sweep_height();
@@ -42,13 +71,14 @@ impl<'m> Visit<'m> {
         }
         is_wrong |= self.report(instance, &walk(&path, self.model.language.join_tolerance).diagnostics);
         self.open.push(instance.clone());
+        let mut errors = Errors::of(is_wrong);
         for segment in &path.segments {
             if let SegmentKind::Subpath(subpath) = &segment.kind {
-                is_wrong |= self.embedding(instance, &path, segment, subpath);
+                errors = errors.and(self.embedding(instance, &path, segment, subpath));
             }
         }
         self.open.pop();
-        is_wrong
+        errors
     }
 
     /// Reports the findings in a path. Returns whether any is an error.
@@ -64,8 +94,8 @@ impl<'m> Visit<'m> {
         found.iter().any(pathbuild_diagnostic::Diagnostic::is_error)
     }
 
-    /// Checks an embedding and visits the embedded path. Returns whether there are errors.
-    fn embedding(&mut self, outer: &Instance, path: &Path, segment: &Segment, subpath: &Subpath) -> bool {
+    /// Checks an embedding and visits the embedded path.
+    fn embedding(&mut self, outer: &Instance, path: &Path, segment: &Segment, subpath: &Subpath) -> Errors {
         let model = self.model;
         let drawing = &model.drawings[outer.0];
         let at = |code: &str, words: &[&str]| Finding {
@@ -91,17 +121,26 @@ impl<'m> Visit<'m> {
             return self.stop(at("PB507", &[name.as_str()]));
         }
         if self.open.len() > MAX_EMBEDDING_DEPTH {
-            return self.stop(at("PB508", &[]));
+            self.found.push(at("PB508", &[]));
+            return Errors::TooDeep;
         }
         match *model.holders(outer.0, name) {
-            [] => return self.stop(at("PB503", &[name.as_str()])),
+            [] => {
+                if let [only] = model.searched(outer.0, name)[..]
+                    && model.drawings[only].is_unreadable()
+                {
+                    self.found.extend(model.drawings[only].faults());
+                    return self.stop(at("PB511", &[name.as_str()]));
+                }
+                return self.stop(at("PB503", &[name.as_str()]));
+            }
             [_] => {}
             [first, second, ..] => {
                 let [first, second] = [first, second].map(|drawing| &*model.drawings[drawing].path);
                 return self.stop(at("PB504", &[name.as_str(), first, second]));
             }
         }
-        let Some(child) = model.child(outer, name, subpath) else { return true };
+        let Some(child) = model.child(outer, name, subpath) else { return Errors::Own };
         let raw = model.raw(&child);
         if raw.is_sound() {
             let before = self.found.len();
@@ -120,26 +159,33 @@ impl<'m> Visit<'m> {
                 self.found.push(at("PB302", &[&known.name.to_string()]));
             }
             if self.found.len() > before {
-                return true;
+                return Errors::Own;
             }
         }
         if self.open.contains(&child) {
-            return self.stop(at("PB509", &[name.as_str()]));
+            self.found.push(at("PB509", &[name.as_str()]));
+            return Errors::Cycle(child);
         }
-        if self.path(&child) {
-            return self.stop(at("PB511", &[raw.name.as_str()]));
+        let is_place = |one: &Instance, other: &Instance| (one.0, one.1) == (other.0, other.1);
+        match self.path(&child) {
+            Errors::None => {}
+            Errors::TooDeep => return Errors::TooDeep,
+            Errors::Cycle(first) if self.open.iter().any(|open| is_place(open, &first)) => {
+                return Errors::Cycle(first);
+            }
+            Errors::Cycle(_) | Errors::Own => return self.stop(at("PB511", &[raw.name.as_str()])),
         }
         let inner = model.sound(&child);
         let misfits = inner.map_or(Vec::new(), |inner| misfits(path, subpath, &inner));
         for (code, word) in &misfits {
             self.found.push(at(code, &[word]));
         }
-        !misfits.is_empty()
+        Errors::of(!misfits.is_empty())
     }
 
-    fn stop(&mut self, finding: Finding) -> bool {
+    fn stop(&mut self, finding: Finding) -> Errors {
         self.found.push(finding);
-        true
+        Errors::Own
     }
 
     /// Whether E of the embedding path allows the name; without E, the first applicable `--restrict` decides.
@@ -162,7 +208,7 @@ impl Model {
         let values = Bindings::check_values(&raw.definitions);
         let mut visit = Visit::new(self);
         let instance = (drawing, path, values);
-        if !visit.path(&instance) {
+        if visit.path(&instance) == Errors::None {
             visit.found.extend(self.entered_clamps(&instance));
         }
         visit.found

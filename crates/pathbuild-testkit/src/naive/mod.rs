@@ -157,6 +157,12 @@ impl Drawing {
         own.chain(self.name_faults()).collect()
     }
 
+    /// Whether errors hide all of its paths.
+    fn is_unreadable(&self) -> bool {
+        self.content.paths.is_empty()
+            && self.content.diagnostics.iter().chain(&self.clamp_problems).any(Diagnostic::is_error)
+    }
+
     /// The handle of an element of a path.
     fn handle(&self, path: &PathName, element: ElementId) -> Option<String> {
         let (_, map) = self.content.paths.iter().find(|(raw, _)| *raw.name == *path)?;
@@ -274,14 +280,19 @@ pub(super) fn pattern(text: &str) -> Regex {
 impl Model {
     /// The drawings that define a path which a drawing refers to.
     pub(super) fn holders(&self, from: usize, name: &PathName) -> Vec<usize> {
+        let others = self.searched(from, name).into_iter().filter(|number| *number != from);
+        std::iter::once(from).chain(others).filter(|number| self.defines(*number, name)).collect()
+    }
+
+    /// The drawings that may define a path which a drawing refers to, by their names.
+    pub(super) fn searched(&self, from: usize, name: &PathName) -> Vec<usize> {
         let own = directory(&self.drawings[from].path);
         let is_searched = |at: &str| at == own || self.rules.search.iter().any(|searched| searched == at);
         let may_hold = |number: &usize| {
             let path = &self.drawings[*number].path;
             is_searched(directory(path)) && may_hold(stem(path), name.as_str())
         };
-        let others = (0..self.drawings.len()).filter(|number| *number != from).filter(may_hold);
-        std::iter::once(from).chain(others).filter(|number| self.defines(*number, name)).collect()
+        (0..self.drawings.len()).filter(may_hold).collect()
     }
 
     fn defines(&self, drawing: usize, name: &PathName) -> bool {
