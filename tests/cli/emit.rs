@@ -266,6 +266,40 @@ fn moves_are_compared_with_a_program_whoever_wrote_it() {
     );
 }
 
+/// Words that set units, distances, plane, offsets, tool length or feed mode belong to the moves, even where all positions are as before.
+#[test]
+fn a_program_whose_modes_differ_has_other_moves() {
+    let place = Place::of(LIBRARY);
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    let name = "components/1234_Milling.gcode";
+    let ours = place.read(name);
+    let is_current = |text: String| {
+        assert_ne!(text, ours);
+        fs::write(place.path().join(name), text).unwrap();
+        place.run("emit --check --moves 1234.1P").status
+    };
+    let heads = [
+        ("G21", "G20"),
+        ("G90", "G91"),
+        ("G94", "G93"),
+        ("G40", "G41"),
+        ("G54", "G55"),
+        ("G17", "G18"),
+        (" G54", ""),
+        ("G01 ", "/G01 "),
+    ];
+    for (from, to) in heads {
+        assert_eq!(is_current(ours.replacen(from, to, 1)), Some(1), "{from} {to}");
+    }
+    for line in ["G91", "M2", "G28", "T2 M6", "G51 P2", "G43.1 Z5", "G10 L2 P1 Z1", "G92 Z0", "G55", "M98 P5"]
+    {
+        assert_eq!(is_current(ours.replacen("G01 ", &format!("{line}\nG01 "), 1)), Some(1), "{line}");
+    }
+    for line in ["G90", "G21", "(a comment)", "S9000"] {
+        assert_eq!(is_current(ours.replacen("G01 ", &format!("{line}\nG01 "), 1)), Some(0), "{line}");
+    }
+}
+
 #[test]
 fn comparing_moves_needs_no_rapid_feed() {
     let place = library("rapid = 1000", "");

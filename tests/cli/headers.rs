@@ -255,8 +255,20 @@ fn the_configuration_may_require_checks() {
     let required = "[verify]\nrequire = [\"envelope\", \"feeds\"]\n";
     assert_eq!(codes(required, ""), ["PB523", "PB523"]);
     assert_eq!(codes(&format!("{limits}{required}"), ""), [""; 0]);
-    // The command line replaces the list.
+    // The command line adds to the list.
     assert_eq!(codes(&format!("{limits}{required}"), "--require spindle"), ["PB523"]);
+    assert_eq!(codes(required, "--require spindle"), ["PB523", "PB523", "PB523"]);
+    assert_eq!(codes(required, "--require envelope"), ["PB523", "PB523"]);
+    // Values of comments satisfy neither source if one of them demands better ones.
+    let cam = |configuration: &str, options: &str| {
+        let place = Place::new().file("a.nc", slots(CARBIDE_CREATE, OVER));
+        let place = place.file("pathbuild.toml", format!("[verify]\nrequire = [{configuration}]\n"));
+        codes_of(&place.run(&format!("verify a.nc --dialect linuxcnc --format concise {options}")))
+    };
+    assert_eq!(cam("\"rapids\"", "--require rapids=assumed"), ["PB523"]);
+    assert_eq!(cam("\"rapids=assumed\"", "--require rapids"), ["PB523"]);
+    assert_eq!(cam("\"rapids=assumed\"", "--require rapids=assumed"), [""; 0]);
+    assert_eq!(cam("\"rapids\", \"rapids=assumed\"", ""), [""; 0]);
     assert_eq!(codes("[verify]\nrequire = [\"rapid\"]\n", ""), ["PB003"]);
 }
 

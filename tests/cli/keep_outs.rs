@@ -359,3 +359,34 @@ fn rapids_between_joined_paths_avoid_clamps() {
     assert!(hit.stderr.contains("rapid move, lowest Z 19.99, moves: 1"), "{hit}");
     assert_eq!(codes(&emit("20")), [""; 0]);
 }
+
+/// Without `keep-out`, nobody looks for clamps, so a script that demands this check must not pass.
+#[test]
+fn clamps_are_checked_only_if_their_layers_are_configured() {
+    let drawing = path("20", "mill 0,0 10,0\nend 10,0");
+    let run = |options: &str| {
+        let place = Place::new().file("pathbuild.toml", options).file("1234.1P.dxf", dxf(&drawing));
+        assert_eq!(place.run("emit 1234.1P").status, Some(0));
+        place.run("verify 1234.1P_Milling.gcode --against 1234.1P --require clamps")
+    };
+    let with_key = run(OPTIONS);
+    assert!(with_key.status == Some(0) && with_key.stderr.contains(", clamps"), "{with_key}");
+    let without = run(&OPTIONS.replace("keep-out = 'clamps?'\n", ""));
+    assert!(without.status == Some(1) && codes(&without) == ["523"], "{without}");
+    assert!(without.stderr.contains("clamps (keep-out in pathbuild.toml)"), "{without}");
+}
+
+/// A comparison that stopped at a move that is accepted has not compared the rest.
+#[test]
+fn a_comparison_that_stopped_does_not_count_as_made() {
+    let options = format!("{OPTIONS}[severity]\nPB739 = \"ignore\"\n");
+    let drawing = path("20", "mill 0,0 10,0\nmill 10,0 10,5\nend 10,5");
+    let place = Place::new().file("pathbuild.toml", options).file("1234.1P.dxf", dxf(&drawing));
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    let verify = "verify 1234.1P_Milling.gcode --against 1234.1P --require drawing";
+    assert_eq!(place.run(verify).status, Some(0));
+    let text = place.read("1234.1P_Milling.gcode");
+    let place = place.file("1234.1P_Milling.gcode", text.replace("X10.000", "X11.000"));
+    let run = place.run(verify);
+    assert!(run.status == Some(1) && codes(&run).contains(&"523".to_owned()), "{run}");
+}

@@ -335,6 +335,46 @@ fn current_and_stale_programs_of_posts_are_known() {
     assert!(stale.stderr.contains("1300X_Milling.nc: warning[PB520]"), "{stale}");
 }
 
+/// Head and foot depend on the machine, and tool and spindle are no moves; all that changes how the cuts are read is.
+#[test]
+fn modes_of_a_posts_program_belong_to_its_moves() {
+    let place = library("");
+    assert_eq!(place.run("emit 1234.1P --post linuxcnc").status, Some(0));
+    let name = "1234_Milling.ngc";
+    let ours = place.read(name);
+    let status = |text: String| {
+        assert_ne!(text, ours);
+        std::fs::write(place.path().join(name), text).unwrap();
+        place.run("emit 1234.1P --post linuxcnc --check --moves").status
+    };
+    for (from, to) in
+        [("G21", "G20"), ("G90", "G91"), ("G1 ", "G91\nG1 "), ("G1 ", "G55\nG1 "), ("G1 ", "G53 G0 Z0\nG1 ")]
+    {
+        assert_eq!(status(ours.replacen(from, to, 1)), Some(1), "{from} {to}");
+    }
+    for (from, to) in [("S12000", "S9000"), ("M30", "G53 G0 Z0\nM30"), ("M30", "G0 X0 Y0\nM30")] {
+        assert_eq!(status(ours.replacen(from, to, 1)), Some(0), "{from} {to}");
+    }
+}
+
+/// A line number after X is a position.
+#[test]
+fn line_numbers_begin_with_no_other_word() {
+    let place = library("");
+    let grbl = place.run("post show grbl").stdout;
+    let numbered = |prefix: &str| {
+        let numbers = "<AddLineNumbers>true</AddLineNumbers><LineNumberPrefix>";
+        let end = format!("{numbers}{prefix}</LineNumberPrefix></PostProcessor>");
+        let place = library("").file("mine.cbpp", grbl.replace("</PostProcessor>", &end));
+        place.run("emit 1234.1P --post mine.cbpp")
+    };
+    assert_eq!(numbered("N").status, Some(0));
+    for prefix in ["X", "F", "S"] {
+        let refused = numbered(prefix);
+        assert!(refused.status == Some(1) && refused.stderr.contains("PB750"), "{refused}");
+    }
+}
+
 /// If the words of a post are unknown, its programs are compared byte for byte.
 #[test]
 fn a_program_that_cannot_be_read_is_compared_as_it_is() {

@@ -364,3 +364,38 @@ fn tables_of_the_configuration_hold_for_programs() {
         |date: &str| place.run(&format!("verify a.nc --cutter 6 --date {date}")).stderr.contains("PB781");
     assert_eq!([is_told("2031-12-31"), is_told("2032-01-01")], [false, true]);
 }
+
+/// Different programs often have one name, such as `op1.nc` in the directory of each job.
+#[test]
+fn an_accepted_finding_of_a_program_holds_for_this_program_only() {
+    let program = "( T1 D=6 CR=0 - flat end mill )\nG17 G21 G90 G94\nT1 M6\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X40\nG0 Y20\n\
+        G1 X0\nG0 Z5\nM5\nM30\n";
+    let place = Place::new().file("pathbuild.toml", "").file("a/s.nc", program).file("b/s.nc", program);
+    let place = place.file("s.nc", program);
+    let verify = |file: &str, more: &str| {
+        place.run(&format!("verify {file} --dialect linuxcnc --surface 0 --format concise {more}"))
+    };
+    let accept = "--accept PB740 --reason fixture";
+    assert_eq!(verify("a/s.nc", accept).status, Some(0));
+    assert_eq!(verify("a/s.nc", "").status, Some(0));
+    assert_eq!(
+        place.run_in("a", &["verify", "s.nc", "--dialect", "linuxcnc", "--surface", "0"]).status,
+        Some(0)
+    );
+    assert_eq!((verify("b/s.nc", "").status, verify("s.nc", "").status), (Some(1), Some(1)));
+    let entries = || place.read("pathbuild-baseline.txt").matches("PB740").count();
+    assert_eq!(verify("b/s.nc", accept).status, Some(0));
+    assert_eq!((verify("a/s.nc", "").status, entries()), (Some(0), 2));
+    // A baseline of version 0.2.0 has the name of the file in its fingerprint; it holds for the file that it describes.
+    let text = place.read("pathbuild-baseline.txt");
+    let of_a = text.lines().find(|line| line.contains(" a/s.nc ")).unwrap();
+    let earlier = format!("{EARLIER}{}\n", &of_a[32..]);
+    std::fs::write(place.path().join("pathbuild-baseline.txt"), earlier).unwrap();
+    assert_eq!((verify("a/s.nc", "").status, verify("b/s.nc", "").status), (Some(0), Some(1)));
+    assert_eq!(verify("s.nc", "").status, Some(1));
+    assert_eq!(verify("a/s.nc", accept).status, Some(0));
+    assert_eq!((entries(), place.read("pathbuild-baseline.txt").contains(EARLIER)), (1, false));
+}
+
+/// What version 0.2.0 wrote for the finding of this test.
+const EARLIER: &str = "693e5331a6bd5b503f531e1fe073e35e";

@@ -283,11 +283,15 @@ fn every_number_of_a_programs_text_counts() {
     }
 }
 
-/// Anything that does not move the tool is ignored, even in the middle of a line.
+/// Comments are ignored, even in the middle of a line; words that may change how the moves are read are not.
 #[test]
 fn lines_are_alike_by_their_words() {
     let same = pathbuild_gcode::verify::same_move_lines;
-    assert!(same("G01 X1.000 Y2.000\nG00 Z5.000\n", "g1(to the left)x1(=1.0) Y2;down\nM5\nG0 Z5\n"));
+    assert!(same("G01 X1.000 Y2.000\nG00 Z5.000\n", "g1(to the left)x1(=1.0) Y2;down\nS9\nG0 Z5\n"));
+    for word in ["M5", "G91", "G20"] {
+        let with_word = format!("G1 X1 Y2\n{word}\nG0 Z5\n");
+        assert!(!same("G01 X1.000 Y2.000\nG00 Z5.000\n", &with_word), "{word}");
+    }
     assert!(!same("G01 X1.000 Y2.000\n", "G1 (to the left) X1 Y3\n"));
     assert!(!same("G01 X1.000 Y2.000\n", "G1 (to the left) X1\n"));
     assert!(same("G01 X1.000\n", "G1 X1.001\n") && !same("G01 X1.000\n", "G1 X1.0011\n"));

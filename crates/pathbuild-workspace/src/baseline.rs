@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::{FileKind, ReadError};
+use pathbuild_db::system::{FileKind, ReadError, is_drawing};
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message, TextFault, Value, shown};
 
@@ -38,6 +38,13 @@ struct Entry {
     depth: Option<f64>,
     description: String,
     line: String,
+}
+
+/// What identifies a finding in a baseline.
+struct FindingKey {
+    fingerprint: String,
+    /// The fingerprint in baselines of versions up to 0.2.0.
+    earlier: String,
 }
 
 impl Baseline {
@@ -73,12 +80,13 @@ impl Baseline {
         let run = Run::new(workspace, coverage);
         let mut text = HEAD.to_owned();
         let mut found = BTreeSet::new();
-        for (diagnostic, fingerprint) in findings.iter().zip(Fingerprint::of(findings)) {
-            let fingerprint = fingerprint.to_string();
+        for (diagnostic, key) in findings.iter().zip(self.keys(findings, &workspace.working_directory)) {
             let none = Waiver::default();
-            let waiver = self.entries.get(&fingerprint).map_or(&none, |entry| &entry.waiver);
-            text.push_str(&line(&fingerprint, waiver, diagnostic, &workspace.working_directory));
-            found.insert(fingerprint);
+            let known = self.entry(diagnostic, &key, &workspace.working_directory);
+            let waiver = known.map_or(&none, |(_, entry)| &entry.waiver);
+            text.push_str(&line(&key.fingerprint, waiver, diagnostic, &workspace.working_directory));
+            found.extend(known.map(|(fingerprint, _)| fingerprint.to_owned()));
+            found.insert(key.fingerprint);
         }
         let others =
             self.entries.iter().filter(|(known, entry)| !found.contains(*known) && !run.covers(self, entry));
@@ -94,30 +102,28 @@ impl Baseline {
         waiver: &Waiver,
         workspace: &Workspace,
     ) -> (String, usize) {
-        let accepted: BTreeMap<String, String> = findings
-            .iter()
-            .zip(Fingerprint::of(findings))
-            .filter(|(diagnostic, _)| diagnostic.code() == code)
-            .map(|(diagnostic, fingerprint)| {
-                let fingerprint = fingerprint.to_string();
-                let line = line(&fingerprint, waiver, diagnostic, &workspace.working_directory);
-                (fingerprint, line)
-            })
-            .collect();
-        let is_kept = |line: &&str| fingerprint(line).is_none_or(|known| !accepted.contains_key(known));
+        let base = &workspace.working_directory;
+        let (mut accepted, mut replaced) = (BTreeMap::new(), BTreeSet::new());
+        let keyed = findings.iter().zip(self.keys(findings, base));
+        for (diagnostic, key) in keyed.filter(|(diagnostic, _)| diagnostic.code() == code) {
+            replaced.extend(self.entry(diagnostic, &key, base).map(|(known, _)| known));
+            let line = line(&key.fingerprint, waiver, diagnostic, base);
+            accepted.insert(key.fingerprint, line);
+        }
+        let is_kept = |line: &&str| {
+            fingerprint(line).is_none_or(|known| !accepted.contains_key(known) && !replaced.contains(known))
+        };
         let mut text: String = self.text.lines().filter(is_kept).flat_map(|line| [line, "\n"]).collect();
         text.extend(accepted.values().map(String::as_str));
         (shown::lines(&text).into_owned(), accepted.len())
     }
 
     /// Moves the findings of this baseline to those that are accepted. A finding whose entry has ended says so.
-    fn apply(&self, mut findings: Findings, run: Option<RunDate>) -> Findings {
-        let fingerprints = Fingerprint::of(&findings.diagnostics);
+    fn apply(&self, mut findings: Findings, run: Option<RunDate>, base: &Utf8Path) -> Findings {
+        let keys = self.keys(&findings.diagnostics, base);
         let place = self.file.file_name().unwrap_or_default();
-        for (diagnostic, fingerprint) in
-            std::mem::take(&mut findings.diagnostics).into_iter().zip(fingerprints)
-        {
-            let entry = self.entries.get(&fingerprint.to_string());
+        for (diagnostic, key) in std::mem::take(&mut findings.diagnostics).into_iter().zip(keys) {
+            let entry = self.entry(&diagnostic, &key, base).map(|(_, entry)| entry);
             match entry.map(|entry| &entry.waiver) {
                 None => findings.diagnostics.push(diagnostic),
                 Some(_) if entry.is_some_and(|entry| !entry.is_deep_enough(&diagnostic)) => {
@@ -134,14 +140,55 @@ impl Baseline {
 
     /// Warnings about the entries that match none of these findings, among those of files that the run covered. (PB610)
     fn unused(&self, findings: &[Diagnostic], run: &Run<'_>) -> Vec<Diagnostic> {
-        let found: BTreeSet<String> = Fingerprint::of(findings).iter().map(ToString::to_string).collect();
-        let unused =
-            self.entries.iter().filter(|(known, entry)| !found.contains(*known) && run.covers(self, entry));
+        let base = run.working_directory;
+        let keyed = findings.iter().zip(self.keys(findings, base));
+        let found: BTreeSet<&str> = keyed
+            .filter_map(|(diagnostic, key)| self.entry(diagnostic, &key, base).map(|(known, _)| known))
+            .collect();
+        let unused = self
+            .entries
+            .iter()
+            .filter(|(known, entry)| !found.contains(known.as_str()) && run.covers(self, entry));
         let unused = unused.map(|(_, entry)| {
             let text = TextFault::new(&entry.line, 0..entry.line.len());
             Diagnostic { notes: Vec::new(), ..entry.waiver.unused(&self.file) }.with_text(text)
         });
         unused.collect()
+    }
+
+    /// What entries may identify each of these findings by. `base`: the directory that their files are relative to.
+    fn keys(&self, findings: &[Diagnostic], base: &Utf8Path) -> Vec<FindingKey> {
+        let now = Fingerprint::with_places(findings, &|file| self.place(file, base));
+        let keys = now.iter().zip(Fingerprint::of(findings));
+        let text = |(now, earlier): (&Fingerprint, Fingerprint)| FindingKey {
+            fingerprint: now.to_string(),
+            earlier: earlier.to_string(),
+        };
+        keys.map(text).collect()
+    }
+
+    /// The name of a file in fingerprints. A program is identified by its path from the directory of the baseline, because different
+    /// programs often have one name. A drawing keeps its findings when it is moved: its paths have names of their own.
+    fn place(&self, file: &Utf8Path, base: &Utf8Path) -> String {
+        let name = file.file_name().unwrap_or_default();
+        let directory = clean(self.file.parent().unwrap_or(base));
+        let full = clean(&base.join(file));
+        let below = full.strip_prefix(&directory).ok().filter(|_| !is_drawing(file));
+        below.map_or(name.to_owned(), |below| format!("./{}", below.as_str().replace('\\', "/")))
+    }
+
+    /// The entry for a finding, with its fingerprint. The entries of earlier versions contain only the name of a program; they hold for the
+    /// file that their description names.
+    fn entry(&self, diagnostic: &Diagnostic, key: &FindingKey, base: &Utf8Path) -> Option<(&str, &Entry)> {
+        let find = |fingerprint: &String| self.entries.get_key_value(fingerprint);
+        let is_of_file = |entry: &Entry| {
+            let bases = [base, self.file.parent().unwrap_or(base)];
+            let file = diagnostic.file.as_deref().map(|file| clean(&base.join(file)));
+            file.is_none_or(|file| entry.possible_files(bases).is_some_and(|named| named.contains(&file)))
+        };
+        let known = find(&key.fingerprint);
+        let known = known.or_else(|| find(&key.earlier).filter(|(_, entry)| is_of_file(entry)));
+        known.map(|(fingerprint, entry)| (fingerprint.as_str(), entry))
     }
 
     /// Reads the entries; returns what is wrong with the text.
@@ -197,7 +244,7 @@ impl Workspace {
                 return Err(faults);
             }
             unused.extend(baseline.unused(&findings.diagnostics, &Run::new(self, &coverage)));
-            findings = baseline.apply(findings, self.settings.date);
+            findings = baseline.apply(findings, self.settings.date, &self.working_directory);
         }
         if !unused.is_empty() {
             findings.diagnostics.extend(self.findings(unused).diagnostics);

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::hash::Hash as Hashed;
 
+use camino::Utf8Path;
 use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::{Code, Diagnostic};
 
@@ -128,11 +129,16 @@ pub(crate) fn identity(found: &Diagnostic) -> impl Eq + Hashed + '_ {
 pub struct Fingerprint(u128);
 
 impl Fingerprint {
-    /// Fingerprints of findings, in their order.
+    /// Fingerprints of findings, in their order. They do not depend on the directories of the files.
     pub fn of(diagnostics: &[Diagnostic]) -> Vec<Self> {
+        Self::with_places(diagnostics, &|file| file.file_name().unwrap_or_default().to_owned())
+    }
+
+    /// Fingerprints of findings, in their order, in which `place` names each file.
+    pub(crate) fn with_places(diagnostics: &[Diagnostic], place: &dyn Fn(&Utf8Path) -> String) -> Vec<Self> {
         let mut met: BTreeMap<u128, u32> = BTreeMap::new();
-        let mut fingerprint = |diagnostic| {
-            let hash = fnv(diagnostic);
+        let mut fingerprint = |diagnostic: &Diagnostic| {
+            let hash = fnv(diagnostic, &diagnostic.file.as_deref().map(place).unwrap_or_default());
             let number = met.entry(hash.0).and_modify(|number| *number += 1).or_insert(0);
             Self(hash.and(&number.to_le_bytes()).0)
         };
@@ -146,13 +152,13 @@ impl fmt::Display for Fingerprint {
     }
 }
 
-fn fnv(diagnostic: &Diagnostic) -> Fnv {
+fn fnv(diagnostic: &Diagnostic, file: &str) -> Fnv {
     let place = &diagnostic.place;
     let point = place.point.map(|point| format!("{:.3} {:.3}", point.x.0 + 0.0, point.y.0 + 0.0));
     let fault = diagnostic.text.as_ref().map(|fault| &fault.text[fault.span()]);
     Fnv::NEW
         .and(diagnostic.code().to_string().as_bytes())
-        .and(diagnostic.file.as_ref().and_then(|file| file.file_name()).unwrap_or_default().as_bytes())
+        .and(file.as_bytes())
         .and(diagnostic.path.as_deref().unwrap_or_default().to_uppercase().as_bytes())
         .and(place.entity.map_or("", |entity| entity.name()).as_bytes())
         .and(point.unwrap_or_default().as_bytes())

@@ -468,9 +468,9 @@ pub(super) fn are_alike(one: f64, other: f64, slack: f64) -> bool {
     one.max(other) <= 1.25 * one.min(other) + 10.0 * slack
 }
 
-/// Whether the lines that move the tool are equal in both programs: the same words, with numbers within one unit of the third decimal.
+/// Whether the lines on which moves depend are equal in both programs: the same words, with numbers within one unit of the third decimal.
 ///
-/// Comments (including correction formulas), blanks, leading zeros, line breaks, and lines without X, Y or Z are ignored.
+/// Comments (including correction formulas), blanks, leading zeros, line breaks, and lines without X, Y, Z, G and M are ignored.
 pub fn same_move_lines(found: &str, expected: &str) -> bool {
     let (mut found, mut expected) = (moves(found), moves(expected));
     loop {
@@ -488,10 +488,11 @@ type Word = (char, f64);
 /// One unit of the last printed digit, plus the error of doubles.
 const UNIT: f64 = 0.001 * (1.0 + 1e-6);
 
-/// The words of each line that moves the tool; `None` for a line that cannot be read.
+/// The words of each line that moves the tool or sets a mode; `None` for a line that cannot be read.
 fn moves(text: &str) -> impl Iterator<Item = Option<Vec<Word>>> {
     let is_move = |words: &Option<Vec<Word>>| {
-        words.as_ref().is_none_or(|words| words.iter().any(|(letter, _)| matches!(letter, 'X' | 'Y' | 'Z')))
+        let counts = |(letter, _): &Word| matches!(letter, 'X' | 'Y' | 'Z' | 'G' | 'M');
+        words.as_ref().is_none_or(|words| words.iter().any(counts))
     };
     text.lines().map(words).filter(is_move)
 }

@@ -115,7 +115,7 @@ element_options! {
         "first number", "erste Nummer";
     "LineNumberIncrement" = "1", |o, v| put(&mut o.numbering.increment, count(v)),
         "from one number to the next", "von einer Nummer zur nächsten";
-    "LineNumberPrefix" = "N", |o, v| put(&mut o.numbering.prefix, Ok(text(v))),
+    "LineNumberPrefix" = "N", |o, v| put(&mut o.numbering.prefix, line_prefix(v)),
         "text in front of the number", "Text vor der Nummer";
     "LineNumberFormat" = "0", |o, v| put(&mut o.numbering.format, pattern(v)),
         "pattern of the number", "Muster der Nummer";
@@ -221,6 +221,15 @@ fn choice<T: Copy>(value: &str, expected: &'static Text, choices: &[(&str, T)]) 
 fn text(value: &str) -> Box<str> {
     value.trim().into()
 }
+
+/// The letters before line numbers. Others would be words of the line: with X, the number would be a position.
+fn line_prefix(value: &str) -> OptionResult<Box<str>> {
+    let prefix = text(value);
+    let is_known = matches!(&*prefix, "N" | "n" | ":" | "");
+    if is_known { Ok(prefix) } else { Err(Refusal::Expected(&LINE_PREFIXES)) }
+}
+
+const LINE_PREFIXES: Text = Text { en: "N, a colon or nothing", de: "N, ein Doppelpunkt oder nichts" };
 
 fn optional_text(value: &str) -> Option<Box<str>> {
     Some(text(value)).filter(|text| !text.is_empty())

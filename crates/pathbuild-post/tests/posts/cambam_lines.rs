@@ -45,9 +45,9 @@ fn lines_are_numbered_but_for_those_that_are_skipped() {
         lines(&definition(&format!("{file}{numbers}")), &job(vec![])),
         ["%", "O1", "(a)", ":1", ";b", "N10 M0", "N15 M1"]
     );
-    let more = "<LineNumberFormat>0000</LineNumberFormat><LineNumberPrefix>L</LineNumberPrefix>\
+    let more = "<LineNumberFormat>0000</LineNumberFormat><LineNumberPrefix>:</LineNumberPrefix>\
                 <LineNumberSpaceAfter>false</LineNumberSpaceAfter><LineNumberSkip>M</LineNumberSkip>";
-    let expected = ["L0010%", "L0015O1", "L0020(a)", "L0025:1", "L0030;b", "M0", "M1"];
+    let expected = [":0010%", ":0015O1", ":0020(a)", ":0025:1", ":0030;b", "M0", "M1"];
     assert_eq!(lines(&definition(&format!("{file}{numbers}{more}")), &job(vec![])), expected);
 }
 

@@ -7,12 +7,13 @@ use std::thread::{self, Builder};
 use camino::Utf8Path;
 use pathbuild_db::system::{ReadError, WriteOutcome};
 use pathbuild_db::{Database, System};
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::probes;
+use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, interpret};
 use pathbuild_gcode::provenance::is_same_program;
-use pathbuild_gcode::verify::{self, Ends, Tolerance};
+use pathbuild_gcode::verify::{self, Ends, PostWords, Tolerance};
+use pathbuild_motion::{Pace, Step};
 
 use super::build::{Built, Output, build};
 use super::options::OutputSettings;
@@ -193,8 +194,8 @@ fn present(system: &dyn System, path: &Utf8Path) -> Option<String> {
     Some(String::from_utf8_lossy(&bytes).replace("\r\n", "\n"))
 }
 
-/// Compares a file on disk with the generated one: byte for byte, or by its moves only, ignoring comments, formulas, line ends, head and
-/// foot. Also returns where the moves differ first, or why they cannot be read. A file larger than `limit` counts as different.
+/// Compares a file on disk with the generated one: byte for byte, or by its moves only, ignoring comments, formulas, line ends, tool and
+/// spindle. Also returns where the moves differ first, or why they cannot be read. A file larger than `limit` counts as different.
 fn compare(
     system: &dyn System,
     output: &Output,
@@ -237,24 +238,49 @@ impl ComparisonSettings {
         let dialect = post_processor.reader()?;
         Some(Self { dialect, tolerance: Tolerance { ends: Ends::Cutting, ..TOLERANCE } })
     }
+
+    /// The steps of a program that are compared: without those after the last cut if the foot depends on the machine.
+    fn compared<'s>(&self, steps: &'s [Step]) -> &'s [Step] {
+        let is_cut = |step: &Step| step.as_move().is_some_and(|(_, movement)| movement.pace != Pace::Rapid);
+        match self.tolerance.ends {
+            Ends::All => steps,
+            Ends::Cutting => &steps[..steps.iter().rposition(is_cut).map_or(0, |last| last + 1)],
+        }
+    }
 }
 
-/// Returns why a program on disk cannot be read, or else where its moves differ first. Lines are compared before moves: numbers that differ
-/// by one unit of their last digit are equal however they are interpreted, even where rounding turns a very short arc into a full circle.
-/// Only programs with different lines are interpreted.
+/// Returns why a program on disk cannot be read, or else which words change its moves, or where its moves differ first. Lines are compared
+/// before moves: numbers that differ by one unit of their last digit are equal however they are interpreted, even where rounding turns a
+/// very short arc into a full circle. Only programs with different lines are interpreted.
 fn difference(present: &[u8], expected: &[u8], reading: &ComparisonSettings) -> Vec<Diagnostic> {
     let [found_text, expected_text] = [present, expected].map(String::from_utf8_lossy);
     if verify::same_move_lines(&found_text, &expected_text) {
         return Vec::new();
     }
     let read = |text| interpret(text, reading.dialect, &interpret::Options::default());
-    let found = read(present);
-    let errors: Vec<Diagnostic> =
-        found.problems.iter().filter(|problem| problem.is_error()).cloned().collect();
-    if !errors.is_empty() {
-        return errors;
+    let (found, written) = (read(present), read(expected));
+    let is_new = |problem: &Diagnostic| {
+        let is_written = || written.problems.iter().any(|known| known.message == problem.message);
+        let is_of_moves = matches!(
+            problem.code(),
+            Code::OptionalLine | Code::MachineValue | Code::UnknownOffset | Code::ForeignWord
+        );
+        problem.is_error() || is_of_moves && !is_written()
+    };
+    let problems: Vec<Diagnostic> =
+        found.problems.iter().filter(|problem| is_new(problem)).cloned().collect();
+    if !problems.is_empty() {
+        return problems
+            .into_iter()
+            .map(|problem| Diagnostic { severity: Severity::Error, ..problem })
+            .collect();
     }
-    let difference = verify::compare(&found.moves(), &read(expected).moves(), &reading.tolerance);
+    let words = PostWords::of_programs([expected], reading.dialect);
+    let modes = verify::foreign_modes(reading.compared(&found.steps), &words, reading.dialect);
+    if !modes.is_empty() {
+        return modes;
+    }
+    let difference = verify::compare(&found.moves(), &written.moves(), &reading.tolerance);
     difference.iter().map(verify::Difference::diagnostic).collect()
 }
 

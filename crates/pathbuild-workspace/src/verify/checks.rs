@@ -75,6 +75,10 @@ pub enum Reason {
     NoLimit,
     /// There is no drawing.
     NoDrawing,
+    /// The comparison with the drawing ended at the first other move.
+    OtherMoves,
+    /// The configuration names no layers of clamps.
+    NoKeepOut,
     /// The cutter is unknown.
     NoCutter,
     /// The height of the material is unknown.
@@ -85,14 +89,31 @@ pub enum Reason {
     TooLarge,
 }
 
+/// What a program can be compared with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct References {
+    /// Whether there is a drawing.
+    pub(super) has_drawing: bool,
+    /// Whether no move of the drawing was left out of the comparison.
+    pub(super) is_compared_to_its_end: bool,
+    /// Whether the configuration names layers of clamps.
+    pub(super) has_keep_out: bool,
+}
+
 /// The checks of a program. `rapids`: the outcome of that of rapid moves.
 pub(super) fn records(
     rapids: Outcome,
     machine: Option<&Machine>,
-    is_against: bool,
+    references: References,
     states_speed: bool,
 ) -> Vec<CheckRecord> {
     let made = |is_made: bool, reason| if is_made { Outcome::Made(None) } else { Outcome::NotMade(reason) };
+    let with_drawing = |is_made, reason| {
+        made(
+            is_made && references.has_drawing,
+            if references.has_drawing { reason } else { Reason::NoDrawing },
+        )
+    };
     let limits = |is_limited: fn(&Machine) -> bool| made(machine.is_some_and(is_limited), Reason::NoLimit);
     let spindle = match limits(|machine| machine.spindle.is_some()) {
         Outcome::Made(_) if !states_speed => Outcome::NotMade(Reason::NoSpeed),
@@ -103,8 +124,8 @@ pub(super) fn records(
         (Requirement::Envelope, limits(|machine| machine.travel.is_some())),
         (Requirement::Feeds, limits(|machine| machine.feed.is_some())),
         (Requirement::Spindle, spindle),
-        (Requirement::Drawing, made(is_against, Reason::NoDrawing)),
-        (Requirement::Clamps, made(is_against, Reason::NoDrawing)),
+        (Requirement::Drawing, with_drawing(references.is_compared_to_its_end, Reason::OtherMoves)),
+        (Requirement::Clamps, with_drawing(references.has_keep_out, Reason::NoKeepOut)),
     ];
     all.map(|(requirement, outcome)| CheckRecord { requirement, outcome }).into()
 }
@@ -168,6 +189,8 @@ impl CheckRecord {
     pub fn option(&self, reason: Reason) -> &'static Text {
         match (reason, self.requirement) {
             (Reason::NoDrawing, _) => &AGAINST,
+            (Reason::OtherMoves, _) => &SAME_MOVES,
+            (Reason::NoKeepOut, _) => &KEEP_OUT,
             (Reason::NoCutter, _) => &CUTTER,
             (Reason::NoSurface, _) => &SURFACE,
             (Reason::TooLarge, _) => &LIMITS,
@@ -233,6 +256,8 @@ impl Reason {
         match self {
             Self::NoLimit => &NO_LIMIT,
             Self::NoDrawing => &NO_DRAWING,
+            Self::OtherMoves => &OTHER_MOVES,
+            Self::NoKeepOut => &NO_KEEP_OUT,
             Self::NoCutter => &NO_CUTTER,
             Self::NoSurface => &NO_SURFACE,
             Self::TooLarge => &TOO_LARGE,
@@ -289,6 +314,14 @@ static NO_LIMIT: Text =
     Text { en: "the machine's limits are not known", de: "die Grenzen der Maschine sind nicht bekannt" };
 static NO_DRAWING: Text =
     Text { en: "there is no drawing to compare with", de: "es fehlt die Zeichnung zum Vergleich" };
+static OTHER_MOVES: Text = Text {
+    en: "the moves differ, and those after the first difference were not compared",
+    de: "die Bewegungen weichen ab, und die nach der ersten Abweichung wurden nicht verglichen",
+};
+static NO_KEEP_OUT: Text = Text {
+    en: "the configuration names no layers with clamps",
+    de: "die Konfiguration nennt keine Ebenen mit Spannmitteln",
+};
 static NO_CUTTER: Text = Text { en: "the cutter is not known", de: "der Fräser ist nicht bekannt" };
 static NO_SURFACE: Text = Text {
     en: "the height of the material is not known, only those at cutting depth were examined",
@@ -320,6 +353,11 @@ static TRAVEL: Text = Text { en: "[machine] travel", de: "[machine] travel" };
 static FEED: Text = Text { en: "[machine] maximum-feed", de: "[machine] maximum-feed" };
 static SPEEDS: Text = Text { en: "[machine] spindle-speeds", de: "[machine] spindle-speeds" };
 static AGAINST: Text = Text { en: "--against PATH", de: "--against PFAD" };
+static SAME_MOVES: Text = Text {
+    en: "a program with the moves of the drawing",
+    de: "ein Programm mit den Bewegungen der Zeichnung",
+};
+static KEEP_OUT: Text = Text { en: "keep-out in pathbuild.toml", de: "keep-out in pathbuild.toml" };
 static CUTTER: Text = Text { en: "--cutter or --against PATH", de: "--cutter oder --against PFAD" };
 static SURFACE: Text = Text { en: "--surface or --against PATH", de: "--surface oder --against PFAD" };
 static LIMITS: Text =

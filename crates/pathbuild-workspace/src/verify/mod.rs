@@ -50,7 +50,7 @@ pub struct VerifyOptions {
     pub cutter: Option<f64>,
     /// Height of the material's upper face in mm.
     pub surface: Option<f64>,
-    /// The checks that must be made; without any, those of the configuration.
+    /// The checks that must be made, besides those of the configuration.
     pub required: Vec<Requirement>,
     /// The post-processor that wrote the programs.
     pub post: Option<String>,
@@ -176,9 +176,18 @@ impl<'w> Verifier<'w> {
         words
     }
 
-    fn required(&self) -> &[Requirement] {
-        let configured = &self.settings.verify.require.value;
-        if self.options.required.is_empty() { configured } else { &self.options.required }
+    /// The checks that the configuration or the run demands. Assumed values do not satisfy the one if the other demands a check of rapid
+    /// moves without them.
+    fn required(&self) -> Vec<Requirement> {
+        let sources = [&self.settings.verify.require.value, &self.options.required];
+        let is_strict = |source: &&Vec<Requirement>| {
+            source.contains(&Requirement::Rapids) && !source.contains(&Requirement::AssumedRapids)
+        };
+        let mut required: Vec<Requirement> = sources.into_iter().flatten().copied().collect();
+        if sources.iter().any(is_strict) {
+            required.retain(|requirement| *requirement != Requirement::AssumedRapids);
+        }
+        required
     }
 }
 
@@ -331,7 +340,8 @@ impl<'v> Examination<'v> {
             let differences = against.text_differences(settings, self.program, self.is_probing, is_sound);
             found.extend(differences.map_err(|problem| vec![*problem])?);
         }
-        let checks = self.checks(&mut found, blind.and_then(BlindRapidRules::finish), speeds);
+        let blind = blind.and_then(BlindRapidRules::finish);
+        let checks = self.checks(&mut found, comparison.as_ref(), blind, speeds);
         self.program.place(&mut found);
         let mut diagnostics = self.doubts(rewritten.as_ref(), &mut found);
         diagnostics.append(&mut found);
@@ -420,6 +430,7 @@ impl<'v> Examination<'v> {
     fn checks(
         &self,
         found: &mut Vec<Diagnostic>,
+        comparison: Option<&MoveComparison>,
         blind: Option<BlindRapids>,
         speeds: SeenSpeeds,
     ) -> Vec<CheckRecord> {
@@ -430,14 +441,19 @@ impl<'v> Examination<'v> {
             problem.severity = Severity::Warning;
         }
         let verifier = self.verifier;
-        let is_against = verifier.against.is_some();
+        let references = checks::References {
+            has_drawing: verifier.against.is_some(),
+            is_compared_to_its_end: comparison.is_none_or(|comparison| comparison.equal == comparison.moves),
+            has_keep_out: verifier.settings.general.keep_out.value.is_some(),
+        };
         // The speeds of XpertMILL belong to its layers.
         let states_speed =
             !speeds.has_cut || speeds.has_started || self.program.dialect == Dialect::Xpertmill;
         let machine = verifier.machine.as_ref();
         let rapids = self.sources.rapids(is_limit_reached, blind);
-        let records = checks::records(rapids, machine, is_against, states_speed);
-        found.extend(records.iter().filter_map(|record| record.unmade(verifier.required())));
+        let records = checks::records(rapids, machine, references, states_speed);
+        let required = verifier.required();
+        found.extend(records.iter().filter_map(|record| record.unmade(&required)));
         records
     }
 
