@@ -375,7 +375,7 @@ pub(super) static NATIVE: Rules = Rules {
 
 pub(super) static MACH3: Rules = Rules {
     dialect: Dialect::Mach3,
-    // "Using Mach3Mill" takes parameters and expressions from RS274/NGC, with 10320 parameters. Its O is the number of a subprogram.
+    // By memory of "Using Mach3Mill": parameters and expressions are those of RS274/NGC, with 10320 parameters. O numbers a subprogram.
     spelling: Spelling {
         grammar: Some(Grammar {
             operators: Operators::Nist,
@@ -394,7 +394,7 @@ pub(super) static MACH3: Rules = Rules {
     program_numbers: true,
     keeps_offsets: true,
     lifts_to_start: true,
-    // "Using Mach3Mill", "Select Work Offset Coordinate System": G59 P selects one of 254, of which the first six are G54 to G59.
+    // By memory of the same: G59 P selects one of 254 systems, of which the first six are G54 to G59.
     systems: Some(SystemNumbers { code: 590, regular: 6, most: 253 }),
     // Vectric's post for it begins programs with `G00G21G17G90G40G49G80` and `G71G91.1`.
     unit_synonyms: Some([700, 710]),
@@ -409,7 +409,7 @@ const ISO: Rules = Rules {
     program_numbers: true,
     least_increments: true,
     keeps_offsets: true,
-    // Fanuc Operator's Manual, "Canned cycle for drilling": operation 1 is the positioning of X and Y, operation 2 the rapid move to R.
+    // By memory of the operator's manual: operation 1 of a canned cycle is the positioning of X and Y, operation 2 the rapid move to R.
     rises_before_holes: false,
     lifts_to_start: true,
     // G80 is in a group of its own.
@@ -423,9 +423,9 @@ pub(super) static FANUC: Rules = Rules {
     words: &codes::FANUC,
     dwell: DwellRules { p: DwellUnit::Milliseconds, seconds: b"X", counts_turns: false },
     repeats: b'K',
-    // Operator's manual, "Canned cycle for drilling": with K0 the drilling data are stored, and nothing is drilled.
+    // By memory of the same: with K0 the drilling data are stored, and nothing is drilled.
     stores_cycles: true,
-    // G54.1 P1 to P48, or P300 with an option; G30 P2, P3 and P4 are the second to fourth reference points.
+    // By memory: G54.1 P1 to P48, or P300 with an option; G30 P2, P3 and P4 are the second to fourth reference points.
     systems: Some(SystemNumbers { code: 541, regular: 0, most: 247 }),
     numbers_references: true,
     ..ISO
@@ -437,9 +437,9 @@ pub(super) static HAAS: Rules = Rules {
     dwell: DwellRules { p: DwellUnit::ByPoint, seconds: b"", counts_turns: false },
     // Haas Mill Operator's Manual, M00: "It stops the axes, spindle, and turns off the coolant".
     stop_is_complete: true,
-    // Haas Mill Operator's Manual, canned cycles: L0 defines the cycle without drilling at the present position.
+    // By memory of the operator's manual: L0 defines a cycle without drilling at the present position.
     stores_cycles: true,
-    // The same, G154: "Select Work Coordinates P1-P99".
+    // By memory of the same: G154 P1 to P99 selects work coordinates.
     systems: Some(SystemNumbers { code: 1540, regular: 0, most: 99 }),
     ..ISO
 };
