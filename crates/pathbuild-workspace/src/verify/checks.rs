@@ -320,7 +320,7 @@ static OTHER_MOVES: Text = Text {
 };
 static NO_KEEP_OUT: Text = Text {
     en: "the configuration names no layers with clamps",
-    de: "die Konfiguration nennt keine Ebenen mit Spannmitteln",
+    de: "die Konfiguration nennt keine Layer mit Spannmitteln",
 };
 static NO_CUTTER: Text = Text { en: "the cutter is not known", de: "der Fräser ist nicht bekannt" };
 static NO_SURFACE: Text = Text {
