@@ -86,18 +86,16 @@ impl Library {
         open.pop();
     }
 
-    /// The files that define a path as seen from a file: that file itself, or those files of the directories whose names allow it.
+    /// The files that define a path as seen from a file: those of the directories whose names allow it, and that file itself, whatever its
+    /// name.
     fn definitions<'a>(&'a self, from: &'a str, path: usize) -> Vec<&'a str> {
-        if self.files[from].path == path {
-            return vec![from];
-        }
         let own = directory(from);
-        let found = self.files.iter().filter(|(file, drawing)| {
-            drawing.path == path
-                && (directory(file) == own || directory(file) == DIRECTORIES[1])
+        let is_searched = |file: &str| {
+            (directory(file) == own || directory(file) == DIRECTORIES[1])
                 && file[directory(file).len() + 1..].starts_with(&(1001 + path).to_string())
-        });
-        found.map(|(file, _)| file.as_str()).collect()
+        };
+        let defining = self.files.iter().filter(|(_, drawing)| drawing.path == path);
+        defining.map(|(file, _)| file.as_str()).filter(|file| *file == from || is_searched(file)).collect()
     }
 
     /// Everything that could affect the path of a file: the drawings it reaches, without remarks.
