@@ -6,7 +6,7 @@ use std::thread::sleep;
 use std::time::Duration;
 
 use pathbuild::printer::Progress;
-use pathbuild_workspace::Advance;
+use pathbuild_workspace::ProgressCounter;
 
 /// A stream whose text can be inspected.
 #[derive(Clone, Default)]

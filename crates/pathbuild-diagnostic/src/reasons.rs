@@ -97,25 +97,25 @@ words! {
 
 /// Creates an error with a text of pathbuild, from which [`reason`] returns the text in every language.
 pub fn error(kind: ErrorKind, text: &'static Text) -> Error {
-    Error::new(kind, Ours(text))
+    Error::new(kind, TextError(text))
 }
 
 #[derive(Debug)]
-struct Ours(&'static Text);
+struct TextError(&'static Text);
 
-impl fmt::Display for Ours {
+impl fmt::Display for TextError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.0.en)
     }
 }
 
-impl std::error::Error for Ours {}
+impl std::error::Error for TextError {}
 
 /// The reason of an IO error: in pathbuild's own words if there are some, otherwise as the system puts it.
 pub fn reason(error: &Error) -> Value {
     match error.get_ref() {
-        Some(inner) => match inner.downcast_ref::<Ours>() {
-            Some(Ours(text)) => Value::Prose(text),
+        Some(inner) => match inner.downcast_ref::<TextError>() {
+            Some(TextError(text)) => Value::Prose(text),
             None => Value::foreign(inner),
         },
         None if is_held(error) => Value::Prose(&HELD),

@@ -141,16 +141,16 @@ impl Extent {
 }
 
 /// A test of whether a text circle with this centre and radius suits the target on this layer.
-type Rule<'a> = fn(&Seats<'a>, usize, &str, Point, f64) -> bool;
+type Rule<'a> = fn(&TextSeats<'a>, usize, &str, Point, f64) -> bool;
 
 /// The elements of a drawing, and which of them have a text already.
 #[derive(Debug)]
-pub struct Seats<'a> {
+pub struct TextSeats<'a> {
     candidates: &'a [Candidate],
     taken: Vec<bool>,
 }
 
-impl<'a> Seats<'a> {
+impl<'a> TextSeats<'a> {
     /// Elements without texts.
     pub fn new(candidates: &'a [Candidate]) -> Self {
         Self { candidates, taken: vec![false; candidates.len()] }

@@ -11,10 +11,10 @@ use crate::geometry::{Arc, Circle, Line, Point};
 use crate::pairs::{
     CHUNK, Pair, Record, Tickets, ascii, chunks, identify, kind, records, reduce_mtext, tidy, value,
 };
-use crate::place::{Candidate, ElementPart, Extent, HEIGHT, Seats, no_room, reduced};
+use crate::place::{Candidate, ElementPart, Extent, HEIGHT, TextSeats, no_room, reduced};
 
 /// Distance in mm between the end of a segment and the start of the next.
-const GAP: f64 = 20.0;
+const SEGMENT_GAP: f64 = 20.0;
 
 /// Distance in mm between the ends of a path below which it counts as closed.
 const CLOSED: f64 = 1e-3;
@@ -84,7 +84,7 @@ fn add_row<'a>(elements: &mut Vec<Element<'a>>, path: &EmbeddingPath<'a>, start:
     let mut at = start;
     for (index, (length, text)) in path.segments.iter().enumerate() {
         if index > 0 {
-            let next = at + Point::new(GAP, 0.0);
+            let next = at + Point::new(SEGMENT_GAP, 0.0);
             add(line(at, next), "HIDDEN", None);
             at = next;
         }
@@ -114,7 +114,7 @@ fn seat_texts<'a>(elements: &[Element<'a>]) -> Result<Vec<Option<PlacedText<'a>>
         pieces: vec![element.shape],
     };
     let candidates: Vec<Candidate> = elements.iter().enumerate().map(candidate).collect();
-    let mut seats = Seats::new(&candidates);
+    let mut seats = TextSeats::new(&candidates);
     let mut errors = Vec::new();
     let mut placed = Vec::new();
     for (index, element) in elements.iter().enumerate() {

@@ -43,14 +43,14 @@ pub(crate) struct Collector<'d> {
 }
 
 /// Number of entities to reserve room for.
-const USUAL: usize = 64;
+const RESERVED_ENTITIES: usize = 64;
 
 /// Number of faults and left-out curves that count as one entity each. No real drawing has more, but a broken insertion repeats its fault
 /// on each layer of its block, so that a few kilobytes of such insertions could take gigabytes.
-const CHEAP: usize = 10_000;
+const MAX_CHEAP_FAULTS: usize = 10_000;
 
-/// Weight of each fault beyond [`CHEAP`]: about that many entities take the same memory.
-const DEAR: usize = 20;
+/// Weight of each fault beyond [`MAX_CHEAP_FAULTS`]: about that many entities take the same memory.
+const FAULT_WEIGHT: usize = 20;
 
 /// The configured limits.
 #[derive(Clone, Copy, Debug)]
@@ -91,8 +91,8 @@ impl PlacedEntity<'_> {
 impl<'d> Collector<'d> {
     /// Starts with an empty drawing.
     pub(crate) fn new(drawing: &'d mut Drawing, limits: Limits) -> Self {
-        drawing.entities.reserve(USUAL);
-        drawing.origins.reserve(USUAL);
+        drawing.entities.reserve(RESERVED_ENTITIES);
+        drawing.origins.reserve(RESERVED_ENTITIES);
         Self {
             drawing,
             layers: BTreeMap::new(),
@@ -310,7 +310,7 @@ impl<'d> Collector<'d> {
     fn count(&self) -> Result<(), Fatal> {
         let drawing = &self.drawing;
         let troubles = drawing.faults.len() + drawing.left_out.len();
-        let dear = (DEAR - 1) * troubles.saturating_sub(CHEAP);
+        let dear = (FAULT_WEIGHT - 1) * troubles.saturating_sub(MAX_CHEAP_FAULTS);
         if drawing.entities.len() + drawing.hatches.len() + troubles + dear < self.limits.entities {
             return Ok(());
         }

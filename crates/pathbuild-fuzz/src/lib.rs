@@ -20,7 +20,7 @@ use pathbuild_gcode::statistics::Summary;
 use pathbuild_path::{
     FilePattern, Language, LayerPattern, LineTypeAliases, PathKey, PathOptions, PathPattern,
 };
-use pathbuild_post::{Job, Post, PostOptions, ToolTable, native_remark};
+use pathbuild_post::{Job, PostDefinition, PostOptions, ToolTable, native_remark};
 use pathbuild_toolpath::{Correction, Program};
 use pathbuild_workspace::config;
 use pathbuild_workspace::session::{limits, reading};
@@ -172,7 +172,7 @@ const PROGRAM: &[u8] = b"%\n(P 1)\nF100\nG00 Z20.000\nG00 X0.000 Y0.000\nG01 F10
 /// A post definition: if it can be read, a program is written with it.
 fn post(data: &[u8]) {
     for file in ["post.cbpp", "post.toml"] {
-        let Ok(post) = Post::read(data, Utf8Path::new(file)) else { continue };
+        let Ok(post) = PostDefinition::read(data, Utf8Path::new(file)) else { continue };
         let steps = interpret(PROGRAM, Dialect::Native, &Options::default()).steps;
         if let Ok(job) = Job::from_steps("1001", &steps, Dialect::Native, &native_remark) {
             _ = post.write(&job, &PostOptions::default());

@@ -22,17 +22,17 @@ pub struct Kinematics {
 /// feed.
 pub fn seconds(steps: &[Step], kinematics: &Kinematics) -> f64 {
     let mut seconds = 0.0;
-    let mut ways: Vec<Way> = Vec::new();
+    let mut moves: Vec<TimedMove> = Vec::new();
     for step in steps {
         match &step.action {
-            Action::Move(movement) => ways.extend(Way::of(movement, kinematics)),
+            Action::Move(movement) => moves.extend(TimedMove::of(movement, kinematics)),
             Action::Dwell(pause) => {
-                seconds += seconds_of(&ways, kinematics) + pause;
-                ways.clear();
+                seconds += seconds_of(&moves, kinematics) + pause;
+                moves.clear();
             }
             Action::ChangeTool(_) | Action::Stop { .. } | Action::Spindle(_) => {
-                seconds += seconds_of(&ways, kinematics);
-                ways.clear();
+                seconds += seconds_of(&moves, kinematics);
+                moves.clear();
             }
             Action::SelectTool(_)
             | Action::Coolant(_)
@@ -44,12 +44,12 @@ pub fn seconds(steps: &[Step], kinematics: &Kinematics) -> f64 {
             | Action::End => {}
         }
     }
-    seconds + seconds_of(&ways, kinematics)
+    seconds + seconds_of(&moves, kinematics)
 }
 
 /// A move without interruption, in mm and seconds.
 #[derive(Clone, Copy, Debug)]
-struct Way {
+struct TimedMove {
     length: f64,
     /// Target speed in mm/s.
     speed: f64,
@@ -62,7 +62,7 @@ struct Way {
     stops: bool,
 }
 
-impl Way {
+impl TimedMove {
     /// Converts a move; `None` if it does not move.
     fn of(movement: &Move, kinematics: &Kinematics) -> Option<Self> {
         let length = movement.length();
@@ -121,22 +121,22 @@ fn directions(movement: &Move, length: f64) -> ([f64; 3], [f64; 3]) {
 }
 
 /// Time in seconds for consecutive moves from standstill to standstill.
-fn seconds_of(ways: &[Way], kinematics: &Kinematics) -> f64 {
-    let squares = entry_squares(ways, kinematics);
-    ways.iter().zip(squares.windows(2)).map(|(way, ends)| duration(way, ends[0], ends[1])).sum()
+fn seconds_of(moves: &[TimedMove], kinematics: &Kinematics) -> f64 {
+    let squares = entry_squares(moves, kinematics);
+    moves.iter().zip(squares.windows(2)).map(|(way, ends)| duration(way, ends[0], ends[1])).sum()
 }
 
 /// The squared speeds between moves, including those before the first and after the last.
-fn entry_squares(ways: &[Way], kinematics: &Kinematics) -> Vec<f64> {
-    let mut squares = vec![0.0; ways.len() + 1];
-    for (index, pair) in ways.windows(2).enumerate() {
+fn entry_squares(moves: &[TimedMove], kinematics: &Kinematics) -> Vec<f64> {
+    let mut squares = vec![0.0; moves.len() + 1];
+    for (index, pair) in moves.windows(2).enumerate() {
         squares[index + 1] = corner_square(&pair[0], &pair[1], kinematics);
     }
     // The speed is limited by what can be reached from before and by what can be decelerated afterwards.
-    for (index, way) in ways.iter().enumerate().rev() {
+    for (index, way) in moves.iter().enumerate().rev() {
         squares[index] = squares[index].min(squares[index + 1] + 2.0 * way.acceleration * way.length);
     }
-    for (index, way) in ways.iter().enumerate() {
+    for (index, way) in moves.iter().enumerate() {
         squares[index + 1] = squares[index + 1].min(squares[index] + 2.0 * way.acceleration * way.length);
     }
     squares
@@ -144,7 +144,7 @@ fn entry_squares(ways: &[Way], kinematics: &Kinematics) -> Vec<f64> {
 
 /// Squared speed permitted in the corner between two moves: that of a circle which touches both and passes the corner at the junction
 /// deviation.
-fn corner_square(before: &Way, behind: &Way, kinematics: &Kinematics) -> f64 {
+fn corner_square(before: &TimedMove, behind: &TimedMove, kinematics: &Kinematics) -> f64 {
     if before.stops {
         return 0.0;
     }
@@ -162,7 +162,7 @@ fn corner_square(before: &Way, behind: &Way, kinematics: &Kinematics) -> f64 {
 }
 
 /// Time in seconds for a move, given the squares of the speeds at both ends.
-fn duration(way: &Way, from: f64, to: f64) -> f64 {
+fn duration(way: &TimedMove, from: f64, to: f64) -> f64 {
     let (speed, acceleration) = (way.speed, way.acceleration);
     // Square of the speed that would be reached if only the length limited it.
     let peak = 0.5 * (from + to) + acceleration * way.length;

@@ -14,10 +14,10 @@ use crate::read::Problems;
 use crate::verify::Cutter;
 
 /// Lengths in comments are rounded, often to two decimals, so that they are equal if they differ by at most this, in mm.
-const ROUNDED: f64 = 0.01;
+const ROUNDING_TOLERANCE: f64 = 0.01;
 
 /// Difference in mm of lengths that are not rounded.
-const EXACT: f64 = 1e-6;
+const EXACT_TOLERANCE: f64 = 1e-6;
 
 /// One inch in mm.
 const INCH: f64 = 25.4;
@@ -301,7 +301,8 @@ impl StatedCutter {
             Tip::Unknown => None,
         };
         // pathbuild writes all digits.
-        let tolerance = if tool.scope == Scope::Program { EXACT } else { ROUNDED + EXACT };
+        let tolerance =
+            if tool.scope == Scope::Program { EXACT_TOLERANCE } else { ROUNDING_TOLERANCE + EXACT_TOLERANCE };
         Self { line, diameter: tool.diameter * scale, flat: flat.map(|flat| flat * scale), tolerance }
     }
 
@@ -318,7 +319,8 @@ impl StatedCutter {
     }
 
     fn is_same(&self, other: &Self) -> bool {
-        let is_near = |one: f64, other: f64| libm::fabs(one - other) <= 2.0 * ROUNDED + EXACT;
+        let is_near =
+            |one: f64, other: f64| libm::fabs(one - other) <= 2.0 * ROUNDING_TOLERANCE + EXACT_TOLERANCE;
         let is_same_tip = self.flat.zip(other.flat).is_none_or(|(one, other)| is_near(one, other));
         is_near(self.diameter, other.diameter) && is_same_tip
     }
@@ -438,7 +440,9 @@ impl Collector {
             self.corners[index] = Some((line, corner));
             return;
         };
-        let is_near = |(one, other): (&f64, &f64)| libm::fabs(one - other) <= 2.0 * ROUNDED + EXACT;
+        let is_near = |(one, other): (&f64, &f64)| {
+            libm::fabs(one - other) <= 2.0 * ROUNDING_TOLERANCE + EXACT_TOLERANCE
+        };
         if let Some(axis) = (0..3).find(|axis| !is_near((&known[*axis], &corner[*axis]))) {
             let letter = ["X", "Y", "Z"][axis];
             self.problems.add_at_line(&say::STOCK_STATED_TWICE, line, |d| {

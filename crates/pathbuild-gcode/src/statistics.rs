@@ -27,12 +27,12 @@ pub fn statistics(program: &Program, rapid: f64) -> Statistics {
 /// Decides which moves of a parsed program have a length: those between positions that are completely known and that the program has
 /// specified since the last tool change.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Counting {
+pub(crate) struct LengthFilter {
     /// The axes specified before the current step.
     stated: Axes,
 }
 
-impl Counting {
+impl LengthFilter {
     /// Whether the length of the next step counts. It must be called for every step.
     pub(crate) fn counts(&mut self, step: &Step) -> bool {
         let stated = std::mem::replace(&mut self.stated, step.stated);
@@ -162,7 +162,7 @@ impl Summary {
             layers,
             tool: layers.then_some(1),
             spindle: Spindle::UNSTATED,
-            counting: Counting::default(),
+            counting: LengthFilter::default(),
         };
         for step in steps {
             collector.step(step);
@@ -180,7 +180,7 @@ struct Collector {
     layers: bool,
     tool: Option<u32>,
     spindle: Spindle,
-    counting: Counting,
+    counting: LengthFilter,
 }
 
 /// A tool that was used.

@@ -5,7 +5,7 @@ mod common;
 use common::fault_text;
 use pathbuild_gcode::dialect::Dialect::{self, Native, Xpertmill};
 use pathbuild_gcode::interpret::{Options, interpret};
-use pathbuild_gcode::verify::{Against, Drawn, PostWords, ToolUse};
+use pathbuild_gcode::verify::{DrawingComparison, Drawn, PostWords, ToolUse};
 use pathbuild_motion::Position;
 
 const FINE: [&str; 0] = [];
@@ -27,7 +27,7 @@ fn differences(dialect: Dialect, program: &str, drawn: &str) -> Vec<String> {
         number: None,
         spin_up: 0.0,
     };
-    let mut comparison = Against::new(drawn, dialect, &words);
+    let mut comparison = DrawingComparison::new(drawn, dialect, &words);
     for step in &interpret(program.as_bytes(), dialect, &Options::default()).steps {
         comparison.step(step);
     }

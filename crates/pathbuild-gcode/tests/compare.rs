@@ -9,7 +9,7 @@ use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::verify::{Difference, DifferenceKind, Ends, Tolerance, compare};
 use pathbuild_motion::Move;
 use pathbuild_toolpath::{
-    Class, Comment, Count, Height, Names, PlannedMove as Emitted, Program, ProgramStep, Xy,
+    Comment, Count, Height, MoveClass, Names, PlannedMove as Emitted, Program, ProgramStep, Xy,
 };
 
 fn moves(program: &str) -> Vec<(u32, Move)> {
@@ -212,7 +212,7 @@ fn emitted(to: Emitted) -> ProgramStep {
     // The only arc is a full circle.
     let length =
         if let Emitted::Arc { centre, .. } = to { std::f64::consts::TAU * centre.coords.norm() } else { 0.0 };
-    ProgramStep::Move { to, count: Count { class: Class::Milling, length, feed: None } }
+    ProgramStep::Move { to, count: Count { class: MoveClass::Milling, length, feed: None } }
 }
 
 fn height(z: f64) -> Height {

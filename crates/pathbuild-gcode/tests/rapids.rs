@@ -1,10 +1,12 @@
 //! Tests of rapid moves into material, in programs made from drawings. (book: program/reading)
 
 use pathbuild_gcode::verify::rapids_into_material;
-use pathbuild_toolpath::{Class, Comment, Count, ElementKind, Height, PlannedMove, Program, ProgramStep, Xy};
+use pathbuild_toolpath::{
+    Comment, Count, ElementKind, Height, MoveClass, PlannedMove, Program, ProgramStep, Xy,
+};
 
 fn go(to: PlannedMove) -> ProgramStep {
-    ProgramStep::Move { to, count: Count { class: Class::Sweep, length: 0.0, feed: None } }
+    ProgramStep::Move { to, count: Count { class: MoveClass::Sweep, length: 0.0, feed: None } }
 }
 
 fn sweep(x: f64, y: f64) -> ProgramStep {

@@ -10,7 +10,9 @@ use pathbuild_gcode::interpret::{Options, guess, interpret};
 use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_gcode::verify::{Tolerance, compare};
 use pathbuild_motion::MoveShape;
-use pathbuild_toolpath::{Class, Comment, Count, Height, PlannedMove, ProbePoint, Program, ProgramStep, Xy};
+use pathbuild_toolpath::{
+    Comment, Count, Height, MoveClass, PlannedMove, ProbePoint, Program, ProgramStep, Xy,
+};
 use proptest::prelude::*;
 
 /// A move in numbers that do not depend on the position of the tool.
@@ -76,7 +78,7 @@ fn program(sketches: &[Sketch]) -> Program {
         if let PlannedMove::Sweep { to } | PlannedMove::Line { to, .. } | PlannedMove::Arc { to, .. } = to {
             at = to;
         }
-        let count = Count { class: Class::Milling, length, feed: None };
+        let count = Count { class: MoveClass::Milling, length, feed: None };
         steps.push(ProgramStep::Move { to, count });
         if matches!(to, PlannedMove::Arc { .. }) && length < 0.01 {
             // Such arcs are beside support bars, so that another part of the edge always follows.

@@ -8,7 +8,7 @@ use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_gcode::statistics::{Summary, Tally, statistics};
 use pathbuild_toolpath::{
-    Class, Correction, Count, Height, PlannedMove, Program, ProgramStep, Statistics, Xy,
+    Correction, Count, Height, MoveClass, PlannedMove, Program, ProgramStep, Statistics, Xy,
 };
 
 /// Lengths of milling, drilling and sweeps of a text.
@@ -122,16 +122,16 @@ fn drawn() -> Program {
         path: "1234.1P".into(),
         sweep_height: 10.0,
         steps: vec![
-            step(PlannedMove::Sweep { to: Xy::new(3.0, 4.0) }, Class::Sweep, None),
-            step(PlannedMove::Lift { z: height(6.0) }, Class::Sweep, None),
-            step(PlannedMove::Drill { feed: 50.0, z: height(4.0) }, Class::Drilling, Some(50.0)),
+            step(PlannedMove::Sweep { to: Xy::new(3.0, 4.0) }, MoveClass::Sweep, None),
+            step(PlannedMove::Lift { z: height(6.0) }, MoveClass::Sweep, None),
+            step(PlannedMove::Drill { feed: 50.0, z: height(4.0) }, MoveClass::Drilling, Some(50.0)),
             // Descends by a move planned as milling, like half circles with no radius.
             step(
                 PlannedMove::Line { feed: 100.0, to: Xy::new(3.0, 4.0), z: height(3.0) },
-                Class::Milling,
+                MoveClass::Milling,
                 Some(100.0),
             ),
-            step(helix, Class::Milling, Some(100.0)),
+            step(helix, MoveClass::Milling, Some(100.0)),
         ],
         ..Program::default()
     }

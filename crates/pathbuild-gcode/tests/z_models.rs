@@ -10,7 +10,7 @@ use pathbuild_gcode::dialect::Charset;
 use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_gcode::statistics::statistics;
 use pathbuild_toolpath::{
-    Class, Correction, Count, Height, PlannedMove, ProbePoint, Program, ProgramStep, Surface, Xy, ZModel,
+    Correction, Count, Height, MoveClass, PlannedMove, ProbePoint, Program, ProgramStep, Surface, Xy, ZModel,
 };
 
 const TIN: Correction = Correction { model: ZModel::Tin, longest: 20.0 };
@@ -164,7 +164,7 @@ fn places_far_out_do_no_harm() {
 
 fn line(to: (f64, f64), z: f64, from: (f64, f64)) -> ProgramStep {
     let (to, from) = (Xy::new(to.0, to.1), Xy::new(from.0, from.1));
-    let count = Count { class: Class::Milling, length: (to - from).norm(), feed: Some(200.0) };
+    let count = Count { class: MoveClass::Milling, length: (to - from).norm(), feed: Some(200.0) };
     ProgramStep::Move { to: PlannedMove::Line { feed: 200.0, to, z: Height { z, at: from } }, count }
 }
 
@@ -172,7 +172,7 @@ fn line(to: (f64, f64), z: f64, from: (f64, f64)) -> ProgramStep {
 fn arc(centre: (f64, f64), to: (f64, f64), z: f64, (clockwise, angle): (bool, f64)) -> ProgramStep {
     let (centre, to) = (Xy::new(centre.0, centre.1), Xy::new(to.0, to.1));
     let length = centre.coords.norm() * angle.to_radians();
-    let count = Count { class: Class::Milling, length, feed: Some(200.0) };
+    let count = Count { class: MoveClass::Milling, length, feed: Some(200.0) };
     let z = Height { z, at: Xy::origin() };
     ProgramStep::Move {
         to: PlannedMove::Arc { feed: 200.0, clockwise, centre, to, z, is_spiral: angle == 180.0 },
@@ -181,7 +181,7 @@ fn arc(centre: (f64, f64), to: (f64, f64), z: f64, (clockwise, angle): (bool, f6
 }
 
 fn upright(step: PlannedMove, length: f64) -> ProgramStep {
-    ProgramStep::Move { to: step, count: Count { class: Class::Sweep, length, feed: None } }
+    ProgramStep::Move { to: step, count: Count { class: MoveClass::Sweep, length, feed: None } }
 }
 
 fn program(points: &[(f64, f64)], steps: Vec<ProgramStep>) -> Program {

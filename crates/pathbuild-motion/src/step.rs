@@ -288,7 +288,7 @@ pub struct Move {
     pub shape: MoveShape,
     pub pace: Pace,
     /// The named target of the move, if the program specifies it by name.
-    pub named: Option<Named>,
+    pub named: Option<NamedPosition>,
 }
 
 /// The shape of a move.
@@ -351,7 +351,7 @@ impl Pace {
 
 /// Positions that a program specifies by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Named {
+pub enum NamedPosition {
     /// G53: machine coordinates. If the machine's origin is unknown, the axes of the target that are not `known` hold machine coordinates.
     Machine(Axes),
     /// G28.
@@ -360,7 +360,7 @@ pub enum Named {
     Home2(Axes),
 }
 
-impl Named {
+impl NamedPosition {
     /// The axes that go there.
     pub fn axes(self) -> Axes {
         let (Self::Machine(axes) | Self::Home1(axes) | Self::Home2(axes)) = self;

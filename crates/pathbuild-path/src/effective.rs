@@ -3,7 +3,7 @@
 
 use pathbuild_diagnostic::{Text, words};
 
-use crate::letter::{ElementClass, Letter, Use};
+use crate::letter::{ElementClass, Letter, LetterUse};
 use crate::names::PathName;
 use crate::values::{GivenNumber, Values};
 
@@ -115,14 +115,14 @@ impl<'v, 't> Texts<'v, 't> {
     /// The values that contain a letter, and their origin; `None` if no applicable text contains it.
     pub(crate) fn source(&self, letter: Letter) -> Option<(&'v Values<'t>, Provider)> {
         let own = match use_of(self.class, letter) {
-            Use::Unknown | Use::Ignored => return None,
-            Use::PathOnly => None,
+            LetterUse::Unknown | LetterUse::Ignored => return None,
+            LetterUse::PathOnly => None,
             // The element's own text is the path's text.
-            Use::Needed | Use::Allowed if self.class == ElementClass::PathStart => None,
-            Use::ChainNeeded | Use::Chain => {
+            LetterUse::Needed | LetterUse::Allowed if self.class == ElementClass::PathStart => None,
+            LetterUse::ChainNeeded | LetterUse::Chain => {
                 Some(self.chain.map_or((self.own, Provider::Own), |chain| (chain, Provider::Chain)))
             }
-            Use::Needed | Use::Allowed => Some((self.own, Provider::Own)),
+            LetterUse::Needed | LetterUse::Allowed => Some((self.own, Provider::Own)),
         };
         let path = || {
             let can_inherit =
@@ -160,10 +160,10 @@ impl PathNumbers {
 }
 
 /// The use of a letter on an element. Elements with an ignored text are swept at the path's height.
-fn use_of(class: ElementClass, letter: Letter) -> Use {
+fn use_of(class: ElementClass, letter: Letter) -> LetterUse {
     match (class, letter) {
-        (ElementClass::Unread, Letter::S) => Use::PathOnly,
-        (_, Letter::At) | (ElementClass::Unread, _) => Use::Unknown,
+        (ElementClass::Unread, Letter::S) => LetterUse::PathOnly,
+        (_, Letter::At) | (ElementClass::Unread, _) => LetterUse::Unknown,
         _ => class.use_of(letter),
     }
 }
@@ -176,7 +176,7 @@ pub fn fallback(
     options: &PathOptions,
     role: PathRole,
 ) -> Option<(f64, Provider)> {
-    if matches!(use_of(class, letter), Use::Unknown | Use::Ignored) {
+    if matches!(use_of(class, letter), LetterUse::Unknown | LetterUse::Ignored) {
         return None;
     }
     let option = |value: Option<f64>, name| value.map(|value| (value, Provider::Option(name)));

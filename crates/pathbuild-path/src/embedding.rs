@@ -200,12 +200,12 @@ impl PathSignature {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepLimits {
     path: SpeltName,
-    faces: Box<[Face]>,
+    faces: Box<[UpperFace]>,
 }
 
 /// An upper face of the material.
 #[derive(Clone, Debug, PartialEq)]
-struct Face {
+struct UpperFace {
     /// The element that gives T.
     origin: Origin,
     /// T in mm.
@@ -221,7 +221,7 @@ impl SweepLimits {
         };
         let face = |origin: Origin, thickness: f64, text: Option<TextId>| {
             let fault = path.drawn.text(text).and_then(|text| text.fault_of(Letter::T));
-            Face { origin, thickness, fault }
+            UpperFace { origin, thickness, fault }
         };
         let own = iter::once(surface).chain(&path.probe_surfaces);
         let own = own.map(|surface| face(surface.origin.clone(), surface.thickness, surface.text));
@@ -243,7 +243,7 @@ impl SweepLimits {
             PathRole::Embedded => &parameters::EMBEDDED_SWEEP_TOO_LOW,
         };
         let too_high = self.faces.iter().filter(|face| !above(height, face.thickness));
-        let problem = |face: &Face| {
+        let problem = |face: &UpperFace| {
             let mut problem = Diagnostic::new(message)
                 .with("value", height)
                 .with("limit", face.thickness)
@@ -576,7 +576,7 @@ fn as_warning(mut diagnostic: Diagnostic) -> Diagnostic {
 }
 
 /// Maximum number of names in a note.
-const MOST: usize = 5;
+const MAX_NAMES_IN_NOTE: usize = 5;
 
 /// Adds a note to a finding about a path that none of the searched drawings defines: the names of which `name` may be a misspelling, else
 /// all names there are in these drawings.
@@ -584,12 +584,13 @@ pub fn with_near_names(problem: Diagnostic, name: &PathName, mut known: Vec<Path
     known.sort();
     known.dedup();
     let similar = known.iter().filter(|other| is_slip(name.as_str(), other.as_str()));
-    let similar: Vec<&PathName> = similar.take(MOST).collect();
+    let similar: Vec<&PathName> = similar.take(MAX_NAMES_IN_NOTE).collect();
     match (similar.as_slice(), known.as_slice()) {
         ([], []) => problem,
         ([], known) => {
-            let others = (known.len() > MOST).then_some("...");
-            let known = known.iter().take(MOST).map(PathName::as_str).chain(others).collect::<Value>();
+            let others = (known.len() > MAX_NAMES_IN_NOTE).then_some("...");
+            let known =
+                known.iter().take(MAX_NAMES_IN_NOTE).map(PathName::as_str).chain(others).collect::<Value>();
             problem.note(&messages::NAMES_THERE, vec![("names", known)])
         }
         (similar, _) => {

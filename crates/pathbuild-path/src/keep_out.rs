@@ -46,7 +46,7 @@ impl KeepOut {
 /// Lengths are in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
-pub struct Way {
+pub struct TipMove {
     pub curve: Curve,
     pub from_z: f64,
     pub to_z: f64,
@@ -84,7 +84,7 @@ impl KeepOutMap {
 
     /// The numbers of the clamps that a tool of this radius hits on its way, in ascending order. `slack`: tolerance in mm for rounding
     /// errors.
-    pub fn entered(&self, way: &Way, radius: f64, slack: f64) -> Vec<usize> {
+    pub fn entered(&self, way: &TipMove, radius: f64, slack: f64) -> Vec<usize> {
         let radius = (radius - slack).max(0.0);
         let near = self.boxes.locate_in_envelope_intersecting(around(&way.curve, radius));
         let is_entered = |number: &usize| {
@@ -98,7 +98,7 @@ impl KeepOutMap {
     }
 }
 
-impl Way {
+impl TipMove {
     /// The lowest height.
     pub fn lowest(&self) -> f64 {
         self.from_z.min(self.to_z)
@@ -120,10 +120,10 @@ impl Way {
 /// A closed outline, prepared for queries.
 #[derive(Clone, Debug)]
 pub(crate) struct Outline {
-    pieces: RTree<Boxed>,
+    pieces: RTree<IndexedPiece>,
 }
 
-type Boxed = GeomWithData<Rectangle<[f64; 2]>, OutlinePiece>;
+type IndexedPiece = GeomWithData<Rectangle<[f64; 2]>, OutlinePiece>;
 
 /// A part of the outline that rises or falls monotonically.
 #[derive(Clone, Copy, Debug)]
@@ -136,7 +136,7 @@ struct OutlinePiece {
 }
 
 /// Margin in mm around bounding boxes, larger than the gap between ends that meet.
-const SLACK: f64 = 1e-4;
+const BOX_MARGIN: f64 = 1e-4;
 
 impl Outline {
     /// Creates an outline from a closed, non-empty sequence of curves.
@@ -146,7 +146,7 @@ impl Outline {
         let pieces = monotone.into_iter().map(|curve| {
             let piece = OutlinePiece { curve, from, to: curve.end().y };
             from = piece.to;
-            GeomWithData::new(Rectangle::from_aabb(around(&curve, SLACK)), piece)
+            GeomWithData::new(Rectangle::from_aabb(around(&curve, BOX_MARGIN)), piece)
         });
         Self { pieces: RTree::bulk_load(pieces.collect()) }
     }
@@ -159,7 +159,7 @@ impl Outline {
     /// Whether any part of a disc enters the outline while its centre moves along a curve. Touching the outline is not entering. The radius
     /// is in mm.
     fn is_entered(&self, way: &Curve, radius: f64) -> bool {
-        let mut near = self.pieces.locate_in_envelope_intersecting(around(way, radius + SLACK));
+        let mut near = self.pieces.locate_in_envelope_intersecting(around(way, radius + BOX_MARGIN));
         near.any(|piece| above(radius, way.distance(&piece.data.curve))) || self.contains(way.start())
     }
 

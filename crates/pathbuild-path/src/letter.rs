@@ -152,7 +152,7 @@ pub enum ElementClass {
 
 /// The use of a letter on an element: a cell of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Use {
+pub enum LetterUse {
     /// `!`: from the element or the path; an error if neither gives it.
     Needed,
     /// `o`: from the element, or else from the path; optional.
@@ -190,8 +190,8 @@ const ROWS: [(ElementClass, &str); 13] = [
 ];
 
 /// The cells by row and letter.
-const CELLS: [[Use; Letter::COUNT]; ROWS.len()] = {
-    let mut cells = [[Use::Unknown; Letter::COUNT]; ROWS.len()];
+const CELLS: [[LetterUse; Letter::COUNT]; ROWS.len()] = {
+    let mut cells = [[LetterUse::Unknown; Letter::COUNT]; ROWS.len()];
     let (columns, mut row) = (COLUMNS.as_bytes(), 0);
     while row < ROWS.len() {
         let (class, marks) = (ROWS[row].0, ROWS[row].1.as_bytes());
@@ -204,7 +204,7 @@ const CELLS: [[Use; Letter::COUNT]; ROWS.len()] = {
             let Some(letter) = Letter::new(columns[column] as char) else {
                 panic!("a column for each letter")
             };
-            cells[row][letter as usize] = Use::of(marks[column]);
+            cells[row][letter as usize] = LetterUse::of(marks[column]);
             column += 2;
         }
         row += 1;
@@ -212,7 +212,7 @@ const CELLS: [[Use; Letter::COUNT]; ROWS.len()] = {
     cells
 };
 
-impl Use {
+impl LetterUse {
     const fn of(mark: u8) -> Self {
         match mark {
             b'!' => Self::Needed,
@@ -234,8 +234,8 @@ impl Use {
 
 impl ElementClass {
     /// The use of a letter on this element.
-    pub fn use_of(self, letter: Letter) -> Use {
-        CELLS.get(self as usize).map_or(Use::Allowed, |cells| cells[letter as usize])
+    pub fn use_of(self, letter: Letter) -> LetterUse {
+        CELLS.get(self as usize).map_or(LetterUse::Allowed, |cells| cells[letter as usize])
     }
 
     /// The letters with an effect in its text, for help.
@@ -251,7 +251,7 @@ impl ElementClass {
         Letter::ALL
             .into_iter()
             .map(|(_, letter)| letter)
-            .filter(move |letter| self.use_of(*letter) == Use::Needed)
+            .filter(move |letter| self.use_of(*letter) == LetterUse::Needed)
     }
 
     /// Whether it has support bars, or gives the parameters for the support bars of others.

@@ -38,10 +38,10 @@ pub use embedding::{Judge, with_near_names};
 pub use embedding::{PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
 pub use in_force::{ElementParameters, Parameter, parameters_in_force};
-pub use keep_out::{KeepOut, KeepOutMap, KeepOuts, Way};
+pub use keep_out::{KeepOut, KeepOutMap, KeepOuts, TipMove};
 pub use language::{DoubtThresholds, Language, PathTool, PathTools};
 pub use letter::Letter;
-pub use letter::{ElementClass, Use};
+pub use letter::{ElementClass, LetterUse};
 pub use line_type::{LineType, LineTypeAliases};
 pub use look_alikes::near_layer;
 pub use names::files::{

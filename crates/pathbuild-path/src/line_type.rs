@@ -51,11 +51,13 @@ impl LineType {
         // STRICH-PUNKT and STRICH PUNKT are STRICHPUNKT.
         let squeezed: String = name.chars().filter(|character| character.is_alphanumeric()).collect();
         let names = || Self::NAMES.into_iter().chain(names_in(ALIASES)).chain(names_in(WORDS));
-        let in_name = names()
-            .filter(|(word, _)| word.len() >= SHORTEST && (name.contains(word) || squeezed.contains(word)));
+        let in_name = names().filter(|(word, _)| {
+            word.len() >= MIN_WORD_BYTES && (name.contains(word) || squeezed.contains(word))
+        });
         let longest = in_name.max_by_key(|(word, _)| word.len());
-        let abbreviated = || names().find(|(word, _)| name.len() >= SHORTEST && word.starts_with(name));
-        let misspelt = || names().find(|(word, _)| word.len() > SHORTEST + 1 && differs_little(name, word));
+        let abbreviated = || names().find(|(word, _)| name.len() >= MIN_WORD_BYTES && word.starts_with(name));
+        let misspelt =
+            || names().find(|(word, _)| word.len() > MIN_WORD_BYTES + 1 && differs_little(name, word));
         // A different digit in a numbered name is not a typing error.
         let misspelt = || misspelt().filter(|_| !name.bytes().any(|byte| byte.is_ascii_digit()));
         longest.or_else(abbreviated).or_else(misspelt).map(|(_, line_type)| line_type)
@@ -121,7 +123,7 @@ fn names_in(table: &[(LineType, &[&'static str])]) -> impl Iterator<Item = (&'st
 }
 
 /// Minimum length in bytes of a word by which a name is recognised.
-const SHORTEST: usize = 3;
+const MIN_WORD_BYTES: usize = 3;
 
 /// Whether two names differ by a missing, additional or different character, or by two transposed ones.
 fn differs_little(name: &str, other: &str) -> bool {

@@ -8,7 +8,7 @@ use std::ops::Range;
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
-use crate::letter::{ElementClass, Letter, Letters, Use};
+use crate::letter::{ElementClass, Letter, LetterUse, Letters};
 use crate::look_alikes;
 use crate::variables::Definition;
 
@@ -264,7 +264,7 @@ impl<'t> ParameterText<'t> {
             return Some(mistake.unwrap_or_else(|| unknown_letter(first, class)));
         };
         let how = class.use_of(letter);
-        if matches!(how, Use::Unknown | Use::PathOnly) {
+        if matches!(how, LetterUse::Unknown | LetterUse::PathOnly) {
             if letter == Letter::Embed {
                 return Some(
                     Diagnostic::new(&messages::NAME_ON_OTHER_ELEMENT)
@@ -280,7 +280,7 @@ impl<'t> ParameterText<'t> {
         if letter.is_literal() && self.value(piece).contains('=') {
             return Some(Diagnostic::new(&messages::VARIABLE_NOT_ALLOWED).with("letter", first));
         }
-        (how == Use::Ignored).then(|| self.without_effect(letter, piece, class))
+        (how == LetterUse::Ignored).then(|| self.without_effect(letter, piece, class))
     }
 
     /// PB202 for a word among parameters: `B2 tief`.
@@ -299,7 +299,7 @@ impl<'t> ParameterText<'t> {
 
     /// The advice depends on the intention: a depth whose letter has no effect should be replaced by the other depth, not just removed.
     fn without_effect(self, letter: Letter, piece: &LetterValue, class: ElementClass) -> Diagnostic {
-        let counts = |other| class.use_of(other) == Use::Needed;
+        let counts = |other| class.use_of(other) == LetterUse::Needed;
         let problem = match letter {
             Letter::B if counts(Letter::D) => Diagnostic::new(&messages::BOTTOM_OF_MARK),
             Letter::D if counts(Letter::B) => Diagnostic::new(&messages::DEPTH_OF_MILLING),

@@ -9,7 +9,7 @@ use crate::approx::{above, at_least};
 use pathbuild_motion::ChipLoad;
 
 use crate::language::DoubtThresholds;
-use crate::letter::{ElementClass, Letter, Letters, Use};
+use crate::letter::{ElementClass, Letter, LetterUse, Letters};
 use crate::look_alikes;
 use crate::text::{
     LetterValue, ParameterText, ValueKind, equals_sign_mistake, is_variable_without_value, is_without_value,
@@ -84,7 +84,7 @@ impl<'t> Values<'t> {
         // A definition is not a value: its "=" is not a reference.
         let is_definition = |letter| class == ElementClass::PathStart && letter == Letter::Variable;
         let is_value = |letter: &Letter| {
-            !matches!(class.use_of(*letter), Use::Unknown | Use::PathOnly)
+            !matches!(class.use_of(*letter), LetterUse::Unknown | LetterUse::PathOnly)
                 && !is_definition(*letter)
                 && (*letter == Letter::Variable || !text.repeats(*letter))
         };
@@ -254,11 +254,13 @@ const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
 /// Problems with the values that `own` gives; other values come from the path.
 pub(crate) fn check_limits(own: &Values<'_>, path: &Values<'_>, class: ElementClass) -> Vec<Diagnostic> {
     let mut limits = LimitCheck { own, path, class, problems: Vec::new() };
-    let is_known = |letter: &Letter| !matches!(class.use_of(*letter), Use::Unknown | Use::PathOnly);
+    let is_known =
+        |letter: &Letter| !matches!(class.use_of(*letter), LetterUse::Unknown | LetterUse::PathOnly);
     limits.check_positive(POSITIVE.into_iter().filter(is_known));
     limits.check_above(Letter::S, Letter::T, &messages::NOT_ABOVE);
     // T of a probe or a subpath is the thickness there, which is unrelated to the path's depths.
-    for depth in [Letter::B, Letter::D].into_iter().filter(|depth| class.use_of(*depth) != Use::Unknown) {
+    for depth in [Letter::B, Letter::D].into_iter().filter(|depth| class.use_of(*depth) != LetterUse::Unknown)
+    {
         limits.check_above(Letter::T, depth, &messages::NOT_BELOW);
     }
     if class.has_bars() {
@@ -326,8 +328,8 @@ impl LimitCheck<'_> {
         let (subject, limit) = if says_upper { (upper, lower) } else { (lower, upper) };
         let (subject_value, limit_value) = if says_upper { (high, low) } else { (low, high) };
         let message = match (self.class.use_of(subject), says_upper) {
-            (Use::Ignored, true) => &messages::UNUSED_NOT_ABOVE,
-            (Use::Ignored, false) => &messages::UNUSED_NOT_BELOW,
+            (LetterUse::Ignored, true) => &messages::UNUSED_NOT_ABOVE,
+            (LetterUse::Ignored, false) => &messages::UNUSED_NOT_BELOW,
             _ => message,
         };
         let problem = Diagnostic::new(message)
@@ -358,13 +360,13 @@ pub(crate) fn check_mark(
         .with("value", bottom)
         .with("depth", depth)
         .with("thickness", thickness)
-        .with("example", thickness - thickness.min(SHALLOW));
+        .with("example", thickness - thickness.min(USUAL_MARK_DEPTH));
     let says = if is_own { own } else { path };
     Some((says.underline(Letter::D, problem), !is_own))
 }
 
 /// A usual depth of a mark in mm, for help.
-const SHALLOW: f64 = 0.2;
+const USUAL_MARK_DEPTH: f64 = 0.2;
 
 /// Thickness in mm below which a support bar holds nothing, in material of twice that thickness or more.
 const THINNEST_BAR: f64 = 0.1;
@@ -390,7 +392,8 @@ pub(crate) fn check_doubts(
     chip_load: Option<ChipLoad>,
 ) -> Vec<Diagnostic> {
     let value = |letter| {
-        let has_effect = !matches!(class.use_of(letter), Use::Unknown | Use::Ignored | Use::PathOnly);
+        let has_effect =
+            !matches!(class.use_of(letter), LetterUse::Unknown | LetterUse::Ignored | LetterUse::PathOnly);
         own.number(letter).number().filter(|_| has_effect)
     };
     let thickness = path.number(Letter::T).number();

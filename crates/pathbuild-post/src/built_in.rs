@@ -4,7 +4,7 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts, nearest};
 use pathbuild_motion::{Arc, Coolant, Move, MoveShape, Pace, Plane, Turning};
 
-use super::definition::Post;
+use super::definition::PostDefinition;
 use super::job::{Job, Operation, Tool};
 use crate::Language;
 use crate::job::{Hole, HoleKind, JobStep};
@@ -65,7 +65,7 @@ const fn cambam(name: &'static str, description: &'static str, text: &'static st
 ///
 /// # Errors
 /// Fails if no built-in post has this name.
-pub fn load(name: &str) -> Result<Post, Vec<Diagnostic>> {
+pub fn load(name: &str) -> Result<PostDefinition, Vec<Diagnostic>> {
     let definitions = || BUILT_IN.iter().filter(|post| post.language != Language::Native);
     let Some(post) = definitions().find(|post| post.name == name) else {
         let nearest = nearest(name, definitions().map(|post| post.name));
@@ -74,7 +74,7 @@ pub fn load(name: &str) -> Result<Post, Vec<Diagnostic>> {
         return Err(vec![diagnostic.quoting("name", name)]);
     };
     let file = format!("{name}.{}", post.language.extension());
-    Post::read(post.text.as_bytes(), Utf8Path::new(&file))
+    PostDefinition::read(post.text.as_bytes(), Utf8Path::new(&file))
 }
 
 // Small programs, each with a single feature that a post may have words for.

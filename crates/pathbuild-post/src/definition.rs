@@ -16,14 +16,14 @@ use crate::PostOptions;
 use crate::Row;
 use crate::findings::EngineOutput;
 use crate::job::{Job, Operation, Units};
-use crate::read_back::{self, Expected};
+use crate::read_back::{self, ReadBackOptions};
 use crate::shadow::{CommentMarks, TranslatedText, first_other_line};
 use crate::target::{self, Target};
 use crate::{cad6, cambam};
 
 /// A parsed definition, ready to write programs.
 #[derive(Clone, Debug)]
-pub struct Post {
+pub struct PostDefinition {
     file: Utf8PathBuf,
     engine: Engine,
     warnings: Vec<Diagnostic>,
@@ -51,17 +51,17 @@ pub struct Output {
 }
 
 /// Larger definitions are refused.
-const LARGEST: usize = 1 << 20;
+const MAX_DEFINITION_BYTES: usize = 1 << 20;
 
-impl Post {
+impl PostDefinition {
     /// Reads a definition. `file` is its origin, for diagnostics.
     ///
     /// # Errors
     /// All errors in it, with their lines.
     pub fn read(bytes: &[u8], file: &Utf8Path) -> Result<Self, Vec<Diagnostic>> {
-        if bytes.len() > LARGEST {
+        if bytes.len() > MAX_DEFINITION_BYTES {
             let diagnostic = Diagnostic::new(&posts::POST_TOO_LARGE).with("size", bytes.len());
-            return Err(vec![diagnostic.with("limit", LARGEST).in_file(file)]);
+            return Err(vec![diagnostic.with("limit", MAX_DEFINITION_BYTES).in_file(file)]);
         }
         let text = &*decode(bytes).map_err(|error| vec![error.in_file(file)])?;
         let is_cambam = text.trim_start().starts_with('<') || file.extension() == Some("cbpp");
@@ -203,7 +203,8 @@ impl Post {
         let machine = options.machine.as_ref();
         let is_flat = matches!(&self.engine, Engine::CamBam(definition) if definition.is_flat());
         let milliseconds = options.milliseconds;
-        let expected = Expected { target, tolerance, machine, translated, is_manual, is_flat, milliseconds };
+        let expected =
+            ReadBackOptions { target, tolerance, machine, translated, is_manual, is_flat, milliseconds };
         read_back::check(text, job, &expected)
     }
 

@@ -1,7 +1,7 @@
 //! Post-processors, which write programs for other machines. (book: program/posts)
 //!
-//! A [`Job`] is the input of a post; it is made from finished programs or from a parsed one. A [`Post`] is a definition in one of two
-//! languages, that of CamBam or that of CAD6; [`Post::write`] produces the text. This crate does no IO.
+//! A [`Job`] is the input of a post; it is made from finished programs or from a parsed one. A [`PostDefinition`] is a definition in one of two
+//! languages, that of CamBam or that of CAD6; [`PostDefinition::write`] produces the text. This crate does no IO.
 
 /// Declares an enum, and describes its variants for the book, in both languages.
 macro_rules! words {
@@ -40,10 +40,10 @@ mod read_back;
 mod shadow;
 mod target;
 mod tools;
-mod ways;
+mod traverse;
 
 pub use built_in::{BUILT_IN, BuiltIn, load, samples};
-pub use definition::{Language, Output, Post, reference_table};
+pub use definition::{Language, Output, PostDefinition, reference_table};
 pub use from_program::{ToolEntry, ToolTable};
 pub use from_steps::{Remark, is_of_head, native_remark};
 pub use job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, Units, VelocityMode, program_number};

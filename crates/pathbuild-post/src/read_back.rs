@@ -7,7 +7,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options};
 use pathbuild_gcode::verify::{Machine, MachineRules, Rules, Stock, Tolerance};
 use pathbuild_motion::{
-    Action, Axes, Change, Move, MoveShape, Named, Pace, Position, Step, ToolLength, WorkSystem,
+    Action, Axes, Change, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength, WorkSystem,
 };
 
 use crate::ambiguous;
@@ -17,11 +17,11 @@ use crate::job::{Entry, Job, JobStep, Operation};
 use crate::shadow::{Doubt, TranslatedText};
 use crate::target::Target;
 use crate::tools;
-use crate::ways;
+use crate::traverse;
 
 /// What a text is compared with.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Expected<'a> {
+pub(super) struct ReadBackOptions<'a> {
     /// The control it is for. Without a target the text consists of RS274 words, possibly among others.
     pub(super) target: Option<&'a Target>,
     /// How far it may deviate from the job. `None` if the user takes responsibility for its moves.
@@ -43,9 +43,10 @@ pub(super) struct Expected<'a> {
 pub(super) fn check(
     text: &[u8],
     job: &Job,
-    expected: &Expected<'_>,
+    expected: &ReadBackOptions<'_>,
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    let Expected { target, tolerance, machine, translated, is_manual, is_flat, milliseconds } = expected;
+    let ReadBackOptions { target, tolerance, machine, translated, is_manual, is_flat, milliseconds } =
+        expected;
     let reader = target.map_or(Dialect::LinuxCnc, |target| target.reader);
     let options = Options { milliseconds: *milliseconds, ..Options::default() };
     let read = interpret::interpret(text, reader, &options);
@@ -70,7 +71,7 @@ pub(super) fn check(
             (wanted, found, clearance) = (flat(&wanted), flat(&found), 0.0);
             problems.extend(check_beam(&read.steps).map(as_post_s));
         }
-        match ways::check(&found, &wanted, clearance, tolerance) {
+        match traverse::check(&found, &wanted, clearance, tolerance) {
             Ok(cuts) => {
                 let is_spinning_told =
                     broken.iter().any(|problem| problem.message == &gcode::SPINNING_AT_CHANGE);
@@ -278,7 +279,7 @@ impl Mover {
                 self.at.known = self.at.known.with(Axes::of(axis));
             }
         }
-        let named: Option<Named> = None;
+        let named: Option<NamedPosition> = None;
         self.moves.push((self.number, Move { from, to: self.at, shape, pace, named }));
     }
 

@@ -10,7 +10,7 @@ use crate::job::Units;
 
 /// The RS274 translation of a program, built line by line: it moves and switches like the lines passed to it.
 #[derive(Debug)]
-pub(crate) struct Shadow {
+pub(crate) struct Rs274Translation {
     text: String,
     line: u32,
     doubtful: Vec<DoubtfulWord>,
@@ -95,7 +95,7 @@ pub enum Doubt {
 /// Maximum number of doubtful words that are reported.
 const MOST_DOUBTFUL: usize = 20;
 
-impl Shadow {
+impl Rs274Translation {
     /// Creates an empty shadow. Unit and arc centres are those of the definition, until a line changes them.
     pub(crate) fn new(units: Units, absolute_centres: bool) -> Self {
         let units = if units == Units::Inches { "G20" } else { "G21" };

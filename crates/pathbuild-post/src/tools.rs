@@ -8,7 +8,7 @@ use pathbuild_gcode::verify::{LengthFit, ToolState};
 use pathbuild_motion::{Action, Change, Move, Pace, Step, ToolLength, Turning};
 
 use crate::job::{Job, Operation};
-use crate::ways::MatchedCut;
+use crate::traverse::MatchedCut;
 
 /// Difference in 1/min that is attributed to rounding: some definitions write whole numbers.
 const SAME_SPEED: f64 = 0.5 * (1.0 + 1e-6);

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use nalgebra::{Complex, UnitComplex};
 use pathbuild_path::Xy;
 
-use crate::program::{Class, Count, Height, PlannedMove, Program, ProgramStep};
+use crate::program::{Count, Height, MoveClass, PlannedMove, Program, ProgramStep};
 use crate::z_model::{Tin, ZModel};
 
 /// How the heights of a program with probes are corrected.
@@ -19,7 +19,7 @@ pub struct Correction {
 
 /// A point outside the probes at which the program mills.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outside {
+pub struct UnprobedPoint {
     /// The point in program coordinates.
     pub at: Xy,
     /// Distance from the convex hull of the probes, in mm.
@@ -61,7 +61,7 @@ impl Correction {
 
     /// The point at which the program mills farthest outside the probes, if there is one. Only for models whose values there are
     /// unreliable.
-    pub fn outside(self, program: &Program) -> Option<Outside> {
+    pub fn outside(self, program: &Program) -> Option<UnprobedPoint> {
         if program.probes.is_empty() || self.model == ZModel::Idw4 {
             return None;
         }
@@ -69,7 +69,7 @@ impl Correction {
         let hull = Tin::new(&places);
         let longest = if self.longest > 0.0 { self.longest } else { LOOKED_AT };
         let milled = cut(program, longest).filter_map(|step| milled(&step));
-        let distances = milled.map(|at| Outside { at, distance: hull.distance(at) });
+        let distances = milled.map(|at| UnprobedPoint { at, distance: hull.distance(at) });
         let farthest = distances.reduce(|far, other| if other.distance > far.distance { other } else { far });
         farthest.filter(|outside| outside.distance > NEGLIGIBLE)
     }
@@ -103,7 +103,7 @@ fn walk(program: &Program, longest: f64) -> impl Iterator<Item = (Option<Program
 /// After a sweep the tool is still at the corrected height of its previous position. A step that mills at once, such as a helical
 /// circle, must begin at the height corrected for its own position.
 fn settle(tool: Tool) -> ProgramStep {
-    let count = Count { class: Class::Sweep, length: 0.0, feed: None };
+    let count = Count { class: MoveClass::Sweep, length: 0.0, feed: None };
     ProgramStep::Move { to: PlannedMove::Lift { z: Height { z: tool.z, at: tool.at } }, count }
 }
 

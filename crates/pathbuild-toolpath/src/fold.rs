@@ -11,7 +11,7 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::program::{
-    Class, Comment, Count, ElementKind, FIRST_FEED, Height, LeftOut, Names, Occurrence, PlannedMove,
+    Comment, Count, ElementKind, FIRST_FEED, Height, LeftOut, MoveClass, Names, Occurrence, PlannedMove,
     ProbeOrigin, ProbePoint, Program, ProgramStep, StepOrigin, Trace,
 };
 
@@ -283,7 +283,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         }
         if !near(to, surface) {
             let z = Height { z: to, at: self.tip.at };
-            let count = Count { class: Class::Drilling, length: (surface - to).abs(), feed: Some(feed) };
+            let count = Count { class: MoveClass::Drilling, length: (surface - to).abs(), feed: Some(feed) };
             // The original tool writes no feed, so its plunges run at the previous feed.
             let feed = if self.compatible { self.last_feed } else { feed };
             self.step(PlannedMove::Drill { feed, z }, count, Tip { z: to, ..self.tip });
@@ -297,7 +297,7 @@ impl<'a, P: Parts> Fold<'a, P> {
 
     /// Like [`lift`](Self::lift), but the height is corrected by probes for another point: the centre of a helical circle.
     pub(crate) fn lift_corrected_at(&mut self, to: f64, at: Xy, length: f64) {
-        let count = Count { class: Class::Sweep, length, feed: None };
+        let count = Count { class: MoveClass::Sweep, length, feed: None };
         self.step(PlannedMove::Lift { z: Height { z: to, at } }, count, Tip { z: to, ..self.tip });
     }
 
@@ -310,7 +310,7 @@ impl<'a, P: Parts> Fold<'a, P> {
             }
         }
         let index = self.steps.len();
-        let count = Count { class: Class::Sweep, length, feed: None };
+        let count = Count { class: MoveClass::Sweep, length, feed: None };
         self.step(PlannedMove::Sweep { to }, count, Tip { at: to, ..self.tip });
         let is_clear = self.compatible || at_least(self.tip.z, self.clearance);
         self.mergeable = is_clear.then_some(index);

@@ -12,15 +12,15 @@ mod part_cuts;
 mod program;
 mod z_model;
 
-pub use correction::{Correction, Outside};
+pub use correction::{Correction, UnprobedPoint};
 pub use fold::{Parts, fold, fold_traced};
 pub use mill::support_bars;
 pub use moves::{LAST_DIGIT, ToolTip, is_doubtful, is_point, kind_of_move, way};
 pub use part_cuts::part_cuts;
 pub use pathbuild_path::Xy;
 pub use program::{
-    Class, Comment, Count, ElementKind, Height, LeftOut, NameId, Names, Occurrence, PlannedMove, ProbeOrigin,
-    ProbePoint, Program, ProgramStep, StepOrigin, Trace, memory, own_moves,
+    Comment, Count, ElementKind, Height, LeftOut, MoveClass, NameId, Names, Occurrence, PlannedMove,
+    ProbeOrigin, ProbePoint, Program, ProgramStep, StepOrigin, Trace, memory, own_moves,
 };
 pub use program::{Statistics, Total};
 pub use z_model::{OddProbe, Surface, ZModel, odd_probes};

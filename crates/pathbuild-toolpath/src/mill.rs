@@ -6,7 +6,7 @@ use pathbuild_path::approx::{above, at_least};
 use pathbuild_path::{Arc, Bars, Curve, Helix, Origin, Xy};
 
 use crate::fold::{Fold, MOST_FORESEEN, Parts, PlacedPath, Tip};
-use crate::program::{Class, Count, ElementKind, Height, PlannedMove};
+use crate::program::{Count, ElementKind, Height, MoveClass, PlannedMove};
 
 /// A part of a segment with the heights at its ends, in mm.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +29,7 @@ impl<P: Parts> Fold<'_, P> {
         self.plunge(section.from_z, surface, feed);
         let to = section.curve.end();
         let z = Height { z: section.to_z, at: section.curve.start() };
-        let count = Count { class: Class::Milling, length: section.curve.length(), feed: Some(feed) };
+        let count = Count { class: MoveClass::Milling, length: section.curve.length(), feed: Some(feed) };
         let tip = Tip { at: to, z: section.to_z };
         let to = match section.curve {
             Curve::Line(_) => PlannedMove::Line { feed, to, z },
@@ -214,7 +214,7 @@ impl<P: Parts> Fold<'_, P> {
             z: height,
             is_spiral: true,
         };
-        let count = Count { class: Class::Milling, length: PI * circle.radius, feed: Some(circle.feed) };
+        let count = Count { class: MoveClass::Milling, length: PI * circle.radius, feed: Some(circle.feed) };
         self.step(half, count, Tip { at: to, z });
     }
 

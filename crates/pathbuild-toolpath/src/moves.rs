@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use pathbuild_diagnostic::{Text, words};
 use pathbuild_motion::{Arc, Axes, Move, MoveShape, Pace, Plane, Position};
-use pathbuild_path::{Curve, Line, Way, Xy};
+use pathbuild_path::{Curve, Line, TipMove, Xy};
 
 use crate::program::{PlannedMove, Program, ProgramStep};
 
@@ -108,18 +108,18 @@ pub fn is_point(centre: Xy) -> bool {
 
 /// Whether an arc of this length in mm is so short, or so close to a full turn, that three decimals may change it.
 pub fn is_doubtful(centre: Xy, length: f64) -> bool {
-    length < DOUBTFUL || length > TAU * centre.coords.norm() - DOUBTFUL
+    length < DOUBTFUL_ARC_LENGTH || length > TAU * centre.coords.norm() - DOUBTFUL_ARC_LENGTH
 }
 
 /// Unit of the last printed digit, in mm.
 pub const LAST_DIGIT: f64 = 0.001;
 
 /// Several times the distance in mm by which rounding moves an end along the arc.
-const DOUBTFUL: f64 = 10.0 * LAST_DIGIT;
+const DOUBTFUL_ARC_LENGTH: f64 = 10.0 * LAST_DIGIT;
 
-/// The [`Way`] of a move, as far as it is known. If only the end of the move is known, a way without length at that point; `None` if even
+/// The [`TipMove`] of a move, as far as it is known. If only the end of the move is known, a way without length at that point; `None` if even
 /// the end is unknown.
-pub fn way(movement: &Move) -> Option<Way> {
+pub fn way(movement: &Move) -> Option<TipMove> {
     let [from, to] = [movement.from, movement.to].map(|end| Xy::new(end.x(), end.y()));
     if !movement.to.known.has(Axes::ALL) {
         return None;
@@ -127,15 +127,15 @@ pub fn way(movement: &Move) -> Option<Way> {
     let to_z = movement.to.z();
     let from_z = if movement.from.known.has(Axes::Z) { movement.from.z() } else { to_z };
     if !movement.from.known.has(Axes::XY) {
-        return Some(Way { curve: Curve::Line(Line { start: to, end: to }), from_z, to_z });
+        return Some(TipMove { curve: Curve::Line(Line { start: to, end: to }), from_z, to_z });
     }
     let straight = Curve::Line(Line { start: from, end: to });
-    let Some(course) = movement.course() else { return Some(Way { curve: straight, from_z, to_z }) };
+    let Some(course) = movement.course() else { return Some(TipMove { curve: straight, from_z, to_z }) };
     let (arc, radius) = (course.arc(), course.radius());
     if arc.plane != Plane::Xy {
         // Seen from above the arc is a straight line. Use its lowest point for all of it.
         let lowest = from_z.min(to_z).min(arc.centre[1] - radius).min(arc.centre[0] - radius);
-        return Some(Way { curve: straight, from_z: lowest, to_z: lowest });
+        return Some(TipMove { curve: straight, from_z: lowest, to_z: lowest });
     }
     let degrees = course.sweep().to_degrees().min(360.0);
     let (centre, clockwise) = (Xy::new(arc.centre[0], arc.centre[1]), arc.clockwise);
@@ -143,7 +143,7 @@ pub fn way(movement: &Move) -> Option<Way> {
     let lowest = from_z.min(to_z);
     // An arc with several turns reaches each point at several heights.
     let (from_z, to_z) = if arc.extra_turns > 0 { (lowest, lowest) } else { (from_z, to_z) };
-    Some(Way { curve, from_z, to_z })
+    Some(TipMove { curve, from_z, to_z })
 }
 
 /// The name of a move in findings about clamps.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use pathbuild_path::{
     Bars, Curve, Cut, CutElement, EmbeddedPlace, Item, Line, PartCut, Path, PathCuts, PlacedSubpath, Role,
-    SegmentKind, Shape, StandingBar, WalkedPath, Way, Xy, approx,
+    SegmentKind, Shape, StandingBar, TipMove, WalkedPath, Xy, approx,
 };
 
 use crate::chain::last_pass;
@@ -63,7 +63,7 @@ impl CutCollector<'_> {
     /// Adds those sections of an element that lie in the material. `supported`: its whole segment, if it has bars.
     fn add(&mut self, drawn: u32, supported: Option<Curve>, sections: impl IntoIterator<Item = Section>) {
         for Section { curve, from_z, to_z } in sections {
-            let way = Way { curve, from_z, to_z };
+            let way = TipMove { curve, from_z, to_z };
             if !approx::above(self.path.thickness, way.lowest()) {
                 continue;
             }
@@ -169,10 +169,10 @@ impl BarPlace {
         let from = if is_whole(self.from, self.curve.start()) { 0.0 } else { self.from + radius };
         let to = if is_whole(length - self.to, self.curve.end()) { length } else { self.to - radius };
         let foot = self.curve.section((self.from - self.slope).max(0.0), (self.to + self.slope).min(length));
-        let middle = (to - from > SHORTEST).then(|| self.curve.section(from, to));
+        let middle = (to - from > MIN_BAR_REST).then(|| self.curve.section(from, to));
         StandingBar { middle, foot, top: self.top }
     }
 }
 
 /// Length in mm up to which what is left of a bar does not count.
-const SHORTEST: f64 = 0.01;
+const MIN_BAR_REST: f64 = 0.01;

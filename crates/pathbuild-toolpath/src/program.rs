@@ -154,7 +154,7 @@ pub struct Height {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Count {
     /// The label it is counted under.
-    pub class: Class,
+    pub class: MoveClass,
     /// Length in mm as counted by the original tool: in the plane, but for sweeps including the difference in height.
     pub length: f64,
     /// Feed in mm/min used to calculate the time; `None` is the rapid feed.
@@ -164,7 +164,7 @@ pub struct Count {
 /// The labels of the statistics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the names say it")]
-pub enum Class {
+pub enum MoveClass {
     Milling,
     Drilling,
     Sweep,
@@ -378,7 +378,7 @@ pub struct Total {
 }
 
 /// Factor by which a machine is slower than length / feed.
-const SLOWER: f64 = 1.4;
+const SLOWDOWN: f64 = 1.4;
 
 impl Statistics {
     /// The statistics that `PathDxf2GCode` writes for a program, with a rapid feed in mm/min. They use planned lengths, which can differ
@@ -392,7 +392,7 @@ impl Statistics {
         }
         let last = program.steps.iter().rev().find_map(ProgramStep::height);
         let last = last.map_or(0.0, |last| (last.z - program.start_height()).abs());
-        statistics.add(&Count { class: Class::Sweep, length: last, feed: None }, rapid);
+        statistics.add(&Count { class: MoveClass::Sweep, length: last, feed: None }, rapid);
         statistics
     }
 
@@ -404,9 +404,9 @@ impl Statistics {
 
     fn add(&mut self, count: &Count, rapid: f64) {
         let total = match count.class {
-            Class::Milling => &mut self.milling,
-            Class::Drilling => &mut self.drilling,
-            Class::Sweep => &mut self.sweeps,
+            MoveClass::Milling => &mut self.milling,
+            MoveClass::Drilling => &mut self.drilling,
+            MoveClass::Sweep => &mut self.sweeps,
         };
         total.length += count.length;
         total.time += count.length / count.feed.unwrap_or(rapid);
@@ -425,7 +425,7 @@ impl Add for Total {
 impl Total {
     /// Estimated real time in whole minutes, rounded up after discarding less than 0.0000001 s.
     pub fn minutes(&self) -> f64 {
-        let seconds = SLOWER * self.time * 60.0;
+        let seconds = SLOWDOWN * self.time * 60.0;
         ((seconds * 1e7).round() / 1e7 / 60.0).ceil()
     }
 }

@@ -29,4 +29,4 @@ mod workspace;
 pub use pathbuild_cache::Home as CacheHome;
 
 pub use inputs::{Input, Inputs};
-pub use workspace::{Advance, Failure, Reporter, SilentReporter, Workspace};
+pub use workspace::{Failure, ProgressCounter, Reporter, SilentReporter, Workspace};

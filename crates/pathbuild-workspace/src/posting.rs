@@ -13,7 +13,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::verify::{Machine, PostWords, Travel};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{
-    BUILT_IN, Job, Operation, Output, Post, PostFiles, PostOptions, Tool, ToolEntry, ToolTable,
+    BUILT_IN, Job, Operation, Output, PostDefinition, PostFiles, PostOptions, Tool, ToolEntry, ToolTable,
     TranslatedText, samples,
 };
 use regex::Regex;
@@ -27,7 +27,7 @@ use crate::workspace::Workspace;
 /// A post definition with everything that its output depends on besides the program.
 #[derive(Debug)]
 pub struct PostProcessor {
-    post: Post,
+    post: PostDefinition,
     /// Directory of the definition's files; `None` for a built-in post.
     directory: Option<Utf8PathBuf>,
     /// Text of the definition, followed by the hashes of the files that it inserts.
@@ -101,7 +101,7 @@ impl PostProcessor {
         let bytes = system
             .read(&file, limit)
             .map_err(|error| vec![error.diagnostic(limit, "file-size").in_file(&file)])?;
-        let post = Post::read(&bytes, &file)?;
+        let post = PostDefinition::read(&bytes, &file)?;
         Ok(Self::new(settings, system, (post, bytes, Some(file)), arguments))
     }
 
@@ -119,7 +119,7 @@ impl PostProcessor {
     fn new(
         settings: &Settings,
         shared_system: &Arc<dyn System>,
-        (post, definition, file): (Post, Vec<u8>, Option<Utf8PathBuf>),
+        (post, definition, file): (PostDefinition, Vec<u8>, Option<Utf8PathBuf>),
         arguments: PostArguments,
     ) -> Self {
         let (general, system) = (&settings.general, &**shared_system);
@@ -372,7 +372,7 @@ impl PostFiles for RecordedFiles<'_> {
 }
 
 /// Upper bound on the size of an inserted file in bytes.
-const LARGEST: u64 = 1 << 24;
+const MAX_INSERTED_BYTES: u64 = 1 << 24;
 
 impl PostFiles for DirectoryFiles<'_> {
     fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value> {
@@ -382,7 +382,7 @@ impl PostFiles for DirectoryFiles<'_> {
         if !file.starts_with(&base) && file.is_absolute() {
             return Err(Value::Prose(&LEADS_OUT_OF_POST));
         }
-        system.read(&file, LARGEST).map_err(|error| error.reason(LARGEST))
+        system.read(&file, MAX_INSERTED_BYTES).map_err(|error| error.reason(MAX_INSERTED_BYTES))
     }
 }
 

@@ -94,11 +94,11 @@ pub trait Reporter: Debug {
     /// A line of detail, shown only on request.
     fn detail(&self, line: &str);
     /// Starts a progress display of `total` items; it ends when the returned value is dropped.
-    fn progress(&self, total: usize) -> Box<dyn Advance>;
+    fn progress(&self, total: usize) -> Box<dyn ProgressCounter>;
 }
 
 /// Counts finished items.
-pub trait Advance: Debug + Send + Sync {
+pub trait ProgressCounter: Debug + Send + Sync {
     /// Counts one more finished item. May be called from any thread.
     fn advance(&self);
 }
@@ -112,12 +112,12 @@ impl Reporter for SilentReporter {
 
     fn detail(&self, _: &str) {}
 
-    fn progress(&self, _: usize) -> Box<dyn Advance> {
+    fn progress(&self, _: usize) -> Box<dyn ProgressCounter> {
         Box::new(Self)
     }
 }
 
-impl Advance for SilentReporter {
+impl ProgressCounter for SilentReporter {
     fn advance(&self) {}
 }
 

@@ -11,7 +11,7 @@ use std::time::SystemTime;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{OsSystem, spelt};
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_workspace::config::{self, Overrides, User, clean};
+use pathbuild_workspace::config::{self, Overrides, UserSettings, clean};
 use pathbuild_workspace::waivers::{Date, DateSource, RunDate};
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 
@@ -22,12 +22,16 @@ const EPOCH: &str = "SOURCE_DATE_EPOCH";
 const CACHE_DIR: &str = "PATHBUILD_CACHE_DIR";
 
 /// The user's own settings, with diagnostics of their file.
-pub(crate) fn user() -> (User, Vec<Diagnostic>) {
-    user_configuration().map(|file| User::load(&OsSystem, &file)).unwrap_or_default()
+pub(crate) fn user() -> (UserSettings, Vec<Diagnostic>) {
+    user_configuration().map(|file| UserSettings::load(&OsSystem, &file)).unwrap_or_default()
 }
 
 /// A workspace in the working directory for these inputs, which caches and reports nothing. Also returns diagnostics of the configuration.
-pub(crate) fn workspace(overrides: &Overrides, user: &User, inputs: &Inputs) -> (Workspace, Vec<Diagnostic>) {
+pub(crate) fn workspace(
+    overrides: &Overrides,
+    user: &UserSettings,
+    inputs: &Inputs,
+) -> (Workspace, Vec<Diagnostic>) {
     let working_directory = working_directory();
     let (settings, faults) = config::load(&OsSystem::shared(), overrides, inputs, &working_directory);
     let workspace = Workspace {

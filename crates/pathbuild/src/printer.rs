@@ -25,7 +25,7 @@ use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 use pathbuild_diagnostic::shown;
-use pathbuild_workspace::{Advance, Reporter, SilentReporter};
+use pathbuild_workspace::{ProgressCounter, Reporter, SilentReporter};
 
 use crate::exit::ExitStatus;
 use crate::render::RenderedText;
@@ -247,7 +247,7 @@ impl Reporter for Printer {
     }
 
     /// A progress bar if stderr is a terminal.
-    fn progress(&self, total: usize) -> Box<dyn Advance> {
+    fn progress(&self, total: usize) -> Box<dyn ProgressCounter> {
         if self.verbosity < Verbosity::Normal || !Stream::Stderr.is_terminal() {
             return Box::new(SilentReporter);
         }
@@ -265,7 +265,7 @@ fn write_unless(failed: &mut Option<io::Error>, mut stream: impl Write, text: &s
 // A progress bar on a terminal, for work that takes longer than half a second.
 
 /// Time after which the bar appears.
-const PATIENCE: Duration = Duration::from_millis(500);
+const BAR_DELAY: Duration = Duration::from_millis(500);
 /// Interval at which the bar is redrawn.
 const INTERVAL: Duration = Duration::from_millis(100);
 /// Width of the bar in columns.
@@ -300,7 +300,7 @@ impl Progress {
     }
 }
 
-impl Advance for Progress {
+impl ProgressCounter for Progress {
     fn advance(&self) {
         if self.drawing.is_some() {
             self.counters.done.fetch_add(1, Ordering::Relaxed);
@@ -321,7 +321,7 @@ impl Drop for Progress {
 
 impl Counters {
     fn draw(&self, mut stream: Box<dyn Write + Send>) {
-        if self.is_over_after(PATIENCE) {
+        if self.is_over_after(BAR_DELAY) {
             return;
         }
         loop {

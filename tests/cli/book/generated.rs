@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use clap::{Arg, Command};
 use pathbuild::german;
 use pathbuild_diagnostic::{Code, Lang, Severity};
-use pathbuild_path::{ElementClass, Letter, LineType, Use};
+use pathbuild_path::{ElementClass, Letter, LetterUse, LineType};
 
 use super::{Page, code, pages};
 
@@ -101,15 +101,15 @@ fn letters(lang: Lang) -> String {
     table
 }
 
-fn mark(usage: Use) -> &'static str {
+fn mark(usage: LetterUse) -> &'static str {
     match usage {
-        Use::Needed => "**!**",
-        Use::Allowed => "o",
-        Use::ChainNeeded => "**c!**",
-        Use::Chain => "c",
-        Use::Ignored => "-",
-        Use::PathOnly => "p",
-        Use::Unknown => "",
+        LetterUse::Needed => "**!**",
+        LetterUse::Allowed => "o",
+        LetterUse::ChainNeeded => "**c!**",
+        LetterUse::Chain => "c",
+        LetterUse::Ignored => "-",
+        LetterUse::PathOnly => "p",
+        LetterUse::Unknown => "",
     }
 }
 

@@ -11,7 +11,7 @@ use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_post::{BUILT_IN, Language, load};
 use pathbuild_testkit::sheet;
-use pathbuild_toolpath::{Class, Correction, Program, ProgramStep};
+use pathbuild_toolpath::{Correction, MoveClass, Program, ProgramStep};
 use pathbuild_workspace::{Inputs, config};
 use rayon::prelude::*;
 
@@ -96,7 +96,7 @@ fn of_chain(chain: &Chain, it: &Named) -> Option<String> {
 
 fn milled(program: &Program) -> f64 {
     let length = |step: &ProgramStep| match step {
-        ProgramStep::Move { count, .. } if count.class == Class::Milling => count.length,
+        ProgramStep::Move { count, .. } if count.class == MoveClass::Milling => count.length,
         _ => 0.0,
     };
     program.steps.iter().map(length).sum()

@@ -12,7 +12,7 @@ use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_gcode::dialect::{Charset, Dialect};
 use pathbuild_gcode::interpret::{Heights, Options, guess, interpret, interpret_each};
 use pathbuild_gcode::native::{self, Header, WriteOptions};
-use pathbuild_gcode::verify::{Against, Drawn, PostWords, Rules, Stock, ToolUse, coarse_arcs};
+use pathbuild_gcode::verify::{DrawingComparison, Drawn, PostWords, Rules, Stock, ToolUse, coarse_arcs};
 use pathbuild_motion::{Action, Change, Corners, Move, Pace, Position, Spindle, Step, Turning};
 use pathbuild_post::{BUILT_IN, Job, Language, PostOptions, ToolEntry, ToolTable, load, samples};
 use pathbuild_toolpath::{Correction, Program};
@@ -140,7 +140,7 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
         spin_up: 0.0,
     };
     let words = known_words();
-    let mut against = Against::new(drawn, dialect, &words[&dialect]);
+    let mut against = DrawingComparison::new(drawn, dialect, &words[&dialect]);
     found.extend(interpret_each(text.as_bytes(), dialect, &options, &mut |step| {
         rules.step(&step);
         against.step(&step);

@@ -12,7 +12,7 @@ use std::io::Write;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::verify::{Ends, Stock, Tolerance, compare, verify};
-use pathbuild_post::{BUILT_IN, Job, Language, Post, PostOptions, ToolTable, load};
+use pathbuild_post::{BUILT_IN, Job, Language, PostDefinition, PostOptions, ToolTable, load};
 use pathbuild_toolpath::Program;
 use rayon::prelude::*;
 
@@ -52,7 +52,7 @@ fn no_rule_finds_an_error() {
 }
 
 /// The fault in a post's output.
-fn fault(post: &str, definition: &Post, it: &Named) -> Option<String> {
+fn fault(post: &str, definition: &PostDefinition, it: &Named) -> Option<String> {
     let at = |reason: String| Some(format!("{}: {reason}", it.name));
     let text = match written(definition, &it.program) {
         Ok(text) => text,
@@ -68,7 +68,7 @@ fn fault(post: &str, definition: &Post, it: &Named) -> Option<String> {
     at(difference.diagnostic().text(Lang::En))
 }
 
-fn written(definition: &Post, program: &Program) -> Result<Vec<u8>, Vec<Diagnostic>> {
+fn written(definition: &PostDefinition, program: &Program) -> Result<Vec<u8>, Vec<Diagnostic>> {
     let programs = std::slice::from_ref(program);
     let (job, _) = Job::from_programs(&program.path, programs, &ToolTable::default(), false);
     // No spindle speeds are given.

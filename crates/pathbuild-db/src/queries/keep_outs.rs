@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::paths as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Number, Point, Text, words};
-use pathbuild_path::{Curve, KeepOut, KeepOutMap, Way};
+use pathbuild_path::{Curve, KeepOut, KeepOutMap, TipMove};
 use pathbuild_toolpath::{ProbeOrigin, StepOrigin, kind_of_move, way};
 use rustc_hash::FxHashSet;
 
@@ -104,7 +104,7 @@ impl Collision {
     }
 
     /// Adds a move.
-    pub fn add(&mut self, way: &Way) {
+    pub fn add(&mut self, way: &TipMove) {
         self.moves += 1;
         self.lowest = self.lowest.min(way.lowest());
     }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{
-    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PlacedCuts, Placement, Way, Xy, gouging_ways,
+    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PlacedCuts, Placement, TipMove, Xy, gouging_ways,
 };
 use pathbuild_toolpath::way;
 
@@ -285,7 +285,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
 }
 
 /// The cuts of a program, each with the occurrence of its path.
-fn milled_ways(traced: &TracedProgram) -> Vec<(u32, Way)> {
+fn milled_ways(traced: &TracedProgram) -> Vec<(u32, TipMove)> {
     let milled = traced.program.moves().filter(|(_, movement)| movement.pace.feed().is_some());
     let ways = milled.filter_map(|(step, movement)| {
         Some((traced.trace.steps.get(step as usize - 1)?.occurrence, way(&movement)?))

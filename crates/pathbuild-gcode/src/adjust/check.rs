@@ -9,7 +9,7 @@ use pathbuild_path::approx::above;
 use pathbuild_toolpath::odd_probes;
 
 use super::Inputs;
-use super::scan::{ProbeUse, Survey};
+use super::scan::{ProbeSurvey, ProbeUse};
 use super::values::{EnteredValue, ProbeLine};
 use super::values::{ProbePoint, ProbeTable, ProgramProbe};
 use crate::native::{f3, push_exact};
@@ -21,7 +21,7 @@ pub(super) type Values = BTreeMap<u32, f64>;
 pub(super) struct Check<'c, 'a> {
     pub(super) inputs: &'c Inputs<'a>,
     pub(super) table: &'c ProbeTable,
-    pub(super) survey: &'c Survey<'a>,
+    pub(super) survey: &'c ProbeSurvey<'a>,
 }
 
 /// Two positions or heights with three decimals are different if they differ by at least this.

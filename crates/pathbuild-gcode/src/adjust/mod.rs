@@ -130,7 +130,7 @@ pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>>
     let measured = |(probe, made): (&u32, &ProgramProbe)| Some((*probe, made.measured?));
     let values = stated.iter().map(measured).collect::<Option<Values>>()?;
     let mut problems = Vec::new();
-    let survey = scan::Survey::of(clean, &mut problems);
+    let survey = scan::ProbeSurvey::of(clean, &mut problems);
     let has_all = problems.is_empty() && survey.probes.keys().all(|probe| values.contains_key(probe));
     let inputs = Inputs { program: clean, values: program, log: None, max_correction: f64::INFINITY };
     has_all.then(|| adjusted(&inputs, &values).ok()).flatten().map(|adjusted| adjusted.program)
@@ -158,7 +158,7 @@ pub fn states_other_values(program: Source<'_>, values: Source<'_>) -> bool {
 pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     let mut problems = Vec::new();
     let table = ProbeTable::read(inputs.program);
-    let survey = scan::Survey::of(inputs.program, &mut problems);
+    let survey = scan::ProbeSurvey::of(inputs.program, &mut problems);
     let mut lines = values::read(inputs.values, &mut problems);
     if let Some(log) = inputs.log {
         values::fill_from_log(&mut lines, inputs.values, log, &mut problems);
@@ -178,7 +178,7 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
 
 /// Factor and amount in mm by which a height may exceed the largest correction, although no probe does: weights with three decimals need
 /// not sum to 1.
-const SLACK: (f64, f64) = (1.002, 0.002);
+const CORRECTION_SLACK: (f64, f64) = (1.002, 0.002);
 
 /// Evaluates all formulas. Everything else is preserved byte for byte.
 ///
@@ -265,7 +265,7 @@ impl Writer<'_> {
     /// Checks a correction: far outside the probes, a plane can exceed the values of all of them.
     fn check(&mut self, line: Line<'_>, spot: &Spot, correction: f64) -> Result<(), Box<Diagnostic>> {
         let limit = self.inputs.max_correction;
-        if correction.abs() > SLACK.0 * limit + SLACK.1 {
+        if correction.abs() > CORRECTION_SLACK.0 * limit + CORRECTION_SLACK.1 {
             let whole = spot.number.start..spot.formula.end;
             let problem = line.fault(&messages::HEIGHT_TOO_FAR, whole).with("off", correction.abs());
             return Err(Box::new(problem.with("limit", limit)));

@@ -45,7 +45,7 @@ impl<'a> Line<'a> {
         let span = span.start.min(content.len())..span.end.min(content.len());
         let column = u32::try_from(text(0..span.start).chars().count() + 1).unwrap_or(u32::MAX);
         // Of a very long line, only the part around the error is shown.
-        let shown = span.start.saturating_sub(AROUND)..content.len().min(span.start + AROUND);
+        let shown = span.start.saturating_sub(EXCERPT_BYTES)..content.len().min(span.start + EXCERPT_BYTES);
         let before = text(shown.start..span.start).len();
         let fault = text(span.start..span.end.min(shown.end)).len();
         Diagnostic::new(message)
@@ -56,7 +56,7 @@ impl<'a> Line<'a> {
 }
 
 /// Number of bytes shown before an error, and from its start on.
-const AROUND: usize = 500;
+const EXCERPT_BYTES: usize = 500;
 
 /// A number with its formula, as byte ranges of the line.
 #[derive(Clone, Debug)]
@@ -114,7 +114,7 @@ fn closing(line: &[u8], open: usize) -> Option<usize> {
 
 /// The probes used by the formulas of a program.
 #[derive(Debug, Default)]
-pub(super) struct Survey<'a> {
+pub(super) struct ProbeSurvey<'a> {
     pub(super) probes: BTreeMap<u32, ProbeUse<'a>>,
 }
 
@@ -128,7 +128,7 @@ pub(super) struct ProbeUse<'a> {
     pub(super) drawn: Option<(f64, f64)>,
 }
 
-impl<'a> Survey<'a> {
+impl<'a> ProbeSurvey<'a> {
     /// Checks all formulas. At most one error per line is reported.
     pub(super) fn of(program: Source<'a>, problems: &mut Vec<Diagnostic>) -> Self {
         let mut survey = Self::default();
@@ -180,7 +180,7 @@ pub(super) fn number(line: &[u8], spot: &Spot) -> Option<f64> {
 }
 
 struct ProbeReader<'s, 'a> {
-    survey: &'s mut Survey<'a>,
+    survey: &'s mut ProbeSurvey<'a>,
     line: Line<'a>,
     start: usize,
 }

@@ -128,7 +128,7 @@ fn transliterated(character: char) -> &'static str {
 
 /// Whether a control acts on a comment with this text: it opens a file, prints, hides moves or runs a program.
 pub fn is_active_comment(text: &str) -> bool {
-    beginning_of(text, OBEYED).or_else(|| beginning_of(text, SHOWN)).is_some()
+    beginning_of(text, OBEYED).or_else(|| beginning_of(text, DISPLAY_WORDS)).is_some()
 }
 
 /// The word with which a comment begins, ignoring blanks and case.
@@ -141,4 +141,4 @@ pub(crate) fn beginning_of(text: &str, words: &[&'static str]) -> Option<&'stati
 }
 
 /// Words that change what the user sees on some control: messages, and which moves a preview shows.
-const SHOWN: &[&str] = &["MSG", "DEBUG", "PRINT", "AXIS", "PREVIEW,", "STAT", "TOUCH", "PAUSE"];
+const DISPLAY_WORDS: &[&str] = &["MSG", "DEBUG", "PRINT", "AXIS", "PREVIEW,", "STAT", "TOUCH", "PAUSE"];

@@ -40,7 +40,7 @@ pub struct Rules {
     /// How the machine is referenced.
     pub reference: ReferenceRules,
     /// G codes (times ten), and P of arcs, that only builds with a special setting obey; others ignore them.
-    pub unusual: Unusual,
+    pub unusual: OptionalWords,
     /// Whether M5 and M9 take effect after the move in the same line.
     pub stops_last: bool,
     /// Whether rapid moves have the feed F like all other moves.
@@ -91,7 +91,7 @@ pub struct ReferenceRules {
 
 /// Words that a control only knows if it was built with a special setting.
 #[derive(Debug)]
-pub struct Unusual {
+pub struct OptionalWords {
     /// G codes, times ten.
     pub g: &'static [u16],
     /// Whether P, the number of turns of an arc, is one.
@@ -241,7 +241,7 @@ const BASE: Rules = Rules {
     stop_is_complete: false,
     runs_past_end: false,
     reference: ReferenceRules { g: &[], loses_zero: false },
-    unusual: Unusual { g: &[], turns: false },
+    unusual: OptionalWords { g: &[], turns: false },
     stops_last: false,
     rapids_at_feed: false,
     program_numbers: false,
@@ -463,7 +463,7 @@ pub(super) static MARLIN: Rules = Rules {
     // G28 sets the position to that of the switches, and the shift by G92 to 0 (set_axis_is_at_home).
     reference: ReferenceRules { g: &[280], loses_zero: true },
     // Configuration_adv.h: `//#define INCH_MODE_SUPPORT`, `//#define CNC_WORKSPACE_PLANES`, `//#define ARC_P_CIRCLES`.
-    unusual: Unusual { g: &[180, 190, 200], turns: true },
+    unusual: OptionalWords { g: &[180, 190, 200], turns: true },
     arcs: ArcRules { axis_word: false, turns: true, ..BASE.arcs },
     start_motion: StartMotion::None,
     motion_is_stated: true,

@@ -211,12 +211,12 @@ pub(super) struct BlockWords {
     pub(super) commands: Vec<(Command, u16, Span)>,
     pub(super) m_codes: Vec<(u16, Span)>,
     pub(super) values: Values,
-    pub(super) settings: Vec<(Setting, f64)>,
+    pub(super) settings: Vec<(AssignedParameter, f64)>,
 }
 
 /// A parameter set by the block. It takes effect after everything in the block has been read.
 #[derive(Debug)]
-pub(super) enum Setting {
+pub(super) enum AssignedParameter {
     Numbered(u32),
     Named(Box<str>),
 }

@@ -4,7 +4,7 @@
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{
-    Action, Arc, Axes, Change, Group, Move, MoveShape, Named, Pace, Plane, Position, WorkSystem,
+    Action, Arc, Axes, Change, Group, Move, MoveShape, NamedPosition, Pace, Plane, Position, WorkSystem,
 };
 
 use super::codes::{self, Command, Motion, Origin};
@@ -168,7 +168,7 @@ impl Interpreter<'_> {
         let coordinates = self.words.values.take_coordinates();
         let to = if is_machine { self.machine_target(block, coordinates) } else { self.target(coordinates) };
         let from = self.state.position;
-        let named = is_machine.then(|| Named::Machine(given_axes(&coordinates)));
+        let named = is_machine.then(|| NamedPosition::Machine(given_axes(&coordinates)));
         let mut movement = Move { from, to, shape: MoveShape::Line, pace, named };
         movement.pace = match pace {
             Pace::Rapid => {
@@ -305,7 +305,7 @@ impl Interpreter<'_> {
         if to.known != Axes::ALL {
             self.state.lost = Some((block.line, code));
         }
-        let named = Some(if which == 0 { Named::Home1(axes) } else { Named::Home2(axes) });
+        let named = Some(if which == 0 { NamedPosition::Home1(axes) } else { NamedPosition::Home2(axes) });
         self.emit_move(block, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named });
     }
 
@@ -334,7 +334,7 @@ impl Interpreter<'_> {
         if self.state.has_cut && self.rules.reference.loses_zero {
             self.state.referenced = Some((block.line, code));
         }
-        let named = Some(Named::Home1(axes));
+        let named = Some(NamedPosition::Home1(axes));
         self.emit_move(block, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named });
     }
 

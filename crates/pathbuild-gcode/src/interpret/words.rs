@@ -6,7 +6,7 @@ use pathbuild_motion::{Action, Group, StatedWord, WordEffect};
 
 use super::codes::{self, Command, Motion};
 use super::evaluate::{Scope, name_of, parameter_number};
-use super::execute::{Interpreter, Setting, Slot, ValueFault, limits};
+use super::execute::{AssignedParameter, Interpreter, Slot, ValueFault, limits};
 use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
 use crate::read::{At, Block, Span, Target, Value, Word};
 
@@ -43,9 +43,9 @@ impl Interpreter<'_> {
                 Target::Numbered(code) => {
                     let (number, _) = self.value(block, Value::Expression(code), setting.span)?;
                     let number = parameter_number(number, self.most_parameters());
-                    Setting::Numbered(number.map_err(|fault| (fault, setting.span))?)
+                    AssignedParameter::Numbered(number.map_err(|fault| (fault, setting.span))?)
                 }
-                Target::Named(name) => Setting::Named(name_of(block, name)),
+                Target::Named(name) => AssignedParameter::Named(name_of(block, name)),
             };
             self.words.settings.push((target, value));
         }
@@ -241,8 +241,8 @@ impl Interpreter<'_> {
     pub(super) fn set_parameters(&mut self) {
         for (target, value) in self.words.settings.drain(..) {
             match target {
-                Setting::Numbered(number) => self.parameters.set(number, value),
-                Setting::Named(name) => self.parameters.set_named(name, value),
+                AssignedParameter::Numbered(number) => self.parameters.set(number, value),
+                AssignedParameter::Named(name) => self.parameters.set_named(name, value),
             }
         }
     }

@@ -149,7 +149,7 @@ pub(super) struct Formulas<'a> {
 }
 
 /// Weights below this are written as zero.
-const NOTHING: f64 = 0.000_000_5;
+const ZERO_WEIGHT: f64 = 0.000_000_5;
 
 impl<'a> Formulas<'a> {
     /// Returns `None` for a program without probes.
@@ -167,7 +167,7 @@ impl<'a> Formulas<'a> {
         text.push_str("(=");
         self.push_number(text, height.z);
         for (probe, weight) in self.surface.weights(height.at) {
-            if !self.is_rounded && weight.abs() < NOTHING {
+            if !self.is_rounded && weight.abs() < ZERO_WEIGHT {
                 continue;
             }
             text.push(if weight < 0.0 { '-' } else { '+' });
@@ -193,7 +193,7 @@ impl<'a> Formulas<'a> {
         let mut is_used = vec![false; self.probes.len()];
         for height in steps.iter().filter_map(ProgramStep::height) {
             for (probe, weight) in self.surface.weights(height.at) {
-                is_used[probe] |= self.is_rounded || weight.abs() >= NOTHING;
+                is_used[probe] |= self.is_rounded || weight.abs() >= ZERO_WEIGHT;
             }
         }
         (0..is_used.len()).filter(|probe| !is_used[*probe]).collect()

@@ -56,7 +56,7 @@ fn is_broken(problem: &Diagnostic) -> bool {
 /// Whether the text of a program, given in parts of whole lines, contains exactly the moves of the program. If not, [`read_back`] may still
 /// find them equivalent.
 pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: &Program) -> bool {
-    let mut abreast = Abreast::new(program.moves(), Tolerance::of_decimals(DECIMALS));
+    let mut abreast = LockstepComparison::new(program.moves(), Tolerance::of_decimals(DECIMALS));
     let mut rules = Rules::new(None);
     let mut each = |step: motion::Step| {
         rules.step(&step);
@@ -86,14 +86,14 @@ pub fn read_probing_back(text: &str, probes: &[ProbePoint]) -> Result<(), Box<Di
 
 /// Compares the moves found with those expected, one by one. Nearly all programs are as expected, and building both lists for comparison
 /// takes as long as reading the program.
-struct Abreast<E> {
+struct LockstepComparison<E> {
     expected: E,
     tolerance: Tolerance,
     has_begun: bool,
     is_same: bool,
 }
 
-impl<E: Iterator<Item = (u32, motion::Move)>> Abreast<E> {
+impl<E: Iterator<Item = (u32, motion::Move)>> LockstepComparison<E> {
     fn new(expected: E, tolerance: Tolerance) -> Self {
         Self { expected, tolerance, has_begun: false, is_same: true }
     }

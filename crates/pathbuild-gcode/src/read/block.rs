@@ -57,7 +57,7 @@ pub struct Word {
 /// `#5=...` or `#<name>=...`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
-pub struct Setting {
+pub struct Assignment {
     pub target: Target,
     pub value: Value,
     pub span: Span,
@@ -159,7 +159,7 @@ pub struct Block<'a> {
     /// Words in the order of the text.
     pub words: &'a [Word],
     /// Settings in the order of the text. They take effect after all values of the line have been read.
-    pub settings: &'a [Setting],
+    pub settings: &'a [Assignment],
     /// Comments in the order of the text.
     pub comments: &'a [Comment],
     /// Formulas in the order of the text.
@@ -268,7 +268,7 @@ pub enum Binary {
 }
 
 /// Maximum number of bytes of a line shown on either side of an error.
-const SHOWN: usize = 160;
+const EXCERPT_BYTES: usize = 160;
 
 /// Decodes UTF-8, or else Windows-1252.
 pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
@@ -287,7 +287,7 @@ pub(crate) fn column(line: &[u8], byte: usize) -> u32 {
 /// The line with its faulty part marked. Of a long line only the surroundings are kept.
 pub(crate) fn fault(line: &[u8], span: Span) -> TextFault {
     let start = (span.start as usize).min(line.len());
-    let end = (span.end as usize).clamp(start, line.len()).min(start + SHOWN);
+    let end = (span.end as usize).clamp(start, line.len()).min(start + EXCERPT_BYTES);
     let before = shown_before(&line[..start]);
     let marked = decode(&line[start..end]);
     let after = shown_after(&line[end..]);
@@ -295,18 +295,20 @@ pub(crate) fn fault(line: &[u8], span: Span) -> TextFault {
 }
 
 fn shown_before(bytes: &[u8]) -> Cow<'_, str> {
-    if bytes.len() <= SHOWN {
+    if bytes.len() <= EXCERPT_BYTES {
         return decode(bytes);
     }
-    let cut = (bytes.len() - SHOWN..bytes.len()).find(|&at| bytes[at] & 0xC0 != 0x80).unwrap_or(bytes.len());
+    let cut = (bytes.len() - EXCERPT_BYTES..bytes.len())
+        .find(|&at| bytes[at] & 0xC0 != 0x80)
+        .unwrap_or(bytes.len());
     format!("...{}", decode(&bytes[cut..])).into()
 }
 
 fn shown_after(bytes: &[u8]) -> Cow<'_, str> {
-    if bytes.len() <= SHOWN {
+    if bytes.len() <= EXCERPT_BYTES {
         return decode(bytes);
     }
-    let cut = (0..SHOWN).rev().find(|&at| bytes[at] & 0xC0 != 0x80).unwrap_or(0);
+    let cut = (0..EXCERPT_BYTES).rev().find(|&at| bytes[at] & 0xC0 != 0x80).unwrap_or(0);
     format!("{}...", decode(&bytes[..cut])).into()
 }
 

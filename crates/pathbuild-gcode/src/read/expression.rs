@@ -4,12 +4,12 @@
 use pathbuild_diagnostic::messages::gcode as say;
 
 use super::block::{Binary, Code, Function, Op, Span};
-use super::line::{Broken, Line};
+use super::line::{Line, UnreadableLine};
 use super::number;
 use crate::dialect::Operators;
 
 /// Maximum nesting depth of brackets, functions and `#`. (LinuxCNC's own limit is well below 50.)
-const DEEPEST: u8 = 40;
+const MAX_NESTING: u8 = 40;
 
 const FUNCTIONS: [(&[u8], Function); 12] = [
     (b"ABS", Function::Abs),
@@ -85,14 +85,14 @@ impl Syntax {
 
 impl Line<'_> {
     /// Compiles a value: a number, a parameter, a function or a bracketed expression.
-    pub(super) fn compiled_value(&mut self, syntax: Syntax) -> Result<Code, Broken> {
+    pub(super) fn compiled_value(&mut self, syntax: Syntax) -> Result<Code, UnreadableLine> {
         let first = self.out.code.len();
         self.value(syntax, 0)?;
         Ok(self.code_since(first))
     }
 
     /// Compiles operators and operands up to a closing bracket, which is not consumed.
-    pub(super) fn compiled_expression(&mut self, syntax: Syntax) -> Result<Code, Broken> {
+    pub(super) fn compiled_expression(&mut self, syntax: Syntax) -> Result<Code, UnreadableLine> {
         let first = self.out.code.len();
         self.expression(syntax, 0, 0)?;
         Ok(self.code_since(first))
@@ -103,7 +103,7 @@ impl Line<'_> {
         Code { first: span.start, end: span.end }
     }
 
-    fn expression(&mut self, syntax: Syntax, loosest: u8, depth: u8) -> Result<(), Broken> {
+    fn expression(&mut self, syntax: Syntax, loosest: u8, depth: u8) -> Result<(), UnreadableLine> {
         self.value(syntax, depth)?;
         while let Some((operator, level, length)) = self.operator(syntax) {
             if level < loosest {
@@ -134,11 +134,11 @@ impl Line<'_> {
         Some((operator, syntax.level(operator)?, length))
     }
 
-    fn value(&mut self, syntax: Syntax, depth: u8) -> Result<(), Broken> {
+    fn value(&mut self, syntax: Syntax, depth: u8) -> Result<(), UnreadableLine> {
         self.skip_blanks();
-        if depth > DEEPEST {
+        if depth > MAX_NESTING {
             return Err(
-                self.fault(&say::NESTED_TOO_DEEPLY, self.here(), |d| d.with("most", u64::from(DEEPEST)))
+                self.fault(&say::NESTED_TOO_DEEPLY, self.here(), |d| d.with("most", u64::from(MAX_NESTING)))
             );
         }
         match self.peek() {
@@ -169,7 +169,7 @@ impl Line<'_> {
         after.is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.')
     }
 
-    fn bracketed(&mut self, syntax: Syntax, depth: u8) -> Result<(), Broken> {
+    fn bracketed(&mut self, syntax: Syntax, depth: u8) -> Result<(), UnreadableLine> {
         let Some(closing) = self.peek().and_then(|opening| syntax.closing(opening)) else {
             return Err(self.bracket_expected(b'['));
         };
@@ -179,7 +179,7 @@ impl Line<'_> {
     }
 
     /// Consumes the bracket that ends an expression.
-    pub(super) fn closing_bracket(&mut self, closing: u8) -> Result<(), Broken> {
+    pub(super) fn closing_bracket(&mut self, closing: u8) -> Result<(), UnreadableLine> {
         self.skip_blanks();
         if self.peek() == Some(closing) {
             self.at += 1;
@@ -190,11 +190,11 @@ impl Line<'_> {
         }))
     }
 
-    fn bracket_expected(&mut self, bracket: u8) -> Broken {
+    fn bracket_expected(&mut self, bracket: u8) -> UnreadableLine {
         self.fault(&say::BRACKET_EXPECTED, self.here(), |d| d.with("bracket", char::from(bracket)))
     }
 
-    fn parameter(&mut self, syntax: Syntax, depth: u8) -> Result<(), Broken> {
+    fn parameter(&mut self, syntax: Syntax, depth: u8) -> Result<(), UnreadableLine> {
         self.at += 1;
         self.skip_blanks();
         if syntax.names() && self.peek() == Some(b'<') {
@@ -208,7 +208,7 @@ impl Line<'_> {
     }
 
     /// Reads `<name>`.
-    pub(super) fn name(&mut self) -> Result<Span, Broken> {
+    pub(super) fn name(&mut self) -> Result<Span, UnreadableLine> {
         let start = self.at + 1;
         let Some(length) = self.bytes[start..].iter().position(|byte| *byte == b'>') else {
             return Err(self.bracket_expected(b'>'));
@@ -217,7 +217,7 @@ impl Line<'_> {
         Ok(Span::new(start, start + length))
     }
 
-    fn function(&mut self, syntax: Syntax, depth: u8) -> Result<(), Broken> {
+    fn function(&mut self, syntax: Syntax, depth: u8) -> Result<(), UnreadableLine> {
         let rest = &self.bytes[self.at..];
         if begins_with(rest, b"ATAN") {
             return self.atan(syntax, depth);
@@ -236,7 +236,7 @@ impl Line<'_> {
         Ok(())
     }
 
-    fn atan(&mut self, syntax: Syntax, depth: u8) -> Result<(), Broken> {
+    fn atan(&mut self, syntax: Syntax, depth: u8) -> Result<(), UnreadableLine> {
         self.at += b"ATAN".len();
         self.skip_blanks();
         self.bracketed(syntax, depth)?;
@@ -251,7 +251,7 @@ impl Line<'_> {
         Ok(())
     }
 
-    fn exists(&mut self) -> Result<(), Broken> {
+    fn exists(&mut self) -> Result<(), UnreadableLine> {
         self.at += b"EXISTS".len();
         for expected in *b"[#<" {
             self.skip_blanks();

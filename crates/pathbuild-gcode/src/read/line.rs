@@ -4,14 +4,14 @@ use memchr::memchr;
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message};
 
-use super::block::{Code, Comment, Formula, Number, OWord, Op, Setting, Span, Value, Word, decode};
+use super::block::{Assignment, Code, Comment, Formula, Number, OWord, Op, Span, Value, Word, decode};
 use super::number;
 use super::problems::{At, Problems};
 use crate::dialect::{Rules, Slash, Spelling};
 
 /// The line cannot be read, for a reason that has been reported.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Broken;
+pub(super) struct UnreadableLine;
 
 /// The parts of the current line. They are reused for the next line to avoid allocations.
 #[derive(Debug, Default)]
@@ -19,7 +19,7 @@ pub(super) struct Parts {
     pub(super) number: Option<Number>,
     pub(super) optional: bool,
     pub(super) words: Vec<Word>,
-    pub(super) settings: Vec<Setting>,
+    pub(super) settings: Vec<Assignment>,
     pub(super) comments: Vec<Comment>,
     pub(super) formulas: Vec<Formula>,
     pub(super) o_word: Option<OWord>,
@@ -79,7 +79,7 @@ pub(super) struct Line<'l> {
 
 impl Line<'_> {
     /// Reads the rest of the line.
-    pub(super) fn read(&mut self) -> Result<(), Broken> {
+    pub(super) fn read(&mut self) -> Result<(), UnreadableLine> {
         self.block_delete();
         loop {
             self.at = plain_words(self.bytes, self.at, &mut self.out.words);
@@ -130,9 +130,9 @@ impl Line<'_> {
         message: &'static Message,
         span: Span,
         values: impl FnOnce(Diagnostic) -> Diagnostic,
-    ) -> Broken {
+    ) -> UnreadableLine {
         self.report(message, span, values);
-        Broken
+        UnreadableLine
     }
 
     pub(super) fn report(
@@ -147,7 +147,7 @@ impl Line<'_> {
     }
 
     /// Reads a checksum that a host appended to a line for Marlin, as in `N5 G1 X2*98`: it is the exclusive or of all bytes before `*` and extends to the end of the line or to a comment.
-    pub(super) fn checksum(&mut self) -> Result<(), Broken> {
+    pub(super) fn checksum(&mut self) -> Result<(), UnreadableLine> {
         let star = self.at;
         let rest = &self.bytes[star + 1..];
         let length = memchr(b';', rest).unwrap_or(rest.len());
@@ -179,7 +179,7 @@ impl Line<'_> {
     }
 
     /// Reports a lower-case letter if the control only reads upper case, but reads its word nevertheless.
-    fn small_letter(&mut self, letter: u8) -> Result<(), Broken> {
+    fn small_letter(&mut self, letter: u8) -> Result<(), UnreadableLine> {
         let letter = letter.to_ascii_uppercase();
         self.report(&say::SMALL_LETTER, self.here(), |d| d.with("letter", char::from(letter)));
         self.word(letter)
@@ -200,7 +200,7 @@ impl Line<'_> {
         self.at += 1;
     }
 
-    pub(super) fn unknown_character(&mut self) -> Result<(), Broken> {
+    pub(super) fn unknown_character(&mut self) -> Result<(), UnreadableLine> {
         let span = self.here();
         let found = decode(&self.bytes[span.range()]).into_owned();
         if !self.rules.words.lenient {

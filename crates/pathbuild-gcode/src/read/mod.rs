@@ -12,7 +12,7 @@ mod reader;
 mod word;
 
 pub use block::{
-    Binary, Block, Code, Comment, CommentStyle, Formula, Function, Number, OWord, OWordKind, Op, Setting,
+    Assignment, Binary, Block, Code, Comment, CommentStyle, Formula, Function, Number, OWord, OWordKind, Op,
     Span, Target, Value, Word, quote,
 };
 pub use problems::{At, Problems};

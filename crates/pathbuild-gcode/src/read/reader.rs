@@ -261,7 +261,7 @@ impl<'t> BlockReader<'t> {
         true
     }
 
-    fn words_of(&mut self, line: &[u8], start: usize) -> Result<(), super::line::Broken> {
+    fn words_of(&mut self, line: &[u8], start: usize) -> Result<(), super::line::UnreadableLine> {
         Line {
             bytes: line,
             at: start,

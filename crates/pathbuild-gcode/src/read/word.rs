@@ -4,16 +4,16 @@ use memchr::{memchr, memchr2};
 use pathbuild_diagnostic::messages::gcode as say;
 
 use super::block::{
-    Binary, Code, Comment, CommentStyle, Formula, Number, OWord, OWordKind, Op, Setting, Span, Target, Value,
-    Word, decode,
+    Assignment, Binary, Code, Comment, CommentStyle, Formula, Number, OWord, OWordKind, Op, Span, Target,
+    Value, Word, decode,
 };
 use super::expression::Syntax;
-use super::line::{Broken, Line, Parts};
+use super::line::{Line, Parts, UnreadableLine};
 use super::number::{self, Oddity};
 use crate::dialect::{Blanks, Grammar, Spelling, Style};
 
 impl Line<'_> {
-    pub(super) fn word(&mut self, letter: u8) -> Result<(), Broken> {
+    pub(super) fn word(&mut self, letter: u8) -> Result<(), UnreadableLine> {
         let start = self.at;
         if letter == b'O' && self.spelling().grammar.as_ref().is_some_and(|grammar| grammar.o_words) {
             return self.o_word();
@@ -55,7 +55,7 @@ impl Line<'_> {
                 .is_some_and(|byte| matches!(byte, b'#' | b'[') || byte.is_ascii_alphabetic())
     }
 
-    fn value_of_word(&mut self, start: usize, letter: u8) -> Result<Value, Broken> {
+    fn value_of_word(&mut self, start: usize, letter: u8) -> Result<Value, UnreadableLine> {
         let syntax = match self.spelling().grammar.as_ref() {
             Some(grammar) if !self.letter_follows_without_bracket() => syntax_of(grammar),
             None if matches!(self.peek(), Some(b'#' | b'[')) => return Err(self.no_expressions(start)),
@@ -70,17 +70,17 @@ impl Line<'_> {
         letters == 1
     }
 
-    fn word_without_number(&mut self, start: usize, letter: u8) -> Broken {
+    fn word_without_number(&mut self, start: usize, letter: u8) -> UnreadableLine {
         let span = Span::new(start, start + 1);
         self.fault(&say::WORD_WITHOUT_NUMBER, span, |d| d.with("letter", char::from(letter)))
     }
 
-    fn no_expressions(&mut self, start: usize) -> Broken {
+    fn no_expressions(&mut self, start: usize) -> UnreadableLine {
         self.fault(&say::UNKNOWN_EXPRESSION, Span::new(start, self.bytes.len()), |d| d)
     }
 
     /// Reads a number and reports unusual features of its notation.
-    pub(super) fn number(&mut self) -> Result<Number, Broken> {
+    pub(super) fn number(&mut self) -> Result<Number, UnreadableLine> {
         let start = self.at;
         if let Some((number, end)) = number::plain(self.bytes, start) {
             self.at = end;
@@ -116,7 +116,7 @@ impl Line<'_> {
         self.report(message, span, |d| d.quoting("letter", letter).quoting("number", number));
     }
 
-    fn block_number(&mut self, value: Value, span: Span) -> Result<(), Broken> {
+    fn block_number(&mut self, value: Value, span: Span) -> Result<(), UnreadableLine> {
         let most = self.spelling().block_numbers.unwrap_or(u32::MAX);
         let fits = |number: &Number| {
             let whole = number.decimals == 0 || self.spelling().fractional_block_numbers;
@@ -137,7 +137,7 @@ impl Line<'_> {
     }
 
     /// Reads a number without a letter, which is the tool after M6 in some dialects and an error otherwise.
-    pub(super) fn bare_number(&mut self) -> Result<(), Broken> {
+    pub(super) fn bare_number(&mut self) -> Result<(), UnreadableLine> {
         let start = self.at;
         let follows_tool_change = self.out.words.last().is_some_and(|word| {
             word.letter == b'M' && matches!(word.value, Value::Number(Number { value, .. }) if value == 6.0)
@@ -155,7 +155,7 @@ impl Line<'_> {
         }))
     }
 
-    pub(super) fn setting(&mut self) -> Result<(), Broken> {
+    pub(super) fn setting(&mut self) -> Result<(), UnreadableLine> {
         let start = self.at;
         let Some(grammar) = self.spelling().grammar.as_ref() else { return Err(self.no_expressions(start)) };
         let syntax = syntax_of(grammar);
@@ -172,7 +172,7 @@ impl Line<'_> {
         }
         self.at += 1;
         let value = Value::Expression(self.compiled_value(syntax)?);
-        self.out.settings.push(Setting { target, value, span: Span::new(start, self.at) });
+        self.out.settings.push(Assignment { target, value, span: Span::new(start, self.at) });
         Ok(())
     }
 }
@@ -198,7 +198,7 @@ const O_WORDS: [(&[u8], OWordKind); 15] = [
 
 impl Line<'_> {
     /// Reads `o100 call [1] [2]`. Of an O word that is not followed, the rest of the line is passed over.
-    fn o_word(&mut self) -> Result<(), Broken> {
+    fn o_word(&mut self) -> Result<(), UnreadableLine> {
         let start = self.at;
         self.at += 1;
         self.skip_blanks();
@@ -226,7 +226,7 @@ impl Line<'_> {
         Span::new(start, self.at)
     }
 
-    fn arguments(&mut self, syntax: Syntax) -> Result<(), Broken> {
+    fn arguments(&mut self, syntax: Syntax) -> Result<(), UnreadableLine> {
         loop {
             let end = self.at;
             self.skip_blanks();
@@ -245,7 +245,7 @@ fn syntax_of(grammar: &Grammar) -> Syntax {
 }
 
 impl Line<'_> {
-    pub(super) fn round_comment(&mut self) -> Result<(), Broken> {
+    pub(super) fn round_comment(&mut self) -> Result<(), UnreadableLine> {
         let start = self.at;
         if self.spelling().formulas && self.bytes.get(start + 1) == Some(&b'=') && self.word_ends_at(start) {
             return self.formula();
@@ -272,7 +272,7 @@ impl Line<'_> {
         })
     }
 
-    fn formula(&mut self) -> Result<(), Broken> {
+    fn formula(&mut self) -> Result<(), UnreadableLine> {
         let start = self.at;
         let applied = self.bytes.get(start + 2) == Some(&b'=');
         self.at += if applied { 3 } else { 2 };
@@ -283,7 +283,7 @@ impl Line<'_> {
         Ok(())
     }
 
-    pub(super) fn comment_to_end(&mut self, byte: u8) -> Result<(), Broken> {
+    pub(super) fn comment_to_end(&mut self, byte: u8) -> Result<(), UnreadableLine> {
         let spelling = self.spelling();
         let (style, usual, sign) = match byte {
             b';' => (CommentStyle::Semicolon, spelling.semicolon_comments, ";"),
@@ -327,7 +327,7 @@ impl Line<'_> {
         self.at += length;
     }
 
-    fn check_comment(&mut self, style: Style, sign: &'static str, span: Span) -> Result<(), Broken> {
+    fn check_comment(&mut self, style: Style, sign: &'static str, span: Span) -> Result<(), UnreadableLine> {
         match style {
             Style::Usual => Ok(()),
             Style::Doubtful => {

@@ -28,7 +28,7 @@ pub struct LengthRules<'c> {
     /// Tools that have cut with the H of another number.
     of_entries: Vec<OtherEntry>,
     /// The tools that have cut with their own length.
-    fitting: BTreeSet<u32>,
+    tools_with_own_length: BTreeSet<u32>,
     /// Whether the current tool and length have been judged.
     is_judged: bool,
     /// Whether M6 has inserted a tool.
@@ -66,7 +66,7 @@ impl<'c> LengthRules<'c> {
             first: None,
             bare: None,
             of_entries: Vec::new(),
-            fitting: BTreeSet::new(),
+            tools_with_own_length: BTreeSet::new(),
             is_judged: false,
             has_changed: false,
             waiting: None,
@@ -150,7 +150,7 @@ impl<'c> LengthRules<'c> {
                     self.of_entries.push(OtherEntry { line: set, tool, entry });
                 }
             }
-            (LengthFit::Fits, Some(tool), _) => _ = self.fitting.insert(tool),
+            (LengthFit::Fits, Some(tool), _) => _ = self.tools_with_own_length.insert(tool),
             _ => {}
         }
     }
@@ -166,7 +166,7 @@ impl<'c> LengthRules<'c> {
         }
         for OtherEntry { line, tool, entry } in std::mem::take(&mut self.of_entries) {
             // Some shops number H independently of T, but then no other tool cuts with this H.
-            let is_taken = self.fitting.contains(&entry);
+            let is_taken = self.tools_with_own_length.contains(&entry);
             let (message, severity) = if is_taken {
                 (&say::LENGTH_OF_OTHER_TOOL, Severity::Error)
             } else {

@@ -35,7 +35,7 @@ const AXES: [char; 3] = ['X', 'Y', 'Z'];
 #[derive(Debug)]
 pub struct MachineRules<'m> {
     machine: &'m Machine,
-    reach: Reach,
+    reach: ReportedExtent,
     last_feed: Option<f64>,
     last_speed: Option<f64>,
     problems: Problems,
@@ -46,7 +46,7 @@ impl<'m> MachineRules<'m> {
     pub fn new(machine: &'m Machine) -> Self {
         Self {
             machine,
-            reach: Reach::default(),
+            reach: ReportedExtent::default(),
             last_feed: None,
             last_speed: None,
             problems: Problems::default(),
@@ -109,12 +109,12 @@ impl<'m> MachineRules<'m> {
 
 /// The extent of the moves before, and the ends of axes that have been reported as exceeded.
 #[derive(Debug, Default)]
-struct Reach {
+struct ReportedExtent {
     extent: [Option<(f64, f64)>; 3],
     said: [[bool; 2]; 3],
 }
 
-impl Reach {
+impl ReportedExtent {
     fn check(&mut self, line: u32, movement: &Move, travel: &Travel, problems: &mut Problems) {
         for (axis, extent) in movement.extent().into_iter().enumerate() {
             let Some((low, high)) = extent else { continue };

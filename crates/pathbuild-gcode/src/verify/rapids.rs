@@ -47,13 +47,13 @@ pub fn rapids_into_material(drawn: &toolpath::Program) -> Vec<Diagnostic> {
     }
     let places = (suspects.len() <= MOST_SUSPECTS).then(|| suspects.iter().map(sides).collect());
     let mut problems = Problems::default();
-    material::check(&Near { drawn, places, reach: 2.0 * stock.widest() }, &stock, &mut problems);
+    material::check(&NearbyMoves { drawn, places, reach: 2.0 * stock.widest() }, &stock, &mut problems);
     problems.into_diagnostics()
 }
 
 /// The rapid moves for which the preceding cuts have not made room.
 fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
-    let tops = LazyCell::new(|| Tops::of(drawn, stock));
+    let tops = LazyCell::new(|| CutGrid::of(drawn, stock));
     let mut recent: VecDeque<(u32, Move)> = VecDeque::with_capacity(MOST_CUTS);
     let (mut excursions, mut found) = (Excursions::default(), Vec::new());
     for (line, movement) in drawn.moves() {
@@ -87,7 +87,7 @@ fn low_at<'s>(
     line: u32,
     movement: &Move,
     stock: &'s Stock,
-    tops: &LazyCell<Tops, impl FnOnce() -> Tops>,
+    tops: &LazyCell<CutGrid, impl FnOnce() -> CutGrid>,
 ) -> Option<(&'s StockSpan, f64)> {
     let low = movement.from.z().min(movement.to.z()) + RESIDUE;
     let goes_up = movement.keeps_xy() && movement.to.z() >= movement.from.z();
@@ -117,14 +117,16 @@ fn is_in_circle(movement: &Move, cutter: f64, recent: &VecDeque<(u32, Move)>) ->
         MoveShape::Line => None,
     };
     let turned: f64 = recent.iter().rev().map_while(angle).sum();
-    turned >= TAU - EXACT && radius <= cutter / 2.0 + EXACT && from_centre(&movement.to) <= radius + EXACT
+    turned >= TAU - TOLERANCE
+        && radius <= cutter / 2.0 + TOLERANCE
+        && from_centre(&movement.to) <= radius + TOLERANCE
 }
 
 /// Positions in mm and angles that differ by less than this are equal.
-const EXACT: f64 = 1e-6;
+const TOLERANCE: f64 = 1e-6;
 
 fn is_same(one: f64, other: f64) -> bool {
-    libm::fabs(one - other) < EXACT
+    libm::fabs(one - other) < TOLERANCE
 }
 
 /// The program of a drawing as steps.
@@ -140,7 +142,7 @@ impl Program for Moves<'_> {
 type Sides = [(f64, f64); 2];
 
 /// The moves that affect the material at some positions; all others are irrelevant there.
-struct Near<'d> {
+struct NearbyMoves<'d> {
     drawn: &'d toolpath::Program,
     /// `None` means everywhere.
     places: Option<Vec<Sides>>,
@@ -148,7 +150,7 @@ struct Near<'d> {
     reach: f64,
 }
 
-impl Near<'_> {
+impl NearbyMoves<'_> {
     fn is_near(&self, movement: &Move) -> bool {
         let own = sides(movement).map(|(low, high)| (low - self.reach, high + self.reach));
         let meets =
@@ -157,7 +159,7 @@ impl Near<'_> {
     }
 }
 
-impl Program for Near<'_> {
+impl Program for NearbyMoves<'_> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
         let near = self.drawn.moves().filter(|(_, movement)| self.is_near(movement));
         near.for_each(|(line, movement)| take(&Step::of_move(line, movement)));
@@ -171,11 +173,11 @@ fn sides(movement: &Move) -> Sides {
 }
 
 /// Number of cells along a side.
-const SIDE: usize = 64;
+const CELLS_PER_SIDE: usize = 64;
 
 /// A grid over everything that is cut.
 #[derive(Debug)]
-pub(super) struct Tops {
+pub(super) struct CutGrid {
     /// The corner with the least X and Y, in mm.
     corner: [f64; 2],
     /// The sides of a cell, in mm.
@@ -184,7 +186,7 @@ pub(super) struct Tops {
     heights: Vec<f64>,
 }
 
-impl Tops {
+impl CutGrid {
     /// Creates the grid for the program of a drawing.
     pub(super) fn of(drawn: &toolpath::Program, stock: &Stock) -> Self {
         let cuts: Vec<Cut> = cuts(drawn, stock).collect();
@@ -195,9 +197,10 @@ impl Tops {
             }
         }
         #[expect(clippy::cast_precision_loss, reason = "a small number")]
-        let cell = sides.map(|(low, high)| ((high - low) / SIDE as f64).max(f64::MIN_POSITIVE));
+        let cell = sides.map(|(low, high)| ((high - low) / CELLS_PER_SIDE as f64).max(f64::MIN_POSITIVE));
         let corner = sides.map(|(low, _)| low);
-        let mut tops = Self { corner, cell, heights: vec![f64::NEG_INFINITY; SIDE * SIDE] };
+        let mut tops =
+            Self { corner, cell, heights: vec![f64::NEG_INFINITY; CELLS_PER_SIDE * CELLS_PER_SIDE] };
         for (ends, surface) in cuts {
             tops.raise(ends, surface);
         }
@@ -219,7 +222,7 @@ impl Tops {
             let x = |share: f64| from_x + share * (to_x - from_x);
             let (one, other) = (x(one.min(other).max(0.0)), x(one.max(other).min(1.0)));
             for column in self.indices(0, (one.min(other) - radius, one.max(other) + radius)) {
-                highest = highest.max(self.heights[row * SIDE + column]);
+                highest = highest.max(self.heights[row * CELLS_PER_SIDE + column]);
             }
         }
         highest
@@ -228,7 +231,7 @@ impl Tops {
     fn raise(&mut self, [across, up]: [(f64, f64); 2], surface: f64) {
         for row in self.indices(1, up) {
             for column in self.indices(0, across) {
-                let height = &mut self.heights[row * SIDE + column];
+                let height = &mut self.heights[row * CELLS_PER_SIDE + column];
                 *height = height.max(surface);
             }
         }
@@ -239,7 +242,7 @@ impl Tops {
         let index = |coordinate: f64| ((coordinate - self.corner[axis]) / self.cell[axis]).floor();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "negative ones become 0")]
         let (first, last) = (index(low) as usize, (index(high) + 1.0) as usize);
-        first.min(SIDE)..last.min(SIDE)
+        first.min(CELLS_PER_SIDE)..last.min(CELLS_PER_SIDE)
     }
 }
 

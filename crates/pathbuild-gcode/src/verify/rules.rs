@@ -5,7 +5,7 @@ use std::fmt;
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{
-    Action, Arc, Axes, Change, Move, MoveShape, Named, Pace, Plane, Position, Spindle, Step, Turning,
+    Action, Arc, Axes, Change, Move, MoveShape, NamedPosition, Pace, Plane, Position, Spindle, Step, Turning,
 };
 
 use super::material::Stock;
@@ -171,7 +171,7 @@ impl<'c> Rules<'c> {
             return;
         }
         // A move to a machine position in the plane alone says nothing about the height.
-        let homed = movement.named.filter(|_| !movement.homes_z()).map_or(Axes::NONE, Named::axes);
+        let homed = movement.named.filter(|_| !movement.homes_z()).map_or(Axes::NONE, NamedPosition::axes);
         self.is_raised = movement.to.known.has(Axes::Z) || (movement.homes_z() && movement.keeps_xy());
         let moves_in_plane = !movement.to.known.and(Axes::XY).is_empty() || !homed.and(Axes::XY).is_empty();
         if moves_in_plane && !self.is_raised {
@@ -252,7 +252,7 @@ impl<'c> Rules<'c> {
     fn after_probe(&mut self, line: u32, movement: &Move) {
         let stays_in_plane = movement.keeps_xy();
         let is_known = movement.from.known.and(movement.to.known).and(Axes::XY) == Axes::XY;
-        let homed = movement.named.map_or(Axes::NONE, Named::axes);
+        let homed = movement.named.map_or(Axes::NONE, NamedPosition::axes);
         let goes_home = !homed.and(Axes::XY).is_empty();
         if self.has_probed && (is_known && !stays_in_plane || goes_home) {
             self.problems.add_at_line(&say::PROBE_NOT_RAISED, line, |d| d);

@@ -6,18 +6,18 @@ use pathbuild_motion::{Action, Step};
 
 use crate::native::stated_length;
 use crate::read::Problems;
-use crate::statistics::{Counting, Tally};
+use crate::statistics::{LengthFilter, Tally};
 
 /// Permitted difference of lengths in mm, because they are written without decimals, and correction by probes changes heights slightly.
-const SLACK: f64 = 1.0;
+const LENGTH_TOLERANCE: f64 = 1.0;
 
 /// Permitted relative difference of lengths.
-const SHARE: f64 = 0.01;
+const RELATIVE_TOLERANCE: f64 = 0.01;
 
 /// Compares the statistics stated in a program with its moves: pass every step, then call [`finish`](Self::finish).
 #[derive(Debug, Default)]
 pub struct StatedStatistics {
-    counting: Counting,
+    counting: LengthFilter,
     tally: Tally,
     /// Line, label, and length in mm.
     stated: Vec<(u32, String, f64)>,
@@ -49,7 +49,7 @@ impl StatedStatistics {
                 Some(3) => milling.total.length + drilling.total.length + rapid.total.length,
                 _ => continue,
             };
-            if libm::fabs(stated - length) > SLACK + SHARE * length {
+            if libm::fabs(stated - length) > LENGTH_TOLERANCE + RELATIVE_TOLERANCE * length {
                 problems.add_at_line(&say::LENGTH_DIFFERS, line, |d| {
                     d.quoting("label", label).with("stated", stated).with("length", libm::round(length))
                 });

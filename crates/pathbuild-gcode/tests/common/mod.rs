@@ -6,7 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::read::{Block, BlockReader, Value};
-use pathbuild_motion::{Action, Move, MoveShape, Named, Pace, Position, Step};
+use pathbuild_motion::{Action, Move, MoveShape, NamedPosition, Pace, Position, Step};
 
 /// The effects of a program, with one text per step.
 pub(crate) fn trace(dialect: Dialect, program: &str) -> Vec<String> {
@@ -118,9 +118,9 @@ fn move_text(it: &Move) -> String {
         }
     };
     let named = it.named.map_or("", |named| match named {
-        Named::Machine(_) => " Machine",
-        Named::Home1(_) => " Home1",
-        Named::Home2(_) => " Home2",
+        NamedPosition::Machine(_) => " Machine",
+        NamedPosition::Home1(_) => " Home1",
+        NamedPosition::Home2(_) => " Home2",
     });
     format!("{pace} to {}{path}{named}", position_text(&it.to))
 }

@@ -17,7 +17,7 @@ use crate::effective::Texts;
 use crate::element::{Cut, Element, Marker, Origin, Role, Shape};
 use crate::geometry::{Curve, Line};
 use crate::language::Language;
-use crate::letter::{ElementClass, Letter, Letters, Use};
+use crate::letter::{ElementClass, Letter, LetterUse, Letters};
 use crate::path::{
     CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath, SubpathName, SubpathValue,
     Surface, Turn,
@@ -150,7 +150,7 @@ impl<'a> Binder<'a> {
         // Short edges of rounded corners stand between longer sides with gaps. U is doubtful only if no segment has a gap.
         let gapless = self.gapless.take().filter(|_| !self.has_gap);
         self.problems.extend(gapless);
-        self.check_habits(tool);
+        self.check_unused_letters(tool);
         let turns = self.raw.turns.iter();
         let start = self.marker(self.raw.start.as_ref())?;
         let end = self.marker(self.raw.end.as_ref())?;
@@ -510,14 +510,17 @@ impl Binder<'_> {
     fn value(&mut self, scope: &Scope<'_>, letter: Letter) -> Option<f64> {
         let given = scope.texts(&self.values).number(letter);
         // A letter that every path must have is reported once, at the path's start.
-        let is_missing_here = || ElementClass::PathStart.use_of(letter) != Use::Needed;
-        if scope.class.use_of(letter) == Use::Needed && given == GivenNumber::Absent && is_missing_here() {
+        let is_missing_here = || ElementClass::PathStart.use_of(letter) != LetterUse::Needed;
+        if scope.class.use_of(letter) == LetterUse::Needed
+            && given == GivenNumber::Absent
+            && is_missing_here()
+        {
             let problem = Diagnostic::new(&messages::MISSING)
                 .with("letter", letter.as_char())
                 .with("element", scope.class.word());
             self.report(scope.at, problem);
         }
-        self.unknown.needed |= scope.class.use_of(letter) == Use::Needed && given.number().is_none();
+        self.unknown.needed |= scope.class.use_of(letter) == LetterUse::Needed && given.number().is_none();
         self.unknown.infeed |= letter == Letter::I && given == GivenNumber::Faulty;
         given.number()
     }
@@ -587,8 +590,8 @@ fn is_closed_by(tool: f64, outline: &[Curve]) -> bool {
 const BAR_LETTERS: [Letter; 2] = [Letter::P, Letter::U];
 
 impl Binder<'_> {
-    /// Reports W of a path without a chain, and missing support bars of an outline.
-    fn check_habits(&mut self, tool: Option<f64>) {
+    /// Reports W of a path without a chain, and letters for support bars of a path that has none.
+    fn check_unused_letters(&mut self, tool: Option<f64>) {
         let is_chain =
             |element: &Element| matches!((element.role, element.shape), (Role::Cut(_), Shape::Curve(_)));
         if self.values.has(Letter::W) && !self.raw.drawn.elements.iter().any(is_chain) {

@@ -6,29 +6,29 @@ use rstar::{AABB, Envelope as _, RTree};
 use crate::geometry::{Curve, Xy};
 use crate::keep_out::around;
 
-type Boxed = GeomWithData<Rectangle<[f64; 2]>, usize>;
+type IndexedBox = GeomWithData<Rectangle<[f64; 2]>, usize>;
 
 /// Boxes, which are numbered from 0.
 pub(crate) enum BoxIndex {
     /// So few that comparing all of them takes less time than building and searching a tree.
     Few(Vec<AABB<[f64; 2]>>),
-    Many(RTree<Boxed>),
+    Many(RTree<IndexedBox>),
 }
 
 /// Number of boxes up to which all are compared.
-const FEW: usize = 500;
+const MAX_COMPARED_BOXES: usize = 500;
 
 /// Number of boxes for which there is room in an answer before it must grow.
-const USUAL: usize = 16;
+const RESERVED_BOXES: usize = 16;
 
 impl BoxIndex {
     pub(crate) fn new(boxes: impl Iterator<Item = AABB<[f64; 2]>>) -> Self {
         let boxes: Vec<AABB<[f64; 2]>> = boxes.collect();
-        if boxes.len() <= FEW {
+        if boxes.len() <= MAX_COMPARED_BOXES {
             return Self::Few(boxes);
         }
         let numbered = boxes.into_iter().enumerate();
-        let boxed = numbered.map(|(n, extent)| Boxed::new(Rectangle::from_aabb(extent), n));
+        let boxed = numbered.map(|(n, extent)| IndexedBox::new(Rectangle::from_aabb(extent), n));
         Self::Many(RTree::bulk_load(boxed.collect()))
     }
 
@@ -36,7 +36,7 @@ impl BoxIndex {
     pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> Vec<usize> {
         match self {
             Self::Few(boxes) => {
-                let mut found = Vec::with_capacity(USUAL);
+                let mut found = Vec::with_capacity(RESERVED_BOXES);
                 let near = boxes.iter().enumerate().filter(|(_, own)| own.intersects(&extent));
                 found.extend(near.map(|(number, _)| number));
                 found
@@ -69,13 +69,14 @@ mod tests {
     fn few_and_many_boxes_are_found_alike() {
         let place = |number: usize| Xy::new((number * 37 % 101) as f64, (number * 53 % 97) as f64);
         let boxes = |count: usize| (0..count).map(move |number| square(place(number), 1.5));
-        let (few, many) = (BoxIndex::new(boxes(FEW)), BoxIndex::new(boxes(FEW + 1)));
+        let (few, many) =
+            (BoxIndex::new(boxes(MAX_COMPARED_BOXES)), BoxIndex::new(boxes(MAX_COMPARED_BOXES + 1)));
         assert!(matches!((&few, &many), (BoxIndex::Few(_), BoxIndex::Many(_))));
         let mut count = 0;
         for number in 0..200 {
             let extent = square(place(number * 7 + 3), 2.0);
             let mut found = many.near(extent);
-            found.retain(|number| *number < FEW);
+            found.retain(|number| *number < MAX_COMPARED_BOXES);
             count += found.len();
             assert_eq!(few.near(extent), found, "{number}");
         }

@@ -34,7 +34,7 @@ pub struct PartFindings {
 }
 
 /// Depth in mm up to which a cut into a part is a warning.
-const SHALLOW: f64 = 0.1;
+const MAX_WARNING_DEPTH: f64 = 0.1;
 
 /// Checks the cuts of all paths of a drawing against its parts. `is_complete`: whether the cuts of all its paths are known; otherwise
 /// missing cuts are not reported.
@@ -233,7 +233,7 @@ fn gouge_problem(gouge: &Gouge, radius: f64) -> Diagnostic {
         Diagnostic::new(&messages::GOUGE).with("length", gouge.length)
     };
     let mut problem = problem.with("depth", gouge.depth).with("point", shown(gouge.at));
-    if gouge.depth <= SHALLOW {
+    if gouge.depth <= MAX_WARNING_DEPTH {
         problem.severity = Severity::Warning;
     }
     problem
@@ -257,7 +257,7 @@ mod tests {
     use super::*;
     use crate::element::Origin;
     use crate::geometry::{Line, Xy};
-    use crate::keep_out::Way;
+    use crate::keep_out::TipMove;
     use crate::names::{LayerPattern, PathName};
     use crate::part::{CutElement, PartCut, PartRing, SlotPaths};
 
@@ -287,7 +287,7 @@ mod tests {
             supported: None,
         };
         let cut = |(number, line): (u32, Line)| PartCut {
-            way: Way { curve: Curve::Line(line), from_z: 0.0, to_z: 0.0 },
+            way: TipMove { curve: Curve::Line(line), from_z: 0.0, to_z: 0.0 },
             element: number / 4,
         };
         PathCuts {

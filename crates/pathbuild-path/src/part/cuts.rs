@@ -7,7 +7,7 @@ use super::boxes::BoxIndex;
 use super::intervals::GAP;
 use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::{Way, around};
+use crate::keep_out::{TipMove, around};
 use crate::names::SpeltName;
 
 /// The cuts of a path, in the coordinates and heights of its drawing.
@@ -59,7 +59,7 @@ pub struct CutElement {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartCut {
     /// The path of the tool tip.
-    pub way: Way,
+    pub way: TipMove,
     /// Index into [`PathCuts::elements`].
     pub element: u32,
 }

@@ -9,7 +9,7 @@ use super::intervals::{GAP, Stretch};
 use super::prepared::{Passage, PreparedPart, Side};
 use super::{Part, placed_part};
 use crate::geometry::{Curve, Placement, Xy};
-use crate::keep_out::{Way, around};
+use crate::keep_out::{TipMove, around};
 
 /// A cut that may go into the part, or that may shape its outline.
 pub(super) struct JudgedCut<'c> {
@@ -88,7 +88,7 @@ pub fn gouging_ways<'w>(
     part: &Part,
     placement: &Placement,
     raised: f64,
-    ways: impl IntoIterator<Item = &'w Way>,
+    ways: impl IntoIterator<Item = &'w TipMove>,
     [radius, tolerance]: [f64; 2],
 ) -> Vec<Curve> {
     let part = placed_part(part, placement);

@@ -13,7 +13,7 @@ use crate::geometry::{Curve, Xy};
 use crate::keep_out::around;
 
 /// Length in mm below which nothing is reported.
-const SHORTEST: f64 = 0.1;
+const MIN_REPORTED_LENGTH: f64 = 0.1;
 
 /// Number of samples of a stretch, for its thickness.
 const SAMPLES: u32 = 16;
@@ -155,7 +155,7 @@ impl<'s> LeftoverSearch<'s> {
             }
             all.length += length;
         }
-        let is_long = |(from, to): &Stretch| to - from >= SHORTEST;
+        let is_long = |(from, to): &Stretch| to - from >= MIN_REPORTED_LENGTH;
         all.left = closed(joined(uncut, BETWEEN_CURVES), all.length).into_iter().filter(is_long).collect();
         all.never = joined(all.never, BETWEEN_CURVES);
         all.unreachable = closed(joined(all.unreachable, BETWEEN_CURVES), all.length);
@@ -175,7 +175,7 @@ impl<'s> LeftoverSearch<'s> {
         let start = all.length;
         let shifted =
             |stretches: Vec<Stretch>| stretches.into_iter().map(move |(from, to)| (from + start, to + start));
-        let gaps = without(gaps, &self.feet(curve));
+        let gaps = without(gaps, &self.bar_feet(curve));
         if gaps.is_empty() {
             return;
         }
@@ -263,7 +263,7 @@ impl<'s> LeftoverSearch<'s> {
     }
 
     /// The stretches at the feet of bars: there the path cuts down to the bar, which is all that it should.
-    fn feet(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
+    fn bar_feet(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         for (bar, radius) in self.bars() {
             within(curve.curve, &bar.foot, radius + self.tolerance, &mut found);

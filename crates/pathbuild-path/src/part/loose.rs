@@ -98,7 +98,7 @@ fn is_ring_closed(centre: Xy, sweeps: &[Sweep]) -> bool {
             }
             let met = &sweeps[other];
             let (here, there) = nearest_points(&sweep.line, &met.line);
-            if (there - here).norm() > sweep.radius + met.radius - OVERLAP {
+            if (there - here).norm() > sweep.radius + met.radius - MIN_OVERLAP {
                 continue;
             }
             let way = [sweep.line.start, here, there, met.line.start];
@@ -112,7 +112,7 @@ fn is_ring_closed(centre: Xy, sweeps: &[Sweep]) -> bool {
 }
 
 /// Overlap in mm from which two sweeps are one opening.
-const OVERLAP: f64 = 1e-6;
+const MIN_OVERLAP: f64 = 1e-6;
 
 /// The angle from one point to another as seen from `centre`, from -pi to pi.
 fn turn(centre: Xy, from: Xy, to: Xy) -> f64 {

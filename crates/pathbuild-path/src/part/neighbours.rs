@@ -8,7 +8,7 @@ use super::gouge::{gouges, judged};
 use super::prepared::PreparedPart;
 use super::{Part, placed_part};
 use crate::geometry::{Curve, Placement, Xy};
-use crate::keep_out::{Way, around};
+use crate::keep_out::{TipMove, around};
 
 /// A path at its place in a program.
 #[derive(Clone, Debug)]
@@ -94,7 +94,7 @@ impl<'c> PlacedCuts<'c> {
     fn placed(&self, level: f64) -> PathCuts {
         let raised = self.raised - level;
         let curve = |curve: &Curve| self.placement.place_curve(curve);
-        let way = |way: &Way| Way {
+        let way = |way: &TipMove| TipMove {
             curve: curve(&way.curve),
             from_z: way.from_z + raised,
             to_z: way.to_z + raised,

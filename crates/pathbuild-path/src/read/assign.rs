@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 
 use crate::approx::near;
 use crate::element::{Element, shown};
-use crate::letter::{Letters, Use};
+use crate::letter::{LetterUse, Letters};
 use crate::read::candidates::{
     AssignedCandidate, Candidate, Owner, SearchBudget, find, find_taken, nearest_miss,
 };
@@ -195,5 +195,5 @@ fn refuses(owner: Owner, text: ParameterText<'_>, elements: &[Element]) -> bool 
     let Owner::Element(element) = owner else { return false };
     let class = elements[element].class(None);
     let mut letters = text.pieces().iter().filter_map(|piece| piece.letter);
-    letters.any(|letter| matches!(class.use_of(letter), Use::Unknown | Use::PathOnly))
+    letters.any(|letter| matches!(class.use_of(letter), LetterUse::Unknown | LetterUse::PathOnly))
 }

@@ -13,7 +13,7 @@ use smol_str::SmolStr;
 use crate::approx::{above, coincide, near};
 use crate::element::shown;
 use crate::geometry::{Arc, Curve, Line, Xy};
-use crate::keep_out::{KeepOut, KeepOutMap, KeepOuts, Way};
+use crate::keep_out::{KeepOut, KeepOutMap, KeepOuts, TipMove};
 use crate::language::Language;
 use crate::letter::Letter;
 use crate::read::entities::{AnyText, TextCircle, at_entity, curve, xy};
@@ -55,7 +55,8 @@ fn lone_hatches(drawing: &Drawing, language: &Language, clamps: &[KeepOut]) -> V
     }
     let map = flat_map(clamps.iter().map(|clamp| &*clamp.outline));
     let fills = |place: &Place| {
-        let touches = |point: Point| !at_point(&map, Xy::new(point.x.0, point.y.0), NEAR).is_empty();
+        let touches =
+            |point: Point| !at_point(&map, Xy::new(point.x.0, point.y.0), END_SEARCH_RADIUS).is_empty();
         place.point.is_some_and(touches)
     };
     let problem = |place: &Place| {
@@ -111,7 +112,7 @@ fn flat_map<'k>(outlines: impl Iterator<Item = &'k [Curve]>) -> KeepOutMap {
 
 /// The numbers of the outlines that a disc around a point overlaps. `radius` in mm.
 fn at_point(map: &KeepOutMap, centre: Xy, radius: f64) -> Vec<usize> {
-    let way = Way { curve: Curve::Line(Line { start: centre, end: centre }), from_z: 0.0, to_z: 0.0 };
+    let way = TipMove { curve: Curve::Line(Line { start: centre, end: centre }), from_z: 0.0, to_z: 0.0 };
     map.entered(&way, radius, 0.0)
 }
 
@@ -442,19 +443,21 @@ enum Junction {
 struct RingBuilder<'p> {
     parts: &'p [Part],
     /// What each end meets.
-    meets: Vec<Junction>,
+    junctions: Vec<Junction>,
     is_done: Vec<bool>,
 }
 
 /// Distance in mm up to which ends may coincide and points are looked for on an outline.
-const NEAR: f64 = 1e-3;
+const END_SEARCH_RADIUS: f64 = 1e-3;
 
 impl<'p> RingBuilder<'p> {
     fn new(parts: &'p [Part]) -> Self {
         let ends = || (0..2 * parts.len()).map(|end| (end, at(parts, end)));
         let tree = RTree::bulk_load(ends().map(|(end, at)| GeomWithData::new([at.x, at.y], end)).collect());
-        let meets = |(end, place): (End, Xy)| {
-            let near = tree.locate_within_distance([place.x, place.y], NEAR * NEAR).map(|other| other.data);
+        let junctions = |(end, place): (End, Xy)| {
+            let near = tree
+                .locate_within_distance([place.x, place.y], END_SEARCH_RADIUS * END_SEARCH_RADIUS)
+                .map(|other| other.data);
             let mut others = near.filter(|other| *other != end && coincide(place, at(parts, *other)));
             match (others.next(), others.next()) {
                 (None, _) => Junction::Nothing,
@@ -462,7 +465,7 @@ impl<'p> RingBuilder<'p> {
                 (Some(_), Some(_)) => Junction::Several,
             }
         };
-        Self { parts, meets: ends().map(meets).collect(), is_done: vec![false; parts.len()] }
+        Self { parts, junctions: ends().map(junctions).collect(), is_done: vec![false; parts.len()] }
     }
 
     fn rings(mut self) -> Vec<Ring> {
@@ -485,7 +488,7 @@ impl<'p> RingBuilder<'p> {
         }
         // Follow the curves in the other direction as well, so that the whole open sequence is reported once.
         let (back, other) = self.follow(start);
-        let several = [last, other].into_iter().find(|end| self.meets[*end] != Junction::Nothing);
+        let several = [last, other].into_iter().find(|end| self.junctions[*end] != Junction::Nothing);
         let (end, part) = (several.unwrap_or(last), self.parts[several.unwrap_or(last) / 2]);
         if several.is_some() {
             return Ring::Branch { part, at: at(self.parts, end) };
@@ -508,8 +511,8 @@ impl<'p> RingBuilder<'p> {
 
     /// The only end that this end meets, if that meets no other.
     fn next(&self, end: End) -> Option<End> {
-        let Junction::One(next) = self.meets[end] else { return None };
-        (self.meets[next] == Junction::One(end)).then_some(next)
+        let Junction::One(next) = self.junctions[end] else { return None };
+        (self.junctions[next] == Junction::One(end)).then_some(next)
     }
 
     /// A curve in the direction that ends there.

@@ -198,7 +198,7 @@ fn referenced<'s>(
 }
 
 /// Length in mm below which a line is not a move, and distance below which circles coincide: programs have three decimals.
-const SHORTEST: f64 = 0.0005;
+const MIN_MOVE_LENGTH: f64 = 0.0005;
 
 /// Length in mm below which a milled line or arc is taken for a remnant of trimming. Cutters are 0.1 mm wide or more, and machines place
 /// them no more accurately than this.
@@ -228,7 +228,9 @@ impl PathCheck<'_> {
             // The parts of a polyline have the same text and depth.
             let is_single = matches!(element.source.entity, EntityKind::Line | EntityKind::Arc);
             let problem = match element.role {
-                Role::Cut(_) if is_line && length < SHORTEST => Diagnostic::new(&drawing::CUT_WITHOUT_LENGTH),
+                Role::Cut(_) if is_line && length < MIN_MOVE_LENGTH => {
+                    Diagnostic::new(&drawing::CUT_WITHOUT_LENGTH)
+                }
                 Role::Cut(_) if length < SHORTEST_CUT && is_single => {
                     Diagnostic::new(&drawing::CUT_HARDLY_LONG)
                         .with("element", element.shape.word())
@@ -247,12 +249,13 @@ impl PathCheck<'_> {
             .filter_map(|(index, element)| Some((index, element.shape.point(), element.shape.radius()?)))
             .collect();
         circles.sort_by_cached_key(|(index, centre, radius)| {
-            ([centre.x, centre.y, *radius].map(|length| Number((length / SHORTEST).round())), *index)
+            ([centre.x, centre.y, *radius].map(|length| Number((length / MIN_MOVE_LENGTH).round())), *index)
         });
         for pair in circles.windows(2) {
             let [(first, centre, radius), (second, other, other_radius)] = *pair else { continue };
             let [first, second] = [first, second].map(|index| &drawn.elements[index]);
-            let is_same = (other - centre).norm() < SHORTEST && (other_radius - radius).abs() < SHORTEST;
+            let is_same =
+                (other - centre).norm() < MIN_MOVE_LENGTH && (other_radius - radius).abs() < MIN_MOVE_LENGTH;
             if is_same && first.role == second.role {
                 let problem = Diagnostic::new(&drawing::CIRCLE_TWICE).with("diameter", 2.0 * radius);
                 found.push(at(second, problem));

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::{Code, Lang};
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Arc, Curve, KeepOut, KeepOutMap, KeepOuts, Language, LayerPattern, Line, Way, Xy, keep_outs,
+    Arc, Curve, KeepOut, KeepOutMap, KeepOuts, Language, LayerPattern, Line, TipMove, Xy, keep_outs,
 };
 use pathbuild_testkit::sheet;
 use proptest::prelude::*;
@@ -59,8 +59,8 @@ fn line(from: [f64; 2], to: [f64; 2]) -> Curve {
     Curve::Line(Line { start: from.into(), end: to.into() })
 }
 
-fn flat(curve: Curve, z: f64) -> Way {
-    Way { curve, from_z: z, to_z: z }
+fn flat(curve: Curve, z: f64) -> TipMove {
+    TipMove { curve, from_z: z, to_z: z }
 }
 
 fn map(clamps: &[KeepOut]) -> KeepOutMap {
@@ -68,7 +68,7 @@ fn map(clamps: &[KeepOut]) -> KeepOutMap {
 }
 
 /// Whether a tool of 2 mm hits a clamp.
-fn enters(clamps: &[KeepOut], way: &Way) -> bool {
+fn enters(clamps: &[KeepOut], way: &TipMove) -> bool {
     !map(clamps).entered(way, 1.0, 0.0).is_empty()
 }
 
@@ -220,7 +220,7 @@ fn the_tool_may_go_over_a_clamp() {
     assert!(!enters(&clamps, &flat(over, 25.0)));
     assert!(enters(&clamps, &flat(over, 24.999)));
     // Down beside the clamp, and down into it.
-    let down = |x: f64| Way { curve: line([x, 5.0], [x, 5.0]), from_z: 30.0, to_z: 0.0 };
+    let down = |x: f64| TipMove { curve: line([x, 5.0], [x, 5.0]), from_z: 30.0, to_z: 0.0 };
     assert!(!enters(&clamps, &down(5.0)));
     assert!(enters(&clamps, &down(15.0)));
 }
@@ -229,7 +229,7 @@ fn the_tool_may_go_over_a_clamp() {
 #[test]
 fn a_slope_counts_below_the_height() {
     let clamps = right(SQUARE);
-    let ramp = |to_z| Way { curve: line([15.0, 5.0], [35.0, 5.0]), from_z: 35.0, to_z };
+    let ramp = |to_z| TipMove { curve: line([15.0, 5.0], [35.0, 5.0]), from_z: 35.0, to_z };
     // The tool leaves the clamp at 21 mm, 6 mm past its start: there it is 35 - 6 / 20 * 32 = 25.4 mm high, or 24.5 mm.
     assert!(!enters(&clamps, &ramp(3.0)));
     assert!(enters(&clamps, &ramp(0.0)));
@@ -237,7 +237,7 @@ fn a_slope_counts_below_the_height() {
         let (centre, start) = (Xy::new(20.0, 5.0), Xy::new(30.0, 5.0));
         let arc =
             Arc { centre, radius: 10.0, start, end: Xy::new(10.0, 5.0), clockwise: false, degrees: 180.0 };
-        Way { curve: Curve::Arc(arc), from_z, to_z }
+        TipMove { curve: Curve::Arc(arc), from_z, to_z }
     };
     // It reaches the clamp after about 150 degrees.
     assert!(!enters(&clamps, &helix(20.0, 26.5)));

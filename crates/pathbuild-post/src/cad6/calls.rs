@@ -14,7 +14,7 @@ use super::definition::{Abilities, Definition};
 use crate::arcs::{MOST_CHORDS, Rounding, chords, pieces_of};
 use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Units};
 
-type Built = Result<(), Box<Diagnostic>>;
+type CallResult = Result<(), Box<Diagnostic>>;
 
 /// Returns the calls for a job, except those at its start and end.
 pub(super) fn calls<'a>(job: &'a Job, definition: &Definition) -> Result<Vec<Call<'a>>, Box<Diagnostic>> {
@@ -37,7 +37,7 @@ struct Builder<'a> {
     /// Rapids since the last cut.
     ways: Vec<Point>,
     /// Comments and dwells among those rapids.
-    asides: Vec<What<'a>>,
+    asides: Vec<CallContent<'a>>,
     is_open: bool,
     is_first: bool,
     /// The call of the last element, as long as a contour may still end with it.
@@ -71,7 +71,7 @@ impl<'a> Builder<'a> {
     /// Moves to the start of the job, for definitions that write every rapid as it is.
     fn begin(&mut self) {
         if self.abilities.rapid {
-            self.call(What::Rapid { to: self.at });
+            self.call(CallContent::Rapid { to: self.at });
         }
     }
 
@@ -79,16 +79,19 @@ impl<'a> Builder<'a> {
         &self.job.operations[self.index]
     }
 
-    fn call(&mut self, what: What<'a>) {
-        match what {
-            What::Line { .. } | What::Arc { .. } => self.last_element = Some(self.calls.len()),
-            What::Comment(_) | What::Dwell(_) | What::Stop | What::Rapid { .. } => {}
+    fn call(&mut self, content: CallContent<'a>) {
+        match content {
+            CallContent::Line { .. } | CallContent::Arc { .. } => self.last_element = Some(self.calls.len()),
+            CallContent::Comment(_)
+            | CallContent::Dwell(_)
+            | CallContent::Stop
+            | CallContent::Rapid { .. } => {}
             _ => self.last_element = None,
         }
-        self.calls.push(Call { operation: self.index, what });
+        self.calls.push(Call { operation: self.index, content });
     }
 
-    fn operation(&mut self, index: usize) -> Built {
+    fn operation(&mut self, index: usize) -> CallResult {
         let is_new_tool =
             index > 0 && self.job.operations[index - 1].tool.index != self.job.operations[index].tool.index;
         if is_new_tool {
@@ -129,26 +132,26 @@ impl<'a> Builder<'a> {
         [to_x.unwrap_or(x), to_y.unwrap_or(y), to_z.unwrap_or(z)]
     }
 
-    fn step(&mut self, step: &'a JobStep) -> Built {
+    fn step(&mut self, step: &'a JobStep) -> CallResult {
         match step {
             JobStep::Move(movement) => self.move_along(movement),
             JobStep::Comment(text) => {
-                self.add_aside(What::Comment(text));
+                self.add_aside(CallContent::Comment(text));
                 Ok(())
             }
             JobStep::Hole(hole) => self.hole(hole),
             JobStep::Dwell { seconds } => {
-                self.add_aside(What::Dwell(*seconds));
+                self.add_aside(CallContent::Dwell(*seconds));
                 Ok(())
             }
             JobStep::Stop => {
-                self.add_aside(What::Stop);
+                self.add_aside(CallContent::Stop);
                 Ok(())
             }
         }
     }
 
-    fn move_along(&mut self, movement: &Move) -> Built {
+    fn move_along(&mut self, movement: &Move) -> CallResult {
         match (movement.course(), movement.pace) {
             (Some(course), _) => self.arc(movement, &course),
             (None, Pace::Rapid) => {
@@ -165,18 +168,18 @@ impl<'a> Builder<'a> {
     }
 
     /// Adds a call that neither moves the tool nor ends a contour. While rapids are pending, the call is kept back with them.
-    fn add_aside(&mut self, what: What<'a>) {
+    fn add_aside(&mut self, content: CallContent<'a>) {
         if self.ways.is_empty() {
-            self.call(what);
+            self.call(content);
         } else {
-            self.asides.push(what);
+            self.asides.push(content);
         }
     }
 
     fn rapid(&mut self, to: Point) {
         if self.abilities.rapid {
             if to != self.at {
-                self.call(What::Rapid { to });
+                self.call(CallContent::Rapid { to });
                 self.finish_contour();
             }
             self.at = to;
@@ -185,7 +188,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn hole(&mut self, hole: &Hole) -> Built {
+    fn hole(&mut self, hole: &Hole) -> CallResult {
         let can_say_it = match hole.kind {
             HoleKind::Plain => true,
             HoleKind::Peck { .. } => self.abilities.peck,
@@ -195,7 +198,7 @@ impl<'a> Builder<'a> {
             for step in hole.moves()? {
                 match step {
                     JobStep::Move(movement) => self.move_along(&movement)?,
-                    JobStep::Dwell { seconds } => self.add_aside(What::Dwell(seconds)),
+                    JobStep::Dwell { seconds } => self.add_aside(CallContent::Dwell(seconds)),
                     _ => {}
                 }
             }
@@ -204,13 +207,13 @@ impl<'a> Builder<'a> {
         self.ways.push([hole.at[0], hole.at[1], hole.level]);
         let clearance = self.height().max(hole.exit);
         self.close()?;
-        self.call(What::Hole { hole: *hole, clearance });
+        self.call(CallContent::Hole { hole: *hole, clearance });
         self.at = [hole.at[0], hole.at[1], hole.exit];
         Ok(())
     }
 
     /// Adds a straight cut.
-    fn feed(&mut self, to: Point, feed: Option<f64>) -> Built {
+    fn feed(&mut self, to: Point, feed: Option<f64>) -> CallResult {
         let way_end = self.end();
         let is_plunge = same_plane(way_end, to) && to[2] < way_end[2];
         let is_start = !self.is_open || !self.ways.is_empty();
@@ -221,7 +224,7 @@ impl<'a> Builder<'a> {
         self.line(to, feed)
     }
 
-    fn line(&mut self, to: Point, feed: Option<f64>) -> Built {
+    fn line(&mut self, to: Point, feed: Option<f64>) -> CallResult {
         if to[2] != self.at[2] && !self.abilities.line_z {
             if !(same_plane(self.at, to) && self.abilities.lift_between_passes) {
                 return Err(self.no_z(to, ControlTextKind::Line));
@@ -232,7 +235,7 @@ impl<'a> Builder<'a> {
             return Ok(());
         }
         let place = self.place(feed);
-        self.call(What::Line { to, feed, place });
+        self.call(CallContent::Line { to, feed, place });
         self.at = to;
         Ok(())
     }
@@ -249,7 +252,7 @@ impl<'a> Builder<'a> {
         ContourPosition { is_first, is_last: false }
     }
 
-    fn arc(&mut self, movement: &Move, course: &Course) -> Built {
+    fn arc(&mut self, movement: &Move, course: &Course) -> CallResult {
         self.land(None)?;
         let is_level = movement.to.z() == movement.from.z();
         let is_writable =
@@ -261,7 +264,7 @@ impl<'a> Builder<'a> {
                     continue;
                 };
                 let place = self.place(movement.pace.stated_feed());
-                self.call(What::Arc { movement, place });
+                self.call(CallContent::Arc { movement, place });
                 self.at = movement.to.at;
             }
             return Ok(());
@@ -295,7 +298,7 @@ impl<'a> Builder<'a> {
 
     /// Completes the pending rapids. Within the material they become elements of the contour, otherwise they lead to a new contour, which
     /// may begin with a plunge.
-    fn land(&mut self, plunge: Option<(Point, Option<f64>)>) -> Built {
+    fn land(&mut self, plunge: Option<(Point, Option<f64>)>) -> CallResult {
         if self.abilities.rapid {
             return Ok(());
         }
@@ -313,7 +316,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Turns the first pending rapids into elements of the contour.
-    fn walk(&mut self, count: usize) -> Built {
+    fn walk(&mut self, count: usize) -> CallResult {
         let ways: Vec<Point> = self.ways.drain(..count).collect();
         ways.into_iter().try_for_each(|way| self.line(way, self.feed))
     }
@@ -353,14 +356,14 @@ impl<'a> Builder<'a> {
     }
 
     fn start_contour(&mut self, at: Point, clearance: f64, working: f64, feed: Option<f64>) {
-        self.call(What::Start { at, clearance, working, feed });
+        self.call(CallContent::Start { at, clearance, working, feed });
         self.at = at;
         self.is_open = true;
         self.is_first = true;
     }
 
     /// Ends the open contour at a height from which the end of the pending rapids can be reached.
-    fn close(&mut self) -> Built {
+    fn close(&mut self) -> CallResult {
         let end = self.end();
         if self.is_open && !self.abilities.rapid {
             self.walk(self.sideways())?;
@@ -379,9 +382,11 @@ impl<'a> Builder<'a> {
     /// Raises the safety height of the last hole to that of the following moves: the text of a hole ends at its safety height.
     fn raise_hole(&mut self) {
         let height = self.height();
-        let is_aside = |what: &What<'_>| matches!(what, What::Comment(_) | What::Dwell(_) | What::Stop);
-        let last = self.calls.iter_mut().rev().find(|call| !is_aside(&call.what));
-        if let Some(Call { what: What::Hole { clearance, .. }, .. }) = last {
+        let is_aside = |what: &CallContent<'_>| {
+            matches!(what, CallContent::Comment(_) | CallContent::Dwell(_) | CallContent::Stop)
+        };
+        let last = self.calls.iter_mut().rev().find(|call| !is_aside(&call.content));
+        if let Some(Call { content: CallContent::Hole { clearance, .. }, .. }) = last {
             *clearance = clearance.max(height);
         }
     }
@@ -394,15 +399,15 @@ impl<'a> Builder<'a> {
 
     fn end_contour(&mut self, clearance: f64) {
         self.finish_contour();
-        self.call(What::End { clearance });
+        self.call(CallContent::End { clearance });
         self.is_open = false;
     }
 
     /// Marks the last element of the contour.
     fn finish_contour(&mut self) {
         self.is_first = true;
-        let last = self.last_element.map(|index| &mut self.calls[index].what);
-        if let Some(What::Line { place, .. } | What::Arc { place, .. }) = last {
+        let last = self.last_element.map(|index| &mut self.calls[index].content);
+        if let Some(CallContent::Line { place, .. } | CallContent::Arc { place, .. }) = last {
             place.is_last = true;
         }
     }
@@ -419,12 +424,12 @@ pub(super) type Point = [f64; 3];
 #[derive(Debug)]
 pub(super) struct Call<'a> {
     pub(super) operation: usize,
-    pub(super) what: What<'a>,
+    pub(super) content: CallContent<'a>,
 }
 
 /// What the called text has to write.
 #[derive(Debug)]
-pub(super) enum What<'a> {
+pub(super) enum CallContent<'a> {
     /// Moves to the start of a contour at safety height, down to working height by rapid, and down to depth at feed.
     Start { at: Point, clearance: f64, working: f64, feed: Option<f64> },
     /// A straight element.

@@ -118,11 +118,11 @@ impl Definition {
     }
 
     /// The reason why no program calls a text, or `None` if one may.
-    fn called_instead(&self, kind: ControlTextKind) -> Option<Uncalled> {
-        let instead = |other| self.text(other).map(|_| Uncalled::Instead(other));
+    fn called_instead(&self, kind: ControlTextKind) -> Option<UncalledReason> {
+        let instead = |other| self.text(other).map(|_| UncalledReason::Instead(other));
         match kind {
             ControlTextKind::Bezier | ControlTextKind::SubprogramStart | ControlTextKind::SubprogramEnd => {
-                Some(Uncalled::Never)
+                Some(UncalledReason::Never)
             }
             ControlTextKind::ContourStart | ControlTextKind::ContourEnd => instead(ControlTextKind::Rapid),
             ControlTextKind::Point => instead(ControlTextKind::Cycle),
@@ -138,7 +138,7 @@ impl Definition {
 
 /// Why no program calls a text.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Uncalled {
+pub(super) enum UncalledReason {
     /// Programs contain nothing that needs the text.
     Never,
     /// The definition has this other text, which is called instead.
@@ -358,8 +358,8 @@ impl Abilities {
 pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
     let uncalled = definition.texts().filter_map(|(kind, text)| {
         let diagnostic = match definition.called_instead(kind)? {
-            Uncalled::Never => Diagnostic::new(&posts::TEXT_NEVER_CALLED),
-            Uncalled::Instead(other) => {
+            UncalledReason::Never => Diagnostic::new(&posts::TEXT_NEVER_CALLED),
+            UncalledReason::Instead(other) => {
                 Diagnostic::new(&posts::TEXT_NOT_CALLED).quoting("other", other.name())
             }
         };
@@ -461,7 +461,7 @@ impl Default for Settings {
 }
 
 /// A key of `[post]`.
-pub(super) struct Setting {
+pub(super) struct KeyDeclaration {
     /// The key.
     pub(super) name: &'static str,
     /// Permitted values.
@@ -476,7 +476,7 @@ pub(super) struct Setting {
 macro_rules! settings {
     ($($name:literal $set:expr, $expected_en:literal, $expected_de:literal, $en:literal, $de:literal;)*) => {
         /// All keys of `[post]`.
-        pub(super) static SETTINGS: &[Setting] = &[$(Setting {
+        pub(super) static SETTINGS: &[KeyDeclaration] = &[$(KeyDeclaration {
             name: $name,
             expected: &Text { en: $expected_en, de: $expected_de },
             set: $set,

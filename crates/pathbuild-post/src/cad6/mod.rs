@@ -27,7 +27,7 @@ use runner::Runner;
 
 use super::PostOptions;
 use super::job::{Job, Units};
-use super::shadow::{Shadow, TranslatedText};
+use super::shadow::{Rs274Translation, TranslatedText};
 use super::target::Target;
 use crate::findings::EngineOutput;
 use crate::shadow::{CommentMarks, words};
@@ -68,7 +68,7 @@ fn note_switches(output: &mut EngineOutput, uses: impl Fn(&str) -> bool, job: &J
 
 /// Translates a text to the words of RS274. `units` are those of the job, which apply if the definition names none.
 pub(super) fn translate(definition: &Definition, text: &[u8], units: Units) -> TranslatedText {
-    let mut shadow = Shadow::new(definition.units().unwrap_or(units), false);
+    let mut shadow = Rs274Translation::new(definition.units().unwrap_or(units), false);
     for line in text.split(|&byte| byte == b'\n') {
         let line = String::from_utf8_lossy(line);
         let code = line.find("//").map_or(&*line, |comment| &line[..comment]);

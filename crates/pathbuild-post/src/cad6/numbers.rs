@@ -12,7 +12,7 @@ pub(super) enum Form {
     /// All decimals that the number has, and no more.
     Shortest,
     /// `'`: two decimals and a thousands separator.
-    Money,
+    Currency,
     /// `%`, `.`: rounded.
     Rounded,
     /// `,`: rounded, with a decimal comma.
@@ -47,7 +47,7 @@ macro_rules! forms {
 }
 
 forms! {
-    '\'' Money "two decimals, with a thousands separator", "zwei Nachkommastellen, mit Tausendertrennzeichen";
+    '\'' Currency "two decimals, with a thousands separator", "zwei Nachkommastellen, mit Tausendertrennzeichen";
     '%' Rounded "rounded to `decimals`", "gerundet auf `decimals`";
     '.' Rounded "rounded to `decimals`", "gerundet auf `decimals`";
     ',' Comma "rounded, with a decimal comma", "gerundet, mit Dezimalkomma";
@@ -57,7 +57,7 @@ forms! {
 }
 
 /// Maximum width; greater ones are taken for typing errors.
-const WIDEST: usize = 64;
+const MAX_WIDTH: usize = 64;
 
 impl Form {
     /// The format selected by a character.
@@ -71,7 +71,7 @@ impl Form {
         let rounded = || NumberFormat::decimals(0, decimals).format(value);
         Some(match self {
             Self::Shortest => shortest(value),
-            Self::Money => money(value),
+            Self::Currency => currency(value),
             Self::Rounded => rounded(),
             Self::Comma => rounded().replace('.', ","),
             Self::Signed => signed(rounded()),
@@ -97,7 +97,7 @@ fn signed(text: String) -> String {
     if text.starts_with('-') { text } else { format!("+{text}") }
 }
 
-fn money(value: f64) -> String {
+fn currency(value: f64) -> String {
     let text = NumberFormat::decimals(2, 2).format(value);
     let (sign, digits) = text.strip_prefix('-').map_or(("", text.as_str()), |digits| ("-", digits));
     let (whole, decimals) = digits.split_once('.').unwrap_or((digits, "00"));
@@ -156,7 +156,7 @@ impl FromStr for CForm {
             Some((width, precision)) => (width, Some(precision)),
             None => (rest, None),
         };
-        let count = |text: &str| text.parse().ok().filter(|count| *count <= WIDEST).ok_or(());
+        let count = |text: &str| text.parse().ok().filter(|count| *count <= MAX_WIDTH).ok_or(());
         let width = if width.is_empty() { 0 } else { count(width)? };
         Ok(Self { left, zeros, width, precision: precision.map(count).transpose()?, letter })
     }

@@ -6,11 +6,11 @@ use camino::Utf8PathBuf;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use pathbuild_motion::{Coolant, Move, Turning};
 
-use super::calls::{Call, ContourPosition, Point, What, calls};
+use super::calls::{Call, CallContent, ContourPosition, Point, calls};
 use super::control_text::ControlTextKind;
 use super::definition::Definition;
 use super::expand::{Expanded, below, names};
-use super::runner::{Called, Runner};
+use super::runner::{RunResult, Runner};
 use super::variables::{Variables, is_private};
 use crate::job::{Feeds, Hole, HoleKind, Job, Operation, Units};
 use crate::target::Target;
@@ -39,7 +39,7 @@ pub(super) fn run<'a>(
     target: Option<&Target>,
     options: &PostOptions<'_>,
     runner: &mut Runner<'a>,
-) -> Called {
+) -> RunResult {
     let calls = calls(job, runner.definition)?;
     let units = runner.definition.settings.units.unwrap_or(job.units);
     let unit = units.millimetres();
@@ -151,23 +151,23 @@ impl Caller<'_, '_> {
         }
     }
 
-    fn make(&mut self, call: &Call<'_>) -> Called {
+    fn make(&mut self, call: &Call<'_>) -> RunResult {
         let operation = &self.job.operations[call.operation];
         self.operation(call.operation);
-        match &call.what {
-            What::Start { at, clearance, working, feed } => {
+        match &call.content {
+            CallContent::Start { at, clearance, working, feed } => {
                 self.length("ZClearance", clearance.max(self.at[2]));
                 self.change_tool(operation)?;
                 self.require_move(ControlTextKind::ContourStart, operation)?;
                 self.start(*at, *clearance, *working, *feed)
             }
-            What::Line { to, feed, place } => {
+            CallContent::Line { to, feed, place } => {
                 self.change_tool(operation)?;
                 self.require_move(ControlTextKind::Line, operation)?;
                 self.element(*to, *feed, *place);
                 self.runner.call(ControlTextKind::Line)
             }
-            What::Arc { movement, place } => {
+            CallContent::Arc { movement, place } => {
                 self.change_tool(operation)?;
                 self.arc(movement);
                 self.element(movement.to.at, movement.pace.stated_feed(), *place);
@@ -175,33 +175,33 @@ impl Caller<'_, '_> {
                 self.forget_arc();
                 Ok(())
             }
-            What::End { clearance } => {
+            CallContent::End { clearance } => {
                 self.length("ZClearance", *clearance);
                 self.at[2] = *clearance;
                 self.require_move(ControlTextKind::ContourEnd, operation)?;
                 self.runner.call(ControlTextKind::ContourEnd)
             }
-            What::Hole { hole, clearance } => {
+            CallContent::Hole { hole, clearance } => {
                 self.length("ZClearance", *clearance);
                 self.change_tool(operation)?;
                 self.hole(hole)
             }
-            What::Rapid { to } => {
+            CallContent::Rapid { to } => {
                 self.length("ZClearance", operation.clearance.max(self.at[2]));
                 self.change_tool(operation)?;
                 self.move_to(*to);
                 self.runner.call(ControlTextKind::Rapid)
             }
-            What::Dwell(seconds) => {
+            CallContent::Dwell(seconds) => {
                 self.set("DwellTime", *seconds);
                 self.require(ControlTextKind::Dwell, operation)?;
                 self.runner.call(ControlTextKind::Dwell)
             }
-            What::Stop => {
+            CallContent::Stop => {
                 self.require(ControlTextKind::Stop, operation)?;
                 self.runner.call(ControlTextKind::Stop)
             }
-            What::Comment(text) => {
+            CallContent::Comment(text) => {
                 self.text("CommentText", text);
                 self.runner.call(ControlTextKind::Comment)
             }
@@ -209,11 +209,11 @@ impl Caller<'_, '_> {
     }
 
     /// Requires the text for a move: omitting the move is an error, unless the user has taken responsibility for unchecked output.
-    fn require_move(&self, kind: ControlTextKind, operation: &Operation) -> Called {
+    fn require_move(&self, kind: ControlTextKind, operation: &Operation) -> RunResult {
         if self.unchecked { Ok(()) } else { self.require(kind, operation) }
     }
 
-    fn require(&self, kind: ControlTextKind, operation: &Operation) -> Called {
+    fn require(&self, kind: ControlTextKind, operation: &Operation) -> RunResult {
         if self.runner.definition.text(kind).is_some() {
             return Ok(());
         }
@@ -221,14 +221,14 @@ impl Caller<'_, '_> {
         Err(Box::new(diagnostic.quoting("text", kind.name())))
     }
 
-    fn change_tool(&mut self, operation: &Operation) -> Called {
+    fn change_tool(&mut self, operation: &Operation) -> RunResult {
         let is_new = self.tool != Some(operation.tool.index);
         self.flag("ToolChanged", is_new);
         self.tool = Some(operation.tool.index);
         if is_new { self.runner.call(ControlTextKind::ToolChange) } else { Ok(()) }
     }
 
-    fn start(&mut self, at: Point, clearance: f64, working: f64, feed: Option<f64>) -> Called {
+    fn start(&mut self, at: Point, clearance: f64, working: f64, feed: Option<f64>) -> RunResult {
         self.contours += 1;
         self.elements = 0;
         self.set("ContourNo", f64::from(self.contours));
@@ -286,7 +286,7 @@ impl Caller<'_, '_> {
         }
     }
 
-    fn hole(&mut self, hole: &Hole) -> Called {
+    fn hole(&mut self, hole: &Hole) -> RunResult {
         let (peck, dwell) = match hole.kind {
             HoleKind::Plain => (0.0, 0.0),
             HoleKind::Dwell { seconds } => (0.0, seconds),

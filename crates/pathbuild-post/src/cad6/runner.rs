@@ -21,7 +21,7 @@ use crate::job::Units;
 use crate::target::Guard;
 
 /// Success, or the diagnostic that aborts writing.
-pub(super) type Called = Result<(), Box<Diagnostic>>;
+pub(super) type RunResult = Result<(), Box<Diagnostic>>;
 
 /// Prefix of each line if the definition has no text for it.
 const LINE_NUMBER: &str = "N{#~LineNumber~} {=LineNumber{#~LineNumber~+10}}";
@@ -72,7 +72,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Calls a control text, if the definition has it, and adds the resulting lines.
-    pub(super) fn call(&mut self, kind: ControlTextKind) -> Called {
+    pub(super) fn call(&mut self, kind: ControlTextKind) -> RunResult {
         let Some(text) = self.definition.text(kind) else { return Ok(()) };
         self.fuel.add_steps(1);
         if !self.called.contains(&kind) {
@@ -88,7 +88,7 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    fn line(&mut self, line: &ResultLine, kind: ControlTextKind) -> Called {
+    fn line(&mut self, line: &ResultLine, kind: ControlTextKind) -> RunResult {
         let text =
             if self.definition.settings.trim { line.text.trim_end_matches([' ', '\t']) } else { &line.text };
         if line.is_made && text.is_empty() {
@@ -104,7 +104,7 @@ impl<'a> Runner<'a> {
         if self.text.len() > self.most_bytes { Err(too_large(self.most_bytes)) } else { Ok(()) }
     }
 
-    fn number(&mut self) -> Called {
+    fn number(&mut self) -> RunResult {
         let text = self.line_number.clone();
         for line in self.evaluate(ControlTextKind::LineNumber, &text)? {
             self.fuel.burn(line.text.len(), self.file)?;
@@ -114,7 +114,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Adds a line. Texts from drawings and options are inserted in such a way that no control acts on them.
-    fn push(&mut self, line: &str, kind: ControlTextKind) -> Called {
+    fn push(&mut self, line: &str, kind: ControlTextKind) -> RunResult {
         let mut before = String::new();
         for c in line.chars() {
             if let Some(text) = self.variables.text(c) {

@@ -240,12 +240,12 @@ fn from_bits(bits: i64) -> f64 {
 
 /// Why a function cannot be evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Wrong {
+pub(super) enum FunctionError {
     Name,
     Arguments,
 }
 
-impl Wrong {
+impl FunctionError {
     /// Converts the reason to a fault at the name of the function.
     pub(super) fn at(self, span: Range<usize>) -> Box<Fault> {
         match self {
@@ -308,13 +308,13 @@ functions! {
 }
 
 /// Evaluates a function.
-pub(super) fn call(name: &str, arguments: &[f64]) -> Result<f64, Wrong> {
-    let function = FUNCTIONS.iter().find(|function| function.name == name).ok_or(Wrong::Name)?;
+pub(super) fn call(name: &str, arguments: &[f64]) -> Result<f64, FunctionError> {
+    let function = FUNCTIONS.iter().find(|function| function.name == name).ok_or(FunctionError::Name)?;
     match (function.rule, arguments) {
         (Rule::One(value), &[x]) => Ok(value(x)),
         (Rule::Two(value), &[x, y]) => Ok(value(x, y)),
         (Rule::Any(value), [_, ..]) => Ok(value(arguments)),
-        _ => Err(Wrong::Arguments),
+        _ => Err(FunctionError::Arguments),
     }
 }
 

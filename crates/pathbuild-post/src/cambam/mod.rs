@@ -21,7 +21,7 @@ use pathbuild_diagnostic::messages::posts;
 use crate::PostOptions;
 use crate::findings::EngineOutput;
 use crate::job::{Job, Units};
-use crate::shadow::{Shadow, TranslatedText, words};
+use crate::shadow::{Rs274Translation, TranslatedText, words};
 use crate::target::Target;
 use definition::{Plan, framed};
 use macros::{Macro, State};
@@ -57,7 +57,7 @@ pub(super) fn write(
 pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText {
     let marks = definition.comment_marks();
     let own_words = definition.own_motions();
-    let mut shadow = Shadow::new(Units::default(), definition.options.absolute_centres);
+    let mut shadow = Rs274Translation::new(Units::default(), definition.options.absolute_centres);
     for line in text.split(|&byte| byte == b'\n') {
         let line = String::from_utf8_lossy(line);
         let motion =

@@ -14,7 +14,7 @@ use crate::arcs::chords;
 use crate::findings::{EngineOutput, Fuel, LineOrigin, MOST_WARNINGS};
 use crate::job::{Feeds, JobStep, Operation, Tool};
 use crate::number::NumberFormat;
-use crate::shadow::{CommentMarks, Shadow, Word, Words, words};
+use crate::shadow::{CommentMarks, Rs274Translation, Word, Words, words};
 use crate::target::Guard;
 
 /// Success, or the diagnostic that aborts writing.
@@ -45,7 +45,7 @@ pub(super) struct Writer<'a> {
     marks: CommentMarks,
     guard: Guard<'a>,
     /// The meaning of the lines in RS274 words.
-    shadow: Shadow,
+    shadow: Rs274Translation,
     /// For each axis, whether the definition reverses its sign; `None` until it has been written.
     turned: [Option<bool>; 3],
     /// For each axis, the position according to the program in the output unit, and the text written for it.
@@ -82,7 +82,7 @@ impl<'a> Writer<'a> {
             lines: Lines::new(&plan.definition.options),
             marks: CommentMarks::default(),
             guard: Guard::new(plan.target, CommentMarks::default(), plan.options.charset),
-            shadow: Shadow::new(plan.job.units, plan.definition.options.absolute_centres),
+            shadow: Rs274Translation::new(plan.job.units, plan.definition.options.absolute_centres),
             turned: [None; 3],
             own: [None, None, None],
             place: (Section::PostFile, 0),

@@ -6,7 +6,9 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::reasons::NO_FILE;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_motion::{Coolant, Turning};
-use pathbuild_post::{Hole, HoleKind, Job, JobStep, Output, Post, PostFiles, PostMacro, PostOptions, Units};
+use pathbuild_post::{
+    Hole, HoleKind, Job, JobStep, Output, PostDefinition, PostFiles, PostMacro, PostOptions, Units,
+};
 
 use crate::support::{arc, feed, job, operation, rapid, texts, unchecked};
 
@@ -57,7 +59,7 @@ fn rectangle() -> Job {
 }
 
 fn output(definition: &str, job: &Job, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
-    unchecked(&Post::read(definition.as_bytes(), Utf8Path::new("test.toml"))?, job, options)
+    unchecked(&PostDefinition::read(definition.as_bytes(), Utf8Path::new("test.toml"))?, job, options)
 }
 
 #[track_caller]
@@ -261,7 +263,7 @@ fn settings_hold() {
     let output = output(crlf, &job(vec![]), &PostOptions::default()).unwrap();
     assert_eq!((output.text.as_slice(), &*output.extension), (b"0.2 2\r\n".as_slice(), "din"));
     assert_eq!(written(&crlf.replace("crlf", "lf"), &job(vec![])), "0.2 2\n");
-    assert!(Post::read(crlf.replace("crlf", "cr").as_bytes(), Utf8Path::new("t.toml")).is_err());
+    assert!(PostDefinition::read(crlf.replace("crlf", "cr").as_bytes(), Utf8Path::new("t.toml")).is_err());
     let inches = Job { units: Units::Inches, ..job(vec![]) };
     assert_eq!(written(&crlf.replace("units = \"inch\"\n", ""), &inches), "0.2 2\r\n", "else the program's");
 }
@@ -270,11 +272,12 @@ fn settings_hold() {
 fn aliases_are_other_names() {
     let definition = "[post]\nnumber-lines = false\n[alias]\nX1 = \"Xe\"\nLineNumber = \"Satz\"\n[text]\nline = 'X{.~Xe~} {.~Z1~}{=Satz{7}}'\nprogram-end = '~LineNumber~'";
     assert_eq!(written(definition, &job(vec![feed(2.0, 0.0, 5.0)])), "X2 5\n7\n");
-    let unknown = Post::read(b"[alias]\nX9 = \"Xe\"", Utf8Path::new("t.toml")).unwrap();
+    let unknown = PostDefinition::read(b"[alias]\nX9 = \"Xe\"", Utf8Path::new("t.toml")).unwrap();
     let warnings = texts(&unchecked(&unknown, &job(vec![]), &PostOptions::default()).unwrap().warnings);
     assert!(warnings[0].starts_with("2: PB760 there is no variable X9"), "{warnings:?}");
     for name in ["X e", "X~", ""] {
-        let wrong = Post::read(format!("[alias]\nX1 = \"{name}\"").as_bytes(), Utf8Path::new("t.toml"));
+        let wrong =
+            PostDefinition::read(format!("[alias]\nX1 = \"{name}\"").as_bytes(), Utf8Path::new("t.toml"));
         let errors = texts(&wrong.unwrap_err());
         assert!(
             errors[0].starts_with("2: PB750") && errors[0].contains("the name of a variable"),
@@ -291,15 +294,17 @@ fn unknown_keys_are_errors_that_name_the_nearest() {
         "4: PB750 the key text.programm-start is unknown (did you mean program-start?)",
         "5: PB750 the key other is unknown",
     ];
-    let mut errors = texts(&Post::read(definition.as_bytes(), Utf8Path::new("t.toml")).unwrap_err());
+    let mut errors =
+        texts(&PostDefinition::read(definition.as_bytes(), Utf8Path::new("t.toml")).unwrap_err());
     errors.sort();
     assert_eq!(errors, expected);
 }
 
 #[test]
 fn wrong_values_and_broken_toml_are_errors_with_their_place() {
-    let errors =
-        |definition: &str| texts(&Post::read(definition.as_bytes(), Utf8Path::new("t.toml")).unwrap_err());
+    let errors = |definition: &str| {
+        texts(&PostDefinition::read(definition.as_bytes(), Utf8Path::new("t.toml")).unwrap_err())
+    };
     assert_eq!(
         errors("[post]\ndecimals = 10"),
         ["2: PB750 decimals is \"10\", but must be a whole number up to 9"]
@@ -312,7 +317,7 @@ fn wrong_values_and_broken_toml_are_errors_with_their_place() {
 #[test]
 fn errors_say_where_in_the_text_and_in_the_file_they_are() {
     let definition = "[text]\nprogram-start = '''\nG90\nX{.~X1~+}\n'''";
-    let post = Post::read(definition.as_bytes(), Utf8Path::new("t.toml")).unwrap();
+    let post = PostDefinition::read(definition.as_bytes(), Utf8Path::new("t.toml")).unwrap();
     let macros = vec![PostMacro { name: "X1".into(), value: "123.456".into() }];
     let errors =
         unchecked(&post, &job(vec![]), &PostOptions { macros, ..PostOptions::default() }).unwrap_err();
@@ -363,7 +368,9 @@ fn what_is_wrong_in_a_text_is_an_error() {
 fn texts_that_no_program_calls_are_errors() {
     let read = |text: &str| {
         let definition = format!("[text]\nprogram-start = 'a'\n{text}\n");
-        Post::read(definition.as_bytes(), Utf8Path::new("t.toml")).map(drop).map_err(|errors| texts(&errors))
+        PostDefinition::read(definition.as_bytes(), Utf8Path::new("t.toml"))
+            .map(drop)
+            .map_err(|errors| texts(&errors))
     };
     for (text, expected) in [
         ("bezier = 'a'", "bezier is never called: programs contain nothing that needs it"),

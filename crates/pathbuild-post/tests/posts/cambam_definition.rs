@@ -126,7 +126,7 @@ fn what_is_no_definition_is_refused() {
     );
     assert_eq!(read("<PostProcessor>").unwrap_err()[0].code().to_string(), "PB750");
     let bytes = b"<PostProcessor>\xE4</PostProcessor>";
-    let refused = pathbuild_post::Post::read(bytes, "x.cbpp".into()).unwrap_err();
+    let refused = pathbuild_post::PostDefinition::read(bytes, "x.cbpp".into()).unwrap_err();
     assert_eq!(
         refused[0].text(Lang::En),
         "the definition is not UTF-8 text: this line has a character in another encoding, such as ANSI"

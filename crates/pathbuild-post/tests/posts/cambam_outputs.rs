@@ -4,7 +4,7 @@ use camino::Utf8Path;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_motion::Pace;
-use pathbuild_post::{Job, JobStep, Post, PostOptions, Remark, Units, VelocityMode};
+use pathbuild_post::{Job, JobStep, PostDefinition, PostOptions, Remark, Units, VelocityMode};
 
 use crate::support::shared;
 
@@ -49,7 +49,7 @@ fn tool(text: &str) -> Option<(u32, f64)> {
 fn both(output: &str, definition: &str, name: &str, date: &str) -> Option<(Vec<String>, Vec<String>)> {
     let original = shared(&format!("cambam-output/{output}"))?;
     let definition = shared(&format!("posts/{definition}"))?;
-    let post = Post::read(definition.as_bytes(), Utf8Path::new("post.cbpp")).unwrap();
+    let post = PostDefinition::read(definition.as_bytes(), Utf8Path::new("post.cbpp")).unwrap();
     let options = PostOptions { date: Some(date.into()), cycles: true, ..PostOptions::default() };
     let written = post.write(&read(&original, name), &options).unwrap();
     assert_eq!(written.warnings, []);
@@ -128,7 +128,7 @@ fn a_definition_with_tool_lengths() {
     let (before, rest) = default.split_once("<ToolChange>").unwrap();
     let (_, after) = rest.split_once("</ToolChange>").unwrap();
     let definition = format!("{before}<ToolChange>{change}{after}");
-    let post = Post::read(definition.as_bytes(), Utf8Path::new("g43.cbpp")).unwrap();
+    let post = PostDefinition::read(definition.as_bytes(), Utf8Path::new("g43.cbpp")).unwrap();
     let options = PostOptions { date: Some("10/6/2012 2:48:24 AM".into()), ..PostOptions::default() };
     let written = post.write(&read(&original, "Untitled"), &options).unwrap();
     let lines = |text: &str| text.lines().map(str::to_owned).collect::<Vec<_>>();

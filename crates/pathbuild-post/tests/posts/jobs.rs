@@ -5,14 +5,14 @@ use std::f64::consts::{PI, TAU};
 use pathbuild_motion::{Coolant, Pace, Turning};
 use pathbuild_post::{Entry, HoleKind, Job, JobStep, ToolEntry, ToolTable};
 use pathbuild_toolpath::{
-    Class, Comment, Count, ElementKind, Height, Names, PlannedMove, Program, ProgramStep, Xy,
+    Comment, Count, ElementKind, Height, MoveClass, Names, PlannedMove, Program, ProgramStep, Xy,
 };
 use regex::Regex;
 
 use crate::support::{bare, lines, rapid, straight_from_anywhere, texts};
 
 fn go(to: PlannedMove) -> ProgramStep {
-    ProgramStep::Move { to, count: Count { class: Class::Sweep, length: 0.0, feed: None } }
+    ProgramStep::Move { to, count: Count { class: MoveClass::Sweep, length: 0.0, feed: None } }
 }
 
 fn sweep(x: f64, y: f64) -> ProgramStep {
@@ -86,7 +86,7 @@ fn an_arc_that_would_be_printed_as_a_full_circle_is_a_line() {
             z: height(1.0),
             is_spiral: false,
         };
-        let count = Count { class: Class::Milling, length, feed: Some(100.0) };
+        let count = Count { class: MoveClass::Milling, length, feed: Some(100.0) };
         straight_from_anywhere(&job_of(vec![ProgramStep::Move { to, count }]).operations[0].steps)[0].clone()
     };
     for length in [0.0, 1e-9, 0.0019] {
@@ -102,7 +102,7 @@ fn a_full_circle_ends_where_it_begins() {
         let (feed, clockwise, is_spiral) = (100.0, false, false);
         let (centre, to) = (Xy::new(5.0, 0.0), Xy::new(0.0, by));
         let to = PlannedMove::Arc { feed, clockwise, centre, to, z: height(1.0), is_spiral };
-        let count = Count { class: Class::Milling, length, feed: Some(100.0) };
+        let count = Count { class: MoveClass::Milling, length, feed: Some(100.0) };
         match job_of(vec![ProgramStep::Move { to, count }]).operations[0].steps[0] {
             JobStep::Move(it) => (it.to.y(), it.course().unwrap().sweep()),
             ref other => panic!("{other:?}"),

@@ -3,7 +3,7 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_motion::Turning;
-use pathbuild_post::{Job, Post, PostOptions};
+use pathbuild_post::{Job, PostDefinition, PostOptions};
 
 use crate::support::{DIN, arc, bare, definition, feed, job, rapid, read, read_toml, texts};
 
@@ -108,7 +108,7 @@ fn a_helix_without_z_is_mended_in_the_text_of_arcs() {
 #[test]
 fn doubtful_options_and_bare_macros_are_told() {
     let warnings = |file: &str, text: &str| {
-        let post = Post::read(text.as_bytes(), Utf8Path::new(file));
+        let post = PostDefinition::read(text.as_bytes(), Utf8Path::new(file));
         post.and_then(|post| {
             post.write(&milled(), &PostOptions { unchecked: true, ..PostOptions::default() })
         })
@@ -172,9 +172,9 @@ fn utf_16_is_read_and_ansi_is_refused_with_advice() {
         wide(false, u16::to_le_bytes),
         wide(false, u16::to_be_bytes),
     ] {
-        assert!(Post::read(&bytes, Utf8Path::new("t.cbpp")).is_ok());
+        assert!(PostDefinition::read(&bytes, Utf8Path::new("t.cbpp")).is_ok());
     }
     let ansi: Vec<u8> = text.chars().map(|c| u8::try_from(c).unwrap()).collect();
-    let found = texts(&Post::read(&ansi, Utf8Path::new("t.cbpp")).unwrap_err());
+    let found = texts(&PostDefinition::read(&ansi, Utf8Path::new("t.cbpp")).unwrap_err());
     assert!(found[0].starts_with("3: PB750") && found[0].contains("save it as UTF-8"), "{found:?}");
 }

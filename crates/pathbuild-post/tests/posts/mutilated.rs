@@ -4,7 +4,7 @@ use std::io::Write;
 
 use camino::Utf8Path;
 use pathbuild_motion::Turning;
-use pathbuild_post::{BUILT_IN, Hole, HoleKind, Job, JobStep, Language, Post, PostOptions};
+use pathbuild_post::{BUILT_IN, Hole, HoleKind, Job, JobStep, Language, PostDefinition, PostOptions};
 
 use crate::support::{DIN, arc, feed, operation, rapid, real_definitions};
 
@@ -92,7 +92,7 @@ fn no_definition_however_wrong_loses_a_move() {
 }
 
 fn output(name: &str, text: &str) -> Option<String> {
-    let post = Post::read(text.as_bytes(), Utf8Path::new(name)).ok()?;
+    let post = PostDefinition::read(text.as_bytes(), Utf8Path::new(name)).ok()?;
     let output = post.write(&program(), &PostOptions::default()).ok()?;
     Some(String::from_utf8(output.text).unwrap())
 }

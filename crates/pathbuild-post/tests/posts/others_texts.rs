@@ -1,7 +1,7 @@
 //! Inserts texts from drawings, file names and options in every place of every post; no control must act on any of them.
 
 use camino::Utf8Path;
-use pathbuild_post::{BUILT_IN, Job, JobStep, Language, Post, PostOptions};
+use pathbuild_post::{BUILT_IN, Job, JobStep, Language, PostDefinition, PostOptions};
 
 use crate::mutilated::program;
 use crate::support::{DIN, read, real_definitions, texts, unchecked};
@@ -47,7 +47,7 @@ fn no_control_acts_on_a_text_of_others() {
         built_in.map(|post| (format!("{}.{}", post.name, post.language.extension()), post.text.to_owned()));
     let own: Vec<(String, String)> = own.chain([("din.toml".into(), DIN.into())]).collect();
     for (name, text) in own.iter().chain(&real_definitions()) {
-        let post = Post::read(text.as_bytes(), Utf8Path::new(name)).unwrap();
+        let post = PostDefinition::read(text.as_bytes(), Utf8Path::new(name)).unwrap();
         let is_own = own.iter().any(|(own, _)| own == name);
         let bytes = (0..=255_u8).map(|byte| format!("a{}G1 Z-99", char::from(byte)));
         for hostile in bytes.chain(HOSTILE.map(str::to_owned)) {
@@ -83,7 +83,7 @@ fn no_text_ends_or_begins_a_comment_of_a_definition_s_own() {
             read(&format!("<PostProcessor>{comments}{files}<MOP>{mop}</MOP></PostProcessor>")).unwrap()
         };
         let [open, close] = [open, close].map(|mark| mark.replace("&lt;", "<").replace("&gt;", ">"));
-        let written = |definition: &Post, name: &str| {
+        let written = |definition: &PostDefinition, name: &str| {
             let mut job = program();
             job.operations.truncate(1);
             (job.operations[0].name, job.name) = (name.into(), format!("{close}G1 Z-99").into());
@@ -106,7 +106,7 @@ fn no_text_ends_or_begins_a_comment_of_a_definition_s_own() {
 /// Number of places for a text, plus one for all of them.
 const PLACES: usize = 8;
 
-fn written(post: &Post, place: usize, text: &str, is_own: bool) -> Option<String> {
+fn written(post: &PostDefinition, place: usize, text: &str, is_own: bool) -> Option<String> {
     let mut job: Job = program();
     let mut options = PostOptions { unchecked: !is_own, ..PostOptions::default() };
     let is = |index: usize| place == index || place == PLACES - 1;

@@ -11,7 +11,7 @@ use pathbuild_post::{
     native_remark,
 };
 use pathbuild_toolpath::{
-    Class, Comment, Count, ElementKind, Height, Names, PlannedMove, Program, ProgramStep, Xy,
+    Comment, Count, ElementKind, Height, MoveClass, Names, PlannedMove, Program, ProgramStep, Xy,
 };
 
 use crate::support::{rapid, straight_from_anywhere, texts};
@@ -137,7 +137,7 @@ fn what_a_job_cannot_say_is_an_error_with_its_line() {
 
 /// A move of sufficient length; the length is otherwise unused.
 fn go(to: PlannedMove) -> ProgramStep {
-    ProgramStep::Move { to, count: Count { class: Class::Milling, length: 99.0, feed: None } }
+    ProgramStep::Move { to, count: Count { class: MoveClass::Milling, length: 99.0, feed: None } }
 }
 
 fn height(z: f64) -> Height {
@@ -157,7 +157,7 @@ fn program() -> Program {
         // One radian at a radius of 10 mm, and half circles with a radius of 5 mm.
         let length = if is_spiral { 5.0 * std::f64::consts::PI } else { 10.0 };
         let to = PlannedMove::Arc { feed: 180.0, clockwise, centre, to, z: height(z), is_spiral };
-        ProgramStep::Move { to, count: Count { class: Class::Milling, length, feed: None } }
+        ProgramStep::Move { to, count: Count { class: MoveClass::Milling, length, feed: None } }
     };
     let hole = |peck| {
         let at = Xy::new(0.0, 0.0);

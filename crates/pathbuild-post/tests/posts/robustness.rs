@@ -2,7 +2,7 @@
 
 use camino::Utf8Path;
 use pathbuild_motion::Turning;
-use pathbuild_post::{HoleKind, Job, JobStep, Post, PostMacro, PostOptions};
+use pathbuild_post::{HoleKind, Job, JobStep, PostDefinition, PostMacro, PostOptions};
 use proptest::prelude::*;
 
 use crate::support::{arc, definition, feed, job, rapid};
@@ -119,7 +119,7 @@ fn write(bytes: &[u8]) {
     let macros = [("a", "{$b}{$b}"), ("b", "{$x}"), ("Q1", "~Q2~+1"), ("Q2", "2")];
     let macros = macros.map(|(name, value)| PostMacro { name: name.into(), value: value.into() }).to_vec();
     let options = PostOptions { macros, cycles: true, ..PostOptions::default() };
-    if let Ok(post) = Post::read(bytes, Utf8Path::new("any"))
+    if let Ok(post) = PostDefinition::read(bytes, Utf8Path::new("any"))
         && let Ok(output) = post.write(&program(), &options)
     {
         assert!(output.text.len() < 1 << 24, "{} bytes", output.text.len());

@@ -3,7 +3,7 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_motion::{Arc, Move, MoveShape, Pace, Plane, Position};
-use pathbuild_post::{Entry, Job, JobStep, Operation, Output, Post, PostOptions, Tool};
+use pathbuild_post::{Entry, Job, JobStep, Operation, Output, PostDefinition, PostOptions, Tool};
 
 /// A file of `../shared` next to the project. `None` if that is absent; the test is then skipped.
 pub(crate) fn shared(name: &str) -> Option<String> {
@@ -57,13 +57,13 @@ pub(crate) fn bare(elements: &str) -> String {
     ))
 }
 
-pub(crate) fn read(text: &str) -> Result<Post, Vec<Diagnostic>> {
-    Post::read(text.as_bytes(), Utf8Path::new("test.cbpp"))
+pub(crate) fn read(text: &str) -> Result<PostDefinition, Vec<Diagnostic>> {
+    PostDefinition::read(text.as_bytes(), Utf8Path::new("test.cbpp"))
 }
 
 /// Parses a definition with control texts.
-pub(crate) fn read_toml(text: &str) -> Post {
-    Post::read(text.as_bytes(), Utf8Path::new("test.toml"))
+pub(crate) fn read_toml(text: &str) -> PostDefinition {
+    PostDefinition::read(text.as_bytes(), Utf8Path::new("test.toml"))
         .unwrap_or_else(|errors| panic!("{:?}", texts(&errors)))
 }
 
@@ -78,7 +78,7 @@ pub(crate) fn output(
 
 /// Output for a job that is read back only if a dialect is declared, for tests of texts that are not entire programs.
 pub(crate) fn unchecked(
-    post: &Post,
+    post: &PostDefinition,
     job: &Job,
     options: &PostOptions<'_>,
 ) -> Result<Output, Vec<Diagnostic>> {

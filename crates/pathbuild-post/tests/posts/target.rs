@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Charset;
 use pathbuild_gcode::verify::{Machine, Travel};
 use pathbuild_motion::Turning;
-use pathbuild_post::{Hole, HoleKind, Job, JobStep, Output, Post, PostOptions};
+use pathbuild_post::{Hole, HoleKind, Job, JobStep, Output, PostDefinition, PostOptions};
 
 use crate::support::{definition, feed, job, rapid, read, texts};
 
@@ -16,7 +16,7 @@ fn write_with(target: &str, text: &str, options: &PostOptions<'_>) -> Result<Out
     ));
     // The output is not a complete program.
     let options = PostOptions { unchecked: true, ..options.clone() };
-    Post::read(text.as_bytes(), Utf8Path::new("test.cbpp"))?.write(&job(vec![]), &options)
+    PostDefinition::read(text.as_bytes(), Utf8Path::new("test.cbpp"))?.write(&job(vec![]), &options)
 }
 
 fn dialect(name: &str) -> String {
@@ -137,7 +137,7 @@ fn grbl_gets_no_byte_that_it_would_act_on() {
 
 #[test]
 fn raw_bytes_that_grbl_would_act_on_are_errors() {
-    let post = Post::read(
+    let post = PostDefinition::read(
         b"[post]\ndialect = \"grbl\"\nnumber-lines = false\n[text]\nprogram-start = '(\\\\\\~84)'",
         Utf8Path::new("t.toml"),
     )
@@ -161,7 +161,9 @@ fn comments_within_comments_are_no_such_where_that_is_an_error() {
 
 #[test]
 fn what_somebody_answers_for_is_not_read_back_and_a_note_says_so() {
-    let post = Post::read(definition("<PostFile>M2</PostFile>").as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
+    let post =
+        PostDefinition::read(definition("<PostFile>M2</PostFile>").as_bytes(), Utf8Path::new("t.cbpp"))
+            .unwrap();
     let program = job(vec![feed(1.0, 0.0, -1.0)]);
     for dialect in [None, Some("linuxcnc".into())] {
         let options = PostOptions { dialect, ..PostOptions::default() };
@@ -206,7 +208,7 @@ fn a_control_without_cycles_gets_their_moves() {
     let cycle = |definition_text: &str, name: &str| {
         let text =
             definition(&format!("<PostFile>{{$mops}}</PostFile><MOP>{{$blocks}}</MOP>{definition_text}"));
-        let output = Post::read(text.as_bytes(), Utf8Path::new("t.cbpp"))
+        let output = PostDefinition::read(text.as_bytes(), Utf8Path::new("t.cbpp"))
             .unwrap()
             .write(&pecked(), &options(name))
             .unwrap();
@@ -230,7 +232,7 @@ fn a_definition_that_writes_the_moves_of_a_hole_itself_is_let() {
          <Drill>(by hand)\n{$g0} Z{$mop.retractheight}\n{$g1} {$z} {$f}\n{$g0} Z{$mop.clearanceplane}</Drill>",
     );
     let options = PostOptions { dialect: Some("grbl".into()), cycles: true, ..PostOptions::default() };
-    let post = Post::read(text.as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
+    let post = PostDefinition::read(text.as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
     let output = post.write(&job(vec![JobStep::Hole(plain)]), &options).unwrap();
     assert!(String::from_utf8(output.text).unwrap().contains("(by hand)"));
 }
@@ -238,7 +240,7 @@ fn a_definition_that_writes_the_moves_of_a_hole_itself_is_let() {
 /// Writes unchecked, if anything may be written, and for a dialect in which the text is read back.
 fn read_back(elements: &str, steps: Vec<JobStep>) -> Result<(), Vec<String>> {
     let text = definition(&format!("<PostFile>{{$mops}}</PostFile><MOP>{{$blocks}}</MOP>{elements}"));
-    let post = Post::read(text.as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
+    let post = PostDefinition::read(text.as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
     let unchecked = PostOptions { unchecked: true, ..PostOptions::default() };
     post.write(&job(steps.clone()), &unchecked).unwrap();
     let options = PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() };
@@ -271,7 +273,7 @@ fn run_on(machine: Machine, before: &str, behind: &str) -> Result<(), Vec<String
     let text = format!(
         "<PostFile>{{$mops}}{behind}</PostFile><MOP>{before}\n{{$blocks}}</MOP><Dialect>linuxcnc</Dialect>"
     );
-    let post = Post::read(definition(&text).as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
+    let post = PostDefinition::read(definition(&text).as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
     let options = PostOptions { machine: Some(machine), ..PostOptions::default() };
     let steps = vec![feed(0.0, 0.0, -1.0), feed(10.0, 0.0, -1.0), rapid(10.0, 0.0, 5.0)];
     post.write(&job(steps), &options).map(drop).map_err(|errors| texts(&errors))
@@ -308,7 +310,7 @@ fn a_program_that_breaks_a_rule_of_verify_is_not_written() {
 fn somebody_who_answers_for_the_moves_does_not_answer_for_rules() {
     let post = |dialect: &str| {
         let text = format!("<PostFile>{{$mops}}</PostFile><MOP>M5\n{{$blocks}}</MOP>{dialect}");
-        Post::read(definition(&text).as_bytes(), Utf8Path::new("t.cbpp")).unwrap()
+        PostDefinition::read(definition(&text).as_bytes(), Utf8Path::new("t.cbpp")).unwrap()
     };
     let options = PostOptions { unchecked: true, ..PostOptions::default() };
     let job = job(vec![feed(0.0, 0.0, -1.0), rapid(0.0, 0.0, 5.0)]);

@@ -1,7 +1,7 @@
 //! Tests of the feeds of plunges and of probing. ("Elementary moves"; book: language/letters, Z)
 
 use pathbuild_path::PathOptions;
-use pathbuild_toolpath::{Class, PlannedMove, Program, ProgramStep};
+use pathbuild_toolpath::{MoveClass, PlannedMove, Program, ProgramStep};
 
 use crate::support::{COMPATIBLE, OPTIONS, path, program, program_with};
 
@@ -56,7 +56,7 @@ fn plunges_into_a_bar_run_at_the_segments_feed() {
     // A plunge onto the bars of an edge above D has the feed of the chain; slopes are lines.
     let bars = path("T5 O3 D2 B0 P2 U38 I5 F80", "bars 0,0 40,0 \"F30\"\nend 40,0");
     assert_eq!(plunges(&program(&bars)), [(30.0, 30.0)]);
-    let counted = |step: &&ProgramStep| matches!(step, ProgramStep::Move { count, .. } if count.class == Class::Drilling);
+    let counted = |step: &&ProgramStep| matches!(step, ProgramStep::Move { count, .. } if count.class == MoveClass::Drilling);
     assert_eq!(program(&bars).steps.iter().filter(counted).count(), 1);
 }
 

@@ -1,6 +1,8 @@
 //! Tests of the lengths and times counted by the original tool.
 
-use pathbuild_toolpath::{Class, Count, Height, PlannedMove, Program, ProgramStep, Statistics, Total, Xy};
+use pathbuild_toolpath::{
+    Count, Height, MoveClass, PlannedMove, Program, ProgramStep, Statistics, Total, Xy,
+};
 
 use crate::support::{counts, path, program};
 
@@ -38,7 +40,7 @@ fn a_sweep_counts_with_the_height_of_its_aim() {
 }
 
 fn drill(z: f64, length: f64, feed: Option<f64>) -> ProgramStep {
-    let class = if feed.is_some() { Class::Drilling } else { Class::Sweep };
+    let class = if feed.is_some() { MoveClass::Drilling } else { MoveClass::Sweep };
     ProgramStep::Move {
         to: PlannedMove::Drill { feed: 100.0, z: Height { z, at: Xy::origin() } },
         count: Count { class, length, feed },

@@ -12,18 +12,18 @@ use pathbuild_diagnostic::Lang;
 const SIZE: Point = [420.0, 280.0];
 
 /// Smallest extent shown in mm, and factor by which the picture exceeds the extent of related points.
-const LEAST: f64 = 36.0;
-const AROUND: f64 = 1.4;
+const MIN_EXTENT: f64 = 36.0;
+const ENLARGEMENT: f64 = 1.4;
 
 /// Small gaps are enlarged: the picture shows this multiple of the gap, but at least the second value in mm.
-const GAPS: f64 = 40.0;
-const NARROWEST: f64 = 4.0;
+const GAP_MULTIPLE: f64 = 40.0;
+const MIN_GAP_EXTENT: f64 = 4.0;
 
 /// Radius of the circle around the place, in px.
 const CIRCLE: f64 = 17.0;
 
 /// Distance in mm up to which a text's circle counts as being at the place, so that the text itself is at fault.
-const NEAR: f64 = 1.0;
+const LABEL_DISTANCE: f64 = 1.0;
 
 /// Number of a drawing's first paths that are included even if they have no elements nearby. Including all of them would put thousands into
 /// each picture.
@@ -94,8 +94,9 @@ fn window(spot: &Spot) -> [Point; 2] {
     let [low, high] = corners.unwrap_or_default();
     let tall = SIZE[1] / SIZE[0];
     let across = libm::hypot(high[0] - low[0], high[1] - low[1]);
-    let least = if across > 0.0 { (GAPS * across).clamp(NARROWEST, LEAST) } else { LEAST };
-    let width = ((high[0] - low[0]) * AROUND).max((high[1] - low[1]) * AROUND / tall).max(least);
+    let least =
+        if across > 0.0 { (GAP_MULTIPLE * across).clamp(MIN_GAP_EXTENT, MIN_EXTENT) } else { MIN_EXTENT };
+    let width = ((high[0] - low[0]) * ENLARGEMENT).max((high[1] - low[1]) * ENLARGEMENT / tall).max(least);
     let half = [width / 2.0, width * tall / 2.0];
     let middle = [0, 1].map(|axis| f64::midpoint(low[axis], high[axis]));
     [[0, 1].map(|axis| middle[axis] - half[axis]), [0, 1].map(|axis| middle[axis] + half[axis])]
@@ -168,7 +169,7 @@ fn path_near(
 fn circles(canvas: &mut Canvas, path: &ScenePath, spot: &Spot, place: &PageTransform) {
     for label in &path.texts {
         let away = libm::hypot(label.at[0] - spot.at[0], label.at[1] - spot.at[1]);
-        if away <= label.radius + NEAR {
+        if away <= label.radius + LABEL_DISTANCE {
             let style = format!("fill=\"none\" stroke=\"{TEXT}\" stroke-dasharray=\"3 3\"");
             canvas.circle(place.at(label.at), label.radius * place.scale(), &style);
         }

@@ -16,14 +16,14 @@ use super::moves::data;
 use super::things;
 use crate::scene::{FinishedPart, MoveKind, Point, Scene, SceneMove, ScenePath, Shape};
 
-const UNTOUCHED: &str = "#dbbd85";
-const EDGE: &str = "#4a3012";
-const THROUGH: &str = "#ccd6e0";
+const UNTOUCHED_COLOUR: &str = "#dbbd85";
+const EDGE_COLOUR: &str = "#4a3012";
+const THROUGH_COLOUR: &str = "#ccd6e0";
 /// Rapid moves through material, cuts into parts and support bars that are cut away.
-const WRONG: &str = "#e50d1a";
-const LEFT: &str = "#9628c8";
-const REMOVED_NOW: &str = "#0072b2";
-const LOOSE: &str = "#e69f00";
+const WRONG_COLOUR: &str = "#e50d1a";
+const LEFTOVER_COLOUR: &str = "#9628c8";
+const REMOVED_NOW_COLOUR: &str = "#0072b2";
+const LOOSE_COLOUR: &str = "#e69f00";
 const OUTLINE: &str = "#0b57c4";
 
 /// Red, green and blue of the shallowest and the deepest cut.
@@ -36,7 +36,7 @@ const EDGE_WIDTH: f64 = 0.7;
 const STEPS: f64 = 64.0;
 
 /// Length of the pieces, in diameters of the cutter, in which rapid moves are searched for material.
-const SEARCHED: f64 = 0.25;
+const SEARCH_PIECE: f64 = 0.25;
 
 /// Upper bound on the number of pieces of a rapid move.
 const MOST_PIECES: f64 = 400.0;
@@ -108,7 +108,7 @@ enum StrokeKind {
 }
 
 /// Cutter and stock of a move.
-struct Setting {
+struct CuttingConditions {
     diameter: f64,
     /// Z of the upper face.
     top: f64,
@@ -142,7 +142,7 @@ impl<'s> MilledStock<'s> {
                 cuts.push((moved(&movement.way, zero), setting));
             }
         }
-        let lowest = |(way, _): &(Move, Setting)| way.from.z().min(way.to.z());
+        let lowest = |(way, _): &(Move, CuttingConditions)| way.from.z().min(way.to.z());
         let low = cuts.iter().map(lowest).reduce(f64::min).unwrap_or_default();
         blanks.sort_by(|one, other| one.1.total_cmp(&other.1));
         let top = blanks.last().map_or(low, |(_, top)| *top);
@@ -233,7 +233,7 @@ impl<'s> MilledStock<'s> {
         for (index, hit) in self.hits.iter().enumerate() {
             hits.push_str(&data(&hit.way, &place));
             if self.hits.get(index + 1).is_none_or(|next| next.diameter != hit.diameter) {
-                stroke(canvas, &std::mem::take(&mut hits), hit.diameter * place.scale(), WRONG);
+                stroke(canvas, &std::mem::take(&mut hits), hit.diameter * place.scale(), WRONG_COLOUR);
             }
         }
         canvas.close();
@@ -254,7 +254,7 @@ impl<'s> MilledStock<'s> {
             _ = write!(all, "M{} {}H{}V{}H{}Z", n(left), n(top), n(right), n(bottom), n(left));
         }
         canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{all}\"/></clipPath>"));
-        canvas.path(&all, &format!("fill=\"{UNTOUCHED}\""));
+        canvas.path(&all, &format!("fill=\"{UNTOUCHED_COLOUR}\""));
     }
 
     /// Paints strokes that look alike at once.
@@ -275,10 +275,10 @@ impl<'s> MilledStock<'s> {
             let data = std::mem::take(&mut all);
             match next.kind {
                 StrokeKind::Edge | StrokeKind::ThroughEdge => {
-                    stroke(canvas, &data, width + 2.0 * EDGE_WIDTH, EDGE);
+                    stroke(canvas, &data, width + 2.0 * EDGE_WIDTH, EDGE_COLOUR);
                 }
                 StrokeKind::Cut | StrokeKind::Through => {
-                    let through = (next.kind == StrokeKind::Through).then_some(THROUGH);
+                    let through = (next.kind == StrokeKind::Through).then_some(THROUGH_COLOUR);
                     let color = next.mark.or(through).map_or_else(|| self.color(next.z), str::to_owned);
                     stroke(canvas, &data, width, &color);
                 }
@@ -307,44 +307,52 @@ impl<'s> MilledStock<'s> {
         };
         let depths = format!("Z {} … {}", mm(top), mm(low));
         let all = [
-            (true, UNTOUCHED.to_owned(), shown.either("untouched", "unberührt")),
+            (true, UNTOUCHED_COLOUR.to_owned(), shown.either("untouched", "unberührt")),
             (has(StrokeKind::Cut), depth_color(0.0), depths.as_str()),
             (
                 has(StrokeKind::Cut),
                 depth_color(1.0),
                 shown.either("the darker, the deeper", "je dunkler, desto tiefer"),
             ),
-            (has(StrokeKind::Through), THROUGH.to_owned(), shown.either("cut through", "durchgefräst")),
+            (
+                has(StrokeKind::Through),
+                THROUGH_COLOUR.to_owned(),
+                shown.either("cut through", "durchgefräst"),
+            ),
             (has_part(|_| true), OUTLINE.to_owned(), shown.either("outline of the part", "Umriss des Teils")),
             (
                 has_part(|part| !part.gouges.is_empty()),
-                WRONG.to_owned(),
+                WRONG_COLOUR.to_owned(),
                 shown.either("cut into the part", "Schnitt ins Teil"),
             ),
             (
                 has_part(|part| !part.left.is_empty()),
-                LEFT.to_owned(),
+                LEFTOVER_COLOUR.to_owned(),
                 shown.either("left at the part", "bleibt am Teil stehen"),
             ),
             (
                 self.has_corners,
-                LEFT.to_owned(),
+                LEFTOVER_COLOUR.to_owned(),
                 shown.either("corner out of the cutter's reach", "Ecke, die der Fräser nicht erreicht"),
             ),
             (
                 !self.scene.uncut.is_empty(),
-                LEFT.to_owned(),
+                LEFTOVER_COLOUR.to_owned(),
                 shown.either("outline that is not cut", "nicht gefräster Umriss"),
             ),
-            (has_part(|part| part.is_loose), LOOSE.to_owned(), shown.either("loose part", "loses Teil")),
+            (
+                has_part(|part| part.is_loose),
+                LOOSE_COLOUR.to_owned(),
+                shown.either("loose part", "loses Teil"),
+            ),
             (
                 has_part(|part| !part.lost_bars.is_empty()),
-                WRONG.to_owned(),
+                WRONG_COLOUR.to_owned(),
                 shown.either("support bar cut away", "abgetrennter Stützsteg"),
             ),
             (
                 !self.hits.is_empty(),
-                WRONG.to_owned(),
+                WRONG_COLOUR.to_owned(),
                 shown.either("rapid move through material", "Eilgang durch Material"),
             ),
         ];
@@ -354,7 +362,7 @@ impl<'s> MilledStock<'s> {
             if x + width > right {
                 (x, y) = (left, y + 17.0);
             }
-            let style = format!("fill=\"{color}\" stroke=\"{EDGE}\" stroke-width=\"0.5\"");
+            let style = format!("fill=\"{color}\" stroke=\"{EDGE_COLOUR}\" stroke-width=\"0.5\"");
             canvas.path(&format!("M{} {}h12v10h-12Z", n(x), n(y - 9.0)), &style);
             canvas.text([x + 17.0, y], 10.5, Anchor::Start, &format!("fill=\"{INK}\""), name);
             x += width;
@@ -383,8 +391,8 @@ pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, l
         return None;
     }
     let (stock, other, id, color) = match change {
-        StockChange::Removed => (new, old, "stock-removed", REMOVED_NOW),
-        StockChange::Left => (old, new, "stock-left", LEFT),
+        StockChange::Removed => (new, old, "stock-removed", REMOVED_NOW_COLOUR),
+        StockChange::Left => (old, new, "stock-left", LEFTOVER_COLOUR),
     };
     let stock = stock.compared(other, color)?;
     let frame = Frame::around(stock.extent());
@@ -412,7 +420,7 @@ fn is_known(way: &Move) -> bool {
     way.from.known.and(way.to.known) == Axes::ALL && way.named.is_none()
 }
 
-fn setting(scene: &Scene, path: &ScenePath, movement: &SceneMove) -> Option<Setting> {
+fn setting(scene: &Scene, path: &ScenePath, movement: &SceneMove) -> Option<CuttingConditions> {
     let line = movement.line.unwrap_or(0);
     let later = path.tools.partition_point(|tool| tool.line <= line);
     let tool = later.checked_sub(1).map(|index| &path.tools[index]);
@@ -422,7 +430,7 @@ fn setting(scene: &Scene, path: &ScenePath, movement: &SceneMove) -> Option<Sett
     let top = stated.or(component.map(|component| component.thickness)).or(path.thickness)?;
     let raised = component.map_or(0.0, |component| component.raised);
     let through = if top > raised { raised + scene.through } else { f64::NEG_INFINITY };
-    Some(Setting { diameter: tool.map(|tool| tool.diameter).or(path.tool)?, top, through })
+    Some(CuttingConditions { diameter: tool.map(|tool| tool.diameter).or(path.tool)?, top, through })
 }
 
 /// A move in the coordinates of the drawing.
@@ -439,8 +447,8 @@ fn moved(way: &Move, zero: Point) -> Move {
 }
 
 /// What a cut paints. A slope is divided into steps, each as high as its upper end.
-fn strokes(way: &Move, setting: &Setting, step: f64) -> Vec<Stroke> {
-    let Setting { diameter, top, through } = *setting;
+fn strokes(way: &Move, setting: &CuttingConditions, step: f64) -> Vec<Stroke> {
+    let CuttingConditions { diameter, top, through } = *setting;
     let [from, to] = [way.from.z(), way.to.z()];
     let mut strokes = Vec::new();
     let mut add = |way: Move, z: f64, has_edge: bool| {
@@ -487,7 +495,7 @@ fn rounded(z: f64) -> f64 {
 
 /// The pieces of rapid moves of a path that hit material. Without a common blank, it is only known near cuts.
 fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<SweptArea> {
-    let settings: Vec<Option<Setting>> =
+    let settings: Vec<Option<CuttingConditions>> =
         path.moves.iter().map(|movement| setting(scene, path, movement)).collect();
     let highest = settings.iter().flatten().map(|setting| setting.top).fold(f64::NEG_INFINITY, f64::max);
     let is_low = |movement: &SceneMove| {
@@ -508,7 +516,7 @@ fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<SweptArea>
         let first = line(steps.len());
         let (surface, cutter) = (setting.top, Cutter::flat(setting.diameter));
         spans.push(StockSpan { line: first, surface, cutter });
-        let count = (movement.length / (setting.diameter * SEARCHED)).ceil().clamp(1.0, MOST_PIECES);
+        let count = (movement.length / (setting.diameter * SEARCH_PIECE)).ceil().clamp(1.0, MOST_PIECES);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
         let count = if is_low(movement) && !movement.way.is_vertical() { count as u32 } else { 1 };
         for way in movement.way.split(count) {
@@ -523,7 +531,7 @@ fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<SweptArea>
 /// A move that touches the upper face of a blank, with a cutter so wide that the material around the move is all of the blank.
 fn touch(([low, high], surface): Blank, zero: Point) -> (Move, StockSpan) {
     let [x, y] = [0, 1].map(|axis| [low[axis] - zero[axis], high[axis] - zero[axis]]);
-    let z = surface - TOUCH;
+    let z = surface - TOUCH_DEPTH;
     let (from, to, reach) = if x[1] - x[0] > y[1] - y[0] {
         let middle = f64::midpoint(y[0], y[1]);
         ([x[0], middle, z], [x[1], middle, z], y[1] - middle)
@@ -539,7 +547,7 @@ fn touch(([low, high], surface): Blank, zero: Point) -> (Move, StockSpan) {
 }
 
 /// Depth in mm of the move that touches a blank: less than what counts as material.
-const TOUCH: f64 = 1e-4;
+const TOUCH_DEPTH: f64 = 1e-4;
 
 /// The number of the next step.
 fn line(steps: usize) -> u32 {
@@ -548,7 +556,7 @@ fn line(steps: usize) -> u32 {
 
 /// Fills the outlines that no path comes near.
 pub(super) fn uncut(canvas: &mut Canvas, scene: &Scene, place: &PageTransform) {
-    let style = format!("fill=\"{LEFT}\" fill-opacity=\"0.35\"");
+    let style = format!("fill=\"{LEFTOVER_COLOUR}\" fill-opacity=\"0.35\"");
     for ring in &scene.uncut {
         canvas.path(&things::outline(ring, place), &style);
     }
@@ -568,7 +576,7 @@ fn left(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &st
     canvas.open(&format!("clip-path=\"url(#{id})\""));
     for stretch in &part.left {
         let data: String = stretch.outline.iter().map(|shape| things::shape(shape, place)).collect();
-        stroke(canvas, &data, 2.0 * stretch.reach * place.scale(), LEFT);
+        stroke(canvas, &data, 2.0 * stretch.reach * place.scale(), LEFTOVER_COLOUR);
     }
     canvas.close();
 }
@@ -586,7 +594,7 @@ fn corners(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: 
     let sharp: Vec<(Point, f64)> = part.rings.iter().flat_map(sharp).collect();
     let reach = sharp.iter().map(|(_, reach)| *reach).fold(0.0, f64::max);
     outside(canvas, part, place, reach, id);
-    canvas.open(&format!("clip-path=\"url(#{id})\" fill=\"{LEFT}\""));
+    canvas.open(&format!("clip-path=\"url(#{id})\" fill=\"{LEFTOVER_COLOUR}\""));
     for (corner, reach) in sharp {
         canvas.circle(place.at(corner), reach * place.scale(), "");
     }
@@ -598,14 +606,15 @@ fn corners(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: 
 fn sharpness([x, y]: Point, [next_x, next_y]: Point) -> Option<f64> {
     let (across, along) = (x * next_y - y * next_x, x * next_x + y * next_y);
     let norm = libm::hypot(x, y) * libm::hypot(next_x, next_y);
-    (across < -SMOOTH * norm).then(|| (-across / (norm + along).max(SMOOTH * norm)).min(SHARPEST))
+    (across < -SMOOTH_SINE * norm)
+        .then(|| (-across / (norm + along).max(SMOOTH_SINE * norm)).min(MAX_CORNER_REACH))
 }
 
 /// Sine of the turn up to which an outline is smooth.
-const SMOOTH: f64 = 0.01;
+const SMOOTH_SINE: f64 = 0.01;
 
 /// Upper bound on the reach of a corner, in radii of the cutter.
-const SHARPEST: f64 = 10.0;
+const MAX_CORNER_REACH: f64 = 10.0;
 
 /// Draws the defects of a part: cuts into it, support bars that are cut away, and that nothing holds it.
 fn wrong(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
@@ -616,19 +625,19 @@ fn wrong(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &s
         rings.map(|((_, ring), _)| things::outline(ring, place)).collect()
     };
     if part.is_loose {
-        canvas.path(&material(), &format!("fill=\"{LOOSE}\" fill-opacity=\"0.45\""));
+        canvas.path(&material(), &format!("fill=\"{LOOSE_COLOUR}\" fill-opacity=\"0.45\""));
     }
     let width = 2.0 * part.radius * place.scale();
     let data = |shapes: &[Shape]| shapes.iter().map(|shape| things::shape(shape, place)).collect::<String>();
     if !part.gouges.is_empty() {
         canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{}\"/></clipPath>", material()));
         canvas.open(&format!("clip-path=\"url(#{id})\""));
-        stroke(canvas, &data(&part.gouges), width, WRONG);
+        stroke(canvas, &data(&part.gouges), width, WRONG_COLOUR);
         canvas.close();
     }
     if !part.lost_bars.is_empty() {
         canvas.open("stroke-linecap=\"butt\"");
-        stroke(canvas, &data(&part.lost_bars), width, WRONG);
+        stroke(canvas, &data(&part.lost_bars), width, WRONG_COLOUR);
         canvas.close();
     }
 }
@@ -659,7 +668,7 @@ fn depth_color(share: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{SHARPEST, sharpness};
+    use super::{MAX_CORNER_REACH, sharpness};
 
     /// A round cutter touches the sides of a right angle at its radius from the corner, however the part lies.
     #[test]
@@ -675,7 +684,7 @@ mod tests {
                 reach(60.0).is_some_and(|reach| (reach - libm::sqrt(1.0 / 3.0)).abs() < 1e-9),
                 "{turned}"
             );
-            assert_eq!(reach(170.0), Some(SHARPEST));
+            assert_eq!(reach(170.0), Some(MAX_CORNER_REACH));
             assert_eq!([reach(0.5), reach(-90.0)], [None; 2], "smooth, or to the other side");
         }
     }

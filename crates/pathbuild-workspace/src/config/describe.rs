@@ -36,7 +36,7 @@ fn with_header() -> impl Iterator<Item = &'static TableEntry> {
 
 /// A key with its value.
 #[derive(Clone, Debug)]
-pub struct Setting {
+pub struct KeyValue {
     /// Its table; empty for keys before the first table.
     pub section: &'static str,
     /// Name of the key.
@@ -48,11 +48,11 @@ pub struct Setting {
 }
 
 /// Lists all settings.
-pub fn settings(settings: &Settings) -> Vec<Setting> {
+pub fn settings(settings: &Settings) -> Vec<KeyValue> {
     let setting = |section| {
         move |ShownSetting { name, value, origin }: ShownSetting| {
             let origin = value.as_ref().map(|_| origin.to_string()).unwrap_or_default();
-            Setting { section, name, value, origin }
+            KeyValue { section, name, value, origin }
         }
     };
     let all = without_header().chain(with_header());

@@ -243,7 +243,7 @@ fn misplaced_input(place: &Utf8Path, other: &Utf8Path, used: Option<&Utf8Path>) 
 
 /// Settings of the user for all trees.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct User {
+pub struct UserSettings {
     /// `lang`: language of messages. Programs are written in the language that their tree configures.
     pub lang: Option<Lang>,
     /// `[cache] dir`: where results are cached, in a subdirectory for each tree.
@@ -252,7 +252,7 @@ pub struct User {
     pub trusted: Option<Directories>,
 }
 
-impl User {
+impl UserSettings {
     /// Reads the file if it exists, and returns all its diagnostics.
     pub fn load(system: &dyn System, file: &Utf8Path) -> (Self, Vec<Diagnostic>) {
         if !files::is_named(file) {

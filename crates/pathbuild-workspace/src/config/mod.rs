@@ -22,8 +22,8 @@ mod table_kinds;
 pub mod types;
 
 pub use arguments::{GivenOptions, OptionValues, Overrides, SettingOption, number, positive, regex};
-pub use describe::{Setting, schema, settings, show, template};
-pub use load::{User, faults, load, repository};
+pub use describe::{KeyValue, schema, settings, show, template};
+pub use load::{UserSettings, faults, load, repository};
 pub use origin::{Origin, ResultKind, SourcedValue};
 pub use pathbuild_db::system::clean;
 pub use settings::{Options, Settings};

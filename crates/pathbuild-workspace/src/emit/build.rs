@@ -11,7 +11,7 @@ use pathbuild_gcode::native::{self, probe_name};
 use pathbuild_gcode::read::LONGEST_LINE;
 use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
-use pathbuild_toolpath::{Correction, Outside, Program, ProgramStep, memory};
+use pathbuild_toolpath::{Correction, Program, ProgramStep, UnprobedPoint, memory};
 
 use super::joined;
 use super::options::{OutputSettings, total};
@@ -127,7 +127,7 @@ fn too_many_pieces(steps: u64, program: &Program, writing: &WriteSettings) -> Op
     }
 }
 
-fn outside_probes(outside: &Outside) -> Diagnostic {
+fn outside_probes(outside: &UnprobedPoint) -> Diagnostic {
     Diagnostic::new(&probes::OUTSIDE)
         .with("distance", outside.distance)
         .with("at", Point::new(outside.at.x, outside.at.y))

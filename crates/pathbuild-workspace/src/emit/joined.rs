@@ -7,7 +7,7 @@ use pathbuild_db::{Collision, Database, PlacedKeepOut, Target, closure, placed_k
 use pathbuild_diagnostic::messages::{parameters, paths as messages};
 use pathbuild_diagnostic::{Diagnostic, words};
 use pathbuild_path::approx::near;
-use pathbuild_path::{Curve, KeepOutMap, Line, Way, Xy};
+use pathbuild_path::{Curve, KeepOutMap, Line, TipMove, Xy};
 use pathbuild_toolpath::{Program, kind_of_move, way};
 
 use super::plan::Job;
@@ -84,12 +84,12 @@ pub(super) fn moves_into_clamps(db: &Database, job: &Job, programs: &[Arc<Progra
 }
 
 /// The rapid move to the start of each program, at the greatest S of all of them; none to that of the first.
-fn traverses(programs: &[Arc<Program>]) -> impl Iterator<Item = Option<Way>> {
+fn traverses(programs: &[Arc<Program>]) -> impl Iterator<Item = Option<TipMove>> {
     let clearance = programs.iter().map(|program| program.sweep_height).fold(f64::NEG_INFINITY, f64::max);
     let ends = programs
         .iter()
         .map(|program| program.moves().last().map(|(_, last)| Xy::new(last.to.x(), last.to.y())));
-    let traverse = move |start: Xy| Way {
+    let traverse = move |start: Xy| TipMove {
         curve: Curve::Line(Line { start, end: Xy::origin() }),
         from_z: clearance,
         to_z: clearance,

@@ -20,7 +20,7 @@ use pathbuild_db::{Database, Db, SourceFile};
 
 use self::timings::Timings;
 use self::workers::{Watchdog, Workers};
-use crate::workspace::{Advance, Workspace};
+use crate::workspace::{ProgressCounter, Workspace};
 
 pub use argument_matches::{Argument, ArgumentMatches};
 pub use graph::{Direction, Embedding, End, Graph, GraphOutcome, Node};
@@ -44,7 +44,7 @@ pub struct Session<'a> {
     /// Started on first use.
     watchdog: OnceLock<Watchdog>,
     /// Progress display over all batches. Without one, each parallel loop shows its own.
-    progress: Option<Box<dyn Advance>>,
+    progress: Option<Box<dyn ProgressCounter>>,
     workers: OnceLock<Option<Workers>>,
     /// Time spent, by phase.
     pub timings: Timings,

@@ -109,7 +109,7 @@ impl ReferenceProgram {
         dialect: Dialect,
         words: &'w PostWords,
         rewritten: Option<&RewrittenProgram>,
-    ) -> verify::Against<'w, impl Iterator<Item = (u32, Move)>> {
+    ) -> verify::DrawingComparison<'w, impl Iterator<Item = (u32, Move)>> {
         let clearance = self.drawn.start_height();
         let above_zero = Position::known(0.0, 0.0, clearance);
         let (start, written) = rewritten.map_or((above_zero, None), |known| {
@@ -125,7 +125,7 @@ impl ReferenceProgram {
             number: self.number(settings),
             spin_up: settings.machine.spin_up.value,
         };
-        verify::Against::new(drawn, dialect, words)
+        verify::DrawingComparison::new(drawn, dialect, words)
     }
 
     /// What was compared, and the differences; there are none if the program has exactly the lines that its definition writes. The output

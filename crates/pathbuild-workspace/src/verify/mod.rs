@@ -18,8 +18,8 @@ use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    Against, BlindRapidRules, BlindRapids, ChipLoadRules, DepthRules, DirectionRules, LengthRules, Machine,
-    MachineRules, PastClamps, PostWords, StatedStatistics, Stock, WordRules, coarse_arcs, verify,
+    BlindRapidRules, BlindRapids, ChipLoadRules, DepthRules, DirectionRules, DrawingComparison, LengthRules,
+    Machine, MachineRules, PastClamps, PostWords, StatedStatistics, Stock, WordRules, coarse_arcs, verify,
 };
 use pathbuild_motion::{Action, Move, Pace, Step};
 use pathbuild_post::ToolTable;
@@ -241,7 +241,7 @@ impl<'m> WrittenSteps<'m> {
 
 /// Follows the steps of a program at their nominal heights.
 struct NominalSteps<'w, I: Iterator<Item = (u32, Move)>> {
-    comparison: Option<Against<'w, I>>,
+    comparison: Option<DrawingComparison<'w, I>>,
     words: Option<WordRules<'w>>,
     clamps: Option<PastClamps<'w>>,
 }

@@ -6,13 +6,13 @@ use crate::args::{ConfigArgs, ConfigCommand};
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::render::Format;
-use pathbuild_workspace::config::{Setting, schema, settings, show};
+use pathbuild_workspace::config::{KeyValue, schema, settings, show};
 
 /// Prints the settings, or the schema.
 pub fn run(context: &Context, args: &ConfigArgs) -> ExitStatus {
     match args.command {
         ConfigCommand::Show { .. } if context.format == Format::Json => {
-            for Setting { section, name, value, origin } in settings(&context.settings) {
+            for KeyValue { section, name, value, origin } in settings(&context.settings) {
                 let row = json!({ "section": section, "name": name, "value": value, "origin": origin });
                 context.row("setting", row);
             }

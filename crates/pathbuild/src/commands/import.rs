@@ -326,11 +326,13 @@ impl Formatter<'_> {
 
 /// Formats a few numbers, or the range if there are many.
 fn numbers(values: &[f64]) -> String {
-    const MOST: usize = 6;
+    const MAX_SHOWN_VALUES: usize = 6;
     let mut values = values.to_vec();
     values.sort_by(f64::total_cmp);
     match values.as_slice() {
-        [first, .., last] if values.len() > MOST => format!("{} ... {}", Number(*first), Number(*last)),
+        [first, .., last] if values.len() > MAX_SHOWN_VALUES => {
+            format!("{} ... {}", Number(*first), Number(*last))
+        }
         values => values.iter().map(|value| Number(*value).to_string()).collect::<Vec<_>>().join(", "),
     }
 }

@@ -26,20 +26,20 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     report.to_string().unwrap_or_else(|error| error.to_string())
 }
 
-type Suites<'a> = BTreeMap<Option<&'a Utf8Path>, BTreeMap<Option<&'a str>, Case<'a>>>;
+type SuitesByFile<'a> = BTreeMap<Option<&'a Utf8Path>, BTreeMap<Option<&'a str>, PathCase<'a>>>;
 
 #[derive(Default)]
-struct Case<'a> {
+struct PathCase<'a> {
     errors: Vec<&'a Diagnostic>,
     warnings: Vec<&'a Diagnostic>,
 }
 
 /// All checked paths, and all files and paths with findings.
-fn suites(findings: &Findings) -> Suites<'_> {
-    let mut suites = Suites::new();
+fn suites(findings: &Findings) -> SuitesByFile<'_> {
+    let mut suites = SuitesByFile::new();
     for file in &findings.checked {
         let suite = suites.entry(Some(&file.file)).or_default();
-        suite.extend(file.paths.iter().map(|path| (Some(path.as_str()), Case::default())));
+        suite.extend(file.paths.iter().map(|path| (Some(path.as_str()), PathCase::default())));
     }
     for diagnostic in &findings.diagnostics {
         let suite = suites.entry(diagnostic.file.as_deref()).or_default();
@@ -50,7 +50,7 @@ fn suites(findings: &Findings) -> Suites<'_> {
     suites
 }
 
-impl Case<'_> {
+impl PathCase<'_> {
     fn shown(&self, name: &str, file: &str, view: &View) -> TestCase {
         let mut shown = TestCase::new(name, self.status(view));
         shown.set_classname(file);

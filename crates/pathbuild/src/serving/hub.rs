@@ -14,7 +14,7 @@ use tokio::sync::{oneshot, watch};
 #[derive(Default)]
 pub(super) struct Hub {
     state: Mutex<State>,
-    news: watch::Sender<u64>,
+    revisions: watch::Sender<u64>,
 }
 
 /// Published state.
@@ -118,13 +118,13 @@ impl Hub {
         let revision = state.revision;
         let result = change(&mut state, revision);
         drop(state);
-        self.news.send_replace(revision);
+        self.revisions.send_replace(revision);
         result
     }
 
     /// Notifies of new changes by their numbers.
-    pub(super) fn news(&self) -> watch::Receiver<u64> {
-        self.news.subscribe()
+    pub(super) fn revisions(&self) -> watch::Receiver<u64> {
+        self.revisions.subscribe()
     }
 
     /// The changes since a revision as JSON, with at most `most` drawings.

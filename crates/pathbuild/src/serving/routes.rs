@@ -40,7 +40,7 @@ pub(super) struct Routes {
 }
 
 /// Time within which a page must reconnect, for example when it is reloaded.
-const GRACE: Duration = Duration::from_secs(5);
+const RECONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// Time that a browser may take to start.
 const START: Duration = Duration::from_secs(90);
@@ -88,7 +88,7 @@ async fn end_by_key(hub: Arc<Hub>) {
 async fn end_without_pages(hub: Arc<Hub>, mut pages: watch::Receiver<usize>) {
     let mut patience = START;
     while timeout(patience, pages.wait_for(|open| *open > 0)).await.is_ok_and(|open| open.is_ok()) {
-        patience = GRACE;
+        patience = RECONNECT_TIMEOUT;
         if pages.wait_for(|open| *open == 0).await.is_err() {
             break;
         }
@@ -204,17 +204,17 @@ async fn answer_with(routes: &Routes, subject: Subject, kind: &'static str) -> R
 
 /// Stream of the numbers of changes, beginning with the last one.
 async fn events(State(routes): State<Arc<Routes>>) -> impl IntoResponse {
-    let (news, run) = (routes.hub.news(), routes.run.clone());
+    let (revisions, run) = (routes.hub.revisions(), routes.run.clone());
     let open = OpenPage::new(routes.pages.clone());
-    let numbers = stream::unfold((news, true, open), move |(mut news, is_first, open)| {
+    let numbers = stream::unfold((revisions, true, open), move |(mut revisions, is_first, open)| {
         let run = run.clone();
         async move {
             if !is_first {
-                news.changed().await.ok()?;
+                revisions.changed().await.ok()?;
             }
-            let revision = *news.borrow_and_update();
+            let revision = *revisions.borrow_and_update();
             let event = Event::default().data(format!("{run} {revision}"));
-            Some((Ok::<_, Infallible>(event), (news, false, open)))
+            Some((Ok::<_, Infallible>(event), (revisions, false, open)))
         }
     });
     Sse::new(numbers).keep_alive(KeepAlive::default())

@@ -112,7 +112,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         }
         let is_foot = cut.is_none() && self.expected.peek().is_none();
         let at = self.place();
-        let way = Way {
+        let traverse = ExpectedTraverse {
             start,
             expected: &expected,
             is_foot,
@@ -128,7 +128,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             is_near(&movement.from.at, &[x, y, movement.from.z()], slack)
                 && libm::fabs(z - movement.from.z()) <= height
         };
-        match chain.check(&way) {
+        match chain.check(&traverse) {
             Err(found) => Err(Box::new(Difference { kind: DifferenceKind::Place, found, expected: next })),
             Ok(()) if cut.is_none_or(|(_, movement)| reaches(movement) || movement.is_nothing()) => {
                 self.equal += expected.len();
@@ -282,7 +282,7 @@ pub(super) struct Chain {
 
 /// The expected moves between two cuts.
 #[derive(Debug)]
-pub(super) struct Way<'w> {
+pub(super) struct ExpectedTraverse<'w> {
     /// Start of the moves.
     pub(super) start: Position,
     pub(super) expected: &'w [Numbered],
@@ -311,14 +311,14 @@ impl Chain {
     }
 
     /// Checks the chain against the expected moves. The error is the first move that deviates.
-    pub(super) fn check(&self, way: &Way<'_>) -> Result<(), Option<Numbered>> {
+    pub(super) fn check(&self, traverse: &ExpectedTraverse<'_>) -> Result<(), Option<Numbered>> {
         if !self.is_head {
-            return Self::check_rest(&self.moves, way.expected, way);
+            return Self::check_rest(&self.moves, traverse.expected, traverse);
         }
         let mut outcome = Err(self.moves.first().copied());
-        for (passed, place) in way.clear_places().enumerate() {
-            let Some(rest) = self.arrived(&place, passed > 0, way)? else { continue };
-            outcome = Self::check_rest(rest, &way.expected[passed..], way);
+        for (passed, place) in traverse.clear_places().enumerate() {
+            let Some(rest) = self.arrived(&place, passed > 0, traverse)? else { continue };
+            outcome = Self::check_rest(rest, &traverse.expected[passed..], traverse);
             if outcome.is_ok() {
                 break;
             }
@@ -327,16 +327,20 @@ impl Chain {
     }
 
     /// Checks that moves are the expected ones; at the end of the program, further harmless moves are permitted.
-    fn check_rest(moves: &[Numbered], expected: &[Numbered], way: &Way<'_>) -> Result<(), Option<Numbered>> {
-        let mut found = moves.iter().filter(|(_, movement)| !way.stands(movement));
-        for (_, expected) in expected.iter().filter(|(_, movement)| !way.stands(movement)) {
+    fn check_rest(
+        moves: &[Numbered],
+        expected: &[Numbered],
+        traverse: &ExpectedTraverse<'_>,
+    ) -> Result<(), Option<Numbered>> {
+        let mut found = moves.iter().filter(|(_, movement)| !traverse.stands(movement));
+        for (_, expected) in expected.iter().filter(|(_, movement)| !traverse.stands(movement)) {
             let next = found.next();
-            let is_same = |(_, movement): &Numbered| way.is_same(movement, expected);
+            let is_same = |(_, movement): &Numbered| traverse.is_same(movement, expected);
             if !next.is_some_and(is_same) {
                 return Err(next.copied());
             }
         }
-        match found.find(|(_, movement)| !(way.is_foot && way.is_harmless(movement))) {
+        match found.find(|(_, movement)| !(traverse.is_foot && traverse.is_harmless(movement))) {
             None => Ok(()),
             Some(other) => Err(Some(*other)),
         }
@@ -349,11 +353,11 @@ impl Chain {
         &self,
         place: &Position,
         is_later: bool,
-        way: &Way<'_>,
+        traverse: &ExpectedTraverse<'_>,
     ) -> Result<Option<&[Numbered]>, Option<Numbered>> {
         let begins = |(_, movement): &Numbered| {
             let is_raised = !is_later || movement.from.known.has(Axes::Z);
-            movement.to.known == Axes::ALL && way.is_near(&movement.to, place) && is_raised
+            movement.to.known == Axes::ALL && traverse.is_near(&movement.to, place) && is_raised
         };
         let Some(arrival) = self.moves.iter().position(begins) else { return Ok(None) };
         let (head, rest) = self.moves.split_at(arrival + 1);
@@ -362,7 +366,7 @@ impl Chain {
             is_parked |= movement.named.is_some();
             // The position at the beginning is unknown, so the tool must be raised before it moves anywhere.
             let is_raised = movement.from.known.has(Axes::Z) || movement.to.known.has(Axes::Z) || is_parked;
-            if !is_raised || !way.is_harmless(movement) {
+            if !is_raised || !traverse.is_harmless(movement) {
                 return Err(Some((*line, *movement)));
             }
         }
@@ -370,7 +374,7 @@ impl Chain {
     }
 }
 
-impl Way<'_> {
+impl ExpectedTraverse<'_> {
     /// Whether a move before the start or after the end is harmless: at S0 over positions of the expected moves, or to a machine position.
     fn is_harmless(&self, movement: &Move) -> bool {
         let is_raised = !movement.from.known.has(Axes::Z) || self.is_clear(movement.from.z());

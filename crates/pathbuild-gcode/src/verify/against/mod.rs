@@ -104,7 +104,7 @@ pub struct Agreement {
 
 /// Compares the steps of a program with a drawing: pass every step, then call [`finish`](Self::finish).
 #[derive(Debug)]
-pub struct Against<'w, M: Iterator<Item = (u32, Move)>> {
+pub struct DrawingComparison<'w, M: Iterator<Item = (u32, Move)>> {
     setup: Setup<'w>,
     words: WordRules<'w>,
     cuts: Cuts<M>,
@@ -112,7 +112,7 @@ pub struct Against<'w, M: Iterator<Item = (u32, Move)>> {
     problems: Problems,
 }
 
-impl<'w, M: Iterator<Item = (u32, Move)>> Against<'w, M> {
+impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
     /// Starts a comparison for a program in this dialect, written by a post with these words.
     pub fn new(drawn: Drawn<M>, dialect: Dialect, words: &'w PostWords) -> Self {
         Self {

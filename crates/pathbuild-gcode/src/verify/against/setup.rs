@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Severity};
 use pathbuild_motion::{
-    Action, Axes, Change, Coolant, Corners, Group, Move, Named, Pace, Plane, Position, Spindle, StatedWord,
-    Step, ToolLength, Turning,
+    Action, Axes, Change, Coolant, Corners, Group, Move, NamedPosition, Pace, Plane, Position, Spindle,
+    StatedWord, Step, ToolLength, Turning,
 };
 
 use super::ToolUse;
@@ -45,13 +45,13 @@ pub(super) struct Setup<'w> {
     /// Seconds since the spindle was switched on.
     running: f64,
     /// What has been reported about the current state.
-    reported: Reported,
+    reported: ReportedFaults,
 }
 
 /// Each problem is reported once, until the state changes.
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
-struct Reported {
+struct ReportedFaults {
     spindle: bool,
     length: bool,
     /// Whether it was reported that the program sets no length.
@@ -91,7 +91,7 @@ impl<'w> Setup<'w> {
             at: Position::default(),
             spindle_line: 0,
             running: 0.0,
-            reported: Reported::default(),
+            reported: ReportedFaults::default(),
         }
     }
 
@@ -218,7 +218,7 @@ impl<'w> Setup<'w> {
     fn moves(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
         self.at = movement.to;
         self.head(line, problems);
-        if matches!(movement.named, Some(Named::Machine(_)))
+        if matches!(movement.named, Some(NamedPosition::Machine(_)))
             && !movement.to.known.has(Axes::Z)
             && movement.to.z() != 0.0
         {

@@ -2,7 +2,7 @@
 
 use pathbuild_motion::{Move, MoveShape, Pace, Position};
 
-use super::{SIDE, Tops};
+use super::{CELLS_PER_SIDE, CutGrid};
 
 /// A post of 1 mm, 9 mm high, far from the origin.
 const POST: [(f64, f64); 2] = [(130.0, 131.0), (-20.0, -19.0)];
@@ -15,8 +15,11 @@ fn rapid([x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) -> Move {
 /// In all directions, and passing on either side.
 #[test]
 fn what_stands_within_the_radius_of_a_move_is_seen() {
-    let mut tops =
-        Tops { corner: [100.0, -40.0], cell: [1.0, 0.5], heights: vec![f64::NEG_INFINITY; SIDE * SIDE] };
+    let mut tops = CutGrid {
+        corner: [100.0, -40.0],
+        cell: [1.0, 0.5],
+        heights: vec![f64::NEG_INFINITY; CELLS_PER_SIDE * CELLS_PER_SIDE],
+    };
     tops.raise(POST, 9.0);
     for step in 0..48 {
         let (sin, cos) = libm::sincos(f64::from(step) * std::f64::consts::TAU / 48.0);

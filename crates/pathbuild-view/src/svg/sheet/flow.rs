@@ -23,7 +23,7 @@ const INDENT: f64 = 17.0;
 const NAMES: f64 = 0.45;
 
 /// Space between two cells of a row, in units of the page.
-const GAP: f64 = 6.0;
+const CELL_GAP: f64 = 6.0;
 
 /// A block of text that is not split.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,7 +90,7 @@ impl Block {
             }
             Self::Fact(name, value) => {
                 let names = column.width * NAMES;
-                let left = lines(name, column.left, names - GAP, top, items);
+                let left = lines(name, column.left, names - CELL_GAP, top, items);
                 let right = lines(value, column.left + names, column.width - names, top, items);
                 left.max(right)
             }
@@ -122,7 +122,7 @@ fn row(
     let first = items.len();
     for (cell, share) in cells.iter().zip(shares) {
         let width = share * column.width;
-        bottom = bottom.max(lines(cell, left, width - GAP, top + 3.0, items));
+        bottom = bottom.max(lines(cell, left, width - CELL_GAP, top + 3.0, items));
         left += width;
     }
     if is_head {

@@ -11,12 +11,12 @@ const MOST_ROWS: usize = 300;
 #[derive(Debug)]
 struct Operation {
     numbers: [u32; 2],
-    work: Work,
+    work: ElementOperation,
 }
 
 /// What is done at an element.
 #[derive(Debug, PartialEq)]
-struct Work {
+struct ElementOperation {
     /// The occurrence of the path, as an index into [`ScenePath::embedded`].
     occurrence: u32,
     path: String,
@@ -47,7 +47,7 @@ fn row(operation: Operation) -> Vec<String> {
 fn operations(path: &ScenePath, words: Words) -> Vec<Operation> {
     let depths = depths(path);
     let numbered = path.elements.iter().zip(depths);
-    let mut numbered: Vec<(u32, Work)> = numbered
+    let mut numbered: Vec<(u32, ElementOperation)> = numbered
         .filter_map(|(element, depth)| Some((element.order?, work(path, element, depth, words))))
         .collect();
     numbered.sort_by_key(|(number, _)| *number);
@@ -73,9 +73,9 @@ fn depths(path: &ScenePath) -> Vec<Option<f64>> {
     depths
 }
 
-fn work(path: &ScenePath, element: &Element, depth: Option<f64>, words: Words) -> Work {
+fn work(path: &ScenePath, element: &Element, depth: Option<f64>, words: Words) -> ElementOperation {
     let name = path.embedded.get(element.path as usize).map_or(&path.name, |embedded| &embedded.name);
-    Work {
+    ElementOperation {
         occurrence: element.path,
         path: name.clone(),
         what: what(path, element, words),

@@ -14,19 +14,19 @@ use super::data::{Corners, Sheet, UNITS, Words, cleared, seen};
 use super::flow::{Column, PICTURE};
 
 /// Margins around the drawing in units: dimensions are to the left and below, and their last numbers extend to the right.
-const LEFT: f64 = 56.0;
-const RIGHT: f64 = 46.0;
-const ABOVE: f64 = 18.0;
-const BELOW: f64 = 50.0;
+const LEFT_MARGIN: f64 = 56.0;
+const RIGHT_MARGIN: f64 = 46.0;
+const TOP_MARGIN: f64 = 18.0;
+const BOTTOM_MARGIN: f64 = 50.0;
 
 /// Height of the legend: scale, kinds of lines, depths.
 const LEGEND: f64 = 54.0;
 
 /// Fraction of the available space below which a drawing is enlarged, with a true-size inset.
-const SMALL: f64 = 0.34;
+const ENLARGED_BELOW: f64 = 0.34;
 
 /// Smallest extent shown in mm, for drawings without an extent.
-const LEAST: f64 = 4.0;
+const MIN_EXTENT: f64 = 4.0;
 
 /// A picture laid out on a page.
 #[derive(Clone, Copy, Debug)]
@@ -67,7 +67,7 @@ impl Scale {
 pub(super) fn first(sheet: &Sheet, area: Column) -> PlacedPicture {
     let corners = padded(seen(sheet));
     let limit = limit(corners, area);
-    let is_small = limit * SMALL >= 1.0;
+    let is_small = limit * ENLARGED_BELOW >= 1.0;
     let limit = if is_small { limit_beside(corners, area) } else { limit.min(1.0) };
     PlacedPicture::new(area, corners, Scale::within(limit), is_small)
 }
@@ -100,7 +100,7 @@ fn upright_or_turned(area: Column, placed: impl Fn(Column) -> PlacedPicture) -> 
 
 fn padded([mut low, mut high]: Corners) -> Corners {
     for axis in [0, 1] {
-        let missing = (LEAST - (high[axis] - low[axis])).max(0.0) / 2.0;
+        let missing = (MIN_EXTENT - (high[axis] - low[axis])).max(0.0) / 2.0;
         low[axis] -= missing;
         high[axis] += missing;
     }
@@ -109,7 +109,10 @@ fn padded([mut low, mut high]: Corners) -> Corners {
 
 /// The scale at which the corners fill the area.
 fn limit([low, high]: Corners, area: Column) -> f64 {
-    let room = [area.width - LEFT - RIGHT, area.bottom - area.top - ABOVE - BELOW - LEGEND];
+    let room = [
+        area.width - LEFT_MARGIN - RIGHT_MARGIN,
+        area.bottom - area.top - TOP_MARGIN - BOTTOM_MARGIN - LEGEND,
+    ];
     (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1])) / UNITS
 }
 
@@ -126,7 +129,7 @@ fn inset_width([low, high]: Corners) -> f64 {
 impl PlacedPicture {
     fn new(area: Column, corners: Corners, scale: Scale, has_inset: bool) -> Self {
         let [low, high] = corners;
-        let height = ABOVE + (high[1] - low[1]) * scale.0 * UNITS + BELOW + LEGEND;
+        let height = TOP_MARGIN + (high[1] - low[1]) * scale.0 * UNITS + BOTTOM_MARGIN + LEGEND;
         Self { area, corners, scale, has_inset, height, is_stock: false, turned: None }
     }
 
@@ -143,8 +146,12 @@ impl PlacedPicture {
     fn frame(&self) -> Frame {
         let Self { area, corners: [low, high], scale, .. } = *self;
         let inset = if self.has_inset { inset_width(self.corners) } else { 0.0 };
-        let spare = area.width - inset - LEFT - RIGHT - (high[0] - low[0]) * scale.0 * UNITS;
-        Frame::at_scale([low, high], scale.0 * UNITS, [area.left + LEFT + spare / 2.0, area.top + ABOVE])
+        let spare = area.width - inset - LEFT_MARGIN - RIGHT_MARGIN - (high[0] - low[0]) * scale.0 * UNITS;
+        Frame::at_scale(
+            [low, high],
+            scale.0 * UNITS,
+            [area.left + LEFT_MARGIN + spare / 2.0, area.top + TOP_MARGIN],
+        )
     }
 
     pub(super) fn draw(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
@@ -173,7 +180,7 @@ impl PlacedPicture {
         canvas.clip("frame", clip);
         let axes = axes(canvas, place.at([0.0; 2]), [[left - 6.0, top - 6.0], [right + 6.0, bottom + 6.0]]);
         // Dimensions occupy the space to the left and below; the name of the axis is above.
-        let mut room = Room::new([[left - 14.0, top - 6.0], [right + RIGHT, bottom + 20.0]]);
+        let mut room = Room::new([[left - 14.0, top - 6.0], [right + RIGHT_MARGIN, bottom + 20.0]]);
         room.lines.extend(axes);
         room.lines.extend(cleared(sheet).into_iter().flat_map(|corners| sides(corners, &place)));
         let hidden = drawing(canvas, &sheet.scene, &frame, &depths, shown, &mut room);
@@ -233,7 +240,7 @@ impl PlacedPicture {
     fn inset(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
         let [low, high] = cleared(sheet).unwrap_or(self.corners);
         let left = self.area.left + self.area.width - inset_width(self.corners) + 20.0;
-        let frame = Frame::at_scale([low, high], UNITS, [left, self.area.top + ABOVE]);
+        let frame = Frame::at_scale([low, high], UNITS, [left, self.area.top + TOP_MARGIN]);
         let depths = Depths::of(&sheet.scene);
         let shown =
             VisibleParts { rapids: false, order: false, arrows: false, texts: false, stock: false, lang };
@@ -241,7 +248,7 @@ impl PlacedPicture {
         for path in &sheet.scene.paths {
             moves::draw(canvas, path, &frame.of_path(path), &depths, shown);
         }
-        let y = self.area.top + ABOVE + (high[1] - low[1]) * UNITS + 14.0;
+        let y = self.area.top + TOP_MARGIN + (high[1] - low[1]) * UNITS + 14.0;
         canvas.text([left, y], 10.0, Anchor::Start, &format!("fill=\"{TEXT}\""), "1:1");
         canvas.close();
     }
@@ -278,11 +285,11 @@ fn axes(canvas: &mut Canvas, [x, y]: Point, [[left, top], [right, bottom]]: Corn
 // Dimensions of the removed material: its size, and the distance of its edges from X0 Y0.
 
 /// Letter size of the numbers, and the minimum distance between two of them.
-const SIZE: f64 = 9.5;
-const APART: f64 = 11.0;
+const NUMBER_SIZE: f64 = 9.5;
+const MIN_NUMBER_DISTANCE: f64 = 11.0;
 
 /// Distance from the picture to the dimension lines.
-const AWAY: f64 = 22.0;
+const DIMENSION_DISTANCE: f64 = 22.0;
 
 /// Draws the dimensions of a rectangle, to the left of and below a corner of the page.
 pub(super) fn draw(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransform, [left, bottom]: Point) {
@@ -295,11 +302,11 @@ pub(super) fn draw(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransf
         n(x1 - x0),
         n(y1 - y0)
     ));
-    let y = bottom + AWAY;
+    let y = bottom + DIMENSION_DISTANCE;
     arrows(canvas, [x0, y], [x1, y]);
     extension(canvas, [x0, y1], [x0, y + 4.0]);
     extension(canvas, [x1, y1], [x1, y + 4.0]);
-    let x = left - AWAY;
+    let x = left - DIMENSION_DISTANCE;
     arrows(canvas, [x, y1], [x, y0]);
     extension(canvas, [x0, y1], [x - 4.0, y1]);
     extension(canvas, [x0, y0], [x - 4.0, y0]);
@@ -307,16 +314,16 @@ pub(super) fn draw(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransf
     let number = |axis: usize, value: f64| format!("{}{}", ["X", "Y"][axis], mm(value));
     canvas.open(&format!("id=\"numbers\" fill=\"{INK}\""));
     let size = mm(high[0] - low[0]);
-    let has_room = breadth(&size, SIZE) < x1 - x0 - 12.0;
+    let has_room = breadth(&size, NUMBER_SIZE) < x1 - x0 - 12.0;
     let down = if has_room { 12.0 } else { 23.0 };
     text(canvas, [f64::midpoint(x0, x1), y + down], Side::Middle, &size);
     text(canvas, [x0 - 3.0, y + 12.0], Side::End, &number(0, low[0]));
     text(canvas, [x1 + 3.0, y + 12.0], Side::Start, &number(0, high[0]));
     let middle = f64::midpoint(y0, y1);
-    let third = SIZE / 3.0;
+    let third = NUMBER_SIZE / 3.0;
     text(canvas, [x - 4.0, middle + third], Side::End, &mm(high[1] - low[1]));
-    text(canvas, [x - 6.0, y0.min(middle - APART) + third], Side::End, &number(1, high[1]));
-    text(canvas, [x - 6.0, y1.max(middle + APART) + third], Side::End, &number(1, low[1]));
+    text(canvas, [x - 6.0, y0.min(middle - MIN_NUMBER_DISTANCE) + third], Side::End, &number(1, high[1]));
+    text(canvas, [x - 6.0, y1.max(middle + MIN_NUMBER_DISTANCE) + third], Side::End, &number(1, low[1]));
     canvas.close();
 }
 
@@ -333,7 +340,7 @@ fn text(canvas: &mut Canvas, at: Point, side: Side, text: &str) {
         Side::Middle => (Anchor::Middle, ""),
         Side::End => (Anchor::Start, "text-anchor=\"end\""),
     };
-    canvas.text(at, SIZE, anchor, style, text);
+    canvas.text(at, NUMBER_SIZE, anchor, style, text);
 }
 
 /// A line with arrows at both ends.

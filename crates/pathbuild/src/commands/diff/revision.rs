@@ -45,7 +45,7 @@ pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, Strin
     fs::create_dir_all(whole.join(".git")).map_err(|error| error.to_string())?;
     // An empty configuration here ends the search for one: the directories above are unrelated.
     File::create_new(place.join(FILE_NAME)).map_err(|error| error.to_string())?;
-    let largest = context.settings.limits.file_size.value.max(LARGE);
+    let largest = context.settings.limits.file_size.value.max(MIN_SIZE_LIMIT);
     let mut checkout = Checkout { repository: &repository, whole: &whole, largest, left_out: Vec::new() };
     checkout.all(&entries)?;
     report_left_out(context, &checkout.left_out);
@@ -78,7 +78,7 @@ fn report_left_out(context: &Context, left_out: &[String]) {
 }
 
 /// Files up to this size in bytes are written even if the current limit is lower: the revision's configuration may allow more.
-const LARGE: u64 = 1 << 30;
+const MIN_SIZE_LIMIT: u64 = 1 << 30;
 
 /// Writes the files of a tree.
 struct Checkout<'a> {

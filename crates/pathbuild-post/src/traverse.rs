@@ -14,7 +14,7 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 type Moves<'m> = &'m [(u32, Move)];
-type Checked<T> = Result<T, Box<Diagnostic>>;
+type TraverseResult<T> = Result<T, Box<Diagnostic>>;
 
 /// A cut that was found: its line, and the number of the job's step that it belongs to. Cuts in one line belong to one step.
 pub(crate) type MatchedCut = (u32, u32);
@@ -25,7 +25,7 @@ pub(crate) fn check(
     expected: Moves<'_>,
     clearance: f64,
     tolerance: &Tolerance,
-) -> Checked<Vec<MatchedCut>> {
+) -> TraverseResult<Vec<MatchedCut>> {
     if let Some(blind) = blind_cut(expected) {
         return Err(Box::new(Diagnostic::new(&posts::CUT_AT_UNKNOWN_PLACE).with("step", u64::from(blind))));
     }
@@ -33,14 +33,14 @@ pub(crate) fn check(
     let (mut found, mut expected) = (found.as_slice(), expected);
     let mut matched: Vec<MatchedCut> = Vec::new();
     loop {
-        let (way, cuts) = split(expected, is_rapid);
-        let way = Way::new(way, clearance, 2.0 * tolerance.place);
+        let (rapids, cuts) = split(expected, is_rapid);
+        let traverse = ExpectedTraverse::new(rapids, clearance, 2.0 * tolerance.place);
         let Some(next) = cuts.first() else {
-            way.is_last(found, !matched.is_empty())?;
+            traverse.is_last(found, !matched.is_empty())?;
             return Ok(matched);
         };
-        let length = way.length(found, next)?;
-        way.check(&found[..length])?;
+        let length = traverse.length(found, next)?;
+        traverse.check(&found[..length])?;
         let (run, rest) = split(cuts, |movement| !is_rapid(movement));
         found = &found[length..];
         let (run_moves, after) = found.split_at(cut(found, run, tolerance)?);
@@ -105,7 +105,7 @@ fn is_over(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
 }
 
 /// Number of moves at the beginning that make these cuts.
-fn cut(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance) -> Checked<usize> {
+fn cut(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance) -> TraverseResult<usize> {
     // A move to an unknown position is not a cut of the job. Whether it is allowed is decided by the check of the moves between cuts.
     let (run, _) = split(found, |movement| !is_rapid(movement) && movement.to.known == Axes::ALL);
     match compare(run, expected, tolerance) {
@@ -187,7 +187,7 @@ fn place_of(at: &Position) -> Value {
 }
 
 /// The rapids of the job between two cuts.
-struct Way<'m> {
+struct ExpectedTraverse<'m> {
     expected: Moves<'m>,
     clearance: f64,
     slack: f64,
@@ -195,7 +195,7 @@ struct Way<'m> {
     places: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
 }
 
-impl<'m> Way<'m> {
+impl<'m> ExpectedTraverse<'m> {
     fn new(expected: Moves<'m>, clearance: f64, slack: f64) -> Self {
         // Repeated moves add no information.
         let mut seen = HashSet::new();
@@ -223,7 +223,7 @@ impl<'m> Way<'m> {
     }
 
     /// Number of moves at the beginning that lead to the start of the next cut.
-    fn length(&self, found: Moves<'_>, next: &(u32, Move)) -> Checked<usize> {
+    fn length(&self, found: Moves<'_>, next: &(u32, Move)) -> TraverseResult<usize> {
         let begin = &next.1.from;
         if begin.known != Axes::ALL {
             return Ok(split(found, is_rapid).0.len());
@@ -249,7 +249,7 @@ impl<'m> Way<'m> {
     }
 
     /// Checks that moves touch nothing that the job does not touch.
-    fn check(&self, found: Moves<'_>) -> Checked<()> {
+    fn check(&self, found: Moves<'_>) -> TraverseResult<()> {
         let mut is_home = false;
         for &(line, movement) in found {
             let is_fine = match movement.named {
@@ -282,7 +282,7 @@ impl<'m> Way<'m> {
 
     /// Checks the moves after the last cut: there must be no further cuts, and the tool must end as high as in the job. As between two
     /// cuts, a rapid of the job may be written as a feed.
-    fn is_last(&self, found: Moves<'_>, has_cut: bool) -> Checked<()> {
+    fn is_last(&self, found: Moves<'_>, has_cut: bool) -> TraverseResult<()> {
         let is_high = |movement: &Move| movement.from.z().min(movement.to.z()) >= self.clearance - self.slack;
         if let Some(cut) = found.iter().find(|(_, movement)| !is_rapid(movement) && is_high(movement)) {
             return Err(too_far(*cut));
