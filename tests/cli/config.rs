@@ -38,6 +38,7 @@ feed = 150
 rapid = 1_000.5
 library = ["components", "../projects"]
 restrict = ["^8:P$"]
+search = []
 units = "mm"
 out-dir = "out"
 z-model = "tin"
@@ -372,7 +373,10 @@ fn names_in_the_configuration_are_relative_to_it() {
     assert_eq!(line(&run, "search"), "search = [\"<PLACE>/a/../parts\", \"<PLACE>/a/x/y\"]");
     assert_eq!(line(&run, "out-dir"), "out-dir = \"<PLACE>/a/out\"");
     let run = place.run_in("a/b", &["config", "show", "x.dxf", "--out-dir=o", "--search=s", "--search=t"]);
-    assert_eq!(line(&run, "search"), "search = [\"<PLACE>/a/b/s\", \"<PLACE>/a/b/t\"]");
+    assert_eq!(
+        line(&run, "search"),
+        "search = [\"<PLACE>/a/../parts\", \"<PLACE>/a/x/y\", \"<PLACE>/a/b/s\", \"<PLACE>/a/b/t\"]"
+    );
     assert_eq!(line(&run, "out-dir"), "out-dir = \"<PLACE>/a/b/o\"");
 }
 

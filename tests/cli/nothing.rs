@@ -54,6 +54,16 @@ fn a_searched_directory_of_the_command_line_that_is_missing_is_an_error() {
     assert_found(&place, "check 1234.1P.dxf --search 1234.1P.dxf", 1, &["003"]);
 }
 
+/// The place of a missing directory is that of the source that names it.
+#[test]
+fn a_missing_directory_is_reported_where_it_is_named() {
+    let place = place(&[("pathbuild.toml", "\nsearch = [\"gone\"]"), ("1234.1P.dxf", PATH)]);
+    let run = place.run("check 1234.1P.dxf --search lost --format concise");
+    let lines: Vec<&str> = run.stderr.lines().filter(|line| line.contains("PB003")).collect();
+    assert!(lines.len() == 2 && lines.iter().any(|line| line.starts_with("pathbuild.toml:2:")), "{run}");
+    assert!(lines.iter().any(|line| line.starts_with("error[PB003]") && line.contains("lost")), "{run}");
+}
+
 /// Every command that takes one path tells by the pattern itself what a path's layer is called.
 #[test]
 fn every_command_names_the_pattern_of_paths() {

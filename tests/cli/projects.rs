@@ -56,6 +56,36 @@ fn graph_lists_every_embedding_with_its_values() {
     assert_snapshot!(Place::of(LIBRARY).run("graph"));
 }
 
+/// Codes that `check projects/8001.dxf` reports with these options.
+fn codes(place: &Place, options: &str) -> Vec<String> {
+    let run = place.run(&format!("check projects/8001.dxf --format concise {options}"));
+    run.stderr.split("[PB").skip(1).map(|rest| rest[..3].to_owned()).collect()
+}
+
+/// `--search` adds directories after those of the configuration, so a second definition is noticed.
+#[test]
+fn directories_of_the_command_line_are_searched_as_well() {
+    let definition = |layer: &str| {
+        Place::of(&format!(
+            "{LIBRARY}== more/2051.dxf ==\nlayer {layer}\nstart 0,0 \"T5 O2 I1 MPlate :B0~1\"\nmill 0,0 40,0 \"B=B\"\nend 40,0\n"
+        ))
+    };
+    assert_eq!(codes(&definition("2051.2P"), "--search more"), [""; 0]);
+    assert_eq!(codes(&definition("2051.1P"), "--search components"), [""; 0]);
+    assert_eq!(codes(&definition("2051.1P"), "--search more"), ["504"]);
+}
+
+/// `--restrict` adds rules: it cannot switch off those of the configuration.
+#[test]
+fn rules_of_the_command_line_follow_those_of_the_configuration() {
+    let rules =
+        |rules: &str| Place::of(&LIBRARY.replace("library =", &format!("restrict = [{rules}]\nlibrary =")));
+    assert_eq!(codes(&rules(""), "--restrict ^8:^1"), ["507"]);
+    assert_eq!(codes(&rules("'^9:^1'"), "--restrict ^8:^1"), ["507"]);
+    assert_eq!(codes(&rules("'^8:^[12]'"), "--restrict ^8:^1"), [""; 0]);
+    assert_eq!(codes(&rules("'^8:^1'"), "--restrict .:."), ["507"]);
+}
+
 #[test]
 fn graph_of_a_path_is_what_it_reaches() {
     assert_snapshot!(runs(&Place::of(LIBRARY), ["graph 8101.1P", "graph projects/8001.dxf"]));

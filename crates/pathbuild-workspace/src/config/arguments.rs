@@ -1,4 +1,4 @@
-//! Values from the command line: options that override keys of the configuration, and options of the run itself.
+//! Values from the command line: options that set keys of the configuration, and options of the run itself.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use super::origin::SourcedValue;
 use super::types::{Directories, Restriction};
 use crate::waivers::RunDate;
 
-/// A command-line option that overrides the key of its name. (book: reference/commands)
+/// A command-line option that sets the key of its name. (book: reference/commands)
 #[derive(Debug)]
 pub struct SettingOption {
     /// The name of the key and, after two hyphens, of the option.
@@ -41,7 +41,7 @@ pub enum OptionValues {
     Directories,
 }
 
-/// Texts of the given options that override keys, by name; a switch has none. They are validated when the configuration is loaded.
+/// Texts of the given options that set keys, by name; a switch has none. They are validated when the configuration is loaded.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GivenOptions(BTreeMap<&'static str, Vec<String>>);
 
@@ -60,7 +60,7 @@ impl FromIterator<(&'static str, Vec<String>)> for GivenOptions {
 /// Values from the command line. Those that the configuration can also set are kept as text, so that they are validated in one place.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
-    /// Options that override keys.
+    /// Options that set keys.
     pub settings: GivenOptions,
     /// `--lang`.
     pub lang: Option<Lang>,
@@ -136,16 +136,39 @@ impl<'a> OptionReader<'a> {
         Self { given, working_directory, diagnostics: Vec::new() }
     }
 
-    /// Returns the value of an option if it is given and valid.
-    pub(super) fn take<T>(
+    /// Replaces a configured value by that of an option, if it is given and valid.
+    pub(super) fn replaces<T>(
+        &mut self,
+        setting: &mut Option<SourcedValue<T>>,
+        name: &'static str,
+        read: impl FnOnce(&GivenOption<'a>) -> Result<T, Vec<Diagnostic>>,
+    ) {
+        if let Some(value) = self.take(name, read) {
+            *setting = Some(SourcedValue::option(name, value));
+        }
+    }
+
+    /// Adds the values of an option, if it is given and valid, after the configured ones.
+    pub(super) fn adds<T>(
+        &mut self,
+        setting: &mut Option<SourcedValue<Vec<T>>>,
+        name: &'static str,
+        read: impl FnOnce(&GivenOption<'a>) -> Result<Vec<T>, Vec<Diagnostic>>,
+    ) {
+        if let Some(items) = self.take(name, read) {
+            setting.get_or_insert_with(|| SourcedValue::default(Vec::new())).extend(name, items);
+        }
+    }
+
+    fn take<T>(
         &mut self,
         name: &'static str,
         read: impl FnOnce(&GivenOption<'a>) -> Result<T, Vec<Diagnostic>>,
-    ) -> Option<SourcedValue<T>> {
+    ) -> Option<T> {
         let texts = self.given.0.get(name)?;
         let option = GivenOption { name, texts, working_directory: self.working_directory };
         match read(&option) {
-            Ok(value) => Some(SourcedValue::option(name, value)),
+            Ok(value) => Some(value),
             Err(faults) => {
                 self.diagnostics.extend(faults);
                 None

@@ -112,7 +112,7 @@ pub fn template() -> String {
 }
 
 const HEAD: &str = "\
-# Configuration of pathbuild. File names are relative to this file. Command-line options take precedence over it.
+# Configuration of pathbuild. File names are relative to this file. Command-line options take precedence over it; --search and --restrict add to it.
 # Lines that begin with # and no blank are the defaults, or examples if there is no default: remove the # and change them.
 # `pathbuild config show` prints the values in force.
 

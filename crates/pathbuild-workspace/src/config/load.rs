@@ -16,7 +16,6 @@ use super::kinds::{ABSOLUTE, ABSOLUTES, choice};
 use super::origin::SourcedValue;
 use super::reader::Source;
 use super::reader::TomlReader;
-use super::sections::general;
 use super::settings::Options;
 use super::settings::Settings;
 use super::types::Directories;
@@ -33,22 +32,22 @@ pub fn load(
     working_directory: &Utf8Path,
 ) -> (Settings, Vec<Diagnostic>) {
     let discovery = Discovery { system: &**system, inputs, working_directory };
-    let (options, mut diagnostics) = read_overrides(given, working_directory);
     let file = match &given.config {
         Some(file) => Some(clean(&working_directory.join(file))),
         None => discovery.for_run(),
     };
     let confined = confinement(system, given, file.as_deref(), &discovery);
+    let (mut options, faults) =
+        file.as_deref().map(|file| read(&**system, file, confined.as_ref())).unwrap_or_default();
+    let mut diagnostics = apply_overrides(given, working_directory, &mut options);
     if given.config.is_none() {
         diagnostics.extend(discovery.misplaced_inputs(file.as_deref()));
     }
-    let read = |file: &Utf8Path| read(&**system, file, confined.as_ref(), &mut diagnostics);
-    let configured = file.as_deref().map(read).unwrap_or_default();
+    diagnostics.extend(faults);
     let not_used = if file.is_none() { discovery.of_working_directory() } else { None };
     let is_unexpected =
         given.config.is_none() && file.as_deref().is_some_and(|file| discovery.is_unexpected(file));
-    let settings = options.over(configured).resolve();
-    (Settings { file, not_used, is_unexpected, confined, date: given.date, ..settings }, diagnostics)
+    (Settings { file, not_used, is_unexpected, confined, date: given.date, ..options.resolve() }, diagnostics)
 }
 
 /// The repositories that an untrusted run must not leave: that of the configuration, and that of each argument. `None` if all of them are
@@ -81,20 +80,13 @@ fn read(
     system: &dyn System,
     file: &Utf8Path,
     confined: Option<&ConfinedSystem>,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Options {
+) -> (Options, Vec<Diagnostic>) {
     let system = confined.map_or(system, |confined| confined);
     match files::read(system, file, LARGEST) {
-        Ok(text) => {
-            let (options, faults) = parse(file, &text, confined);
-            diagnostics.extend(faults);
-            options
-        }
+        Ok(text) => parse(file, &text, confined),
         Err(reason) => {
-            diagnostics.push(
-                Diagnostic::new(&messages::CONFIGURATION_UNREADABLE).in_file(file).with("reason", reason),
-            );
-            Options::default()
+            let fault = Diagnostic::new(&messages::CONFIGURATION_UNREADABLE).in_file(file);
+            (Options::default(), vec![fault.with("reason", reason)])
         }
     }
 }
@@ -276,13 +268,17 @@ impl UserSettings {
     }
 }
 
-/// Validates the values from the command line.
-fn read_overrides(overrides: &Overrides, working_directory: &Utf8Path) -> (Options, Vec<Diagnostic>) {
-    let options = &overrides.settings;
-    let mut reader = OptionReader::new(options, working_directory);
-    let mut general = general::Options::given(&mut reader);
+/// Applies the values from the command line to those of the configuration, and returns what is wrong with them.
+fn apply_overrides(
+    overrides: &Overrides,
+    working_directory: &Utf8Path,
+    options: &mut Options,
+) -> Vec<Diagnostic> {
+    let mut reader = OptionReader::new(&overrides.settings, working_directory);
+    options.general.apply(&mut reader);
     // PathDxf2GCode has a single option for messages and comments. Without `--compatible`, `--lang` does not change programs.
-    let comments = overrides.lang.filter(|_| options.has("compatible"));
-    general.comment_lang = comments.map(|lang| SourcedValue::option("lang", lang));
-    (Options { general, ..Options::default() }, reader.diagnostics)
+    if let Some(lang) = overrides.lang.filter(|_| overrides.settings.has("compatible")) {
+        options.general.comment_lang = Some(SourcedValue::option("lang", lang));
+    }
+    reader.diagnostics
 }

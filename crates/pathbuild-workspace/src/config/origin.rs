@@ -13,14 +13,32 @@ pub enum Origin {
     File(u32),
     /// The command-line option of this name, without hyphens.
     CommandLine(&'static str),
+    /// The configuration, and an option that adds items to its list.
+    Extended {
+        /// Line of the configuration, counted from 1.
+        line: u32,
+        /// Number of items that come from there; those of the option follow.
+        configured: usize,
+        /// Name of the option, without hyphens.
+        option: &'static str,
+    },
 }
 
 impl Origin {
     /// The line of the configuration, if the value comes from there.
     pub fn line(self) -> Option<u32> {
         match self {
-            Self::File(line) => Some(line),
+            Self::File(line) | Self::Extended { line, .. } => Some(line),
             Self::Default | Self::CommandLine(_) => None,
+        }
+    }
+
+    /// Source of an item of a list, by its index.
+    pub fn of_item(self, index: usize) -> Self {
+        match self {
+            Self::Extended { line, configured, .. } if index < configured => Self::File(line),
+            Self::Extended { option, .. } => Self::CommandLine(option),
+            whole => whole,
         }
     }
 }
@@ -46,12 +64,24 @@ impl<T> SourcedValue<T> {
     }
 }
 
+impl<T> SourcedValue<Vec<T>> {
+    /// Appends the items of a command-line option.
+    pub(super) fn extend(&mut self, name: &'static str, items: Vec<T>) {
+        self.origin = match self.origin {
+            Origin::File(line) => Origin::Extended { line, configured: self.value.len(), option: name },
+            _ => Origin::CommandLine(name),
+        };
+        self.value.extend(items);
+    }
+}
+
 impl fmt::Display for Origin {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Default => f.write_str("default"),
             Self::File(line) => write!(f, "line {line}"),
             Self::CommandLine(name) => write!(f, "--{name}"),
+            Self::Extended { line, option, .. } => write!(f, "line {line}, --{option}"),
         }
     }
 }

@@ -31,10 +31,6 @@ macro_rules! section {
                 Self { $($field: table.take($name, &$kind),)* }
             }
 
-            pub(in crate::config) fn over(self, below: Self) -> Self {
-                Self { $($field: self.$field.or(below.$field),)* }
-            }
-
             pub(in crate::config) fn resolve(self) -> Settings {
                 Settings { $($field: self.$field.unwrap_or_else(|| SourcedValue::default($default)),)* }
             }
@@ -84,19 +80,20 @@ pub mod general {
     use crate::config::table_kinds::POST;
     use crate::config::types::{Directories, PartHolding, PostChoice, Restriction, SpindleControl};
 
-    /// Like [`section!`], for keys that command-line options can override. Such a key adds its option: position among the common options
-    /// in the help, parser, values, and help in both languages.
+    /// Like [`section!`], for keys that command-line options can set. Such a key adds its option: position among the common options in the
+    /// help, whether its value replaces the configured one or adds to it (a function of [`OptionReader`]), parser, values, and help in both
+    /// languages.
     macro_rules! overridable {
         ($(
             $(#[doc = $meaning:literal])+
             $field:ident: $type:ty = $name:literal, $kind:expr, $default:expr, $example:literal, $concerns:ident
-                $(, option $position:literal: $read:expr, $values:expr, $en:literal, $de:literal)?;
+                $(, option $position:literal $applies:ident: $read:expr, $values:expr, $en:literal, $de:literal)?;
         )*) => {
             section! {
                 $($(#[doc = $meaning])+ $field: $type = $name, $kind, $default, $example, $concerns;)*
             }
 
-            /// Command-line options that override keys.
+            /// Command-line options that set keys.
             pub const OPTIONS: &[SettingOption] = &[
                 $($(SettingOption {
                     name: $name,
@@ -107,9 +104,9 @@ pub mod general {
             ];
 
             impl Options {
-                /// Validates the options of the command line.
-                pub(in crate::config) fn given(reader: &mut OptionReader<'_>) -> Self {
-                    Self { $($($field: reader.take($name, $read),)?)* ..Self::default() }
+                /// Applies the options of the command line.
+                pub(in crate::config) fn apply(&mut self, reader: &mut OptionReader<'_>) {
+                    $($(reader.$applies(&mut self.$field, $name, $read);)?)*
                 }
             }
         };
@@ -118,29 +115,29 @@ pub mod general {
     overridable! {
         /// mm/min: F of paths that give none; needed to emit, not to check
         feed: Option<f64> = "feed", MEASURE, None, "150", Check,
-            option 0: GivenOption::measure, Text("MM/MIN"), "Milling feed of paths that give none", "Fräsvorschub für Pfade, die keinen angeben";
+            option 0 replaces: GivenOption::measure, Text("MM/MIN"), "Milling feed of paths that give none", "Fräsvorschub für Pfade, die keinen angeben";
         /// mm/min: speed of rapid moves, for times; needed to emit
         rapid: Option<f64> = "rapid", MEASURE, None, "1000", Emit,
-            option 1: GivenOption::measure, Text("MM/MIN"), "Speed of rapid moves, for the times shown", "Eilganggeschwindigkeit, für die angezeigten Zeiten";
+            option 1 replaces: GivenOption::measure, Text("MM/MIN"), "Speed of rapid moves, for the times shown", "Eilganggeschwindigkeit, für die angezeigten Zeiten";
         /// mm: S of an emitted path that gives none; needed to emit
         sweep_height: Option<f64> = "sweep-height", MEASURE, None, "20", Check,
-            option 2: GivenOption::measure, Text("MM"), "Sweep height of an emitted path that gives none", "Leerfahrthöhe, wenn der geschriebene Pfad keine angibt";
+            option 2 replaces: GivenOption::measure, Text("MM"), "Sweep height of an emitted path that gives none", "Leerfahrthöhe, wenn der geschriebene Pfad keine angibt";
         /// mm/min: Z of probes without a Z of their own; default: like feed
         probe_feed: Option<f64> = "probe-feed", MEASURE, None, "40", Emit,
-            option 3: GivenOption::measure, Text("MM/MIN"), "Probing feed of paths that give none", "Vorschub beim Antasten für Pfade, die keinen angeben";
+            option 3 replaces: GivenOption::measure, Text("MM/MIN"), "Probing feed of paths that give none", "Vorschub beim Antasten für Pfade, die keinen angeben";
         /// directories that `check` and `emit` use without arguments, and in which paths are found by name;
         /// includes subdirectories, respects .gitignore and .ignore
         library: Directories = "library", DIRECTORIES, Vec::new(), r#"["."]"#, Neither;
         /// further directories in which embedded paths are looked for, in this order, without subdirectories
         search: Directories = "search", DIRECTORIES, Vec::new(), "[]", Check,
-            option 5: |option| Ok(option.directories()), SearchDirectories, "Look for embedded paths in this directory as well (repeatable)",
+            option 5 adds: |option| Ok(option.directories()), SearchDirectories, "Look for embedded paths in this directory as well (repeatable)",
             "Sucht eingebettete Pfade auch in diesem Verzeichnis (wiederholbar)";
         /// which names are path names
         path_pattern: Box<str> = "path-pattern", REGEX, PathPattern::DEFAULT.into(), "'([0-9]{4})[.]([0-9]+)([A-Z])'", Check,
-            option 6: GivenOption::regex, Text("REGEX"), "Regular expression for path names", "Regulärer Ausdruck für Pfadnamen";
+            option 6 replaces: GivenOption::regex, Text("REGEX"), "Regular expression for path names", "Regulärer Ausdruck für Pfadnamen";
         /// which parts of a file name are path names
         file_pattern: Box<str> = "file-pattern", REGEX, FilePattern::DEFAULT.into(), "'([0-9]{4})(?:[.]([0-9]+))?'", Check,
-            option 7: GivenOption::regex, Text("REGEX"), "Regular expression for path names in file names",
+            option 7 replaces: GivenOption::regex, Text("REGEX"), "Regular expression for path names in file names",
             "Regulärer Ausdruck für Pfadnamen in Dateinamen";
         /// layers with clamps, by their whole names: no move may enter their outlines below the height
         /// that a text such as Z25 gives (PB407)
@@ -154,9 +151,9 @@ pub mod general {
         part_held: PartHolding = "part-held", choice::<PartHolding>(), PartHolding::Bars, r#""bars""#, Check;
         /// PARENT:CHILD, split at the first colon: which paths may embed which, such as "^8:P$"
         restrict: Vec<Restriction> = "restrict", RESTRICTIONS, Vec::new(), "[]", Check,
-            option 8: GivenOption::restrictions, Texts("PARENT:CHILD"),
-            "A path whose name matches PARENT may embed only paths whose names match CHILD; both are regular expressions (repeatable)",
-            "Ein Pfad, auf dessen Namen AUSSEN passt, darf nur Pfade einbetten, auf deren Namen INNEN passt; beides sind reguläre Ausdrücke (wiederholbar)";
+            option 8 adds: GivenOption::restrictions, Texts("PARENT:CHILD"),
+            "A path whose name matches PARENT may embed only paths whose names match CHILD; both are regular expressions, and configured rules come first (repeatable)",
+            "Ein Pfad, auf dessen Namen AUSSEN passt, darf nur Pfade einbetten, auf deren Namen INNEN passt; beides sind reguläre Ausdrücke, und konfigurierte Regeln gelten zuerst (wiederholbar)";
         /// en | de: language of messages; --lang, PATHBUILD_LANG and your own config.toml take precedence
         lang: Lang = "lang", choice::<Lang>(), Lang::En, r#""en""#, Emit;
         /// en | de: language of comments in programs; without it, `lang` of this file; no option changes it
@@ -171,7 +168,7 @@ pub mod general {
         join_tolerance: f64 = "join-tolerance", NOT_NEGATIVE, 0.0, "0", Check;
         /// true: programs exactly as PathDxf2GCode writes them, even where it deviates from its manuals
         compatible: bool = "compatible", SWITCH, false, "false", Check,
-            option 4: |_| Ok(true), Switch, "Write programs exactly as `PathDxf2GCode` does", "Schreibt Programme genau so wie `PathDxf2GCode`";
+            option 4 replaces: |_| Ok(true), Switch, "Write programs exactly as `PathDxf2GCode` does", "Schreibt Programme genau so wie `PathDxf2GCode`";
         /// idw4 | plane | tin: how heights between probes are calculated
         z_model: ZModel = "z-model", choice::<ZModel>(), ZModel::Idw4, r#""idw4""#, Emit;
         /// mm: longest move that is corrected as a whole; 0: never split; without it 0 for idw4, otherwise 20
@@ -185,7 +182,7 @@ pub mod general {
         cycles: bool = "cycles", SWITCH, false, "false", Emit;
         /// directory for written files; empty: beside the drawing
         out_dir: Option<Utf8PathBuf> = "out-dir", DIRECTORY, None, r#""""#, Emit,
-            option 10: |option| Ok(Some(option.directory())), Directory, "Write into this directory instead of beside the drawing",
+            option 10 replaces: |option| Ok(Some(option.directory())), Directory, "Write into this directory instead of beside the drawing",
             "Schreibt in dieses Verzeichnis statt neben die Zeichnung";
     }
 }

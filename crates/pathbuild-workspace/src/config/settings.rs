@@ -40,7 +40,7 @@ macro_rules! tables {
             $(pub $table: $table::Settings,)*
         }
 
-        /// Settings from one source: the configuration or the command line. Keys that the source does not set are `None`.
+        /// Settings of the configuration, to which the options of the command line are applied. Keys that neither sets are `None`.
         #[derive(Clone, Debug, Default)]
         #[expect(missing_docs, reason = "the tables of the configuration, by name")]
         pub struct Options {
@@ -55,11 +55,6 @@ macro_rules! tables {
                     table.refuse("remote");
                     options
                 })
-            }
-
-            /// Merges two sources; these settings take precedence over `below`.
-            pub fn over(self, below: Self) -> Self {
-                Self { $($table: self.$table.over(below.$table),)* }
             }
 
             /// Fills in the defaults.
@@ -129,7 +124,7 @@ impl Settings {
     pub fn comment_lang(&self) -> Lang {
         match self.general.comment_lang.origin {
             Origin::Default => self.general.lang.value,
-            Origin::File(_) | Origin::CommandLine(_) => self.general.comment_lang.value,
+            _ => self.general.comment_lang.value,
         }
     }
 

@@ -441,13 +441,14 @@ impl Session<'_> {
         directories: &'a SourcedValue<Vec<Utf8PathBuf>>,
         expected: &'a [FileKind],
     ) -> impl Iterator<Item = Diagnostic> + 'a {
-        let is_missing =
-            |directory: &&Utf8PathBuf| !expected.contains(&self.db.system().kind(&self.normal(directory)));
-        directories.value.iter().filter(is_missing).map(move |directory| {
+        let is_missing = |(_, directory): &(usize, &Utf8PathBuf)| {
+            !expected.contains(&self.db.system().kind(&self.normal(directory)))
+        };
+        directories.value.iter().enumerate().filter(is_missing).map(move |(index, directory)| {
             let problem = Diagnostic::new(&configuration::NO_DIRECTORY)
                 .quoting("key", key)
                 .quoting("directory", self.normal(directory).as_str());
-            self.context.settings.locate(problem, directories.origin)
+            self.context.settings.locate(problem, directories.origin.of_item(index))
         })
     }
 

@@ -239,7 +239,7 @@ fn source(context: &Context, from: &Provider) -> String {
 /// The configuration key or option that sets a value.
 fn option(context: &Context, word: &str, name: &str) -> String {
     match context.settings.origin_of_option(name) {
-        Origin::File(line) => context
+        Origin::File(line) | Origin::Extended { line, .. } => context
             .choose("`{name}` in pathbuild.toml, line {line}", "`{name}` in pathbuild.toml, Zeile {line}")
             .replace("{name}", name)
             .replace("{line}", &line.to_string()),
