@@ -1,10 +1,11 @@
-//! Finds output lines whose meaning is not clear on any control, for definitions without a dialect.
+//! Finds output lines that no control executes unambiguously. This check is for definitions without a dialect.
 //! (book: program/posts, "Before a program is written")
 
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Value};
 
-/// The errors among the problems that were found in the translation of a text. Others only mean that the translation is read as RS274.
+/// Converts those problems of a translation to errors that would make a control misread the line. The others are dropped: they only arise
+/// because the translation is read as RS274.
 pub(super) fn errors(problems: &[Diagnostic], translation: &[u8]) -> Vec<Diagnostic> {
     problems.iter().filter_map(|problem| error(problem, translation)).collect()
 }
@@ -41,15 +42,16 @@ fn quoted<'d>(problem: &'d Diagnostic, name: &str) -> Option<&'d str> {
     })
 }
 
-/// Whether two words of a group contradict each other on every control. G80 may stand beside a motion, some controls take M7 and M8 in one
-/// line, and a repeated word says nothing new.
+/// Whether two words of a group contradict each other on every control. Some pairs do not: G80 may stand beside a motion, some controls
+/// take M7 and M8 in one line, and a repeated word adds nothing.
 fn is_exclusive(first: &str, second: &str) -> bool {
     let words = [first, second];
     let is_switch = words.iter().all(|word| matches!(*word, "M3" | "M4" | "M5"));
     first != second && !words.contains(&"G80") && (first.starts_with('G') || is_switch)
 }
 
-/// Whether a word selects a coordinate system: with P, that is another one on Fanuc, and an error elsewhere.
+/// Whether a word selects a work offset, G54 to G59. Together with P, it selects another offset on Fanuc and is an error on other
+/// controls.
 fn is_system(word: &[u8]) -> bool {
     matches!(word, [b'G', b'5', b'4'..=b'9'] | [b'G', b'5', b'4'..=b'9', b'.', ..])
 }

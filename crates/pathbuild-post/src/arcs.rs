@@ -1,4 +1,5 @@
-//! Arcs as written by a post: unchanged, split, as chords, or with rounded numbers.
+//! Fits arcs to the numbers that a post writes: splits them, replaces them by chords, and moves centres so that they are still arcs after
+//! rounding.
 
 use std::f64::consts::PI;
 
@@ -41,7 +42,7 @@ pub(crate) fn centre(movement: &mut Move) {
 
 /// Greatest permitted difference of an arc's radii in mm, for programs in mm (NIST RS274/NGC).
 const WIDEST_OF_MM: f64 = 0.002;
-/// The same for programs in inches.
+/// Greatest permitted difference of an arc's radii in mm, for programs in inches.
 const WIDEST_OF_INCHES: f64 = 0.005_08;
 
 /// How the numbers of an arc are rounded.

@@ -1,4 +1,5 @@
-//! The posts included in pathbuild, in both definition languages: ready for use, and templates for one's own. (crates/pathbuild-post/posts)
+//! The posts included in pathbuild, in both definition languages. They can be used as they are, or as templates for other definitions.
+//! (crates/pathbuild-post/posts)
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts, nearest};
@@ -12,7 +13,7 @@ use crate::job::{Hole, HoleKind, JobStep};
 /// A post included in pathbuild.
 #[derive(Clone, Copy, Debug)]
 pub struct BuiltIn {
-    /// Name on the command line.
+    /// Name of the post on the command line.
     pub name: &'static str,
     /// Language of the definition.
     pub language: Language,
@@ -61,7 +62,7 @@ const fn cambam(name: &'static str, description: &'static str, text: &'static st
     BuiltIn { name, language: Language::CamBam, description, text }
 }
 
-/// Loads the built-in post with this name. The native program does not count: it is not written through a post.
+/// Loads the built-in post with this name. The native program is not among them, because it is not written through a definition.
 ///
 /// # Errors
 /// Fails if no built-in post has this name.
@@ -76,8 +77,6 @@ pub fn load(name: &str) -> Result<PostDefinition, Vec<Diagnostic>> {
     let file = format!("{name}.{}", post.language.extension());
     PostDefinition::read(post.text.as_bytes(), Utf8Path::new(&file))
 }
-
-// Small programs, each with a single feature that a post may have words for.
 
 /// Programs that reveal which words a post writes. The first one is the simplest. A post that has no text for a feature refuses the
 /// corresponding program.
@@ -120,7 +119,7 @@ fn job(operations: Vec<Operation>) -> Job {
     Job { name: "1.1P".into(), drawing: "1.dxf".into(), operations, ..Job::default() }
 }
 
-/// Moves to the clearance plane, and along it to X.
+/// A rapid move up to the clearance plane, or along it to X.
 fn rapid(x: Option<f64>) -> JobStep {
     JobStep::rapid([x, x, Some(5.0)])
 }

@@ -1,4 +1,4 @@
-//! A post definition in either language, and writing programs with it.
+//! Post definitions in either language, and the function that writes programs with them.
 
 use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
@@ -42,7 +42,7 @@ pub struct Output {
     pub text: Vec<u8>,
     /// Extension of the file, without the dot.
     pub extension: Box<str>,
-    /// Information for the user.
+    /// Facts that the user should know but that are no defects.
     pub notes: Vec<Note>,
     /// Doubtful constructs in the definition or the text.
     pub warnings: Vec<Diagnostic>,
@@ -50,7 +50,7 @@ pub struct Output {
     pub post_build: Option<Vec<String>>,
 }
 
-/// Larger definitions are refused.
+/// Maximum size in bytes of a definition. Larger ones are refused.
 const MAX_DEFINITION_BYTES: usize = 1 << 20;
 
 impl PostDefinition {
@@ -83,7 +83,7 @@ impl PostDefinition {
         }
     }
 
-    /// Extension of the files it writes, without the dot.
+    /// Extension of the files that the definition writes, without the dot.
     pub fn extension(&self) -> &str {
         match &self.engine {
             Engine::CamBam(definition) => definition.extension(),
@@ -91,8 +91,8 @@ impl PostDefinition {
         }
     }
 
-    /// The files that are part of every text, relative to the directory of the definition. Further files may depend on the program;
-    /// [`PostOptions::files`] is asked for all of them.
+    /// Returns the files that are inserted into every program, relative to the directory of the definition. A program may need further
+    /// files; [`PostOptions::files`] is asked for all of them.
     pub fn insertions(&self, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
         match &self.engine {
             Engine::CamBam(_) => BTreeSet::new(),
@@ -108,12 +108,14 @@ impl PostDefinition {
         }
     }
 
-    /// The dialect in which the output is read back: `named`, or the one that the definition declares.
+    /// Returns the dialect in which the output is read back: `named`, or else the one that the definition declares. `None` if neither
+    /// names a known dialect.
     pub fn reader(&self, named: Option<&str>) -> Option<Dialect> {
         Target::of(named.or(self.dialect())?).map(|target| target.reader)
     }
 
-    /// Translates a program of this post to the words of RS274, as [`write`](Self::write) does for reading it back if no dialect is named.
+    /// Translates a program of this post to the words of RS274, as [`write`](Self::write) does to read a program back if no dialect is
+    /// named.
     pub fn translate(&self, text: &[u8]) -> TranslatedText {
         match &self.engine {
             Engine::CamBam(definition) => cambam::translate(definition, text),
@@ -121,8 +123,8 @@ impl PostDefinition {
         }
     }
 
-    /// The number, from 1, of the first line in which a program of this post differs from the expected one, and the expected line. Lines
-    /// that both programs treat as a mere comment are ignored.
+    /// Returns the number, from 1, of the first line in which a program of this post differs from the expected one, and the expected line.
+    /// Lines that both programs treat as a mere comment are ignored.
     pub fn first_other_line(&self, found: &[u8], expected: &[u8]) -> Option<(u32, String)> {
         let marks = match &self.engine {
             Engine::CamBam(definition) => definition.comment_marks(),
@@ -131,7 +133,7 @@ impl PostDefinition {
         first_other_line(found, expected, &marks)
     }
 
-    /// Whether axes of its programs are not those of the drawing: wrapped round a cylinder, or mirrored.
+    /// Whether the axes of the post's programs are not those of the drawing: wrapped around a cylinder, or mirrored.
     pub fn has_own_axes(&self) -> bool {
         matches!(&self.engine, Engine::CamBam(definition) if definition.has_own_axes())
     }
@@ -178,8 +180,9 @@ impl PostDefinition {
         Ok(output)
     }
 
-    /// Checks that the text makes the machine do what the job describes, and that it breaks no rule. If no dialect defines the meaning of
-    /// its words, or if the definition has its own axes, its translation to RS274 is checked instead. Returns doubtful constructs.
+    /// Checks that the text makes the machine do what the job describes and complies with the rules of `verify`. If no dialect defines the
+    /// meaning of the text's words, or if the definition has its own axes, the translation to RS274 is checked instead. Returns warnings
+    /// about doubtful constructs.
     fn read_back(
         &self,
         text: &[u8],
@@ -208,7 +211,7 @@ impl PostDefinition {
         read_back::check(text, job, &expected)
     }
 
-    /// The output unit, in mm.
+    /// The output unit in mm: 1 or 25.4.
     fn unit(&self, job: &Job) -> f64 {
         match &self.engine {
             Engine::CamBam(_) => job.units.millimetres(),
@@ -216,7 +219,8 @@ impl PostDefinition {
         }
     }
 
-    /// Checks that a spindle switched by the definition alone has a speed wherever something is cut.
+    /// Checks that the spindle turns at a known speed in every operation that cuts, if the definition switches it and the options require a
+    /// speed.
     fn check_spindle(&self, job: &Job, options: &PostOptions<'_>) -> Result<(), Box<Diagnostic>> {
         let is_switched = match &self.engine {
             Engine::CamBam(definition) => definition.switches_spindle(),
@@ -245,14 +249,14 @@ impl PostDefinition {
         }
     }
 
-    /// The control that the output is for, if it is known.
+    /// Returns the control that the output is for, or `None` if neither the options nor the definition name a dialect.
     fn target(&self, options: &PostOptions<'_>) -> Result<Option<Target>, Vec<Diagnostic>> {
         let Some(name) = options.dialect.as_deref().or(self.dialect()) else { return Ok(None) };
         Target::of(name).map(Some).ok_or_else(|| vec![unknown_dialect(name).in_file(&self.file)])
     }
 
-    /// Restricts the options to what the target supports: for a control without cycles, holes are written as moves, unless the definition
-    /// replaces the word of the cycle by a text of its own.
+    /// Restricts the options to the capabilities of the target. For a control without cycles, holes are written as moves, unless the
+    /// definition replaces the word of the cycle by a text of its own.
     fn within<'o>(&self, options: &PostOptions<'o>, target: Option<&Target>) -> PostOptions<'o> {
         let (writes_cycles, is_wrapped) = match &self.engine {
             Engine::CamBam(definition) => {
@@ -261,7 +265,7 @@ impl PostDefinition {
             Engine::Cad6(_) => (false, false),
         };
         let has_cycles = target.is_none_or(Target::has_cycles);
-        // Only lines can be wrapped around a cylinder, and a beam does not drill.
+        // Only lines can be wrapped around a cylinder, and a beam cannot drill.
         let cycles = options.cycles && (has_cycles || !writes_cycles) && !is_wrapped;
         PostOptions { cycles, ..options.clone() }
     }
@@ -289,7 +293,7 @@ fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, Box<Diagnostic>> {
     })
 }
 
-/// Checks that the speed does not change without a tool change, for definitions where it belongs to the tool.
+/// Checks that the speed does not change without a tool change, for definitions that write the speed only at tool changes.
 fn one_speed_a_tool(job: &Job) -> Result<(), Box<Diagnostic>> {
     let mut first_of = HashMap::new();
     for later in job.operations.iter().filter(|operation| operation.cuts()) {
@@ -315,7 +319,7 @@ fn unknown_dialect(name: &str) -> Diagnostic {
     diagnostic.quoting("name", name).with("known", Target::names().into_iter().collect::<Value>())
 }
 
-/// The rows of a table of the book, or `None` if there is no such table.
+/// Returns the rows of a table of the book, or `None` if there is no such table.
 pub fn reference_table(name: &str, lang: Lang) -> Option<Vec<Row>> {
     cad6::reference::table(name, lang).or_else(|| cambam::reference::table(name, lang))
 }
@@ -327,7 +331,7 @@ pub enum Language {
     CamBam,
     /// Control texts (.toml).
     Cad6,
-    /// The native writer itself. Its drillings without F, correction formulas and statistics cannot be expressed in a definition.
+    /// The native writer itself. No definition can express its drillings without F, its correction formulas and its statistics.
     Native,
 }
 

@@ -7,9 +7,11 @@ use pathbuild_motion::{Action, Step};
 use crate::job::{HoleKind, Job, JobStep};
 use crate::shadow::TranslatedText;
 
-/// Finds the first dwell of the job that the text lacks. Further dwells are allowed, such as those that wait for the spindle. `slack` is
-/// the permitted deviation in seconds; shorter dwells need not be written. Where no dialect is named, a text without any G4 may have
-/// another word for it, and the number may count milliseconds.
+/// Finds the first dwell of the job that the text lacks. The text may contain further dwells, such as those that wait for the spindle.
+/// `slack` is the permitted deviation in seconds; shorter dwells need not be written.
+///
+/// If no dialect is named (`translated` is given), a text without any G4 passes, because it may use another word, and numbers may be in
+/// milliseconds.
 pub(super) fn check(
     steps: &[Step],
     translated: Option<&TranslatedText>,
@@ -39,7 +41,7 @@ pub(super) fn check(
     None
 }
 
-/// The time in seconds that a step waits.
+/// Time in seconds that a step waits; `None` if it does not wait.
 fn duration(step: &JobStep) -> Option<f64> {
     match step {
         JobStep::Dwell { seconds } => Some(*seconds),

@@ -1,4 +1,4 @@
-//! What both engines share: the findings of a definition, limits, and the output.
+//! Code shared by both engines: the findings of a definition, limits, and the output.
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::posts;
@@ -6,10 +6,11 @@ use pathbuild_diagnostic::{Diagnostic, Message, Note, Value};
 
 use crate::shadow::TranslatedText;
 
-/// Maximum number of findings reported per definition. After correcting them, the user sees the next ones.
+/// Maximum number of findings reported per definition. After correcting these, the user sees the next ones.
 pub(crate) const MOST_FINDINGS: usize = 100;
 
-/// Findings in the order in which they were added. Their number is limited, because in a large file every byte might cause one.
+/// Findings about a definition, in the order in which they were added. Their number is limited, because in a large file every byte might
+/// cause one.
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
     found: Vec<Diagnostic>,
@@ -18,7 +19,7 @@ pub(crate) struct Findings {
 }
 
 impl Findings {
-    /// Whether the limit is reached. Beyond it, an error is still accepted if there is none yet.
+    /// Whether the limit is reached, so that a finding would be dropped. The first error is always accepted.
     pub(crate) fn is_full(&self, is_error: bool) -> bool {
         self.found.len() >= MOST_FINDINGS && (self.has_error || !is_error)
     }
@@ -40,7 +41,7 @@ impl Findings {
     }
 }
 
-/// The start of each line of a text, so that the line of a byte is found quickly anywhere in a file.
+/// Offset at which each line of a text begins, for finding the line of a byte quickly in large files.
 #[derive(Debug)]
 pub(crate) struct LineStarts(Vec<usize>);
 
@@ -55,7 +56,7 @@ impl LineStarts {
         u32::try_from(self.index(byte)).unwrap_or(u32::MAX)
     }
 
-    /// The start of the line that contains a byte.
+    /// Offset at which the line of a byte begins.
     pub(crate) fn start(&self, byte: usize) -> usize {
         self.index(byte).checked_sub(1).map_or(0, |index| self.0[index])
     }
@@ -65,12 +66,10 @@ impl LineStarts {
     }
 }
 
-// The output.
-
-/// Maximum number of warnings reported about a text.
+/// Maximum number of warnings reported about the output of a post.
 pub(crate) const MOST_WARNINGS: usize = 50;
 
-/// The text that an engine writes.
+/// The output of an engine: a text with what is known about it.
 pub(crate) struct EngineOutput {
     pub(crate) text: Vec<u8>,
     /// The translation of the text to RS274.
@@ -79,9 +78,9 @@ pub(crate) struct EngineOutput {
     pub(crate) origins: Vec<LineOrigin>,
     /// Doubtful constructs.
     pub(crate) warnings: Vec<Diagnostic>,
-    /// What the job switches but the text does not.
+    /// Notes on functions that the job switches but the text does not.
     pub(crate) notes: Vec<Note>,
-    /// The command given in the definition.
+    /// The command that the definition asks to run on the finished file, as program and arguments.
     pub(crate) post_build: Option<Vec<String>>,
 }
 
@@ -91,11 +90,11 @@ impl EngineOutput {
     }
 }
 
-/// Number of bytes that a text may still have, so that macros that multiply text come to an end.
+/// Number of bytes that may still be written. This limit ends the expansion of macros that multiply text.
 pub(crate) struct Fuel(usize);
 
 impl Fuel {
-    /// The bytes allowed regardless of the program, and those for a number of steps of the program.
+    /// Creates a budget for a job with this number of steps. Part of it does not depend on the job.
     pub(crate) fn new(steps: usize) -> Self {
         let mut fuel = Self(1 << 20);
         fuel.add_steps(steps);
@@ -113,7 +112,7 @@ impl Fuel {
     }
 }
 
-/// The text of a definition that produced a line.
+/// The part of a definition that produced a line of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LineOrigin {
     /// Name of the section or control text.

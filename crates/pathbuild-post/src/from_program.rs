@@ -1,4 +1,5 @@
-//! Converts finished programs to a job: embedded paths become operations, drilled holes become holes. Cutters get the tools of the table.
+//! Converts finished programs to a job. Embedded paths become operations, drilled holes become holes, and cutters get the tools of the
+//! tool table.
 
 use std::borrow::Borrow;
 use std::collections::HashSet;
@@ -13,15 +14,16 @@ use regex::Regex;
 
 use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, describe};
 
-/// Arcs shorter than this, in mm, are written as lines. A post might print the same coordinates for both ends, which would be a full circle
-/// that cuts off the adjacent support bars. As a line the difference is less than any machine can resolve.
+/// Length in mm below which arcs are written as lines. A post might print the same coordinates for both ends of such an arc, which would
+/// be a full circle that cuts off the adjacent support bars. The line differs from the arc by less than any machine can resolve.
 const SHORTEST_ARC: f64 = 0.002;
 
 impl Job {
-    /// Joins programs in the given order into one job. The tool is changed between them if O differs or the tool table requires it.
+    /// Joins programs in the given order into one job. The tool is changed between two programs if O differs or the tool table requires
+    /// it.
     ///
-    /// With `pecks`, holes with C are drilled in pecks of that depth, otherwise in one go as in the native program. Warnings about the
-    /// tools are returned with the job.
+    /// With `pecks`, holes with C are drilled in pecks of that depth, otherwise in one go as in the native program. Returns the job and
+    /// warnings about the tools.
     pub fn from_programs(
         name: &str,
         programs: &[impl Borrow<Program>],
@@ -34,7 +36,8 @@ impl Job {
             Builder::new(program, assignment, pecks).run()
         });
         let mut operations: Vec<Operation> = operations.collect();
-        // All operations get the greatest clearance, because between two programs the tool must be above everything in both.
+        // All operations get the greatest clearance of any program, because between two programs the tool must be above everything in
+        // both.
         let clearance =
             operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
         for operation in &mut operations {
@@ -46,7 +49,7 @@ impl Job {
 }
 
 impl Job {
-    /// Gives all operations the cutter of a path with this diameter O, as in a job that is made from the path's program. Native programs
+    /// Assigns the cutter of a path with diameter O to all operations, as in a job that is made from the path's program. Native programs
     /// always say T1, whatever the cutter. Returns warnings about the tool.
     pub fn set_cutter(&mut self, path: &str, diameter: f64, tools: &ToolTable) -> Vec<Diagnostic> {
         let mut fitter = Fitter::new(tools);
@@ -61,11 +64,11 @@ struct Builder<'a> {
     program: &'a Program,
     assignment: ToolAssignment,
     pecks: bool,
-    /// The embedded paths that are open, outermost first.
+    /// The embedded paths that contain the current step, outermost first.
     embedded: Vec<&'a str>,
     operations: Vec<Operation>,
     tool: ToolTip,
-    /// Upper face of the material at the elements since the last step.
+    /// Upper face in mm of the material at the elements since the last step.
     surface: Option<f64>,
 }
 
@@ -94,7 +97,7 @@ impl<'a> Builder<'a> {
         self.operations
     }
 
-    /// Handles a comment and returns the remaining steps. The steps of a hole are consumed together.
+    /// Handles a comment and returns the remaining steps. If the comment announces a hole, the steps of the hole are consumed as well.
     fn comment(&mut self, comment: &Comment, after: &'a [ProgramStep]) -> &'a [ProgramStep] {
         let names: &'a Names = &self.program.names;
         match *comment {
@@ -115,8 +118,8 @@ impl<'a> Builder<'a> {
         after
     }
 
-    /// Combines the steps that drill a hole and returns those after it. It is not a hole if the tool does not come from above the
-    /// material, or continues from the bottom.
+    /// Combines the steps that drill a hole to a single one and returns the steps after it. Returns `None` if they are not a hole, because
+    /// the tool does not come from above the material or continues from the bottom.
     fn hole(&mut self, peck: Option<f64>, steps: &'a [ProgramStep]) -> Option<&'a [ProgramStep]> {
         let (remarks, steps) = comments(steps);
         let (retract, steps) = match steps.split_first()? {
@@ -128,7 +131,7 @@ impl<'a> Builder<'a> {
         else {
             return None;
         };
-        // The lift itself is left to the next step, for which the tool is then already at its target.
+        // The retract itself belongs to the next step, which finds the tool already at its target.
         let exit = match comments(rest).1.first() {
             None => self.program.sweep_height,
             Some(ProgramStep::Move { to: PlannedMove::Lift { z }, .. }) => z.z,
@@ -158,7 +161,7 @@ impl<'a> Builder<'a> {
         Some(rest)
     }
 
-    /// Adds a move with its length in mm.
+    /// Adds a planned move. `length` is its length in mm.
     fn go(&mut self, to: &PlannedMove, length: f64) {
         let mut movement = self.tool.go(to, length);
         if length < SHORTEST_ARC {
@@ -167,7 +170,7 @@ impl<'a> Builder<'a> {
         self.push(movement);
     }
 
-    /// Adds a move; a rapid one only if it leads somewhere.
+    /// Adds a move, but not a rapid one that leads nowhere.
     fn push(&mut self, movement: motion::Move) {
         if movement.pace != Pace::Rapid || !movement.is_nothing() {
             self.operation_from(movement.from.at).steps.push(JobStep::Move(movement));
@@ -205,7 +208,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Splits the comments at the beginning off some steps.
+/// Splits `steps` after the comments at its beginning.
 fn comments(steps: &[ProgramStep]) -> (Vec<&Comment>, &[ProgramStep]) {
     let comments: Vec<&Comment> = steps.iter().map_while(as_comment).collect();
     let rest = &steps[comments.len()..];
@@ -219,7 +222,7 @@ fn as_comment(step: &ProgramStep) -> Option<&Comment> {
     }
 }
 
-/// Removes the rapid move between two holes at the same level, because drilling the second hole includes it.
+/// Removes a rapid move between two holes at the same level, because drilling the second hole includes this move.
 fn drop_way_between_holes(steps: &mut Vec<JobStep>, next: &Hole) {
     if let [.., JobStep::Hole(before), JobStep::Move(way)] = steps.as_slice() {
         let [x, y] = next.at;
@@ -230,26 +233,24 @@ fn drop_way_between_holes(steps: &mut Vec<JobStep>, next: &Hole) {
     }
 }
 
-// The tool table: cutter, spindle and coolant for programs with a given O. (`[tool.NAME]` in pathbuild.toml)
-
-/// The tools of the configuration.
+/// The table of tools in the configuration (`[tool.NAME]` in pathbuild.toml): cutter, spindle and coolant for programs with a given O.
 #[derive(Clone, Debug, Default)]
 pub struct ToolTable {
-    /// In the order of the configuration; the first match is used.
+    /// The tools in the order of the configuration. The first one that matches is used.
     pub entries: Vec<ToolEntry>,
 }
 
-/// A tool of the configuration.
+/// An entry of the tool table in the configuration.
 #[derive(Clone, Debug)]
 pub struct ToolEntry {
-    /// Name of its table.
+    /// Name of the entry: NAME in `[tool.NAME]`.
     pub name: Box<str>,
-    /// O in mm.
+    /// Cutter diameter (O) in mm.
     pub diameter: f64,
-    /// The paths it is for, if several cutters have the same diameter (S and T cutters). Matches anywhere in the name of the path, so use
-    /// `T$`.
+    /// The paths that the tool is for, if several cutters have the same diameter (S and T cutters). The pattern may match anywhere in the
+    /// name of a path, so use `T$` for an ending.
     pub paths: Option<Regex>,
-    /// Number in T words; without one the entry gets a free one, in the order of the entries.
+    /// Number in T words. Entries without one get the free numbers, in the order of the entries.
     pub index: Option<u32>,
     /// State of the spindle; `None` if the operator controls it.
     pub spindle: Option<Turning>,
@@ -259,7 +260,7 @@ pub struct ToolEntry {
     pub coolant: Option<Coolant>,
 }
 
-/// A cutter with its settings.
+/// A cutter, with the settings of spindle and coolant for it.
 #[derive(Clone, Debug)]
 pub(super) struct ToolAssignment {
     pub(super) tool: Tool,
@@ -268,7 +269,7 @@ pub(super) struct ToolAssignment {
     pub(super) coolant: Option<Coolant>,
 }
 
-/// Assigns a cutter to each path, and numbers to cutters without one.
+/// Assigns a cutter to each path, and numbers to cutters that have none.
 pub(super) struct Fitter<'a> {
     table: &'a ToolTable,
     /// The number of each entry of the table.
@@ -290,15 +291,15 @@ impl ToolTable {
         self.position(path, diameter).map(|index| &self.entries[index])
     }
 
-    /// The number of each entry. Entries without one get the free numbers in the order of the table and not in that of use, so that a
-    /// cutter has the same number, and the same length in the control, in each program.
+    /// Returns the number of each entry. Entries without one get the free numbers in the order of the table and not in that of use, so
+    /// that a cutter has the same number, and the same length in the control, in each program.
     fn numbers(&self) -> Vec<u32> {
         let stated: HashSet<u32> = self.entries.iter().filter_map(|entry| entry.index).collect();
         let mut free = (1..=u32::MAX).filter(|number| !stated.contains(number));
         self.entries.iter().map(|entry| entry.index.or_else(|| free.next()).unwrap_or(0)).collect()
     }
 
-    /// The same table with a number for each entry.
+    /// Returns the same table with a number for each entry.
     pub fn numbered(&self) -> Self {
         let entries = self.entries.iter().zip(self.numbers());
         Self {
@@ -308,7 +309,7 @@ impl ToolTable {
         }
     }
 
-    /// The index of that tool.
+    /// Returns the index of the tool that [`find`](Self::find) returns.
     pub fn position(&self, path: &str, diameter: f64) -> Option<usize> {
         let fits = |entry: &ToolEntry| near(entry.diameter, diameter);
         let is_named = |entry: &ToolEntry| entry.paths.as_ref().is_some_and(|paths| paths.is_match(path));
@@ -322,7 +323,7 @@ impl<'a> Fitter<'a> {
         Self { table, numbers: table.numbers(), fitted: Vec::new(), warnings: Vec::new() }
     }
 
-    /// The cutter of a path.
+    /// Returns the cutter and settings for a path with diameter O, and remembers the cutter for later paths.
     pub(super) fn fit(&mut self, path: &str, diameter: f64) -> ToolAssignment {
         let position = self.table.position(path, diameter);
         let entry = position.map(|index| &self.table.entries[index]);
@@ -357,7 +358,7 @@ impl<'a> Fitter<'a> {
         tool
     }
 
-    /// The smallest number used neither by the table nor by a cutter before.
+    /// Returns the smallest number used neither by the table nor by a cutter assigned before.
     fn free_index(&self) -> u32 {
         let is_free = |index: &u32| {
             !self.numbers.contains(index) && self.fitted.iter().all(|(_, tool)| tool.index != *index)

@@ -1,4 +1,4 @@
-//! Converts a parsed program to a job, so that it can be written for another machine. (book: program/reading, `post FILE --post X`)
+//! Converts a parsed program to a job, to write it for another machine. (book: program/reading, `post FILE --post X`)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
@@ -35,17 +35,17 @@ pub fn native_remark(text: &str) -> Remark<'_> {
     }
 }
 
-/// Whether a comment is the provenance or the title at the head of a program of pathbuild. Such comments are dropped, because the job's own
-/// comments repeat them.
+/// Whether a comment is the provenance or the title at the head of a program written by pathbuild. Such comments are dropped, because the
+/// job's own comments repeat them.
 pub fn is_of_head(text: &str) -> bool {
     text.parse::<Provenance>().is_ok() || path_of_title(text).is_some()
 }
 
 impl Job {
-    /// Converts the steps of a program in any dialect. A new operation begins where the tool, the spindle or the coolant changes, and where
-    /// `remark` says so. Several moves in one line are combined to a drilled hole if they form one. The upper face of the material is
-    /// assumed to be at Z 0, because programs do not tell where it is: see [`set_surface`](Self::set_surface).
-    ///
+    /// Converts the steps of a program in any dialect. A new operation begins where the tool, the spindle or the coolant changes, and
+    /// where
+    /// `remark` returns one. Several moves in one line are combined to a drilled hole if they form one. The upper face of the material is
+    /// assumed to be at Z 0, because programs do not contain it: see [`set_surface`](Self::set_surface).
     /// # Errors
     /// Things that a job cannot express: other coordinate systems, positions known only to the machine, cuts from or to an unknown
     /// position, arcs of several turns.
@@ -57,10 +57,10 @@ impl Job {
     ) -> Result<Self, Vec<Diagnostic>> {
         let mut builder = Builder::new(name, steps, dialect);
         let mut rest = steps;
-        // If the beginning of a line is not a hole, the rest of it is not one either.
+        // Number of a line whose beginning is not a hole: the rest of that line is not one either.
         let mut plain_line = None;
         while let Some((step, after)) = rest.split_first() {
-            // The word of a cycle stands in front of its moves.
+            // Skip the word of a cycle: the moves of the cycle follow it.
             if matches!(step.action, Action::Word(_) | Action::ProgramNumber(_)) {
                 rest = after;
                 continue;
@@ -88,10 +88,10 @@ impl Job {
     }
 }
 
-/// The settings of the machine.
+/// The modal settings of the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct State {
-    /// `None` until the program names a tool.
+    /// Number of the tool; `None` until the program names one.
     tool: Option<u32>,
     spindle: Option<Turning>,
     speed: Option<f64>,
@@ -103,19 +103,19 @@ struct State {
 struct Builder {
     job: Job,
     state: State,
-    /// Whether M6 changes tools; in programs without it, T does.
+    /// Whether M6 changes tools. In programs without M6, T does.
     has_tool_changes: bool,
-    /// XpertMILL: tools are layers, the first of which applies from the beginning, and S alone starts the spindle.
+    /// Whether tools are layers of XpertMILL. Then the first layer applies from the beginning, and S alone starts the spindle.
     has_layers: bool,
     /// The line that changed to a tool without a number.
     unnamed_change: Option<u32>,
-    /// Whether the tool was changed below the clearance plane and its height has not changed since.
+    /// Whether the tool was changed below the clearance plane and has not moved in Z since.
     was_changed_low: bool,
     at: Position,
     clearance: f64,
     /// Whether the last operation has cut something.
     has_cut: bool,
-    /// The open operations, outermost first.
+    /// Names of the open operations, outermost first.
     names: Vec<Box<str>>,
     /// Whether the last operation has ended.
     has_ended: bool,
@@ -187,14 +187,14 @@ impl Builder {
         }
     }
 
-    /// Reports an error only for the first line of each kind, because further ones are mostly consequences.
+    /// Reports an error, but only for the first line of each kind, because further ones are mostly consequences.
     fn refuse(&mut self, line: u32, message: &'static pathbuild_diagnostic::Message) {
         if self.errors.iter().all(|error| error.message != message) {
             self.errors.push(Diagnostic::new(message).at_line(line, None));
         }
     }
 
-    /// Starts an operation at the current position, replacing the last one if that has not cut anything.
+    /// Starts an operation at the current position. It replaces the last operation if that has not cut anything.
     fn begin(&mut self, name: &str) {
         let mut operation = Operation::new(name, numbered(self.state.tool));
         operation.part.clone_from(&self.job.name);
@@ -257,8 +257,8 @@ impl Builder {
         self.operation().steps.push(step);
     }
 
-    /// Handles a stop for the operator, who may insert another tool or set zero anew. If the tool was raised before it, it is raised again
-    /// before it moves in the plane.
+    /// Handles a stop for the operator, who may insert another tool or set a new zero point. If the tool was raised before the stop, it is
+    /// raised again before it next moves in the plane.
     fn stop(&mut self) {
         self.push(JobStep::Stop);
         if self.is_raised {
@@ -266,14 +266,14 @@ impl Builder {
         }
     }
 
-    /// Handles a tool change. Moves since the last cut only led to it.
+    /// Handles a tool change. Moves since the last cut are dropped, because they only led to the change.
     fn change_tool(&mut self, line: u32, tool: Option<u32>) {
-        // In the head, M6 without T means the tool that is in the spindle; later it means a manual change.
+        // At the start, M6 without T means the tool that is in the spindle; after a cut it means a manual change.
         let has_cut = || self.job.operations.iter().any(Operation::cuts);
         self.unnamed_change = (tool.is_none() && has_cut()).then_some(line);
         let is_new = std::mem::replace(&mut self.state.tool, tool) != tool;
         if is_new && self.has_layers {
-            // The speed belongs to the layer.
+            // The next layer defines its own speed.
             (self.state.spindle, self.state.speed) = (None, None);
         }
         self.was_changed_low |= is_new && self.at.known.has(Axes::Z) && self.at.z() < self.clearance;
@@ -313,8 +313,8 @@ impl Builder {
         self.cutting().steps.push(JobStep::Hole(hole));
     }
 
-    /// After a tool change the program continues above its next position, because the new tool does not return to where the old one
-    /// stopped.
+    /// After a tool change below the clearance plane, continues above the next position, because the new tool does not return to where the
+    /// old one stopped.
     fn leave_change(&mut self, [x, y]: [Option<f64>; 2]) {
         if !std::mem::take(&mut self.was_changed_low) {
             return;
@@ -360,7 +360,7 @@ impl Builder {
             return Err(self.errors);
         }
         if !self.has_cut && self.job.operations.len() > 1 {
-            // The last operation cuts nothing: it only leads home, and that is up to the post.
+            // The last operation cuts nothing, so it only moves the tool away, which the post does by itself.
             self.job.operations.pop();
         }
         self.job.set_surface(0.0);
@@ -370,7 +370,7 @@ impl Builder {
 }
 
 impl Job {
-    /// Sets the height in mm of the upper face of the material.
+    /// Sets the height in mm of the upper face of the material, for all operations.
     pub fn set_surface(&mut self, surface: f64) {
         self.has_no_surface = false;
         for operation in &mut self.operations {
@@ -382,37 +382,37 @@ impl Job {
     }
 }
 
-/// Whether a step is more than a rapid.
+/// Whether a step does something other than a rapid move.
 fn is_no_way(step: &JobStep) -> bool {
     !matches!(step, JobStep::Move(Move { pace: Pace::Rapid, .. }))
 }
 
-/// The tool with this number, or an unnamed one before the program names any.
+/// Returns the tool with this number, or an unnamed tool if the program has not named any.
 fn numbered(tool: Option<u32>) -> Tool {
     tool.map_or_else(Tool::unnamed, |index| Tool::new(index, 0.0, ""))
 }
 
-/// Whether both ends of a cut are known.
+/// Whether both ends of a cut are known. After a probing move, the start need not be.
 fn is_known(movement: &Move, has_probed: bool) -> bool {
     movement.to.known == Axes::ALL && (movement.from.known == Axes::ALL || has_probed)
 }
 
-// Recognises drilling cycles among the moves of a parsed program. The reader has expanded them to moves.
-
-/// Whether a step raises the tool to the level at which it then moves to a hole of the same line. The tool must not move there aslant.
+/// Whether a step raises the tool to the level at which it then moves to a hole of the same line. The rise must remain a move of its own,
+/// because the tool must not move there at an angle.
 fn rises_to_hole(step: &Step, after: &[Step]) -> bool {
     let is_rise =
         step.as_move().is_some_and(|(_, movement)| movement.pace == Pace::Rapid && rises(&movement));
     is_rise && after.first().is_some_and(|next| next.line == step.line) && hole(after).is_some()
 }
 
-/// Whether a move goes straight up, from a known height.
+/// Whether a move goes straight up from a known height.
 fn rises(movement: &Move) -> bool {
     movement.from.known.has(Axes::Z) && movement.keeps_xy() && movement.to.z() > movement.from.z()
 }
 
-/// Returns the hole that some steps begin with, and the remaining steps. All its moves must come from one line that has no others. The
-/// rapid moves to it become one, unless one of them rises: the tool may then be in the material.
+/// Returns the hole at the beginning of `steps`, and the remaining steps. The reader has expanded drilling cycles to moves; all moves of
+/// the hole must come from one line that has no others. The rapid moves to the hole are combined to one, unless one of them rises, because
+/// the tool may then be in the material.
 pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     let [first, second, ..] = steps else { return None };
     if first.line != second.line {
@@ -450,14 +450,14 @@ pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     Some((hole, moves.steps))
 }
 
-/// The remaining steps of a line.
+/// The remaining steps of one line.
 struct Moves<'a> {
     line: u32,
     steps: &'a [Step],
 }
 
 impl<'a> Moves<'a> {
-    /// Takes the next move, if it is straight, leads to a known position and satisfies the condition.
+    /// Takes the next move if it is straight, leads to a known position and satisfies the condition.
     fn take(&mut self, is_wanted: impl Fn(&Move) -> bool) -> Option<Move> {
         let (step, rest) = self.next()?;
         let Action::Move(movement) = step.action else { return None };
@@ -469,7 +469,7 @@ impl<'a> Moves<'a> {
         })
     }
 
-    /// Takes the moves of a peck: out of the hole, back down, and deeper.
+    /// Takes the moves of a peck: out of the hole, back down, and deeper. Takes nothing if they are not next.
     fn peck(&mut self, retract: f64) -> Option<Move> {
         let before = self.steps;
         let is_rapid = |movement: &Move| movement.pace == Pace::Rapid && movement.keeps_xy();
@@ -483,7 +483,7 @@ impl<'a> Moves<'a> {
         deeper
     }
 
-    /// The next step of the line, and those after it.
+    /// Returns the next step of the line, and the steps after it.
     fn next(&self) -> Option<(&'a Step, &'a [Step])> {
         self.steps.split_first().filter(|(step, _)| step.line == self.line)
     }

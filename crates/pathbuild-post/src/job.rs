@@ -14,27 +14,27 @@ use crate::arcs;
 /// A program to be written by a post.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Job {
-    /// Name of the program: `{$cbfile.name}`, `~PrgName~`.
+    /// Name of the program, for the macros `{$cbfile.name}` and `~PrgName~`.
     pub name: Box<str>,
-    /// The drawing it was made from, without directory; empty if the job comes from a parsed program.
+    /// Name of the drawing's file, without directory; empty if the job comes from a parsed program.
     pub drawing: Box<str>,
     /// Unit of the output.
     pub units: Units,
     /// The operations in order. A job without operations cannot be written.
     pub operations: Vec<Operation>,
-    /// Comments for the head of the text.
+    /// Comments to be written at the beginning of the text.
     pub remarks: Vec<Box<str>>,
     /// Whether the upper face of the material is unknown and assumed to be at Z 0.
     pub has_no_surface: bool,
 }
 
-/// The program number used if none is configured: the first number in the program's name, such as 8001 in 8001.1P.
+/// Returns the program number to use if none is configured: the first number in the program's name, such as 8001 in 8001.1P.
 pub fn program_number(name: &str) -> Option<u32> {
     name.split(|c: char| !c.is_ascii_digit()).find_map(|digits| digits.parse().ok())
 }
 
 impl Job {
-    /// The program number: the first number in the job's name, otherwise in the name of its first part.
+    /// Returns the program number: the first number in the job's name, or else in the name of its first part.
     pub(super) fn number(&self) -> Option<u32> {
         program_number(&self.name).or_else(|| program_number(&self.operations.first()?.part))
     }
@@ -52,7 +52,7 @@ impl Job {
         self.check_changes()
     }
 
-    /// Checks that a new tool never descends to where the previous tool stopped.
+    /// Checks that after a tool change the new tool does not descend to where the previous one stopped.
     fn check_changes(&self) -> Result<(), Box<Diagnostic>> {
         let mut before = None;
         for operation in &self.operations {
@@ -73,7 +73,7 @@ impl Job {
         Ok(())
     }
 
-    /// The feeds of each operation. Operations without a feed get one from the others.
+    /// Returns the feeds of each operation. Operations without a feed get the feed of another one.
     pub(super) fn feeds(&self) -> Vec<Feeds> {
         let own = |operation: &Operation| operation.steps.iter().find_map(JobStep::stated_feed);
         let any = self.operations.iter().find_map(own);
@@ -91,7 +91,7 @@ impl Job {
         surfaces.reduce(f64::min).filter(|_| !self.has_no_surface)
     }
 
-    /// Sets a feed in mm/min for cuts without one. Programs for XpertMILL's layers contain no feeds.
+    /// Sets a feed in mm/min for cuts without one. Programs for XpertMILL's layers, for example, contain no feeds.
     pub fn set_missing_feeds(&mut self, feed: f64) {
         for operation in &mut self.operations {
             for step in &mut operation.steps {
@@ -150,14 +150,14 @@ impl Units {
     }
 }
 
-/// The moves of one embedded path, as long as no setting changes.
+/// The moves of one embedded path, or of a part of it, during which no setting changes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Operation {
-    /// Name of the path.
+    /// Name of the embedded path.
     pub name: Box<str>,
-    /// Name of the emitted path.
+    /// Name of the emitted path, which contains the embedded one.
     pub part: Box<str>,
-    /// The cutter.
+    /// The cutter used for all moves.
     pub tool: Tool,
     /// State of the spindle; `None` if it is unspecified.
     pub spindle: Option<Turning>,
@@ -169,33 +169,34 @@ pub struct Operation {
     pub cut_feed: Option<f64>,
     /// Feed downwards in mm/min, if the operation has one.
     pub plunge_feed: Option<f64>,
-    /// Height (S) at which the tool is above everything, in mm.
+    /// Clearance plane: height (S) in mm at which the tool is above everything.
     pub clearance: f64,
-    /// Height down to which rapids go (R of a drilling cycle), in mm.
+    /// Height in mm down to which the tool moves by rapid (R of a drilling cycle).
     pub retract: f64,
-    /// Upper face (T) of the material, in mm.
+    /// Upper face (T) of the material in mm.
     pub surface: f64,
-    /// Depth of the deepest point in mm, if there is one.
+    /// Height in mm of the deepest point; `None` if the operation does not cut.
     pub target_depth: Option<f64>,
     /// Largest infeed in mm, if there is one.
     pub depth_increment: Option<f64>,
     /// Plane of the arcs.
     pub plane: Plane,
-    /// Behaviour at corners.
+    /// Behaviour of the machine at corners.
     pub velocity: VelocityMode,
-    /// Where the tool must be before the first step.
+    /// Position that the tool must reach before the first step.
     pub entry: Entry,
-    /// The moves and other actions.
+    /// The moves and other actions, in order.
     pub steps: Vec<JobStep>,
 }
 
 impl Operation {
-    /// Creates an operation without moves, with everything else unknown or zero.
+    /// Creates an operation without moves. All other settings are unspecified or zero.
     pub fn new(name: &str, tool: Tool) -> Self {
         Self { name: name.into(), part: name.into(), tool, ..Self::default() }
     }
 
-    /// The first position reached by the moves. Each coordinate is that of the first move that specifies it, otherwise that of the entry.
+    /// Returns the first position reached by the moves. Each coordinate is that of the first move that specifies it, or else that of the
+    /// entry.
     pub fn first_point(&self) -> Position {
         let target = |step: &JobStep| match step {
             JobStep::Move(movement) => Some(movement.to.axes()),
@@ -225,7 +226,7 @@ impl Operation {
         self.steps.iter().any(|step| matches!(step, JobStep::Hole(_)) || step.as_cut().is_some())
     }
 
-    /// Whether the operation only probes. The tool touches the material, so the spindle must not turn.
+    /// Whether the operation probes and cuts nothing. The tool touches the material, so the spindle must not turn.
     pub fn only_probes(&self) -> bool {
         !self.cuts()
             && self
@@ -250,7 +251,7 @@ pub struct Tool {
     pub index: u32,
     /// Whether the program names the tool. Otherwise no tool change is written.
     pub is_named: bool,
-    /// O in mm.
+    /// Cutter diameter (O) in mm.
     pub diameter: f64,
     /// Name in the tool table.
     pub name: Box<str>,
@@ -262,13 +263,13 @@ impl Tool {
         Self { index, is_named: true, diameter, name: name.into() }
     }
 
-    /// The tool of a program that does not name any.
+    /// Returns the tool of a program that does not name any.
     pub fn unnamed() -> Self {
         Self { is_named: false, ..Self::new(0, 0.0, "") }
     }
 }
 
-/// Whether the machine stops at corners or rounds them.
+/// Behaviour of the machine at corners: it stops at them, or rounds them to keep its speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum VelocityMode {
@@ -277,17 +278,18 @@ pub enum VelocityMode {
     ConstantVelocity,
 }
 
-/// Where an operation begins.
+/// Position at which an operation begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Entry {
     /// At the clearance plane, at any X and Y.
     #[default]
     Clearance,
-    /// Exactly at this position, which may be deep in the material (sweepless milling). The tool is there already unless it was changed.
+    /// Exactly at this position in mm, which may be deep in the material (sweepless milling). The tool is already there, unless it was
+    /// changed.
     At([f64; 3]),
 }
 
-/// Derives properties of an operation from its moves. An unspecified surface is set to `thickness`.
+/// Derives the surface, the depth and other properties of an operation from its moves. An unspecified surface is set to `thickness`.
 pub(super) fn describe(operation: &mut Operation, thickness: f64) {
     if operation.surface == f64::NEG_INFINITY {
         operation.surface = thickness;
@@ -316,7 +318,7 @@ pub(super) fn describe(operation: &mut Operation, thickness: f64) {
     operation.depth_increment = infeeds.filter(|infeed| *infeed > 0.0).reduce(f64::max);
 }
 
-/// Whether a step descends at feed at the position where the previous one ended.
+/// Whether a step descends at feed, without moving in X and Y from the end of the previous step.
 fn is_straight_down(before: &JobStep, step: &JobStep) -> bool {
     let end_of = |step: &JobStep| match step {
         JobStep::Move(movement) if !matches!(movement.pace, Pace::Probe { .. }) => movement.to.axes(),
@@ -327,9 +329,7 @@ fn is_straight_down(before: &JobStep, step: &JobStep) -> bool {
     is_line && from[..2] == to[..2] && to[2] < from[2]
 }
 
-// The moves of an operation. Lengths are in millimetres, feeds in mm/min.
-
-/// An action of the machine.
+/// An action of the machine. Lengths are in mm, feeds in mm/min.
 #[derive(Clone, Debug, PartialEq)]
 pub enum JobStep {
     /// A move of the tool. A straight move begins where the previous step ended; its `from` is ignored.
@@ -338,10 +338,10 @@ pub enum JobStep {
     Hole(Hole),
     /// A dwell.
     Dwell {
-        /// Duration.
+        /// Duration in seconds.
         seconds: f64,
     },
-    /// Waits for the operator.
+    /// A stop that waits for the operator.
     Stop,
     /// A comment for the operator.
     Comment(Box<str>),
@@ -360,7 +360,7 @@ pub struct Hole {
     pub bottom: f64,
     /// Height to which the tool is retracted afterwards, in mm.
     pub exit: f64,
-    /// In mm/min.
+    /// Feed downwards in mm/min, if it is known.
     pub feed: Option<f64>,
     /// How the bottom is reached.
     pub kind: HoleKind,
@@ -373,10 +373,10 @@ pub enum HoleKind {
     Plain,
     /// In one go, followed by a dwell at the bottom.
     Dwell {
-        /// Duration.
+        /// Duration in seconds.
         seconds: f64,
     },
-    /// In several pecks, with the tool retracted from the hole after each.
+    /// In several pecks. After each, the tool is retracted out of the hole.
     Peck {
         /// Depth of a peck in mm, greater than 0.
         depth: f64,
@@ -404,7 +404,7 @@ impl JobStep {
         Self::Move(Move { from, to: to.into(), shape: MoveShape::Line, pace, named: None })
     }
 
-    /// The move, if it cuts.
+    /// Returns the move if the step is one that cuts.
     fn as_cut(&self) -> Option<&Move> {
         match self {
             Self::Move(movement) if matches!(movement.pace, Pace::Feed(_)) => Some(movement),
@@ -412,7 +412,7 @@ impl JobStep {
         }
     }
 
-    /// The feed in mm/min, if the step specifies one.
+    /// Returns the feed in mm/min, if the step specifies one.
     pub(super) fn stated_feed(&self) -> Option<f64> {
         match self {
             Self::Move(movement) => movement.pace.stated_feed(),
@@ -421,7 +421,7 @@ impl JobStep {
         }
     }
 
-    /// Whether all its numbers are finite.
+    /// Whether all numbers of the step are finite.
     pub(super) fn is_finite(&self) -> bool {
         match self {
             Self::Move(movement) => movement.is_finite(),
@@ -443,13 +443,13 @@ impl Hole {
     }
 }
 
-/// Holes with more pecks than this are taken for errors.
+/// Maximum number of pecks per hole. More are taken for an error.
 const MOST_PECKS: usize = 1_000;
-/// Height in mm above the depth already drilled at which the tool changes from rapid to feed; the same as in LinuxCNC's G83.
+/// Height in mm above the depth already drilled at which the tool changes from rapid to feed. LinuxCNC's G83 uses the same.
 const PECK_GAP: f64 = 0.254;
 
 impl Hole {
-    /// The moves of a hole: to its position at the start level, down, and up to its exit level.
+    /// Returns the moves that drill the hole: to its position at the start level, down, and up to its exit level.
     pub(crate) fn moves(&self) -> Result<Vec<JobStep>, Box<Diagnostic>> {
         let [x, y] = self.at;
         let to = |z| [x, y, z];
@@ -473,7 +473,7 @@ impl Hole {
         Ok(steps)
     }
 
-    /// The depths reached by successive pecks; the last is the bottom.
+    /// Returns the depths reached by successive pecks, as Z in mm. The last one is the bottom.
     fn depths(&self) -> Result<Vec<f64>, Box<Diagnostic>> {
         let HoleKind::Peck { depth } = self.kind else { return Ok(vec![self.bottom]) };
         let mut depths = Vec::new();

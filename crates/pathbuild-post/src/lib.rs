@@ -1,9 +1,9 @@
 //! Post-processors, which write programs for other machines. (book: program/posts)
 //!
-//! A [`Job`] is the input of a post; it is made from finished programs or from a parsed one. A [`PostDefinition`] is a definition in one of two
+//! A [`Job`] is the input of a post; it is made from finished programs or from a parsed one. A [`PostDefinition`] is written in one of two
 //! languages, that of CamBam or that of CAD6; [`PostDefinition::write`] produces the text. This crate does no IO.
 
-/// Declares an enum, and describes its variants for the book, in both languages.
+/// Declares an enum whose variants have a description for the book, in both languages.
 macro_rules! words {
     ($(#[$doc:meta])* $type:ident: $($variant:ident $(($value:ty))? $en:literal, $de:literal;)*) => {
         $(#[$doc])*
@@ -50,7 +50,7 @@ pub use job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, Units, Veloc
 pub use options::{NoFiles, PostFiles, PostMacro, PostOptions};
 pub use shadow::{Doubt, DoubtfulWord, TranslatedText};
 
-/// Extension of a file name, without the dot.
+/// Parses the extension of a file name and removes its dot; `None` if it is not a valid extension.
 fn extension(text: &str) -> Option<Box<str>> {
     let text = text.trim_start_matches('.');
     let is_extension =
@@ -58,7 +58,7 @@ fn extension(text: &str) -> Option<Box<str>> {
     is_extension.then(|| text.into())
 }
 
-/// Cells of a row, in Markdown.
+/// The cells of a row of a reference table, in Markdown.
 pub type Row = Vec<String>;
 
 /// Formats a text as code. Line breaks are shown as `\n`.

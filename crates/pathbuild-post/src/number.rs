@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-/// A pattern such as `0.0###`, in which `0` is a digit that is always shown and `#` one that is shown if needed.
+/// A number pattern such as `0.0###`: a `0` is a digit that is always shown, and a `#` is one that is shown if needed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct NumberFormat {
     /// Minimum number of digits before the decimal point.
@@ -13,14 +13,14 @@ pub(crate) struct NumberFormat {
     most: usize,
 }
 
-/// With fewer decimals, rounding coordinates would exceed the accuracy of any cutter.
+/// Minimum number of decimals of a definition. With fewer, rounding coordinates would cause errors larger than the accuracy of any cutter.
 pub(crate) const FEWEST_DECIMALS: u8 = 2;
 
-/// More digits than any control reads, and more than an `f64` has.
+/// Maximum number of digits on either side of the decimal point. No control reads more, and an `f64` has no more.
 const MOST_DIGITS: usize = 15;
 
 impl NumberFormat {
-    /// At least one digit before the decimal point, and `least` to `most` after it.
+    /// Creates a pattern with at least one digit before the decimal point, and `least` to `most` digits after it.
     pub(crate) const fn decimals(least: usize, most: usize) -> Self {
         Self { whole: 1, least, most }
     }
@@ -30,7 +30,7 @@ impl NumberFormat {
         u8::try_from(self.most).unwrap_or(u8::MAX)
     }
 
-    /// Formats a number; never as `-0`.
+    /// Formats a number. Zero never has a minus sign.
     pub(crate) fn format(self, value: f64) -> String {
         let digits = digits(value, self.most);
         let digits = format!("{digits:0>width$}", width = self.whole + self.most);
@@ -45,7 +45,7 @@ impl NumberFormat {
         if text.is_empty() { "0".to_owned() } else { text }
     }
 
-    /// The number represented by the formatted text.
+    /// Rounds a number to the value that its formatted text has.
     pub(crate) fn round(self, value: f64) -> f64 {
         self.format(value).parse().unwrap_or(value)
     }
@@ -69,10 +69,10 @@ impl FromStr for NumberFormat {
     }
 }
 
-/// The digits of a number up to this many decimals, without leading zeros; empty if they are all zero.
+/// Returns the digits of a number up to this many decimals, without leading zeros; empty if they are all zero.
 ///
-/// The number is limited to fifteen significant digits, so that intended ties (1.0005) are ties and the noise of converting between inches
-/// and millimetres disappears.
+/// The number is first limited to fifteen significant digits, so that numbers meant to end in 5 (1.0005) are rounded as such, and the
+/// noise of converting between inches and millimetres disappears.
 fn digits(value: f64, decimals: usize) -> String {
     let text = format!("{:.14e}", value.abs());
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
@@ -80,7 +80,7 @@ fn digits(value: f64, decimals: usize) -> String {
     let places = exponent.parse::<i32>().unwrap_or(0) - 14 + i32::try_from(decimals).unwrap_or(i32::MAX);
     let digits = match u32::try_from(places) {
         Ok(zeros) => format!("{mantissa}{}", "0".repeat(zeros as usize)),
-        // All digits of a number with more places than an u64 are rounded off.
+        // If the unit of the last place exceeds a `u64`, all digits are rounded off.
         Err(_) => match 10_u64.checked_pow(places.unsigned_abs()) {
             Some(unit) => ((mantissa + unit / 2) / unit).to_string(),
             None => String::new(),

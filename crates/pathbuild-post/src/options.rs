@@ -12,19 +12,20 @@ use pathbuild_gcode::verify::Machine;
 #[derive(Clone, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub struct PostOptions<'a> {
-    /// Value of `{$date}`. Without it the date is omitted, so that the output depends only on the input.
+    /// Value of `{$date}`. If it is `None`, the date is omitted, so that the output depends only on the input.
     pub date: Option<Box<str>>,
-    /// User macros of the configuration, which take precedence over those of the definition. In control texts they are variables.
+    /// User macros of the configuration, which take precedence over those of the definition. Control texts use them as variables.
     pub macros: Vec<PostMacro>,
     /// Whether holes become canned cycles, if the target supports them.
     pub cycles: bool,
-    /// Name of the output file, for the command of the definition.
+    /// Name of the output file, for the command that the definition asks to run.
     pub output: Option<Box<str>>,
-    /// Whether the caller will run the command of the definition. Then the command is returned instead of a note that it was skipped.
+    /// Whether the caller will run the command of the definition. If so, the command is returned; otherwise a note says that it was
+    /// skipped.
     pub run_post_build: bool,
-    /// Permitted characters. Targets that act on other bytes always get ASCII.
+    /// Characters that the output may contain. If the target acts on bytes outside ASCII, the output is always ASCII.
     pub charset: Charset,
-    /// Dialect of the output, if the definition does not declare one or declares another.
+    /// Dialect of the output. It takes precedence over the one that the definition declares.
     pub dialect: Option<Box<str>>,
     /// Maximum size of the text in bytes. (`[limits] output-size`)
     pub most_bytes: usize,
@@ -36,7 +37,7 @@ pub struct PostOptions<'a> {
     pub manual_spindle: bool,
     /// Whether a definition that switches the spindle requires a speed, without which it would not turn.
     pub needs_speed: bool,
-    /// Whether the machine counts P of dwells in milliseconds, for controls where that is a setting.
+    /// Whether the machine counts P of dwells in milliseconds. Only for controls where this is a setting.
     pub milliseconds: bool,
     /// Time in seconds that the spindle needs to reach its speed.
     pub spin_up: f64,
@@ -69,7 +70,7 @@ impl Default for PostOptions<'_> {
     }
 }
 
-/// A user macro: `{$name}`, or `~name~` in control texts, expands to `value`, which may contain macros.
+/// A user macro. `{$name}`, or `~name~` in control texts, expands to `value`, which may contain macros.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the type says it")]
 pub struct PostMacro {
@@ -77,16 +78,16 @@ pub struct PostMacro {
     pub value: Box<str>,
 }
 
-/// The files below the directory of a definition.
+/// Access to the files below the directory of a definition.
 pub trait PostFiles: fmt::Debug + Sync {
-    /// Reads a file. The path is relative and never leads upwards. Implementations must refuse links that lead outside the directory.
+    /// Reads a file. The path is relative and never contains `..`. Implementations must refuse links that lead outside the directory.
     ///
     /// # Errors
     /// The reason why the file cannot be read.
     fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value>;
 }
 
-/// Provides no files.
+/// An implementation of [`PostFiles`] that refuses to read any file.
 #[derive(Clone, Copy, Debug)]
 pub struct NoFiles;
 

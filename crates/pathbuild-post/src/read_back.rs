@@ -1,4 +1,4 @@
-//! Reads the text of a post back and compares its moves with those of the job, and tool, length and spindle at each cut.
+//! Reads the text of a post back and compares it with the job: the moves, and at each cut the tool, its length and the spindle.
 //! (book: program/posts, "Before a program is written")
 
 use pathbuild_diagnostic::messages::{gcode, posts};
@@ -19,27 +19,27 @@ use crate::target::Target;
 use crate::tools;
 use crate::traverse;
 
-/// What a text is compared with.
+/// The expectations that a text is checked against.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ReadBackOptions<'a> {
-    /// The control it is for. Without a target the text consists of RS274 words, possibly among others.
+    /// The control that the text is for. Without a target, the text consists of RS274 words, possibly among others.
     pub(super) target: Option<&'a Target>,
-    /// How far it may deviate from the job. `None` if the user takes responsibility for its moves.
+    /// Permitted deviation of the moves from the job. `None` if the user takes responsibility for the moves.
     pub(super) tolerance: Option<Tolerance>,
-    /// Capabilities of the machine.
+    /// Capabilities of the machine, if they are known.
     pub(super) machine: Option<&'a Machine>,
     /// The translation to RS274 of a text without a target.
     pub(super) translated: Option<&'a TranslatedText>,
-    /// Whether the operator switches the spindle, or the target has no word for it, so that the program need not.
+    /// Whether the program need not switch the spindle, because the operator does it or the target has no word for it.
     pub(super) is_manual: bool,
     /// Whether the text never moves in Z, because a beam cuts at all depths.
     pub(super) is_flat: bool,
-    /// Whether the machine counts P of dwells in milliseconds, where that is a setting.
+    /// Whether the machine counts P of dwells in milliseconds. Only for controls where this is a setting.
     pub(super) milliseconds: bool,
 }
 
-/// Checks a text and returns its errors by line: those reported by the reader of the target, otherwise the first deviation from the job and
-/// violations of the rules of `verify`. Doubtful constructs are returned if there are no errors.
+/// Checks a text. Returns the errors by line: those reported by the reader of the target, or else the first deviation from the job and
+/// violations of the rules of `verify`. If there are no errors, returns warnings about doubtful constructs.
 pub(super) fn check(
     text: &[u8],
     job: &Job,
@@ -58,7 +58,7 @@ pub(super) fn check(
     problems = if tolerance.is_some() { ambiguous::errors(&read.problems, text) } else { Vec::new() };
     let (mut broken, mut doubts) = broken_rules(&read.steps, job, *machine);
     if target.is_none() && (tolerance.is_none() || !is_started(&read.steps)) {
-        // The words may not be meant for the spindle, or the operator switches it and the final M5 is only for safety.
+        // The words found may not concern the spindle, or the operator switches it and the final M5 is only for safety.
         broken.retain(|problem| !is_rule_of_spindle(problem));
     }
     doubts.extend(chosen_offsets(&read.steps));
@@ -106,15 +106,16 @@ pub(super) fn check(
     if problems.is_empty() { Ok(doubts) } else { Err(problems) }
 }
 
-/// Deviation in seconds that is permitted for dwells: half a millisecond.
+/// Permitted deviation of dwells in seconds: half a millisecond and a margin for rounding.
 const SHORTEST_DWELL: f64 = 0.000_501;
 
-/// Whether the text does not state its unit, its distance mode or its plane, so that the control keeps those of the program before.
+/// Whether a problem is that the text does not state its unit, its distance mode or its plane, so that the control keeps those of the
+/// previous program.
 fn is_of_modes(problem: &Diagnostic) -> bool {
     [&gcode::UNITS_NOT_STATED, &gcode::MODES_NOT_STATED].contains(&problem.message)
 }
 
-/// Moves seen from above, without those that do not move in the plane.
+/// Projects moves to the plane and drops those that do not move in it.
 fn flat(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
     let level = |mut at: Position| {
         at.at[2] = 0.0;
@@ -127,14 +128,14 @@ fn flat(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
     seen.filter(|(_, movement)| !movement.is_nothing() || movement.from.known != movement.to.known).collect()
 }
 
-/// One warning for all words on which dialects disagree.
+/// Returns one warning for all words on which dialects disagree; `None` if there are none.
 fn disputed(translated: &TranslatedText) -> Option<Diagnostic> {
     let (line, names) = translated.disputed.as_ref()?;
     let doubt = Diagnostic::new(&posts::DIALECTS_DISAGREE).quoting("words", names.join(", "));
     Some(doubt.at_line(*line, None))
 }
 
-/// Reports words that select the origin of the program, about which the job says nothing.
+/// Warns about words that select a work offset, because the job does not specify any.
 fn chosen_offsets(steps: &[Step]) -> Vec<Diagnostic> {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for step in steps {
@@ -151,7 +152,7 @@ fn chosen_offsets(steps: &[Step]) -> Vec<Diagnostic> {
     doubts
 }
 
-/// Maximum number of warnings reported.
+/// Maximum number of warnings about work offsets.
 const MOST_DOUBTS: usize = 5;
 
 /// Checks the rules of `verify` that do not depend on the material. (book: program/reading)
@@ -170,7 +171,8 @@ fn broken_rules(steps: &[Step], job: &Job, machine: Option<&Machine>) -> (Vec<Di
     found.sort_by_key(|problem| problem.place.line);
     let (mut broken, mut doubts) = (Vec::new(), Vec::new());
     for mut problem in found {
-        // A program of other origin gets a warning for these; one that we are about to write must not have them.
+        // Programs that were not written by pathbuild only get a warning for these problems; a program that is about to be written must
+        // not have them.
         let unwanted = [&gcode::SPINDLE_LEFT_ON, &gcode::SPINDLE_WITHOUT_SPEED, &gcode::SPINNING_AT_CHANGE];
         if unwanted.contains(&problem.message) {
             problem.severity = Severity::Error;
@@ -184,7 +186,7 @@ fn broken_rules(steps: &[Step], job: &Job, machine: Option<&Machine>) -> (Vec<Di
     (broken, doubts)
 }
 
-/// Adds the line of the output and the part of the definition that produced it, because there will be no file to look at.
+/// Adds the line of the output and the part of the definition that produced it to a problem, because there will be no file to look at.
 pub(super) fn in_output(mut problem: Diagnostic, output: &[u8], origins: &[LineOrigin]) -> Diagnostic {
     let Some(number) = problem.place.line.take() else { return problem };
     let index = usize::try_from(number).unwrap_or(usize::MAX).saturating_sub(1);
@@ -207,12 +209,13 @@ pub(super) fn in_output(mut problem: Diagnostic, output: &[u8], origins: &[LineO
     problem
 }
 
-/// Whether the message itself contains the line of the output.
+/// Whether the problem's message contains a line of the output.
 fn says_line(problem: &Diagnostic) -> bool {
     problem.arguments.iter().any(|(name, _)| *name == "line")
 }
 
-/// Treats all probing words as equal. They differ between controls in whether a missing contact is an error, but the move is the same.
+/// Makes all probing moves equal. Probing words differ between controls in whether a missing contact is an error, but the move is the
+/// same.
 fn answered((line, mut movement): (u32, Move)) -> (u32, Move) {
     if let Pace::Probe { must_answer, .. } = &mut movement.pace {
         *must_answer = true;
@@ -252,7 +255,7 @@ struct Mover {
 }
 
 impl Mover {
-    /// Moves to the start of an operation, unless the tool is already there.
+    /// Adds the moves to the start of an operation, unless the tool is already there.
     fn enter(&mut self, operation: &Operation) {
         match operation.entry {
             Entry::At([x, y, z]) => {
@@ -303,7 +306,7 @@ impl Mover {
     }
 }
 
-/// Finds the first rapid during which the beam, which is controlled by the spindle words, may be on.
+/// Finds the first rapid during which the beam may be on. The spindle words switch the beam.
 pub(super) fn check_beam(steps: &[Step]) -> Option<Diagnostic> {
     let mut is_on = false;
     for step in steps {
@@ -328,7 +331,7 @@ pub(super) fn is_started(steps: &[Step]) -> bool {
     })
 }
 
-/// Whether a rule of `verify` concerns the spindle.
+/// Whether a problem violates one of `verify`'s rules about the spindle.
 pub(super) fn is_rule_of_spindle(problem: &Diagnostic) -> bool {
     let rules = [
         &gcode::SPINDLE_OFF,

@@ -1,4 +1,4 @@
-//! Translates the lines of a post to RS274/NGC, so that its text can be read back if it declares no dialect.
+//! Translates the lines of a post to RS274/NGC, so that a text can be read back if its definition declares no dialect.
 
 use std::fmt::Write;
 
@@ -8,7 +8,8 @@ use pathbuild_gcode::interpret::{Disputes, UnionWord, code_name, union_word};
 
 use crate::job::Units;
 
-/// The RS274 translation of a program, built line by line: it moves and switches like the lines passed to it.
+/// The RS274 translation of a program, built line by line. It makes the same moves and switches the same functions as the lines passed to
+/// it.
 #[derive(Debug)]
 pub(crate) struct Rs274Translation {
     text: String,
@@ -16,12 +17,13 @@ pub(crate) struct Rs274Translation {
     doubtful: Vec<DoubtfulWord>,
     disputes: Disputes,
     dwells: Vec<(u32, f64)>,
-    /// The blank of a Heidenhain program has begun (G30), and ends with G31.
+    /// Whether the definition of a blank (workpiece) has begun in a Heidenhain program. It begins with G30 and ends with G31.
     is_blank_open: bool,
     modes: ModeWords,
 }
 
-/// Whether the lines so far state the unit, the distance mode and the plane, and whether they contain a G word of a motion.
+/// Facts about the lines so far: whether they state the unit, the distance mode and the plane, and whether they contain a G word of a
+/// motion.
 #[derive(Debug, Default)]
 struct ModeWords {
     stated: [bool; 3],
@@ -30,7 +32,8 @@ struct ModeWords {
 }
 
 impl ModeWords {
-    /// Reports modes on which a line depends and which no line up to it states. Lines before the first motion word are not in RS274.
+    /// Reports modes that a line depends on if neither it nor an earlier line states them. Lines before the first motion word are ignored,
+    /// because they are not in RS274.
     fn line(&mut self, number: u32, line: &Words, motion: Option<u32>) {
         let mut codes: Vec<i64> = line.words.iter().filter(|word| word.letter == 'G').map(tenths).collect();
         codes.extend(motion.map(|code| 10 * i64::from(code)));
@@ -63,32 +66,32 @@ pub struct TranslatedText {
     pub text: String,
     /// Words that the translation omits, each with its first occurrence.
     pub doubtful: Vec<DoubtfulWord>,
-    /// Words whose meaning differs between controls, with the line of the first one.
+    /// Words whose meaning differs between controls, with the line number of the first one.
     pub disputed: Option<(u32, Vec<String>)>,
-    /// The lines of G4, which the translation omits, each with its number. Whether it counts seconds or milliseconds is unknown.
+    /// The G4 words, which the translation omits: line number and duration. It is unknown whether a duration is in seconds or
+    /// milliseconds.
     pub dwells: Vec<(u32, f64)>,
-    /// Warnings about the unit, the distance mode and the plane, if the program does not state them. The translation
-    /// always does.
+    /// Warnings if the program does not state the unit, the distance mode or the plane. The translation always states them.
     pub unstated: Vec<Diagnostic>,
 }
 
-/// A word with an effect that the shadow lacks.
+/// A word with an effect that the translation lacks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DoubtfulWord {
     /// Number of the line, counted from 1.
     pub line: u32,
     /// The word, such as `G41`.
     pub word: String,
-    /// What is doubtful about it.
+    /// The effect that the word may have.
     pub doubt: Doubt,
 }
 
-/// What is doubtful about a word where no dialect is named.
+/// Possible effect of a word, if no dialect defines its meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
-    /// It is not followed, and on some controls it changes where the tool goes or which lines are run.
+    /// The word is not translated, and on some controls it changes where the tool moves or which lines are executed.
     Dangerous,
-    /// It is not followed.
+    /// The word is not translated, and its effect is unknown.
     Unknown,
 }
 
@@ -96,7 +99,7 @@ pub enum Doubt {
 const MOST_DOUBTFUL: usize = 20;
 
 impl Rs274Translation {
-    /// Creates an empty shadow. Unit and arc centres are those of the definition, until a line changes them.
+    /// Creates an empty translation. Units and the mode of arc centres are those of the definition until a line changes them.
     pub(crate) fn new(units: Units, absolute_centres: bool) -> Self {
         let units = if units == Units::Inches { "G20" } else { "G21" };
         let centres = if absolute_centres { "G90.1" } else { "G91.1" };
@@ -112,8 +115,8 @@ impl Rs274Translation {
         }
     }
 
-    /// Adds a line with these words. `motion` is the G number of a macro in it. If one axis of the plane is reversed, the direction of arcs
-    /// is reversed too.
+    /// Translates a line with these words. `motion` is the G number of a code macro in the line. If `is_mirrored`, one axis of the plane
+    /// is reversed, so the direction of arcs is reversed too.
     pub(crate) fn line(&mut self, line: &Words, motion: Option<u32>, is_mirrored: bool) {
         if self.is_blank(line) {
             return self.end_line();
@@ -153,8 +156,8 @@ impl Rs274Translation {
         self.line += 1;
     }
 
-    /// Whether a line defines the blank: on a Heidenhain control that is G30 with the plane and all axes, followed by G31. Other controls
-    /// have no plane in the same line as G30.
+    /// Whether a line defines the blank (workpiece). On a Heidenhain control these are G30 with the plane and all axes, and the following
+    /// G31. Other controls have no plane in the same line as G30.
     fn is_blank(&mut self, line: &Words) -> bool {
         let has = |letter: char, number: i64| {
             line.words.iter().any(|word| word.letter == letter && tenths(word) == number)
@@ -167,7 +170,8 @@ impl Rs274Translation {
         begins || ends
     }
 
-    /// Adds a G code of a position or motion. If one axis is mirrored, G2 and G3 are exchanged.
+    /// Translates a G code that concerns positions or motions, given as ten times its number. If one axis is mirrored, G2 and G3 are
+    /// exchanged.
     fn code(&mut self, tenths: i64, is_mirrored: bool) {
         let tenths = match tenths {
             20 if is_mirrored => 30,
@@ -205,31 +209,29 @@ impl Rs274Translation {
         write!(self.text, "{letter}{number} ").expect("a String takes everything");
     }
 
-    /// The program, and the words that are doubtful.
+    /// Returns the translation with everything that was noticed on the way.
     pub(crate) fn finish(self) -> TranslatedText {
         let Self { text, doubtful, disputes, dwells, modes, .. } = self;
         TranslatedText { text, doubtful, disputed: disputes.finish(), dwells, unstated: modes.unstated }
     }
 }
 
-/// The name of a code, given ten times its number.
+/// Name of a code, given as ten times its number.
 fn name(letter: char, tenths: i64) -> String {
     u16::try_from(tenths).map_or_else(|_| letter.to_string(), |code| code_name(letter, code))
 }
 
-/// Ten times the number of a code; -10 for numbers that no code has.
+/// Returns ten times the number of a code; -10 for numbers that no code has.
 fn tenths(word: &Word) -> i64 {
     let tenths = (word.number * 10.0).round();
     #[expect(clippy::cast_possible_truncation, reason = "the range is checked")]
     if (0.0..=10_000.0).contains(&tenths) { tenths as i64 } else { -10 }
 }
 
-// Parses the words of a written line leniently: anything that is not a word is skipped.
-
-/// A letter and its number.
+/// A letter and its number in a line of output. Lines are parsed leniently: anything that is not a word is skipped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Word {
-    /// In upper case.
+    /// The letter in upper case.
     pub(crate) letter: char,
     pub(crate) number: f64,
 }
@@ -242,7 +244,7 @@ pub(crate) struct Words {
     pub(crate) has_more: bool,
 }
 
-/// The marks that begin and end a comment. An empty end mark is the end of the line.
+/// The marks that begin and end a comment. If the end mark is empty, comments extend to the end of the line.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CommentMarks {
     pub(crate) open: String,
@@ -268,7 +270,8 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> Words {
 }
 
 impl CommentMarks {
-    /// Length of the mark that opens a comment here, and the mark that closes it: those of the definition, or usual ones.
+    /// Returns the length of the comment mark at the beginning of a text, and the mark that ends the comment. Both the definition's marks
+    /// and the usual ones are recognised.
     pub(crate) fn at(&self, text: &str) -> Option<(usize, &str)> {
         let own = (self.open.as_str(), self.close.as_str());
         let (open, close) = [own, ("(", ")"), (";", "")]
@@ -278,9 +281,10 @@ impl CommentMarks {
     }
 }
 
-/// The number, from 1, of the first line in which a program differs from the expected one, and the expected line. Comment lines are
-/// ignored, but only if their opening mark also opens a comment line of the expected program, because what looks like a comment may be
-/// executed by another control.
+/// Returns the number, from 1, of the first line in which a program differs from the expected one, and the expected line.
+///
+/// Comment lines are ignored, but only if their opening mark also opens a comment line of the expected program, because another control
+/// may execute what looks like a comment.
 pub(crate) fn first_other_line(found: &[u8], expected: &[u8], marks: &CommentMarks) -> Option<(u32, String)> {
     let (found, expected) = (String::from_utf8_lossy(found), String::from_utf8_lossy(expected));
     let openings: Vec<&str> = expected.lines().filter_map(|line| opening(line, marks)).collect();
@@ -301,8 +305,8 @@ pub(crate) fn first_other_line(found: &[u8], expected: &[u8], marks: &CommentMar
     Some((line, expected.get(same).map(|(_, text)| text.clone()).unwrap_or_default()))
 }
 
-/// The opening mark of a line that consists of a comment; `None` for any other line. A line that contains a CR is not a comment, because a
-/// control may end the line there.
+/// Returns the opening mark of a line that consists of a comment; `None` for any other line. A line that contains a CR is not a comment,
+/// because a control may end the line at the CR.
 fn opening<'l>(line: &'l str, marks: &CommentMarks) -> Option<&'l str> {
     let line = line.trim();
     let found = words(line, marks);

@@ -1,5 +1,5 @@
-//! The controls that posts write for: what they accept, and the check of a text before it is written. Texts from
-//! drawings, file names and options are inserted into its lines in such a way that no control acts on them.
+//! The controls that posts write for: the words that each accepts, and the check of a text before it is written. Texts from drawings, file
+//! names and options are inserted into lines in such a way that no control executes any part of them.
 
 use std::ops::Range;
 
@@ -12,8 +12,8 @@ use pathbuild_gcode::read::LONGEST_LINE;
 
 use crate::shadow::{CommentMarks, words};
 
-/// A control that posts write for. It accepts the words and notations that are usual in its dialect, not those that are only read with a
-/// warning.
+/// A control that posts write for. It accepts the words and notations that are usual in its dialect, but not those that the reader of this
+/// dialect accepts with a warning.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Target {
     /// The dialect in which the output is read back.
@@ -44,8 +44,8 @@ impl Target {
         self.rules.words.has_m(30)
     }
 
-    /// Length of the mark that opens a comment at the beginning of a text, and the mark that closes it, unless it extends to the end of the
-    /// line.
+    /// Returns the length of the mark that opens a comment at the beginning of a text, and the mark that closes the comment; an empty one
+    /// if the comment extends to the end of the line. `None` if no comment begins there.
     pub(super) fn comment_marks(&self, text: &str) -> Option<(usize, &'static str)> {
         let Spelling { round_comments, semicolon_comments, slash_comments, .. } = self.spelling;
         let signs = [(round_comments, "(", ")"), (semicolon_comments, ";", ""), (slash_comments, "//", "")];
@@ -54,14 +54,14 @@ impl Target {
         found.map(|(_, open, close)| (open.len(), close))
     }
 
-    /// Length of the comment at the beginning of a text, or `None` if there is none.
+    /// Length of the comment at the beginning of a text; `None` if no comment begins there.
     fn comment_length(&self, text: &str) -> Option<usize> {
         let (open, close) = self.comment_marks(text)?;
         let end = text[open..].find(close).filter(|_| !close.is_empty());
         Some(end.map_or(text.len(), |end| open + end + close.len()))
     }
 
-    /// Length of the code at the beginning of a line. M0 and M117 are followed by a text for the display.
+    /// Length of the part of a line that contains code. In lines with M0 or M117, a text for the display follows the code.
     pub(crate) fn code_length(&self, line: &str) -> usize {
         let digits = line
             .strip_prefix('M')
@@ -70,7 +70,7 @@ impl Target {
         if shows { 1 + digits.len() } else { line.len() }
     }
 
-    /// Splits a line.
+    /// Splits a line into code and comments.
     fn pieces<'a>(&self, line: &'a str) -> Vec<LinePart<'a>> {
         let mut pieces = Vec::new();
         let mut begins = 0;
@@ -114,12 +114,10 @@ enum LinePart<'a> {
     Comment(&'a str),
 }
 
-// Checks a text against the words accepted by its target.
-
-/// Maximum number of errors reported.
+/// Maximum number of errors reported by the check of a text.
 const MOST_ERRORS: usize = 20;
 
-/// Returns what the target would refuse, by line of the text.
+/// Returns an error for everything in a text that the target would refuse, with its line.
 pub(crate) fn check(text: &[u8], target: &Target) -> Vec<Diagnostic> {
     let mut errors = Vec::new();
     for (number, line) in (1_u64..).zip(text.split(|&byte| byte == b'\n')) {
@@ -166,7 +164,7 @@ impl Checker<'_> {
         let (length, longest) = match self.target.spelling.line_length {
             Some(LineLength::Bare(longest)) => (bare, longest),
             Some(LineLength::Whole(longest)) => (self.line.len(), longest),
-            // The limit for reading it back.
+            // The line is only limited by the length up to which it can be read back.
             None => (self.line.len(), LONGEST_LINE),
         };
         if length > longest {
@@ -189,7 +187,7 @@ impl Checker<'_> {
         self.report(Diagnostic::new(&posts::WORD_REJECTED).quoting("word", word), span);
     }
 
-    /// Checks a comment, because some bytes act even there.
+    /// Checks a comment, because the control acts on some bytes even within a comment.
     fn comment(&mut self, text: &str, start: usize) {
         let acts = |c: char| !c.is_ascii() || matches!(c, '!' | '?' | '~');
         if let Some((at, c)) =
@@ -250,7 +248,7 @@ impl Checker<'_> {
     }
 }
 
-/// Ten times the number of a code.
+/// Returns ten times the number of a code; `None` if no code has such a number.
 fn tenths(value: f64) -> Option<u16> {
     let tenths = value * 10.0;
     let is_code = (tenths - tenths.round()).abs() < 1e-6 && (0.0..=60_000.0).contains(&tenths);
@@ -258,10 +256,8 @@ fn tenths(value: f64) -> Option<u16> {
     is_code.then_some(tenths.round() as u16)
 }
 
-// Replaces characters that the target does not allow.
-
-/// Replaces characters that the target or the configuration does not allow. Characters that the target would act on are replaced in
-/// comments; in code they are kept, so that the check reports them. Lines that are not UTF-8 are not changed.
+/// Replaces characters that the target or the configuration does not allow. In comments, this includes characters that the target would
+/// act on; in code those are kept, so that the check reports them. Lines that are not UTF-8 are not changed.
 pub(crate) fn plain(text: &[u8], target: Option<&Target>, charset: Charset) -> Vec<u8> {
     let is_ascii = charset == Charset::Ascii || target.is_some_and(|target| target.spelling.real_time_bytes);
     let mut plain = Vec::with_capacity(text.len());
@@ -296,7 +292,7 @@ fn harmless(comment: &str, target: &Target) -> String {
     comment.char_indices().map(replace).collect()
 }
 
-/// Knows how the lines of a post mark comments.
+/// Inserts texts into the lines of a post in such a way that they cannot be executed. It knows which marks begin and end comments.
 #[derive(Debug)]
 pub(crate) struct Guard<'a> {
     target: Option<&'a Target>,
@@ -305,12 +301,12 @@ pub(crate) struct Guard<'a> {
 }
 
 impl<'a> Guard<'a> {
-    /// Uses the comment marks of the target; without a target those of the definition and the usual ones.
+    /// Creates a guard with the comment marks of the target; without a target, with those of the definition and the usual ones.
     pub(crate) fn new(target: Option<&'a Target>, marks: CommentMarks, charset: Charset) -> Self {
         Self { target, marks, charset }
     }
 
-    /// Returns the text in a form that may be appended to a line. Returns `None` if it would be outside a comment and be read as words.
+    /// Returns the text in a form that may be appended to the line; `None` if it would be outside a comment and be read as words.
     pub(crate) fn put(&self, line: &str, text: &str) -> Option<String> {
         let plain = within_comment(text, self.target.map(|target| target.reader), self.charset);
         let is_title = line.trim_start().starts_with('%');
@@ -322,14 +318,14 @@ impl<'a> Guard<'a> {
                 Some(format!("{guard}{plain}"))
             }
             None if is_title => Some(plain),
-            // A comment that begins here would hide the words after it.
+            // A comment that begins in the text would hide the words after it.
             None if self.open_comment(&format!("{line}{plain}")).is_some() => None,
             None if is_inert(&plain, &self.marks) => Some(plain),
             None => None,
         }
     }
 
-    /// The text of the comment that is open at the end of a line, and the mark that closes it.
+    /// Returns the text of the comment that is open at the end of a line, and the mark that closes the comment.
     fn open_comment<'l>(&self, line: &'l str) -> Option<(&'l str, &str)> {
         let mut at = 0;
         while let Some(c) = line[at..].chars().next() {
@@ -347,7 +343,7 @@ impl<'a> Guard<'a> {
         None
     }
 
-    /// Length of the mark that opens a comment here, and the mark that closes it.
+    /// Returns the length of the comment mark at the beginning of a text, and the mark that closes the comment.
     fn marks_at(&self, text: &str) -> Option<(usize, &str)> {
         match self.target {
             Some(target) => target.comment_marks(text),
@@ -356,16 +352,16 @@ impl<'a> Guard<'a> {
     }
 }
 
-/// Prefix for texts that a control would take for commands.
+/// Prefix for texts that a control would take for commands even within a comment.
 const GUARD: &str = "text: ";
 
-/// Removes the closing mark from a comment text. Definitions may use any mark.
+/// Replaces the mark that closes a comment within the comment's text. Definitions may use any mark.
 fn unclosing(text: &str, close: &str) -> String {
     let instead = if close.contains(' ') { "_" } else { " " };
     text.replace(|c| close.contains(c), instead)
 }
 
-/// Whether a text is harmless even outside a comment.
+/// Whether a text is harmless even outside a comment, because it contains no words.
 fn is_inert(text: &str, marks: &CommentMarks) -> bool {
     words(text, marks).words.is_empty()
         && !text.contains(['#', '[', ']', '%', '$', '{', '}', '"', '<', '>', '='])

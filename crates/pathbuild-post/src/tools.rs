@@ -1,4 +1,4 @@
-//! Checks that a text makes each cut with the tool, the tool length and the spindle of the job, and that the spindle stands still
+//! Checks that a text makes each cut with the tool, the tool length and the spindle of the job, and that the spindle does not turn
 //! where the operator changes the tool. (book: program/posts, "Before a program is written")
 
 use pathbuild_diagnostic::messages::{gcode, posts};
@@ -10,10 +10,11 @@ use pathbuild_motion::{Action, Change, Move, Pace, Step, ToolLength, Turning};
 use crate::job::{Job, Operation};
 use crate::traverse::MatchedCut;
 
-/// Difference in 1/min that is attributed to rounding: some definitions write whole numbers.
+/// Difference in spindle speed, in 1/min, that is attributed to rounding. Some definitions write whole numbers.
 const SAME_SPEED: f64 = 0.5 * (1.0 + 1e-6);
 
-/// Returns the first problem of each kind. `cuts` are the cuts of the text, in their order. `is_manual` and `is_flat`: as in `Expected`.
+/// Returns the first problem of each kind. `cuts` are the cuts of the text, in order. For `is_manual` and `is_flat`, see
+/// [`ReadBackOptions`](crate::read_back::ReadBackOptions).
 pub(super) fn check(
     steps: &[Step],
     job: &Job,
@@ -42,18 +43,18 @@ pub(super) fn check(
 }
 
 struct Checker<'j> {
-    /// The operation of each step of the job.
+    /// The operation that each step of the job belongs to.
     operations: Vec<&'j Operation>,
     tools: ToolState,
     words: ToolWords,
     is_manual: bool,
-    /// Cuts above this height are moves in the air.
+    /// Height in mm above which cuts are moves in the air.
     surface: f64,
-    /// The tool of the last cut.
+    /// Number of the tool that made the last cut.
     last: Option<u32>,
-    /// Whether the program has stopped since the last cut.
+    /// Whether the program has stopped for the operator since the last cut.
     has_stopped: bool,
-    /// The line of a stop since then at which the spindle turned.
+    /// Line of a stop since the last cut at which the spindle was turning.
     spinning: Option<u32>,
     problems: Vec<Diagnostic>,
 }
@@ -62,13 +63,13 @@ struct Checker<'j> {
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 struct ToolWords {
-    /// T, with or without M6.
+    /// Whether there are T words, with or without M6.
     has_selection: bool,
-    /// M6.
+    /// Whether there are M6 words.
     has_change: bool,
-    /// G43.
+    /// Whether there are G43 words.
     has_length: bool,
-    /// Tools are layers, of which the first applies from the beginning.
+    /// Whether tools are layers, the first of which applies from the beginning.
     has_layers: bool,
 }
 
@@ -109,7 +110,7 @@ impl<'j> Checker<'j> {
     fn step(&mut self, step: &Step) {
         self.tools.step(step);
         if matches!(step.action, Action::Stop { .. }) {
-            // The tool is changed at the first stop, or where M6 is: later stops are pauses.
+            // The tool is changed at M6, or in a text without M6 at the first stop. Later stops are pauses.
             let changes = !self.has_stopped && !self.words.has_change;
             let is_on = self.tools.spindle().turning.is_on();
             self.spinning = self.spinning.or((changes && is_on).then_some(step.line));
@@ -117,7 +118,7 @@ impl<'j> Checker<'j> {
         }
     }
 
-    /// Handles a cut that belongs to a step of the job.
+    /// Handles a cut that belongs to the step with this number (from 1) of the job.
     fn cut(&mut self, line: u32, movement: &Move, number: u32) {
         let index = usize::try_from(number).unwrap_or(usize::MAX).wrapping_sub(1);
         let Some(operation) = self.operations.get(index).copied() else { return };
@@ -156,7 +157,8 @@ impl<'j> Checker<'j> {
             Some(found) if found != expected => self.report(&posts::TOOL_OTHER, line, |d| {
                 d.with("found", u64::from(found)).with("expected", u64::from(expected))
             }),
-            // Without any T, the operator has inserted the first tool, and inserts the others where the program stops.
+            // In a text without any T, the operator inserts the first tool before the start, and each further tool where the program
+            // stops.
             None if self.words.has_selection || is_changed && !self.has_stopped => {
                 self.report(&posts::TOOL_NOT_SELECTED, line, |d| d.with("expected", u64::from(expected)));
             }
@@ -175,12 +177,12 @@ impl<'j> Checker<'j> {
         }
     }
 
-    /// Compares the spindle, as far as the job and the text switch it.
+    /// Compares the spindle with the operation, as far as both the job and the text switch it.
     fn spindle(&mut self, line: u32, operation: &Operation) {
         let found = self.tools.spindle();
         let turning = operation.spindle.filter(|turning| turning.is_on() && !self.is_manual);
         let speed = operation.speed.filter(|_| found.speed.is_some());
-        // A spindle that stands still is reported by the rules of `verify`.
+        // Cuts with a spindle that does not turn are reported by the rules of `verify`.
         if found.turning == Turning::Off || !self.tools.turns_otherwise(turning, speed, SAME_SPEED) {
             return;
         }

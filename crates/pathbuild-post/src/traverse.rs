@@ -1,7 +1,9 @@
 //! Checks that a parsed text makes exactly the cuts of a job, and between them only moves that cannot touch material.
 //!
-//! The rapids of a post need not equal those of the job, as they must when a program is compared with its drawing (`verify --against`): it
-//! may retract the tool higher, or omit moves in the air. A position is free of material if it is above all positions where the job itself
+//! The rapids of a post need not equal those of the job, although they must when a program is compared with its drawing (`verify
+//! --against`). A
+//! post may retract the tool higher, or omit moves in the air. A position is free of material if it is above all positions where the job
+//! itself
 //! moves by rapid, or above the clearance plane.
 
 use std::collections::HashSet;
@@ -16,10 +18,12 @@ use rstar::{AABB, RTree};
 type Moves<'m> = &'m [(u32, Move)];
 type TraverseResult<T> = Result<T, Box<Diagnostic>>;
 
-/// A cut that was found: its line, and the number of the job's step that it belongs to. Cuts in one line belong to one step.
+/// A cut that was found in the text: its line, and the number (from 1) of the job's step that it belongs to. All cuts of a line belong to
+/// the same step.
 pub(crate) type MatchedCut = (u32, u32);
 
-/// Compares parsed moves with those of the job and returns the cuts in their order. `clearance` is the height above everything, in mm.
+/// Compares parsed moves with those of the job and returns the matched cuts in order. `clearance` is the height in mm of the clearance
+/// plane.
 pub(crate) fn check(
     found: Moves<'_>,
     expected: Moves<'_>,
@@ -50,8 +54,8 @@ pub(crate) fn check(
     }
 }
 
-/// Number of the first cut from or to an unknown position, which could not be compared. Only the machine knows where a probe has stopped;
-/// the move away from there is compared by its end.
+/// Number (line or step) of the first cut from or to an unknown position, which cannot be compared. Only the machine knows where a probe has stopped, so
+/// the move away from there is compared by its end alone.
 fn blind_cut(moves: Moves<'_>) -> Option<u32> {
     let mut has_probed = false;
     for (number, movement) in moves {
@@ -68,13 +72,13 @@ fn is_rapid(movement: &Move) -> bool {
     movement.pace == Pace::Rapid
 }
 
-/// Splits off the moves at the beginning that satisfy a condition.
+/// Splits moves after those at the beginning that satisfy a condition.
 fn split(moves: Moves<'_>, is_wanted: impl Fn(&Move) -> bool) -> (Moves<'_>, Moves<'_>) {
     let length = moves.iter().take_while(|(_, movement)| is_wanted(movement)).count();
     moves.split_at(length)
 }
 
-/// Omits rapids that retract the tool and return it to the same position.
+/// Removes excursions: rapids that retract the tool and return it to the same position.
 fn without_excursions(moves: Moves<'_>, slack: f64) -> Vec<(u32, Move)> {
     let mut kept = Vec::with_capacity(moves.len());
     let mut rest = moves;
@@ -95,7 +99,7 @@ fn without_excursions(moves: Moves<'_>, slack: f64) -> Vec<(u32, Move)> {
     kept
 }
 
-/// Whether a position equals another one or is straight above it.
+/// Whether a position equals another one or is directly above it.
 fn is_above(place: &Position, other: &Position, slack: f64) -> bool {
     is_over(&place.at, &other.at, slack) && place.z() >= other.z() - slack
 }
@@ -104,13 +108,13 @@ fn is_over(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
     (a[0] - b[0]).abs() <= slack && (a[1] - b[1]).abs() <= slack
 }
 
-/// Number of moves at the beginning that make these cuts.
+/// Returns the number of moves at the beginning of `found` that make the expected cuts.
 fn cut(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance) -> TraverseResult<usize> {
-    // A move to an unknown position is not a cut of the job. Whether it is allowed is decided by the check of the moves between cuts.
+    // A move to an unknown position is not a cut of the job. The check of the moves between cuts decides whether it is allowed.
     let (run, _) = split(found, |movement| !is_rapid(movement) && movement.to.known == Axes::ALL);
     match compare(run, expected, tolerance) {
         None => Ok(run.len()),
-        // The remaining moves may be rapids of the job that the post writes at feed.
+        // The expected cuts are complete. The remaining moves may be rapids of the job that the post writes at feed.
         Some(Difference { found: Some(next), expected: None, .. }) => {
             Ok(run.iter().position(|movement| *movement == next).unwrap_or(run.len()))
         }
@@ -118,10 +122,11 @@ fn cut(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance) -> Traverse
     }
 }
 
-/// How many steps one move may comprise where the post joins straight ones.
+/// Maximum number of steps that one move may comprise if the post joins straight moves.
 const MOST_JOINED: usize = 64;
 
-/// Finds the step of each move in a run of equal cuts. The moves may be divided differently, so they are matched by their ends.
+/// Finds the step of each move in a run of cuts that equals the expected one. The runs may be divided into moves differently, so moves are
+/// matched by their ends.
 fn match_cuts(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance, matched: &mut Vec<MatchedCut>) {
     let mut rest = expected;
     for (line, movement) in found {
@@ -139,7 +144,7 @@ fn match_cuts(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance, matc
     }
 }
 
-/// Converts a difference to a diagnostic. The job, which the text is compared with, has no lines.
+/// Converts a difference to a diagnostic. It has the line of the text, because the job has no lines.
 fn describe(difference: &Difference) -> Diagnostic {
     let diagnostic = match (&difference.found, &difference.expected) {
         (Some((_, found)), Some((_, expected))) => match difference.kind {
@@ -165,13 +170,13 @@ fn describe(difference: &Difference) -> Diagnostic {
     diagnostic.at_line(difference.found.map(|(line, _)| line), None)
 }
 
-/// Reports a cut after the last one of the job.
+/// Returns the error for a cut after the last one of the job.
 fn too_far(cut: (u32, Move)) -> Box<Diagnostic> {
     let found = Some(cut);
     Box::new(describe(&Difference { kind: DifferenceKind::Place, found, expected: None }))
 }
 
-/// The end of a move, without unknown axes.
+/// The end of a move, without its unknown axes, for a message.
 fn place(movement: &Move) -> Value {
     place_of(&movement.to)
 }
@@ -186,18 +191,18 @@ fn place_of(at: &Position) -> Value {
     Value::quoted(known.join(" "))
 }
 
-/// The rapids of the job between two cuts.
+/// The rapids of the job between two consecutive cuts.
 struct ExpectedTraverse<'m> {
     expected: Moves<'m>,
     clearance: f64,
     slack: f64,
-    /// Spatial index of the moves: there may be thousands, and each parsed move looks for those nearby.
+    /// Spatial index of the moves. There may be thousands of them, and each parsed move is compared with those nearby.
     places: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
 }
 
 impl<'m> ExpectedTraverse<'m> {
     fn new(expected: Moves<'m>, clearance: f64, slack: f64) -> Self {
-        // Repeated moves add no information.
+        // Skip repeated moves: they add no information.
         let mut seen = HashSet::new();
         let mut is_new = |movement: &Move| {
             let places = [movement.from, movement.to].map(|at| (at.known, at.at.map(f64::to_bits)));
@@ -214,7 +219,7 @@ impl<'m> ExpectedTraverse<'m> {
         Self { expected, clearance, slack, places }
     }
 
-    /// The moves that may pass over the rectangle between two corners.
+    /// Returns the moves of the job that may pass over the rectangle between two corners.
     fn near(&self, corners: [[f64; 2]; 2]) -> impl Iterator<Item = &Move> {
         let [low, high] = [f64::min as fn(f64, f64) -> f64, f64::max]
             .map(|choose| [0, 1].map(|axis| choose(corners[0][axis], corners[1][axis])));
@@ -222,7 +227,7 @@ impl<'m> ExpectedTraverse<'m> {
         self.places.locate_in_envelope_intersecting(area).map(|place| &self.expected[place.data].1)
     }
 
-    /// Number of moves at the beginning that lead to the start of the next cut.
+    /// Returns the number of moves at the beginning of `found` that lead to the start of the next cut.
     fn length(&self, found: Moves<'_>, next: &(u32, Move)) -> TraverseResult<usize> {
         let begin = &next.1.from;
         if begin.known != Axes::ALL {
@@ -248,7 +253,7 @@ impl<'m> ExpectedTraverse<'m> {
         Box::new(describe(&Difference { kind: DifferenceKind::Place, found, expected }))
     }
 
-    /// Checks that moves touch nothing that the job does not touch.
+    /// Checks that each move is one of the job's own rapids, a retract, or free of obstacles.
     fn check(&self, found: Moves<'_>) -> TraverseResult<()> {
         let mut is_home = false;
         for &(line, movement) in found {
@@ -264,13 +269,13 @@ impl<'m> ExpectedTraverse<'m> {
             if !is_fine {
                 return Err(self.not_free(line, &movement));
             }
-            // After a move to a machine position the height is unknown, but above everything.
+            // After a move to a machine position, the height is unknown, but the tool is above everything.
             is_home = !movement.to.known.has(Axes::Z) && (movement.named.is_some() || is_home);
         }
         Ok(())
     }
 
-    /// Reports a move between two cuts that the job does not contain and that may hit material.
+    /// Returns the error for a move between two cuts that the job does not contain and that may hit material.
     fn not_free(&self, line: u32, movement: &Move) -> Box<Diagnostic> {
         if !is_rapid(movement) && self.expected.is_empty() {
             return too_far((line, *movement));
@@ -280,8 +285,8 @@ impl<'m> ExpectedTraverse<'m> {
         Box::new(diagnostic.at_line(line, None))
     }
 
-    /// Checks the moves after the last cut: there must be no further cuts, and the tool must end as high as in the job. As between two
-    /// cuts, a rapid of the job may be written as a feed.
+    /// Checks the moves after the last cut. There must be no further cuts, and the tool must end as high as in the job. As between two
+    /// cuts, a rapid of the job may be written at feed.
     fn is_last(&self, found: Moves<'_>, has_cut: bool) -> TraverseResult<()> {
         let is_high = |movement: &Move| movement.from.z().min(movement.to.z()) >= self.clearance - self.slack;
         if let Some(cut) = found.iter().find(|(_, movement)| !is_rapid(movement) && is_high(movement)) {
@@ -296,7 +301,7 @@ impl<'m> ExpectedTraverse<'m> {
         if is_high { Ok(()) } else { Err(self.difference(found.last().copied(), None)) }
     }
 
-    /// Whether a move is one of the job's own rapids, regardless of its start.
+    /// Whether a move is one of the job's own rapids, with the same start and end.
     fn is_expected(&self, movement: &Move) -> bool {
         let is_same = |a: &Position, b: &Position| {
             let is_near =
@@ -318,7 +323,7 @@ impl<'m> ExpectedTraverse<'m> {
         (stays || is_unknown) && !movement.to.known.has(Axes::Z)
     }
 
-    /// Whether a straight move is free of obstacles.
+    /// Whether a straight move is free of obstacles. `is_home`: it begins at an unknown height above everything.
     fn is_free(&self, movement: &Move, is_home: bool) -> bool {
         let height = |at: &Position| {
             if at.known.has(Axes::Z) { Some(at.z()) } else { is_home.then_some(f64::INFINITY) }
@@ -329,7 +334,7 @@ impl<'m> ExpectedTraverse<'m> {
             || !movement.from.known.has(Axes::XY) && !movement.to.known.has(Axes::XY);
         let lowest = match (height(&movement.from), height(&movement.to)) {
             (Some(from), Some(to)) => from.min(to),
-            // From an unknown height: up to the clearance plane, or straight up or down.
+            // A move from an unknown height is free if it leads up to the clearance plane, or straight up or down.
             (None, Some(to)) => to,
             _ => return false,
         };
@@ -337,7 +342,7 @@ impl<'m> ExpectedTraverse<'m> {
             return true;
         }
         if !movement.is_known() {
-            // Above a known position, coming from a height above everything.
+            // A descent from above everything must be vertical and end above a known position.
             return movement.to.known == Axes::ALL
                 && is_vertical
                 && self.floor(&movement.to.at).is_some_and(|floor| lowest >= floor - self.slack);
@@ -351,14 +356,14 @@ impl<'m> ExpectedTraverse<'m> {
         self.is_covered(&movement.from.at, &movement.to.at)
     }
 
-    /// The straight moves of the job between known positions that may pass over the rectangle between two corners.
+    /// Returns the straight moves of the job between known positions that may pass over the rectangle between two corners.
     fn legs(&self, corners: [[f64; 2]; 2]) -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
         self.near(corners)
             .filter(|movement| movement.is_known() && movement.named.is_none())
             .map(|movement| (movement.from.at, movement.to.at))
     }
 
-    /// The lowest height of the job above a position.
+    /// Returns the lowest height at which the job moves across a position, seen from above; `None` if it does not.
     fn floor(&self, place: &[f64; 3]) -> Option<f64> {
         let here = [[place[0], place[1]]; 2];
         let ends =
@@ -373,7 +378,7 @@ impl<'m> ExpectedTraverse<'m> {
         over.chain(along).reduce(f64::min)
     }
 
-    /// Whether the part of a straight move below the clearance plane runs entirely above moves of the job.
+    /// Whether the part of a straight move that is below the clearance plane runs above moves of the job everywhere.
     fn is_covered(&self, from: &[f64; 3], to: &[f64; 3]) -> bool {
         let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
         let grain = self.slack / length;
@@ -387,7 +392,8 @@ impl<'m> ExpectedTraverse<'m> {
         reached >= low[1] - grain
     }
 
-    /// The range of a move, as fractions of its length, in which it runs above a straight move of the job.
+    /// Returns the range of a move, as fractions of its length, in which it runs above `leg`, a straight move of the job. `low` is the
+    /// range below the clearance plane.
     fn span(
         &self,
         from: &[f64; 3],
@@ -408,12 +414,12 @@ impl<'m> ExpectedTraverse<'m> {
     }
 }
 
-/// A position seen from above; unknown coordinates are 0.
+/// Projects a position to the plane; unknown coordinates become 0.
 fn in_plane(at: &Position) -> [f64; 2] {
     [0, 1].map(|axis| if at.known.has(Axes::of(axis)) { at.at[axis] } else { 0.0 })
 }
 
-/// The range, as fractions, in which a linearly changing height is below another one.
+/// Returns the range, as fractions of a move, in which a linearly changing height is below `height`.
 fn below(from: f64, to: f64, height: f64) -> [f64; 2] {
     let crossing = if from == to { 0.0 } else { ((height - from) / (to - from)).clamp(0.0, 1.0) };
     match (from < height, to < height) {
@@ -424,7 +430,7 @@ fn below(from: f64, to: f64, height: f64) -> [f64; 2] {
     }
 }
 
-/// The fraction of a line's length in the plane at which it is nearest to a position; `None` for a vertical line.
+/// Returns the fraction of a line's length, in the plane, at which it is nearest to a position; `None` for a vertical line.
 fn share_of(from: &[f64; 3], to: &[f64; 3], place: &[f64; 3]) -> Option<f64> {
     let along = [to[0] - from[0], to[1] - from[1]];
     let square = along[0] * along[0] + along[1] * along[1];
@@ -444,17 +450,18 @@ mod tests {
 
     use super::check;
 
-    /// Height above everything, in mm.
+    /// Height in mm of the clearance plane.
     const CLEARANCE: f64 = 20.0;
 
-    /// Value of the last digit; a way may deviate by two roundings of it.
+    /// Value in mm of the last digit; a rapid may deviate by two roundings of it.
     const DIGIT: f64 = 0.001;
 
     fn moves(program: &str) -> Vec<(u32, Move)> {
         interpret(program.as_bytes(), LinuxCnc, &Options::default()).moves()
     }
 
-    /// Two cuts of 10 mm at Z0, the second from (X50, Y0), with the given ways to the first, between them, and away.
+    /// A program of two cuts, 10 mm long at Z0; the second begins at (X50, Y0). The arguments are the rapids to the first cut, between the
+    /// cuts, and after the second.
     fn program([to, between, away]: [&str; 3]) -> String {
         let line = |words: &str| words.replace(", ", "\n") + "\n";
         format!(
@@ -465,7 +472,8 @@ mod tests {
         )
     }
 
-    /// After the first cut up to Z10, to X30, up to Z12, to X50, down to Z5; after the second up to Z20, to X80.
+    /// Rapids of the job. After the first cut it moves up to Z10, to X30, up to Z12, to X50 and down to Z5; after the second, up to Z20
+    /// and to X80.
     const JOB: [&str; 3] =
         ["G0 Z20, G0 X0 Y0, G0 Z5", "G0 Z10, G0 X30, G0 Z12, G0 X50, G0 Z5", "G0 Z20, G0 X80"];
 
@@ -479,7 +487,7 @@ mod tests {
         check(ways)
     }
 
-    /// With a different way from the first cut to the second.
+    /// Whether a text passes that differs from the job in the rapids from the first cut to the second.
     #[track_caller]
     fn may_go(between: &str) -> bool {
         is_allowed([JOB[0], between, JOB[2]])
@@ -524,7 +532,7 @@ mod tests {
         assert!(!may_go("G0 Z12, G0 X30 Y0.1, G0 X50 Y0, G0 Z5"));
         assert!(may_go(&format!("G0 Z12, G0 X30 Y{:.4}, G0 X50 Y0, G0 Z5", 0.9 * DIGIT)));
         assert!(!may_go("G0 Z12, G0 X55, G0 X50, G0 Z5"));
-        // An arc whose ends are on a way of the job runs beside that way.
+        // An arc whose ends are on a rapid of the job runs beside this rapid.
         assert!(may_go("G0 Z12, G1 X50 F100, G0 Z5"));
         assert!(!may_go("G0 Z12, G2 X50 I20 J0 F100, G0 Z5"));
         assert!(!may_go("G0 Z12, G0 X5, G0 X50, G0 Z5"));
@@ -539,7 +547,7 @@ mod tests {
         assert!(may_go("G0 Z12, G0 X50, G1 Z5 F100"));
     }
 
-    /// The tool moves straight up to a machine position, and is above everything afterwards.
+    /// After a move straight up to a machine position, the tool is above everything.
     #[test]
     fn a_place_of_the_machine_is_above_everything() {
         assert!(is_allowed(["G53 G0 Z0, G0 X0 Y0, G0 Z5", JOB[1], JOB[2]]));
@@ -556,7 +564,7 @@ mod tests {
         assert!(!is_allowed([JOB[0], JOB[1], "G0 Z20, G1 X70"]));
     }
 
-    /// A rapid straight up from a cut and back again.
+    /// A rapid straight up from a cut and back down is allowed.
     #[test]
     fn the_tool_may_be_lifted_from_a_cut() {
         let lifted = |lift: &str| {

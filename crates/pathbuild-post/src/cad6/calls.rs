@@ -1,8 +1,9 @@
 //! Determines the order in which a program calls its control texts. (book: reference/post-definitions)
 //!
-//! CAD6 thinks in contours: move above a point at safety height, descend to working height, plunge, cut the elements, and retract to
-//! safety height. The rapids of a job are combined into such moves. Rapids that cannot be expressed in this way are an error; they are
-//! never dropped.
+//! A CAD6 program consists of contours: move above a point at safety height, descend to working height, plunge, cut the elements, and
+//! retract to safety height. The rapids of a job are combined into such moves. Rapids that cannot be expressed in this way are an error;
+//! they
+//! are never dropped.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
@@ -34,13 +35,13 @@ struct Builder<'a> {
     index: usize,
     calls: Vec<Call<'a>>,
     at: Point,
-    /// Rapids since the last cut.
+    /// Ends of the rapids since the last cut. These rapids are pending: only the next cut decides how they are written.
     ways: Vec<Point>,
-    /// Comments and dwells among those rapids.
+    /// Comments, dwells and stops among the pending rapids.
     asides: Vec<CallContent<'a>>,
     is_open: bool,
     is_first: bool,
-    /// The call of the last element, as long as a contour may still end with it.
+    /// Index in `calls` of the last element, as long as a contour may still end with it.
     last_element: Option<usize>,
     feed: Option<f64>,
 }
@@ -68,7 +69,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Moves to the start of the job, for definitions that write every rapid as it is.
+    /// Adds a move to the start of the job, for definitions that write every rapid as it is.
     fn begin(&mut self) {
         if self.abilities.rapid {
             self.call(CallContent::Rapid { to: self.at });
@@ -106,7 +107,7 @@ impl<'a> Builder<'a> {
         self.present().steps.iter().try_for_each(|step| self.step(step))
     }
 
-    /// Moves to the start of an operation, unless the tool is already there.
+    /// Adds moves to the start of an operation, unless the tool is already there.
     fn enter(&mut self) {
         let [x, y, z] = self.end();
         let clearance = self.present().clearance;
@@ -280,8 +281,8 @@ impl<'a> Builder<'a> {
         movement.split(count).try_for_each(|piece| self.line(piece.to.at, piece.pace.stated_feed()))
     }
 
-    /// Adjusts the arc so that it is still an arc when its numbers are rounded. Returns `None` if it would be read as a full circle because
-    /// its rounded ends are equal.
+    /// Adjusts an arc so that it is still an arc after its numbers are rounded. Returns `None` if it would be read as a full circle
+    /// because its rounded ends are equal.
     fn as_written(&self, movement: &Move) -> Result<Option<Move>, Box<Diagnostic>> {
         let unit = self.units.millimetres();
         let digits = libm::pow(10.0, self.abilities.decimals as f64);
@@ -296,8 +297,8 @@ impl<'a> Builder<'a> {
         Ok(Some(*movement))
     }
 
-    /// Completes the pending rapids. Within the material they become elements of the contour, otherwise they lead to a new contour, which
-    /// may begin with a plunge.
+    /// Completes the pending rapids. If they are within the material, they become elements of the contour; otherwise they lead to a new
+    /// contour, which may begin with a plunge.
     fn land(&mut self, plunge: Option<(Point, Option<f64>)>) -> CallResult {
         if self.abilities.rapid {
             return Ok(());
@@ -315,13 +316,13 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// Turns the first pending rapids into elements of the contour.
+    /// Turns the first `count` pending rapids into elements of the contour.
     fn walk(&mut self, count: usize) -> CallResult {
         let ways: Vec<Point> = self.ways.drain(..count).collect();
         ways.into_iter().try_for_each(|way| self.line(way, self.feed))
     }
 
-    /// Number of pending rapids that lead sideways within the material, away from the end of the contour.
+    /// Number of pending rapids, from the first, up to the last one that moves sideways within the material.
     fn sideways(&self) -> usize {
         let surface = self.present().surface;
         let (mut before, mut count) = (self.at, 0);
@@ -340,8 +341,8 @@ impl<'a> Builder<'a> {
         self.ways.iter().map(|way| way[2]).fold(start, f64::max)
     }
 
-    /// Height at which the tool travels to the end of the pending rapids: their highest point if they lead there in a straight line,
-    /// otherwise the clearance above everything.
+    /// Height in mm at which the tool travels to the end of the pending rapids: their highest point if they lead there in a straight line,
+    /// otherwise the clearance plane.
     fn height(&self) -> f64 {
         let (from, to) = (self.at, self.end());
         let is_straight = |way: &Point| {
@@ -379,7 +380,8 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// Raises the safety height of the last hole to that of the following moves: the text of a hole ends at its safety height.
+    /// Raises the safety height of the last hole to the height of the following moves, because the text of a hole ends at its safety
+    /// height.
     fn raise_hole(&mut self) {
         let height = self.height();
         let is_aside = |what: &CallContent<'_>| {
@@ -427,10 +429,10 @@ pub(super) struct Call<'a> {
     pub(super) content: CallContent<'a>,
 }
 
-/// What the called text has to write.
+/// The action that a called text must write.
 #[derive(Debug)]
 pub(super) enum CallContent<'a> {
-    /// Moves to the start of a contour at safety height, down to working height by rapid, and down to depth at feed.
+    /// Moves to the start of a contour at safety height (`clearance`), by rapid down to working height, and at feed down to `at`.
     Start { at: Point, clearance: f64, working: f64, feed: Option<f64> },
     /// A straight element.
     Line { to: Point, feed: Option<f64>, place: ContourPosition },

@@ -1,4 +1,4 @@
-//! The control texts a definition can have, when each is called, and errors at their positions. (book: reference/post-definitions)
+//! The control texts of a definition, when each is called, and the positions of errors in them. (book: reference/post-definitions)
 
 use std::ops::Range;
 
@@ -7,14 +7,13 @@ use pathbuild_diagnostic::{Diagnostic, Text, TextFault};
 
 macro_rules! kinds {
     ($($variant:ident $name:literal $en:literal $de:literal;)*) => {
-        /// When a control text is called.
+        /// The kinds of control texts. Each is called on its own occasion.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum ControlTextKind {
             $(#[doc = $en] $variant,)*
         }
 
         impl ControlTextKind {
-            /// All kinds.
             pub(super) const ALL: &[Self] = &[$(Self::$variant,)*];
 
             /// Key of the text in a definition.
@@ -24,7 +23,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// When the text is called, for the book.
+            /// Describes when the text is called, for the book.
             pub(super) fn when(self) -> Text {
                 match self {
                     $(Self::$variant => Text { en: $en, de: $de },)*
@@ -56,7 +55,7 @@ kinds! {
     Comment "comment" "pathbuild's own: for each comment, `~CommentText~`" "Zusatz von pathbuild: bei jedem Kommentar, `~CommentText~`";
 }
 
-/// A control text as it is in its file.
+/// A control text, exactly as written in the file of its definition.
 #[derive(Clone, Debug)]
 pub(super) struct ControlText {
     /// The text without the line break before its closing quotes.
@@ -66,7 +65,7 @@ pub(super) struct ControlText {
 }
 
 impl ControlText {
-    /// Line and column, counted from 1, of a byte within the text.
+    /// Converts the offset of a byte in the text to line and column within the text, counted from 1.
     pub(super) fn place(&self, byte: usize) -> (u32, u32) {
         let before = &self.text[..self.text.floor_char_boundary(byte)];
         let line = before.matches('\n').count();
@@ -74,7 +73,7 @@ impl ControlText {
         (count(line) + 1, count(column) + 1)
     }
 
-    /// Line and column, counted from 1, of a byte within the file.
+    /// Converts the offset of a byte in the text to line and column within the file, counted from 1; `None` for built-in texts.
     pub(super) fn place_in_file(&self, byte: usize) -> Option<(u32, u32)> {
         let (first_line, first_column) = self.begins?;
         let (line, column) = self.place(byte);
@@ -94,9 +93,7 @@ fn count(count: usize) -> u32 {
     u32::try_from(count).unwrap_or(u32::MAX)
 }
 
-// Converts errors in control texts to diagnostics that give their position in the text and in its file.
-
-/// Adds the position of an error: the name of the text, line and column in it, and line and column in the file.
+/// Adds the position of an error to its diagnostic: the name of the text, line and column in it, and line and column in the file.
 pub(super) fn locate(
     diagnostic: Diagnostic,
     kind: ControlTextKind,

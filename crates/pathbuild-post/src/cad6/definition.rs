@@ -17,13 +17,13 @@ use crate::Units;
 use crate::findings::{Findings, LineStarts, MOST_FINDINGS};
 use crate::number::FEWEST_DECIMALS;
 
-/// A definition as it is in its file.
+/// A definition as parsed from its file, before any text is expanded.
 #[derive(Clone, Debug)]
 pub(crate) struct Definition {
     pub(super) settings: Settings,
     /// The control texts, indexed by their kind; `None` for those that the definition lacks.
     texts: Vec<Option<ControlText>>,
-    /// Names used in the texts, with the variables they stand for.
+    /// Pairs of an alias used in the texts and the variable that it stands for.
     pub(super) aliases: Vec<(Box<str>, Box<str>)>,
 }
 
@@ -57,7 +57,7 @@ impl Definition {
         findings.warnings().map(|warnings| (definition, warnings))
     }
 
-    /// Extension of the files it writes.
+    /// Extension of the files that the definition writes.
     pub(crate) fn extension(&self) -> &str {
         &self.settings.extension
     }
@@ -80,7 +80,7 @@ impl Definition {
         texts.into_iter().any(|text| names.iter().any(|name| text.text.contains(name)))
     }
 
-    /// Whether the spindle speed is written only at tool changes.
+    /// Whether the definition writes the spindle speed only at tool changes, so that each tool must have a single speed.
     pub(crate) fn has_one_speed_a_tool(&self) -> bool {
         let mut with_speed =
             self.texts().filter(|(kind, _)| self.names(*kind, &["MillingSpindleRate"])).peekable();
@@ -94,12 +94,12 @@ impl Definition {
         u8::try_from(self.settings.decimals).unwrap_or(u8::MAX)
     }
 
-    /// Greatest distance in mm between an arc and the lines that replace it.
+    /// Maximum distance in mm between an arc and the lines that replace it.
     pub(crate) fn chord(&self) -> f64 {
         self.settings.arc_tolerance
     }
 
-    /// Unit of the output; `None` means that of the program.
+    /// Unit of the output; `None` means the unit of the job.
     pub(crate) fn units(&self) -> Option<Units> {
         self.settings.units
     }
@@ -117,7 +117,7 @@ impl Definition {
         self.text(kind).is_some_and(|text| names.any(|name| text.text.contains(&name)))
     }
 
-    /// The reason why no program calls a text, or `None` if one may.
+    /// Returns the reason why no program ever calls a text, or `None` if some program may.
     fn called_instead(&self, kind: ControlTextKind) -> Option<UncalledReason> {
         let instead = |other| self.text(other).map(|_| UncalledReason::Instead(other));
         match kind {
@@ -130,16 +130,16 @@ impl Definition {
         }
     }
 
-    /// All control texts that are present.
+    /// Returns all control texts that the definition has.
     pub(super) fn texts(&self) -> impl Iterator<Item = (ControlTextKind, &ControlText)> {
         ControlTextKind::ALL.iter().filter_map(|&kind| Some((kind, self.text(kind)?)))
     }
 }
 
-/// Why no program calls a text.
+/// The reason why no program calls a text.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum UncalledReason {
-    /// Programs contain nothing that needs the text.
+    /// No program contains anything that needs the text.
     Never,
     /// The definition has this other text, which is called instead.
     Instead(ControlTextKind),
@@ -156,7 +156,7 @@ struct ControlTextReader<'a> {
 
 impl ControlTextReader<'_> {
     fn report(&mut self, diagnostic: Diagnostic, span: Range<usize>) {
-        // Finding the column requires scanning the line up to it.
+        // Stop before computing the column, which requires scanning the line up to it.
         if self.findings.is_full(diagnostic.is_error()) {
             return;
         }
@@ -164,7 +164,7 @@ impl ControlTextReader<'_> {
         self.findings.add(diagnostic.in_file(self.file).at_line(line, Some(column)));
     }
 
-    /// Line and column, counted from 1.
+    /// Returns the line and column of an offset in the file, counted from 1.
     fn place(&self, byte: usize) -> (u32, u32) {
         let byte = self.source.floor_char_boundary(byte);
         let column = self.source[self.lines.start(byte)..byte].chars().count();
@@ -190,7 +190,7 @@ impl ControlTextReader<'_> {
         definition
     }
 
-    /// Reads all entries of a table that have a known key.
+    /// Calls a function for each entry of a table that has a known key, and reports the others.
     fn each(
         &mut self,
         table: &DeTable<'_>,
@@ -295,9 +295,7 @@ impl ControlTextReader<'_> {
     }
 }
 
-// What the control texts of a definition are able to express.
-
-/// Which control texts a definition has, and what they contain.
+/// What programs a definition is able to write, derived from which control texts it has and which variables they use.
 #[derive(Clone, Copy)]
 #[expect(clippy::struct_excessive_bools, reason = "each is about a text of its own")]
 pub(super) struct Abilities {
@@ -315,7 +313,7 @@ pub(super) struct Abilities {
     pub(super) has_relative_centres: bool,
     /// Whether the text for arcs uses absolute centres.
     pub(super) has_absolute_centres: bool,
-    /// Decimals of rounded numbers.
+    /// Number of decimals to which numbers are rounded.
     pub(super) decimals: usize,
     /// Whether lines may change Z.
     pub(super) line_z: bool,
@@ -323,9 +321,9 @@ pub(super) struct Abilities {
     pub(super) arc_z: bool,
     /// Whether the tool is raised between two passes.
     pub(super) lift_between_passes: bool,
-    /// Widest arc, in radians.
+    /// Maximum angle swept by an arc, in radians. Arcs that sweep more are split.
     pub(super) arc_sweep: f64,
-    /// Greatest distance in mm of an arc from the lines that replace it.
+    /// Maximum distance in mm between an arc and the lines that replace it.
     pub(super) arc_tolerance: f64,
 }
 
@@ -352,8 +350,6 @@ impl Abilities {
     }
 }
 
-// Finds likely mistakes in control texts without running them.
-
 /// Reports likely mistakes in a definition, including texts that no program calls, whose words would be missing from every program.
 pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
     let uncalled = definition.texts().filter_map(|(kind, text)| {
@@ -372,7 +368,7 @@ fn of_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) -> Vec<Di
     let mut diagnostics = Vec::new();
     let mut statements = Statements::default();
     let mut rest = text.text.as_str();
-    // Invalid texts are reported when they are run.
+    // An invalid text ends the loop silently: it is reported when it is run.
     while let Ok(Some((before, name, after))) = next_variable(rest)
         && diagnostics.len() < MOST_FINDINGS
     {
@@ -396,10 +392,10 @@ fn is_number(name: &str) -> bool {
     Variable::named(name).is_some_and(|variable| !variable.is_text)
 }
 
-/// The statements that are open at a position of a text, and the variables assigned by those before it.
+/// The statements that are open at a position of a text, and the variables assigned before that position.
 #[derive(Default)]
 struct Statements<'a> {
-    /// The variable assigned by each open statement, if it assigns one.
+    /// For each open statement, the variable that it assigns, if any.
     open: Vec<Option<&'a str>>,
     assigned: BTreeSet<&'a str>,
 }
@@ -421,22 +417,22 @@ fn leading_name(text: &str) -> &str {
     &text[..length]
 }
 
-/// The table `[post]`.
+/// The values of the table `[post]` in a definition.
 #[derive(Clone, Debug)]
 pub(super) struct Settings {
     pub(super) name: Box<str>,
     pub(super) extension: Box<str>,
     pub(super) end_of_line: &'static str,
     pub(super) decimals: usize,
-    /// Unit of the output; `None` means that of the program.
+    /// Unit of the output; `None` means the unit of the job.
     pub(super) units: Option<Units>,
     pub(super) number_lines: bool,
     /// Whether trailing blanks of lines are removed.
     pub(super) trim: bool,
     pub(super) dialect: Option<Box<str>>,
-    /// Greatest distance between an arc and the lines that replace it, in mm.
+    /// Maximum distance in mm between an arc and the lines that replace it.
     pub(super) arc_tolerance: f64,
-    /// Widest sweep of an arc in degrees; wider arcs are split.
+    /// Maximum angle swept by an arc, in degrees. Arcs that sweep more are split.
     pub(super) arc_sweep: f64,
     /// Whether the descent from one pass to the next may be replaced by retracting the tool and plunging again.
     pub(super) lift_between_passes: bool,
@@ -460,11 +456,11 @@ impl Default for Settings {
     }
 }
 
-/// A key of `[post]`.
+/// A key of the table `[post]` in a definition.
 pub(super) struct KeyDeclaration {
-    /// The key.
+    /// Name of the key.
     pub(super) name: &'static str,
-    /// Permitted values.
+    /// Permitted values, for messages and the book.
     pub(super) expected: &'static Text,
     /// Applies a value; returns `None` if the value is not permitted.
     pub(super) set: fn(&mut Settings, &DeValue<'_>) -> Option<()>,
@@ -472,7 +468,8 @@ pub(super) struct KeyDeclaration {
     pub(super) about: Text,
 }
 
-/// Declares the keys of `[post]`: each with how its value is read, the permitted values, and meaning and default for the book.
+/// Declares the keys of `[post]`. Each entry has the function that reads its value, the permitted values, and for the book its meaning and
+/// default.
 macro_rules! settings {
     ($($name:literal $set:expr, $expected_en:literal, $expected_de:literal, $en:literal, $de:literal;)*) => {
         /// All keys of `[post]`.

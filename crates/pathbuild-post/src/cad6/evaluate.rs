@@ -11,7 +11,7 @@ use super::term::{Doubt, Evaluated, Fault, evaluate};
 use super::variables::{UNDEFINED, Variables, char_of, is_mark};
 use crate::PostFiles;
 
-/// Maximum nesting depth of statements.
+/// Maximum nesting depth of statements within statements.
 const MOST_DEPTH: usize = 64;
 
 /// The environment in which a text is evaluated.
@@ -19,11 +19,11 @@ pub(super) struct Surroundings<'a> {
     pub(super) variables: &'a mut Variables,
     /// Number of decimals to which numbers are rounded.
     pub(super) decimals: usize,
-    /// Files that the text may insert.
+    /// Access to the files that the text may insert.
     pub(super) files: &'a dyn PostFiles,
 }
 
-/// A line of the result.
+/// A line of the text that an evaluation produces.
 #[derive(Debug, Default)]
 pub(super) struct ResultLine {
     pub(super) text: String,
@@ -31,7 +31,7 @@ pub(super) struct ResultLine {
     pub(super) is_made: bool,
     /// Whether part of the line comes from a file.
     pub(super) is_inserted: bool,
-    /// Offset of the line in the expanded text.
+    /// Offset in bytes at which the line begins in the expanded text.
     pub(super) begins: usize,
     /// Line of the definition's file that produced it, counted from 1; 0 if unknown.
     pub(super) origin: u32,
@@ -41,7 +41,7 @@ pub(super) struct ResultLine {
 #[derive(Debug)]
 pub(super) struct Outcome {
     pub(super) lines: Vec<ResultLine>,
-    /// Doubtful constructs, with their offsets in the expanded text.
+    /// Constructs that are likely mistakes, each with its offset in the expanded text.
     pub(super) doubts: Vec<(usize, Doubt)>,
 }
 
@@ -80,7 +80,8 @@ impl<'a> Evaluator<'a> {
         Fault::new(message, self.at..(self.at + length).min(self.text.len()))
     }
 
-    /// Copies literal text and evaluates the statements in it, up to the end of the text or the closing brace of the enclosing statement.
+    /// Copies literal text and evaluates the statements in it, up to the end of the text or, if `is_inside`, the closing brace of the
+    /// enclosing statement.
     fn text(&mut self, is_inside: bool) -> Evaluated<()> {
         while let Some(c) = self.rest().chars().next() {
             match c {
@@ -139,7 +140,7 @@ impl<'a> Evaluator<'a> {
         Ok(())
     }
 
-    /// Inserts a file. Its content is copied without being evaluated.
+    /// Inserts a file. The file's content is copied without being evaluated.
     fn insertion(&mut self, after: &str) -> Evaluated<()> {
         let start = self.at;
         let Some(length) = after.find('*') else { return Err(self.fault(&posts::INSERTION_OPEN, 5)) };
@@ -226,18 +227,18 @@ impl<'a> Evaluator<'a> {
         Ok(())
     }
 
-    /// Returns the placeholder of a text if the next part of a statement contains nothing else.
+    /// Returns the placeholder of a text if the next `length` bytes of a statement contain nothing else.
     fn single_placeholder(&self, length: usize) -> Option<char> {
         let mut inside = self.rest()[..length].chars().filter(|c| !is_mark(*c) && *c != ' ');
         let first = inside.next().filter(|c| self.surroundings.variables.text(*c).is_some());
         first.filter(|_| inside.next().is_none())
     }
 
-    /// Writes a text padded with blanks: `{s ~PrgName~}`, `{-20s ~PrgName~}`.
+    /// Writes a text padded with blanks, as in `{s ~PrgName~}` and `{-20s ~PrgName~}`.
     fn text_in_form(&mut self, form: CForm, text: char, length: usize) -> Evaluated<()> {
         let width = self.surroundings.variables.text(text).map_or(0, |text| text.chars().count());
         let Some([before, behind]) = form.blanks(width) else {
-            // The other forms format numbers.
+            // A C format for numbers, such as `f`, requires that the text is a number.
             let found = self.surroundings.variables.text(text).unwrap_or("").to_owned();
             let is_number = found.trim().parse::<f64>().is_ok_and(f64::is_finite);
             if !is_number {
@@ -258,7 +259,7 @@ impl<'a> Evaluator<'a> {
         Ok(())
     }
 
-    /// Reads the form of a number. A form in C notation must be followed by a blank.
+    /// Reads the number format of a statement. A C format must be followed by a blank.
     fn form(&mut self) -> Form {
         let rest = self.rest();
         if let Some(form) = rest.chars().next().and_then(Form::of) {
@@ -283,7 +284,7 @@ impl<'a> Evaluator<'a> {
         if let Some(at) = text.find(UNDEFINED) {
             return Err(self.undefined(span.start + at));
         }
-        // A text may be a number, but not a term.
+        // The text in the placeholder may be a number, but no term is evaluated in it.
         let plain = self.surroundings.variables.plain(text);
         let is_number = plain.trim_matches(|c: char| c == ' ' || is_mark(c)).parse::<f64>().is_ok();
         let found = text.chars().find_map(|c| self.surroundings.variables.text(c)).filter(|_| !is_number);
@@ -302,16 +303,14 @@ fn hex_byte(text: &str) -> Option<u8> {
     u8::from_str_radix(digits, 16).ok()
 }
 
-// Statements that can contain other statements: assignments, conditions, comparisons.
-
-/// A statement that is not a number, identified by the character after its brace.
+/// A statement that is not a number, such as an assignment, a condition or a comparison. The character after its brace identifies it.
 pub(super) struct Statement {
     sign: char,
-    /// Evaluates it, given the offset of its brace.
+    /// Evaluates the statement. The second argument is the offset of the opening brace.
     run: fn(&mut Evaluator<'_>, usize) -> Evaluated<()>,
-    /// Notation, for the book.
+    /// Notation of the statement, for the book.
     pub(super) form: &'static str,
-    /// Result, for the book.
+    /// Description of the result, for the book.
     pub(super) about: Text,
 }
 
@@ -394,7 +393,8 @@ impl Evaluator<'_> {
         Ok(result.into_iter().map(|line| line.text).collect::<Vec<_>>().join("\n"))
     }
 
-    /// Evaluates the first or the second branch. The second branch is optional; the other branch has no effect at all.
+    /// Evaluates the first or the second branch of a condition. The second branch is optional. The branch that is not taken has no effect
+    /// at all, not even errors.
     fn branches(&mut self, takes_first: bool) -> Evaluated<()> {
         self.blanks();
         if !self.rest().starts_with('{') {
@@ -417,7 +417,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Position of the brace that closes the open statement.
+    /// Returns the offset of the brace that closes the open statement.
     fn closing_brace(&self, start: usize) -> Evaluated<usize> {
         let mut depth = 0_usize;
         let mut is_escaped = false;

@@ -13,16 +13,17 @@ use crate::PostFiles;
 const MOST_DEPTH: usize = 32;
 /// Maximum number of variables resolved per call.
 const MOST_VARIABLES: usize = 10_000;
-/// Maximum length in bytes of the text produced by one call; no line of a program is as long.
+/// Maximum length in bytes of the text produced by one call. Lines of real programs are much shorter.
 const MAX_TEXT_BYTES: usize = 1 << 16;
 
 /// A control text with its variables replaced.
 #[derive(Debug, Default)]
 pub(super) struct Expanded {
     pub(super) text: String,
-    /// Offsets at which parts begin in both texts. Between two of them, the texts are equal or the expanded text is the value of a variable.
+    /// Offsets, in the control text and in the expanded text, at which parts begin. A part is either a copy, equal in both, or the value
+    /// of a variable.
     pieces: Vec<ExpandedPart>,
-    /// The variables that do not exist, by the offset at which they occurred.
+    /// Variables that do not exist, each with the offset in the expanded text at which its name was used.
     undefined: Vec<(usize, String)>,
     /// Number of variables resolved.
     resolved: usize,
@@ -97,7 +98,7 @@ impl Expanded {
         Ok(())
     }
 
-    /// Maps an offset of the expanded text to the control text.
+    /// Converts an offset in the expanded text to one in the control text.
     pub(super) fn origin(&self, here: usize) -> usize {
         let after = self.pieces.partition_point(|piece| piece.here <= here);
         match after.checked_sub(1).map(|index| self.pieces[index]) {
@@ -107,7 +108,7 @@ impl Expanded {
         }
     }
 
-    /// Name of the non-existent variable at an offset.
+    /// Returns the name of the non-existent variable that was used at an offset of the expanded text.
     pub(super) fn undefined_at(&self, here: usize) -> &str {
         self.undefined.iter().find(|(at, _)| *at == here).map_or("", |(_, name)| name)
     }
@@ -136,7 +137,7 @@ pub(super) fn next_variable(text: &str) -> Evaluated<Option<(&str, &str, &str)>>
     Ok(None)
 }
 
-/// Length of the escape sequence at the beginning of a text, as far as it prevents characters from starting a variable.
+/// Returns the length of the escape sequence at the beginning of a text; `None` if there is none. A `~` in it does not start a variable.
 fn escape_length(text: &str) -> Option<usize> {
     ["\\\\\\~", "\\~", "\\{", "\\}", "\\\\"]
         .iter()
@@ -153,9 +154,7 @@ pub(super) fn is_name(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_alphabetic()) && text.chars().all(is_name_character)
 }
 
-// Files inserted by control texts. Only files below the directory of the post are read.
-
-/// Introduces the name of an inserted file, which ends with a `*`.
+/// Mark that introduces the name of an inserted file. The name ends with a `*`.
 pub(super) const INSERTION: &str = r"\\\~*";
 
 /// Names of the files inserted by an expanded text.
@@ -167,7 +166,8 @@ pub(super) fn names(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// Returns the content of a file without its last line break, or the reason why it cannot be read.
+/// Returns the content of a file without its last line break, or the reason why it cannot be read. Only files below the directory of the
+/// post are read.
 pub(super) fn read(name: &str, files: &dyn PostFiles) -> Result<Vec<u8>, Value> {
     let path = below(name).ok_or(Value::Prose(&NOT_BELOW_POST))?;
     let mut content = files.read(&path)?;

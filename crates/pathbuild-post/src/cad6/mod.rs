@@ -33,7 +33,7 @@ use crate::findings::EngineOutput;
 use crate::shadow::{CommentMarks, words};
 use crate::target::Guard;
 
-/// Writes a job, which must contain operations.
+/// Writes a job, which must have at least one operation.
 pub(super) fn write(
     definition: &Definition,
     file: &Utf8Path,
@@ -51,7 +51,8 @@ pub(super) fn write(
     Ok(output)
 }
 
-/// Adds notes on what the job switches but the called texts do not. `uses` says whether they use a variable.
+/// Adds a note for each function that the job switches (coolant, spindle) but the called texts do not. `uses` returns whether the texts
+/// use a variable.
 fn note_switches(output: &mut EngineOutput, uses: impl Fn(&str) -> bool, job: &Job, spin_up: f64) {
     let cools = job.operations.iter().any(|operation| operation.coolant.is_some_and(Coolant::is_on));
     let turns = job.operations.iter().any(|operation| operation.spindle.is_some_and(Turning::is_on));
@@ -66,7 +67,7 @@ fn note_switches(output: &mut EngineOutput, uses: impl Fn(&str) -> bool, job: &J
     }
 }
 
-/// Translates a text to the words of RS274. `units` are those of the job, which apply if the definition names none.
+/// Translates a text to the words of RS274. `units` are the units of the job, which apply if the definition names none.
 pub(super) fn translate(definition: &Definition, text: &[u8], units: Units) -> TranslatedText {
     let mut shadow = Rs274Translation::new(definition.units().unwrap_or(units), false);
     for line in text.split(|&byte| byte == b'\n') {

@@ -56,7 +56,7 @@ forms! {
     '#' Whole "whole", "ganze Zahl";
 }
 
-/// Maximum width; greater ones are taken for typing errors.
+/// Maximum width of a C format in characters. Greater widths are taken for typing errors.
 const MAX_WIDTH: usize = 64;
 
 impl Form {
@@ -65,8 +65,8 @@ impl Form {
         FORMS.iter().find(|(sign, ..)| *sign == character).map(|(_, form, _)| *form)
     }
 
-    /// Formats a finite number, rounding it to `decimals` where the format requires it. Returns `None` if the format does not apply (bits
-    /// of a fraction).
+    /// Formats a finite number, rounding it to `decimals` where the format requires it. Returns `None` if the format does not apply to the
+    /// number, as hexadecimal digits do not apply to a fraction.
     pub(super) fn write(self, value: f64, decimals: usize) -> Option<String> {
         let rounded = || NumberFormat::decimals(0, decimals).format(value);
         Some(match self {
@@ -82,13 +82,13 @@ impl Form {
     }
 }
 
-/// Converts the value to an integer if an `f64` can represent it exactly.
+/// Converts the value to an integer; `None` unless it is an integer of at most 2^53, up to which an `f64` is exact.
 pub(super) fn bits(value: f64) -> Option<i64> {
     #[expect(clippy::cast_possible_truncation, reason = "the range is checked")]
     (value.fract() == 0.0 && value.abs() <= 9_007_199_254_740_992.0).then_some(value as i64)
 }
 
-/// The shortest text that parses to the same number.
+/// Returns the shortest text that parses to the same number.
 pub(super) fn shortest(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { value.to_string() }
 }
@@ -125,7 +125,7 @@ impl CForm {
         Some(self.pad(&text))
     }
 
-    /// Number of blanks before and after a text of `length` characters, or `None` if this is not a format for texts.
+    /// Returns the number of blanks to write before and after a text of `length` characters, or `None` if this is not a format for texts.
     pub(super) fn blanks(self, length: usize) -> Option<[usize; 2]> {
         let fill = self.width.saturating_sub(length);
         (self.letter == 's').then_some(if self.left { [0, fill] } else { [fill, 0] })
@@ -142,7 +142,7 @@ impl CForm {
     }
 }
 
-/// `[-][0][width][.precision]letter`.
+/// Parses `[-][0][width][.precision]letter`.
 impl FromStr for CForm {
     type Err = ();
 

@@ -19,10 +19,10 @@ use crate::{PostMacro, PostOptions};
 /// Executes the calls of a job.
 pub(super) struct Caller<'a, 'r> {
     job: &'a Job,
-    /// The feeds of each operation.
+    /// The feeds of each operation, indexed like the job's operations.
     feeds: Vec<Feeds>,
     runner: &'r mut Runner<'a>,
-    /// The output unit, in mm.
+    /// The output unit in mm: 1 or 25.4.
     unit: f64,
     at: Point,
     tool: Option<u32>,
@@ -76,7 +76,7 @@ pub(super) fn assign_macros(variables: &mut Variables, macros: &[PostMacro]) {
     }
 }
 
-/// Returns the files that control texts insert in every program: those with names of literal text and the user's macros only.
+/// Returns the files that control texts insert in every program. Their names contain only literal text and the user's macros.
 pub(crate) fn foreseen(definition: &Definition, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
     let mut variables = Variables::new(definition.aliases.iter().map(|(other, own)| (&**other, &**own)));
     assign_macros(&mut variables, macros);
@@ -130,7 +130,7 @@ impl Caller<'_, '_> {
         self.text("ToolName", &operation.tool.name);
         match operation.tool.index {
             index if operation.tool.is_named => self.set("MachineToolNo", f64::from(index)),
-            // Elements without a layer are on the first one.
+            // A program without a layer number uses the first layer.
             _ if self.has_layers => self.set("MachineToolNo", 1.0),
             _ => self.runner.variables.remove("MachineToolNo"),
         }
@@ -208,7 +208,8 @@ impl Caller<'_, '_> {
         }
     }
 
-    /// Requires the text for a move: omitting the move is an error, unless the user has taken responsibility for unchecked output.
+    /// Checks that the definition has the text for a move. A missing text is an error because it would omit the move, unless the user has
+    /// taken responsibility for unchecked output.
     fn require_move(&self, kind: ControlTextKind, operation: &Operation) -> RunResult {
         if self.unchecked { Ok(()) } else { self.require(kind, operation) }
     }

@@ -10,7 +10,7 @@ use super::term::{FUNCTIONS, LEVELS, Rule};
 use super::variables::VARIABLES;
 use crate::{Row, code};
 
-/// The rows of a table.
+/// Returns the rows of a table, or `None` if no table has this name.
 pub(crate) fn table(name: &str, lang: Lang) -> Option<Vec<Row>> {
     let say = |text: Text| text.in_lang(lang).to_owned();
     Some(match name {
@@ -28,7 +28,7 @@ pub(crate) fn table(name: &str, lang: Lang) -> Option<Vec<Row>> {
             })
             .collect(),
         "control-statements" => statements(lang),
-        // From lowest to highest precedence.
+        // The levels are listed from lowest to highest precedence.
         "control-operators" => LEVELS
             .iter()
             .map(|level| vec![level.iter().map(|operator| code(operator)).collect::<Vec<_>>().join(" ")])
@@ -48,7 +48,7 @@ pub(crate) fn table(name: &str, lang: Lang) -> Option<Vec<Row>> {
     })
 }
 
-/// Notation and result of each statement.
+/// Returns a row for each statement, with its notation and result.
 fn statements(lang: Lang) -> Vec<Row> {
     let row = |form: &str, about: &Text| vec![code(form), about.in_lang(lang).to_owned()];
     let others = STATEMENTS.iter().map(|entry| row(entry.form, &entry.about));

@@ -1,4 +1,4 @@
-//! Executes control texts: variables in, lines out.
+//! Executes control texts: sets their variables, runs both phases, and collects the lines that they produce.
 
 use std::ops::Range;
 
@@ -23,7 +23,7 @@ use crate::target::Guard;
 /// Success, or the diagnostic that aborts writing.
 pub(super) type RunResult = Result<(), Box<Diagnostic>>;
 
-/// Prefix of each line if the definition has no text for it.
+/// Control text that prefixes each line if the definition has none for line numbers.
 const LINE_NUMBER: &str = "N{#~LineNumber~} {=LineNumber{#~LineNumber~+10}}";
 
 /// Executes control texts and collects the resulting lines.
@@ -39,9 +39,9 @@ pub(super) struct Runner<'a> {
     /// Number of bytes that texts may still produce, not counting inserted files.
     fuel: Fuel,
     pub(super) warnings: Vec<Diagnostic>,
-    /// The texts that were called.
+    /// The kinds of the texts called so far.
     pub(super) called: Vec<ControlTextKind>,
-    /// The origin of each line.
+    /// The origin of each line of the output.
     origins: Vec<LineOrigin>,
 }
 
@@ -137,7 +137,7 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    /// Runs both phases of a call.
+    /// Expands and evaluates a control text, the two phases of a call.
     fn evaluate(
         &mut self,
         kind: ControlTextKind,
@@ -185,7 +185,7 @@ impl<'a> Runner<'a> {
         Box::new(locate(diagnostic, kind, text, span, self.file))
     }
 
-    /// The output. `units` are those of the job.
+    /// Returns the output. `units` are the units of the job.
     pub(super) fn finish(self, units: Units) -> EngineOutput {
         let Self { text, origins, warnings, .. } = self;
         let shadow = super::translate(self.definition, &text, units);
@@ -193,7 +193,7 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// Adds to each line of a result the line of the file that produced it.
+/// Adds to each line of a result the number of the definition's line that produced it.
 fn with_origins(mut lines: Vec<ResultLine>, expanded: &Expanded, text: &ControlText) -> Vec<ResultLine> {
     let Some((first, _)) = text.begins else { return lines };
     let ends: Vec<usize> = text.text.match_indices('\n').map(|(at, _)| at).collect();
@@ -210,7 +210,7 @@ fn line_ends(text: &[u8]) -> usize {
     memchr::memchr_iter(b'\n', text).count()
 }
 
-/// Maps a range of the expanded text to the control text.
+/// Converts a range of the expanded text to one of the control text.
 fn in_text(expanded: &Expanded, span: &Range<usize>, length: usize) -> Range<usize> {
     let start = expanded.origin(span.start).min(length);
     let end = expanded.origin(span.end.max(span.start + 1) - 1).min(length);

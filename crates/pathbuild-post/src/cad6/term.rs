@@ -1,8 +1,8 @@
 //! Mathematical terms: numbers, operators and functions. (book: reference/post-definitions)
 //!
 //! All operators are left-associative. From lowest to highest precedence: `||`, `&&`, comparisons together with the bitwise `&`, `|` and
-//! `^`, then `+ -`, `* /`, `^^` (power), signs and `!`. The manual does not specify the order of some of these, nor any functions, so those
-//! are defined by pathbuild.
+//! `^`, then `+ -`, `* /`, `^^` (power), signs and `!`. The order of some of these, and all functions, are
+//! defined by pathbuild, because the manual does not specify them.
 
 use std::ops::Range;
 
@@ -15,7 +15,7 @@ use super::variables::is_mark;
 /// Maximum nesting depth of parentheses and signs.
 const MOST_DEPTH: usize = 64;
 
-/// The value of a term, and doubtful constructs in it.
+/// The value of a term, together with the doubtful constructs in it.
 #[derive(Debug)]
 pub(super) struct Term {
     pub(super) value: f64,
@@ -25,15 +25,15 @@ pub(super) struct Term {
 /// Constructs that are likely mistakes, or that CAD6 itself may not support.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Doubt {
-    /// `--5`.
+    /// Two signs in a row, such as `--5`.
     TwoSigns,
-    /// `1 & 2 == 2` without parentheses.
+    /// A bitwise operator beside a comparison without parentheses, such as `1 & 2 == 2`.
     MixedBits,
-    /// A function or constant.
+    /// A function or constant, which CAD6 itself may not support.
     Extension,
 }
 
-/// Evaluates a term that makes up an entire text. The value is always finite.
+/// Evaluates a text that consists of a single term. The value is always finite.
 pub(super) fn evaluate(text: &str) -> Evaluated<Term> {
     let mut parser = Parser { text, at: 0, depth: 0, doubts: Vec::new() };
     let value = parser.binary(0)?;
@@ -236,9 +236,7 @@ fn from_bits(bits: i64) -> f64 {
     bits as f64
 }
 
-// Functions in terms. They are an extension of pathbuild, because it is unknown which functions CAD6 has. Angles are in degrees.
-
-/// Why a function cannot be evaluated.
+/// The reason why a function cannot be evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FunctionError {
     Name,
@@ -277,7 +275,8 @@ pub(super) struct Function {
 
 macro_rules! functions {
     ($($name:literal $rule:ident $value:expr, $en:literal, $de:literal;)*) => {
-        /// All functions, in the order in which they are documented.
+        /// All functions, in the order in which they are documented. They are an extension of pathbuild, because it is unknown which
+        /// functions CAD6 has. Angles are in degrees.
         pub(super) static FUNCTIONS: &[Function] = &[$(Function {
             name: $name,
             rule: Rule::$rule($value),
@@ -318,9 +317,7 @@ pub(super) fn call(name: &str, arguments: &[f64]) -> Result<f64, FunctionError> 
     }
 }
 
-// An error at a position of a control text, before it is known which text that is.
-
-/// A diagnostic and the range of the text it is about.
+/// An error before it is known which control text contains it: a diagnostic and the range of the faulty piece of the text.
 #[derive(Debug)]
 pub(super) struct Fault {
     pub(super) span: Range<usize>,
@@ -346,12 +343,12 @@ impl Fault {
         self
     }
 
-    /// Sets a value of its message to a name or a piece of the text.
+    /// Sets an argument of the message to a name or a piece of the text, which is shown as a quotation.
     pub(super) fn quoting(self: Box<Self>, name: &'static str, text: impl AsRef<str>) -> Box<Self> {
         self.with(name, pathbuild_diagnostic::Value::quoted(text))
     }
 
-    /// Moves the fault from a part of a text, which begins at `by`, to the text itself.
+    /// Converts the range of a fault from offsets in a part, which begins at the offset `by`, to offsets in the whole text.
     pub(super) fn shifted(mut self: Box<Self>, by: usize) -> Box<Self> {
         self.span = self.span.start + by..self.span.end + by;
         self

@@ -1,4 +1,4 @@
-//! The variables available in control texts, their values, and the placeholder characters that stand in texts during evaluation: for the
+//! The variables available in control texts, and their values. During evaluation, placeholder characters stand in the texts: at the
 //! positions of variables, for bytes that are not valid UTF-8, and for texts that must not be evaluated. These are private-use characters,
 //! which definitions must not contain.
 
@@ -10,18 +10,18 @@ use pathbuild_diagnostic::Text;
 /// A variable set by pathbuild.
 #[derive(Debug)]
 pub(super) struct Variable {
-    /// Name without tildes.
+    /// Name of the variable without tildes.
     pub(super) name: &'static str,
     /// Whether its value is a text instead of a number.
     pub(super) is_text: bool,
-    /// Where it is available.
+    /// Control texts in which the variable is available.
     pub(super) presence: Presence,
-    /// Meaning of the value.
+    /// Meaning of the value, for the book.
     pub(super) about: Text,
 }
 
 words! {
-    /// Where a variable is available. (book: reference/post-definitions)
+    /// The control texts in which a variable is available. (book: reference/post-definitions)
     Presence:
     Always "everywhere", "überall";
     FirstMove "from the first move on", "ab der ersten Bewegung";
@@ -44,7 +44,7 @@ impl Variable {
         VARIABLES.iter().find(|variable| variable.name == name)
     }
 
-    /// The reason why it is not available in some places.
+    /// Returns the reason why the variable is not available in some places.
     pub(super) fn reason(&self) -> &'static Text {
         match self.presence {
             Presence::Speed => &Text {
@@ -163,7 +163,7 @@ variables! {
         "seconds until the spindle turns (`spin-up`)", "Sekunden, bis die Spindel dreht (`spin-up`)";
 }
 
-/// Whether a name is that of a parameter that users may set: Q0, Q1 ..., T0, T1 ...
+/// Whether a name is one of the parameters that users may set: Q0, Q1 ..., T0, T1 ...
 pub(super) fn is_parameter(name: &str) -> bool {
     let digits = name.strip_prefix(['Q', 'T']);
     digits.is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_digit()))
@@ -173,9 +173,10 @@ pub(super) fn is_parameter(name: &str) -> bool {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Variables {
     values: BTreeMap<Box<str>, Box<str>>,
-    /// Names introduced by the definition, with the variables they stand for.
+    /// Names introduced by the definition, with the variables that they stand for.
     aliases: BTreeMap<Box<str>, Box<str>>,
-    /// Texts from drawings, file names and options. Values contain a placeholder character for each, so that the texts are never evaluated.
+    /// Texts from drawings, file names and options. The values of variables contain a placeholder character for each of these texts, which
+    /// are therefore never evaluated.
     texts: Vec<Box<str>>,
     numbers: BTreeMap<Box<str>, usize>,
 }
@@ -187,12 +188,12 @@ impl Variables {
         Self { aliases, ..Self::default() }
     }
 
-    /// Resolves an alias to the name of the variable.
+    /// Returns the variable's own name if `name` is an alias, otherwise `name`.
     pub(super) fn own_name<'a>(&'a self, name: &'a str) -> &'a str {
         self.aliases.get(name).map_or(name, |own| own)
     }
 
-    /// The value of a variable, if it exists.
+    /// Returns the value of a variable, or `None` if the variable does not exist.
     pub(super) fn get(&self, name: &str) -> Option<&str> {
         self.values.get(self.own_name(name)).map(|value| &**value)
     }
@@ -222,7 +223,7 @@ impl Variables {
         self.assign(name, char_of_text(number).encode_utf8(&mut [0; 4]));
     }
 
-    /// Adds a text. If there are more texts than placeholders, the last placeholder is reused.
+    /// Adds a text and returns its index. If there are more texts than placeholders, the last placeholder is reused.
     fn add(&mut self, text: &str) -> usize {
         if self.texts.len() == MOST_TEXTS {
             self.texts.pop();
@@ -233,7 +234,7 @@ impl Variables {
         self.texts.len() - 1
     }
 
-    /// The text that a character stands for.
+    /// Returns the text that a placeholder stands for.
     pub(super) fn text(&self, c: char) -> Option<&str> {
         self.texts.get(text_of(c)?).map(|text| &**text)
     }
@@ -254,15 +255,15 @@ impl Variables {
     }
 }
 
-/// Marks the position of a variable.
+/// Placeholder at the position of a variable.
 pub(super) const VARIABLE: char = '\u{10FF00}';
-/// Marks the position of a variable that does not exist.
+/// Placeholder at the position of a variable that does not exist.
 pub(super) const UNDEFINED: char = '\u{10FF01}';
-/// First of the characters that stand for texts.
+/// First of the placeholder characters that stand for texts.
 const FIRST_TEXT: u32 = 0x0010_0000;
-/// Number of texts that can be distinguished.
+/// Number of placeholder characters for texts.
 pub(super) const MOST_TEXTS: usize = 0xFE00;
-/// First of the 256 characters that stand for bytes.
+/// First of the 256 placeholder characters that stand for bytes.
 const FIRST_BYTE: u32 = 0x0010_FE00;
 
 /// Whether a character is one of these placeholders.
@@ -270,13 +271,13 @@ pub(super) fn is_private(c: char) -> bool {
     u32::from(c) >= FIRST_TEXT
 }
 
-/// The placeholder of a text.
+/// Returns the placeholder of the text with this index.
 pub(super) fn char_of_text(index: usize) -> char {
     let index = u32::try_from(index.min(MOST_TEXTS - 1)).unwrap_or(0);
     char::from_u32(FIRST_TEXT + index).unwrap_or(char::REPLACEMENT_CHARACTER)
 }
 
-/// Index of the text that a character stands for.
+/// Returns the index of the text that a placeholder stands for; `None` for other characters.
 pub(super) fn text_of(c: char) -> Option<usize> {
     let index = usize::try_from(u32::from(c).checked_sub(FIRST_TEXT)?).ok()?;
     (index < MOST_TEXTS).then_some(index)
@@ -287,12 +288,12 @@ pub(super) fn is_mark(c: char) -> bool {
     c == VARIABLE
 }
 
-/// The placeholder of a byte.
+/// Returns the placeholder of a byte.
 pub(super) fn char_of(byte: u8) -> char {
     char::from_u32(FIRST_BYTE + u32::from(byte)).unwrap_or(char::REPLACEMENT_CHARACTER)
 }
 
-/// The byte that a character stands for.
+/// Returns the byte that a placeholder stands for; `None` for other characters.
 pub(super) fn byte_of(c: char) -> Option<u8> {
     u8::try_from(u32::from(c).checked_sub(FIRST_BYTE)?).ok()
 }

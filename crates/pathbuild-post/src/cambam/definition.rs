@@ -1,4 +1,4 @@
-//! Reads a CamBam definition, a flat XML file of templates and options.
+//! Reads a CamBam definition, an XML file whose elements are templates and options.
 
 use std::collections::{HashMap, HashSet};
 
@@ -19,18 +19,18 @@ use crate::shadow::{CommentMarks, words};
 use crate::target::Target;
 use crate::{PostMacro, PostOptions};
 
-/// A definition as it is in its file.
+/// A definition as parsed from its file.
 #[derive(Clone, Debug)]
 pub(crate) struct Definition {
-    /// Indexed by section; `None` if the element is absent, which is different from empty.
+    /// Template of each section; `None` if the file lacks the element, which is different from an empty element.
     sections: Vec<Option<Template>>,
     defaults: Vec<Template>,
     pub(super) options: Options,
-    /// The user macros in `PostProcessorMacros`.
+    /// The user macros in the element `PostProcessorMacros`.
     pub(super) macros: UserMacros,
 }
 
-/// Macros by name, in order of definition.
+/// User macros with their names, in order of definition.
 #[derive(Clone, Debug, Default)]
 pub(super) struct UserMacros {
     macros: Vec<(Box<str>, Template)>,
@@ -38,7 +38,7 @@ pub(super) struct UserMacros {
 }
 
 impl UserMacros {
-    /// Defines a macro; later definitions replace earlier ones.
+    /// Defines a macro, replacing an earlier one with the same name.
     pub(super) fn set(&mut self, name: &str, text: Template) {
         let next = self.macros.len();
         match *self.by_name.entry(name.into()).or_insert(next) {
@@ -63,7 +63,7 @@ impl UserMacros {
     }
 }
 
-/// Files with more elements are refused, because they can only be malicious.
+/// Maximum number of XML elements in a definition. Larger files are refused, because they can only be malicious.
 const MOST_ELEMENTS: u32 = 10_000;
 
 impl Definition {
@@ -82,7 +82,7 @@ impl Definition {
         reader.finish()
     }
 
-    /// Extension of the files it writes.
+    /// Extension of the files that the definition writes.
     pub(crate) fn extension(&self) -> &str {
         &self.options.extension
     }
@@ -104,21 +104,21 @@ impl Definition {
         self.templates().flat_map(Template::macros).any(|(what, _)| *what == Macro::SpindleUp)
     }
 
-    /// Whether the output axes differ from those of the program: wrapped around a cylinder, or with reversed sign.
+    /// Whether the output axes differ from those of the drawing: wrapped around a cylinder, or with reversed sign.
     pub(crate) fn has_own_axes(&self) -> bool {
         let is_turned = |what: &Macro| matches!(what, Macro::Register(_, Form::Reversed));
         self.options.rotary.wrap
             || self.templates().flat_map(Template::macros).any(|(what, _)| is_turned(what))
     }
 
-    /// Whether paths are wrapped around a cylinder.
+    /// Whether the definition wraps paths around a cylinder.
     pub(crate) fn is_wrapped(&self) -> bool {
         self.options.rotary.wrap
     }
 
     /// Whether the definition never moves in Z but switches a beam on where a cut starts and off where it ends.
     pub(crate) fn is_flat(&self) -> bool {
-        // Other macros may expand to anything.
+        // A macro of another kind may expand to anything, including a move in Z.
         let is_without_z = |what: &Macro| match what {
             Macro::Register(register, _) | Macro::Value(Value::MoveAxis(register)) => {
                 *register != Register::Z
@@ -141,36 +141,36 @@ impl Definition {
         self.options.number_format.most_decimals()
     }
 
-    /// Greatest distance in mm between an arc and the lines that replace it.
+    /// Maximum distance in mm between an arc and the lines that replace it.
     pub(crate) fn chord(&self, units: Units) -> f64 {
         self.options.arc_tolerance * units.millimetres()
     }
 
-    /// Whether holes are written with the word of a cycle.
+    /// Whether the definition writes holes with the word of a cycle.
     pub(crate) fn writes_cycles(&self) -> bool {
         !self.section(Section::G81).is_blank()
     }
 
-    /// Template of a section: that of the file, or the default if the element is absent.
+    /// Returns the template of a section: the one in the file, or the default if the file lacks the element.
     pub(super) fn section(&self, section: Section) -> &Template {
         let index = section as usize;
         self.sections[index].as_ref().unwrap_or(&self.defaults[index])
     }
 
-    /// The signs that begin and end its comments.
+    /// Returns the signs that begin and end a comment in the output.
     pub(crate) fn comment_marks(&self) -> CommentMarks {
         let mark = |section| self.section(section).literal().trim().to_owned();
         CommentMarks { open: mark(Section::Comment), close: mark(Section::EndComment) }
     }
 
-    /// The definition's own words for motions, which are not G words, each with the number of the G word that it stands for.
+    /// Returns the definition's own words for motions that are not G words, each with the number of the G word that it stands for.
     pub(super) fn own_motions(&self) -> Vec<(u32, String)> {
         let is_own = |word: &str| !word.is_empty() && words(word, &CommentMarks::default()).words.is_empty();
         let all = CODES.map(|(number, section)| (number, self.section(section).literal().trim().to_owned()));
         all.into_iter().filter(|(_, word)| is_own(word)).collect()
     }
 
-    /// All templates of the file, and the defaults of absent elements.
+    /// Returns all templates that the definition uses: those of the file, and the defaults of absent elements.
     pub(super) fn templates(&self) -> impl Iterator<Item = &Template> {
         Section::ALL.iter().map(|&section| self.section(section)).chain(self.macros.texts())
     }
@@ -252,7 +252,7 @@ impl<'a> CbppReader<'a> {
         }
     }
 
-    /// Reports `{units}` and the like, which would be written literally.
+    /// Warns about macros without a dollar sign, such as `{units}`, which would be written literally.
     fn notice_bare_macros(&mut self, template: &Template) {
         if matches!(template.section, Section::Comment | Section::EndComment) {
             return;
@@ -320,7 +320,7 @@ impl<'a> CbppReader<'a> {
     }
 }
 
-/// The text of an element, and its offset.
+/// Returns the text of an element, and the offset of the text in the file.
 fn text_of(element: Node<'_, '_>) -> (String, usize) {
     let first = element.children().find(Node::is_text);
     let start = first.map_or(element.range().start, |text| text.range().start);
@@ -328,7 +328,7 @@ fn text_of(element: Node<'_, '_>) -> (String, usize) {
     (text, start)
 }
 
-/// Parses `$name=value`.
+/// Parses a line of the form `$name=value`.
 fn user_macro(line: &str) -> Option<(&str, &str)> {
     let (name, value) = line.trim().strip_prefix('$')?.split_once('=')?;
     let name = name.trim();
@@ -355,24 +355,23 @@ fn template_error(section: Section, error: &TemplateError, file: &Utf8Path) -> D
     diagnostic.quoting("section", section.name()).in_file(file).at_line(error.line, None)
 }
 
-// Combines a program, a definition and the macros of all sources, and checks them together.
-
-/// Maximum number of macro names that an undefined one is compared with, so that files with many undefined macros are still fast.
+/// Maximum number of macro names that an undefined macro is compared with to suggest one, so that files with many undefined macros are
+/// still fast.
 const MOST_COMPARED: usize = 1000;
 
-/// Everything a writer needs to read.
+/// Input of a writer: a job, a definition and the macros of all sources, checked together.
 pub(super) struct Plan<'a> {
     pub(super) file: &'a Utf8Path,
     pub(super) definition: &'a Definition,
     pub(super) job: &'a Job,
     pub(super) target: Option<&'a Target>,
     pub(super) options: &'a PostOptions<'a>,
-    /// The macros of the configuration, which take precedence over those of the definition.
+    /// The user macros of the configuration, which take precedence over those of the definition.
     macros: Vec<(Box<str>, Template)>,
 }
 
 impl<'a> Plan<'a> {
-    /// Combines everything. Every undefined macro is reported, whether it is used or not.
+    /// Combines a job, a definition and options. Reports every undefined macro, even if it is not used.
     pub(super) fn new(
         definition: &'a Definition,
         file: &'a Utf8Path,
@@ -396,12 +395,12 @@ impl<'a> Plan<'a> {
         if diagnostics.is_empty() { Ok(plan) } else { Err(diagnostics) }
     }
 
-    /// The output unit, in mm.
+    /// The output unit in mm: 1 or 25.4.
     pub(super) fn unit(&self) -> f64 {
         self.job.units.millimetres()
     }
 
-    /// Greatest distance between an arc and the lines that replace it, in mm.
+    /// Maximum distance in mm between an arc and the lines that replace it.
     pub(super) fn arc_tolerance(&self) -> f64 {
         self.definition.options.arc_tolerance * self.unit()
     }
@@ -445,7 +444,7 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// The notation of a macro in a template.
+/// Returns a macro as it is written in a template: `{$name}`.
 pub(super) fn framed(name: &str) -> String {
     format!("{{${name}}}")
 }

@@ -7,19 +7,19 @@ use crate::VelocityMode;
 use crate::number::NumberFormat;
 use crate::shadow::{Word, Words};
 
-/// What is known of the state. `None` means unknown, like everything at the beginning.
+/// State of the machine as far as it is known. `None` means unknown, as every field is at the beginning.
 #[derive(Debug, Default)]
 pub(super) struct Machine {
-    /// The last number of each register as text, so that equality means that it would be written in the same way.
+    /// The last number of each register as text, so that two numbers are equal if they would be written in the same way.
     registers: [Option<Box<str>>; Register::ALL.len()],
     /// The active motion or cycle: ten times the number of its G code.
     motion: Option<u32>,
-    /// The tool in the spindle, as far as tool changes tell.
+    /// The tool in the spindle, according to the last tool change.
     pub(super) tool: Option<u32>,
     /// The number of a T word that has not yet been followed by M6.
     selected: Option<u32>,
     pub(super) spindle: Option<Turning>,
-    /// The last value of S.
+    /// The spindle speed, from the last S word.
     pub(super) speed: Option<f64>,
     pub(super) coolant: Option<Coolant>,
     pub(super) velocity: Option<VelocityMode>,
@@ -55,13 +55,14 @@ impl Machine {
         self.motion == Some(number * 10)
     }
 
-    /// Records a tool change. Afterwards some controls have stopped the spindle and others have not.
+    /// Records a tool change. The spindle's state is unknown afterwards, because some controls stop it and others do not.
     pub(super) fn change_tool(&mut self, tool: u32) {
         self.tool = Some(tool);
         self.spindle = None;
     }
 
-    /// Updates the state by a line. `code` is the motion of a macro in that line, whatever text its section has.
+    /// Updates the state by a line. `code` is the motion of a macro in that line; it applies even if the macro's section writes other
+    /// words.
     pub(super) fn read(&mut self, line: &Words, code: Option<Code>, format: NumberFormat) {
         if let Some((number, _)) = code {
             self.motion = Some(number * 10);
@@ -131,7 +132,7 @@ impl Machine {
             self.set(register, known.then(|| format.format(word.number)));
         }
         if moved && self.motion.is_some_and(|motion| motion == 730 || (810..=890).contains(&motion)) {
-            // As far as the post is concerned, a cycle leaves the tool at R, whatever the control does afterwards.
+            // For the post, a cycle leaves the tool at R, whatever the control does afterwards.
             let retract = self.written(Register::R).map(str::to_owned);
             self.set(Register::Z, retract);
         }
@@ -141,24 +142,22 @@ impl Machine {
 /// The meaning of the axis words in a line.
 #[derive(Default)]
 struct Moves {
-    /// Whether they are not coordinates of the tool (G4, G10).
+    /// Whether the axis words are not coordinates of the tool (G4, G10).
     none: bool,
-    /// Whether they are in another coordinate system or relative, so that the position afterwards is unknown.
+    /// Whether the axis words are in another coordinate system or relative, so that the position afterwards is unknown.
     displaced: bool,
-    /// Whether they are an intermediate point on the way to a fixed position (G28, G30).
+    /// Whether the axis words are an intermediate point on the way to a fixed position (G28, G30).
     everywhere: bool,
 }
 
-/// Ten times the number of a word, or `None` if no code has such a number.
+/// Returns ten times the number of a word, or `None` if no code has such a number.
 fn tenths(word: &Word) -> Option<u32> {
     let tenths = (word.number * 10.0).round();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
     (0.0..=1e6).contains(&tenths).then_some(tenths as u32)
 }
 
-// Registers and motion codes, the modal state of the machine.
-
-/// Letters with a number that is remembered.
+/// The letters whose last number is remembered, as the control does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Register {
     X,
@@ -193,7 +192,7 @@ impl Register {
         Self::Q,
         Self::R,
     ];
-    /// X, Y, Z.
+    /// The registers of the three linear axes.
     pub(super) const AXES: [Self; 3] = [Self::X, Self::Y, Self::Z];
 
     /// The register of a letter in either case.
@@ -207,7 +206,7 @@ impl Register {
     }
 }
 
-/// How the number of a register is written.
+/// The forms of a register macro, which decide when and how its number is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     /// `{$x}`: always.
@@ -223,7 +222,7 @@ pub(super) enum Form {
 /// A motion or cycle that has its own section: the number after G, and the section.
 pub(super) type Code = (u32, Section);
 
-/// All codes.
+/// The motions and cycles that have a section of their own.
 pub(super) const CODES: [Code; 7] = [
     (0, Section::G0),
     (1, Section::G1),
@@ -234,13 +233,11 @@ pub(super) const CODES: [Code; 7] = [
     (83, Section::G83),
 ];
 
-// The values of the registers in a move.
-
 /// The values of the registers in a move.
 #[derive(Debug, Default)]
 pub(super) struct MoveValues {
     registers: [Option<f64>; Register::ALL.len()],
-    /// Set if the move is an arc.
+    /// Values of the arc; `None` for a straight move.
     pub(super) arc: Option<ArcValues>,
 }
 
@@ -250,7 +247,7 @@ pub(super) struct ArcValues {
     pub(super) radius: f64,
     pub(super) start: f64,
     pub(super) end: f64,
-    /// Positive if clockwise.
+    /// Angle swept by the arc, positive if clockwise.
     pub(super) sweep: f64,
 }
 

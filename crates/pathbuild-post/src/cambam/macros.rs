@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Text, nearest};
 use super::machine::{CODES, Code, Form, Register};
 use super::section::Section;
 
-/// What a macro expands to.
+/// The expansion of a macro.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Macro {
     /// The text of a section, regardless of the state.
@@ -16,25 +16,27 @@ pub(super) enum Macro {
     Register(Register, Form),
     /// `S` with the spindle speed.
     Speed,
-    /// The direction of the spindle with its speed, and the time to get there, if either changes (extension of pathbuild).
+    /// The direction of the spindle with its speed, followed by a dwell until it is reached, if either changes (extension of pathbuild).
     SpindleUp,
-    /// The word of a motion or cycle; if `modal`, only when it is not active already.
+    /// The word of a motion or cycle.
     Code {
         code: Code,
-        /// Whether the macro is of the form `{$_g1}`.
+        /// Whether the word is omitted if the motion or cycle is already active, as in `{$_g1}`.
         modal: bool,
     },
     /// The section selected by the unit of the program or an option of the definition.
     Choice(Choice),
-    /// The state required by the operation, if the machine is not in it.
+    /// The words for the state that the operation requires, if the machine is in another one.
     State(State),
-    /// Entire lines.
+    /// A block of entire lines, such as all operations.
     Block(Block),
     /// `{$check(x,y,z)}`: moves there unless the tool is there already.
     Check([Argument; 3]),
-    /// `{$set(x,value)}`: sets a register without writing anything; `None` is `NaN`.
+    /// `{$set(x,value)}`: sets a register without writing anything. `None` stands for the argument `NaN`, which makes the register
+    /// unknown.
     Set(Register, Option<f64>),
-    /// `{$set(tool)}`: assumes the tool of the operation without writing anything, although there is no M6 (extension of pathbuild).
+    /// `{$set(tool)}`: makes the tool of the operation the current one without writing anything or requiring an M6 (extension of
+    /// pathbuild).
     SetTool,
     /// A macro defined by the definition or the configuration.
     User(Box<str>),
@@ -43,7 +45,7 @@ pub(super) enum Macro {
 /// A coordinate passed to `{$check}`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Argument {
-    /// Any position will do.
+    /// Any coordinate: this axis is not compared.
     Any,
     /// The coordinate of the current move.
     Own,
@@ -68,7 +70,7 @@ impl Value {
         )
     }
 
-    /// Whether drawings and programs do not provide the value, or not always, so that the definition or the configuration may.
+    /// Whether drawings and programs do not always provide the value, so that the definition or the configuration may provide it.
     pub(super) fn is_open(self) -> bool {
         matches!(
             self,
@@ -84,7 +86,7 @@ impl Value {
 }
 
 words! {
-    /// Values written without a letter.
+    /// The values that macros write without a letter.
     Value:
     FileName "the program's name", "der Name des Programms";
     ProgramNumber "`program-number`, else the first number in the name",
@@ -131,7 +133,7 @@ words! {
 }
 
 words! {
-    /// Macros that expand to lines.
+    /// Blocks of lines that macros expand to.
     Block:
     Mops "each operation through the section `MOP`", "jede Operation durch den Abschnitt `MOP`";
     Blocks "the moves of the operation", "die Bewegungen der Operation";
@@ -165,7 +167,7 @@ words! {
 }
 
 words! {
-    /// What selects one of two sections.
+    /// The criteria by which a macro selects one of two sections.
     Choice:
     Units "`UnitsMM` or `UnitsInches`, by the program", "`UnitsMM` oder `UnitsInches`, nach dem Programm";
     ArcCentre "`ArcCenterAbsolute` or `ArcCenterIncremental`, by the element `ArcCenterMode`",
@@ -173,19 +175,17 @@ words! {
     LatheX "`XModeRadius`", "`XModeRadius`";
 }
 
-// The names of macros and their arguments.
-
 /// An error in the arguments of a built-in macro: unexpected, missing, or not supported.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MacroArguments {
-    /// The call without `{$` and `}`.
+    /// The text of the macro without `{$` and `}`.
     pub(super) call: Box<str>,
-    /// Permitted arguments.
+    /// Permitted arguments, for the message.
     pub(super) expected: &'static Text,
 }
 
 impl Value {
-    /// The name of the macro.
+    /// Name of the macro.
     pub(super) fn name(self) -> &'static str {
         FIXED.iter().find(|(_, what)| *what == Macro::Value(self)).map_or("", |(name, _)| name)
     }
@@ -214,7 +214,7 @@ impl Macro {
         }
     }
 
-    /// The built-in name most similar to an undefined one.
+    /// Returns the built-in name most similar to an undefined one.
     pub(super) fn nearest(name: &str) -> Option<&'static str> {
         nearest(name, FIXED.iter().map(|(name, _)| *name).chain(WITH.iter().map(|with| with.name)))
     }
@@ -225,7 +225,7 @@ fn without_arguments(name: &str) -> Option<Macro> {
     fixed.or_else(|| code(name)).or_else(|| register(name))
 }
 
-/// Parses `g0`, `_g81`.
+/// Parses the name of a motion or cycle, such as `g0` or `_g81`.
 fn code(name: &str) -> Option<Macro> {
     let bare = name.strip_prefix('_').unwrap_or(name);
     let number = bare.strip_prefix('g')?;
@@ -233,7 +233,7 @@ fn code(name: &str) -> Option<Macro> {
     Some(Macro::Code { code, modal: bare.len() < name.len() })
 }
 
-/// Parses `x`, `_x`, `-x`, `+x`.
+/// Parses the name of a register in one of the forms `x`, `_x`, `-x` and `+x`.
 fn register(name: &str) -> Option<Macro> {
     let mut letters = name.chars();
     let last = letters.next_back().filter(char::is_ascii_lowercase)?;
@@ -278,7 +278,7 @@ with_arguments! {
     "set" set "x, y or z and a number or NaN, or tool", "x, y oder z und eine Zahl oder NaN, oder tool";
 }
 
-/// The macro of an argument that is one of some words, in any case.
+/// Returns the macro for an argument that must be one of these words, ignoring case.
 fn of_word(argument: &str, words: &[(&str, Macro)]) -> Option<Macro> {
     words.iter().find(|(word, _)| word.eq_ignore_ascii_case(argument)).map(|(_, what)| what.clone())
 }

@@ -30,7 +30,7 @@ use writer::Writer;
 
 pub(super) use definition::Definition;
 
-/// Writes a job, which must contain operations.
+/// Writes a job, which must have at least one operation.
 pub(super) fn write(
     definition: &Definition,
     file: &Utf8Path,
@@ -67,7 +67,7 @@ pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText 
     shadow.finish()
 }
 
-/// Adds notes on what the job switches but the definition has no macro for.
+/// Adds a note for each function that the job switches (coolant, spindle) but the definition has no macro for.
 fn note_switches(output: &mut EngineOutput, plan: &Plan<'_>) {
     let cools = plan.job.operations.iter().any(|operation| operation.coolant.is_some());
     let mut macros = plan.templates().flat_map(Template::macros);
@@ -80,9 +80,8 @@ fn note_switches(output: &mut EngineOutput, plan: &Plan<'_>) {
     }
 }
 
-// The command that a definition asks to run on the finished file, as a list of arguments. It is not run here.
-
-/// Returns the program and its arguments, or `None` if the definition has no command.
+/// Returns the command that a definition asks to run on the finished file, as a program and its arguments; `None` if the definition has no
+/// command. This crate does not run it.
 pub(super) fn post_build(
     definition: &Definition,
     file: &Utf8Path,

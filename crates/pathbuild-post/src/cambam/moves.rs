@@ -81,7 +81,7 @@ impl Writer<'_> {
         if self.plan.options.milliseconds && has_choice { 1000.0 * seconds } else { seconds }
     }
 
-    /// Whether P is in milliseconds on this control. `{$move.p}` remains in seconds, for controls with another letter for them.
+    /// Whether the control reads P as milliseconds. `{$move.p}` is still in seconds, for controls that have another letter for seconds.
     pub(super) fn counts_milliseconds(&self) -> bool {
         self.plan.target.is_some_and(|target| target.reader.rules().dwell.p == DwellUnit::Milliseconds)
     }
@@ -92,16 +92,16 @@ impl Writer<'_> {
         self.go(Section::FeedMove, to, values)
     }
 
-    /// The register values of a move that has none besides the feed.
+    /// Returns register values for a straight move at this feed.
     fn with_feed(&self, feed: Option<f64>) -> MoveValues {
         let mut values = MoveValues::default();
         values.set(Register::F, feed.map(|feed| self.scaled(feed)));
         values
     }
 
-    /// Writes a move through a section: sets the register values, and adds the texts for the start and end of cutting.
+    /// Writes a move through a section: sets the register values, and adds the definition's texts for the start and end of cutting.
     ///
-    /// Axes without a target stay at their position, as far as it is known from the lines written so far.
+    /// An axis without a target keeps its position, if it is known from the lines written so far.
     pub(super) fn go(&mut self, section: Section, to: [Option<f64>; 3], values: MoveValues) -> WriteResult {
         let was_cutting = self.is_cutting;
         if let Some(z) = to[2] {
@@ -129,7 +129,7 @@ impl Writer<'_> {
         self.wrap(to)
     }
 
-    /// Records the position of the tool according to the program.
+    /// Records the position of the tool that the program intends, next to the text written for it.
     fn remember(&mut self, to: [Option<f64>; 3]) {
         for (axis, target) in to.into_iter().enumerate() {
             if let Some(target) = target {
@@ -139,8 +139,8 @@ impl Writer<'_> {
         }
     }
 
-    /// The current position of the tool in the output unit. It follows from the moves of the program, which a template may write with
-    /// reversed sign, unless another kind of line has moved the tool since.
+    /// Returns the current position of the tool in the output unit. It is derived from the moves of the program, because a template may
+    /// write them with reversed sign, unless a line of another kind has moved the tool since.
     fn present(&self, axis: usize) -> Option<f64> {
         let register = Register::AXES[axis];
         match &self.own[axis] {
@@ -149,7 +149,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Whether the tool is at a coordinate after rounding.
+    /// Whether the tool is at a coordinate, compared after rounding.
     fn is_at(&self, axis: usize, target: f64) -> bool {
         let rotary = self.plan.definition.options.rotary;
         let register = if rotary.wrap && axis == 1 - rotary.along {
@@ -161,20 +161,20 @@ impl Writer<'_> {
             && self.present(axis).is_some_and(|at| self.number_format().format(at) == self.length(target))
     }
 
-    /// Writes a section on lines of its own.
+    /// Writes a section that consists of entire lines.
     fn lines_of(&mut self, section: Section) -> WriteResult {
         self.section(section)?;
         self.end_line();
         Ok(())
     }
 
-    /// Whether a height is below the stock surface after rounding.
+    /// Whether a height in mm is below the stock surface, compared after rounding.
     fn is_below_surface(&self, z: f64) -> bool {
         let format = self.number_format();
         format.round(self.scaled(z)) < format.round(self.scaled(self.operation().surface))
     }
 
-    /// Converts the coordinate across a rotary axis to its angle.
+    /// Converts the coordinate perpendicular to the cylinder's axis to an angle around it.
     fn wrap(&mut self, to: [Option<f64>; 3]) -> WriteResult {
         let rotary = self.plan.definition.options.rotary;
         if !rotary.wrap {
@@ -198,7 +198,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Moves up to the clearance plane, unless the tool is there.
+    /// Moves up to the clearance plane, unless the tool is already there.
     pub(super) fn clearance(&mut self) -> WriteResult {
         let clearance = self.operation().clearance;
         if self.is_at(2, clearance) {
@@ -226,7 +226,7 @@ impl Writer<'_> {
         self.check(to)
     }
 
-    /// Moves to a position by way of the clearance plane, unless the tool is there.
+    /// Moves to a position via the clearance plane, unless the tool is already there.
     pub(super) fn check(&mut self, target: [Option<f64>; 3]) -> WriteResult {
         let is_there =
             target.iter().enumerate().all(|(axis, target)| target.is_none_or(|at| self.is_at(axis, at)));
@@ -244,13 +244,11 @@ impl Writer<'_> {
     }
 }
 
-// Arcs of an operation. They are written as arcs if they are still circular after rounding, otherwise as lines if the definition permits
-// it.
-
 const OFFSETS: [Register; 3] = [Register::I, Register::J, Register::K];
 
 impl Writer<'_> {
-    /// Writes a circular move in the form required by the options of the definition.
+    /// Writes an arc in the form required by the options of the definition, or as lines if it would no longer be circular after rounding
+    /// and the definition permits lines.
     pub(super) fn arc(&mut self, movement: &Move, course: &Course) -> WriteResult {
         let options = &self.plan.definition.options;
         if options.arcs_as_lines || options.rotary.wrap {
@@ -291,7 +289,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Whether the template uses the radius but no centre. Then the arc is only unambiguous if it sweeps less than half a turn.
+    /// Whether the template writes the radius but no centre. Such an arc is unambiguous only if it sweeps less than half a turn.
     fn is_written_by_radius(&self, course: &Course) -> bool {
         let template = self.plan.definition.section(self.arc_section(&course.arc()));
         let has_centre = template.macros().any(|(what, _)| match what {
@@ -308,7 +306,7 @@ impl Writer<'_> {
         if arc.clockwise == is_inverted { Section::ArcCcw } else { Section::ArcCw }
     }
 
-    /// Passes the rounding rules of arcs to a function.
+    /// Calls a function with the rounding rules for arcs.
     fn rounded<T>(&self, ask: impl FnOnce(&Rounding<'_>) -> T) -> T {
         let length = |length: f64| self.number_format().round(self.scaled(length));
         ask(&Rounding { length: &length, is_absolute: self.is_absolute() })
@@ -338,17 +336,15 @@ impl Writer<'_> {
     }
 }
 
-/// Arcs written by radius are split into parts of at most this angle.
+/// Maximum angle in radians of an arc written by its radius. Larger arcs are split.
 const WIDEST_BY_RADIUS: f64 = PI * 2.0 / 3.0;
 
-// Canned drilling cycles.
-
-/// Registers that a control keeps only until the end of a cycle, so that the next cycle must write them again.
+/// Registers that a control keeps only until the end of a canned cycle, so that the next cycle must write them again.
 const CYCLE_REGISTERS: [Register; 6] =
     [Register::X, Register::Y, Register::Z, Register::R, Register::P, Register::Q];
 
 impl<'a> Writer<'a> {
-    /// Writes the holes at the beginning of some steps as one group and returns the remaining steps.
+    /// Writes the holes at the beginning of `steps` as one group of canned cycles and returns the remaining steps.
     pub(super) fn cycles(&mut self, steps: &'a [JobStep]) -> Result<&'a [JobStep], Box<Diagnostic>> {
         let (group, rest) = steps.split_at(group_length(steps));
         let holes = || group.iter().filter_map(as_hole);
@@ -401,7 +397,7 @@ impl<'a> Writer<'a> {
         values
     }
 
-    /// Checks that a hole does not vanish because its section or the word of its cycle is empty.
+    /// Checks that the definition writes the hole: neither its section nor the word of its cycle may be empty.
     fn check_drilled(&self, hole: &Hole, section: Section) -> WriteResult {
         let is_blank = self.plan.definition.section(section).is_blank();
         let Some(empty) = is_blank.then_some(section).or(self.empty_code) else { return Ok(()) };
@@ -411,16 +407,17 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Whether a hole can be written as a canned cycle, which ends at the height where it started.
+/// Whether a hole can be written as a canned cycle, which retracts at least to the height where it started.
 fn can_be_canned(hole: &Hole) -> bool {
     at_least(hole.exit, hole.level)
 }
 
-/// Number of steps in the group: holes between which the tool stays at the same level, and comments among them.
+/// Number of steps in the group at the beginning of `steps`. A group consists of holes between which the tool stays at the same level, and
+/// comments among them.
 fn group_length(steps: &[JobStep]) -> usize {
     let mut length = 0;
     let mut last: Option<&Hole> = None;
-    // Different kinds of cycles are different groups, because a control forgets R when the word of the cycle changes.
+    // A control forgets R when the word of the cycle changes, so cycles of different kinds form different groups.
     let continues = |last: &Hole, hole: &Hole| {
         near(last.exit, hole.level) && discriminant(&last.kind) == discriminant(&hole.kind)
     };

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Text;
 
 use crate::number::NumberFormat;
 
-/// The values of all these elements; absent ones have their defaults.
+/// The values of all elements that contain a value. Absent elements have their defaults.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "the file's elements are independent switches")]
 pub(super) struct Options {
@@ -15,26 +15,26 @@ pub(super) struct Options {
     pub(super) numbering: Numbering,
     /// Whether arcs are written as lines.
     pub(super) arcs_as_lines: bool,
-    /// Whether I and J are absolute.
+    /// Whether I and J are absolute coordinates of the centre.
     pub(super) absolute_centres: bool,
-    /// Greatest distance between an arc and the lines that replace it, in the unit of the program.
+    /// Maximum distance between an arc and the lines that replace it, in the unit of the program.
     pub(super) arc_tolerance: f64,
     /// Arcs shorter than this are written as lines; in the unit of the program.
     pub(super) least_arc_length: f64,
     /// Arcs with a greater radius are written as lines; in the unit of the program.
     pub(super) greatest_arc_radius: f64,
-    /// Whether arcs in G18 have the opposite direction.
+    /// Whether arcs in G18 are written with the opposite direction.
     pub(super) invert_arcs: bool,
     /// Whether the tool descends to the clearance plane by rapid.
     pub(super) rapid_down: bool,
-    /// Whether lines that are not G-code are accepted without warning.
+    /// Whether lines that are not G-code are accepted without a warning.
     pub(super) suppress_parser_errors: bool,
     pub(super) rotary: Rotary,
     pub(super) post_build_command: Box<str>,
     pub(super) post_build_arguments: Box<str>,
-    /// Dialect of the output (an element of pathbuild's own).
+    /// Dialect of the output. The element is an extension of pathbuild.
     pub(super) dialect: Option<Box<str>>,
-    /// Extension of the output file, without the dot (an element of pathbuild's own).
+    /// Extension of the output file, without the dot. The element is an extension of pathbuild.
     pub(super) extension: Box<str>,
 }
 
@@ -54,18 +54,18 @@ pub(super) struct Numbering {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Rotary {
     pub(super) wrap: bool,
-    /// The axis parallel to the cylinder: 0 is X, 1 is Y.
+    /// Axis parallel to the cylinder: 0 is X, 1 is Y.
     pub(super) along: usize,
-    /// The letter of the angle: 0 is A, 2 is C.
+    /// Index of the letter for the angle: 0 is A, 1 is B, 2 is C.
     pub(super) letter: usize,
 }
 
-/// Why an option could not be set.
+/// The reason why an option could not be set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Refusal {
-    /// There is no such option.
+    /// No element has this name.
     Unknown,
-    /// The value is not one of these.
+    /// The value is not permitted; these values are.
     Expected(&'static Text),
 }
 
@@ -75,13 +75,13 @@ pub(super) struct ElementOption {
     /// Name of the element.
     pub(super) element: &'static str,
     set: fn(&mut Options, &str) -> OptionResult<()>,
-    /// Default if the element is absent, as it would be written.
+    /// Value if the element is absent, as it would be written in the file.
     pub(super) default: &'static str,
     /// Meaning of the value, for the book.
     pub(super) about: Text,
 }
 
-/// The permitted values of options that only lathes need.
+/// Permitted values of options that only concern lathes.
 const ONLY_Z: Text =
     Text { en: "Z: lathes are not supported", de: "Z: Drehmaschinen werden nicht unterstützt" };
 const ONLY_RADIUS: Text =
@@ -89,7 +89,7 @@ const ONLY_RADIUS: Text =
 const ONLY_FALSE: Text =
     Text { en: "false: lathes are not supported", de: "false: Drehmaschinen werden nicht unterstützt" };
 
-/// Declares the elements that contain values: each with its default if it is absent, how its value is read, and its meaning for the book.
+/// Declares the elements that contain values. Each has its default, the function that reads its value, and its meaning for the book.
 macro_rules! element_options {
     ($($element:literal = $default:literal, $set:expr, $en:literal, $de:literal;)*) => {
         /// All elements that contain values.
@@ -171,14 +171,14 @@ element_options! {
 }
 
 impl ElementOption {
-    /// Whether the element is unknown to CamBam.
+    /// Whether the element is an extension of pathbuild, unknown to CamBam.
     pub(super) fn is_own(&self) -> bool {
         matches!(self.element, "Dialect" | "FileExtension")
     }
 
     /// Permitted values, or `None` if any text is permitted.
     pub(super) fn expected(&self) -> Option<&'static Text> {
-        // This value is rejected by all elements that restrict their values.
+        // No element that restricts its values permits this one.
         match (self.set)(&mut Options::default(), "\u{1}") {
             Err(Refusal::Expected(expected)) => Some(expected),
             Ok(()) | Err(Refusal::Unknown) => None,
@@ -187,11 +187,11 @@ impl ElementOption {
 }
 
 impl Options {
-    /// The options of a definition without any of the elements.
+    /// Returns the options of a definition that contains none of the elements.
     pub(super) fn initial() -> Self {
         let mut options = Self::default();
         for option in OPTIONS {
-            // The defaults are among the permitted values.
+            // Setting a default cannot fail, because the default is a permitted value.
             _ = (option.set)(&mut options, option.default);
         }
         options
@@ -211,7 +211,7 @@ fn put<T>(option: &mut T, value: OptionResult<T>) -> OptionResult<()> {
     Ok(())
 }
 
-/// Compares without regard to case and blanks, because files spell `Convert To Lines` in several ways.
+/// Parses a value that must be one of some choices, ignoring case and blanks, because files write `Convert To Lines` in several ways.
 fn choice<T: Copy>(value: &str, expected: &'static Text, choices: &[(&str, T)]) -> OptionResult<T> {
     let plain = |text: &str| text.replace(' ', "").to_ascii_lowercase();
     let found = choices.iter().find(|(name, _)| plain(name) == plain(value.trim()));
@@ -222,7 +222,8 @@ fn text(value: &str) -> Box<str> {
     value.trim().into()
 }
 
-/// The letters before line numbers. Others would be words of the line: with X, the number would be a position.
+/// Parses the letters before line numbers. Other letters are refused because they would be words of the line: with X, the number would be
+/// a position.
 fn line_prefix(value: &str) -> OptionResult<Box<str>> {
     let prefix = text(value);
     let is_known = matches!(&*prefix, "N" | "n" | ":" | "");
@@ -288,8 +289,8 @@ fn positive(value: &str) -> OptionResult<f64> {
         .ok_or(Refusal::Expected(&Text { en: "a number above 0", de: "eine Zahl über 0" }))
 }
 
-/// Parses a line end. `\r` and `\n` may be escape sequences or the characters themselves. They may be preceded by symbols such as ` *` or
-/// `;`, but not by words.
+/// Parses a line end. `\r` and `\n` may be escape sequences or the characters themselves. Symbols such as ` *` or `;` may precede them,
+/// but words may not.
 fn end_of_line(text: &str) -> OptionResult<Box<str>> {
     let value = text.trim_matches([' ', '\t']).replace("\\r", "\r").replace("\\n", "\n");
     let sign = value.trim_end_matches(['\r', '\n']);
@@ -301,7 +302,7 @@ fn end_of_line(text: &str) -> OptionResult<Box<str>> {
             de: "\\r und \\n, davor auch andere Zeichen",
         }));
     }
-    // Blanks before a symbol are part of it.
+    // Keep the blanks before a symbol, up to eight.
     let blanks = if sign.is_empty() { 0 } else { text.len() - text.trim_start_matches([' ', '\t']).len() };
     Ok(format!("{}{value}", " ".repeat(blanks.min(8))).into())
 }

@@ -7,7 +7,7 @@ use super::options::{ElementOption, OPTIONS};
 use super::section::Section;
 use crate::{Row, code};
 
-/// The rows of a table.
+/// Returns the rows of a table, or `None` if no table has this name.
 pub(crate) fn table(name: &str, lang: Lang) -> Option<Vec<Row>> {
     Some(match name {
         "cambam-sections" => sections(lang),
@@ -26,7 +26,7 @@ pub(crate) fn table(name: &str, lang: Lang) -> Option<Vec<Row>> {
     })
 }
 
-/// Elements that contain a template: name, whether it is an extension of pathbuild, default.
+/// Returns a row for each element that contains a template: name, whether it is an extension of pathbuild, default.
 fn sections(lang: Lang) -> Vec<Row> {
     let own = |section: &Section| if section.is_own() { OWN.in_lang(lang) } else { "" }.to_owned();
     Section::ALL
@@ -35,7 +35,7 @@ fn sections(lang: Lang) -> Vec<Row> {
         .collect()
 }
 
-/// An element that contains a value: name, permitted values, default, meaning.
+/// Returns the row of an element that contains a value: name, permitted values, default, meaning.
 fn option_row(option: &ElementOption, lang: Lang) -> Row {
     let own = if option.is_own() { format!("{}: ", OWN.in_lang(lang)) } else { String::new() };
     let expected = option.expected().map_or("", |text| text.in_lang(lang)).to_owned();
@@ -60,7 +60,7 @@ fn meaning(what: &Macro, lang: Lang) -> String {
         Macro::State(state) => state.word().in_lang(lang).to_owned(),
         Macro::Choice(choice) => choice.word().in_lang(lang).to_owned(),
         Macro::Speed => SPEED.in_lang(lang).to_owned(),
-        // The others have no fixed name: they take arguments, or are registers and codes.
+        // The other macros have no fixed name: they take arguments, or are registers and codes.
         _ => String::new(),
     }
 }

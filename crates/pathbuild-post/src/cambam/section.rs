@@ -8,12 +8,12 @@ macro_rules! sections {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Section {
             $($variant,)*
-            /// The value of a user macro, which is not an element of its own.
+            /// The value of a user macro, which is stored like a section although it has no element of its own.
             UserMacro,
         }
 
         impl Section {
-            /// All sections that a definition can contain.
+            /// All sections that a definition file can contain.
             pub(super) const ALL: &[Self] = &[$(Self::$variant,)*];
 
             /// Name of the element.
@@ -24,7 +24,7 @@ macro_rules! sections {
                 }
             }
 
-            /// Whether the section contains entire lines instead of words of a line.
+            /// Whether the section contains entire lines instead of words within a line.
             pub(super) fn holds_lines(self) -> bool {
                 use Section::{
                     ArcCcw, ArcCw, CannedCycleEnd, CannedCycleStart, Drill, DrillDwell, DrillPeck, Dwell,
@@ -99,7 +99,7 @@ sections! {
     EndComment "EndComment" ")";
     StartCut "StartCut" "";
     EndCut "EndCut" "";
-    // The following are extensions of pathbuild. CamBam ignores unknown elements.
+    // The elements from here on are extensions of pathbuild. CamBam ignores unknown elements.
     CoolantFlood "CoolantFlood" "M8";
     CoolantMist "CoolantMist" "M7";
     CoolantOff "CoolantOff" "M9";
@@ -124,7 +124,7 @@ const MOP: &str = "{$comment} {$mop.name} {$endcomment}
 ";
 
 impl Section {
-    /// Whether the element is unknown to CamBam.
+    /// Whether the element is an extension of pathbuild, unknown to CamBam.
     pub(super) fn is_own(self) -> bool {
         matches!(self, Self::CoolantFlood | Self::CoolantMist | Self::CoolantOff | Self::Dwell | Self::Probe)
     }

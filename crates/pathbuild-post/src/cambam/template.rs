@@ -6,9 +6,9 @@ use crate::cambam::section::Section;
 /// A text with macros, and its position in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Template {
-    /// The section that this is the text of.
+    /// The section that contains the text.
     pub(super) section: Section,
-    /// Literal text and macros in order.
+    /// Literal text and macros, in order.
     pub(super) pieces: Vec<TemplatePart>,
 }
 
@@ -18,7 +18,7 @@ pub(super) enum TemplatePart {
     /// Text that is copied as it is, possibly with line breaks.
     Text {
         text: Box<str>,
-        /// Line of the definition's file where the text begins, counted from 1; 0 for macros.
+        /// Line of the definition's file where the text begins, counted from 1; 0 for built-in texts and those of the configuration.
         line: u32,
     },
     /// A macro to be expanded.
@@ -29,7 +29,7 @@ pub(super) enum TemplatePart {
     },
 }
 
-/// Why a text is not a valid template.
+/// The position and cause of an error in a template.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TemplateError {
     /// Line of the definition's file, counted from 1.
@@ -40,14 +40,14 @@ pub(super) struct TemplateError {
 /// Errors in a template.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Fault {
-    /// `{$` without `}`.
+    /// `{$` without a closing `}`.
     Unclosed,
     /// Wrong arguments for a macro.
     Arguments(MacroArguments),
 }
 
 impl Template {
-    /// Its text without macros.
+    /// Returns the template's text without its macros.
     pub(super) fn literal(&self) -> String {
         let literal = |piece: &TemplatePart| match piece {
             TemplatePart::Text { text, .. } => text.to_string(),
@@ -64,14 +64,14 @@ impl Template {
         if errors.is_empty() { Ok(Self { section, pieces }) } else { Err(errors) }
     }
 
-    /// Whether the template can only produce blanks.
+    /// Whether the template can only produce blanks, because it contains no macros and no other characters.
     pub(super) fn is_blank(&self) -> bool {
         self.pieces
             .iter()
             .all(|piece| matches!(piece, TemplatePart::Text { text, .. } if text.trim().is_empty()))
     }
 
-    /// The texts in plain braces, with their lines: `{units}` is a macro that lacks its `$`.
+    /// Returns the texts in braces without a dollar sign, with their lines. `{units}` is a macro that lacks its `$`.
     pub(super) fn in_braces(&self) -> impl Iterator<Item = (&str, u32)> {
         let texts = self.pieces.iter().filter_map(|piece| match piece {
             TemplatePart::Text { text, line } => Some((text, *line)),
@@ -142,7 +142,7 @@ impl Parser {
 /// Splits a text into the text before the next macro, the macro without its delimiters, and the rest. The macro is `None` if it is not
 /// closed.
 ///
-/// CamBam's manual also contains one macro without delimiters: `$set(z,5.5)`.
+/// CamBam's manual also contains one macro without braces: `$set(z,5.5)`.
 fn next_call(text: &str) -> Option<(&str, Option<&str>, &str)> {
     let (start, inner, close) = text.match_indices('$').find_map(|(at, _)| {
         let framed = text[..at].ends_with('{').then(|| (at - 1, at + 1, '}'));

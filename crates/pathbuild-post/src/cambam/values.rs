@@ -1,4 +1,4 @@
-//! Macros that expand to a number or a name of the program, or to words that depend on the state of the machine.
+//! Expands macros to a number or a name of the program, or to words that depend on the state of the machine.
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use pathbuild_motion::{Coolant, Plane, Turning};
@@ -12,7 +12,7 @@ use crate::job::{Hole, HoleKind, JobStep, Units, VelocityMode};
 use crate::number::NumberFormat;
 
 impl Writer<'_> {
-    /// The text of a value, or `None` if the program does not have it.
+    /// Returns the text of a value, or `None` if the program does not have this value.
     pub(super) fn value(&self, value: Value) -> Option<String> {
         let operation = self.operation();
         let tool = self.tool;
@@ -67,7 +67,8 @@ impl Writer<'_> {
         self.move_values.arc.as_ref().map(|arc| self.number_format().format(value(arc)))
     }
 
-    /// Handles a macro without a value: a date may be omitted, anything else would leave a gap in the program.
+    /// Handles a macro whose value is missing. A date may be omitted; any other missing value is an error, because it would leave a gap in
+    /// the program.
     pub(super) fn without_value(&mut self, value: Value, section: Section, line: u32) -> WriteResult {
         if value == Value::Date {
             self.line.leave_out();
@@ -96,8 +97,6 @@ fn peck(hole: &Hole) -> Option<f64> {
     }
 }
 
-// Macros that depend on the state of the machine: registers, codes, and words written only on changes.
-
 impl Writer<'_> {
     pub(super) fn register(&mut self, register: Register, form: Form) -> WriteResult {
         self.line.asked = true;
@@ -108,7 +107,7 @@ impl Writer<'_> {
             Form::Positive => value.abs(),
         };
         let text = match register {
-            // Fanuc does not accept a decimal point there (alarm 007).
+            // Fanuc does not accept a decimal point in P (alarm 007).
             Register::P if self.counts_milliseconds() => NumberFormat::decimals(0, 0).format(1000.0 * value),
             _ => self.number_format().format(value),
         };
@@ -129,7 +128,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Switches the spindle on and waits for it, unless it already turns as the operation requires.
+    /// Switches the spindle on and waits until it is up to speed, unless it already turns as the operation requires.
     pub(super) fn spindle_up(&mut self) -> WriteResult {
         let operation = self.operation();
         let Some(spindle) = operation.spindle.filter(|_| !self.plan.options.manual_spindle) else {

@@ -1,4 +1,4 @@
-//! Expands templates to lines, and reads each line back into the state of the machine.
+//! Expands templates to lines. Each line is read back to update the state of the machine.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
@@ -29,26 +29,27 @@ pub(super) struct Writer<'a> {
     pub(super) machine: Machine,
     /// Register values of the current move, in the output unit.
     pub(super) move_values: MoveValues,
-    /// Index of the current operation: the first in the header, the last in the footer.
+    /// Index of the current operation: the first one while the header is written, the last one in the footer.
     operation: usize,
-    /// The feeds of each operation.
+    /// The feeds of each operation, indexed like the job's operations.
     feeds: Vec<Feeds>,
-    /// The tool used by `{$tool.index}`.
+    /// The tool whose number `{$tool.index}` writes.
     pub(super) tool: &'a Tool,
     /// Whether the tool is below the stock surface.
     pub(super) is_cutting: bool,
-    /// Set if a code macro with an empty section was expanded since the last reset.
+    /// The section of the last code macro that was expanded although its section is empty, since this field was reset.
     pub(super) empty_code: Option<Section>,
     warnings: Vec<Diagnostic>,
     pub(super) line: Line,
     lines: Lines<'a>,
     marks: CommentMarks,
     guard: Guard<'a>,
-    /// The meaning of the lines in RS274 words.
+    /// Translation of the lines written so far to the words of RS274.
     shadow: Rs274Translation,
-    /// For each axis, whether the definition reverses its sign; `None` until it has been written.
+    /// For each axis, whether the definition reverses its sign; `None` until the axis has been written.
     turned: [Option<bool>; 3],
-    /// For each axis, the position according to the program in the output unit, and the text written for it.
+    /// For each axis, the position that the program intends, in the output unit, and the text last written for the axis when it was
+    /// reached.
     pub(super) own: [Option<(f64, Option<Box<str>>)>; 3],
     /// The part of the definition being written: a section and a line of its file.
     place: (Section, u32),
@@ -56,9 +57,9 @@ pub(super) struct Writer<'a> {
     origins: Vec<LineOrigin>,
     /// Least and greatest angle in degrees of paths wrapped around a cylinder.
     pub(super) angles: Option<[f64; 2]>,
-    /// Error found in a line already written.
+    /// The first error found in a line already written. It is returned at the end of the run.
     fault: Option<Box<Diagnostic>>,
-    /// Current nesting depth of sections and of user macros.
+    /// Current nesting depth of sections and of user macros, respectively.
     depth: [usize; 2],
     /// The blocks `{$mops}` and `{$blocks}` that are being expanded.
     open: Vec<Block>,
@@ -98,7 +99,7 @@ impl<'a> Writer<'a> {
         writer
     }
 
-    /// Writes the whole program: its text, its translation to RS274, and doubtful constructs.
+    /// Writes the whole program. Returns its text, its translation to RS274, and warnings about doubtful constructs.
     pub(super) fn run(mut self) -> Result<EngineOutput, Box<Diagnostic>> {
         self.section(Section::PostFile)?;
         self.end_line();
@@ -171,7 +172,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    /// Records which part of the definition is being written. Words are attributed to the text that contains their line.
+    /// Records which part of the definition is being written. Words within a line are attributed to the section that contains the line.
     fn enter(&mut self, section: Section, line: u32) {
         if section.holds_lines() {
             self.place = (section, line);
@@ -219,7 +220,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Writes all operations, or the moves of one; neither may occur within itself.
+    /// Expands `{$mops}` to all operations, or `{$blocks}` to the moves of the current one. Neither may occur within its own expansion.
     fn program(&mut self, block: Block, section: Section, line: u32) -> WriteResult {
         if self.open.contains(&block) {
             let name = if block == Block::Mops { "mops" } else { "blocks" };
@@ -279,11 +280,11 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    /// Adds text to the line; a line break ends it.
+    /// Adds text to the current line. A line break in the text ends the line.
     pub(super) fn text(&mut self, text: &str) -> WriteResult {
         self.fuel.burn(text.len(), self.plan.file)?;
         let most = self.plan.options.most_bytes;
-        // Blanks of the current line may still be removed.
+        // The exact length is not known yet, because blanks of the current line may still be removed.
         if self.lines.length().max(self.line.text.len() + text.len()) > most {
             return Err(too_large(most));
         }
@@ -306,7 +307,7 @@ impl<'a> Writer<'a> {
         self.line.push(text);
     }
 
-    /// Adds a text from a drawing, file name or option in such a way that no control acts on it.
+    /// Adds a text from a drawing, file name or option in such a way that no control executes any part of it.
     pub(super) fn foreign(&mut self, text: &str, name: &str, section: Section, line: u32) -> WriteResult {
         let Some(text) = self.guard.put(&self.line.text, text) else {
             let diagnostic = Diagnostic::new(&posts::TEXT_AMONG_WORDS)
@@ -358,7 +359,7 @@ impl<'a> Writer<'a> {
         self.lines.push(&text);
     }
 
-    /// Checks that an axis replaced by an angle is not moved as well.
+    /// Checks that a line does not move an axis that the definition replaces by an angle.
     fn check_replaced(&mut self, found: &Words, line: &str) {
         let rotary = self.plan.definition.options.rotary;
         let axis = Register::AXES[1 - rotary.along].letter();
@@ -369,8 +370,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Restores the sign and axis that a word had in the program before the template reversed it. An axis must be reversed in every line or
-    /// in none, otherwise the machine would move to both sides.
+    /// Restores the sign and axis that a word had in the program before the template reversed it. A definition must reverse an axis in
+    /// every line or in none, otherwise the machine would move to both sides.
     fn meant(&mut self, word: Word, line: &Line) -> Word {
         let Some(register) = Register::of(word.letter) else { return word };
         let rotary = self.plan.definition.options.rotary;
@@ -386,7 +387,7 @@ impl<'a> Writer<'a> {
         Word { number: if is_turned { -word.number } else { word.number }, ..word }
     }
 
-    /// Whether a line contains only motion words and a feed written literally in the template.
+    /// Whether `rest`, the part of a line outside code macros, contains nothing but motion words and feeds.
     fn is_motion_alone(&self, rest: &str) -> bool {
         let found = words(rest, &self.marks);
         !found.has_more
@@ -396,7 +397,7 @@ impl<'a> Writer<'a> {
             })
     }
 
-    /// Adds a warning, unless it was given before.
+    /// Adds a warning, unless the same one was added before.
     pub(super) fn warn(&mut self, warning: Diagnostic) {
         let warning = warning.in_file(self.plan.file);
         if !self.warnings.contains(&warning) && self.warnings.len() < MOST_WARNINGS {
@@ -405,22 +406,21 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// The letters of the angles around X, Y and Z.
+/// Registers of the angles around X, Y and Z.
 pub(super) const ROTARY: [Register; 3] = [Register::A, Register::B, Register::C];
 
-/// Wider paths, in degrees, would overlap themselves. A closed ring may exceed a full turn slightly due to rounding.
+/// Maximum angle in degrees of a path wrapped around a cylinder; wider paths would overlap themselves. It allows for rounding: a closed
+/// ring may exceed a full turn slightly.
 const FULL_TURN: f64 = 360.001;
-
-// The line that is being written.
 
 /// The line that is being written.
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "facts that do not depend on each other")]
 pub(super) struct Line {
     pub(super) text: String,
-    /// The text that does not come from macros of motion codes.
+    /// The part of `text` that does not come from macros of motion codes.
     pub(super) rest: String,
-    /// Whether the text added at the moment comes from such a macro.
+    /// Whether the text being added comes from a macro of a motion code.
     pub(super) is_in_code: bool,
     /// Whether a register macro was expanded.
     pub(super) asked: bool,
@@ -434,7 +434,7 @@ pub(super) struct Line {
     pub(super) origin: Option<(Section, u32)>,
     /// Whether the line requires a tool number that the program does not have. Such lines are not written.
     names_no_tool: bool,
-    /// Set if something was omitted at the end of the text: whether it was preceded by blanks.
+    /// Set if something was omitted at the end of `text`; the value is whether blanks preceded it.
     gap: Option<bool>,
 }
 
@@ -460,7 +460,8 @@ impl Line {
         }
     }
 
-    /// Omits something together with the blanks around it; one blank remains if there were blanks on both sides.
+    /// Removes the blanks at the end of the line in place of an omitted macro. The blanks after it are dropped as well; one blank remains
+    /// if there were blanks on both sides.
     pub(super) fn leave_out(&mut self) {
         let length = self.text.trim_end_matches([' ', '\t']).len();
         self.gap = Some(length < self.text.len());
@@ -468,14 +469,12 @@ impl Line {
     }
 }
 
-/// Replaces runs of blanks by one blank and removes those at the ends.
+/// Replaces each run of blanks by one blank and removes those at both ends.
 fn collapse(text: &str) -> String {
     text.split([' ', '\t', '\r']).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
-// The lines of the output with their numbers and line ends.
-
-/// The text that was written.
+/// The lines of the output, with their numbers and line ends.
 #[derive(Debug)]
 pub(super) struct Lines<'a> {
     options: &'a Options,
@@ -520,7 +519,7 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// Limits the text by the number of moves; each macro costs one byte more.
+/// Limit on the number of bytes written, by the number of moves. Expanding a macro costs an additional byte.
 fn fuel(plan: &Plan<'_>) -> Fuel {
     let moves = |operation: &Operation| -> usize {
         let of_steps: usize = operation.steps.iter().map(|step| moves_of(step, plan)).sum();
@@ -529,7 +528,7 @@ fn fuel(plan: &Plan<'_>) -> Fuel {
     Fuel::new(plan.job.operations.iter().map(moves).sum())
 }
 
-/// Maximum number of moves that a step can become.
+/// Maximum number of moves that a step of the job can be written as.
 fn moves_of(step: &JobStep, plan: &Plan<'_>) -> usize {
     match step {
         JobStep::Move(movement) => {
