@@ -25,7 +25,7 @@ use crate::system::{Names, System};
 /// The interface of queries to the database.
 #[salsa::db]
 pub trait Db: salsa::Database {
-    /// The outside world.
+    /// The file system and the clock.
     fn system(&self) -> &dyn System;
 
     /// The input of a file, which need not exist. The path must be normalised.
@@ -34,7 +34,7 @@ pub trait Db: salsa::Database {
     /// The input of a directory, which need not exist. The path must be normalised.
     fn directory(&self, path: &Utf8Path) -> Directory;
 
-    /// The names in a directory that was listed in advance; waits for a listing in progress. `None` if the directory has yet to be listed.
+    /// Returns the names in a directory that was listed in advance, and waits for a listing in progress. `None` if no listing was started.
     fn listed(&self, directory: Directory) -> Option<Names>;
 
     /// Records that a file's bytes no longer match its index.
@@ -49,7 +49,7 @@ pub trait Db: salsa::Database {
 #[derive(Clone)]
 pub struct Database {
     shared: Arc<SharedState>,
-    /// Declared last, because it must be dropped after everything that its threads may still use.
+    /// Declared last, so that it is dropped after everything that its threads may still use.
     storage: salsa::Storage<Self>,
 }
 
@@ -148,8 +148,8 @@ impl Database {
         has_changes
     }
 
-    /// Whether the bytes of a drawing ever changed after it was indexed. Results from before and after the change may stem from different
-    /// bytes.
+    /// Whether the bytes of a drawing ever changed after it was indexed. Results from before and after the change may have been computed from
+    /// different bytes.
     pub fn has_drifted(&self, file: SourceFile) -> bool {
         lock(&self.shared.drifted).contains(&file)
     }
@@ -253,7 +253,7 @@ pub struct WorkInProgress {
 }
 
 impl WorkInProgress {
-    /// Cancels the work if it exceeds this time limit.
+    /// Cancels the work if it has taken longer than this limit.
     pub fn stop_after(&self, limit: Duration) {
         if self.begun.is_some_and(|begun| begun.elapsed() > limit) {
             self.token.cancel();
@@ -262,9 +262,9 @@ impl WorkInProgress {
 }
 
 impl Database {
-    /// Clears a cancellation after its work has ended, so that it does not cancel the next query.
+    /// Clears a cancellation that arrived after its work had ended, so that it does not cancel the next query.
     pub fn clear_cancellation(&self) {
-        // Salsa clears it at the end of every query that was not called by another.
+        // Salsa clears it at the end of every outermost query.
         self.attach(|_| ());
     }
 
@@ -316,7 +316,7 @@ pub(crate) struct Scratch {
 #[derive(Default)]
 pub struct ScratchPool(Mutex<Vec<Scratch>>);
 
-/// Largest buffer in bytes that is kept. Few drawings need more.
+/// Size in bytes up to which a buffer is kept for reuse. Few drawings need more.
 const MOST_BYTES: usize = 1 << 20;
 const MOST_ENTITIES: usize = 1 << 12;
 
@@ -349,9 +349,9 @@ pub(crate) struct Listings(Mutex<FxHashMap<Directory, ListingState>>);
 /// The state of a listing.
 #[derive(Debug)]
 enum ListingState {
-    /// Complete.
+    /// The listing is complete.
     Known(Names),
-    /// In progress on another thread. The channel closes without names if the listing fails or never runs.
+    /// The listing is in progress on another thread. The channel closes without names if the listing fails or never runs.
     Pending(Receiver<Names>),
 }
 
@@ -363,7 +363,7 @@ pub struct PendingListing {
 }
 
 impl PendingListing {
-    /// Lists the directory. A panic is left to the query, since here it would end the run.
+    /// Lists the directory. A panic is ignored here, since it would end the run: the query then lists the directory itself.
     pub fn run(self) {
         if let Ok(Ok(listing)) = catch_bugs(|| self.system.list(&self.path)) {
             // Sending fails if the directory has changed since and the listing was discarded.
@@ -401,7 +401,7 @@ impl Listings {
         self.states().remove(&directory);
     }
 
-    /// Takes the names in a directory; waits for a listing in progress.
+    /// Returns and removes the names in a directory; waits for a listing in progress.
     pub(crate) fn take(&self, directory: Directory) -> Option<Names> {
         let state = self.states().remove(&directory)?;
         match state {
@@ -435,22 +435,22 @@ pub fn catch_bugs<R>(work: impl FnOnce() -> R) -> Result<R, Box<Diagnostic>> {
     })
 }
 
-/// PB006 for the payload of a panic.
+/// Returns PB006 with the message of a panic.
 pub(crate) fn internal_error(payload: &(dyn Any + Send)) -> Diagnostic {
     let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
     let reason = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
     bug(&reason)
 }
 
-/// PB006 with this reason, without a place.
+/// Returns PB006 with this reason, without a place.
 pub fn bug(reason: &str) -> Diagnostic {
     Diagnostic::new(&messages::INTERNAL).with("reason", Value::foreign(reason))
 }
 
-/// Panic payload of a query that read other bytes than those the drawing was indexed by. No result may mix the two.
+/// Panic payload of a query that read bytes other than those that the drawing was indexed by. No result may mix the two.
 pub(crate) struct DriftPanic;
 
-/// PB005 for work beyond this time limit, without a place.
+/// Returns PB005 for work that exceeded this time limit, without a place.
 pub fn too_slow(limit: Duration) -> Diagnostic {
     exceeded(&TIME_OF_PATH, seconds(limit), "seconds-per-path")
 }

@@ -59,7 +59,7 @@ pub enum Role {
 /// The settings of a run.
 #[salsa::input(singleton, debug)]
 pub struct Settings {
-    /// How drawings are read.
+    /// Options for reading drawings.
     #[returns(ref)]
     pub reading: Reading,
     /// Settings of the drawing language.
@@ -82,7 +82,7 @@ pub struct Settings {
     pub limits: Limits,
 }
 
-/// How drawings are read.
+/// Options for reading drawings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
     /// How $INSUNITS is treated.

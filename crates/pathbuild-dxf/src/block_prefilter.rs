@@ -135,7 +135,7 @@ mod tests {
     use crate::header::Header;
     use crate::layers::LayerTable;
 
-    /// The same by reading pair by pair.
+    /// Returns the same answer by reading pair by pair, for comparison.
     fn holds_wanted(mut pairs: Pairs<'_>, is_wanted: impl Fn(&[u8]) -> bool) -> bool {
         iter::from_fn(|| pairs.next().ok()).any(|pair| pair.code == 8 && is_wanted(pair.value))
     }
@@ -143,7 +143,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// Nothing wanted is missed, wherever its code lies within the bytes that are compared at once.
+        /// The prefilter misses no wanted entity, wherever its code lies within the bytes that are compared at once.
         #[test]
         fn what_reading_finds_the_prefilter_finds(
             pairs in prop::collection::vec(("[ 0]{0,3}(8|18|80|1)", "[AB8 ]{0,9}"), 0..30), end in "\r?\n",

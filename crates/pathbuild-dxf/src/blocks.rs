@@ -21,7 +21,7 @@ use crate::pairs::{Pair, Pairs, Stop};
 /// The blocks of a file.
 #[derive(Default)]
 pub(crate) struct Blocks<'a> {
-    /// By folded name; of several with the same name the first counts.
+    /// Blocks by folded name. If several have the same name, the first one counts.
     by_name: HashMap<SmolStr, BlockId>,
     all: Vec<Block<'a>>,
     /// For each block and layer it is inserted on: the wanted layers that such an insertion draws on.
@@ -44,7 +44,7 @@ struct Block<'a> {
     layers: LayersOf,
     /// See [`Blocks::drawn_layers`].
     drawn_layers: Option<Arc<[SmolStr]>>,
-    /// Whether it stands for the content of another file.
+    /// Whether the block stands for the content of another file.
     is_reference: bool,
 }
 
@@ -57,9 +57,9 @@ enum LayersOf {
     /// The layers have yet to be determined.
     #[default]
     Unknown,
-    /// Determined.
+    /// The layers of all entities in the block that may be wanted.
     Known(Rc<[LayerId]>),
-    /// Cannot be determined without reading the contents.
+    /// The layers are not known in advance: the contents must be read item by item.
     Items,
 }
 
@@ -262,7 +262,7 @@ impl<'a> Blocks<'a> {
     }
 }
 
-/// The remaining budget.
+/// The number of block entities that may still be visited.
 pub(crate) struct Steps {
     left: usize,
     most_entities: usize,

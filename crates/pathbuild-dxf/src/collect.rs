@@ -71,10 +71,10 @@ pub(crate) struct PlacedEntity<'p> {
     pub(crate) line_type: &'p SmolStr,
     /// The entity's own place in the file, for diagnostics about it.
     pub(crate) own: Origin,
-    /// The place of the outermost insertion that brings it, or its own.
+    /// The place of the outermost insertion that draws the entity, or the entity's own place.
     pub(crate) origin: Origin,
     pub(crate) is_invisible: bool,
-    /// The frozen layer that the block with it is inserted on.
+    /// The frozen layer, if the block that contains the entity is inserted on one.
     pub(crate) frozen: Option<&'p SmolStr>,
     pub(crate) placement: Option<&'p Placement>,
 }
@@ -233,7 +233,7 @@ impl<'d> Collector<'d> {
         Ok(())
     }
 
-    /// In compatible mode, skips an entity that PathDxf2GCode does not know. Reported once per drawing.
+    /// Skips an entity that PathDxf2GCode does not know, in compatible mode. This is reported once per drawing.
     pub(crate) fn ignore(&mut self, placed: &PlacedEntity<'_>) {
         let layer = self.layer(placed);
         if !std::mem::replace(&mut self.has_ignored, true) {

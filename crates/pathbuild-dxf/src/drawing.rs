@@ -8,16 +8,16 @@ pub struct Options<'a> {
     /// Decides by a layer's name (trimmed, xref prefix dropped, `\U+` decoded) whether its entities are wanted. Numbers on other layers are
     /// not even parsed, so they cannot be wrong.
     pub keep_layer: &'a dyn Fn(&str) -> bool,
-    /// Decides by the bytes of a TEXT, or of the last part of an MTEXT, on an unwanted layer whether to set [`Drawing::has_noted_text`].
-    /// The text is not decoded.
+    /// Test for the undecoded bytes of each TEXT, or last part of an MTEXT, on an unwanted layer. If one passes, [`Drawing::has_noted_text`] is
+    /// set.
     pub note_text: Option<TextTest<'a>>,
     /// How $INSUNITS is treated.
     pub units: Units,
     /// Tolerance in mm for approximating ELLIPSE and SPLINE by arcs; 0 leaves them out with PB111.
     pub approximate_curves: f64,
-    /// Largest number of entities, after expanding blocks, before PB005.
+    /// Maximum number of entities, after expanding blocks. More are an error (PB005).
     pub max_entities: usize,
-    /// Largest length of a text in bytes before PB005.
+    /// Maximum length of a text in bytes. A longer text is an error (PB005).
     pub max_text: usize,
     /// Reads as PathDxf2GCode does: only LINE, ARC, CIRCLE, TEXT and MTEXT outside of blocks. Anything else on a wanted layer is left out
     /// with one warning per drawing, and no MTEXT has a width.
@@ -39,7 +39,7 @@ pub enum Units {
     Millimetres,
 }
 
-/// The result of reading. `entities[i]` starts in the file at `origins[i]`.
+/// The content of a drawing, as far as it is wanted. `entities[i]` starts in the file at `origins[i]`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
     /// The wanted entities of model space in file order.
@@ -52,7 +52,8 @@ pub struct Drawing {
     pub faults: Vec<Fault>,
     /// Unsupported curves on wanted layers (PB111).
     pub left_out: Vec<OmittedCurve>,
-    /// The hatches on wanted layers, which draw nothing themselves: each with a point of its boundary, or a centre of an arc of it.
+    /// The places of the hatches on wanted layers, which draw nothing themselves. The point of a place is on the hatch's boundary, or is the centre
+    /// of one of its arcs.
     pub hatches: Vec<Place>,
     /// Findings about the file as a whole. If one of them is an error, there are no entities.
     pub diagnostics: Vec<Diagnostic>,
@@ -106,7 +107,7 @@ pub struct Fault {
 pub struct OmittedCurve {
     /// Index into [`Drawing::layers`].
     pub layer: u32,
-    /// Its entity type.
+    /// Type of the entity that was left out.
     pub kind: EntityKind,
     /// Its first point, if known.
     pub point: Option<Point>,
@@ -127,11 +128,11 @@ pub struct Entity {
     pub line_type: SmolStr,
     /// The entity type in the file: LWPOLYLINE for a part of one.
     pub kind: EntityKind,
-    /// Shared by all parts of one polyline or approximated curve: a text that overlaps one part belongs to all of them.
+    /// Number shared by all parts of one polyline or approximated curve: a text that overlaps one part belongs to all of them.
     pub group: Option<u32>,
     /// Whether it is in a block that is inserted mirrored.
     pub is_mirrored: bool,
-    /// The shape.
+    /// The shape, in world coordinates.
     pub geometry: Geometry,
 }
 
@@ -166,7 +167,7 @@ pub struct Line {
 /// A circular arc, drawn from its start to its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
-    /// Centre.
+    /// Centre in world coordinates.
     pub centre: Point3,
     /// Radius in mm, positive.
     pub radius: f64,

@@ -35,7 +35,7 @@ enum Charset<'a> {
     Dos(&'static TableType),
     /// UTF-8 if the whole file is valid UTF-8, else `ANSI_1252`. Decided at the first byte that is not ASCII.
     Either(&'a [u8]),
-    /// Declared, but unknown.
+    /// The declared encoding is unknown.
     Unknown,
 }
 

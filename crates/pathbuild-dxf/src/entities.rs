@@ -1,4 +1,4 @@
-//! Reads the entities of a section or block, with the numbers of those on wanted layers parsed.
+//! Reads the entities of a section or block. Numbers are parsed only for entities on wanted layers.
 
 #![expect(
     clippy::inline_always,
@@ -19,7 +19,7 @@ use crate::pairs::{Pair, Pairs, Stop};
 use crate::shapes::{self, Ellipse, Insert, OpenPolyline, Spline};
 use crate::{Geometry, Options, Origin};
 
-/// Reads entities and caches what it learns about names.
+/// Reads entities and caches the names of layers and line types that it has resolved.
 pub(crate) struct EntityReader<'a, 'o> {
     pub(crate) options: &'o Options<'o>,
     pub(crate) decoder: Decoder<'a>,
@@ -28,7 +28,7 @@ pub(crate) struct EntityReader<'a, 'o> {
     pub(crate) fields: Fields<'a>,
     /// The BLOCKS section, until it is known whether blocks matter.
     unseen_blocks: Option<Pairs<'a>>,
-    /// Whether insertions on unwanted layers may bring something wanted.
+    /// Whether insertions on unwanted layers may draw something wanted.
     blocks_matter: bool,
     /// The BLOCKS section, until it has been searched for texts to note.
     unnoted_blocks: Option<Pairs<'a>>,
@@ -183,7 +183,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
         let layer = layer.unwrap_or_else(|| self.layers.id(b"0", || line, &mut self.decoder));
         if self::want(&self.layers, layer, kind, space) == Want::Skip {
-            // The record has no layer, so all of it was read.
+            // The record has no layer, so [`Self::fill`] has read all of it.
             if self.notes_texts(kind) {
                 self.note_text();
             }
@@ -226,7 +226,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         Ok((want, found))
     }
 
-    /// Whether inserting a block on a layer may bring something wanted.
+    /// Whether inserting a block on a layer may draw something wanted.
     fn insertion_matters(&mut self, layer: LayerId, space: Space) -> bool {
         if let (Some(blocks), Some(is_noted)) = (self.unnoted_blocks.take(), self.options.note_text) {
             let Self { layers, decoder, .. } = self;
@@ -346,7 +346,7 @@ pub(crate) enum RecordKind {
     Spline,
     Insert,
     Hatch,
-    /// A type that no path consists of.
+    /// A type that cannot be part of a path.
     Foreign(EntityKind),
 }
 
@@ -489,12 +489,12 @@ pub(crate) enum Shape<'a> {
     Plain(Geometry),
     /// The lines and arcs of a polyline.
     Parts(Vec<Geometry>),
-    /// Approximated when it is placed.
+    /// An ellipse, approximated when it is placed.
     Ellipse(Box<Ellipse>),
-    /// Approximated when it is placed.
+    /// A spline, approximated when it is placed.
     Spline(Box<Spline>),
-    /// A point of the boundary.
+    /// A hatch, with a point of its boundary.
     Hatch(Option<Point>),
-    /// The contents of a block.
+    /// An insertion, which draws the contents of a block.
     Insert(Box<Insert<'a>>),
 }

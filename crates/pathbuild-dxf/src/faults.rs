@@ -77,7 +77,7 @@ pub(crate) enum EntityError<'a> {
     TooLarge,
     /// A shape that cannot be milled: PB111.
     LeftOut {
-        /// The reason.
+        /// The message, which gives the reason.
         message: &'static Message,
         /// Its first point, if known.
         point: Option<Point>,

@@ -24,37 +24,34 @@ pub(crate) struct Value<'a> {
 /// A faulty group.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum BadGroup<'a> {
-    /// Missing.
+    /// A required group is missing.
     Missing {
-        /// Its code.
+        /// The code of the group.
         code: i32,
     },
     /// The value of a group is not a number.
     Number {
-        /// Its code.
+        /// The code of the group.
         code: i32,
-        /// The value.
         value: Value<'a>,
-        /// Why it is not a number.
         reason: NotANumber,
     },
     /// The value of a group is not a positive length.
     NotPositive {
-        /// Its code.
+        /// The code of the group.
         code: i32,
-        /// The value.
         value: Value<'a>,
     },
 }
 
 /// The groups of an entity.
 pub(crate) struct Fields<'a> {
-    /// The line of its `0`.
+    /// The line of the entity's first pair, whose code is 0.
     pub(crate) line: u32,
     /// Number of the current entity; slots with another number are empty.
     entity: u32,
     slots: [Value<'a>; SLOTS],
-    /// The groups that this kind of entity repeats, in order.
+    /// Groups with codes that this kind of entity repeats, in order.
     pub(crate) repeated: Vec<Pair<'a>>,
     /// Largest number of them to keep.
     most_repeated: usize,
@@ -87,8 +84,8 @@ impl<'a> Fields<'a> {
         Self { line: 0, entity: 0, slots: [Value::default(); SLOTS], repeated: Vec::new(), most_repeated }
     }
 
-    /// Reads the entity whose `0` is on this line. `repeats` has a bit for each code that the entity repeats, and `want` is asked once its
-    /// layer is known. Returns the `0` of the next entity and whether this one was kept.
+    /// Reads the entity whose pair with code 0 is on this line. `repeats` has a bit for each code that the entity repeats, and `want` is called once
+    /// its layer is known. Returns the first pair of the next entity, and whether this entity was kept.
     #[inline]
     pub(crate) fn fill(
         &mut self,
@@ -130,8 +127,8 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Handles a group with a special role. If the group ends the entity or skips the rest of it, returns the `0` of the next entity, and
-    /// whether this one is kept.
+    /// Handles a group with a special role. If the group ends the entity or skips the rest of it, returns the first pair of the next entity, and
+    /// whether this entity is kept.
     #[inline]
     fn special(
         &mut self,
@@ -159,7 +156,7 @@ impl<'a> Fields<'a> {
         Ok(None)
     }
 
-    /// Stores the text among the remaining groups of the entity, if there is one. Returns the `0` of the next entity.
+    /// Stores the text among the remaining groups of the entity, if there is one. Returns the first pair of the next entity.
     fn keep_text(&mut self, groups: &mut Groups<'a>) -> Result<Pair<'a>, Stop<'a>> {
         let text = Role::of(1);
         let group = groups.pass_until(|role| role == text || role == Role::BEGIN, |_| {})?;
@@ -184,7 +181,7 @@ impl<'a> Fields<'a> {
         self.entity += 1;
     }
 
-    /// The value of a code, if present. The last one counts.
+    /// The value of a code, if present. If the code occurs several times, the last value counts.
     #[inline]
     pub(crate) fn get(&self, code: i32) -> Option<Value<'a>> {
         let value = self.slots.get(Role::of(code).slot()).filter(|value| value.entity == self.entity)?;
@@ -240,7 +237,8 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// Skips from `102/{NAME` to `102/}`, inside which codes belong to an application. Returns a `0` if that comes first.
+/// Skips from `102/{NAME` to `102/}`, inside which codes belong to an application. Returns the first pair of the next entity if that comes
+/// first.
 fn skip_application_group<'a>(groups: &mut Groups<'a>) -> Result<Option<Pair<'a>>, Stop<'a>> {
     let is_end = |role| matches!(role, Role::BEGIN | Role::APPLICATION);
     let end = groups.pass_until(is_end, |_| {})?;

@@ -54,7 +54,7 @@ struct File<'a> {
     blocks: Option<Pairs<'a>>,
 }
 
-/// What follows the sections before the entities.
+/// What ends the sections before the entities.
 enum AfterHead {
     Entities,
     EndOfFile,

@@ -50,14 +50,14 @@ impl<'a> Group<'a> {
         without_cr(self.raw)
     }
 
-    /// Converts to a pair. A role without a single code has none.
+    /// Converts to a pair. Its code is -1 if the role stands for several codes.
     pub(crate) fn pair(&self) -> Pair<'a> {
         Pair { code: self.role.code().unwrap_or(-1), line: self.line(), value: self.value() }
     }
 }
 
 impl<'a> Groups<'a> {
-    /// Starts at this position.
+    /// Creates an iterator over the pairs from this position on.
     pub(crate) fn new(begin: Pairs<'a>) -> Self {
         let ahead = NextPair { stretch: Stretch::EMPTY, line: begin.line().into() };
         Self { begin, code_end: CodeEnd::of(&begin), bytes: &begin.bytes()[begin.consumed()..], ahead }
@@ -68,7 +68,7 @@ impl<'a> Groups<'a> {
         self.begin.at(self.begin.bytes().len() - self.rest().len(), shown(self.ahead.line))
     }
 
-    /// Returns the next pair that satisfies `is_end` and hands those before it to `pass`.
+    /// Passes pairs to `pass` up to the first one whose role satisfies `is_end`, and returns that one.
     #[inline]
     pub(crate) fn pass_until(
         &mut self,
@@ -121,7 +121,7 @@ impl<'a> Groups<'a> {
         true
     }
 
-    /// Reads the next pair carefully: its code is unusual, it is long, or the file ends soon.
+    /// Reads the next pair with [`Pairs`], because its code is unusual, the pair is long, or the file ends soon.
     #[cold]
     #[inline(never)]
     fn next_unusual(&mut self) -> Result<Group<'a>, Stop<'a>> {
@@ -140,7 +140,7 @@ pub(crate) struct Records<'a> {
 }
 
 impl<'a> Records<'a> {
-    /// Starts at the next `0` pair.
+    /// Starts at the next pair with code 0.
     pub(crate) fn new(pairs: Pairs<'a>) -> Result<Self, Stop<'a>> {
         let mut groups = Groups::new(pairs);
         let head = groups.next_zero()?;
@@ -257,7 +257,7 @@ fn without_first(bits: u64) -> u64 {
     bits & bits.wrapping_sub(1)
 }
 
-/// What the reader does with a group.
+/// The role of a group: what the reader does with its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Role(u8);
 
@@ -266,9 +266,9 @@ pub(crate) struct Role(u8);
 pub(crate) struct CodeEnd {
     /// The byte that ends a line: LF or CR.
     last: u8,
-    /// Length of a line of three characters with its line end.
+    /// Length of a group-code line of three characters, including its line end.
     length: usize,
-    /// The line end after three characters, and the mask of such a line.
+    /// The line end as it stands behind three characters, and the mask that covers the whole line.
     behind_three: u64,
     mask: u64,
 }

@@ -17,7 +17,7 @@ use crate::pairs::{Keyword, Pair, Pairs, Stop};
 pub(crate) struct Header<'a> {
     version: Option<&'a [u8]>,
     code_page: Option<&'a [u8]>,
-    /// With its position, since lines are not counted in the header.
+    /// The pair of `$INSUNITS` and its position, from which its line can be found: lines are not counted in the header.
     units: Option<(Pair<'a>, Pairs<'a>)>,
 }
 
@@ -119,7 +119,8 @@ fn unit(number: i64) -> Option<(&'static Text, f64)> {
 
 static UNKNOWN: Text = Text { en: "unknown", de: "unbekannt" };
 
-/// By number. The factors are exact by definition; survey units are 1200/3937 of their metric counterparts, rounded to f64.
+/// The units by their number in `$INSUNITS`. The factors are exact by definition; survey units are 1200/3937 of their metric counterparts,
+/// rounded to f64.
 static UNITS: [(Text, f64); 25] = [
     (word("none", "keine"), 1.0),
     (word("inches", "Zoll"), 25.4),

@@ -35,7 +35,7 @@ struct FoundLayer<'a> {
     /// The decoded spelling.
     full_name: Cow<'a, str>,
     is_kept: bool,
-    /// Whether it is layer `0`.
+    /// Whether it is layer `0`, which stands for the layer of the insertion inside a block.
     is_inheriting: bool,
     used: Option<Box<UsedLayer>>,
 }
@@ -172,7 +172,7 @@ pub(crate) struct LayerTable<'a> {
     all: Option<KnownLayers<'a>>,
 }
 
-/// Layers by folded name; of several with the same name the first counts. Few are ever looked up, so their values are decoded on demand.
+/// Layers by folded name. If several have the same name, the first one counts. Few are ever looked up, so their values are decoded on demand.
 #[derive(Debug, Default)]
 struct KnownLayers<'a> {
     records: HashMap<SmolStr, LayerRecord<'a>>,
@@ -193,11 +193,11 @@ pub(crate) struct LayerRecord<'a> {
 /// Number of layers that are looked up one by one in the tables; most drawings of paths have no more.
 const MAX_SINGLE_LOOKUPS: usize = 4;
 
-/// Shorter texts occur nearly everywhere, so searching for them does not pay.
+/// Minimum length in bytes of a text to search for: shorter texts occur nearly everywhere, so searching for them does not pay.
 const MIN_SEARCHED_BYTES: usize = 4;
 
 impl<'a> LayerTable<'a> {
-    /// The table of this TABLES section.
+    /// Creates the table of this TABLES section.
     pub(crate) fn new(tables: Option<Pairs<'a>>) -> Self {
         Self { tables, ..Self::default() }
     }
@@ -299,8 +299,8 @@ impl<'a> Reading<'_, 'a, '_> {
         Ok(layers)
     }
 
-    /// Reads the records that contain a text, and possibly others, up to the record with this name. From a match on, the table is read pair
-    /// by pair from the start of the record, so that no broken record is overlooked.
+    /// Reads records up to the one with this name, at least those that contain a text. From a match on, the table is read pair by pair from the
+    /// start of the record, so that no broken record is overlooked.
     fn some(
         &mut self,
         mut tables: Pairs<'a>,

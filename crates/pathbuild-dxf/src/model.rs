@@ -39,11 +39,11 @@ struct EntityContext {
     placement: Option<Placement>,
     insertion: Option<Insertion>,
     is_invisible: bool,
-    /// The frozen layer of an insertion.
+    /// The frozen layer, if one of the insertions is on such a layer.
     frozen: Option<SmolStr>,
 }
 
-/// What the contents of a block inherit from their insertion.
+/// Properties that the contents of a block inherit from their insertion.
 struct Insertion {
     layer: LayerId,
     line_type: SmolStr,
@@ -170,7 +170,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         Ok(())
     }
 
-    /// PB111 if a block on a wanted layer draws something, but only on layers that are not read.
+    /// Reports PB111 for a block on a wanted layer that draws only on layers that are not read.
     fn check_elsewhere(
         &mut self,
         traits: &Traits,
@@ -235,7 +235,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     }
 }
 
-/// Places an entity on a layer with what it inherits.
+/// Combines an entity with its layer and with the properties that it inherits.
 #[inline(always)]
 fn placed<'p>(
     reader: &'p mut EntityReader<'_, '_>,

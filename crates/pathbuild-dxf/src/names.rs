@@ -115,7 +115,7 @@ impl Short {
         Some(Self { length, characters })
     }
 
-    /// A hash that separates usual names.
+    /// The preferred slot, by a hash that separates usual names.
     #[inline]
     fn place(&self) -> usize {
         const MULTIPLIER: u64 = 0x9E37_79B9_7F4A_7C15;

@@ -82,7 +82,7 @@ fn short_decimal(value: &[u8]) -> Option<f64> {
     Some(quotient(digits.number()?, decimals.unwrap_or(0), is_negative))
 }
 
-/// Parses any other length.
+/// Parses a decimal of any other length.
 fn other_decimal(value: &[u8]) -> Option<f64> {
     let (is_negative, text) = match value {
         [b'-', text @ ..] => (true, text),
@@ -144,7 +144,7 @@ impl Digits {
             // The halves overlap; bytes in both are equal.
             (Some(first), Some(last), _) => half(*first) << (64 - 8 * text.len()) | half(*last) << 32,
             (_, _, [a, b, c]) => half([b'0', *a, *b, *c]) << 32,
-            // A number has at least one character.
+            // An empty text is not a number.
             _ => u64::MAX,
         })
     }
@@ -175,7 +175,7 @@ impl Digits {
         (Self(behind | before << 8), Some(WIDTH - 1 - points.trailing_zeros() as usize / 8))
     }
 
-    /// The value of the digits.
+    /// The value of the digits; `None` if some byte is no digit.
     #[inline]
     fn number(self) -> Option<u64> {
         let Self(digits) = self;

@@ -104,7 +104,7 @@ impl<'a> Pairs<'a> {
         self.line_end
     }
 
-    /// Continues at another position of the same file, on this line.
+    /// Continues at another position of the same file, whose line is given.
     pub(crate) fn at(&self, at: usize, line: u32) -> Self {
         Self { at, line, ..*self }
     }

@@ -2,7 +2,7 @@
 
 use crate::{Arc, Circle, Geometry, HorizontalAlign, Line, MText, Point3, Text};
 
-/// Moves, turns, scales and possibly mirrors. A mirroring placement maps (x, y) to (x, -y) before it turns.
+/// A similarity transform: it moves, turns, scales and possibly mirrors. A mirroring placement maps (x, y) to (x, -y) before it turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Placement {
     /// Image of the origin.
@@ -19,7 +19,7 @@ pub(crate) struct Placement {
 }
 
 impl Placement {
-    /// Leaves everything in place.
+    /// The placement that leaves everything where it is.
     pub(crate) const IDENTITY: Self = Self {
         origin: Point3 { x: 0.0, y: 0.0, z: 0.0 },
         x_axis: (1.0, 0.0),
@@ -29,11 +29,11 @@ impl Placement {
         mirrored: false,
     };
 
-    /// Maps object coordinates with extrusion (0, 0, -1) to world coordinates: x and z change sign.
+    /// The placement that maps object coordinates with extrusion (0, 0, -1) to world coordinates: x and z change sign.
     pub(crate) const MIRRORED: Self =
         Self { x_axis: (-1.0, 0.0), turn: 180.0, z_scale: -1.0, mirrored: true, ..Self::IDENTITY };
 
-    /// Scales about the origin.
+    /// Returns a placement that scales about the origin.
     pub(crate) fn scaled(scale: f64) -> Self {
         Self { x_axis: (scale, 0.0), scale, z_scale: scale, ..Self::IDENTITY }
     }
@@ -51,17 +51,17 @@ impl Placement {
         }
     }
 
-    /// Moves the origin to a point.
+    /// Returns a placement that moves the origin to a point.
     pub(crate) fn moved(origin: Point3) -> Self {
         Self { origin, ..Self::IDENTITY }
     }
 
-    /// Turns about the origin, in degrees counterclockwise.
+    /// Returns a placement that turns about the origin, in degrees counterclockwise.
     pub(crate) fn turned(turn: f64) -> Self {
         Self { x_axis: cos_sin(turn), turn, ..Self::IDENTITY }
     }
 
-    /// Scales x, y and z; `None` if x and y differ in more than sign.
+    /// Returns a placement that scales x, y and z; `None` if x and y differ in more than sign.
     pub(crate) fn scaled_by(x: f64, y: f64, z: f64) -> Option<Self> {
         /// Relative difference up to which computed scales count as equal.
         const SCALE_TOLERANCE: f64 = 2e-7;
@@ -72,7 +72,7 @@ impl Placement {
         is_uniform.then_some(Self { x_axis: (x, 0.0), turn, scale, z_scale: z, mirrored, ..Self::IDENTITY })
     }
 
-    /// Whether left and right change places.
+    /// Whether the placement mirrors, so that left and right change places.
     pub(crate) fn is_mirrored(&self) -> bool {
         self.mirrored
     }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::big5;
 
-/// An encoding.
+/// A text encoding that the browser decodes.
 #[derive(Debug)]
 pub struct Encoding {
     /// Its name in the encoding standard.
@@ -62,7 +62,7 @@ impl Encoding {
         self.kind == Kind::Single
     }
 
-    /// Decodes a text and replaces malformed input by U+FFFD. Also returns whether there was any.
+    /// Decodes a text and replaces malformed input by U+FFFD. Also returns whether any input was malformed.
     pub fn decode_without_bom_handling<'b>(&self, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
         let (text, all_known) = match self.kind {
             Kind::Utf8 => return (String::from_utf8_lossy(bytes), std::str::from_utf8(bytes).is_err()),

@@ -14,17 +14,17 @@ use crate::random::Random;
 const MIN_BYTES: usize = 38_500;
 const BYTE_RANGE: usize = 8_000;
 
-/// Number of variants of furniture.
+/// Number of variants of the surroundings.
 const VARIANTS: usize = 16;
 
 /// Maximum number of hatch lines. Large paths get fewer.
 const HATCH_LINES: usize = 160;
 
-/// Cache of written furniture, since even a library of thousands of drawings uses only a few variants.
+/// Cache of the surroundings as DXF, by version and variant: even thousands of drawings use only a few.
 static TEMPLATES: [[OnceLock<Arc<Template>>; VARIANTS]; Version::ALL.len()] =
     [const { [const { OnceLock::new() }; VARIANTS] }; Version::ALL.len()];
 
-/// Finishes a drawing with the furniture of a seed, padded to a typical size.
+/// Finishes a drawing with the surroundings that follow from a seed, padded to a typical size. Without a seed, there are none.
 ///
 /// # Errors
 /// The errors of [`Draft::finish`].
@@ -48,7 +48,7 @@ pub(crate) fn finish(mut draft: Draft, seed: Option<u64>) -> Result<Sheet, Vec<D
     Ok(sheet.within(Arc::clone(template), HATCH_LINES - hatch_lines))
 }
 
-/// The furniture alone, with all hatch lines as its last entities. Entities are in the order in which a user draws: the frame first, then
+/// The surroundings alone, with all hatch lines as the last entities. Entities are in the order in which a user draws: the frame first, then
 /// the path, then what was added to it.
 fn template(variant: usize, version: Version) -> Template {
     let mut room = Room::of(variant);
@@ -75,7 +75,7 @@ fn add_layers(draft: &mut Draft) {
     }
 }
 
-/// The layers with their line types and colours.
+/// The layers of the surroundings with their line types and colours.
 const LAYERS: [(&str, &str, u8); 9] = [
     (FRAME, "CONTINUOUS", 8),
     (TITLE, "CONTINUOUS", 7),
@@ -98,7 +98,7 @@ const HATCH: &str = "SCHRAFFUR";
 const MEASURES: &str = "MAßE";
 const NOTES: &str = "HINWEISE 1-4";
 
-/// The furniture under construction.
+/// The surroundings under construction.
 struct Room {
     random: Random,
     entities: Vec<Entity>,

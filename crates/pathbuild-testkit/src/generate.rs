@@ -104,7 +104,7 @@ fn finished(draft: Draft, furniture: u64) -> Sheet {
         .unwrap_or_else(|errors| unreachable!("a generated drawing has a fault: {}", errors[0]))
 }
 
-/// Chooses options for writing the drawing, and returns the seed of its furniture.
+/// Chooses options for writing the drawing, and returns the seed of its surroundings.
 fn options(draft: &mut Draft, random: &mut Random) -> u64 {
     let furniture = random.next();
     if random.once_in(8) {
@@ -116,7 +116,7 @@ fn options(draft: &mut Draft, random: &mut Random) -> u64 {
     furniture
 }
 
-/// A layer name; sometimes without points, which some CAD programs do not allow.
+/// Returns a layer name, sometimes with underscores instead of points, which some CAD programs do not allow.
 fn layer(name: &str, random: &mut Random) -> String {
     if random.once_in(5) { name.replace('.', "_") } else { name.to_owned() }
 }
@@ -137,7 +137,7 @@ fn embedding_text(path: &PathPlan, value: &str) -> String {
     format!(">{} T{t} O{o} {m}{variable}", path.name)
 }
 
-/// The place of a feature's field. Consecutive rows run in opposite directions.
+/// Returns the lower left corner of a feature's field. Consecutive rows run in opposite directions.
 fn field(feature: usize) -> Point {
     let (row, column) = (feature / FIELDS_IN_ROW, feature % FIELDS_IN_ROW);
     let column = if row.is_multiple_of(2) { column } else { FIELDS_IN_ROW - 1 - column };

@@ -80,7 +80,7 @@ impl Workshop {
         &self.files
     }
 
-    /// The relevant part of the configuration.
+    /// The part of the configuration that affects the model.
     pub fn rules(&self) -> &Rules {
         &self.rules
     }
@@ -315,7 +315,7 @@ fn project(number: u32, random: &mut Random) -> Vec<u8> {
     for segment in 0..2 {
         let fault = if segment == faulty { fault } else { 0 };
         let embedded = match fault {
-            // Itself, or a path that may embed it.
+            // The project itself, or one that may embed it.
             4 | 5 => 8001 + u32::try_from(random.below((number - 8000) as usize)).unwrap_or_default(),
             _ => 1001 + u32::try_from(random.below(COMPONENTS as usize)).unwrap_or_default(),
         };

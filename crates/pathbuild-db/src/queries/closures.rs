@@ -128,12 +128,12 @@ pub(super) fn root(db: &dyn Db, target: Target) -> Option<(Instance<'_>, Vec<Dia
 }
 
 impl Closure<'_> {
-    /// Whether any path in it has errors.
+    /// Whether any path of the closure has errors.
     pub fn has_errors(&self) -> bool {
         self.root.is_none() || self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
-    /// Whether errors leave its moves unknown. Cuts into a part or through a support bar are errors too, but leave the moves known.
+    /// Whether errors leave the program's moves unknown. Cuts into a part or through a support bar are errors too, but leave the moves known.
     pub fn has_unknown_moves(&self) -> bool {
         let is_harm = |problem: &Diagnostic| matches!(problem.code(), Code::GougedPart | Code::BarCutAway);
         let is_other = |problem: &Diagnostic| problem.is_error() && !is_harm(problem);
@@ -169,16 +169,16 @@ struct Walk<'db> {
     is_full: bool,
 }
 
-/// Whether a path has errors, in itself or below. What embeds it repeats only errors of its own.
+/// The most serious error of a path and everything that it embeds. It decides whether a path that embeds it reports an error of its own.
 #[derive(Clone, Copy, PartialEq)]
 enum PathErrors<'db> {
-    /// None.
+    /// Neither the path nor anything that it embeds has errors.
     None,
-    /// Embedding is too deep below the target, so that the target alone is wrong.
+    /// Embedding is too deep below the target. The fault is the target's alone, not that of the paths in between.
     TooDeep,
-    /// It is part of a cycle that begins with this path, whose embeddings are all reported.
+    /// The path is part of a cycle that begins with the given path; all embeddings of the cycle are reported.
     Cycle(Instance<'db>),
-    /// Errors of its own.
+    /// The path, or one that it embeds, has other errors.
     Own,
 }
 
@@ -191,7 +191,7 @@ impl PathErrors<'_> {
         self == Self::None
     }
 
-    /// The errors of a path with both.
+    /// Returns the more serious one of two errors.
     fn and(self, other: Self) -> Self {
         let rank = |errors: &Self| match errors {
             Self::None => 0,
@@ -387,7 +387,7 @@ impl<'db> Walk<'db> {
         PathErrors::of(has_errors)
     }
 
-    /// Whether the path being visited is part of a cycle that begins with `first`, whatever its values.
+    /// Whether the path being visited is part of a cycle that begins with `first`, whatever values its variables have.
     fn is_within(&self, first: Instance<'db>, visiting: Instance<'db>) -> bool {
         let place = |instance: Instance<'db>| (instance.file(self.db), instance.name(self.db));
         place(first) == place(visiting)
@@ -540,9 +540,9 @@ pub struct Edge<'db> {
 /// The target of a subpath segment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Destination<'db> {
-    /// A path with its values.
+    /// A path with the values of its variables.
     Path(Instance<'db>),
-    /// No path; only the first reason for that is kept.
+    /// No path. If there are several reasons, only the first one is kept.
     Nowhere {
         /// The name it refers to, if any.
         name: Option<PathName>,
@@ -565,7 +565,7 @@ fn edge<'db>(from: Instance<'db>, embedding: &Embedding<'db>) -> Edge<'db> {
     let to = match &embedding.outcome {
         Outcome::Found { child, .. } => Destination::Path(*child),
         Outcome::Refused(problem) | Outcome::NotFound(problem) => nowhere(problem.code()),
-        // A segment that was not read or bound has at least one problem.
+        // A segment that could not be read or bound has at least one problem.
         Outcome::Unread(problems) | Outcome::Unbound(problems) => {
             nowhere(problems.first().map_or(Code::MissingVariableValue, Diagnostic::code))
         }
@@ -573,10 +573,10 @@ fn edge<'db>(from: Instance<'db>, embedding: &Embedding<'db>) -> Edge<'db> {
     Edge { from, point: embedding.origin.point, to }
 }
 
-/// Everything outside of the settings that a target depends on.
+/// Everything outside the settings that a target depends on.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
-    /// The drawings that were read, starting with its own, including those that were searched without a match.
+    /// The drawings that were read, starting with the target's own, including those that were searched without a match.
     pub files: Vec<SourceFile>,
     /// The names that were looked up, with the searched directories.
     pub lookups: Vec<NameLookup>,
@@ -585,9 +585,9 @@ pub struct Trace {
 /// A name that was looked up.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct NameLookup {
-    /// The path.
+    /// Name of the path.
     pub name: PathName,
-    /// The directories.
+    /// The directories that were searched for it, in order.
     pub directories: Vec<Utf8PathBuf>,
 }
 

@@ -108,7 +108,8 @@ impl<'db> Embedder<'_, 'db> {
         }
     }
 
-    /// The errors of the only drawing that may define a path by its name, if they hide all of its paths.
+    /// Returns the errors of the only drawing that may define the path according to file names, if they hide all of that drawing's paths. The last
+    /// diagnostic says that the drawing has errors.
     fn unread(
         &self,
         call: &SubpathCall,
@@ -162,10 +163,10 @@ pub struct Instance<'db> {
     /// The drawing that defines it.
     #[returns(copy)]
     pub file: SourceFile,
-    /// The path.
+    /// The name of the path, folded for comparison.
     #[returns(copy)]
     pub name: NameKey<'db>,
-    /// The values.
+    /// The values of the path's variables.
     #[returns(ref)]
     pub bindings: Bindings,
 }
@@ -194,7 +195,7 @@ pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
     raw.map(|raw| bind(raw, instance.bindings(db), language)).unwrap_or_default()
 }
 
-/// The walk along a path, for its program. Empty for an unsound path. Few are kept.
+/// The result of walking a path, for its program. Empty for a path with errors. Few are kept.
 #[salsa::tracked(lru = 256)]
 pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> WalkedPath {
     let language = Settings::get(db).language(db);

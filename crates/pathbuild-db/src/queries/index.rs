@@ -41,7 +41,7 @@ pub struct FileIndex {
 #[derive(Clone, Debug, Default)]
 struct Content {
     fingerprint: Option<Fingerprint>,
-    /// If the settings ask for it, the hash and the stamp of the bytes.
+    /// The hash and the stamp of the bytes, if the settings ask for hashes.
     hash: Option<([u8; 32], Stamp)>,
 }
 
@@ -59,7 +59,7 @@ pub struct PathIndex {
 /// A path's name folded for comparison, as a key.
 #[salsa::interned(debug)]
 pub struct NameKey<'db> {
-    /// Upper case.
+    /// The name in upper case.
     #[returns(deref)]
     pub folded: Box<str>,
 }
@@ -120,7 +120,7 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
     index
 }
 
-/// Whether any of the other layers has a name that almost names a path.
+/// Whether any of the other layers has a name similar to that of a path.
 fn has_near_layer(raw: &RawFile, others: &[SmolStr]) -> bool {
     if others.is_empty() {
         return false;
@@ -135,7 +135,7 @@ fn read_keep_outs(bytes: &[u8], reading: &Reading, language: &Language) -> KeepO
     pathbuild_path::keep_outs(&entities(bytes, &reading, &|layer| language.is_keep_out(layer)), language)
 }
 
-/// Reads parts. In compatible mode, what paths skip may still be part of an outline.
+/// Reads parts. In compatible mode, entities that paths skip may still be part of an outline, so they are read.
 fn drawn_parts(bytes: &[u8], drawing: &Drawing, reading: &Reading, language: &Language) -> DrawnParts {
     if !reading.compatible {
         return pathbuild_path::parts(drawing, language);
@@ -170,7 +170,7 @@ pub fn keep_outs(db: &dyn Db, file: SourceFile) -> &[KeepOut] {
     keep_outs_of_file(db, file).map_or(&[], |found| &found.all)
 }
 
-/// Findings about the clamps of a drawing. While one is an error, none of its paths becomes a program.
+/// Findings about the clamps of a drawing. If one of them is an error, no path of the drawing becomes a program.
 pub(super) fn keep_out_problems(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
     keep_outs_of_file(db, file).map_or(&[], |found| &found.problems)
 }
@@ -227,7 +227,7 @@ impl FileIndex {
         Self { names, paths, diagnostics, keep_outs: None, parts, content }
     }
 
-    /// Adds findings about the file's name, if the drawing's paths are known.
+    /// Adds findings about the file's name, unless errors leave the drawing's paths unknown.
     fn with_name_judged(mut self, db: &dyn Db, file: SourceFile, ends: &LayerEnds<'_>) -> Self {
         if !self.diagnostics.iter().any(Diagnostic::is_error) {
             let settings = Settings::get(db);
@@ -302,7 +302,7 @@ impl Content {
 }
 
 impl PathIndex {
-    /// `use_path`: called if the cuts of the path are known.
+    /// Builds the index of a path. Calls `use_path` if the cuts of the path are known.
     fn new(
         db: &dyn Db,
         raw: &RawPath,
@@ -317,12 +317,12 @@ impl PathIndex {
 }
 
 impl<'db> NameKey<'db> {
-    /// The key of a name.
+    /// Returns the key of a name.
     pub fn of(db: &'db dyn Db, name: &PathName) -> Self {
         Self::new(db, name.folded().into_boxed_str())
     }
 
-    /// The name.
+    /// Returns the folded name.
     pub(super) fn name(self, db: &dyn Db) -> PathName {
         PathName::new(self.folded(db))
     }
@@ -331,7 +331,7 @@ impl<'db> NameKey<'db> {
 /// The summary of a path with bound variables.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathSummary {
-    /// Findings about its drawing or values.
+    /// Findings about the path's drawing or the values of its variables.
     pub problems: Vec<Diagnostic>,
     /// The path as seen by others, unless a finding is an error.
     pub signature: Option<PathSignature>,
@@ -403,7 +403,7 @@ impl PathSummary {
     }
 }
 
-/// Adds to PB102 where the path ends.
+/// Adds the point at which the path ends to PB102.
 fn add_path_end(problems: &mut [Diagnostic], end: Xy) {
     for problem in problems.iter_mut().filter(|problem| problem.code() == Code::MissingEnd) {
         let note = Note {
@@ -474,7 +474,7 @@ pub(super) struct FileParts {
 }
 
 impl FileParts {
-    /// The place of a path among the cuts.
+    /// Index of a path in [`FileParts::cuts`].
     pub(super) fn place(&self, name: &PathName) -> Option<usize> {
         self.cuts.binary_search_by(|cuts| (*cuts.name).cmp(name)).ok()
     }

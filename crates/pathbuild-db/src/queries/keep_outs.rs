@@ -22,7 +22,7 @@ pub struct PlacedKeepOut {
     pub placed: KeepOut,
     /// The clamp as drawn.
     pub drawn: KeepOut,
-    /// Index into [`Trace::occurrences`](pathbuild_toolpath::Trace::occurrences) of the path whose drawing brings it.
+    /// Index into [`Trace::occurrences`](pathbuild_toolpath::Trace::occurrences) of the path whose drawing contains the clamp.
     pub occurrence: u32,
 }
 
@@ -109,7 +109,7 @@ impl Collision {
         self.lowest = self.lowest.min(way.lowest());
     }
 
-    /// PB407 without a place. Heights are relative to a path that is raised.
+    /// Returns PB407 without a place. Heights are given relative to the path, which is `raised` by this many mm.
     pub fn diagnostic(
         &self,
         message: &'static Message,

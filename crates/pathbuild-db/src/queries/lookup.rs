@@ -90,9 +90,9 @@ const EXTENSION: &str = ".dxf";
 /// The result of looking for a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ResolvedPath {
-    /// The files that define it. Exactly one is right; none and several are errors.
+    /// The files that define the path. Anything but exactly one file is an error.
     pub files: Vec<SourceFile>,
-    /// The files that may define the path, by their names.
+    /// The files whose names say that they may define the path.
     pub searched: Vec<SourceFile>,
     /// PB001 for directories that cannot be listed: the path may be defined there.
     pub unlisted: Vec<Diagnostic>,
@@ -111,7 +111,7 @@ pub(super) fn find_path<'db>(
     let canonical = |file: SourceFile| db.system().canonical(file.path(db));
     let is_other = |file: &SourceFile| *file != from && canonical(*file) != canonical(from);
     let others = resolved.files.iter().copied().filter(is_other);
-    // What is in the drawing is found even if a directory cannot be listed.
+    // A path in the drawing itself is found even if a directory cannot be listed.
     Cow::Owned(ResolvedPath {
         files: std::iter::once(from).chain(others).collect(),
         searched: resolved.searched.clone(),
@@ -119,7 +119,7 @@ pub(super) fn find_path<'db>(
     })
 }
 
-/// Looks for a path that drawings in a directory refer to. Unaffected by files that cannot define it, by their names.
+/// Looks for a path that drawings in a directory refer to. Files whose names rule out that they define it do not affect the result.
 #[salsa::tracked]
 pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> ResolvedPath {
     let directories = search_path(db, directory);
@@ -155,12 +155,12 @@ pub fn holders(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<Source
     files.filter(|file| file_index(db, *file).path(name).is_some()).collect()
 }
 
-/// The files of a directory that may define a path, by their names. None is read.
+/// Returns the files of a directory that may define a path, judged by their names alone.
 pub fn may_hold(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
     files_for(db, directory, name.as_str())
 }
 
-/// The files of a directory that may define a path, by their names.
+/// Returns the files of a directory whose names say that they may define a path.
 fn files_for(db: &dyn Db, directory: Directory, name: &str) -> Vec<SourceFile> {
     let pattern = &Settings::get(db).language(db).path_pattern;
     let key = PathKey::new(name, pattern);

@@ -37,8 +37,8 @@ impl<'a> LayerEnds<'a> {
         Self { read, all: OnceCell::new(), markers: OnceCell::new() }
     }
 
-    /// Adds the element on another layer that was probably meant: to PB401 an end, to PB101 and PB102 a circle, to PB107 an element, to PB207 a
-    /// text.
+    /// Adds a note about the element on another layer that was probably meant: an end to PB401, a circle to PB101 and PB102, an element to PB107, a
+    /// text to PB207.
     pub(super) fn with_hint(
         &self,
         path: &PathName,
@@ -64,7 +64,7 @@ impl<'a> LayerEnds<'a> {
         problem
     }
 
-    /// Adds to PB501 the text that was probably meant.
+    /// Adds to PB501 a note about the text that was probably meant as the name.
     pub(super) fn with_name_hint(&self, language: &Language, mut problem: Diagnostic) -> Diagnostic {
         if problem.code() == Code::MissingSubpathName {
             problem.notes.extend(self.name_text(language, &problem));
@@ -120,7 +120,7 @@ impl<'a> LayerEnds<'a> {
         which: usize,
         message: &'static Message,
     ) -> Option<(Note, f64)> {
-        // Another circle was named already.
+        // A note about another circle is already there.
         if problem.notes.iter().any(|note| note.message != &drawing::START_TEXT) {
             return None;
         }

@@ -62,18 +62,18 @@ fn placed_program(db: &dyn Db, target: Target) -> Option<PlacedProgram<'_>> {
 struct PlacedProgram<'db> {
     db: &'db dyn Db,
     tolerance: f64,
-    /// Each after the path that embeds it.
+    /// The paths, each after the path that embeds it.
     paths: Vec<PlacedPath<'db>>,
 }
 
 struct PlacedPath<'db> {
     instance: Instance<'db>,
     cuts: PlacedCuts<'db>,
-    /// The number of the path around it, and the segment there that embeds it.
+    /// Index of the path that embeds this one, and the embedding segment; `None` for the target's own path.
     parent: Option<(usize, &'db Origin)>,
 }
 
-/// Distance in mm between two places of a drawing below which they are the same: paths of one drawing that are embedded together.
+/// Distance in mm below which two placements of one drawing count as the same, because its paths were embedded together.
 const SAME_PLACE: f64 = 0.01;
 
 impl<'db> PlacedProgram<'db> {
@@ -164,19 +164,19 @@ impl<'db> PlacedProgram<'db> {
         taken.map(|lost| lost.middle).collect()
     }
 
-    /// Whether a path has nothing to do with the parts of another: neither the same drawing in the same place, nor embedded in it.
+    /// Whether a path is independent of the parts of another: it neither belongs to the same drawing at the same place nor is embedded in it.
     fn is_foreign(&self, owner: usize, cutting: usize) -> bool {
         let PlacedPath { instance, cuts, .. } = &self.paths[cutting];
         let is_within = self.outwards(cutting).any(|around| around == owner);
         !is_within && !self.is_at(&self.paths[owner], *instance, &cuts.placement)
     }
 
-    /// A path and the paths around it, from the inside out.
+    /// Iterates over a path and the paths that embed it, from the inside out.
     fn outwards(&self, path: usize) -> impl Iterator<Item = usize> {
         std::iter::successors(Some(path), |inner| self.paths[*inner].parent.map(|(outer, _)| outer))
     }
 
-    /// The innermost path that contains both an element and another path, and its element that leads to the former.
+    /// Returns the innermost path that contains both an element and another path, and the element of that path that leads to the given one.
     fn common(&self, mut path: usize, element: u32, other: usize) -> (usize, &'db Origin) {
         let around: Vec<usize> = self.outwards(other).collect();
         let mut origin = &self.paths[path].cuts.cuts.elements[element as usize].origin;
@@ -223,14 +223,14 @@ pub struct PlacedPart<'db> {
     pub drawn: &'db Part,
     /// The material that is left at its outline, as drawn.
     pub left: &'db [LeftMaterial],
-    /// The middle lines of the support bars that its path loses, as drawn.
+    /// The middle lines of the support bars that the cuts of its own path remove, as drawn.
     pub lost_bars: &'db [Curve],
-    /// The middle lines of the support bars that the paths of a project take away from each other, in the program; all of them with its
-    /// first part.
+    /// The middle lines of the support bars that the paths of a project cut away from each other, in the program's coordinates. The program's
+    /// first part lists all of them.
     pub bars_lost_to_neighbours: Vec<Curve>,
-    /// The stretches on which cuts go into it, in the program.
+    /// The stretches on which cuts enter the part, in the program's coordinates.
     pub gouges: Vec<Curve>,
-    /// Whether nothing holds it.
+    /// Whether nothing holds the part once it is cut.
     pub is_loose: bool,
     /// Half the diameter of the cutter in mm.
     pub radius: f64,
@@ -238,7 +238,7 @@ pub struct PlacedPart<'db> {
     pub placement: Placement,
     /// Z of its upper face in mm.
     pub top: f64,
-    /// How far in mm a cut may miss its outline.
+    /// Distance in mm by which a cut may miss the part's outline.
     pub tolerance: f64,
 }
 

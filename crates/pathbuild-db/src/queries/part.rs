@@ -104,7 +104,7 @@ pub fn uncut_rings(db: &dyn Db, file: SourceFile) -> Vec<&[Curve]> {
     findings.uncut.iter().filter_map(ring).collect()
 }
 
-/// PB220 for outlines that no path comes near. Their positions are read again.
+/// Returns PB220 for each outline that no path comes near. The drawing is read again for the positions of the outlines.
 pub(super) fn uncut_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
     let uncut = part_findings(db, file).map(|findings| findings.uncut.as_slice()).unwrap_or_default();
     if uncut.is_empty() {

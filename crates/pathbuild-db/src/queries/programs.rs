@@ -25,7 +25,7 @@ pub struct TracedProgram {
     /// The same program as that of [`program`](crate::queries::program) for emitted targets. Checked targets use the sweep height of a
     /// check.
     pub program: Program,
-    /// Its paths are indices into [`TracedProgram::parts`].
+    /// The origin of each step. Its paths are indices into [`TracedProgram::parts`].
     pub trace: Trace<usize>,
     /// The paths in the program with their values, each once.
     pub parts: Vec<Part>,
@@ -38,7 +38,7 @@ pub struct Part {
     pub file: SourceFile,
     /// The path with all parameters bound.
     pub path: Path,
-    /// The values.
+    /// The values of its variables.
     pub bindings: Bindings,
 }
 
@@ -64,7 +64,7 @@ pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<TracedProgram>>
     let mut options = Settings::get(db).fold(db);
     let is_only_embedded = !root.bindings(db).is_empty();
     if *target.role(db) != Role::Emitted && (is_only_embedded || options.sweep_height.is_none()) {
-        // The sweep height of a check.
+        // A checked path gets the sweep height that it has when embedded.
         options.sweep_height = path(db, root).path.as_ref().map(Path::embedded_sweep_height);
     }
     let (program, trace) = fold_traced(&ClosurePaths { db }, root, drawing, options);
@@ -156,7 +156,7 @@ pub(super) struct Occurrences<'t> {
 }
 
 impl<'t> Occurrences<'t> {
-    /// The innermost path that contains both an element and another path, and its element that leads to the former.
+    /// Returns the innermost path that contains both an element and another path, and the element of that path that leads to the given one.
     pub(super) fn common(self, mut at: StepOrigin, other: u32) -> (u32, Option<u32>) {
         let around_other: Vec<u32> = self.outwards(other).collect();
         while !around_other.contains(&at.occurrence) {
@@ -166,7 +166,7 @@ impl<'t> Occurrences<'t> {
         (at.occurrence, at.element)
     }
 
-    /// A path and the paths around it, from the inside out.
+    /// Iterates over a path and the paths that embed it, from the inside out.
     pub(super) fn outwards(self, occurrence: u32) -> impl Iterator<Item = u32> + 't {
         let parent = move |inner: &u32| self.parent(*inner).map(|outer| outer.occurrence);
         std::iter::successors(Some(occurrence), parent)

@@ -1,4 +1,4 @@
-//! Reads indexed drawings again for what the index lacks: raw paths, the elements of texts, and places.
+//! Reads indexed drawings again for what the index does not contain: raw paths, the elements of texts, and places.
 
 use std::sync::Arc;
 

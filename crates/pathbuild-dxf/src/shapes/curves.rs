@@ -49,12 +49,12 @@ impl Vector {
         self.x.abs() <= LARGEST && self.y.abs() <= LARGEST
     }
 
-    /// Turned by a quarter, counterclockwise.
+    /// Returns the vector turned by a quarter turn, counterclockwise.
     pub(crate) fn left(self) -> Self {
         Self { x: -self.y, y: self.x }
     }
 
-    /// Scaled to length 1, unless there is nothing to scale.
+    /// Returns the vector scaled to length 1; `None` if its length is 0.
     pub(crate) fn unit(self) -> Option<Self> {
         let length = self.length();
         (length > 0.0).then(|| self.times(1.0 / length))
@@ -317,7 +317,7 @@ impl Ellipse {
         })
     }
 
-    /// Approximates it by arcs in the coordinates of the drawing.
+    /// Approximates the ellipse by arcs in the coordinates of the drawing.
     pub(crate) fn pieces(
         &self,
         placement: &Placement,
@@ -340,7 +340,7 @@ impl Ellipse {
         Ok(pieces)
     }
 
-    /// Whether all of it is within the largest coordinate of a drawing.
+    /// Whether the whole ellipse is within the largest coordinate of a drawing.
     fn is_near(&self) -> bool {
         let Point3 { x, y, .. } = self.centre;
         [Vector { x, y }, self.major, self.minor].into_iter().all(Vector::is_near)
@@ -406,11 +406,11 @@ type Homogeneous = [f64; 3];
 /// The degree where none is given.
 const CUBIC: i64 = 3;
 
-/// Largest degree. Higher ones do not occur, and evaluation takes time quadratic in the degree.
+/// Largest degree that is read. Higher ones do not occur, and evaluation takes time quadratic in the degree.
 const HIGHEST_DEGREE: usize = 15;
 
 impl Spline {
-    /// Reads a SPLINE. Its points are in world coordinates. One defined by fit points only is left out.
+    /// Reads a SPLINE. Its points are in world coordinates. A spline that is defined by fit points only is left out.
     pub(crate) fn read<'a>(fields: &Fields<'a>) -> Result<Self, EntityError<'a>> {
         is_mirrored(fields)?;
         let groups = Groups::of(fields)?;
@@ -426,7 +426,7 @@ impl Spline {
         Ok(spline)
     }
 
-    /// Approximates it by lines and arcs in the coordinates of the drawing.
+    /// Approximates the spline by lines and arcs in the coordinates of the drawing.
     pub(crate) fn pieces(
         &self,
         placement: &Placement,
@@ -446,7 +446,7 @@ impl Spline {
         Ok(pieces)
     }
 
-    /// Whether all of it is within the largest coordinate of a drawing; it lies within the hull of its control points.
+    /// Whether the whole spline is within the largest coordinate of a drawing. It lies within the hull of its control points, so these are tested.
     fn is_near(&self) -> bool {
         self.points.iter().all(|control| control.point.is_near())
     }

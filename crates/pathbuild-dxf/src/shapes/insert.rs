@@ -16,7 +16,7 @@ use crate::shapes::is_mirrored;
 /// An insertion.
 #[derive(Clone, Debug)]
 pub(crate) struct Insert<'a> {
-    /// The block's name as spelt here.
+    /// The block's name as spelt in this INSERT.
     pub(crate) block: SmolStr,
     /// Its placement. A fault in it matters only if the block holds something wanted.
     pub(crate) array: Result<Array, EntityError<'a>>,

@@ -62,13 +62,13 @@ fn repeated_number<'a>(pair: &Pair<'a>) -> Result<f64, BadGroup<'a>> {
     real(pair.value).map_err(|reason| BadGroup::Number { code: pair.code, value, reason })
 }
 
-/// A LINE; its points are in world coordinates whatever its extrusion.
+/// Reads a LINE; its points are in world coordinates whatever its extrusion.
 pub(crate) fn line<'a>(fields: &Fields<'a>) -> Result<Geometry, EntityError<'a>> {
     is_mirrored(fields)?;
     Ok(Geometry::Line(Line { start: fields.point(10)?, end: fields.point(11)? }))
 }
 
-/// An ARC.
+/// Reads an ARC.
 pub(crate) fn arc<'a>(fields: &Fields<'a>) -> Result<Geometry, EntityError<'a>> {
     let arc = Arc {
         centre: fields.point(10)?,
@@ -80,7 +80,7 @@ pub(crate) fn arc<'a>(fields: &Fields<'a>) -> Result<Geometry, EntityError<'a>> 
     from_object_coordinates(Geometry::Arc(arc), fields)
 }
 
-/// A CIRCLE.
+/// Reads a CIRCLE.
 pub(crate) fn circle<'a>(fields: &Fields<'a>) -> Result<Geometry, EntityError<'a>> {
     let circle = Circle { centre: fields.point(10)?, radius: fields.length(40)? };
     from_object_coordinates(Geometry::Circle(circle), fields)

@@ -165,7 +165,7 @@ fn plain_text(raw: &str) -> SmolStr {
         return raw.into();
     }
     let mut plain = SmolStrBuilder::new();
-    // Found once, since thousands of unterminated commands would each search the whole rest.
+    // Searched only once: thousands of unterminated commands would otherwise each search the whole rest.
     let behind_last = raw.rfind(';').map_or(raw.len(), |last| raw.len() - last - 1);
     let mut rest = raw;
     while let Some(special) = rest.bytes().position(is_special) {
@@ -195,7 +195,7 @@ fn command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usize {
     };
     let short = 1 + letter.len_utf8();
     match letter {
-        // \N starts a new column.
+        // `\N` starts a new column, which counts as a new line.
         'P' | 'X' | 'N' => plain.push('\n'),
         '~' => plain.push('\u{a0}'),
         '\\' | '{' | '}' => plain.push(letter),

@@ -11,15 +11,15 @@ use super::place::{candidates, seat_notes};
 /// A drawing under construction, in which parameter texts have no positions yet.
 #[derive(Clone, Debug)]
 pub struct Draft {
-    /// How the drawing will be written.
+    /// Options for writing the drawing.
     pub options: Options,
     /// The layer table. Layers that entities use and that are missing here are added.
     pub layers: Vec<Layer>,
     /// Line types beyond the usual ones: name and pattern in mm (dashes positive, gaps negative, dots 0).
     pub line_types: Vec<(String, Vec<f64>)>,
-    /// The blocks.
+    /// The block definitions.
     pub blocks: Vec<Block>,
-    /// Model and paper space, in file order.
+    /// The entities of model and paper space, in file order.
     pub entities: Vec<Entity>,
     current_layer: String,
 }
@@ -75,7 +75,7 @@ impl Draft {
     /// Positions the texts and assigns handles.
     ///
     /// # Errors
-    /// Fails if an entity does not exist in the chosen version, a block is unknown, or a text has no room.
+    /// Fails if an entity does not exist in the chosen version, a block is unknown, or there is no room for a text.
     pub fn finish(mut self) -> Result<Sheet, Vec<DrawError>> {
         let mut errors = Vec::new();
         for entity in self.blocks.iter().flat_map(|block| &block.entities).chain(&self.entities) {
@@ -176,7 +176,7 @@ impl Sheet {
         &self.line_types
     }
 
-    /// The blocks.
+    /// The block definitions.
     pub fn blocks(&self) -> &[Block] {
         &self.blocks
     }

@@ -13,7 +13,7 @@ pub type Pair = pathbuild_draw::pairs::Pair<'static>;
 /// An entity of a drawing: a shape, its attributes, and its parameter text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entity {
-    /// The shape.
+    /// The shape, in world coordinates.
     pub shape: Shape,
     /// The layer; `None` for the draft's current one.
     pub layer: Option<String>,
@@ -82,7 +82,7 @@ pub enum Change {
 }
 
 impl Entity {
-    /// An entity with this shape on the current layer. Curves have line type CONTINUOUS, all other shapes BYLAYER.
+    /// Creates an entity with this shape on the current layer. Curves have line type CONTINUOUS, all other shapes BYLAYER.
     pub fn new(shape: Shape) -> Self {
         let line_type = match shape {
             Shape::Insert(_)
@@ -109,37 +109,37 @@ impl Entity {
         }
     }
 
-    /// A straight line, CONTINUOUS.
+    /// Creates a straight line with line type CONTINUOUS.
     pub fn line(from: impl Into<Point>, to: impl Into<Point>) -> Self {
         Self::new(Shape::Line(Line { from: from.into(), to: to.into() }))
     }
 
-    /// An arc counterclockwise from `start` to `end` (degrees), CONTINUOUS.
+    /// Creates an arc with line type CONTINUOUS, counterclockwise from `start` to `end` in degrees.
     pub fn arc(centre: impl Into<Point>, radius: f64, start: f64, end: f64) -> Self {
         Self::new(Shape::Arc(Arc { centre: centre.into(), radius, start, end }))
     }
 
-    /// A circle by its diameter, CONTINUOUS.
+    /// Creates a circle with line type CONTINUOUS from its diameter in mm.
     pub fn circle(centre: impl Into<Point>, diameter: f64) -> Self {
         Self::new(Shape::Circle(Circle { centre: centre.into(), radius: diameter / 2.0 }))
     }
 
-    /// A start marker.
+    /// Creates a start marker: a PHANTOM circle 1 mm in diameter.
     pub fn start(at: impl Into<Point>) -> Self {
         Self::circle(at, 1.0).typed("PHANTOM")
     }
 
-    /// An end marker.
+    /// Creates an end marker: a PHANTOM circle 2 mm in diameter.
     pub fn end(at: impl Into<Point>) -> Self {
         Self::circle(at, 2.0).typed("PHANTOM")
     }
 
-    /// A turn marker.
+    /// Creates a turn marker: a PHANTOM circle 1.5 mm in diameter.
     pub fn turn(at: impl Into<Point>) -> Self {
         Self::circle(at, 1.5).typed("PHANTOM")
     }
 
-    /// A Z-probe.
+    /// Creates a Z-probe: a PHANTOM circle 6 mm in diameter.
     pub fn probe(at: impl Into<Point>) -> Self {
         Self::circle(at, 6.0).typed("PHANTOM")
     }
@@ -179,18 +179,18 @@ pub struct Layer {
 /// An unusual state of a layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LayerState {
-    /// Switched off.
+    /// The layer is switched off.
     Off,
-    /// Frozen.
+    /// The layer is frozen.
     Frozen,
-    /// Locked.
+    /// The layer is locked.
     Locked,
-    /// Used by entities, but missing from the layer table.
+    /// The layer is used by entities, but missing from the layer table.
     Unlisted,
 }
 
 impl Layer {
-    /// A visible layer, CONTINUOUS, white.
+    /// Creates a visible white layer with line type CONTINUOUS.
     pub fn new(name: &str) -> Self {
         Self { name: name.to_owned(), line_type: "CONTINUOUS".to_owned(), colour: 7, states: Vec::new() }
     }
@@ -204,7 +204,7 @@ impl Layer {
 /// Options for writing a sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// $ACADVER.
+    /// The DXF version, written as $ACADVER.
     pub version: Version,
     /// $DWGCODEPAGE, and the encoding of texts before R2007. `None` omits the variable and encodes texts as `ANSI_1252`.
     pub code_page: Option<String>,
@@ -222,7 +222,7 @@ pub struct Options {
     pub left_out: Vec<Part>,
     /// Header variables to add or override.
     pub header: Vec<(String, Pair)>,
-    /// The entity that notes are written as.
+    /// The type of entity as which notes are written.
     pub note_kind: NoteKind,
     /// Letter height of notes in mm, if there is room.
     pub note_height: f64,
@@ -353,7 +353,7 @@ pub enum Shape {
 pub struct Polyline {
     /// The DXF entity to write.
     pub kind: PolylineKind,
-    /// The vertices.
+    /// The vertices, in order.
     pub vertices: Vec<Vertex>,
     /// Whether the last vertex is connected to the first.
     pub closed: bool,
@@ -398,13 +398,13 @@ pub struct Ellipse {
 pub struct Spline {
     /// The degree; usually 3.
     pub degree: u8,
-    /// The control points.
+    /// The control points; none if the spline is defined by fit points.
     pub control: Vec<Point>,
     /// The knots: as many as control points + degree + 1.
     pub knots: Vec<f64>,
     /// The weights: one for each control point, or none.
     pub weights: Vec<f64>,
-    /// Points on the curve.
+    /// Fit points, through which the curve passes.
     pub fit: Vec<Point>,
     /// Whether the flag for closed splines is set.
     pub closed: bool,
@@ -436,7 +436,7 @@ pub struct Dimension {
     pub to: Point,
     /// A point on the dimension line.
     pub line: Point,
-    /// The label.
+    /// The text of the label.
     pub label: String,
     /// The centre of the label.
     pub text: Point,
@@ -492,12 +492,12 @@ pub struct Text {
 /// Group 72 of TEXT.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Horizontal {
-    /// 0
+    /// 0: the anchor is at the left end.
     #[default]
     Left,
-    /// 1
+    /// 1: the anchor is in the middle.
     Centre,
-    /// 2
+    /// 2: the anchor is at the right end.
     Right,
     /// 3, with the second alignment point
     Aligned(Point),
@@ -578,7 +578,7 @@ impl Attachment {
         self as i16 + 1
     }
 
-    /// From a row (0 top to 2 bottom) and a column (0 left to 2 right).
+    /// Returns the attachment in a row (0 top to 2 bottom) and a column (0 left to 2 right).
     pub fn from_row_column(row: usize, column: usize) -> Self {
         use Attachment::{
             BottomCentre, BottomLeft, BottomRight, MiddleCentre, MiddleLeft, MiddleRight, TopCentre, TopLeft,
@@ -603,7 +603,7 @@ pub struct Block {
     pub entities: Vec<Entity>,
 }
 
-/// A frame around a drawing, as written by the crate, without handles: created once and shared by many drawings.
+/// The surroundings of a drawing, as written by the crate `dxf`, without handles: created once and shared by many drawings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Template {
     pub(crate) tables: Vec<Record<'static>>,

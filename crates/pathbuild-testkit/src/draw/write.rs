@@ -36,7 +36,7 @@ fn with_pairs(sheet: &Sheet, write: impl FnOnce(&[Pair<'_>]) -> Vec<u8>) -> Vec<
     with_written(sheet, |written| write(&assemble(sheet, written)))
 }
 
-/// Lets the crate write a sheet without its template.
+/// Writes a sheet without its template through the crate `dxf`, and passes the output to `next`.
 fn with_written<T>(sheet: &Sheet, next: impl FnOnce(CrateOutput<'_>) -> T) -> T {
     let mut tickets = Tickets::default();
     let drawing = convert::drawing(sheet, &mut tickets);
@@ -106,7 +106,7 @@ impl<'a, 'o> Entities<'a, 'o> {
         owner.filter(|_| self.has_handles && self.version >= Version::R2000)
     }
 
-    /// Blocks: BLOCK and ENDBLK get handles of their own, and everything between them is owned by the block.
+    /// Returns the pairs of the blocks. BLOCK and ENDBLK get handles of their own, and everything between them is owned by the block.
     fn blocks(&self, records: Vec<Record<'a>>, next: &mut impl FnMut() -> Option<u64>) -> Vec<Pair<'a>> {
         let mut pairs = Vec::new();
         let mut owner = None;
@@ -127,7 +127,7 @@ impl<'a, 'o> Entities<'a, 'o> {
         pairs
     }
 
-    /// The entities of a block, or of model and paper space.
+    /// Returns the pairs of the entities of a block, or of model and paper space.
     fn entities(
         &self,
         records: Vec<Record<'a>>,
@@ -229,7 +229,7 @@ const GUID: &str = "{00000000-0000-0000-0000-000000000000}";
 /// Header variables that refer to objects that are not written.
 const POINTERS: [&str; 4] = ["$DRAGVS", "$CMATERIAL", "$INTERFEREOBJVS", "$INTERFEREVPVS"];
 
-/// The pairs of the header section: the output of the crate, with fixed values for everything it would make up.
+/// Returns the pairs of the header section: the output of the crate, with fixed values for everything that the crate would make up.
 fn header_pairs<'a>(sheet: &'a Sheet, mut variables: Vec<Record<'a>>, hand_seed: u64) -> Vec<Pair<'a>> {
     let options = sheet.options();
     variables.retain(|variable| !POINTERS.contains(&kind(variable)));
@@ -263,7 +263,7 @@ fn fixed(variable: &str, hand_seed: u64) -> Option<String> {
     })
 }
 
-/// Sets a variable, adds it at the end, or removes it.
+/// Sets a variable, which is added at the end if it is missing. Without a value, removes it.
 fn set_variable<'a>(variables: &mut Vec<Record<'a>>, wanted: &'a str, value: Option<Pair<'a>>) {
     let at = variables.iter().position(|variable| kind(variable) == wanted);
     match (at, value) {

@@ -47,7 +47,7 @@ struct ExpandedPath<'m> {
 }
 
 impl Model {
-    /// The moves of a path without errors that hit clamps.
+    /// Returns findings about moves of a path without errors that hit clamps.
     pub(super) fn entered_clamps(&self, root: &Instance) -> Vec<Finding> {
         let mut unfolded = ExpandedPath { model: self, occurrences: Vec::new(), moves: Vec::new() };
         let place = Place { origin: [0.0; 2], turn: [1.0, 0.0], raised: 0.0 };
@@ -150,7 +150,7 @@ impl ExpandedPath<'_> {
             && distance(motion.ends.map(|end| around.place.back(end)), &corners(clamp)) < radius - LENGTH
     }
 
-    /// The innermost path that contains a clamp's drawing and a move, and its element that leads to the move.
+    /// Returns the innermost path that contains a clamp's drawing and a move, and the element of that path that leads to the move.
     fn common(&self, clamp: usize, motion: &Move) -> (usize, Option<String>) {
         let parent = |number: usize| self.occurrences[number].parent.as_ref();
         let around_clamp: Vec<usize> =
@@ -164,8 +164,8 @@ impl ExpandedPath<'_> {
 }
 
 impl Place {
-    /// The placement that maps the first inner point to the first outer point, and the direction to the second inner point to that to the
-    /// second outer point.
+    /// Returns the placement that maps the first inner point to the first outer point, and the direction between the inner points to the direction
+    /// between the outer points.
     fn from_to(inner: [Pair; 2], outer: [Pair; 2], raised: f64) -> Self {
         let turn = times(direction(outer), conjugate(direction(inner)));
         Self { origin: minus(outer[0], times(turn, inner[0])), turn, raised }

@@ -12,16 +12,16 @@ use super::{Drawing, Finding, Instance, Model, directory, stem};
 /// Maximum depth of embedding below the checked path.
 const MAX_EMBEDDING_DEPTH: usize = 10;
 
-/// Errors of a path, in itself or below. What embeds it repeats only errors of its own.
+/// The most serious error of a path and everything that it embeds. It decides whether a path that embeds it reports an error of its own.
 #[derive(Clone, PartialEq)]
 pub(super) enum Errors {
-    /// None.
+    /// Neither the path nor anything that it embeds has errors.
     None,
     /// Embedding is too deep below the checked path.
     TooDeep,
-    /// The path is part of a cycle that begins with this one.
+    /// The path is part of a cycle that begins with the given path.
     Cycle(Instance),
-    /// Errors of its own.
+    /// The path, or one that it embeds, has other errors.
     Own,
 }
 

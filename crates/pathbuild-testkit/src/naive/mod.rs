@@ -22,7 +22,7 @@ use regex::Regex;
 /// Files by their paths, with `/` between directories.
 pub type Files = BTreeMap<String, Vec<u8>>;
 
-/// The relevant part of the configuration.
+/// The part of the configuration that affects the model.
 #[derive(Clone, Debug, Default)]
 pub struct Rules {
     /// Directories that are searched for paths besides the drawing's own.
@@ -44,7 +44,7 @@ struct Drawing {
     content: RawFile,
     clamps: Vec<KeepOut>,
     clamp_problems: Vec<Diagnostic>,
-    /// Whether none of its paths becomes a program because a clamp is unclear.
+    /// Whether a clamp is unclear, so that no path of the drawing becomes a program.
     has_unclear_clamps: bool,
 }
 
@@ -145,7 +145,7 @@ impl Drawing {
         }
     }
 
-    /// Its proxy lines.
+    /// Returns the drawing's proxy lines.
     fn proxies(&self, language: &Language) -> Vec<ProxyLine> {
         proxy_lines(&drawn(&self.bytes, &|_| true), language)
     }
@@ -157,7 +157,7 @@ impl Drawing {
         own.chain(self.name_faults()).collect()
     }
 
-    /// Whether errors hide all of its paths.
+    /// Whether errors hide all paths of the drawing.
     fn is_unreadable(&self) -> bool {
         self.content.paths.is_empty()
             && self.content.diagnostics.iter().chain(&self.clamp_problems).any(Diagnostic::is_error)
@@ -192,11 +192,11 @@ fn is_drawing(path: &str) -> bool {
 pub struct Finding {
     /// The code, for example `PB503`.
     pub code: String,
-    /// The file.
+    /// Path of the drawing.
     pub file: String,
-    /// The path.
+    /// Name of the path, if the finding is about one.
     pub path: Option<String>,
-    /// The handle of the element.
+    /// The handle of the element, if the finding is about one.
     pub handle: Option<String>,
     /// Words of the message.
     pub words: Vec<String>,
@@ -228,7 +228,7 @@ impl Finding {
         self
     }
 
-    /// Whether a finding of the program is the same.
+    /// Whether a finding of the program agrees with this one.
     fn is_meant_by(&self, program: &Self) -> bool {
         let place = |finding: &Self| {
             (finding.code.clone(), finding.file.clone(), finding.path.clone(), finding.handle.clone())
@@ -342,7 +342,7 @@ fn compare(file: &[String], path: &[&str]) -> Ordering {
     Ordering::Equal
 }
 
-// Compares file names with the paths that they announce. (book: language/layers-and-names)
+// Compares the path names in file names with the paths that the drawings contain. (book: language/layers-and-names)
 
 static FULL: LazyLock<Regex> =
     LazyLock::new(|| pattern(r"(?i)\b([0-9]{4})[.]([0-9]+)([A-Z])(?:[^0-9A-Z]|$)"));

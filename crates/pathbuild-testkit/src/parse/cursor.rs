@@ -39,7 +39,7 @@ impl Cursor {
         self.peek_word().is_some_and(|word| word.starts_with(starts))
     }
 
-    /// An error at the last token taken.
+    /// Returns an error at the last token taken.
     pub(crate) fn error(&self, message: impl Into<String>) -> DrawError {
         DrawError::new(self.line, self.column, message)
     }
@@ -197,7 +197,7 @@ fn string(chars: &mut std::iter::Peekable<impl Iterator<Item = (u32, char)>>) ->
     }
 }
 
-/// The entities of a line, and their end point.
+/// The entities that a line of the text form draws, and their end point.
 pub(crate) struct ParsedEntities {
     pub(crate) entities: Vec<Entity>,
     pub(crate) end: Option<Point>,

@@ -39,7 +39,7 @@ const STATES: [(&str, LayerState); 4] = [
 #[derive(Debug, Default)]
 struct Parser {
     draft: Draft,
-    /// The seed of the furniture around the path.
+    /// The seed of the surroundings of the path, if there are any.
     furniture: Option<u64>,
     errors: Vec<DrawError>,
     /// The block being defined, with its line.
@@ -64,7 +64,7 @@ impl Parser {
         self.errors.extend(result.err());
     }
 
-    /// The whole drawing, and the seed of its furniture, if any.
+    /// Returns the whole drawing, and the seed of its surroundings, if there are any.
     pub(crate) fn finish(mut self) -> Result<(Draft, Option<u64>), Vec<DrawError>> {
         if let Some((_, line)) = self.raw {
             self.errors.push(DrawError::new(line, 1, "this `raw` has no `endraw`"));
@@ -274,7 +274,7 @@ fn options_line(cursor: &mut Cursor, options: &mut Options, furniture: &mut Opti
     Ok(())
 }
 
-/// $INSUNITS by name or number.
+/// Parses $INSUNITS, given by name or number.
 fn units(cursor: &mut Cursor) -> Parsed<Option<i16>> {
     if cursor.is_at_number() {
         return cursor.integer("number of $INSUNITS").map(Some);
@@ -302,7 +302,7 @@ fn part(cursor: &mut Cursor) -> Parsed<Part> {
     choice(cursor, "a part of the file", &all)
 }
 
-/// `notes [as text|mtext] [height H]`
+/// Parses `notes [as text|mtext] [height H]`.
 fn notes(cursor: &mut Cursor, options: &mut Options) -> Parsed<()> {
     if cursor.take("as") {
         options.note_kind = note_kind(cursor)?;

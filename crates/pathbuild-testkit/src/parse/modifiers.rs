@@ -1,4 +1,4 @@
-//! Parameter texts, modifiers of elements, and texts of their own.
+//! Parses parameter texts, modifiers of elements, and texts that belong to no element.
 
 use pathbuild_diagnostic::Handle;
 
@@ -136,7 +136,7 @@ fn raise(shape: &mut Shape, z: f64) {
 /// Default letter height in mm.
 const HEIGHT: f64 = 2.5;
 
-/// `text P "..." [height H] [rotate A] [align ...] [backwards] [upside-down]`
+/// Parses `text P "..." [height H] [rotate A] [align ...] [backwards] [upside-down]`.
 pub(crate) fn text(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     cursor.keyword("text")?;
     let anchor = cursor.point("the text's anchor")?;
@@ -172,7 +172,7 @@ fn drawn(shape: Shape, at: Point) -> ParsedEntities {
     ParsedEntities { entities: vec![Entity::new(shape)], end: Some(at) }
 }
 
-/// `align [left|centre|right|middle|aligned P|fit P] [baseline|bottom|middle|top]`
+/// Parses `align [left|centre|right|middle|aligned P|fit P] [baseline|bottom|middle|top]`.
 fn align(cursor: &mut Cursor, text: &mut Text) -> Parsed<()> {
     let word = cursor.name("an alignment")?;
     text.horizontal = match word.as_str() {
@@ -202,7 +202,7 @@ fn align(cursor: &mut Cursor, text: &mut Text) -> Parsed<()> {
     Ok(())
 }
 
-/// `mtext P "..." [height H] [rotate A | direction X,Y] [align ROW COLUMN] [chunks N] [width W]`
+/// Parses `mtext P "..." [height H] [rotate A | direction X,Y] [align ROW COLUMN] [chunks N] [width W]`.
 pub(crate) fn mtext(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     cursor.keyword("mtext")?;
     let anchor = cursor.point("the text's anchor")?;

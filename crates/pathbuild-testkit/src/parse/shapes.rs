@@ -6,7 +6,7 @@ use crate::draw::model::{
 };
 use crate::draw::{Draft, LINE_TYPES};
 
-/// An element: `[VERB] [SHAPE] [LINETYPE] geometry`.
+/// Parses an element: `[VERB] [SHAPE] [LINETYPE] geometry`.
 pub(crate) fn shape(cursor: &mut Cursor, draft: &mut Draft) -> Parsed<ParsedEntities> {
     let word = cursor.name("an element")?;
     match word.as_str() {
@@ -46,14 +46,14 @@ fn typed(mut drawn: ParsedEntities, line_type: &str) -> ParsedEntities {
     drawn
 }
 
-/// A shape with the line type of the verb. The default shape is a line.
+/// Parses a shape that gets the line type of its verb. The default shape is a line.
 fn verb(cursor: &mut Cursor, line_type: &str) -> Parsed<ParsedEntities> {
     let shape =
         ["line", "arc", "circle", "polyline", "ellipse", "spline"].into_iter().find(|word| cursor.take(word));
     geometry(cursor, shape.unwrap_or("line")).map(|drawn| typed(drawn, line_type))
 }
 
-/// A shape with its line type; the default is CONTINUOUS.
+/// Parses a shape with its line type; the default is CONTINUOUS.
 fn plain(cursor: &mut Cursor, draft: &mut Draft, word: &str) -> Parsed<ParsedEntities> {
     if !matches!(word, "line" | "arc" | "circle" | "polyline" | "ellipse" | "spline") {
         return Err(cursor.error(format!("{word:?} is no element and no option")));
@@ -85,7 +85,7 @@ pub(crate) fn one(shape: Shape, end: Option<Point>) -> ParsedEntities {
     ParsedEntities { entities: vec![Entity::new(shape)], end }
 }
 
-/// The start of a line or arc: a point, or `to` for the end of the previous element.
+/// Parses the start of a line or arc: a point, or `to` for the end of the previous element.
 pub(crate) fn begin(cursor: &mut Cursor) -> Parsed<Point> {
     if cursor.take("to") {
         let last = cursor.base;
@@ -96,7 +96,7 @@ pub(crate) fn begin(cursor: &mut Cursor) -> Parsed<Point> {
     Ok(from)
 }
 
-/// `P P [P ...]` or `to P [P ...]`: a line between consecutive points.
+/// Parses `P P [P ...]` or `to P [P ...]`: a line between consecutive points.
 fn lines(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let mut from = begin(cursor)?;
     let mut entities = Vec::new();
@@ -108,7 +108,7 @@ fn lines(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     Ok(ParsedEntities { entities, end: Some(from) })
 }
 
-/// `P d D` or `P r R`
+/// Parses `P d D` or `P r R`: a circle by its centre and diameter or radius.
 fn circle(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let centre = cursor.point("the centre")?;
     let radius = if cursor.take("r") {
@@ -120,7 +120,7 @@ fn circle(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     Ok(one(Shape::Circle(Circle { centre, radius }), Some(centre)))
 }
 
-/// `[heavy|spatial] P [bulge B] P ... [closed]`
+/// Parses `[heavy|spatial] P [bulge B] P ... [closed]`.
 fn polyline(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let kind = if cursor.take("heavy") {
         PolylineKind::Heavy
@@ -140,7 +140,7 @@ fn polyline(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     Ok(one(Shape::Polyline(Polyline { kind, vertices, closed }), end))
 }
 
-/// `centre P r R from A to B [cw]`, or `P P` and `r R [cw] [large]`, `via P`, `bulge B` or `centre P [cw]`.
+/// Parses `centre P r R from A to B [cw]`, or `P P` and `r R [cw] [large]`, `via P`, `bulge B` or `centre P [cw]`.
 pub(crate) fn arc(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     if cursor.take("centre") {
         return arc_by_angles(cursor);
@@ -216,7 +216,7 @@ fn through(from: Point, via: Point, to: Point) -> Option<Arc> {
     (cross != 0.0 && arc.radius.is_finite()).then_some(arc)
 }
 
-/// `centre P major X,Y ratio R [from A to B]`
+/// Parses `centre P major X,Y ratio R [from A to B]`.
 pub(crate) fn ellipse(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     cursor.keyword("centre")?;
     let centre = cursor.point("the centre")?;
@@ -235,7 +235,7 @@ pub(crate) fn ellipse(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     Ok(one(Shape::Ellipse(Ellipse { centre, major, ratio, start, end }), Some(centre)))
 }
 
-/// `[degree N] control P ... [knots K ...] [weights W ...] [closed]` or `fit P ...`
+/// Parses `[degree N] control P ... [knots K ...] [weights W ...] [closed]` or `fit P ...`.
 pub(crate) fn spline(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let degree = if cursor.take("degree") { cursor.integer("degree")? } else { 3 };
     let mut spline = Spline {
@@ -284,7 +284,7 @@ fn clamped_knots(control: usize, degree: usize) -> Vec<f64> {
     (0..=control + degree).map(|index| index.saturating_sub(degree).min(spans) as f64).collect()
 }
 
-/// `insert NAME at P [scale S | scale X,Y] [rotate A] [columns N DX] [rows N DY]`
+/// Parses `insert NAME at P [scale S | scale X,Y] [rotate A] [columns N DX] [rows N DY]`.
 pub(crate) fn insert(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let block = cursor.name("a block's name")?;
     cursor.keyword("at")?;
@@ -321,7 +321,7 @@ fn scale(cursor: &mut Cursor) -> Parsed<Point> {
     cursor.number("a factor").map(|factor| Point::new(factor, factor).at(factor))
 }
 
-/// `P P P [P]`
+/// Parses `P P P [P]`: the corners of a solid.
 pub(crate) fn solid(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let corners = cursor.points("a corner")?;
     let corners = match corners[..] {
