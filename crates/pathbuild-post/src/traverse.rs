@@ -54,8 +54,8 @@ pub(crate) fn check(
     }
 }
 
-/// Number (line or step) of the first cut from or to an unknown position, which cannot be compared. Only the machine knows where a probe has stopped, so
-/// the move away from there is compared by its end alone.
+/// Number (line or step) of the first cut from or to an unknown position, which cannot be compared. Only the machine knows where a probe has
+/// stopped, so the move away from there is compared by its end alone.
 fn blind_cut(moves: Moves<'_>) -> Option<u32> {
     let mut has_probed = false;
     for (number, movement) in moves {

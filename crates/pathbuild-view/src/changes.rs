@@ -14,43 +14,43 @@ use crate::scene::{MoveKind, Point, SceneMove};
 /// Consecutive moves that changed in the same way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// The kind of change.
+    /// Kind of the change.
     pub kind: ChangeKind,
-    /// The moves in the old program; empty if they were added.
+    /// The old moves that changed; an empty range if moves were added.
     pub old: Range<usize>,
-    /// The moves in the new program; empty if they were removed.
+    /// The new moves that changed; an empty range if moves were removed.
     pub new: Range<usize>,
 }
 
-/// How moves changed.
+/// Kinds of changes between two programs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ChangeKind {
     /// The moves are only in the new program.
     Added,
     /// The moves are only in the old program.
     Removed,
-    /// The moves follow the same lines as before, with a different final result.
+    /// The moves follow the same lines as before, but the depth, the feed or the number of passes differs.
     Altered {
-        /// How many mm the deepest pass is higher; negative if it is deeper.
+        /// Height in mm by which the deepest pass is raised; negative if it is deeper.
         raised: f64,
-        /// Its feed in mm/min before and after, if that changed.
+        /// Feed of the deepest pass in mm/min before and after, if it changed.
         feed: Option<[f64; 2]>,
-        /// The number of passes before and after, if that changed.
+        /// Number of passes before and after, if it changed.
         passes: Option<[u32; 2]>,
     },
-    /// The same moves at another place, by this offset in mm.
+    /// The moves are the same but at another place, shifted by this offset in mm.
     Shifted(Point),
-    /// The final result is the same, but the order, the direction or the intermediate heights changed.
+    /// The moves lead to the same final result, but their order, direction or intermediate heights changed.
     Reordered,
 }
 
-// Finds the changes between two programs. Equal moves are set aside. Among the rest, a run of moves that occurs at another place is
-// shifted; every other move is classified by its line in the plane: its final depth, feed and number of passes, before and after.
-
-/// The origin of a program.
+/// Origin of a program's coordinates.
 const ORIGIN: Point = [0.0; 2];
 
-/// The changes from one program to another, in the order of the new one. Empty if both are equivalent.
+/// Returns the changes from one program to another, in the order of the new one; empty if both are equivalent.
+///
+/// Equal moves are set aside. Among the others, a run of moves that occurs at another place is shifted; every other move is classified by
+/// its line in the plane, whose final depth, feed and number of passes are compared.
 pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> Vec<Change> {
     let rows = differing(old, new);
     if rows.is_empty() {
@@ -60,7 +60,7 @@ pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> Vec<Change> {
     rows.into_iter().flat_map(|(old, new)| comparison.changed(&old, &new)).collect()
 }
 
-/// The runs of moves in which two programs differ.
+/// Returns the runs of moves in which two programs differ, as pairs of ranges in the old and the new one.
 fn differing(old: &[SceneMove], new: &[SceneMove]) -> Vec<(Range<usize>, Range<usize>)> {
     // Moves before the first fully known position depend on the machine and are not compared.
     let begin = |moves: &[SceneMove]| {
@@ -99,8 +99,8 @@ impl Comparison<'_> {
         changes
     }
 
-    /// A shift, if the cuts of both runs and the moves between them are equal except for their position. The approach and the departure are
-    /// excluded, since their other ends did not move.
+    /// Returns a shift if the cuts of both runs and the moves between the cuts are equal except for their position. The approach and the
+    /// departure are not compared, because their outer ends did not move.
     fn shifted(&self, old: &Range<usize>, new: &Range<usize>) -> Option<Change> {
         let (old, new) = (cuts(self.old, old)?, cuts(self.new, new)?);
         let by = [0, 1].map(|axis| self.new[new.start].to()[axis] - self.old[old.start].to()[axis]);
@@ -111,12 +111,12 @@ impl Comparison<'_> {
         is_shifted.then_some(Change { kind: ChangeKind::Shifted(by), old, new })
     }
 
-    /// Classifies each move by its line.
+    /// Classifies each move by the line that it follows.
     fn judge(&self, old: Range<usize>, new: Range<usize>, changes: &mut Vec<Change>) {
         let (behind, before) = (old.end, new.start);
         for index in old {
             let movement = &self.old[index];
-            // A line that is still milled is classified by its move in the new program.
+            // If the line is still milled, its move in the new program is classified instead.
             if is_rapid(movement) || !self.is.contains_key(&Line::of(movement)) {
                 add(changes, ChangeKind::Removed, index..index + 1, before..before);
             }
@@ -128,7 +128,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// The change of a line of the new program.
+    /// Returns the kind of change of a line that the new program mills.
     fn kind(&self, line: &Line) -> ChangeKind {
         let (Some(was), Some(is)) = (self.was.get(line), self.is.get(line)) else { return ChangeKind::Added };
         let raised = ((is.bottom - was.bottom) * 1000.0).round() / 1000.0 + 0.0;
@@ -151,7 +151,7 @@ fn add(changes: &mut Vec<Change>, kind: ChangeKind, old: Range<usize>, new: Rang
     }
 }
 
-/// The range from the first to the last cut of a run.
+/// Returns the range from the first to the last cut of a run; `None` if nothing is cut.
 fn cuts(moves: &[SceneMove], row: &Range<usize>) -> Option<Range<usize>> {
     let is_cut = |index: &usize| moves[*index].kind.cuts();
     let first = row.clone().find(is_cut)?;
@@ -159,22 +159,20 @@ fn cuts(moves: &[SceneMove], row: &Range<usize>) -> Option<Range<usize>> {
     Some(first..last + 1)
 }
 
-// Groups changes by kind, for messages.
-
 /// All moves of a path that changed in the same way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
-    /// The kind of change; `None` for rapid moves, of which only the number matters.
+    /// Kind of change; `None` for rapid moves, of which only the number is reported.
     pub kind: Option<ChangeKind>,
-    /// Number of moves in the new program, or in the old one for removed moves.
+    /// Number of the moves: in the old program for removed moves, otherwise in the new one.
     pub moves: usize,
-    /// Their total length in mm.
+    /// Total length of the moves in mm.
     pub length: f64,
-    /// The end of the first of these moves, in the coordinates of the program.
+    /// End of the first of the moves, in the coordinates of the program.
     pub at: Option<Point>,
 }
 
-/// The changes by kind, in order of first occurrence. Rapid moves come last.
+/// Groups changes by kind, in order of first occurrence. Rapid moves come last.
 pub fn groups(changes: &[Change], old: &[SceneMove], new: &[SceneMove]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut rapids = Group { kind: None, moves: 0, length: 0.0, at: None };
@@ -205,9 +203,7 @@ fn of_kind(groups: &mut Vec<Group>, kind: ChangeKind) -> &mut Group {
     &mut groups[index]
 }
 
-// Equality of moves, and of the lines that they follow.
-
-/// Everything that a move does, in µm and µm/min, which hides differences from printing numbers.
+/// A key that is equal for equal moves. Its numbers are in µm and µm/min, so that it hides differences from printing numbers.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct MoveIdentity {
     kind: MoveKind,
@@ -216,7 +212,7 @@ pub(super) struct MoveIdentity {
     feed: Option<i64>,
 }
 
-/// An arc without its end points.
+/// The key of an arc, without its end points.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Turn {
     axes: [usize; 2],
@@ -226,7 +222,7 @@ struct Turn {
 }
 
 impl MoveIdentity {
-    /// The identity of a move, relative to a point in the plane.
+    /// Returns the identity of a move whose coordinates are taken relative to a point in the plane.
     pub(super) fn of(movement: &SceneMove, origin: Point) -> Self {
         let shift = |axis: usize| origin.get(axis).copied().unwrap_or_default();
         let end =
@@ -256,13 +252,13 @@ impl MoveIdentity {
     }
 }
 
-/// The line of a move in the plane, regardless of direction and height.
+/// A key that is equal for moves along the same line in the plane, regardless of direction and height.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Line {
     kind: MoveKind,
     ends: [[i64; 2]; 2],
     centre: Option<[i64; 2]>,
-    /// Distinguishes the two arcs with these ends and this centre: whether it runs clockwise from the first end.
+    /// Distinguishes the two arcs with the same ends and centre: whether this one runs clockwise from the first end.
     is_clockwise: bool,
 }
 
@@ -282,15 +278,15 @@ impl Line {
 /// The result of milling along a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MillingResult {
-    /// The lowest Z in mm.
+    /// Lowest Z in mm.
     pub(super) bottom: f64,
-    /// The feed of the deepest pass in mm/min.
+    /// Feed of the deepest pass in mm/min.
     pub(super) feed: f64,
-    /// The number of passes.
+    /// Number of passes.
     pub(super) passes: u32,
 }
 
-/// The result of milling along each line of a program. Rapid moves are ignored.
+/// Returns the result of milling along each line of a program. Rapid moves are ignored.
 pub(super) fn lines(moves: &[SceneMove]) -> HashMap<Line, MillingResult> {
     let mut lines: HashMap<Line, MillingResult> = HashMap::new();
     for movement in moves.iter().filter(|movement| !is_rapid(movement)) {
@@ -305,7 +301,7 @@ pub(super) fn lines(moves: &[SceneMove]) -> HashMap<Line, MillingResult> {
     lines
 }
 
-/// Whether a move is rapid, in any direction.
+/// Whether a move is rapid, in the plane or straight up or down.
 fn is_rapid(movement: &SceneMove) -> bool {
     matches!(movement.kind, MoveKind::Sweep | MoveKind::Lift)
 }
@@ -319,9 +315,7 @@ fn micrometres(value: f64) -> i64 {
     (value * 1000.0).round() as i64
 }
 
-// Changes in words.
-
-/// The change of a group of moves, for example "0.5 mm deeper, feed 150 instead of 300".
+/// Describes the change of a group of moves, for example "0.5 mm deeper, feed 150 instead of 300".
 pub fn phrase(group: &Group, lang: Lang) -> String {
     let choose = |en, de| lang.choose(en, de);
     match group.kind {
@@ -355,7 +349,7 @@ pub fn phrase(group: &Group, lang: Lang) -> String {
     }
 }
 
-/// The number of moves in a group, for example `12 moves`.
+/// Describes the number of moves in a group, for example `12 moves`.
 pub fn moves(group: &Group, lang: Lang) -> String {
     let word = match (group.moves, lang) {
         (1, Lang::En) => "move",
@@ -389,7 +383,7 @@ mod tests {
     const LINE: &str = "G1 Z-1 F150\nG1 X10 Y0 F150\nG1 X10 Y10 F150\nG0 Z5\n";
     const OTHER: &str = "G0 X20 Y0\nG1 Z-1 F150\nG1 X30 Y0 F150\nG0 Z5\n";
 
-    /// The phrases for the changes from one program to another, with number of moves and length.
+    /// Returns the phrases for the changes from one program to another, each with number of moves and length.
     fn said(old: &str, new: &str) -> Vec<String> {
         let (old, new) = (moves(&format!("{BEGIN}{old}")), moves(&format!("{BEGIN}{new}")));
         let groups = groups(&compare(&old, &new), &old, &new);
@@ -402,7 +396,7 @@ mod tests {
     #[test]
     fn the_same_moves_are_no_change() {
         assert_eq!(said(LINE, LINE), Vec::<String>::new());
-        // Half a micrometre is the precision of printed programs; two micrometres are a change.
+        // Half a micrometre is below the precision of printed programs; two micrometres are a change.
         assert_eq!(said(LINE, &LINE.replace("X10 Y0", "X10.0004 Y0")), Vec::<String>::new());
         assert_eq!(said(LINE, &LINE.replace("X10 Y0", "X10.002 Y0")).len(), 2);
     }
@@ -436,7 +430,7 @@ mod tests {
         let both = |other: &str| format!("{LINE}{other}G0 X0 Y0\n");
         let shifted = OTHER.replace("Y0", "Y2");
         assert_eq!(said(&both(OTHER), &both(&shifted))[0], "shifted by (0, 2) mm 2 16");
-        // The line also gets longer.
+        // If the line also gets longer, it is not shifted.
         let longer = shifted.replace("X30", "X31");
         assert!(!said(&both(OTHER), &both(&longer))[0].contains("shifted"));
     }

@@ -1,7 +1,7 @@
 //! Scenes of paths, drawings and programs, and pictures of them.
 //!
 //! A [`Scene`] is plain data with one JSON form. It is built from a program with the origins of its steps, from a drawing with erroneous
-//! paths, or from G-code. Renderers turn it into text or bytes. This crate does no IO and prints nothing. (book: program/pictures)
+//! paths, or from G-code. Renderers turn it into pictures and pages. This crate does no IO and prints nothing. (book: program/pictures)
 
 mod build;
 mod changes;

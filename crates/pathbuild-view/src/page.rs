@@ -1,5 +1,5 @@
-//! The page: one self-contained HTML file. Its script is written in TypeScript (page/src) and built by esbuild; the result is committed,
-//! and CI compares it with the source.
+//! The page that shows a scene: one self-contained HTML file. Its script is written in TypeScript (page/src) and built by esbuild; the
+//! result is committed, and CI compares it with the source.
 
 use pathbuild_diagnostic::Lang;
 
@@ -11,20 +11,20 @@ const LIVE_TEMPLATE: &str = include_str!("../page/live.html");
 const VIEWER: &str = include_str!("../page/viewer.html");
 const STYLE: &str = include_str!("../page/style.css");
 
-/// The script of both pages.
+/// The script of both the self-contained page and the live page.
 pub const SCRIPT: &str = include_str!("../page/dist/page.js");
 
-/// The style of the live page.
+/// The style sheet of the live page.
 pub const LIVE_STYLE: &str = concat!(include_str!("../page/style.css"), include_str!("../page/live.css"));
 
-/// Renders a scene as a page.
+/// Renders a scene as a self-contained page.
 pub fn page(scene: &Scene, lang: Lang) -> String {
     let title = escaped(&scene.title);
-    // Other elements of the page have the same names.
+    // Rename the ids in the picture, because other elements of the page have the same ones.
     let still = svg(scene, VisibleParts::all(lang))
         .replace(" id=\"", " id=\"still-")
         .replace("=\"url(#frame)", "=\"url(#still-frame)");
-    // Inside a script element, only `<` could end the script.
+    // Only `<` could end the script element that contains the data.
     let data = scene.to_json().replace('<', "\\u003c");
     let viewer = filled(VIEWER, &|name| match name {
         "title" => &title,
@@ -42,7 +42,7 @@ pub fn page(scene: &Scene, lang: Lang) -> String {
     })
 }
 
-/// The live page. It requests its script ([`SCRIPT`]), its style ([`LIVE_STYLE`]) and its data from the server.
+/// Returns the live page, which requests its script ([`SCRIPT`]), its style ([`LIVE_STYLE`]) and its data from the server.
 pub fn live_page(lang: Lang) -> String {
     let viewer = filled(VIEWER, &|_| "");
     filled(LIVE_TEMPLATE, &|name| match name {
@@ -59,7 +59,7 @@ fn code(lang: Lang) -> &'static str {
     }
 }
 
-/// Fills in the placeholders `{{name}}` of a template.
+/// Replaces the placeholders `{{name}}` of a template by their values.
 fn filled<'a>(template: &str, value: &dyn Fn(&str) -> &'a str) -> String {
     let mut page = String::with_capacity(template.len());
     let mut rest = template;

@@ -1,4 +1,4 @@
-//! PDF: trees of usvg as pages of a document. Lines and letters stay vectors, and texts can be searched in one embedded font.
+//! Writes PDF documents. Each page is a tree of usvg. Lines and letters stay vectors, and texts are searchable, in one embedded font.
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -15,30 +15,32 @@ use usvg::layout::Span;
 use usvg::tiny_skia_path::{PathSegment, Transform};
 use usvg::{FillRule, Group, LineCap, LineJoin, Node, Paint, PaintOrder, Path, Stroke, Text, Tree};
 
-/// Points per px of SVG.
+/// Points of PDF per px of SVG.
 const POINTS: f32 = 72.0 / 96.0;
 
-/// Distance in px within which a glyph continues the run before it.
+/// Distance in px up to which a glyph counts as continuing the previous run.
 const SAME_PLACE: f32 = 0.02;
 
-/// The resource name of the font.
+/// Resource name of the font within the document.
 const FONT: Name<'static> = Name(b"F");
 
-/// The name of the embedded font; six letters and `+` mark a subset.
+/// Name of the embedded font. Six letters and `+` before it mark a subset.
 const FONT_NAME: Name<'static> = Name(b"PATHBD+DejaVuSans");
 
-/// Height of capital letters and width of stems in thousandths of an em, from the font's own tables, which skrifa does not read.
+/// Height of capital letters and width of stems in thousandths of an em. They are copied from the font's tables, because skrifa does not
+/// read those.
 const CAP_HEIGHT: f32 = 729.0;
 const STEM: f32 = 80.0;
 
-/// Declares that a glyph's code in the text is its number in the font.
+/// The character collection which states that the code of a glyph in a text is its number in the font.
 const GLYPH_NUMBERS: SystemInfo<'static> =
     SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
 
-/// Writes a document with a page for each tree, in the size of the tree. `font` is the TrueType font with which all texts were laid out; it
-/// is embedded as a whole. The metadata (XMP) comes first, so that it is found in the head of the file.
+/// Writes a document with a page for each tree, in the size of the tree. `font` is the TrueType font with which all texts were laid out;
+/// it is embedded as a whole. The metadata (XMP) is written first, so that readers find it near the start of the file.
 ///
 /// # Errors
+/// Only if the font cannot be parsed, which is a bug, since it is part of the program.
 /// Only if there is a bug: the font is one of ours.
 pub(crate) fn document(trees: &[Tree], font: &[u8], metadata: Option<&str>) -> Result<Vec<u8>, String> {
     let face = FontRef::new(font).map_err(|error| error.to_string())?;
@@ -86,23 +88,23 @@ impl References {
     }
 }
 
-/// Resources that the pages of a document share.
+/// Resources shared by the pages of a document.
 #[derive(Default)]
 struct Resources {
-    /// The glyphs that occur, with the characters they stand for.
+    /// The glyphs used, each with the characters that it stands for.
     glyphs: BTreeMap<u16, String>,
-    /// The opacities that occur, as bits of their value.
+    /// The opacities used, by the bits of their values.
     opacities: BTreeMap<u32, f32>,
 }
 
-/// The drawing instructions of a page.
+/// The drawing instructions of a page under construction.
 struct Page<'a> {
     content: Content,
     resources: &'a mut Resources,
     face: &'a FontRef<'a>,
 }
 
-/// The compressed instructions for a tree.
+/// Returns the compressed drawing instructions for a tree.
 fn content(tree: &Tree, face: &FontRef<'_>, resources: &mut Resources) -> Vec<u8> {
     let mut page = Page { content: Content::new(), resources, face };
     // The y axis of PDF points up.
@@ -128,7 +130,7 @@ impl Page<'_> {
                 Node::Group(inner) => self.group(inner),
                 Node::Path(path) => self.path(path),
                 Node::Text(text) => self.text(text),
-                // Our pictures have none.
+                // No picture of this crate contains an image.
                 Node::Image(_) => {}
             }
         }
@@ -189,7 +191,7 @@ impl Page<'_> {
         }
     }
 
-    /// Writes a text. A halo is drawn first and hidden from searches, which would find the text twice otherwise.
+    /// Writes a text. If the text has a halo, the halo is drawn first and hidden from searches, which would otherwise find the text twice.
     fn text(&mut self, text: &Text) {
         for span in text.layouted().iter().filter(|span| span.visible) {
             if let (Some(stroke), PaintOrder::StrokeAndFill) = (&span.stroke, span.paint_order) {
@@ -208,7 +210,7 @@ impl Page<'_> {
         }
     }
 
-    /// Writes the glyphs of a span. Those that follow each other by their widths alone are shown as one run.
+    /// Writes the glyphs of a span. Glyphs whose distances equal their widths are written as one run.
     fn glyphs(&mut self, span: &Span, mode: TextRenderingMode) {
         let size = span.font_size.get();
         let metrics = self.face.glyph_metrics(Size::new(size), LocationRef::default());
@@ -273,7 +275,7 @@ impl Page<'_> {
     }
 }
 
-/// Writes the opacities as graphics states, and returns their names.
+/// Writes a graphics state for each opacity, and returns the names of the states.
 fn write_opacities(pdf: &mut Pdf, refs: &mut References, resources: &Resources) -> Vec<(String, Ref)> {
     let state = |(bits, opacity): (&u32, &f32)| {
         let id = refs.next();
@@ -287,7 +289,7 @@ fn opacity_name(bits: u32) -> String {
     format!("O{bits:x}")
 }
 
-/// Embeds the font, with the widths and characters of the glyphs that occur.
+/// Embeds the font, with the widths and characters of the glyphs used.
 fn embed(
     pdf: &mut Pdf,
     refs: &mut References,
@@ -348,7 +350,7 @@ fn matrix(transform: Transform) -> [f32; 6] {
 fn color(paint: &Paint) -> [f32; 3] {
     match paint {
         Paint::Color(color) => [color.red, color.green, color.blue].map(|part| f32::from(part) / 255.0),
-        // Our pictures have plain colours only.
+        // No picture of this crate contains a gradient or a pattern.
         _ => [0.0; 3],
     }
 }

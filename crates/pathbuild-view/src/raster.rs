@@ -1,4 +1,5 @@
-//! Pictures as PNG and PDF. The font is part of the program; system fonts are never used, so that pictures are the same everywhere.
+//! Renders pictures as PNG and PDF. The font is part of the program; system fonts are never used, so that pictures are the same
+//! everywhere.
 
 use std::sync::{Arc, LazyLock};
 
@@ -15,10 +16,10 @@ use crate::svg::{Sheet, VisibleParts, sheet_pages, svg, xmp};
 /// A subset of `DejaVu Sans` with the characters that pictures need.
 const FONT: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");
 
-/// The name of the font family.
+/// Name of the font family.
 const FAMILY: &str = "DejaVu Sans";
 
-/// Pixels of a PNG per px of the page.
+/// Pixels of a PNG per px of the SVG.
 const PIXELS: f32 = 2.0;
 
 /// The font database, loaded once.
@@ -34,7 +35,7 @@ static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
 /// Renders a scene as PNG.
 ///
 /// # Errors
-/// The picture is too large for memory, or there is a bug.
+/// The picture is too large for memory. Any other error is a bug.
 pub fn png(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
     let tree = tree(&svg(scene, shown))?;
     let size = tree
@@ -50,7 +51,7 @@ pub fn png(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
 /// Renders a scene as PDF.
 ///
 /// # Errors
-/// Only if there is a bug.
+/// An error is always a bug.
 pub fn pdf(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
     document(&[tree(&svg(scene, shown))?], FONT, None).map_err(Value::foreign)
 }
@@ -58,7 +59,7 @@ pub fn pdf(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
 /// Renders a setup sheet as PDF, with A4 pages.
 ///
 /// # Errors
-/// Only if there is a bug.
+/// An error is always a bug.
 pub fn sheet_pdf(sheet: &Sheet, lang: Lang) -> Result<Vec<u8>, Value> {
     let pages = sheet_pages(sheet, lang);
     let trees: Vec<Tree> = pages.iter().map(|page| tree(page)).collect::<Result<_, _>>()?;

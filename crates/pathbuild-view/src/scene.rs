@@ -1,4 +1,4 @@
-//! The scene: everything visible, as data.
+//! The scene: everything visible of paths, drawings and programs, as data.
 //!
 //! Lengths are in mm. Each path has its own coordinates, which are those of its program; [`ScenePath::zero`] is their origin in the
 //! drawing. Everything outside of paths is in the coordinates of the drawing.
@@ -9,10 +9,10 @@ use pathbuild_motion::{Axes, MoveShape, Pace};
 use serde::ser::SerializeSeq;
 use serde::{Serialize, Serializer};
 
-/// The name of the JSON form.
+/// Name of the JSON form of a scene.
 pub const SCHEMA: &str = "pathbuild-scene";
 
-/// The version of the JSON form. It is incremented when a reader of the older form would misread the new one.
+/// Version of the JSON form. It is incremented when a reader of the older form would misread the new one.
 pub const VERSION: u32 = 1;
 
 /// A point in the plane: x, y.
@@ -21,22 +21,22 @@ pub type Point = [f64; 2];
 /// The visible content of a path, a drawing or a program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scene {
-    /// [`SCHEMA`].
+    /// Always [`SCHEMA`].
     pub schema: &'static str,
-    /// [`VERSION`].
+    /// Always [`VERSION`].
     pub version: u32,
-    /// Its subject: the name of a path, drawing or program.
+    /// Name of the path, drawing or program that is shown.
     pub title: String,
     /// Height in mm above the plate below which a cut counts as going through it.
     #[serde(serialize_with = "millimetres")]
     pub through: f64,
-    /// The paths, or the single program.
+    /// The paths shown, or a single program.
     pub paths: Vec<ScenePath>,
     /// Shapes on other layers, shown in grey.
     pub other_layers: Vec<OtherShape>,
     /// Clamps, which the tool must not enter below their height.
     pub keep_outs: Vec<KeepOut>,
-    /// Outlines of parts that no path comes near.
+    /// Outlines of parts that no path cuts.
     #[serde(skip)]
     pub uncut: Vec<Vec<Shape>>,
     /// Findings, numbered from 1.
@@ -46,67 +46,67 @@ pub struct Scene {
 /// A path of a drawing with its program, if it has one; or a program that was read.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ScenePath {
-    /// Its name.
+    /// Name of the path or program.
     pub name: String,
-    /// The drawing, or the file of the program.
+    /// Display name of the drawing, or of the program's file.
     pub file: String,
-    /// The position of the program's X0 Y0 in the drawing.
+    /// Position in the drawing of the program's X0 Y0.
     #[serde(serialize_with = "point")]
     pub zero: Point,
-    /// Cutter diameter O.
+    /// Cutter diameter O in mm.
     pub tool: Option<f64>,
-    /// The cutters of a program with several, each from a line on.
+    /// Cutters of a program that uses several, each with the line at which it is inserted; otherwise empty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tools: Vec<ToolSpan>,
-    /// Upper face T of the material.
+    /// Z in mm of the upper face of the material (T).
     pub thickness: Option<f64>,
-    /// Sweep height S.
+    /// Sweep height S in mm.
     pub sweep_height: Option<f64>,
-    /// Material M.
+    /// Material (M), as named in the drawing.
     pub material: Option<String>,
     /// Speed of rapid moves in mm/min.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rapid: Option<f64>,
-    /// The path itself and everything it embeds, directly or indirectly.
+    /// The path itself, and all paths that it embeds directly or indirectly.
     pub embedded: Vec<EmbeddedPath>,
-    /// The elements on the layers of all these paths.
+    /// Elements on the layers of the embedded paths.
     pub elements: Vec<Element>,
-    /// Parameter texts.
+    /// Parameter texts of the embedded paths.
     pub texts: Vec<Label>,
-    /// Support bars.
+    /// Support bars of the embedded paths.
     pub bars: Vec<Bar>,
-    /// Finished parts that it cuts.
+    /// Finished parts that the path cuts.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<FinishedPart>,
     /// Z-probes of the program, in measuring order.
     pub probes: Vec<ProbeMark>,
     /// The moves of the tool, in order. Empty if the path has errors.
     pub moves: Vec<SceneMove>,
-    /// Lengths and times.
+    /// Lengths and times of the program; `None` if the path has no program.
     pub totals: Option<Totals>,
     /// The G-code as written by `emit`, with LF as line ends. Lines are counted from 1.
     pub gcode: Option<String>,
-    /// The file that `emit` writes; `None` if it writes none.
+    /// Path of the file that `emit` writes; `None` if it writes none.
     pub written: Option<String>,
-    /// Why `emit` refuses to write a path without errors.
+    /// Reason why `emit` refuses to write the program although the path has no errors.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub refusal: Option<BilingualText>,
-    /// The native program, if a post writes a different one.
+    /// Native text of the program, if a post writes a different one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub native: Option<NativeText>,
-    /// Example values for parameters that nothing else gives and that the program needs.
+    /// Example values assumed for parameters that the program needs but that have no value.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub examples: Vec<Example>,
 }
 
-/// A cutter of a program with several.
+/// A range of lines of a program during which one cutter is used.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ToolSpan {
-    /// The line from which it is in the spindle.
+    /// Line from which the cutter is in the spindle.
     pub line: u32,
-    /// Its diameter in mm.
+    /// Diameter of the cutter in mm.
     pub diameter: f64,
-    /// The upper face of the material under it; `None` where that of the path applies.
+    /// Z in mm of the upper face of the material under this cutter; `None` if that of the path applies.
     #[serde(skip)]
     pub surface: Option<f64>,
 }
@@ -114,61 +114,61 @@ pub struct ToolSpan {
 /// The native text of a program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NativeText {
-    /// The text.
+    /// G-code of the program, with LF as line ends.
     pub gcode: String,
-    /// The line for each of [`ScenePath::moves`].
+    /// Line of each move of [`ScenePath::moves`] in this text.
     pub lines: Vec<Option<u32>>,
 }
 
-/// An example value that was assumed to build a program for display.
+/// An example value, assumed in order to build a program for display.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Example {
-    /// A letter, or the name of an option.
+    /// Letter of the parameter, or name of the option.
     pub name: String,
-    /// The value; `None` if there is none, in which case everything that depends on it is omitted.
+    /// The value; `None` if no example exists, in which case everything that depends on it is omitted.
     pub value: Option<String>,
 }
 
 /// An embedded path with its place in a program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EmbeddedPath {
-    /// Its name.
+    /// Name of the path.
     pub name: String,
-    /// Its drawing.
+    /// Display name of the path's drawing.
     pub file: String,
-    /// The element that embeds it, as an index into [`ScenePath::elements`].
+    /// Element that embeds the path, as an index into [`ScenePath::elements`]; `None` for the outermost path.
     pub by: Option<u32>,
-    /// Its start and end.
+    /// Start and end of the path.
     #[serde(serialize_with = "points")]
     pub ends: [Point; 2],
-    /// The height in mm that it is raised by.
+    /// Height in mm by which the path is raised.
     pub raised: f64,
-    /// Upper face of its material, raised.
+    /// Z in mm of the upper face of the path's material, raised by [`raised`](Self::raised).
     pub thickness: f64,
-    /// Sweep height, raised.
+    /// Sweep height in mm, raised by [`raised`](Self::raised).
     pub sweep_height: f64,
 }
 
 /// A drawn element, or a special circle.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Element {
-    /// Its path, as an index into [`ScenePath::embedded`].
+    /// Path that the element belongs to, as an index into [`ScenePath::embedded`].
     pub path: u32,
-    /// The kind of element.
+    /// Kind of the element.
     pub kind: ElementKind,
     /// The type of entity in the drawing, for example LINE.
     pub entity: &'static str,
-    /// Its layer.
+    /// Layer of the element in the drawing.
     pub layer: String,
-    /// Its handle in the drawing.
+    /// Handle of the entity in the drawing.
     pub handle: Option<String>,
-    /// The line of the file at which it begins.
+    /// Line of the drawing's file at which the entity begins, counted from 1.
     pub line: Option<u32>,
-    /// The shape.
+    /// Geometry of the element in the plane.
     pub shape: Shape,
     /// Position in cutting order, counted from 1.
     pub order: Option<u32>,
-    /// The effective parameters.
+    /// Effective parameters of the element.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parameters: Vec<Parameter>,
 }
@@ -176,13 +176,13 @@ pub struct Element {
 /// An effective parameter of an element.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Parameter {
-    /// Its letter.
+    /// Letter of the parameter.
     pub letter: char,
-    /// Its value, with variables substituted.
+    /// Value of the parameter, with variables substituted.
     pub value: String,
-    /// Its origin: own, chain, path, lender, option or default.
+    /// Source of the value: own, chain, path, lender, option or default.
     pub from: &'static str,
-    /// The lending path or the option.
+    /// Name of the lending path or of the option that supplies the value.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub which: Option<String>,
     /// The line of pathbuild.toml, counted from 1, if the option's value comes from there.
@@ -201,7 +201,7 @@ pub enum ElementKind {
     Sweep,
     SkippedSubpath,
     Subpath,
-    /// Its line type has no meaning.
+    /// An element whose line type has no meaning.
     Unclear,
     Start,
     End,
@@ -247,74 +247,74 @@ pub struct ArcShape {
     pub degrees: f64,
 }
 
-/// A parameter text and its elements.
+/// A parameter text with the elements that it belongs to.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Label {
-    /// Its path, as an index into [`ScenePath::embedded`].
+    /// Path that the text belongs to, as an index into [`ScenePath::embedded`].
     pub path: u32,
-    /// The content.
+    /// Content of the text.
     pub text: String,
-    /// The centre of the circle by which it is matched with elements.
+    /// Centre of the circle by which the text is matched with elements.
     #[serde(serialize_with = "point")]
     pub at: Point,
     /// The radius of that circle.
     #[serde(serialize_with = "millimetres")]
     pub radius: f64,
-    /// The height of a text line in mm.
+    /// Height of a line of the text in mm.
     #[serde(skip)]
     pub height: f64,
-    /// Its elements, as indices into [`ScenePath::elements`].
+    /// Elements that the text belongs to, as indices into [`ScenePath::elements`].
     pub elements: Vec<u32>,
 }
 
-/// A support bar.
+/// A support bar, which remains standing under the cutter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Bar {
-    /// Its element, as an index into [`ScenePath::elements`].
+    /// Element that has the bar, as an index into [`ScenePath::elements`].
     pub element: u32,
-    /// The path of the cutter's centre over the bar.
+    /// Path of the cutter's centre over the bar.
     pub shape: Shape,
-    /// Z of the top.
+    /// Z in mm of the top of the bar.
     #[serde(serialize_with = "millimetres")]
     pub top: f64,
 }
 
-/// A finished part.
+/// A finished part that a path cuts out, with its defects.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FinishedPart {
-    /// The outermost ring of its outline, then the openings.
+    /// Outermost ring of the outline, followed by the rings of the openings.
     pub rings: Vec<Vec<Shape>>,
-    /// Z of its upper face.
+    /// Z in mm of the upper face of the part.
     #[serde(serialize_with = "millimetres")]
     pub top: f64,
-    /// How far a cut may miss its outline.
+    /// Distance in mm by which a cut may miss the outline.
     #[serde(serialize_with = "millimetres")]
     pub tolerance: f64,
-    /// Material that the path leaves at its parts.
+    /// Material that the path leaves at the outline.
     pub left: Vec<LeftMaterial>,
-    /// For each ring, the index of the opening that it lies in; of one in no other, its own.
+    /// For each ring, the index of the opening that contains it, or its own index if no other opening does.
     #[serde(skip)]
     pub nests: Vec<usize>,
-    /// The stretches of cuts that go into it.
+    /// Pieces of cuts that go into the part.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gouges: Vec<Shape>,
-    /// The middle lines of support bars that are cut away.
+    /// Centre lines of support bars that are cut away.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub lost_bars: Vec<Shape>,
-    /// Half the diameter of the cutter, by which cuts and bars reach to either side of these lines.
+    /// Half the diameter in mm of the cutter: how far cuts and bars extend on either side of their lines.
     #[serde(skip)]
     pub radius: f64,
-    /// Whether nothing holds it.
+    /// Whether nothing holds the part once it is cut.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub is_loose: bool,
 }
 
-/// Material that is left at an outline.
+/// Material that the cutter leaves at an outline although it should be removed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LeftMaterial {
-    /// The part of the outline at which it is left.
+    /// Part of the outline at which the material is left.
     pub outline: Vec<Shape>,
-    /// How far the material extends from the outline, in mm.
+    /// Maximum distance in mm of the material from the outline.
     #[serde(serialize_with = "millimetres")]
     pub reach: f64,
 }
@@ -322,17 +322,17 @@ pub struct LeftMaterial {
 /// A point that is measured before milling.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ProbeMark {
-    /// The parameter that holds its height: 51 for #51.
+    /// Number of the control's parameter that stores the measured height: 51 for #51.
     pub number: usize,
-    /// The position.
+    /// Position of the probe in the plane.
     #[serde(serialize_with = "point")]
     pub at: Point,
-    /// The expected height.
+    /// Expected height in mm.
     #[serde(serialize_with = "millimetres")]
     pub height: f64,
     /// Probing feed in mm/min.
     pub feed: f64,
-    /// The label L.
+    /// Label of the probe (L).
     pub label: Option<String>,
 }
 
@@ -362,7 +362,7 @@ pub enum OtherShape {
     Text {
         layer: String,
         text: String,
-        /// The centre.
+        /// Centre of the text.
         #[serde(serialize_with = "point")]
         at: Point,
         #[serde(serialize_with = "millimetres")]
@@ -376,11 +376,11 @@ pub enum OtherShape {
 /// A clamp: an outline that the tool must not enter below its height.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct KeepOut {
-    /// Its layer.
+    /// Layer of the clamp in the drawing.
     pub layer: String,
-    /// Its closed outline.
+    /// Outline of the clamp, which is closed.
     pub outline: Vec<Shape>,
-    /// Its height above the plate.
+    /// Height of the clamp above the plate in mm.
     #[serde(serialize_with = "millimetres")]
     pub height: f64,
 }
@@ -388,26 +388,26 @@ pub struct KeepOut {
 /// A finding: an error, a warning or a note.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
-    /// The number that marks it in the picture.
+    /// Number that marks the finding in the picture, from 1.
     pub number: usize,
-    /// The code, for example PB203.
+    /// Code of the message, for example PB203.
     pub code: String,
     /// Whether it is an error.
     pub is_error: bool,
-    /// The message.
+    /// Message in both languages.
     pub message: BilingualText,
-    /// The help; may be empty.
+    /// Help in both languages; may be empty.
     pub help: BilingualText,
-    /// Facts that explain it.
+    /// Notes that explain the finding.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<BilingualText>,
-    /// The file.
+    /// Display name of the file that the finding is about.
     pub file: Option<String>,
-    /// The path.
+    /// Name of the path that the finding is about.
     pub path: Option<String>,
-    /// The line in the file.
+    /// Line in the file, counted from 1.
     pub line: Option<u32>,
-    /// The position in the drawing shown. A finding in an embedded path is placed where that is embedded.
+    /// Position in the drawing shown. A finding in an embedded path is placed where that path is embedded.
     pub at: Option<Point>,
 }
 
@@ -420,7 +420,7 @@ pub struct BilingualText {
 }
 
 impl Scene {
-    /// An empty scene.
+    /// Creates an empty scene.
     pub fn new(title: &str) -> Self {
         Self {
             schema: SCHEMA,
@@ -435,14 +435,14 @@ impl Scene {
         }
     }
 
-    /// The scene as JSON on one line. Characters with special effects are escaped in the same way for all clients.
+    /// Returns the scene as JSON on one line. Characters with special effects, such as control characters, are escaped.
     pub fn to_json(&self) -> String {
         shown::json(&serde_json::to_string(self).expect("every part of a scene is plain data")).into_owned()
     }
 }
 
 impl Shape {
-    /// The start; for a circle, the centre.
+    /// Returns the start of a curve, or the centre of a circle.
     pub fn start(&self) -> Point {
         match self {
             Self::Line { from, .. } | Self::Arc(ArcShape { from, .. }) => *from,
@@ -450,7 +450,7 @@ impl Shape {
         }
     }
 
-    /// The middle of a curve, or the centre of a circle.
+    /// Returns the middle of a curve, or the centre of a circle.
     pub fn middle(&self) -> Point {
         match self {
             Self::Line { from, to } => [0, 1].map(|axis| f64::midpoint(from[axis], to[axis])),
@@ -459,7 +459,7 @@ impl Shape {
         }
     }
 
-    /// The directions at its start and at its end, of any length; zero for a circle.
+    /// Returns the directions at the start and at the end, as vectors of any length; zero for a circle.
     pub(crate) fn directions(&self) -> [Point; 2] {
         match self {
             Self::Line { from, to } => [[to[0] - from[0], to[1] - from[1]]; 2],
@@ -471,7 +471,7 @@ impl Shape {
         }
     }
 
-    /// The lower left and upper right corner of the bounding box.
+    /// Returns the lower left and upper right corner of the bounding box.
     pub fn extent(&self) -> [Point; 2] {
         match self {
             Self::Line { from, to } => hull(*from, *to),
@@ -482,7 +482,7 @@ impl Shape {
 }
 
 impl ArcShape {
-    /// The point at a fraction (0 to 1) of the arc's length.
+    /// Returns the point at a fraction (0 to 1) of the arc's length.
     pub fn point(&self, share: f64) -> Point {
         let [x, y] = [self.from[0] - self.centre[0], self.from[1] - self.centre[1]];
         let way = if self.clockwise { -self.degrees } else { self.degrees };
@@ -509,20 +509,18 @@ fn hull(a: Point, b: Point) -> [Point; 2] {
     [[a[0].min(b[0]), a[1].min(b[1])], [a[0].max(b[0]), a[1].max(b[1])]]
 }
 
-// Moves of the tool.
-
 /// A move of the tool tip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneMove {
-    /// The purpose.
+    /// Purpose of the move.
     pub kind: MoveKind,
-    /// The geometry: start, end and curve. Arcs and helices are kept.
+    /// Geometry of the move: start, end and curve. Arcs and helices are not flattened.
     pub way: motion::Move,
-    /// Its length in mm.
+    /// Length of the move in mm.
     pub length: f64,
-    /// Its element, as an index into [`ScenePath::elements`](crate::scene::ScenePath::elements).
+    /// Element that the move mills, as an index into [`ScenePath::elements`](crate::scene::ScenePath::elements).
     pub element: Option<u32>,
-    /// Its line in the G-code.
+    /// Line of the move in the G-code, counted from 1.
     pub line: Option<u32>,
 }
 
@@ -545,33 +543,33 @@ pub enum MoveKind {
 }
 
 impl SceneMove {
-    /// A move about which only its geometry is known.
+    /// Creates a move of which only the geometry is known.
     pub fn new(way: motion::Move, line: Option<u32>) -> Self {
         Self { kind: MoveKind::of(&way), length: way.length(), way, element: None, line }
     }
 
-    /// Whether its position in the plane is known.
+    /// Whether both ends are known in the plane.
     pub fn is_placed(&self) -> bool {
         self.way.from.known.and(self.way.to.known).has(Axes::XY) && self.way.named.is_none()
     }
 
-    /// The start in the plane.
+    /// Returns the start in the plane.
     pub fn from(&self) -> Point {
         [self.way.from.x(), self.way.from.y()]
     }
 
-    /// The end in the plane.
+    /// Returns the end in the plane.
     pub fn to(&self) -> Point {
         [self.way.to.x(), self.way.to.y()]
     }
 
-    /// Its lowest Z in mm; `None` if the height of neither end is known.
+    /// Returns the lowest Z in mm; `None` if the height of neither end is known.
     pub fn depth(&self) -> Option<f64> {
         let ends = [&self.way.from, &self.way.to].into_iter().filter(|end| end.known.has(Axes::Z));
         ends.map(motion::Position::z).reduce(f64::min)
     }
 
-    /// The corners of its bounding box in the plane; `None` if unknown.
+    /// Returns the corners of the bounding box in the plane; `None` if the position is unknown.
     pub fn extent(&self) -> Option<[Point; 2]> {
         let [Some(x), Some(y), _] = self.way.extent() else { return None };
         self.is_placed().then_some([[x.0, y.0], [x.1, y.1]])
@@ -590,7 +588,7 @@ impl MoveKind {
         }
     }
 
-    /// Whether it removes material.
+    /// Whether a move of this kind removes material.
     pub fn cuts(self) -> bool {
         matches!(self, Self::Plunge | Self::Mill | Self::Mark)
     }
@@ -651,9 +649,7 @@ impl Serialize for SceneMove {
     }
 }
 
-// Numbers in JSON: millimetres rounded to a millionth, so that a scene has the same bytes everywhere.
-
-/// The precision: six decimals.
+/// Precision of numbers in JSON, in units per mm. Six decimals, so that a scene has the same bytes everywhere.
 const MILLIONTHS: f64 = 1e6;
 
 /// Rounds a coordinate or length, and avoids a negative 0.

@@ -1,4 +1,4 @@
-//! Scenes of what is drawn on the layers of a path.
+//! Builds scenes from the elements drawn on the layers of a path.
 
 use std::collections::BTreeMap;
 
@@ -14,22 +14,22 @@ use crate::scene::{
     Parameter, Point, ScenePath, Shape,
 };
 
-/// A path as it is drawn.
+/// The input for a path's drawn elements: a path as it is drawn, with the parameters in force.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnSource<'a> {
-    /// The display name of its drawing.
+    /// Display name of the drawing that contains the path.
     pub file: &'a str,
     /// The drawn elements.
     pub raw: &'a RawPath,
-    /// Their positions in the file.
+    /// Positions of the elements in the drawing's file.
     pub positions: &'a SourceMap,
-    /// The texts of its drawing, including those of other paths.
+    /// All texts of the drawing, including those of other paths.
     pub texts: &'a [AssignedText],
-    /// The effective parameters of its elements.
+    /// Effective parameters of each element.
     pub in_force: &'a [ElementParameters],
 }
 
-/// A path without a program: the drawn elements, in the coordinates of the drawing.
+/// Returns a path without a program: only the drawn elements, in the coordinates of the drawing.
 pub fn drawn_path(source: &DrawnSource<'_>) -> ScenePath {
     let mut scene = ScenePath {
         name: source.raw.name.as_str().to_owned(),
@@ -54,7 +54,7 @@ pub fn drawn_path(source: &DrawnSource<'_>) -> ScenePath {
 }
 
 impl ScenePath {
-    /// Adds the elements of the last path in [`ScenePath::embedded`]. Returns the index of its first element.
+    /// Adds the elements of the path that was last added to [`ScenePath::embedded`]. Returns the index of the first one.
     pub(super) fn draw(&mut self, source: &DrawnSource<'_>, placement: &Placement) -> u32 {
         let path = number(self.embedded.len()).saturating_sub(1);
         let first = self.elements.len();
@@ -72,14 +72,14 @@ impl ScenePath {
     }
 }
 
-/// An element as texts refer to it: its position in the file, and its shape as drawn.
+/// An element in the form in which texts refer to it: its position in the file, and its shape as drawn.
 type LocatedShape = (Option<Position>, DrawnShape);
 
 struct ElementBuilder<'a> {
     source: &'a DrawnSource<'a>,
     placement: &'a Placement,
     path: u32,
-    /// The effective parameters by element.
+    /// Effective parameters of each element.
     in_force: BTreeMap<ElementId, &'a [InForceParameter]>,
 }
 
@@ -136,7 +136,8 @@ impl ElementBuilder<'_> {
         self.source.positions.positions().get(id.0 as usize).copied()
     }
 
-    /// A text with those elements among `shapes` that it belongs to.
+    /// Returns the label for a text, with the elements among `shapes` that the text belongs to. `first` is the scene's index of the first
+    /// shape.
     fn label(&self, text: &AssignedText, shapes: &[LocatedShape], first: usize) -> Label {
         let is_owner = |(position, shape): &LocatedShape| {
             text.elements
@@ -155,7 +156,8 @@ impl ElementBuilder<'_> {
     }
 }
 
-/// The height in mm of a line of a text, which follows from its circle. The circle of a long MTEXT is smaller than the text.
+/// Returns the height in mm of a line of a text, derived from the circle of the text. For a long MTEXT, the circle is smaller than the
+/// text.
 fn line_height(text: &AssignedText) -> f64 {
     let longest = text.text.lines().map(|line| line.chars().count()).max().unwrap_or(0).max(1);
     let (rows, letters) = (text.text.lines().count().max(1) as f64, 0.6 * longest as f64);
@@ -174,7 +176,7 @@ fn parameter(known: &InForceParameter) -> Parameter {
     }
 }
 
-/// A clamp, moved by an offset.
+/// Converts a clamp, shifted so that the given point of the drawing becomes the origin.
 pub fn keep_out(clamp: &pathbuild_path::KeepOut, [x, y]: Point) -> KeepOut {
     let placement = Placement::from_origin(Xy::new(-x, -y));
     KeepOut {
@@ -184,32 +186,32 @@ pub fn keep_out(clamp: &pathbuild_path::KeepOut, [x, y]: Point) -> KeepOut {
     }
 }
 
-/// A finished part with what the check found about it.
+/// A finished part, with what the check of the path found about it.
 #[derive(Clone, Copy, Debug)]
 pub struct PartSource<'a> {
-    /// The part as drawn.
+    /// The part, in the coordinates of the drawing.
     pub part: &'a pathbuild_path::Part,
-    /// The material that is left at its outline, as drawn.
+    /// Material that is left at the part's outline, in the coordinates of the drawing.
     pub left: &'a [pathbuild_path::LeftMaterial],
-    /// The middle lines of support bars that are cut away, as drawn.
+    /// Centre lines of support bars that are cut away, in the coordinates of the drawing.
     pub lost_bars: &'a [Curve],
-    /// The middle lines of support bars that other paths of a project cut away, in the program.
+    /// Centre lines of support bars that other paths of a project cut away, in the coordinates of the program.
     pub bars_lost_to_neighbours: &'a [Curve],
-    /// The stretches on which cuts go into it, in the program.
+    /// Pieces of cuts that go into the part, in the coordinates of the program.
     pub gouges: &'a [Curve],
-    /// Its place in the program.
+    /// Placement of the part in the program.
     pub placement: &'a Placement,
-    /// Whether nothing holds it.
+    /// Whether nothing holds the part once it is cut.
     pub is_loose: bool,
-    /// Half the diameter of the cutter.
+    /// Half the diameter of the cutter in mm.
     pub radius: f64,
-    /// Z of its upper face.
+    /// Z in mm of the upper face of the part.
     pub top: f64,
-    /// How far a cut may miss its outline.
+    /// Distance in mm by which a cut may miss the outline.
     pub tolerance: f64,
 }
 
-/// A finished part at its place in a program.
+/// Converts a finished part to the coordinates of the program.
 pub fn finished_part(source: &PartSource<'_>) -> FinishedPart {
     let PartSource { part, left, gouges, placement, is_loose, radius, top, tolerance, .. } = *source;
     let shapes = |curves: &[Curve]| -> Vec<Shape> {
@@ -233,12 +235,12 @@ pub fn finished_part(source: &PartSource<'_>) -> FinishedPart {
     }
 }
 
-/// The shapes of curves.
+/// Converts the curves of an outline to shapes.
 pub fn outline(curves: &[Curve]) -> Vec<Shape> {
     curves.iter().map(curve_shape).collect()
 }
 
-/// Whether two shapes of one entity are the same. For special circles, the position in the file decides.
+/// Whether two shapes of the same entity are equal. Circles are compared by their centres only, because those of markers get a fixed radius.
 fn is_same(a: &DrawnShape, b: &DrawnShape) -> bool {
     match (a, b) {
         (DrawnShape::Circle { centre: a, .. }, DrawnShape::Circle { centre: b, .. }) => a == b,
@@ -258,7 +260,7 @@ fn element_kind(role: Role) -> ElementKind {
     }
 }
 
-/// A shape in the coordinates of the program.
+/// Converts a drawn shape to the coordinates of the program.
 fn placed(shape: &DrawnShape, placement: &Placement) -> Shape {
     match shape {
         DrawnShape::Curve(curve) => curve_shape(&placement.place_curve(curve)),
@@ -291,9 +293,7 @@ pub(super) fn number(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(u32::MAX)
 }
 
-// Shapes on layers without a path.
-
-/// The shapes of a drawing that was read without its path layers.
+/// Returns the shapes of a drawing on layers without a path. The drawing must have been read without its path layers.
 pub fn other_layers(drawing: &Drawing) -> Vec<OtherShape> {
     drawing.entities.iter().map(|entity| other(drawing, entity)).collect()
 }

@@ -12,11 +12,9 @@ use crate::scene::{BilingualText, Finding, Label, Point, Scene, ScenePath, Shape
 pub use drawn::{DrawnSource, PartSource, drawn_path, finished_part, keep_out, other_layers, outline};
 pub use program::{EmittedText, GcodeSource, ProgramSource, gcode_path, program_path};
 
-// Findings with their places.
-
 impl Scene {
-    /// Sets the findings. `file` is the drawing shown. A finding about a parameter text is placed on that text, one about an element on its
-    /// middle.
+    /// Sets the findings of a scene. `file` is the drawing shown. A finding about a parameter text is placed at that text; one about an
+    /// element is placed at the middle of the element.
     pub fn set_findings(&mut self, diagnostics: &[Diagnostic], file: &str) {
         let mut findings = findings(diagnostics, file);
         let places = self.places(file);
@@ -26,7 +24,7 @@ impl Scene {
         self.findings = findings;
     }
 
-    /// The places of parameter texts and of elements as wholes, to which findings refer. `file` is the drawing shown.
+    /// Returns an index of the parameter texts and elements that findings refer to. `file` is the drawing shown.
     pub fn places<'s>(&'s self, file: &'s str) -> Places<'s> {
         let mut elements = HashMap::new();
         for path in &self.paths {
@@ -40,22 +38,22 @@ impl Scene {
     }
 }
 
-/// The places in a drawing to which findings refer.
+/// An index of the places in a drawing that findings refer to.
 #[derive(Debug)]
 pub struct Places<'s> {
     file: &'s str,
     paths: &'s [ScenePath],
-    /// The shapes of elements by their lines in the file, and the zero points of their paths.
+    /// For each line of the file at which an element begins, the element's shape and the zero point of its path.
     elements: HashMap<u32, (Shape, Point)>,
 }
 
 impl Places<'_> {
-    /// The place of the parameter text or of the element as a whole that a finding is about.
+    /// Returns the place of the parameter text or of the element that a finding is about.
     pub fn of(&self, diagnostic: &Diagnostic) -> Option<Point> {
         text_at(self.paths, diagnostic, self.file).or_else(|| self.middle_of_element(diagnostic))
     }
 
-    /// The middle of the element that a finding is about, if the finding refers to the element by its start.
+    /// Returns the middle of the element that a finding is about, if the finding's own place is only the start of the element.
     fn middle_of_element(&self, diagnostic: &Diagnostic) -> Option<Point> {
         diagnostic
             .file
@@ -70,16 +68,16 @@ impl Places<'_> {
     }
 }
 
-/// Distance in mm up to which points are the same.
+/// Distance in mm up to which two points count as the same.
 const POINT_TOLERANCE: f64 = 1e-6;
 
-/// Whether findings with this code are about whole elements. All others about elements have a place of their own: where the way breaks off,
-/// or where the cutter enters something.
+/// Whether findings with this code are about an element as a whole. Other findings about elements have a place of their own, such as the
+/// point where the path breaks off or where the cutter enters something.
 fn is_about_element(code: Code) -> bool {
     matches!(code.number(), 100..=211 | 500..=599)
 }
 
-/// The centre of the parameter text that a diagnostic quotes, in the drawing shown.
+/// Returns the centre of the parameter text that a diagnostic quotes, if it is in the drawing shown.
 fn text_at(paths: &[ScenePath], diagnostic: &Diagnostic, file: &str) -> Option<Point> {
     let (fault, line) = (diagnostic.text.as_ref()?, diagnostic.place.line?);
     diagnostic.file.as_ref().filter(|found| *found == file)?;
@@ -96,7 +94,8 @@ fn text_at(paths: &[ScenePath], diagnostic: &Diagnostic, file: &str) -> Option<P
     })
 }
 
-/// Numbers findings. `file` is the drawing shown: a finding in another drawing is placed where that is embedded.
+/// Converts diagnostics to findings, numbered from 1. `file` is the drawing shown: a finding in another drawing is placed where that
+/// drawing is embedded.
 pub fn findings(diagnostics: &[Diagnostic], file: &str) -> Vec<Finding> {
     (1..).zip(diagnostics).map(|(number, diagnostic)| finding(number, diagnostic, file)).collect()
 }

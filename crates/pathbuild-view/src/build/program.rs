@@ -1,4 +1,4 @@
-//! Scenes of paths with their programs, and of G-code.
+//! Builds scenes of paths with their programs, and of G-code.
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Heights, Options, interpret_each};
@@ -13,37 +13,37 @@ use crate::scene::{
     Bar, ElementKind, EmbeddedPath, MoveKind, NativeText, ProbeMark, SceneMove, ScenePath, Totals,
 };
 
-/// A program with the origin of its steps.
+/// The input for the scene of a path with its program.
 #[derive(Clone, Copy, Debug)]
 pub struct ProgramSource<'a> {
-    /// The program.
+    /// The steps of the program.
     pub program: &'a Program,
-    /// The origin of its steps; paths are indices into `parts`.
+    /// Origin of each step. Paths are given as indices into `parts`.
     pub trace: &'a Trace<usize>,
-    /// Its paths, as drawn and with all parameters bound.
+    /// The path and the paths that it embeds, as drawn and with all parameters bound.
     pub parts: &'a [(DrawnSource<'a>, &'a Path)],
-    /// Its native text, written without splitting moves.
+    /// Native text of the program, written without splitting moves.
     pub text: &'a str,
-    /// Its text as written by `emit`; `None` to show only the native text.
+    /// Text of the program as written by `emit`; `None` to show only the native text.
     pub emitted: Option<EmittedText<'a>>,
-    /// The value of `--rapid` in mm/min.
+    /// Speed of rapid moves in mm/min (the value of `--rapid`).
     pub rapid: Option<f64>,
 }
 
 /// The emitted text of a program.
 #[derive(Clone, Copy, Debug)]
 pub struct EmittedText<'a> {
-    /// The file that `emit` writes, if any.
+    /// Path of the file that `emit` writes, if any.
     pub file: Option<&'a str>,
-    /// Its text; invalid UTF-8 is replaced.
+    /// Bytes of the text. Invalid UTF-8 is replaced when it is shown.
     pub bytes: &'a [u8],
-    /// The dialect for reading it.
+    /// Dialect in which the text is read.
     pub dialect: Dialect,
-    /// Whether a post wrote it, so that it differs from the native text.
+    /// Whether a post wrote the text, so that it differs from the native text.
     pub is_posted: bool,
 }
 
-/// The scene of a path with its program.
+/// Returns the scene of a path with its program.
 pub fn program_path(source: &ProgramSource<'_>) -> ScenePath {
     let ProgramSource { program, trace, parts, text, emitted, rapid } = source;
     let mut builder = Builder { scene: ScenePath::default(), first_elements: Vec::new() };
@@ -102,7 +102,7 @@ fn totals(program: &Program, rapid: Option<f64>) -> Totals {
 
 struct Builder {
     scene: ScenePath,
-    /// Index of the first element of each occurrence.
+    /// For each occurrence of a path in the program, the index of its first element.
     first_elements: Vec<u32>,
 }
 
@@ -127,7 +127,7 @@ impl Builder {
         Some(self.first_elements.get(drawn.occurrence as usize)? + drawn.element?)
     }
 
-    /// The support bars along the segments and circles of a path.
+    /// Adds the support bars along the segments and circles of a path.
     fn bars(&mut self, path: &Path, placement: &Placement, raised: f64, first: u32) {
         for segment in &path.segments {
             let shape = path.drawn.elements[segment.element as usize].shape;
@@ -169,7 +169,7 @@ impl Builder {
         }
     }
 
-    /// Numbers the elements in cutting order.
+    /// Numbers the elements in cutting order, from 1.
     fn number_elements(&mut self) {
         let mut next = 1;
         for movement in &self.scene.moves {
@@ -183,36 +183,34 @@ impl Builder {
     }
 }
 
-/// The circle of a cutter's centre, clockwise from its lowest point.
+/// Returns the full circle of a cutter's centre, clockwise from its lowest point.
 fn circle(centre: Xy, radius: f64) -> Curve {
     let low = Xy::new(centre.x, centre.y - radius);
     Curve::Arc(Arc { centre, radius, start: low, end: low, clockwise: true, degrees: 360.0 })
 }
 
-// Scenes of G-code programs.
-
-/// A G-code program that was read.
+/// The input for the scene of a G-code program.
 #[derive(Clone, Copy, Debug)]
 pub struct GcodeSource<'a> {
-    /// The display name of its file.
+    /// Display name of the program's file.
     pub file: &'a str,
-    /// Its interpreted steps.
+    /// Interpreted steps of the program.
     pub steps: &'a [Step],
-    /// Its text; invalid UTF-8 is replaced.
+    /// Bytes of the program. Invalid UTF-8 is replaced when it is shown.
     pub text: &'a [u8],
     /// Cutter diameter in mm, if known.
     pub tool: Option<f64>,
-    /// The value of `--rapid` in mm/min.
+    /// Speed of rapid moves in mm/min (the value of `--rapid`).
     pub rapid: Option<f64>,
 }
 
-/// Converts line ends to LF, so that line numbers agree with those of the reader.
+/// Decodes a text and converts its line ends to LF, so that line numbers agree with those of the reader.
 fn plain_lines(text: &[u8]) -> String {
     let text = String::from_utf8_lossy(text);
     if text.contains('\n') { text.replace("\r\n", "\n").replace('\r', " ") } else { text.replace('\r', "\n") }
 }
 
-/// The scene of a program, without elements.
+/// Returns the scene of a program: its moves, without any elements.
 pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
     let moves = source.steps.iter().filter_map(Step::as_move);
     let summary = Summary::of(source.steps, false).total;
@@ -236,16 +234,16 @@ pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
     }
 }
 
-// Matches the moves of a program with lines of its text. A post may write other rapid moves than the native program, cycles for holes, and
-// several lines for a move, so lines are matched by the ends of moves.
+// A post may write other rapid moves than the native program, cycles for holes, and several lines for a move. Therefore the moves of a
+// program are matched with lines of its text by the ends of moves.
 
-/// Tolerance in mm within which two ends are the same: larger than the rounding error of inches with four decimals.
+/// Distance in mm up to which two ends count as the same. It is larger than the rounding error of inches with four decimals.
 const SAME_PLACE: f64 = 0.006;
 
 /// Maximum number of moves in the text that are searched for the end of one move.
 const MAX_SEARCHED_MOVES: usize = 4096;
 
-/// For each move of a program, its line in the text that was written from it; `None` if there is none.
+/// Returns for each move of a program its line in the text that was written from the program; `None` if it has no line.
 fn lines_of_moves(moves: &[Move], text: &[u8], dialect: Dialect) -> Vec<Option<u32>> {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
     let mut written: Vec<(u32, Move)> = Vec::new();
@@ -276,7 +274,8 @@ impl Finder<'_> {
         }
     }
 
-    /// The first line of a cut. The cut ends where its last piece ends.
+    /// Returns the first line of a cut. The post may have divided the cut into several moves; it ends with the one that ends at the same
+    /// place.
     fn cut(&mut self, movement: &Move) -> Option<u32> {
         let is_cut = |(_, written): &(u32, Move)| !matches!(written.pace, Pace::Rapid);
         let rest = &self.written[self.next..self.written.len().min(self.next + MAX_SEARCHED_MOVES)];
@@ -289,8 +288,9 @@ impl Finder<'_> {
         Some(first)
     }
 
-    /// The line of a rapid move before the next cut: one with the same start and end, or else with the same end, or else with the same end
-    /// along the axes that the move changes. If there is none, one line stands for several moves, and it is the line of the previous move.
+    /// Returns the line of a rapid move before the next cut: a rapid with the same start and end, or else with the same end, or else with
+    /// the same end along the axes that the move changes. If there is none, one line of the text stands for several moves, and the line of
+    /// the previous move is returned.
     fn rapid(&mut self, movement: &Move) -> Option<u32> {
         let rest = &self.written[self.next..];
         let rapids = rest.iter().take_while(|(_, written)| written.pace == Pace::Rapid);
@@ -312,7 +312,7 @@ impl Finder<'_> {
     }
 }
 
-/// Whether two places are the same along some axes.
+/// Whether two positions are equal along the given axes.
 fn is_same(a: &Position, b: &Position, axes: Axes) -> bool {
     (0..3).filter(|axis| axes.has(Axes::of(*axis))).all(|axis| {
         a.known.and(b.known).has(Axes::of(axis)) && libm::fabs(a.at[axis] - b.at[axis]) < SAME_PLACE

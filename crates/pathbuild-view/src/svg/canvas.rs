@@ -6,7 +6,7 @@ use pathbuild_diagnostic::shown;
 
 use crate::scene::{Point, Scene};
 
-/// The font, with fallbacks.
+/// Font families of all texts, the first of which is preferred.
 const FONT: &str = "DejaVu Sans, Verdana, sans-serif";
 
 /// An SVG picture under construction, in px.
@@ -14,7 +14,7 @@ pub(super) struct Canvas {
     text: String,
 }
 
-/// The alignment of a text to its point.
+/// The part of a text that is placed at its point.
 #[derive(Clone, Copy)]
 pub(super) enum Anchor {
     Start,
@@ -26,7 +26,7 @@ impl Canvas {
         Self::sized([width, height], "", [width, height])
     }
 
-    /// A sheet of paper: its size in mm, and its size in the units of the picture.
+    /// Creates a picture on paper: with its size in mm, and its size in the units of the picture.
     pub(super) fn paper(size: Point, units: Point) -> Self {
         Self::sized(size, "mm", units)
     }
@@ -48,23 +48,23 @@ impl Canvas {
         self.text
     }
 
-    /// Writes a line of trusted SVG.
+    /// Writes a line of SVG without escaping it.
     pub(super) fn raw(&mut self, line: &str) {
         self.text.push_str(line);
         self.text.push('\n');
     }
 
-    /// Opens a group.
+    /// Opens a group with these attributes.
     pub(super) fn open(&mut self, attributes: &str) {
         self.raw(&format!("<g {attributes}>"));
     }
 
-    /// Closes a group.
+    /// Closes the last group.
     pub(super) fn close(&mut self) {
         self.raw("</g>");
     }
 
-    /// Adds the tooltip of the enclosing element.
+    /// Adds a tooltip to the enclosing element.
     pub(super) fn title(&mut self, text: &str) {
         self.raw(&format!("<title>{}</title>", escaped(text)));
     }
@@ -109,8 +109,8 @@ impl Canvas {
     }
 }
 
-/// Escapes a text for SVG: puts it on one line, makes characters with special effects visible, escapes XML, and breaks up commands of CI
-/// runners.
+/// Escapes a text for SVG: puts it on one line, makes invisible characters with special effects visible, escapes XML, and breaks up
+/// commands of CI runners.
 pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     let mut before = ' ';
@@ -129,21 +129,21 @@ pub fn escaped(text: &str) -> String {
     escaped
 }
 
-/// A number with at most two decimals, never -0.
+/// Formats a number with at most two decimals, never as -0.
 pub(super) fn n(value: f64) -> String {
     let text = format!("{:.2}", value + 0.0);
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// A length with at most three decimals.
+/// Formats a length with at most three decimals.
 pub(super) fn mm(value: f64) -> String {
     let text = format!("{:.3}", value + 0.0);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-// Colours. Kinds also differ in line style, and depths in lightness, so that they can be distinguished in print and by the colour-blind.
-// (Okabe and Ito's palette, darkened to a contrast of 4.5 for texts and 3 for lines; depths from light to dark)
+// Colours of the pictures. Kinds of moves also differ in line style, and depths in lightness, so that they can be distinguished in print
+// and by the colour-blind. (Okabe and Ito's palette, darkened to a contrast of 4.5 for texts and 3 for lines; depths from light to dark)
 
 pub(super) const RAPID: &str = "#c07800";
 pub(super) const BAR: &str = "#cc79a7";
@@ -155,7 +155,7 @@ pub(super) const OTHER: &str = "#b8bfc6";
 pub(super) const INK: &str = "#14202b";
 pub(super) const KERF: &str = "#e6edf3";
 
-/// Red, green and blue from shallow to deep.
+/// Colours of depths as red, green and blue, from shallow to deep.
 const DEPTHS: [[f64; 3]; 5] = [
     [115.0, 192.0, 232.0],
     [52.0, 148.0, 209.0],
@@ -164,10 +164,10 @@ const DEPTHS: [[f64; 3]; 5] = [
     [42.0, 20.0, 84.0],
 ];
 
-/// The depths of a scene.
+/// The range of depths that the colours of a scene cover.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depths {
-    /// The highest and the lowest Z of all cuts in mm; `None` without cuts.
+    /// Highest and lowest Z of all cuts in mm; `None` without cuts.
     pub(super) range: Option<(f64, f64)>,
 }
 
@@ -181,7 +181,7 @@ impl Depths {
         Self { range }
     }
 
-    /// The colour of a depth.
+    /// Returns the colour of a depth; the middle one if the depth is unknown.
     pub(super) fn color(&self, z: Option<f64>) -> String {
         let share = match (self.range, z) {
             (Some((high, low)), Some(z)) if high > low => ((high - z) / (high - low)).clamp(0.0, 1.0),
@@ -191,7 +191,7 @@ impl Depths {
     }
 }
 
-/// The colour at a fraction (0 to 1) of the depth.
+/// Returns the colour at a fraction (0 to 1) of the range of depths.
 pub(super) fn color(share: f64) -> String {
     let last = (DEPTHS.len() - 1) as f64;
     let place = share * last;
@@ -208,9 +208,7 @@ fn index(value: f64) -> usize {
     value as usize
 }
 
-// Widths of texts.
-
-/// Wraps a text to a width, at spaces or, in long words, anywhere.
+/// Wraps a text to a width, at spaces or, within long words, anywhere.
 pub(super) fn wrapped(text: &str, width: f64, size: f64) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
@@ -233,12 +231,12 @@ pub(super) fn wrapped(text: &str, width: f64, size: f64) -> Vec<String> {
     lines
 }
 
-/// Upper estimate of the width of a text.
+/// Returns an upper estimate of the width of a text.
 pub(super) fn breadth(text: &str, size: f64) -> f64 {
     text.chars().map(advance).sum::<f64>() * size
 }
 
-/// The width of a character relative to the letter size. A few classes are precise enough for wrapping lines.
+/// Returns the width of a character relative to the letter size. A few classes of characters are precise enough for wrapping lines.
 fn advance(letter: char) -> f64 {
     match letter {
         ' ' | '.' | ',' | ':' | ';' | '\'' | '|' | 'i' | 'j' | 'l' | 'I' => 0.34,

@@ -1,4 +1,5 @@
-//! Pictures of how a changed drawing affects the moves of a path. Old and new share one frame, so that the pictures can be overlaid.
+//! Pictures of how a changed drawing affects the moves of a path. The old and the new picture have the same frame, so that they can be
+//! overlaid.
 
 use pathbuild_diagnostic::{Lang, Number};
 
@@ -9,14 +10,14 @@ use crate::changes::{Change, ChangeKind, Group, groups, moves, phrase};
 
 use crate::scene::{MoveKind, Point, SceneMove};
 
-/// Added moves are blue, removed ones vermilion, wider and dashed. The dashes also distinguish them for the colour-blind.
+/// Colours of moves: added ones are blue; removed ones are vermilion, wider and dashed, so that the colour-blind can distinguish them too.
 const ADDED: &str = "#0072b2";
 const REMOVED: &str = "#d55e00";
 const SHIFTED: &str = "#009e73";
 const REORDERED: &str = "#4a5a68";
 const RAPIDS: &str = "#946200";
 
-/// Colours and dashes of moves that were altered, in turn for each alteration.
+/// Colours and dashes of altered moves. Each group of alterations gets the next ones.
 const ALTERED: [[&str; 2]; 8] = [
     ["#cc79a7", ""],
     ["#7b3294", " stroke-dasharray=\"12 3\""],
@@ -28,14 +29,14 @@ const ALTERED: [[&str; 2]; 8] = [
     ["#01665e", ""],
 ];
 
-/// Height of a line of the legend, and size of its letters, in px.
+/// Height of a line of the legend and size of its letters, in px.
 const LINE: f64 = 20.0;
 const LETTERS: f64 = 13.0;
 
-/// The available pictures of a change.
+/// The pictures that show a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Picture {
-    /// Old and new in one picture, with changes in colour and a legend.
+    /// The old and the new program in one picture, with changes in colour and a legend.
     Changes,
     /// The moves of the old program.
     Old,
@@ -49,11 +50,11 @@ struct Pair<'a> {
     old: &'a [SceneMove],
     new: &'a [SceneMove],
     changes: &'a [Change],
-    /// The entries of the legend.
+    /// The groups of changes, which are the entries of the legend.
     groups: &'a [Group],
 }
 
-/// Draws a change. All pictures of a change have the same size and scale.
+/// Draws a change as one of the pictures. All pictures of a change have the same size and scale.
 pub fn changes_svg(
     old: &[SceneMove],
     new: &[SceneMove],
@@ -84,7 +85,7 @@ pub fn changes_svg(
 }
 
 impl Pair<'_> {
-    /// Draws unchanged moves in grey, and changed ones on top.
+    /// Draws unchanged moves in grey, and changed moves on top.
     fn draw(&self, canvas: &mut Canvas, place: &PageTransform) {
         let mut is_changed = vec![false; self.new.len()];
         for change in self.changes {
@@ -108,7 +109,7 @@ impl Pair<'_> {
         }
     }
 
-    /// Whether the picture has a line for a group: rapid moves straight up and down have none.
+    /// Whether the moves of a group are visible in the picture. Rapid moves straight up and down are not.
     fn has_line(&self, group: &Group) -> bool {
         let is_sweep = |movement: &SceneMove| movement.kind == MoveKind::Sweep && movement.is_placed();
         let has_sweep = |change: &Change| {
@@ -118,7 +119,7 @@ impl Pair<'_> {
         group.kind.is_some() || self.changes.iter().any(has_sweep)
     }
 
-    /// Draws a changed move like the entry of the legend that counts it.
+    /// Draws a changed move in the style of its entry in the legend.
     fn stroke(
         &self,
         canvas: &mut Canvas,
@@ -156,15 +157,15 @@ fn stroke(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, styl
     );
 }
 
-/// Dashes of rapid moves.
+/// Dash pattern of rapid moves.
 const DOTS: &str = " stroke-dasharray=\"1 4\"";
 
-/// Width of lines in px.
+/// Width of lines in px, except for removed moves.
 const WIDTH: f64 = 2.0;
-/// Width of removed moves in px, so that they remain visible beneath the moves in their place.
+/// Width of removed moves in px, so that they remain visible beneath the moves that replace them.
 const REMOVED_WIDTH: f64 = 6.0;
 
-/// The strokes of an entry of the legend.
+/// The stroke of an entry of the legend and its moves.
 #[derive(Clone, Copy)]
 struct Style {
     color: &'static str,
@@ -173,12 +174,12 @@ struct Style {
 }
 
 impl Style {
-    /// A line of the usual width without dashes.
+    /// Returns a line of the usual width without dashes.
     fn plain(color: &'static str) -> Self {
         Self { color, dashes: "", width: WIDTH }
     }
 
-    /// The style of the moves in a group; `None` for rapid moves.
+    /// Returns the style of the moves in a group. For rapid moves, `kind` is `None`.
     fn of(kind: Option<ChangeKind>, groups: &[Group]) -> Self {
         let [color, dashes] = match kind {
             None => [RAPIDS, DOTS],
@@ -197,7 +198,7 @@ impl Style {
     }
 }
 
-/// Draws a line of the legend.
+/// Draws an entry of the legend.
 fn entry(canvas: &mut Canvas, group: &Group, style: Option<Style>, top: f64, lang: Lang) {
     let middle = top + LINE / 2.0;
     if let Some(Style { color, dashes, width }) = style {

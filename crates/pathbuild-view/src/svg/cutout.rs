@@ -1,4 +1,4 @@
-//! Cut-outs of a drawing around a finding.
+//! Pictures of the part of a drawing around a finding.
 
 use super::canvas::{Anchor, Canvas, ERROR, INK, TEXT, WARNING, mm};
 use super::frame::VisibleParts;
@@ -11,18 +11,18 @@ use pathbuild_diagnostic::Lang;
 /// Size of the picture in px.
 const SIZE: Point = [420.0, 280.0];
 
-/// Smallest extent shown in mm, and factor by which the picture exceeds the extent of related points.
+/// Minimum extent shown in mm, and factor by which the picture exceeds the extent of the related points.
 const MIN_EXTENT: f64 = 36.0;
 const ENLARGEMENT: f64 = 1.4;
 
-/// Small gaps are enlarged: the picture shows this multiple of the gap, but at least the second value in mm.
+/// Small gaps are enlarged: the picture shows this multiple of the gap, but at least the second value, in mm.
 const GAP_MULTIPLE: f64 = 40.0;
 const MIN_GAP_EXTENT: f64 = 4.0;
 
-/// Radius of the circle around the place, in px.
+/// Radius in px of the circle that marks the place.
 const CIRCLE: f64 = 17.0;
 
-/// Distance in mm up to which a text's circle counts as being at the place, so that the text itself is at fault.
+/// Distance in mm from the place up to which the circle of a text is drawn, because the text itself is at fault.
 const LABEL_DISTANCE: f64 = 1.0;
 
 /// Number of a drawing's first paths that are included even if they have no elements nearby. Including all of them would put thousands into
@@ -32,20 +32,20 @@ const MOST_EMPTY: usize = 200;
 /// Maximum number of texts in a picture. There is no room for more, and searching for room takes long.
 const MOST_TEXTS: usize = 200;
 
-/// The place of a finding.
+/// The place of a finding, and what a picture must show with it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spot {
-    /// The place in the drawing.
+    /// Position of the finding in the drawing.
     pub at: Point,
-    /// Related points: the nearest open end, or the position of a text.
+    /// Related points, such as the nearest open end or the position of a text.
     pub related: Vec<Point>,
-    /// Centre and radius of the circle of a text that found no element.
+    /// Centre and radius of the matching circle of a text that has no element within it.
     pub circle: Option<(Point, f64)>,
     /// Whether the finding is an error rather than a warning.
     pub is_error: bool,
 }
 
-/// Draws the surroundings of a place, which is circled. Distant elements are omitted.
+/// Draws the surroundings of a finding, whose place is circled. Distant elements are omitted.
 pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
     drawn(spot, |canvas, frame, window| {
         let near = near(scene, window);
@@ -61,7 +61,7 @@ pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
     })
 }
 
-/// Draws the stock around a place as it is when all moves are done. `number` tells the pictures of a document apart.
+/// Draws the stock around a finding as it is when all moves are done. `number` makes ids unique if a document contains several pictures.
 /// `has_corners`: whether to fill corners that the cutter does not reach.
 pub fn stock_cutout_svg(scene: &Scene, spot: &Spot, has_corners: bool, number: usize) -> String {
     drawn(spot, |canvas, frame, window| {
@@ -71,7 +71,7 @@ pub fn stock_cutout_svg(scene: &Scene, spot: &Spot, has_corners: bool, number: u
     })
 }
 
-/// Draws the part of a picture around a place, and marks the place.
+/// Draws the area around a finding by calling `draw`, and marks the place.
 fn drawn(spot: &Spot, draw: impl FnOnce(&mut Canvas, &Frame, [Point; 2])) -> String {
     let window = window(spot);
     let scale = SIZE[0] / (window[1][0] - window[0][0]);
@@ -85,7 +85,7 @@ fn drawn(spot: &Spot, draw: impl FnOnce(&mut Canvas, &Frame, [Point; 2])) -> Str
     canvas.finish()
 }
 
-/// The corners of the area shown, centred on the place and its related points.
+/// Returns the corners of the area shown. It is centred on the place and its related points.
 fn window(spot: &Spot) -> [Point; 2] {
     let mut corners = None;
     for at in spot.related.iter().chain([&spot.at]) {
@@ -102,7 +102,7 @@ fn window(spot: &Spot) -> [Point; 2] {
     [[0, 1].map(|axis| middle[axis] - half[axis]), [0, 1].map(|axis| middle[axis] + half[axis])]
 }
 
-/// Removes everything outside of an area from a scene. Otherwise each finding's picture would contain the whole drawing.
+/// Removes everything outside of an area from a scene, because otherwise the picture of each finding would contain the whole drawing.
 fn near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
     let is_in = |[from, to]: [Point; 2]| (0..2).all(|axis| from[axis] <= high[axis] && to[axis] >= low[axis]);
     let is_near = |shape: &Shape| is_in(shape.extent());
@@ -129,7 +129,7 @@ fn near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
     }
 }
 
-/// Removes texts beyond the maximum.
+/// Removes texts beyond the maximum number.
 fn keep_first_texts(paths: &mut [ScenePath]) {
     let mut remaining = MOST_TEXTS;
     for path in paths {
@@ -165,7 +165,7 @@ fn path_near(
     }
 }
 
-/// The matching circles of the texts at the place.
+/// Draws the matching circles of the texts at the place of the finding.
 fn circles(canvas: &mut Canvas, path: &ScenePath, spot: &Spot, place: &PageTransform) {
     for label in &path.texts {
         let away = libm::hypot(label.at[0] - spot.at[0], label.at[1] - spot.at[1]);
@@ -176,7 +176,7 @@ fn circles(canvas: &mut Canvas, path: &ScenePath, spot: &Spot, place: &PageTrans
     }
 }
 
-/// Circles the place, and draws lines to related points.
+/// Circles the place of the finding, and draws lines to related points.
 fn mark(canvas: &mut Canvas, spot: &Spot, place: &PageTransform) {
     let color = if spot.is_error { ERROR } else { WARNING };
     let at = place.at(spot.at);

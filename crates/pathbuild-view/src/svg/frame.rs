@@ -1,4 +1,4 @@
-//! The position of the drawing on the page, and room for texts. The y axis of the drawing points up, that of the page points down.
+//! Places the drawing and its texts on the page. The y axis of the drawing points up, that of the page points down.
 
 use std::collections::BTreeSet;
 
@@ -6,26 +6,26 @@ use pathbuild_diagnostic::Lang;
 
 use crate::scene::{Point, Scene, ScenePath, Shape};
 
-/// The visible parts of a scene.
+/// The parts of a scene that a picture shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a layer of its own")]
 pub struct VisibleParts {
-    /// Language of the legend and the findings.
+    /// Language of the legend and of the findings.
     pub lang: Lang,
-    /// Whether to show rapid moves.
+    /// Whether rapid moves are shown.
     pub rapids: bool,
-    /// Whether to show the cutting order.
+    /// Whether the numbers of the cutting order are shown.
     pub order: bool,
-    /// Whether to show arrows.
+    /// Whether arrows in the direction of moves are shown.
     pub arrows: bool,
-    /// Whether to show parameter texts.
+    /// Whether parameter texts are shown.
     pub texts: bool,
-    /// Whether to show the stock after all moves instead of drawing and moves.
+    /// Whether the stock after all moves is shown instead of the drawing and the moves.
     pub stock: bool,
 }
 
 impl VisibleParts {
-    /// Shows everything of the drawing and the moves.
+    /// Returns a selection with everything of the drawing and the moves, but not the stock.
     pub fn all(lang: Lang) -> Self {
         Self { lang, rapids: true, order: true, arrows: true, texts: true, stock: false }
     }
@@ -35,13 +35,13 @@ impl VisibleParts {
     }
 }
 
-/// Space for the drawing in px, without the legend.
+/// Space in px for the drawing, without the legend.
 const DRAWING_SIZE: Point = [1080.0, 720.0];
 
-/// Margin around the drawing in px.
+/// Margin in px around the drawing.
 const MARGIN: f64 = 40.0;
 
-/// Smallest extent shown in mm, for drawings without an extent, such as a single hole.
+/// Minimum extent shown in mm, for drawings without an extent, such as a single hole.
 const MIN_EXTENT: f64 = 10.0;
 
 /// Transforms coordinates of the drawing to those of the page.
@@ -50,7 +50,7 @@ pub(super) struct Frame {
     low: Point,
     high: Point,
     scale: f64,
-    /// The position of the drawing's upper left corner.
+    /// Position on the page of the drawing's upper left corner, in px.
     corner: Point,
 }
 
@@ -62,7 +62,7 @@ pub(super) struct PageTransform {
 }
 
 impl Frame {
-    /// The frame around paths and clamps; around other layers if there are no paths.
+    /// Returns the frame around paths and clamps, or around other layers if there are no paths.
     pub(super) fn of(scene: &Scene) -> Self {
         let mut corners: Option<[Point; 2]> = None;
         for path in &scene.paths {
@@ -88,7 +88,7 @@ impl Frame {
         Self::around(corners)
     }
 
-    /// The frame around the corners of a bounding box.
+    /// Returns the frame around a bounding box, at the scale at which the box fills the available space.
     pub(super) fn around(corners: Option<[Point; 2]>) -> Self {
         let [mut low, mut high] = corners.unwrap_or([[0.0; 2], [MIN_EXTENT; 2]]);
         for axis in [0, 1] {
@@ -101,25 +101,25 @@ impl Frame {
         Self { low, high, scale, corner: [MARGIN + spare, MARGIN] }
     }
 
-    /// The frame of a bounding box at a scale, with its upper left corner at a given point.
+    /// Returns the frame of a bounding box at a given scale, with its upper left corner at a given point of the page.
     pub(super) fn at_scale([low, high]: [Point; 2], scale: f64, corner: Point) -> Self {
         Self { low, high, scale, corner }
     }
 
-    /// Px per mm.
+    /// Returns the scale in px per mm.
     pub(super) fn scale(&self) -> f64 {
         self.scale
     }
 
-    /// The page's width in px.
+    /// Width of the page in px.
     pub(super) const WIDTH: f64 = DRAWING_SIZE[0] + 2.0 * MARGIN;
 
-    /// The lower edge of the drawing, with its margins.
+    /// Returns the lower edge of the drawing in px, with its margins.
     pub(super) fn bottom(&self) -> f64 {
         (self.high[1] - self.low[1]) * self.scale + 2.0 * MARGIN
     }
 
-    /// The whole area except for a thin margin.
+    /// Returns the area in px in which texts may be placed: everything except for a thin margin.
     pub(super) fn area(&self) -> [Point; 2] {
         [[0.0, 0.0], [Self::WIDTH, self.bottom() - MARGIN / 4.0]]
     }
@@ -128,26 +128,26 @@ impl Frame {
         PageTransform { frame: *self, zero: path.zero }
     }
 
-    /// The transform for coordinates of the drawing.
+    /// Returns the transform for coordinates of the drawing.
     pub(super) fn of_drawing(&self) -> PageTransform {
         PageTransform { frame: *self, zero: [0.0; 2] }
     }
 }
 
 impl PageTransform {
-    /// Px per mm.
+    /// Returns the scale in px per mm.
     pub(super) fn scale(&self) -> f64 {
         self.frame.scale
     }
 
-    /// Transforms a point.
+    /// Converts a point to the coordinates of the page.
     pub(super) fn at(&self, [x, y]: Point) -> Point {
         let Frame { low, high, scale, corner } = self.frame;
         [corner[0] + (x + self.zero[0] - low[0]) * scale, corner[1] + (high[1] - y - self.zero[1]) * scale]
     }
 }
 
-/// The bounding boxes of everything in a path, including the removed material, in coordinates of the drawing.
+/// Returns the bounding boxes of everything in a path, including the removed material, in coordinates of the drawing.
 fn corners_of(path: &ScenePath) -> Vec<[Point; 2]> {
     let moved = |corners: [Point; 2]| corners.map(|[x, y]| [x + path.zero[0], y + path.zero[1]]);
     let shapes = path.elements.iter().map(|element| element.shape.extent());
@@ -178,13 +178,12 @@ pub(super) fn widen(corners: &mut Option<[Point; 2]>, [low, high]: [Point; 2]) {
     });
 }
 
-// Positions texts so that they do not overlap and are not cut off.
-
-/// Occupied space of a picture as cells of a grid. The cost of an operation depends on the size of the text, not on the number of texts.
+/// The occupied space of a picture, as cells of a grid, for placing texts that do not overlap. The cost of an operation depends on the
+/// size of the text, not on the number of texts.
 pub(super) struct Room {
     area: Rectangle,
     taken: BTreeSet<(i64, i64)>,
-    /// Lines that labels beside symbols avoid.
+    /// Lines that labels should not cover.
     pub(super) lines: Vec<[Point; 2]>,
 }
 
@@ -194,14 +193,14 @@ const CELL: f64 = 4.0;
 /// Maximum distance at which a text is placed, in multiples of its height.
 const MAX_TEXT_DISTANCE: u32 = 6;
 
-/// Number of candidate positions so near to a symbol that the label cannot be mistaken for another's.
+/// Number of the first candidate positions of a label. They are so near to the symbol that the label cannot be mistaken for another's.
 const NEAR_CANDIDATES: usize = 13;
 
-/// A rectangle in px: left, top; right, bottom.
+/// Upper left and lower right corner of a rectangle in px.
 pub(super) type Rectangle = [Point; 2];
 
 impl Room {
-    /// Creates the free space of a picture.
+    /// Creates the space of a picture, with everything free.
     pub(super) fn new(area: Rectangle) -> Self {
         Self { area, taken: BTreeSet::new(), lines: Vec::new() }
     }
@@ -232,8 +231,9 @@ impl Room {
         self.find(&middles.iter().map(rectangle).collect::<Vec<_>>()).map(|found| middles[found])
     }
 
-    /// Occupies space for a label beside a symbol, preferably at the given offset and over as few lines as possible, and returns the start of
-    /// its baseline. `None` if there is no room.
+    /// Finds space for a label beside a symbol, occupies it, and returns the start of the label's baseline. The position that covers the
+    /// fewest lines is chosen; among equal ones, the given offset is preferred. Returns `None` if all positions near the symbol are
+    /// occupied.
     pub(super) fn find_beside(
         &mut self,
         at: Point,
@@ -249,8 +249,8 @@ impl Room {
         Some(starts[found])
     }
 
-    /// Like [`find_beside`](Self::find_beside), but also farther away, and over as few lines as possible. Without any room, the label is
-    /// placed where it overlaps least.
+    /// Like [`find_beside`](Self::find_beside), but also tries positions farther away. If all are occupied, the label is placed where it
+    /// overlaps least.
     pub(super) fn beside(&mut self, at: Point, preferred: Point, size: f64, text: &str) -> Point {
         let (starts, candidates) = beside(at, preferred, size, text);
         let cost = |number: &usize| (self.met(candidates[*number]), self.crossed(candidates[*number]));
@@ -260,7 +260,7 @@ impl Room {
         starts[least]
     }
 
-    /// Whether a line leads through occupied cells.
+    /// Whether a line crosses occupied cells.
     pub(super) fn is_crossed_by(&self, [from, to]: [Point; 2]) -> bool {
         let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few px")]
@@ -271,7 +271,7 @@ impl Room {
         (0..=count).any(|step| self.cells([at(step), at(step)]).any(|cell| self.taken.contains(&cell)))
     }
 
-    /// Number of occupied cells in a rectangle. Outside of the picture, all are occupied.
+    /// Returns the number of occupied cells in a rectangle. If it extends beyond the picture, [`OUTSIDE`] is added.
     fn met(&self, rectangle: Rectangle) -> usize {
         let [[left, top], [right, bottom]] = rectangle;
         let [[leftmost, topmost], [rightmost, lowest]] = self.area;
@@ -280,14 +280,15 @@ impl Room {
         if is_outside { taken + OUTSIDE } else { taken }
     }
 
-    /// Length of all lines within a rectangle, in cells.
+    /// Returns the total length of lines within a rectangle, in cells.
     #[expect(clippy::cast_possible_truncation, reason = "px of a page")]
     fn crossed(&self, rectangle: Rectangle) -> i64 {
         let length: f64 = self.lines.iter().map(|line| length_within(line, rectangle)).sum();
         (length / CELL).ceil() as i64
     }
 
-    /// The cells of a rectangle that lie in the picture. A text of another layer may be a thousand times as large.
+    /// Returns the cells of a rectangle that lie in the picture. The rectangle is clipped first, because a text of another layer may be a
+    /// thousand times as large as the picture.
     #[expect(clippy::cast_possible_truncation, reason = "px of a page")]
     fn cells(&self, [low, high]: Rectangle) -> impl Iterator<Item = (i64, i64)> + use<> {
         let [lowest, highest] = self.area;
@@ -298,7 +299,7 @@ impl Room {
     }
 }
 
-/// Length of the part of a line that lies in a rectangle.
+/// Returns the length of the part of a line that lies in a rectangle.
 fn length_within([from, to]: &[Point; 2], [low, high]: Rectangle) -> f64 {
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
     for axis in [0, 1] {
@@ -316,7 +317,7 @@ fn length_within([from, to]: &[Point; 2], [low, high]: Rectangle) -> f64 {
     (leaves - enters).max(0.0) * libm::hypot(to[0] - from[0], to[1] - from[1])
 }
 
-/// Offsets in rows and columns, nearest first.
+/// Returns offsets in columns and rows, nearest first.
 fn steps() -> impl Iterator<Item = Point> {
     let rows = (0..=MAX_TEXT_DISTANCE).flat_map(|row| [f64::from(row), -f64::from(row)]);
     let mut steps: Vec<Point> =
@@ -325,7 +326,8 @@ fn steps() -> impl Iterator<Item = Point> {
     steps.into_iter()
 }
 
-/// Candidate start points and rectangles for a label beside a symbol.
+/// Returns the candidate positions for a label beside a symbol: the starts of the baseline, and the rectangles that the label would
+/// occupy.
 fn beside([x, y]: Point, preferred: Point, size: f64, text: &str) -> (Vec<Point>, Vec<Rectangle>) {
     let width = width(text, size);
     let (near, row) = (8.0, size + 2.5);
@@ -341,15 +343,15 @@ fn beside([x, y]: Point, preferred: Point, size: f64, text: &str) -> (Vec<Point>
     (starts, candidates)
 }
 
-/// Larger than the number of cells of any text.
+/// Cost in cells of a text that extends beyond the picture. It is larger than the number of cells of any text.
 const OUTSIDE: usize = 1 << 20;
 
-/// Approximate width of a text in px.
+/// Returns the approximate width of a text in px.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     0.62 * size * text.chars().count() as f64
 }
 
-/// The square around a point with this half width in px.
+/// Returns the square around a point with this half width in px.
 pub(super) fn around([x, y]: Point, half: f64) -> Rectangle {
     [[x - half, y - half], [x + half, y + half]]
 }

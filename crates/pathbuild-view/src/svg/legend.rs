@@ -12,17 +12,17 @@ use pathbuild_diagnostic::Lang;
 /// Line height in px.
 const LINE: f64 = 17.0;
 
-/// Letter size and width in px of a line of findings.
+/// Letter size and width of the lines of findings, in px.
 const LETTERS: f64 = 11.0;
 const WIDTH: f64 = Frame::WIDTH - 80.0;
 
-/// Upper bound on the lines of findings: each adds to the height of a picture, and thereby to its size in memory.
+/// Maximum number of lines of findings. Each line adds to the height of a picture, and thereby to its size in memory.
 const MOST_LINES: usize = 40;
 
 /// Number of steps in the depth scale.
 const STEPS: u32 = 24;
 
-/// The legend.
+/// The legend of a picture, with its position on the page.
 pub(super) struct Legend<'a> {
     scene: &'a Scene,
     depths: &'a Depths,
@@ -30,9 +30,9 @@ pub(super) struct Legend<'a> {
     scale: f64,
     top: f64,
     findings: Vec<(Option<&'a Finding>, String)>,
-    /// Number of findings that are listed.
+    /// Number of findings that the legend lists.
     pub(super) listed: usize,
-    /// The stock, if it is shown instead of the moves.
+    /// The stock, if the picture shows it instead of the moves.
     stock: Option<&'a MilledStock<'a>>,
 }
 
@@ -51,7 +51,7 @@ impl<'a> Legend<'a> {
         }
     }
 
-    /// The legend of the stock after all moves.
+    /// Creates the legend for a picture of the stock after all moves.
     pub(super) fn of_stock(
         stock: &'a MilledStock<'a>,
         frame: &Frame,
@@ -61,12 +61,12 @@ impl<'a> Legend<'a> {
         Self { stock: Some(stock), ..Self::new(stock.scene, frame, depths, shown) }
     }
 
-    /// The lower edge of the page.
+    /// Returns the lower edge of the page in px.
     pub(super) fn bottom(&self) -> f64 {
         self.top + 5.0 * LINE + self.findings.len() as f64 * LINE
     }
 
-    /// Draws the legend. `hidden`: the numbers of elements that the picture has no room for.
+    /// Draws the legend. `hidden` are the numbers of elements that do not fit in the picture.
     pub(super) fn draw(&self, canvas: &mut Canvas, hidden: &[u32]) {
         canvas.open(&format!("id=\"legend\" fill=\"{INK}\""));
         canvas.text([40.0, self.top + LINE], 14.0, Anchor::Start, "font-weight=\"bold\"", &self.headline());
@@ -106,7 +106,7 @@ impl<'a> Legend<'a> {
         self.scene.title.clone()
     }
 
-    /// Cutter, material and lengths of a single path.
+    /// Returns cutter, material and lengths of the path; empty unless the scene has exactly one path.
     fn facts(&self) -> String {
         let [path] = self.scene.paths.as_slice() else { return String::new() };
         let mut facts = Vec::new();
@@ -136,7 +136,7 @@ impl<'a> Legend<'a> {
         facts.join(" · ")
     }
 
-    /// Draws a scale bar of a round length.
+    /// Draws a scale bar of a round length, such as 10 or 20 mm.
     fn scale_bar(&self, canvas: &mut Canvas, y: f64) {
         let steps = [
             0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 10_000.0, 100_000.0,
@@ -156,7 +156,7 @@ impl<'a> Legend<'a> {
 /// Width in px of the depth scale with its labels.
 const DEPTHS_WIDTH: f64 = 380.0;
 
-/// Draws the numbers of elements that the picture has no room for, if any.
+/// Draws the numbers of elements that do not fit in the picture, if there are any.
 pub(super) fn hidden(canvas: &mut Canvas, numbers: &[u32], shown: VisibleParts, at: Point, width: f64) {
     if numbers.is_empty() {
         return;
@@ -168,7 +168,7 @@ pub(super) fn hidden(canvas: &mut Canvas, numbers: &[u32], shown: VisibleParts, 
     canvas.text(at, 10.5, Anchor::Start, &format!("fill=\"{TEXT}\""), &format!("{first}{more}"));
 }
 
-/// Ascending numbers, with a dash for three or more in a row: `3, 7–9`.
+/// Formats ascending numbers, with a dash for three or more consecutive ones: `3, 7–9`.
 fn ranges(numbers: &[u32]) -> String {
     let runs = numbers.chunk_by(|one, next| one + 1 == *next);
     let run = |run: &[u32]| match run {
@@ -178,7 +178,8 @@ fn ranges(numbers: &[u32]) -> String {
     runs.map(run).collect::<Vec<_>>().join(", ")
 }
 
-/// Draws the kinds of lines that occur, from `left` to `right`, continuing on further lines. Returns the last line.
+/// Draws the kinds of lines that occur in the picture, from `left` to `right` and continuing on further lines. Returns the position of the
+/// last line.
 pub(super) fn kinds(
     canvas: &mut Canvas,
     scene: &Scene,
@@ -234,7 +235,7 @@ pub(super) fn kinds(
     y
 }
 
-/// Draws the depth scale.
+/// Draws the colours of depths with the depths that they stand for.
 pub(super) fn depths(canvas: &mut Canvas, depths: &Depths, [left, y]: Point) {
     let Some((high, low)) = depths.range else { return };
     let label = |z: f64| format!("Z {}", mm(z));
@@ -257,7 +258,7 @@ pub(super) fn depths(canvas: &mut Canvas, depths: &Depths, [left, y]: Point) {
     canvas.text([x + 8.0, y], 10.5, Anchor::Start, "", &label(low));
 }
 
-/// The lines of the findings for which there is room, and their number.
+/// Returns the lines of the findings that fit in the legend, and the number of these findings.
 fn first_findings(findings: &[Finding], shown: VisibleParts) -> (Vec<(Option<&Finding>, String)>, usize) {
     let mut all = Vec::new();
     for (number, finding) in findings.iter().enumerate() {
@@ -275,7 +276,7 @@ fn first_findings(findings: &[Finding], shown: VisibleParts) -> (Vec<(Option<&Fi
     (all, findings.len())
 }
 
-/// The lines of a finding, the first with its number.
+/// Returns the lines of a finding. The first line carries the finding, whose number is drawn before it.
 fn lines<'a>(finding: &'a Finding, shown: VisibleParts) -> Vec<(Option<&'a Finding>, String)> {
     let pick = |text: &'a crate::scene::BilingualText| match shown.lang {
         Lang::En => text.en.as_str(),

@@ -1,4 +1,4 @@
-//! Scenes as SVG: deterministic output, light for printing, in colours that the colour-blind can distinguish.
+//! Scenes as SVG. The output is deterministic, suitable for printing, and uses colours that the colour-blind can distinguish.
 
 mod canvas;
 mod changes;
@@ -25,7 +25,7 @@ pub use sheet::{Sheet, SheetProbe, SheetTool, sheet_html, sheet_pages, sheet_svg
 use stock::MilledStock;
 pub use stock::{StockChange, has_stock, stock_change_svg};
 
-/// Draws a scene: its drawing and moves, or the stock after them.
+/// Draws a scene: the drawing and its moves, or the stock after all moves.
 pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
     if shown.stock {
         return stock_svg(scene, shown);
@@ -45,7 +45,7 @@ pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
     canvas.finish()
 }
 
-/// Draws the drawing and the moves of a scene. Returns the numbers of elements for which there was no room.
+/// Draws the drawing and the moves of a scene. Returns the numbers of elements that do not fit in the picture.
 fn drawing(
     canvas: &mut Canvas,
     scene: &Scene,
@@ -65,7 +65,7 @@ fn drawing(
     hidden
 }
 
-/// Draws the stock of a scene, or an empty page if there is none.
+/// Draws the stock of a scene. The page is empty if the stock is unknown.
 fn stock_svg(scene: &Scene, shown: VisibleParts) -> String {
     let stock = MilledStock::of(scene);
     let frame = Frame::around(stock.extent());

@@ -10,13 +10,13 @@ use super::frame::PageTransform;
 use super::frame::VisibleParts;
 use crate::scene::{MoveKind, Point, SceneMove, ScenePath};
 
-/// Minimum length in px of a move with an arrow.
+/// Minimum length in px of a move that gets an arrow.
 const ROOM_FOR_ARROW: f64 = 26.0;
 
-/// Number of pieces for flattening an arc in another plane.
+/// Number of lines that replace an arc in another plane than XY.
 const PIECES_PER_ARC: u32 = 24;
 
-/// All moves along one line, regardless of direction: the direction of the first and the depth of the deepest.
+/// All moves along one line, regardless of direction. It has the direction of the first move and the depth of the deepest one.
 struct Cut<'a> {
     way: &'a SceneMove,
     depth: Option<f64>,
@@ -81,14 +81,14 @@ fn cut(canvas: &mut Canvas, cut: &Cut<'_>, path: &ScenePath, place: &PageTransfo
     canvas.path(&data(&movement.way, place), &format!("stroke=\"{color}\"{dashes}"));
 }
 
-/// Whether a plunge makes up its whole element. Without elements, every plunge looks like a hole.
+/// Whether a plunge is a hole, because it makes up its whole element. Plunges without an element are drawn as holes too.
 fn is_hole(movement: &SceneMove, path: &ScenePath) -> bool {
     movement.element.is_none_or(|element| {
         matches!(path.elements[element as usize].shape, crate::scene::Shape::Circle { .. })
     })
 }
 
-/// The final depth of each element.
+/// Returns the final depth of each element.
 fn bottoms(path: &ScenePath) -> Vec<Option<f64>> {
     let mut bottoms: Vec<Option<f64>> = vec![None; path.elements.len()];
     for movement in
@@ -101,7 +101,7 @@ fn bottoms(path: &ScenePath) -> Vec<Option<f64>> {
     bottoms
 }
 
-/// The cuts, from shallow to deep.
+/// Returns the cuts of a path, from shallow to deep.
 fn cuts(path: &ScenePath) -> Vec<Cut<'_>> {
     let mut places: BTreeMap<Vec<i64>, usize> = BTreeMap::new();
     let mut cuts: Vec<Cut<'_>> = Vec::new();
@@ -116,12 +116,12 @@ fn cuts(path: &ScenePath) -> Vec<Cut<'_>> {
     cuts
 }
 
-/// The lower of two heights, either of which may be unknown.
+/// Returns the lower of two heights, either of which may be unknown.
 fn deeper(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     a.into_iter().chain(b).reduce(f64::min)
 }
 
-/// Key that is equal for moves along the same line: the ends in either order, and the centre.
+/// Returns a key that is equal for moves along the same line. It contains the ends, in either order, and for arcs the centre.
 fn line_of(movement: &SceneMove) -> Vec<i64> {
     let mut ends = [movement.from(), movement.to()].map(|end| end.map(micrometres));
     ends.sort_unstable();
@@ -129,7 +129,7 @@ fn line_of(movement: &SceneMove) -> Vec<i64> {
     if let MoveShape::Arc(arc) = movement.way.shape {
         line.extend(arc.centre.map(micrometres));
         let goes_up = movement.from().map(micrometres) == ends[0];
-        // A full circle is the same line in both directions.
+        // Both directions of a full circle are the same line.
         line.push(i64::from(ends[0] == ends[1] || arc.clockwise == goes_up));
     }
     line
@@ -176,20 +176,20 @@ fn arrow(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, color
     canvas.path(&format!("M{tip}L{left}L{right}Z"), &format!("fill=\"{color}\""));
 }
 
-/// The point at a fraction (0 to 1) of a move.
+/// Returns the point at a fraction (0 to 1) of a move's length.
 pub(super) fn along(movement: &SceneMove, share: f64) -> Point {
     let [x, y, _] = movement.way.point(share);
     [x, y]
 }
 
-/// Number of arcs that an arc is drawn as. SVG computes the centre from the ends, whose rounding would move it by up to 1 px if they were
-/// opposite each other; and a single arc cannot be a full circle.
+/// Returns the number of pieces in which an arc is drawn, at least two. SVG computes the centre from the ends; if these were opposite each
+/// other, their rounding would move the centre by up to 1 px. A single piece also cannot be a full circle.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
 pub(super) fn arc_pieces(degrees: f64) -> u32 {
     ((degrees.abs() / 120.0 - 1e-6).ceil() as u32).max(2)
 }
 
-/// A move as SVG path data; arcs in the plane stay arcs.
+/// Returns a move as SVG path data. Arcs in the XY plane stay arcs.
 pub(super) fn data(way: &Move, place: &PageTransform) -> String {
     let point = |at: Point| {
         let [x, y] = place.at(at);

@@ -1,7 +1,8 @@
 //! The stock as it is when all moves are done, seen from above. (book: program/pictures)
 //!
-//! The area that a cutter sweeps is a stroke as wide as the cutter. Strokes are painted from high to low, so that each place shows its
-//! lowest cut, and everything keeps its exact size at any scale.
+//! The area that a cutter sweeps is drawn as a stroke as wide as the cutter. Strokes are painted from high to low, so that each place
+//! shows its
+//! lowest cut. All sizes are exact at any scale.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -19,45 +20,45 @@ use crate::scene::{FinishedPart, MoveKind, Point, Scene, SceneMove, ScenePath, S
 const UNTOUCHED_COLOUR: &str = "#dbbd85";
 const EDGE_COLOUR: &str = "#4a3012";
 const THROUGH_COLOUR: &str = "#ccd6e0";
-/// Rapid moves through material, cuts into parts and support bars that are cut away.
+/// Colour of defects: rapid moves through material, cuts into parts, and support bars that are cut away.
 const WRONG_COLOUR: &str = "#e50d1a";
 const LEFTOVER_COLOUR: &str = "#9628c8";
 const REMOVED_NOW_COLOUR: &str = "#0072b2";
 const LOOSE_COLOUR: &str = "#e69f00";
 const OUTLINE: &str = "#0b57c4";
 
-/// Red, green and blue of the shallowest and the deepest cut.
+/// Colours of the shallowest and the deepest cut, as red, green and blue.
 const DEPTHS: [[f64; 3]; 2] = [[189.0, 148.0, 92.0], [115.0, 77.0, 41.0]];
 
 /// Width in px of the line along the edges of cuts.
 const EDGE_WIDTH: f64 = 0.7;
 
-/// Number of steps into which the deepest slope is divided.
+/// Number of steps into which the deepest slope is divided. Each step has one colour.
 const STEPS: f64 = 64.0;
 
-/// Length of the pieces, in diameters of the cutter, in which rapid moves are searched for material.
+/// Length of the pieces in which rapid moves are searched for material, in diameters of the cutter.
 const SEARCH_PIECE: f64 = 0.25;
 
-/// Upper bound on the number of pieces of a rapid move.
+/// Maximum number of pieces of a rapid move.
 const MOST_PIECES: f64 = 400.0;
 
-/// The cuts of a scene, and the stock around them.
+/// The cuts of a scene, and the stock that surrounds them.
 pub(super) struct MilledStock<'s> {
     pub(super) scene: &'s Scene,
     blanks: Vec<Blank>,
     strokes: Vec<Stroke>,
     /// Pieces of rapid moves that hit material.
     hits: Vec<SweptArea>,
-    /// Highest upper face and deepest cut.
+    /// Z in mm of the highest upper face and of the deepest cut.
     range: [f64; 2],
-    /// Whether corners that the cutter does not reach are filled: the findings of the scene name some, or the caller asks for it.
+    /// Whether corners that the cutter does not reach are filled, because a finding of the scene mentions some or the caller asks for it.
     pub(super) has_corners: bool,
 }
 
-/// A rectangle of stock, and its upper face.
+/// Corners of a rectangle of stock, and Z in mm of its upper face.
 type Blank = ([Point; 2], f64);
 
-/// Area swept by a cutter, in the coordinates of the drawing.
+/// The area swept by a cutter during a move, in the coordinates of the drawing.
 #[derive(Clone, Copy)]
 struct SweptArea {
     way: Move,
@@ -69,12 +70,12 @@ struct Stroke {
     swept: SweptArea,
     z: f64,
     kind: StrokeKind,
-    /// Colour used instead of that of its depth.
+    /// Colour that replaces the colour of the depth.
     mark: Option<&'static str>,
 }
 
 impl Stroke {
-    /// The way in micrometres, without heights, and the diameter: equal for strokes that paint the same area.
+    /// Returns a key that is equal for strokes that paint the same area: the move in micrometres, without heights, and the diameter.
     fn key(&self) -> [i64; 7] {
         let Move { from, to, shape, .. } = &self.swept.way;
         let centre = if let MoveShape::Arc(arc) = shape { arc.centre } else { [0.0; 2] };
@@ -84,13 +85,14 @@ impl Stroke {
         [a, b, c, d, centre[0], centre[1], self.swept.diameter].map(micrometres)
     }
 
-    /// The height that is left; of all cuts through the plate, the same.
+    /// Returns the height that remains after the cut. All cuts through the plate have the same height.
     fn height(&self) -> f64 {
         if self.kind >= StrokeKind::ThroughEdge { f64::NEG_INFINITY } else { self.z }
     }
 }
 
-/// Sorts strokes as they are painted: cuts through the plate last, the others from high to low, and marked ones beneath others.
+/// Sorts strokes in painting order: cuts through the plate last, all others from high to low. At the same height, marked strokes are
+/// painted first, beneath the others.
 fn sort(strokes: &mut [Stroke]) {
     let is_through = |stroke: &Stroke| stroke.kind >= StrokeKind::ThroughEdge;
     strokes.sort_by(|one, other| {
@@ -107,12 +109,12 @@ enum StrokeKind {
     Through,
 }
 
-/// Cutter and stock of a move.
+/// The cutter and the stock that apply to a move.
 struct CuttingConditions {
     diameter: f64,
-    /// Z of the upper face.
+    /// Z in mm of the upper face of the stock.
     top: f64,
-    /// Z at or below which a cut goes through.
+    /// Z in mm at or below which a cut goes through the stock.
     through: f64,
 }
 
@@ -157,8 +159,8 @@ impl<'s> MilledStock<'s> {
         Self { scene, blanks, strokes, hits, range: [top, low], has_corners }
     }
 
-    /// Both stocks in one, with the cuts of this one marked where they are deeper; `None` if the other one has all
-    /// these cuts, or deeper ones along the same ways.
+    /// Combines two stocks, and marks the cuts of this one that are deeper than those of the other. Returns `None` if there are none,
+    /// because the other stock has all these cuts, or deeper ones along the same lines.
     fn compared(mut self, other: Self, mark: &'static str) -> Option<Self> {
         let mut heights: BTreeMap<_, f64> = BTreeMap::new();
         for stroke in &other.strokes {
@@ -182,7 +184,7 @@ impl<'s> MilledStock<'s> {
         Some(self)
     }
 
-    /// Leaves out everything outside of an area.
+    /// Removes everything outside of an area.
     pub(super) fn near(mut self, [low, high]: [Point; 2]) -> Self {
         let is_near = |swept: &SweptArea| {
             let radius = swept.diameter / 2.0;
@@ -196,7 +198,7 @@ impl<'s> MilledStock<'s> {
         self
     }
 
-    /// The corners of the stock and of the places of findings.
+    /// Returns the bounding box of the stock and of the places of findings.
     pub(super) fn extent(&self) -> Option<[Point; 2]> {
         let mut corners = None;
         for (blank, _) in &self.blanks {
@@ -208,7 +210,7 @@ impl<'s> MilledStock<'s> {
         corners
     }
 
-    /// Draws the stock with its defects, and the outlines of the parts. `id` makes the names of clips unique.
+    /// Draws the stock with its defects, and the outlines of the parts. `id` makes the ids of clip paths unique.
     pub(super) fn draw(&self, canvas: &mut Canvas, frame: &Frame, id: &str) {
         let place = frame.of_drawing();
         self.blanks(canvas, &place, id);
@@ -257,7 +259,7 @@ impl<'s> MilledStock<'s> {
         canvas.path(&all, &format!("fill=\"{UNTOUCHED_COLOUR}\""));
     }
 
-    /// Paints strokes that look alike at once.
+    /// Draws strokes, combining consecutive ones that look alike to a single path.
     fn strokes(&self, canvas: &mut Canvas, place: &PageTransform, strokes: &[Stroke]) {
         let mut all = String::new();
         for (index, next) in strokes.iter().enumerate() {
@@ -298,7 +300,7 @@ impl<'s> MilledStock<'s> {
         }
     }
 
-    /// Draws the legend of the colours, from `left` to `right`, continuing on further lines.
+    /// Draws the meaning of the colours, from `left` to `right` and continuing on further lines.
     pub(super) fn legend(&self, canvas: &mut Canvas, shown: VisibleParts, [left, mut y]: Point, right: f64) {
         let [top, low] = self.range;
         let has = |kind| self.strokes.iter().any(|stroke| stroke.kind == kind);
@@ -370,18 +372,19 @@ impl<'s> MilledStock<'s> {
     }
 }
 
-/// The two pictures of what a change does to the stock.
+/// The two pictures that show how a change affects the stock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StockChange {
-    /// Material that is removed now and was not before.
+    /// Shows the material that is removed now but was not before.
     Removed,
-    /// Material that is left now and was removed before.
+    /// Shows the material that is left now but was removed before.
     Left,
 }
 
-/// Draws what a change removes from the stock or leaves of it; `None` if nothing, or if the stock is not known.
+/// Draws the material that a change additionally removes from the stock, or additionally leaves. Returns `None` if there is none, or if
+/// the stock is unknown.
 pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, lang: Lang) -> Option<String> {
-    // The programs are compared in their own coordinates.
+    // Programs are compared in their own coordinates, wherever the path is in the drawing.
     let [old, new] = [old, new].map(|path| Scene {
         paths: vec![ScenePath { zero: [0.0; 2], parts: Vec::new(), ..path.clone() }],
         ..Scene::new("")
@@ -408,7 +411,7 @@ pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, l
     Some(canvas.finish())
 }
 
-/// Whether the cutter and the upper face of anything that is cut are known.
+/// Whether the stock of a scene can be drawn: for at least one cut, the cutter and the upper face of the material are known.
 pub fn has_stock(scene: &Scene) -> bool {
     scene.paths.iter().any(|path| {
         let mut cuts = path.moves.iter().filter(|movement| movement.kind.cuts() && is_known(&movement.way));
@@ -433,7 +436,7 @@ fn setting(scene: &Scene, path: &ScenePath, movement: &SceneMove) -> Option<Cutt
     Some(CuttingConditions { diameter: tool.map(|tool| tool.diameter).or(path.tool)?, top, through })
 }
 
-/// A move in the coordinates of the drawing.
+/// Converts a move to the coordinates of the drawing.
 fn moved(way: &Move, zero: Point) -> Move {
     let place =
         |end: &Position| Position { at: [end.at[0] + zero[0], end.at[1] + zero[1], end.at[2]], ..*end };
@@ -446,7 +449,7 @@ fn moved(way: &Move, zero: Point) -> Move {
     moved
 }
 
-/// What a cut paints. A slope is divided into steps, each as high as its upper end.
+/// Returns the strokes that a cut paints. A slope is divided into steps, each of which has the height of its upper end.
 fn strokes(way: &Move, setting: &CuttingConditions, step: f64) -> Vec<Stroke> {
     let CuttingConditions { diameter, top, through } = *setting;
     let [from, to] = [way.from.z(), way.to.z()];
@@ -488,12 +491,12 @@ fn strokes(way: &Move, setting: &CuttingConditions, step: f64) -> Vec<Stroke> {
     strokes
 }
 
-/// A height to a micrometre, so that cuts at the same height are painted at once.
+/// Rounds a height to a micrometre, so that cuts at the same height can be drawn as one path.
 fn rounded(z: f64) -> f64 {
     (z * 1000.0).round() / 1000.0
 }
 
-/// The pieces of rapid moves of a path that hit material. Without a common blank, it is only known near cuts.
+/// Returns the pieces of a path's rapid moves that hit material. If not all cuts share one blank, the material is only known near cuts.
 fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<SweptArea> {
     let settings: Vec<Option<CuttingConditions>> =
         path.moves.iter().map(|movement| setting(scene, path, movement)).collect();
@@ -528,7 +531,8 @@ fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<SweptArea>
     lines.into_iter().map(|line| swept[line as usize - 1]).collect()
 }
 
-/// A move that touches the upper face of a blank, with a cutter so wide that the material around the move is all of the blank.
+/// Returns a move that touches the upper face of a blank, with a cutter so wide that the material around the move is the entire blank. It
+/// makes the blank known to the search for hits.
 fn touch(([low, high], surface): Blank, zero: Point) -> (Move, StockSpan) {
     let [x, y] = [0, 1].map(|axis| [low[axis] - zero[axis], high[axis] - zero[axis]]);
     let z = surface - TOUCH_DEPTH;
@@ -546,15 +550,15 @@ fn touch(([low, high], surface): Blank, zero: Point) -> (Move, StockSpan) {
     (way, StockSpan { line: 1, surface, cutter })
 }
 
-/// Depth in mm of the move that touches a blank: less than what counts as material.
+/// Depth in mm of the move that touches a blank, too small to count as material.
 const TOUCH_DEPTH: f64 = 1e-4;
 
-/// The number of the next step.
+/// Returns the line number for the next step.
 fn line(steps: usize) -> u32 {
     u32::try_from(steps + 1).unwrap_or(u32::MAX)
 }
 
-/// Fills the outlines that no path comes near.
+/// Fills the outlines of parts that no path cuts.
 pub(super) fn uncut(canvas: &mut Canvas, scene: &Scene, place: &PageTransform) {
     let style = format!("fill=\"{LEFTOVER_COLOUR}\" fill-opacity=\"0.35\"");
     for ring in &scene.uncut {
@@ -566,7 +570,7 @@ fn stroke(canvas: &mut Canvas, data: &str, width: f64, color: &str) {
     canvas.path(data, &format!("stroke=\"{color}\" stroke-width=\"{}\"", n(width.max(0.5))));
 }
 
-/// Draws the material left at a part, outside of it.
+/// Draws the material left around a part, outside of its outline.
 fn left(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
     if part.left.is_empty() {
         return;
@@ -581,7 +585,8 @@ fn left(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &st
     canvas.close();
 }
 
-/// Fills the inner corners of a part, outside of it. The cuts, which are drawn over them, leave what the cutter does not reach.
+/// Fills the inner corners of a part, outside of its outline. The cuts are drawn over them, so that only the areas remain that the cutter
+/// does not reach.
 fn corners(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
     let sharp = |ring: &Vec<Shape>| {
         let next = ring.iter().cycle().skip(1);
@@ -601,8 +606,8 @@ fn corners(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: 
     canvas.close();
 }
 
-/// Distance from a corner at which a round cutter on the right touches its sides, in radii of the cutter. `None` if the outline does not
-/// turn to that side.
+/// Returns the distance from a corner at which a round cutter on the right of the outline touches both sides, in radii of the cutter. The
+/// arguments are the directions before and after the corner. Returns `None` if the outline does not turn to the right.
 fn sharpness([x, y]: Point, [next_x, next_y]: Point) -> Option<f64> {
     let (across, along) = (x * next_y - y * next_x, x * next_x + y * next_y);
     let norm = libm::hypot(x, y) * libm::hypot(next_x, next_y);
@@ -610,16 +615,16 @@ fn sharpness([x, y]: Point, [next_x, next_y]: Point) -> Option<f64> {
         .then(|| (-across / (norm + along).max(SMOOTH_SINE * norm)).min(MAX_CORNER_REACH))
 }
 
-/// Sine of the turn up to which an outline is smooth.
+/// Sine of the largest turn at which an outline still counts as smooth.
 const SMOOTH_SINE: f64 = 0.01;
 
-/// Upper bound on the reach of a corner, in radii of the cutter.
+/// Maximum extent of a corner, in radii of the cutter.
 const MAX_CORNER_REACH: f64 = 10.0;
 
-/// Draws the defects of a part: cuts into it, support bars that are cut away, and that nothing holds it.
+/// Draws the defects of a part: cuts into it, support bars that are cut away, and a colour if nothing holds the part.
 fn wrong(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
     let material = || -> String {
-        // A ring inside an opening leaves it open.
+        // Ignore rings within an opening: the opening is not filled.
         let rings =
             part.rings.iter().enumerate().zip(&part.nests).filter(|((index, _), nest)| index == *nest);
         rings.map(|((_, ring), _)| things::outline(ring, place)).collect()
@@ -642,7 +647,7 @@ fn wrong(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &s
     }
 }
 
-/// Defines the outside of a part for clipping: a frame around its rings, which run around their material on the left.
+/// Defines a clip path for the outside of a part: a frame around the rings of the part. The rings run with their material on the left.
 fn outside(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, reach: f64, id: &str) {
     let mut corners = None;
     for shape in part.rings.iter().flatten() {
@@ -670,7 +675,7 @@ fn depth_color(share: f64) -> String {
 mod tests {
     use super::{MAX_CORNER_REACH, sharpness};
 
-    /// A round cutter touches the sides of a right angle at its radius from the corner, however the part lies.
+    /// A round cutter touches the sides of a right angle at one radius from the corner, whatever the directions of the sides.
     #[test]
     fn the_reach_of_a_corner_does_not_depend_on_directions() {
         for turned in 0..12 {

@@ -1,4 +1,4 @@
-//! Draws the elements, below and above the moves, and the markers.
+//! Draws the elements of a scene, below and above its moves, and the markers.
 
 use super::canvas::{Anchor, BAR, Canvas, ERROR, INK, OTHER, PROBE, RAPID, TEXT, WARNING, n};
 use super::frame::VisibleParts;
@@ -9,16 +9,16 @@ use crate::scene::{
 };
 use pathbuild_motion::MoveShape;
 
-/// Minimum size in px of the path's own texts.
+/// Minimum size in px of texts that belong to the path itself.
 const MIN_TEXT_SIZE: f64 = 7.5;
 
 /// Size in px below which texts are illegible and omitted.
 const READABLE: f64 = 4.5;
 
-/// A white outline that keeps texts legible over lines.
+/// SVG attributes of a white outline that keeps texts legible over lines.
 const HALO: &str = "stroke=\"#fff\" stroke-width=\"2.5\" stroke-opacity=\"0.8\" paint-order=\"stroke\"";
 
-/// Draws other layers and clamps.
+/// Draws the shapes below the moves: other layers and clamps.
 pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mut Room) {
     let place = frame.of_drawing();
     canvas.open(&format!("id=\"other-layers\" fill=\"none\" stroke=\"{OTHER}\" stroke-width=\"0.7\""));
@@ -37,13 +37,13 @@ pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mu
     keep_outs(canvas, scene, &place, room);
 }
 
-/// The approximate rectangle of a text centred on a point.
+/// Returns the approximate rectangle of a text that is centred on a point.
 fn written([x, y]: Point, size: f64, text: &str) -> Rectangle {
     let half = width(text, size) / 2.0;
     [[x - half, y - size / 2.0], [x + half, y + size / 2.0]]
 }
 
-/// Draws clamps, with their heights in the middle.
+/// Draws clamps, with their heights in the middle of each.
 fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &mut Room) {
     canvas.open(&format!("id=\"keep-outs\" fill=\"none\" stroke=\"{ERROR}\" stroke-width=\"1.2\""));
     let style = format!("stroke-dasharray=\"8 2 2 2\" fill=\"{ERROR}\" fill-opacity=\"0.14\"");
@@ -67,7 +67,7 @@ fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &m
     canvas.close();
 }
 
-/// Adjacent shapes of an outline as one piece of path data.
+/// Returns the adjacent shapes of an outline as one piece of SVG path data.
 pub(super) fn outline(shapes: &[Shape], place: &PageTransform) -> String {
     let mut data = String::new();
     for piece in shapes {
@@ -93,7 +93,7 @@ fn other_text(canvas: &mut Canvas, place: &PageTransform, text: &str, at: Point,
     canvas.text([x, y], size, Anchor::Middle, &style, text);
 }
 
-/// Draws elements, texts, support bars, probes and markers. Returns the numbers of elements for which there was no room.
+/// Draws the shapes above the moves: elements, texts, support bars, probes and markers. Returns the numbers of elements that do not fit.
 pub(super) fn over(
     canvas: &mut Canvas,
     path: &ScenePath,
@@ -119,7 +119,7 @@ pub(super) fn over(
     hidden
 }
 
-/// Draws elements that are not moves: with a program, subpaths and skipped elements; without one, everything.
+/// Draws elements that no move shows: with a program, subpaths and skipped elements; without one, all elements.
 fn elements(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
     canvas.open("id=\"elements\" fill=\"none\" stroke-width=\"1.4\"");
     for element in &path.elements {
@@ -152,11 +152,11 @@ fn style_without_program(element: &Element) -> &'static str {
 
 fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
     canvas.open(&format!("id=\"texts\" fill=\"{TEXT}\""));
-    // The text at the start of an embedded path concerns that path's own drawing.
+    // Skip the text at the start of an embedded path: it only concerns that path's own drawing.
     let is_start = |index: &u32| path.elements[*index as usize].kind == ElementKind::Start;
     let is_shown = |label: &&Label| label.path == 0 || !label.elements.iter().any(is_start);
     let mut labels: Vec<&Label> = path.texts.iter().filter(is_shown).collect();
-    // Short texts stand where they are drawn, so that a circle around one encloses it; long ones make room.
+    // Place short texts first. They keep their positions, so that a circle around a text encloses it; long texts give way.
     labels.sort_by_key(|label| longest_line(label));
     for label in labels {
         let lines: Vec<&str> = label.text.lines().collect();
@@ -187,7 +187,7 @@ fn longest_line(label: &Label) -> usize {
     label.text.lines().map(|line| line.chars().count()).max().unwrap_or(0)
 }
 
-/// The point of a shape that is nearest to another point.
+/// Returns the point of a shape that is nearest to another point.
 fn nearest(shape: &Shape, at: Point) -> Point {
     let onto_circle = |centre: Point, radius: f64| {
         let out = [at[0] - centre[0], at[1] - centre[1]];
@@ -207,7 +207,7 @@ fn nearest(shape: &Shape, at: Point) -> Point {
     }
 }
 
-/// Draws the names of embedded paths at their starts, as far as there is room.
+/// Draws the names of embedded paths at their starts, unless there is no space.
 fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
     canvas.open(&format!("id=\"embedded\" fill=\"{INK}\" font-style=\"italic\""));
     for inner in path.embedded.iter().skip(1) {
@@ -235,7 +235,7 @@ fn probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &m
     canvas.close();
 }
 
-/// A shape as SVG path data.
+/// Returns a shape as SVG path data.
 pub(super) fn shape(shape: &Shape, place: &PageTransform) -> String {
     let point = |at: Point| {
         let [x, y] = place.at(at);
@@ -268,12 +268,10 @@ pub(super) fn shape(shape: &Shape, place: &PageTransform) -> String {
     }
 }
 
-/// The colour of sweeps, for the legend.
+/// Colour of sweeps, for the legend.
 pub(super) const SWEEP: &str = RAPID;
 
-// Markers: cutting order, start and end, findings.
-
-/// The radius in px of the circle around a number.
+/// Radius in px of the circle around a number.
 const NUMBER: f64 = 7.0;
 
 /// Reserves the space of symbols with fixed positions.
@@ -286,22 +284,22 @@ pub(super) fn reserve(path: &ScenePath, place: &PageTransform, room: &mut Room) 
     }
 }
 
-/// The start and end marker of a path.
+/// Returns the start and end markers of a path.
 fn markers(path: &ScenePath) -> [Option<&Element>; 2] {
     let marker = |kind| path.elements.iter().find(|element| element.path == 0 && element.kind == kind);
     [marker(ElementKind::Start), marker(ElementKind::End)]
 }
 
-/// The radius of a probe's symbol in px.
+/// Returns the radius of a probe's symbol in px.
 fn probe_radius(place: &PageTransform) -> f64 {
     (3.0 * place.scale()).clamp(5.0, 16.0)
 }
 
-/// Distances in px from an element to a number that has a leader line, and the number of directions in which room is searched.
+/// Distances in px from an element at which a number with a leader line is tried, and number of directions that are tried.
 const LEADERS: [f64; 4] = [18.0, 26.0, 36.0, 48.0];
 const DIRECTIONS: u32 = 12;
 
-/// Draws the cutting order of the elements: on the element, or beside it with a leader line. Returns the numbers for which there is no room.
+/// Draws the numbers of the cutting order, on each element or beside it with a leader line. Returns the numbers that do not fit.
 pub(super) fn order(
     canvas: &mut Canvas,
     path: &ScenePath,
@@ -325,7 +323,7 @@ pub(super) fn order(
     for (order, element) in remaining {
         let anchor = place.at(anchor_point(&element.shape));
         let around = LEADERS.iter().flat_map(|distance| ring(anchor, *distance));
-        // Near the anchor, a leader line may touch another number.
+        // Check only the outer part of a leader line: near the element, it may touch another number.
         let outer = |at: &Point| [[0, 1].map(|axis| anchor[axis] + (at[axis] - anchor[axis]) / 3.0), *at];
         let around: Vec<Point> = around.filter(|at| !room.is_crossed_by(outer(at))).collect();
         match find_number(room, &around) {
@@ -344,7 +342,7 @@ pub(super) fn order(
     hidden
 }
 
-/// Occupies the first of the places that is free.
+/// Finds the first free position for a number, occupies it, and returns it.
 fn find_number(room: &mut Room, places: &[Point]) -> Option<Point> {
     let taken: Vec<Rectangle> = places.iter().map(|at| around(*at, NUMBER + 1.0)).collect();
     room.find(&taken).map(|found| places[found])
@@ -357,7 +355,7 @@ fn number(canvas: &mut Canvas, order: u32, at: Point) {
     canvas.text([at[0], at[1] + size * 0.36], size, Anchor::Middle, "", &order.to_string());
 }
 
-/// The point on a shape to which its number belongs: the middle of a curve; of a circle, its rightmost point.
+/// Returns the point of a shape that its number refers to: the middle of a curve, or the rightmost point of a circle.
 fn anchor_point(shape: &Shape) -> Point {
     match shape {
         Shape::Circle { centre: [x, y], radius } => [x + radius, *y],
@@ -365,7 +363,7 @@ fn anchor_point(shape: &Shape) -> Point {
     }
 }
 
-/// Points on a circle around a point.
+/// Returns points at this distance around a point, in all directions that are tried.
 fn ring([x, y]: Point, distance: f64) -> impl Iterator<Item = Point> {
     (0..DIRECTIONS).map(move |direction| {
         let (sin, cos) = libm::sincos(f64::from(direction) * std::f64::consts::TAU / f64::from(DIRECTIONS));
@@ -373,8 +371,8 @@ fn ring([x, y]: Point, distance: f64) -> impl Iterator<Item = Point> {
     })
 }
 
-/// Possible positions for the number of a shape: at the middle, or nearer to an end. For a circle, the centre if the circle is visible
-/// around the number, otherwise beside it. The cutter removes `kerf` px on either side.
+/// Returns possible positions for the number of a shape: at the middle, or nearer to an end. For a circle, the centre if the circle is
+/// visible around the number, otherwise beside it. The cutter removes `kerf` px on either side of the line.
 fn places(shape: &Shape, place: &PageTransform, kerf: f64) -> Vec<Point> {
     let along =
         |point: &dyn Fn(f64) -> Point| [0.5, 0.35, 0.65, 0.2, 0.8].map(|share| place.at(point(share)));
@@ -386,7 +384,7 @@ fn places(shape: &Shape, place: &PageTransform, kerf: f64) -> Vec<Point> {
         Shape::Circle { centre, radius } => {
             let ([x, y], radius) = (place.at(*centre), radius * place.scale());
             let out = radius.max(kerf) + NUMBER + 3.0;
-            // A drilled hole is a disc; a number inside would make it look like a ring.
+            // A drilled hole is drawn as a disc. A number inside would make it look like a ring.
             let is_seen = radius > NUMBER + 4.0 && radius > kerf * 1.05;
             let centre = is_seen.then_some([x, y]);
             centre.into_iter().chain([[x + out, y], [x, y + out], [x, y - out], [x - out, y]]).collect()
@@ -394,7 +392,7 @@ fn places(shape: &Shape, place: &PageTransform, kerf: f64) -> Vec<Point> {
     }
 }
 
-/// Draws the program's zero point, start and end.
+/// Draws the program's zero point, and the start and the end of the path.
 pub(super) fn ends(
     canvas: &mut Canvas,
     path: &ScenePath,
@@ -429,7 +427,7 @@ pub(super) fn ends(
     room.lines.truncate(known);
 }
 
-/// The moves of a path as lines, with arcs in pieces, so that labels can avoid them.
+/// Returns the moves of a path as straight lines, which labels avoid. Arcs are divided into pieces.
 fn lines<'a>(
     path: &'a ScenePath,
     place: &'a PageTransform,
@@ -445,7 +443,7 @@ fn lines<'a>(
     })
 }
 
-/// Number of lines that approximate an arc.
+/// Number of straight lines that approximate an arc.
 const ARC_PIECES: u32 = 8;
 
 fn label(canvas: &mut Canvas, room: &mut Room, at: Point, offset: Point, text: &str, color: &str) {
@@ -454,7 +452,7 @@ fn label(canvas: &mut Canvas, room: &mut Room, at: Point, offset: Point, text: &
     canvas.text(at, 9.5, Anchor::Start, &format!("fill=\"{color}\" {halo}"), text);
 }
 
-/// Circles findings, and numbers the first ones. Findings at the same place share a circle.
+/// Circles the places of findings, and numbers the first `numbered` findings. Findings at the same place share a circle.
 pub(super) fn findings(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mut Room, numbered: usize) {
     let place = frame.of_drawing();
     let mut circles: Vec<(Point, Vec<usize>, bool)> = Vec::new();

@@ -1,4 +1,4 @@
-//! Content of a setup sheet: checklist, facts and tables.
+//! The content of a setup sheet: checklist, facts and tables.
 
 use super::data::{Sheet, SheetTool, Words, distinct};
 use super::flow::Block;
@@ -12,7 +12,7 @@ use crate::svg::sheet::data::feeds;
 use crate::svg::sheet::data::outline;
 use crate::svg::sheet::data::rapid_heights;
 
-/// Steps before running the program, in the order in which they are carried out.
+/// Returns the steps before running the program, in the order in which the operator carries them out.
 pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
     let mut checks = vec![program(sheet, words), material(sheet, words)];
     if let Some((deepest, _)) = sheet.cutting_box[2].filter(|(deepest, _)| *deepest < 0.0) {
@@ -113,7 +113,7 @@ fn cutter(sheet: &Sheet, words: Words) -> String {
     }
 }
 
-/// The position of the zero point.
+/// Describes where to set the zero point.
 fn zero(sheet: &Sheet, words: Words) -> Vec<String> {
     let mut checks = Vec::new();
     if let Some([low, _]) = cleared(sheet) {
@@ -133,7 +133,7 @@ fn zero(sheet: &Sheet, words: Words) -> Vec<String> {
     checks
 }
 
-/// Facts to know while the program runs.
+/// Returns the facts that the operator should know while the program runs.
 pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
     let mut facts = Facts { words, blocks: Vec::new() };
     facts.heading("Material", "Material");
@@ -192,7 +192,7 @@ impl Facts {
     }
 }
 
-/// Tables with more details than the first page holds.
+/// Returns tables with details for which the first page has no space.
 pub(super) fn tables(sheet: &Sheet, words: Words) -> Vec<Block> {
     let mut blocks = Vec::new();
     let mut table = |heading: &str, shares: &'static [f64], head: &[&str], rows: Vec<Vec<String>>| {
@@ -266,7 +266,7 @@ fn probes(sheet: &Sheet) -> Vec<Vec<String>> {
             mm(probe.at[0]),
             mm(probe.at[1]),
             mm(probe.height),
-            // Left empty for writing the measured value, first on paper and then in the file.
+            // The operator writes the measured value here, first on paper and then in the file.
             "=".to_owned(),
         ]
     };
@@ -293,7 +293,7 @@ fn tool_row(tool: &SheetTool, words: Words) -> Vec<String> {
     ]
 }
 
-/// Each embedded path with its number of occurrences.
+/// Returns a row for each embedded path, with its number of occurrences.
 fn embedded(sheet: &Sheet) -> Vec<Vec<String>> {
     let all = || sheet.scene.paths.iter().flat_map(|path| path.embedded.iter().skip(1));
     let each = distinct(all().map(|path| (&path.name, &path.file)));
@@ -305,7 +305,7 @@ fn embedded(sheet: &Sheet) -> Vec<Vec<String>> {
     each.into_iter().map(row).collect()
 }
 
-/// A cutter: its description, then its spindle speed.
+/// Describes a cutter: the tool itself, then its spindle speed.
 fn tool_text(tool: &SheetTool, words: Words) -> Vec<String> {
     let number = tool.number.map(|number| format!("T{number} "));
     let name = tool.name.as_ref().map(|name| format!(" ({name})"));
@@ -314,7 +314,7 @@ fn tool_text(tool: &SheetTool, words: Words) -> Vec<String> {
     std::iter::once(what).chain(edges(tool, words)).chain(spindle(tool, words)).collect()
 }
 
-/// The cutting edges of a cutter: corner radius, number and length.
+/// Describes the cutting edges of a cutter: corner radius, number and length.
 fn edges(tool: &SheetTool, words: Words) -> Option<String> {
     let radius = Some(tool.corner_radius)
         .filter(|radius| *radius > 0.0)
@@ -352,13 +352,13 @@ fn thicknesses(sheet: &Sheet) -> Option<String> {
     listed(&distinct(sheet.scene.paths.iter().filter_map(|path| path.thickness)))
 }
 
-/// The size of the removed material in X and Y.
+/// Describes the size of the removed material in X and Y; `None` if nothing is removed.
 fn size(sheet: &Sheet, words: Words) -> Option<String> {
     let [low, high] = cleared(sheet)?;
     Some(format!("{} × {} mm", words.mm(high[0] - low[0]), words.mm(high[1] - low[1])))
 }
 
-/// A list of numbers; only the first and the last of many.
+/// Formats a list of numbers. If there are many, only the first and the last are written.
 fn listed(numbers: &[f64]) -> Option<String> {
     match numbers {
         [] => None,

@@ -1,4 +1,4 @@
-//! The data of a setup sheet, what is derived from it, and its vocabulary.
+//! The data of a setup sheet, values derived from it, and the texts in both languages.
 
 use pathbuild_diagnostic::{Lang, in_prose};
 
@@ -6,28 +6,28 @@ use crate::scene::{BilingualText, KeepOut, MoveKind, Point, Scene, SceneMove, Sh
 use crate::svg::canvas::mm;
 use crate::svg::frame::widen;
 
-/// The size of a page in mm.
+/// Width and height of a page in mm.
 pub(super) const PAPER: Point = [210.0, 297.0];
 
-/// Units of a page's SVG per mm of paper: letters of 10 units have 9.4 pt.
+/// Units of a page's SVG per mm of paper. Letters of 10 units have 9.4 pt.
 pub(super) const UNITS: f64 = 3.0;
 
 /// The data of a setup sheet. Lengths are in mm.
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    /// The path's name, or the name given to joined paths.
+    /// Name of the path, or the name given to several joined paths.
     pub title: String,
-    /// The drawings of the paths, without directories.
+    /// File names of the paths' drawings, without directories.
     pub drawings: Vec<String>,
     /// The names of the programs, in the order in which the machine runs them.
     pub programs: Vec<String>,
-    /// The file for measured heights.
+    /// Path of the file in which the operator writes measured heights.
     pub values: Option<String>,
-    /// The line of provenance in the programs' headers, and the line with the title.
+    /// Two lines of the programs' headers: the provenance, and the title.
     pub head: [String; 2],
-    /// The hashes in that line.
+    /// The hashes in the line of provenance.
     pub hashes: String,
-    /// The scene in coordinates of the program.
+    /// The scene, in coordinates of the program.
     pub scene: Scene,
     /// The cutters in order of use.
     pub tools: Vec<SheetTool>,
@@ -35,9 +35,9 @@ pub struct Sheet {
     pub starts_spindle: bool,
     /// Ranges of X, Y and Z of the tool tip while cutting.
     pub cutting_box: [Option<(f64, f64)>; 3],
-    /// The length of the program.
+    /// Total length of the moves.
     pub length: f64,
-    /// The duration; `None` if the rapid feed is unknown.
+    /// Duration in minutes; `None` if the rapid feed is unknown.
     pub minutes: Option<f64>,
     /// Rapid feed in mm/min.
     pub rapid: Option<f64>,
@@ -47,14 +47,14 @@ pub struct Sheet {
     pub left_out: Vec<BilingualText>,
 }
 
-/// A cutter.
+/// A cutter, and the settings for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetTool {
-    /// Its diameter O.
+    /// Diameter O in mm.
     pub diameter: f64,
-    /// Its tool number T in the machine.
+    /// Number T of the tool in the machine.
     pub number: Option<u32>,
-    /// Its name in the configuration.
+    /// Name of the tool in the configuration.
     pub name: Option<String>,
     /// Spindle speed in revolutions per minute.
     pub speed: Option<f64>,
@@ -62,31 +62,31 @@ pub struct SheetTool {
     pub clockwise: Option<bool>,
     /// Number of cutting edges.
     pub flutes: Option<u32>,
-    /// Radius of its corners in mm; 0 if they are sharp.
+    /// Radius of the corners in mm; 0 if they are sharp.
     pub corner_radius: f64,
-    /// Length of its cutting edges in mm.
+    /// Length of the cutting edges in mm.
     pub length: Option<f64>,
-    /// The paths milled with it.
+    /// Names of the paths that are milled with the cutter.
     pub paths: Vec<String>,
 }
 
 /// A point that is measured before milling.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetProbe {
-    /// The parameter that holds its height: 51 for #51.
+    /// Number of the control's parameter that stores the measured height: 51 for #51.
     pub number: usize,
-    /// The text before its value in the file for measured heights.
+    /// Text that precedes the value in the file for measured heights.
     pub name: String,
-    /// The position in the program.
+    /// Position in the coordinates of the program.
     pub at: Point,
-    /// The expected height.
+    /// Expected height in mm.
     pub height: f64,
 }
 
-/// Lower left and upper right corner.
+/// Lower left and upper right corner of a rectangle, in mm.
 pub(super) type Corners = [Point; 2];
 
-/// The bounding box of the removed material seen from above; `None` without cuts.
+/// Returns the bounding box of the removed material seen from above; `None` if nothing is cut.
 pub(super) fn cleared(sheet: &Sheet) -> Option<Corners> {
     let mut corners = None;
     for path in &sheet.scene.paths {
@@ -102,7 +102,7 @@ pub(super) fn cleared(sheet: &Sheet) -> Option<Corners> {
     corners
 }
 
-/// The bounding box of the picture.
+/// Returns the bounding box of everything that the picture shows.
 pub(super) fn seen(sheet: &Sheet) -> Corners {
     let mut corners = cleared(sheet);
     widen(&mut corners, [[0.0; 2]; 2]);
@@ -120,7 +120,7 @@ pub(super) fn seen(sheet: &Sheet) -> Corners {
     corners.unwrap_or_default()
 }
 
-/// The bounding box of a clamp.
+/// Returns the bounding box of a clamp.
 pub(super) fn outline(clamp: &KeepOut) -> Corners {
     let mut corners = None;
     for extent in clamp.outline.iter().map(Shape::extent) {
@@ -129,7 +129,7 @@ pub(super) fn outline(clamp: &KeepOut) -> Corners {
     corners.unwrap_or_default()
 }
 
-/// The feeds in mm/min of some kinds of moves, in ascending order.
+/// Returns the feeds in mm/min of the given kinds of moves, in ascending order without duplicates.
 pub(super) fn feeds(sheet: &Sheet, is_meant: impl Fn(MoveKind) -> bool) -> Vec<f64> {
     let moves = sheet.scene.paths.iter().flat_map(|path| &path.moves);
     let mut feeds: Vec<f64> = moves
@@ -141,16 +141,16 @@ pub(super) fn feeds(sheet: &Sheet, is_meant: impl Fn(MoveKind) -> bool) -> Vec<f
     feeds
 }
 
-/// Heights of rapid moves.
+/// The heights in mm of rapid moves.
 #[derive(Debug, PartialEq)]
 pub(super) struct RapidHeights {
-    /// Of moves in the plane, in ascending order.
+    /// Heights of moves in the plane, in ascending order.
     pub(super) across: Vec<f64>,
-    /// Number of these heights below the upper face of the material, where moves lead through areas already milled.
+    /// Number of these heights that are below the upper face of the material, where moves cross areas already milled.
     pub(super) inside: usize,
-    /// The lowest end of moves straight down.
+    /// Lowest end of the moves straight down.
     pub(super) down: Option<f64>,
-    /// The lowest end of moves straight up.
+    /// Lowest end of the moves straight up.
     up: Option<f64>,
 }
 
@@ -176,7 +176,7 @@ pub(super) fn rapid_heights(sheet: &Sheet) -> RapidHeights {
     RapidHeights { across, inside, down: lowest_end(true), up: lowest_end(false) }
 }
 
-/// The values of all paths without duplicates, in order of the paths.
+/// Returns the distinct values, in order of first occurrence.
 pub(super) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
     let mut distinct = Vec::new();
     for value in values {
@@ -187,7 +187,7 @@ pub(super) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> 
     distinct
 }
 
-/// Chooses words by language.
+/// Chooses texts by language.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Words(pub(super) Lang);
 
@@ -196,12 +196,12 @@ impl Words {
         self.0.choose(en, de)
     }
 
-    /// A length in a sentence.
+    /// Formats a length for a sentence, with the language's decimal separator.
     pub(super) fn mm(self, length: f64) -> String {
         in_prose(mm(length), self.0)
     }
 
-    /// The position of zero relative to the lower end of a length along X or Y.
+    /// Describes the distance of zero from the lower end of a range along X (`is_across`) or Y.
     pub(super) fn beside(self, low: f64, is_across: bool) -> String {
         let (sides, edge) = match (is_across, self.0) {
             (true, Lang::En) => (["right", "left"], "left edge"),

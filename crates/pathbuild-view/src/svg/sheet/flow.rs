@@ -1,4 +1,4 @@
-//! Lays out blocks of text in columns and on pages.
+//! Arranges blocks of text in columns and on pages.
 
 use crate::scene::Point;
 use crate::svg::canvas::OTHER;
@@ -9,36 +9,37 @@ use crate::svg::canvas::{Anchor, Canvas, INK, n};
 pub(super) const LETTERS: f64 = 10.0;
 pub(super) const LINE: f64 = 13.5;
 
-/// Maximum height of the picture on the first page; the rest is for checklist and facts.
+/// Maximum height, in units of the page, of the picture on the first page. The rest is for checklist and facts.
 pub(super) const PICTURE: f64 = 440.0;
 
-/// Space above a heading and below a block.
+/// Space above a heading and below a block, in units of the page.
 const ABOVE_HEADING: f64 = 8.0;
 const BELOW: f64 = 2.5;
 
-/// Indentation of a checklist's text, to the right of the boxes.
+/// Indentation of a checklist's text, which is to the right of the boxes, in units of the page.
 const INDENT: f64 = 17.0;
 
-/// Fraction of a column for the names of facts.
+/// Share of a column's width for the name in a [`Block::Fact`].
 const NAMES: f64 = 0.45;
 
 /// Space between two cells of a row, in units of the page.
 const CELL_GAP: f64 = 6.0;
 
-/// A block of text that is not split.
+/// A block of text, which is never split between columns.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Block {
-    /// A heading of the blocks that follow.
+    /// A heading for the blocks that follow.
     Heading(String),
-    /// A step with a box to tick.
+    /// A step of the checklist, with a box to tick.
     Check(String),
     /// A name and a value.
     Fact(String, String),
-    /// A row of a table, with cells of given fractions of the width. Its title and its head are repeated on each new page.
+    /// A row of a table. `shares` are the fractions of the width for its cells. On each new page, the table
+    /// begins with the title `continued` and the row `head`.
     Row { cells: Vec<String>, shares: &'static [f64], head: Vec<String>, continued: String },
 }
 
-/// An area of a page.
+/// An area of a page that blocks fill from top to bottom, in units of the page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Column {
     pub(super) left: f64,
@@ -47,8 +48,8 @@ pub(super) struct Column {
     pub(super) bottom: f64,
 }
 
-/// Lays out as many blocks as a column holds. Returns the rest, and the lower edge of the last block. At least one block is laid out, so
-/// that the layout terminates.
+/// Lays out as many blocks as a column holds. Returns the remaining blocks, and the lower edge of the last block laid out. At least one
+/// block is laid out, so that the layout terminates.
 pub(super) fn lay<'b>(blocks: &'b [Block], column: Column, items: &mut Vec<Item>) -> (&'b [Block], f64) {
     let mut y = column.top;
     let mut head: Option<&[String]> = None;
@@ -80,7 +81,7 @@ pub(super) fn lay<'b>(blocks: &'b [Block], column: Column, items: &mut Vec<Item>
 }
 
 impl Block {
-    /// Lays out the block below `top`. Returns its lower edge.
+    /// Lays out this block below `top`. Returns its lower edge.
     fn lay(&self, column: Column, top: f64, is_first: bool, items: &mut Vec<Item>) -> f64 {
         match self {
             Self::Heading(text) => heading(text, column, top, is_first, items),
@@ -99,7 +100,7 @@ impl Block {
     }
 }
 
-/// Lays out a heading. Returns its lower edge.
+/// Lays out a heading below `top`. Returns its lower edge.
 fn heading(text: &str, column: Column, top: f64, is_first: bool, items: &mut Vec<Item>) -> f64 {
     let y = top + if is_first { 0.0 } else { ABOVE_HEADING } + LETTERS;
     items.push(Item::text([column.left, y], LETTERS + 1.0, text).bold());
@@ -108,7 +109,7 @@ fn heading(text: &str, column: Column, top: f64, is_first: bool, items: &mut Vec
     line + 4.0
 }
 
-/// Lays out a row. Returns its lower edge.
+/// Lays out a row of a table. Returns its lower edge.
 fn row(
     cells: &[String],
     shares: &[f64],
@@ -133,7 +134,7 @@ fn row(
     bottom
 }
 
-/// Lays out the lines of a text below `top`. Returns their lower edge.
+/// Lays out the lines of a text below `top`. Returns the lower edge of the last line.
 fn lines(text: &str, left: f64, width: f64, top: f64, items: &mut Vec<Item>) -> f64 {
     let mut y = top;
     for line in wrapped(text, width, LETTERS) {
@@ -143,14 +144,13 @@ fn lines(text: &str, left: f64, width: f64, top: f64, items: &mut Vec<Item>) -> 
     y
 }
 
-/// The edges of a column on a page.
 impl Column {
     pub(super) fn new([left, top]: Point, [right, bottom]: Point) -> Self {
         Self { left, width: right - left, top, bottom }
     }
 }
 
-/// A positioned item on a page.
+/// An item with a fixed position on a page.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Item {
     Text {

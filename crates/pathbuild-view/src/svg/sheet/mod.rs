@@ -1,6 +1,6 @@
 //! The setup sheet of a program: A4 pages, the first with a picture and a checklist. (book: program/sheet)
 //!
-//! [`Sheet`] is the data; it becomes blocks, which are laid out on pages and drawn as SVG.
+//! A [`Sheet`] contains the data. It is converted to blocks, which are laid out on pages and drawn as SVG.
 
 mod blocks;
 mod data;
@@ -20,12 +20,12 @@ use crate::svg::canvas::escaped;
 use data::PAPER;
 pub use data::{Sheet, SheetProbe, SheetTool};
 
-/// The pages, each as an SVG file.
+/// Returns the pages of a setup sheet, each as an SVG file.
 pub fn sheet_pages(sheet: &Sheet, lang: Lang) -> Vec<String> {
     page::drawn(sheet, lang)
 }
 
-/// All pages in one SVG file, stacked vertically.
+/// Returns all pages in one SVG file, stacked vertically.
 pub fn sheet_svg(sheet: &Sheet, lang: Lang) -> String {
     let pages = sheet_pages(sheet, lang);
     let [width, height] = [PAPER[0], PAPER[1] * pages.len() as f64];
@@ -40,7 +40,7 @@ pub fn sheet_svg(sheet: &Sheet, lang: Lang) -> String {
     text + "</svg>\n"
 }
 
-/// All pages in one HTML file, for viewing and printing.
+/// Returns all pages in one HTML file, for viewing and printing.
 pub fn sheet_html(sheet: &Sheet, lang: Lang) -> String {
     let code = match lang {
         Lang::En => "en",
@@ -61,13 +61,13 @@ pub fn sheet_html(sheet: &Sheet, lang: Lang) -> String {
     text + "</html>\n"
 }
 
-/// The two lines that identify a sheet, as in the header of a program.
+/// Formats the two lines that identify a sheet, as in the header of a program, as SVG metadata.
 pub(crate) fn metadata(head: &[String; 2]) -> String {
     let [provenance, title] = head.each_ref().map(|line| escaped(line));
     format!("<metadata>\n{provenance}\n{title}\n</metadata>\n")
 }
 
-/// The same lines as XMP metadata of a PDF.
+/// Formats the same two lines as XMP metadata of a PDF.
 #[cfg(feature = "pictures")]
 pub(crate) fn xmp(head: &[String; 2]) -> String {
     let [provenance, title] = head.each_ref().map(|line| escaped(line));
@@ -76,10 +76,10 @@ pub(crate) fn xmp(head: &[String; 2]) -> String {
     )
 }
 
-/// Reports that PDF is not supported.
+/// Reports that PDF is not supported in this build.
 ///
 /// # Errors
-/// Always: PDF is a part of the feature `pictures`.
+/// Always, because PDF requires the feature `pictures`.
 #[cfg(not(feature = "pictures"))]
 pub fn sheet_pdf(_: &Sheet, _: Lang) -> Result<Vec<u8>, Value> {
     Err((&WITHOUT_PICTURES).into())

@@ -1,31 +1,31 @@
-//! The operations of a setup sheet: what each number of the picture stands for.
+//! The operations of a setup sheet: a table that explains each number in the picture.
 
 use super::data::{Sheet, Words};
 use crate::scene::{Element, ElementKind, ScenePath, Shape};
 use crate::svg::canvas::mm;
 
-/// Upper bound on the number of rows: a longer table is of no use on paper.
+/// Maximum number of rows. A longer table is of no use on paper.
 const MOST_ROWS: usize = 300;
 
-/// Consecutive numbers with the same work.
+/// A range of consecutive numbers with the same operation.
 #[derive(Debug)]
 struct Operation {
     numbers: [u32; 2],
     work: ElementOperation,
 }
 
-/// What is done at an element.
+/// The operation at an element.
 #[derive(Debug, PartialEq)]
 struct ElementOperation {
-    /// The occurrence of the path, as an index into [`ScenePath::embedded`].
+    /// Occurrence of the path, as an index into [`ScenePath::embedded`].
     occurrence: u32,
     path: String,
     what: String,
-    /// The depth that is reached, in words.
+    /// Depth that is reached, formatted as text.
     depth: String,
 }
 
-/// The rows of the table: numbers, path, work, depth.
+/// Returns the rows of the table, with four cells each: numbers, path, operation, depth.
 pub(super) fn rows(sheet: &Sheet, words: Words) -> Vec<Vec<String>> {
     let mut rows: Vec<Vec<String>> =
         sheet.scene.paths.iter().flat_map(|path| operations(path, words)).map(row).collect();
@@ -61,7 +61,7 @@ fn operations(path: &ScenePath, words: Words) -> Vec<Operation> {
     operations
 }
 
-/// The lowest Z of the cuts of each element.
+/// Returns the lowest Z of the cuts of each element.
 fn depths(path: &ScenePath) -> Vec<Option<f64>> {
     let mut depths: Vec<Option<f64>> = vec![None; path.elements.len()];
     for movement in path.moves.iter().filter(|movement| movement.kind.cuts()) {
@@ -83,7 +83,7 @@ fn work(path: &ScenePath, element: &Element, depth: Option<f64>, words: Words) -
     }
 }
 
-/// The work in words. A circle as wide as the cutter is drilled.
+/// Describes the operation at an element. A circle as wide as the cutter is drilled.
 fn what(path: &ScenePath, element: &Element, words: Words) -> String {
     let work = match element.kind {
         ElementKind::Mark => words.either("marking", "Markieren"),

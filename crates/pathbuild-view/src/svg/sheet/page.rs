@@ -1,4 +1,4 @@
-//! Pages with positioned items, drawn as SVG.
+//! Draws pages with positioned items as SVG.
 
 use pathbuild_diagnostic::Lang;
 
@@ -10,7 +10,7 @@ use crate::scene::Point;
 use crate::svg::canvas::{Anchor, Canvas, INK, TEXT, n};
 use crate::svg::canvas::{breadth, wrapped};
 
-/// The size of a page in units, and its margins.
+/// Size of a page and its margins, in units.
 pub(super) const SIZE: Point = [PAPER[0] * UNITS, PAPER[1] * UNITS];
 pub(super) const LEFT: f64 = 39.0;
 pub(super) const RIGHT: f64 = SIZE[0] - 33.0;
@@ -18,26 +18,26 @@ const TOP: f64 = 36.0;
 const FOOT: f64 = SIZE[1] - 30.0;
 const BOTTOM: f64 = FOOT - 16.0;
 
-/// The top of the text below the title.
+/// Top of the text below the title, in units.
 const BELOW_TITLE: f64 = TOP + 32.0;
 
-/// Space between the columns of the first page.
+/// Space between the columns of the first page, in units.
 const GUTTER: f64 = 18.0;
 
-/// Minimum space for starting a table on the first page.
+/// Minimum space for starting a table on the first page, in units.
 const ROOM_FOR_TABLE: f64 = 90.0;
 
-/// Fraction of the first page's width for the checklist.
+/// Share of the first page's width for the checklist.
 const CHECKLIST: f64 = 0.54;
 
-/// A page with its items.
+/// A page with the items on it.
 #[derive(Debug, Default)]
 pub(super) struct Page {
     pub(super) items: Vec<Item>,
     pub(super) picture: Option<PlacedPicture>,
 }
 
-/// The pages of a sheet as SVG.
+/// Returns the pages of a sheet as SVG files.
 pub(super) fn drawn(sheet: &Sheet, lang: Lang) -> Vec<String> {
     let pages = pages(sheet, Words(lang));
     let count = pages.len();
@@ -46,14 +46,15 @@ pub(super) fn drawn(sheet: &Sheet, lang: Lang) -> Vec<String> {
         if index == 0 {
             return text;
         }
-        // Pages may be joined in one document, in which names must be unique. Quotes within texts are escaped, so this cannot hit them.
+        // Several pages may be joined in one document, where ids must be unique. Quotes within texts are escaped, so these replacements do
+        // not change texts.
         let number = index + 1;
         text.replace("id=\"", &format!("id=\"p{number}-")).replace("url(#", &format!("url(#p{number}-"))
     });
     drawn.collect()
 }
 
-/// Lays out everything on pages.
+/// Arranges the content of a sheet on pages.
 pub(super) fn pages(sheet: &Sheet, words: Words) -> Vec<Page> {
     let mut first = Page::default();
     let placed = picture::first(sheet, Column::new([LEFT, BELOW_TITLE], [RIGHT, BELOW_TITLE + PICTURE]));
@@ -114,7 +115,7 @@ impl Page {
     }
 }
 
-/// The name of the program and its drawings.
+/// Returns the name of the program and its drawings.
 fn title(sheet: &Sheet, words: Words) -> Vec<Item> {
     let (size, width) = (20.0, (RIGHT - LEFT) * 0.62);
     let name = wrapped(&sheet.title, width, size);
@@ -131,7 +132,7 @@ fn title(sheet: &Sheet, words: Words) -> Vec<Item> {
     ]
 }
 
-/// Draws the foot: identification in case the pages get separated, and a ruler for checking the scale of the print.
+/// Draws the page footer: identification in case the pages get separated, and a ruler for checking the scale of the print.
 fn foot(canvas: &mut Canvas, sheet: &Sheet, words: Words, number: usize, count: usize) {
     let page = words.either(format!("page {number} of {count}"), format!("Seite {number} von {count}"));
     let text = format!("{} · {page}", sheet.hashes);

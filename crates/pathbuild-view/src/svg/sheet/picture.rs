@@ -1,4 +1,4 @@
-//! The picture: true to scale if it fits on the paper, otherwise at a round scale, which is stated.
+//! The picture on a setup sheet. It is true to scale if it fits on the paper; otherwise it has a round scale, which is stated.
 
 use pathbuild_diagnostic::Lang;
 
@@ -13,42 +13,42 @@ use crate::svg::{drawing, moves, things};
 use super::data::{Corners, Sheet, UNITS, Words, cleared, seen};
 use super::flow::{Column, PICTURE};
 
-/// Margins around the drawing in units: dimensions are to the left and below, and their last numbers extend to the right.
+/// Margins around the drawing in units. Dimensions are to the left and below, and their last numbers extend to the right.
 const LEFT_MARGIN: f64 = 56.0;
 const RIGHT_MARGIN: f64 = 46.0;
 const TOP_MARGIN: f64 = 18.0;
 const BOTTOM_MARGIN: f64 = 50.0;
 
-/// Height of the legend: scale, kinds of lines, depths.
+/// Height of the legend in units: scale, kinds of lines, depths.
 const LEGEND: f64 = 54.0;
 
-/// Fraction of the available space below which a drawing is enlarged, with a true-size inset.
+/// Fraction of the available space. A drawing that is smaller is enlarged, and a true-size inset is added.
 const ENLARGED_BELOW: f64 = 0.34;
 
-/// Smallest extent shown in mm, for drawings without an extent.
+/// Minimum extent shown in mm, for drawings without an extent.
 const MIN_EXTENT: f64 = 4.0;
 
-/// A picture laid out on a page.
+/// A picture with its position and scale on a page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlacedPicture {
     area: Column,
     corners: Corners,
     scale: Scale,
-    /// Whether it has a true-size inset.
+    /// Whether the picture has a true-size inset.
     has_inset: bool,
     height: f64,
-    /// Whether it shows the stock after milling instead of the moves.
+    /// Whether the picture shows the stock after milling instead of the moves.
     is_stock: bool,
-    /// The position of the lower left corner if the picture is rotated to landscape.
+    /// Position of the lower left corner, if the picture is rotated to landscape.
     turned: Option<Point>,
 }
 
-/// Mm of paper per mm of the drawing.
+/// A scale, in mm of paper per mm of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Scale(f64);
 
 impl Scale {
-    /// The largest round scale up to this limit.
+    /// Returns the largest round scale up to this limit.
     fn within(limit: f64) -> Self {
         const STEPS: [f64; 4] = [1.0, 2.0, 2.5, 5.0];
         let decades = (0..9).map(|decade| libm::pow(10.0, f64::from(decade)));
@@ -63,7 +63,7 @@ impl Scale {
     }
 }
 
-/// The picture of the first page, at true scale if there is room.
+/// Returns the picture for the first page: in true size if there is enough space, and enlarged if it is small.
 pub(super) fn first(sheet: &Sheet, area: Column) -> PlacedPicture {
     let corners = padded(seen(sheet));
     let limit = limit(corners, area);
@@ -72,14 +72,14 @@ pub(super) fn first(sheet: &Sheet, area: Column) -> PlacedPicture {
     PlacedPicture::new(area, corners, Scale::within(limit), is_small)
 }
 
-/// The picture on a whole page, if that makes it larger; at most at true scale.
+/// Returns the picture for a whole page, if it is larger there than on the first page.
 pub(super) fn larger(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
     let placed = upright_or_turned(area, |area| first(sheet, area));
     let on_first = first(sheet, Column { bottom: area.top + PICTURE, ..area });
     (placed.scale.0 > on_first.scale.0).then_some(placed)
 }
 
-/// The stock after milling, on a whole page; `None` if nothing is cut.
+/// Returns a picture of the stock after milling for a whole page; `None` if nothing is cut.
 pub(super) fn stock(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
     let radius = sheet.tools.iter().map(|tool| tool.diameter / 2.0).fold(0.0, f64::max);
     let [low, high] = cleared(sheet).filter(|_| has_stock(&sheet.scene))?;
@@ -90,7 +90,7 @@ pub(super) fn stock(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
     }))
 }
 
-/// The larger of a picture upright on a page and rotated to landscape.
+/// Returns the larger of two pictures: upright on a page, or rotated to landscape.
 fn upright_or_turned(area: Column, placed: impl Fn(Column) -> PlacedPicture) -> PlacedPicture {
     let beneath = Column { left: 0.0, width: area.bottom - area.top, top: 0.0, bottom: area.width };
     let turned = PlacedPicture { turned: Some([area.left, area.bottom]), ..placed(beneath) };
@@ -107,7 +107,7 @@ fn padded([mut low, mut high]: Corners) -> Corners {
     [low, high]
 }
 
-/// The scale at which the corners fill the area.
+/// Returns the scale at which the corners fill the area.
 fn limit([low, high]: Corners, area: Column) -> f64 {
     let room = [
         area.width - LEFT_MARGIN - RIGHT_MARGIN,
@@ -116,7 +116,7 @@ fn limit([low, high]: Corners, area: Column) -> f64 {
     (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1])) / UNITS
 }
 
-/// The scale with a true-size inset on the right.
+/// Returns the scale at which the corners fill the area that a true-size inset on the right leaves.
 fn limit_beside(corners: Corners, area: Column) -> f64 {
     let inset = inset_width(corners);
     limit(corners, Column { width: area.width - inset, ..area })
@@ -133,12 +133,12 @@ impl PlacedPicture {
         Self { area, corners, scale, has_inset, height, is_stock: false, turned: None }
     }
 
-    /// The lower edge on its page.
+    /// Returns the lower edge of the picture on its page.
     pub(super) fn bottom(&self) -> f64 {
         self.area.top + self.height
     }
 
-    /// Whether a larger picture would have no benefit.
+    /// Whether the picture has at least its true size, so that a larger one would have no benefit.
     pub(super) fn is_whole(&self) -> bool {
         self.scale.0 >= 1.0
     }
@@ -179,7 +179,7 @@ impl PlacedPicture {
         let clip = [[self.area.left, self.area.top], [self.area.left + self.area.width, bottom + 20.0]];
         canvas.clip("frame", clip);
         let axes = axes(canvas, place.at([0.0; 2]), [[left - 6.0, top - 6.0], [right + 6.0, bottom + 6.0]]);
-        // Dimensions occupy the space to the left and below; the name of the axis is above.
+        // Reserve space: dimensions are to the left and below, and the name of the axis is above.
         let mut room = Room::new([[left - 14.0, top - 6.0], [right + RIGHT_MARGIN, bottom + 20.0]]);
         room.lines.extend(axes);
         room.lines.extend(cleared(sheet).into_iter().flat_map(|corners| sides(corners, &place)));
@@ -236,7 +236,7 @@ impl PlacedPicture {
         canvas.close();
     }
 
-    /// Draws the true-size inset, without details that would be too small to read.
+    /// Draws the true-size inset, omitting details that would be too small to read.
     fn inset(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
         let [low, high] = cleared(sheet).unwrap_or(self.corners);
         let left = self.area.left + self.area.width - inset_width(self.corners) + 20.0;
@@ -254,13 +254,13 @@ impl PlacedPicture {
     }
 }
 
-/// The sides of a rectangle on the page.
+/// Returns the sides of a rectangle in the coordinates of the page.
 fn sides([low, high]: Corners, place: &PageTransform) -> [[Point; 2]; 4] {
     let corners = [low, [high[0], low[1]], high, [low[0], high[1]]].map(|corner| place.at(corner));
     [0, 1, 2, 3].map(|side| [corners[side], corners[(side + 1) % 4]])
 }
 
-/// Draws the lines X0 and Y0, and returns them.
+/// Draws the axes X0 and Y0 of the program, and returns their lines.
 fn axes(canvas: &mut Canvas, [x, y]: Point, [[left, top], [right, bottom]]: Corners) -> [[Point; 2]; 2] {
     let style = format!("stroke=\"{PROBE}\" stroke-width=\"0.7\" stroke-dasharray=\"10 3 2 3\"");
     canvas.open(&format!("id=\"axes\" fill=\"{PROBE}\""));
@@ -282,16 +282,15 @@ fn axes(canvas: &mut Canvas, [x, y]: Point, [[left, top], [right, bottom]]: Corn
     lines
 }
 
-// Dimensions of the removed material: its size, and the distance of its edges from X0 Y0.
-
-/// Letter size of the numbers, and the minimum distance between two of them.
+/// Letter size of the numbers in dimensions, and minimum distance between two numbers, in units.
 const NUMBER_SIZE: f64 = 9.5;
 const MIN_NUMBER_DISTANCE: f64 = 11.0;
 
-/// Distance from the picture to the dimension lines.
+/// Distance from the picture to the dimension lines, in units.
 const DIMENSION_DISTANCE: f64 = 22.0;
 
-/// Draws the dimensions of a rectangle, to the left of and below a corner of the page.
+/// Draws the dimensions of the removed material: its size, and the distance of its edges from X0 Y0. They are placed to the left of and
+/// below a corner of the page.
 pub(super) fn draw(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransform, [left, bottom]: Point) {
     let ([x0, y1], [x1, y0]) = (place.at(low), place.at(high));
     canvas.open(&format!("id=\"measures\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"0.7\""));
@@ -343,7 +342,7 @@ fn text(canvas: &mut Canvas, at: Point, side: Side, text: &str) {
     canvas.text(at, NUMBER_SIZE, anchor, style, text);
 }
 
-/// A line with arrows at both ends.
+/// Draws a line with arrows at both ends.
 fn arrows(canvas: &mut Canvas, from: Point, to: Point) {
     canvas.line(from, to, "");
     let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
