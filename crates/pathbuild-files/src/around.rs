@@ -1,5 +1,5 @@
-//! Systems around another one: confined to given directories, so that links of untrusted repositories do not lead out of them, or based in a
-//! directory. (book: reference/configuration, `--untrusted`)
+//! Wrappers of a [`System`]: one is confined to given directories, so that links of untrusted repositories do not lead out of them; the other
+//! resolves relative paths against a directory. (book: reference/configuration, `--untrusted`)
 
 use std::io;
 use std::ops::ControlFlow;
@@ -12,19 +12,19 @@ use pathbuild_diagnostic::reasons::LEADS_OUT;
 
 use super::{Entry, FileKind, FileLink, Listing, ReadError, Stamp, System, WriteOutcome, clean};
 
-/// Wraps another system and refuses to read or write through links that lead from inside one of the given directories to outside of it. A
-/// path that is spelt outside of them is allowed: names from the repository itself are checked with [`ConfinedSystem::holds`] first, so
-/// such a path was given by the user.
+/// Wraps another system and refuses to read or write through links that lead from inside one of the given directories to outside of it. A path
+/// that, as written, lies outside of them is allowed: names from the repository itself are checked with [`ConfinedSystem::holds`] first, so such a
+/// path was given by the user.
 #[derive(Clone, Debug)]
 pub struct ConfinedSystem {
     below: Arc<dyn System>,
-    /// Base of relative paths.
+    /// Directory that relative paths are resolved against.
     working_directory: Utf8PathBuf,
-    /// The directories, starting with the one of the configuration.
+    /// The directories that links must not lead out of, starting with the one of the configuration.
     roots: Vec<Root>,
 }
 
-/// A directory as spelt, and with links resolved.
+/// A directory, as written and with links resolved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Root {
     spelt: Utf8PathBuf,
@@ -32,13 +32,13 @@ struct Root {
 }
 
 impl ConfinedSystem {
-    /// A system confined to a directory.
+    /// Creates a system that is confined to the directory `root`.
     pub fn new(below: Arc<dyn System>, root: &Utf8Path, working_directory: &Utf8Path) -> Self {
         let confined = Self { below, working_directory: working_directory.to_owned(), roots: Vec::new() };
         confined.and(root)
     }
 
-    /// Confines the system to a further directory as well, for the paths inside it.
+    /// Adds a directory: links inside it must not lead out of it either.
     #[must_use]
     pub fn and(mut self, root: &Utf8Path) -> Self {
         let spelt = clean(&self.working_directory.join(root));
@@ -55,19 +55,19 @@ impl ConfinedSystem {
         self.roots.first().map_or(Utf8Path::new(""), |root| &root.spelt)
     }
 
-    /// Whether all the directories, with links resolved, lie in or below one of these.
+    /// Whether all the directories, with links resolved, lie in or below one of the `trusted` directories.
     pub fn lies_below(&self, trusted: &[Utf8PathBuf]) -> bool {
         let is_below =
             |root: &Root| trusted.iter().any(|trusted| root.real.starts_with(self.below.canonical(trusted)));
         self.roots.iter().all(is_below)
     }
 
-    /// Whether a path lies in the directory of the configuration, both as spelt and with links resolved.
+    /// Whether a path lies in the directory of the configuration, both as written and with links resolved.
     pub fn holds(&self, path: &Utf8Path) -> bool {
         self.roots.first().is_some_and(|root| self.spells(path, root) && self.leads_into(path, root))
     }
 
-    /// Whether a path may lie in one of the directories: as spelt, with links resolved, or because its links cannot be resolved.
+    /// Whether a path may lie in one of the directories: as written, with links resolved, or because its links cannot be resolved.
     pub fn may_hold(&self, path: &Utf8Path) -> bool {
         let spells = |root: &Root| self.spells(path, root);
         let leads = || match self.real(path) {
@@ -89,7 +89,7 @@ impl ConfinedSystem {
         self.real(path).is_none_or(|real| real.is_ok_and(|target| target.starts_with(&root.real)))
     }
 
-    /// The path with links resolved; if it does not exist yet, that of the nearest existing parent directory.
+    /// Returns the path with links resolved; if it does not exist yet, that of the nearest existing parent directory.
     fn real(&self, path: &Utf8Path) -> Option<io::Result<Utf8PathBuf>> {
         let path = self.working_directory.join(path);
         let mut ancestors = path.ancestors();
@@ -97,7 +97,7 @@ impl ConfinedSystem {
         Some(existing.canonicalize_utf8())
     }
 
-    /// Whether a path may be read or written because it does not lead from inside to outside.
+    /// Whether a path may be read or written: a path inside a directory must not lead out of it.
     pub fn allows(&self, path: &Utf8Path) -> bool {
         self.roots.iter().all(|root| !self.spells(path, root) || self.leads_into(path, root))
     }
@@ -163,10 +163,9 @@ impl System for ConfinedSystem {
     }
 }
 
-// A system whose relative paths do not depend on the working directory of the process.
 
-/// Wraps another system; relative paths are relative to a directory. A process may change its working directory at any time, and another
-/// program that uses pathbuild as a library has its own reasons for where it runs.
+/// Wraps another system and resolves relative paths against a fixed directory. The working directory of the process may change at any time, and a
+/// program that embeds pathbuild chooses it for reasons of its own.
 #[derive(Clone, Debug)]
 pub struct BasedSystem {
     below: Arc<dyn System>,
@@ -174,7 +173,7 @@ pub struct BasedSystem {
 }
 
 impl BasedSystem {
-    /// A system with relative paths relative to `directory`, which is absolute.
+    /// Creates a system that resolves relative paths against `directory`, which is absolute.
     pub fn new(below: Arc<dyn System>, directory: Utf8PathBuf) -> Self {
         Self { below, directory }
     }

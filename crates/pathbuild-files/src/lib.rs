@@ -1,4 +1,4 @@
-//! Files, of the operating system or in memory. Queries see them through a single trait, so that tests run in memory and all files that a
+//! Access to files, of the operating system or in memory. Queries see them through a single trait, so that tests run in memory and all files that a
 //! result depends on are known; [`private`] files belong to the program itself.
 
 mod around;
@@ -28,7 +28,7 @@ use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::reasons::{IS_DIRECTORY, NO_FILE};
 use pathbuild_diagnostic::{Diagnostic, Value};
 
-/// Reading, listing and writing files.
+/// File operations of the operating system, or of a substitute such as a [`MemorySystem`].
 pub trait System: Debug + Send + Sync {
     /// Reads a file into a buffer, whose old content is overwritten, and returns the file's stamp. The stamp is unknown if it differs
     /// before and after reading, or if the system has none: then the file must be read again to find out whether it has changed.
@@ -37,7 +37,7 @@ pub trait System: Debug + Send + Sync {
     /// If there is no such regular file, it cannot be read, or it has more bytes than `limit`. The content of the buffer is then undefined.
     fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError>;
 
-    /// Reads a file.
+    /// Reads a whole file of at most `limit` bytes.
     ///
     /// # Errors
     /// As [`read_into`](Self::read_into).
@@ -47,7 +47,7 @@ pub trait System: Debug + Send + Sync {
         Ok(bytes)
     }
 
-    /// The first `length` bytes of a file, or fewer if it is shorter.
+    /// Reads the first `length` bytes of a file, or all of it if it is shorter.
     ///
     /// # Errors
     /// As [`read`](Self::read).
@@ -57,7 +57,7 @@ pub trait System: Debug + Send + Sync {
         Ok(bytes)
     }
 
-    /// The names in a directory.
+    /// Returns the names in a directory.
     ///
     /// # Errors
     /// As [`read`](Self::read).
@@ -80,7 +80,7 @@ pub trait System: Debug + Send + Sync {
         Ok(())
     }
 
-    /// The last `length` bytes of a file, or fewer if it is shorter.
+    /// Reads the last `length` bytes of a file, or all of it if it is shorter.
     ///
     /// # Errors
     /// As [`read`](Self::read).
@@ -89,13 +89,13 @@ pub trait System: Debug + Send + Sync {
         Ok(bytes.split_off(bytes.len().saturating_sub(length)))
     }
 
-    /// The type of the file at a path.
+    /// Returns the type of the file at a path, following links.
     fn kind(&self, path: &Utf8Path) -> FileKind;
 
-    /// A canonical path for a file that can be reached by several paths.
+    /// Returns one path for a file that can be reached by several paths, so that such paths compare equal.
     fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf;
 
-    /// How a path links to a file that has other names; `None` for an ordinary file, or if the system cannot tell.
+    /// Returns how a path links to a file that has other names; `None` for an ordinary file, or if the system cannot tell.
     fn link(&self, _: &Utf8Path) -> Option<FileLink> {
         None
     }
@@ -112,7 +112,7 @@ pub trait System: Debug + Send + Sync {
     /// The reason why it cannot be removed.
     fn remove(&self, path: &Utf8Path) -> Result<(), Value>;
 
-    /// The current time, for time limits. `None` without a clock: then the caller must stop work that takes too long.
+    /// Returns the current time, for time limits; `None` without a clock: then the caller must stop work that takes too long.
     fn now(&self) -> Option<Instant> {
         Some(Instant::now())
     }
@@ -147,21 +147,21 @@ pub enum WriteOutcome {
 /// The reason why a file or directory cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ReadError {
-    /// It does not exist.
+    /// The file or directory does not exist.
     Missing,
-    /// It is a directory, but a file is needed.
+    /// The path leads to a directory, but a file is needed.
     IsDirectory,
-    /// It has more bytes than the limit.
+    /// The file has more bytes than the limit.
     TooLarge {
-        /// Its size in bytes.
+        /// Size of the file in bytes.
         size: u64,
     },
-    /// Any other reason.
+    /// Any other reason, such as missing permission.
     Other(Value),
 }
 
 impl ReadError {
-    /// The diagnostic about a file that cannot be read, without a place; `key` is that of the limit of its size.
+    /// Returns the diagnostic for a file that cannot be read, without a place. `key` is the configuration key of the size limit.
     pub fn diagnostic(self, limit: u64, key: &str) -> Diagnostic {
         match self {
             Self::Missing => Diagnostic::new(&files::MISSING),
@@ -170,7 +170,7 @@ impl ReadError {
         }
     }
 
-    /// The reason why a file cannot be read, as part of a message about what the file was needed for.
+    /// Returns the reason as a phrase, for a message about the purpose for which the file was needed.
     pub fn reason(self, limit: u64) -> Value {
         match self {
             Self::Missing => (&NO_FILE).into(),
@@ -185,7 +185,7 @@ impl ReadError {
 #[derive(Clone, Default, PartialEq, Eq)]
 pub struct Names {
     text: String,
-    /// End offsets of the names.
+    /// End offset of each name in `text`.
     ends: Vec<usize>,
 }
 
@@ -193,18 +193,18 @@ pub struct Names {
 /// needed. Names that are not UTF-8 appear in a lossy spelling that no file has.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Listing {
-    /// Everything that is not a directory.
+    /// Everything that is not a directory, dangling links included.
     pub files: Names,
-    /// Directories, and links to them.
+    /// Directories, and links that lead to one.
     pub directories: Names,
 }
 
 /// A name in a directory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entry<'a> {
-    /// The name, or a lossy spelling if it is not UTF-8.
+    /// The name; if it is not UTF-8, with replacement characters.
     pub name: &'a str,
-    /// Whether `name` is exact, so that a file can be opened by it.
+    /// Whether `name` is exact: only then can the file be opened by it.
     pub is_exact: bool,
     /// The type of the entry.
     pub kind: EntryKind,
@@ -213,7 +213,7 @@ pub struct Entry<'a> {
 /// The type of a directory entry, with links unresolved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryKind {
-    /// Anything else.
+    /// A regular file or anything else, such as a pipe.
     File,
     /// A directory.
     Directory,
@@ -222,12 +222,12 @@ pub enum EntryKind {
 }
 
 impl Names {
-    /// No names.
+    /// Returns an empty list.
     pub const fn none() -> Self {
         Self { text: String::new(), ends: Vec::new() }
     }
 
-    /// Appends other names.
+    /// Appends all names of another list.
     pub fn extend(&mut self, names: &Self) {
         let begin = self.text.len();
         self.text.push_str(&names.text);
@@ -250,14 +250,14 @@ impl Names {
         self.ends.is_empty()
     }
 
-    /// The name at an index.
+    /// Returns the name at an index; `None` beyond the end.
     pub fn get(&self, number: usize) -> Option<&str> {
         let end = *self.ends.get(number)?;
         let begin = number.checked_sub(1).map_or(0, |before| self.ends[before]);
         Some(&self.text[begin..end])
     }
 
-    /// Iterates over the names.
+    /// Iterates over the names in the order in which they were added.
     pub fn iter(&self) -> impl Iterator<Item = &str> {
         (0..self.len()).filter_map(|number| self.get(number))
     }

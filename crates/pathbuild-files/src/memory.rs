@@ -10,7 +10,7 @@ use pathbuild_diagnostic::Value;
 
 use super::{Entry, FileKind, Listing, ReadError, Stamp, System, WriteOutcome};
 
-/// Files by path. A directory exists as long as it contains a file.
+/// A file system in memory. A directory exists as long as it contains a file.
 #[derive(Debug, Default)]
 pub struct MemorySystem {
     files: Mutex<BTreeMap<Utf8PathBuf, Vec<u8>>>,
@@ -18,7 +18,7 @@ pub struct MemorySystem {
 }
 
 impl MemorySystem {
-    /// An empty system without a clock.
+    /// Creates an empty system without a clock.
     pub fn without_clock() -> Self {
         Self { has_no_clock: true, ..Self::default() }
     }
@@ -81,7 +81,7 @@ impl System for MemorySystem {
     }
 }
 
-/// Copies the content of a file to a buffer. Files in memory have no stamp.
+/// Copies the content of a file into a buffer. Returns an unknown stamp, because files in memory have none.
 fn copy(bytes: &[u8], limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
     let size = bytes.len() as u64;
     if size > limit {
@@ -92,7 +92,7 @@ fn copy(bytes: &[u8], limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError
     Ok(Stamp::UNKNOWN)
 }
 
-/// The files in a directory and below. Paths are ordered component by component, so these are consecutive.
+/// Iterates over the files below a directory, at any depth. Paths are ordered component by component, so these are consecutive.
 fn below<'a>(
     files: &'a BTreeMap<Utf8PathBuf, Vec<u8>>,
     directory: &Utf8Path,
@@ -110,7 +110,7 @@ pub struct OverlaySystem {
 }
 
 impl OverlaySystem {
-    /// Overlays a file with these bytes. The path must be normalised.
+    /// Overlays the file at `path`, which must be normalised, with these bytes.
     pub fn new(below: Arc<dyn System>, path: Utf8PathBuf, bytes: Vec<u8>) -> Self {
         Self { below, path, bytes }
     }
@@ -153,7 +153,7 @@ impl System for OverlaySystem {
         directory: &Utf8Path,
         take: &mut dyn FnMut(Entry<'_>) -> ControlFlow<()>,
     ) -> Result<(), ReadError> {
-        // Directory walks show only what exists on disk.
+        // The listing is that of the disk: the overlaid file is not added.
         self.below.each_entry(directory, take)
     }
 

@@ -21,7 +21,7 @@ use crate::{Entry, EntryKind, FileKind, FileLink, Listing, ReadError, System, Wr
 pub struct OsSystem;
 
 impl OsSystem {
-    /// A shared instance.
+    /// Returns a shared instance.
     pub fn shared() -> Arc<dyn System> {
         Arc::new(Self)
     }
@@ -60,7 +60,7 @@ impl System for OsSystem {
             if is_temporary(name, |name| !name.is_empty()) {
                 temporary.push(directory.join(name));
             }
-            // A link has the type of its target, and counts as an unreadable file if it is dangling.
+            // A link counts as what it leads to; a dangling one counts as a file, which then cannot be read.
             let is_directory = match kind {
                 EntryKind::Directory => true,
                 EntryKind::Link => fs::metadata(directory.join(name)).is_ok_and(|data| data.is_dir()),
@@ -131,7 +131,7 @@ fn hard_link(data: &fs::Metadata) -> Option<FileLink> {
     (data.is_file() && data.nlink() > 1).then(|| FileLink::Hard([data.dev(), data.ino()]))
 }
 
-/// On Windows, the number of hard links is known only after opening the file.
+/// Returns `None`: on Windows, the number of hard links is known only after opening the file.
 #[cfg(not(unix))]
 fn hard_link(_: &fs::Metadata) -> Option<FileLink> {
     None
@@ -154,7 +154,7 @@ impl From<io::Error> for ReadError {
 /// If the file does not exist or cannot be opened.
 fn open(path: &Utf8Path) -> Result<File, ReadError> {
     open_at_once(path).map_err(|error| {
-        // A socket, and a directory on Windows, cannot be opened at all; report the type instead of the system's message.
+        // A socket, and a directory on Windows, cannot be opened at all: report its type instead of the system's message.
         match path.as_std_path().metadata() {
             Ok(data) if data.is_dir() => ReadError::IsDirectory,
             Ok(data) if !data.is_file() => not_regular(),
@@ -163,7 +163,7 @@ fn open(path: &Utf8Path) -> Result<File, ReadError> {
     })
 }
 
-/// Opens with `NONBLOCK`, since opening a pipe would otherwise wait for a writer.
+/// Opens a file with `NONBLOCK`, because opening a pipe would otherwise wait for a writer.
 #[cfg(unix)]
 fn open_at_once(path: &Utf8Path) -> io::Result<File> {
     use rustix::fs::{Mode, OFlags};
@@ -194,7 +194,7 @@ fn read_whole(file: &File, limit: u64, bytes: &mut Vec<u8>) -> Result<(), ReadEr
     if size > limit { Err(ReadError::TooLarge { size }) } else { Ok(()) }
 }
 
-/// The size of a regular file.
+/// Returns the size of a regular file in bytes.
 ///
 /// # Errors
 /// If it is not a regular file.
@@ -237,8 +237,8 @@ fn holds(path: &Utf8Path, bytes: &[u8]) -> bool {
     OsSystem.read(path, bytes.len() as u64).is_ok_and(|present| present == bytes)
 }
 
-/// Temporary files found when a directory was first listed. Each directory is searched at most once per run; if it has been listed for
-/// another reason already, that listing is used.
+/// Temporary files in each directory that was listed, from its first listing. Each directory is searched at most once per run, and a listing made
+/// for another purpose serves as well.
 static LISTED: LazyLock<Mutex<HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>>> = LazyLock::new(Mutex::default);
 
 /// Records the temporary files found while listing a directory.
@@ -246,7 +246,7 @@ fn record_debris(directory: &Utf8Path, temporary: Vec<Utf8PathBuf>) {
     listed().entry(directory.to_owned()).or_insert(temporary);
 }
 
-/// Removes temporary files of processes that no longer run.
+/// Removes temporary files in a directory that were left by processes that no longer run.
 fn remove_debris(directory: &Utf8Path) {
     if !listed().contains_key(directory) {
         // Nothing can be removed from a directory that cannot be listed.

@@ -29,7 +29,7 @@ pub fn make_directory(directory: &Utf8Path) -> io::Result<bool> {
     builder.create(directory).map(|()| true)
 }
 
-/// Why a directory must not be used; `None` if it is fine or does not exist yet.
+/// Returns the reason why a directory must not be used; `None` if it is safe or does not exist yet.
 pub fn refusal(directory: &Utf8Path) -> Option<&'static Text> {
     match fs::symlink_metadata(directory) {
         Ok(data) if data.is_symlink() => Some(&IS_LINK),
@@ -42,10 +42,10 @@ pub fn refusal(directory: &Utf8Path) -> Option<&'static Text> {
     }
 }
 
-/// The bytes of a regular file that belongs to this user; `None` if there is no such file.
+/// Reads a regular file that belongs to this user; returns `None` if there is no such file.
 ///
 /// # Errors
-/// If it cannot be read, is something else, or is larger than `limit` bytes.
+/// If the file cannot be read, is not a regular file of this user, or is larger than `limit` bytes.
 pub fn read(path: &Utf8Path, limit: u64) -> Result<Option<Vec<u8>>, Value> {
     let mut options = OpenOptions::new();
     options.read(true);

@@ -1,7 +1,7 @@
 //! Atomic replacement of files: a temporary file in the same directory is renamed over the target.
 //!
-//! The writer holds a lock on its temporary file. A killed run loses its locks, so the next run that writes into the directory recognises
-//! and removes what it left behind.
+//! The writer holds a lock on its temporary file. A killed run loses its locks, so the next run that writes into the directory recognises and
+//! removes the files that it left behind.
 #![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
 
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -46,11 +46,11 @@ pub(crate) fn temporary(path: &Utf8Path, is_private: bool) -> io::Result<(Utf8Pa
         let candidate = path.with_file_name(format!(".{name}.{}-{attempt}.tmp", std::process::id()));
         match options.open(&candidate) {
             Ok(file) => match file.try_lock() {
-                // Another run mistook the file for debris before it was locked, and is removing it.
+                // Another run mistook the file for a leftover before it was locked, and is removing it.
                 Err(TryLockError::WouldBlock) => {}
-                // It may have been removed already.
+                // Another run may have removed the file before it was locked.
                 Ok(()) if candidate.as_std_path().symlink_metadata().is_err() => {}
-                // Without support for locks, nothing is ever considered debris.
+                // On file systems without locks, no file is ever taken for a leftover.
                 Ok(()) | Err(TryLockError::Error(_)) => return Ok((candidate, file)),
             },
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
@@ -63,7 +63,7 @@ pub(crate) fn temporary(path: &Utf8Path, is_private: bool) -> io::Result<(Utf8Pa
 /// Number of names tried for a temporary file: killed runs with the same process id may have left theirs.
 const ATTEMPTS: u32 = 1000;
 
-/// Whether a name has the form `.NAME.123-0.tmp` of a temporary file for a file whose name is accepted.
+/// Whether a name has the form `.NAME.123-0.tmp` of a temporary file, where `is_name` accepts NAME.
 pub fn is_temporary(name: &str, is_name: impl Fn(&str) -> bool) -> bool {
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     name.strip_prefix('.')

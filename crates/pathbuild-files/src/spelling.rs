@@ -3,22 +3,22 @@
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 
-/// A path with `/` as the separator. Paths that begin with `\\?\` are left alone: there, Windows treats `/` as an ordinary character.
+/// Returns a path with `/` as the separator. Paths that begin with `\\?\` are left alone: in these, Windows treats `/` as an ordinary character.
 pub fn spelt(path: Utf8PathBuf) -> Utf8PathBuf {
     if cfg!(windows) { with_slashes(path) } else { path }
 }
 
-/// The path as passed to system calls, which do not accept an empty one.
+/// Returns a path for system calls, which do not accept an empty one: `.` stands for it.
 pub fn readable(path: &Utf8Path) -> &Utf8Path {
     if path.as_str().is_empty() { Utf8Path::new(".") } else { path }
 }
 
-/// Whether the file is a drawing; the case of `.dxf` does not matter.
+/// Whether a path has the extension of a drawing, `.dxf` in any case.
 pub fn is_drawing(path: &Utf8Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
 }
 
-/// The path of a file in a directory, spelt as by [`spelt`], in a single allocation of the right size.
+/// Returns the path of a file in a directory, with separators as from [`spelt`], in a single allocation of the right size.
 pub fn join(directory: &Utf8Path, name: impl AsRef<Utf8Path>) -> Utf8PathBuf {
     let name = name.as_ref();
     let mut path = Utf8PathBuf::with_capacity(directory.as_str().len() + 1 + name.as_str().len());

@@ -17,7 +17,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::replace;
 
-/// A file's metadata as numbers that are compared as a whole: size, times of its last changes in whole seconds, the rest.
+/// A file's metadata as numbers that are compared as a whole: the size, the times of its last changes in whole seconds, and further numbers of the
+/// file system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Stamp([u64; 6]);
 
@@ -25,7 +26,7 @@ pub struct Stamp([u64; 6]);
 #[derive(Clone, Copy, Debug)]
 pub struct Clock(SystemTime);
 
-/// Name of the temporary file that shows the time of the file system.
+/// Name of the temporary file whose modification time shows the clock of the file system.
 pub const CLOCK: &str = "clock";
 
 /// Coarsest time resolution of a file system in use (FAT).
@@ -35,10 +36,10 @@ impl Stamp {
     /// Stamp of a file that does not exist.
     pub const MISSING: Self = Self([u64::MAX; 6]);
 
-    /// A stamp that no file has.
+    /// Stamp that equals that of no file.
     pub const UNKNOWN: Self = Self([0; 6]);
 
-    /// Stamp of a file, following symbolic links; [`UNKNOWN`](Self::UNKNOWN) if its metadata cannot be read.
+    /// Returns the stamp of a file, following symbolic links; [`UNKNOWN`](Self::UNKNOWN) if its metadata cannot be read.
     pub fn of(file: &Utf8Path) -> Self {
         match fs::metadata(file) {
             Ok(data) => Self::of_data(&data),
@@ -47,12 +48,12 @@ impl Stamp {
         }
     }
 
-    /// Stamp of an open file; [`UNKNOWN`](Self::UNKNOWN) if its metadata cannot be read.
+    /// Returns the stamp of an open file; [`UNKNOWN`](Self::UNKNOWN) if its metadata cannot be read.
     pub fn of_open(file: &File) -> Self {
         file.metadata().map_or(Self::UNKNOWN, |data| Self::of_data(&data))
     }
 
-    /// The stamp to store for a run that began reading at `begun`: [`UNKNOWN`](Self::UNKNOWN) if the file was not at rest by then.
+    /// Returns the stamp to store for a run that began reading at `begun`: [`UNKNOWN`](Self::UNKNOWN) if the file was not at rest by then.
     #[must_use]
     pub fn settled(self, begun: Clock) -> Self {
         let is_of_file = self != Self::MISSING && self != Self::UNKNOWN;
@@ -61,7 +62,7 @@ impl Stamp {
 
     /// Whether the file's last change is old enough that a later one would alter the stamp.
     fn has_rested(self, Clock(begun): Clock) -> bool {
-        // Times before 1970 are not trusted.
+        // Times before 1970 are not trusted: they do not count as rest.
         let is_before = |seconds: u64| {
             let time = i64::try_from(seconds)
                 .ok()
@@ -73,14 +74,14 @@ impl Stamp {
         is_before(self.0[1]) && is_before(self.0[2])
     }
 
-    /// Neither `MISSING` nor `UNKNOWN`: the last number is never zero and never all ones.
+    /// Returns a stamp that is neither `MISSING` nor `UNKNOWN`: its last number is never zero and never all ones.
     fn of_data(data: &Metadata) -> Self {
         Self(numbers(data))
     }
 }
 
 impl Clock {
-    /// Current time of a directory's file system: the modification time of a new file in it.
+    /// Returns the current time of a directory's file system: the modification time of a new file in it.
     ///
     /// # Errors
     /// If no file can be created there.

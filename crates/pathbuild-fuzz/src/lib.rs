@@ -25,7 +25,7 @@ use pathbuild_toolpath::{Correction, Program};
 use pathbuild_workspace::config;
 use pathbuild_workspace::session::{limits, reading};
 
-/// A target with its name.
+/// The name of a target, and its function.
 pub type FuzzTarget = (&'static str, fn(&[u8]));
 
 /// All targets, named after their corpora in `fuzz/corpus`.
@@ -54,12 +54,12 @@ pub fn run(name: &str, data: &[u8]) {
 
 // Targets for drawings: bytes to entities, texts to parameters, elements to programs.
 
-/// Arbitrary bytes as a drawing, ASCII or binary.
+/// Compiles arbitrary bytes as a drawing, ASCII or binary.
 fn dxf(data: &[u8]) {
     compile(data);
 }
 
-/// Lines of arbitrary characters as texts of each kind of element, as layer names, and as a file name.
+/// Reads lines of arbitrary characters as texts of each kind of element, as layer names, and as a file name.
 fn texts(data: &[u8]) {
     let text = String::from_utf8_lossy(data);
     let mut lines = text.lines();
@@ -89,7 +89,7 @@ fn texts(data: &[u8]) {
     }
 }
 
-/// Lines, arcs, circles and texts on a grid, which often form a path.
+/// Compiles a drawing of lines, arcs, circles and texts on a grid, which often form a path.
 fn walk(data: &[u8]) {
     compile(grid_drawing(&mut Choices::new(data)).as_bytes());
 }
@@ -132,7 +132,7 @@ fn settle(db: &Database) {
     Settings::new(db, reading(&settings, false), Arc::new(language), files, search, Vec::new(), fold, limits);
 }
 
-/// Checks that findings can be rendered and are not bugs.
+/// Checks that findings can be rendered, and that none reports a bug of pathbuild.
 fn judge<'d>(found: impl IntoIterator<Item = &'d Diagnostic>) {
     for diagnostic in found {
         let text = diagnostic.text(Lang::En) + &diagnostic.text(Lang::De);
@@ -169,7 +169,7 @@ fn write(program: &Program) {
 
 const PROGRAM: &[u8] = b"%\n(P 1)\nF100\nG00 Z20.000\nG00 X0.000 Y0.000\nG01 F100.000 Z0.000\nG01 X40.000 Y0.000\nG02 F100.000 X40.000 Y-10.000 I0.000 J-5.000\nG00 Z20.000\nM30\n%\n";
 
-/// A post definition: if it can be read, a program is written with it.
+/// Reads a post definition; if that succeeds, writes a program with it.
 fn post(data: &[u8]) {
     for file in ["post.cbpp", "post.toml"] {
         let Ok(post) = PostDefinition::read(data, Utf8Path::new(file)) else { continue };
@@ -180,7 +180,7 @@ fn post(data: &[u8]) {
     }
 }
 
-/// A G-code program; the first byte selects the dialect.
+/// Reads a G-code program; the first byte selects the dialect.
 fn gcode(data: &[u8]) {
     let Some((choice, text)) = data.split_first() else { return };
     let dialect = Dialect::ALL[usize::from(*choice) % Dialect::ALL.len()];
@@ -202,7 +202,7 @@ fn gcode(data: &[u8]) {
 
 const CLEAN: &[u8] = b"%\n([0.000 0.000]/T=5.000 #51)\nG00 Z20.000\nG01 F150.000 X1.000 Y0.000 Z1.000(=1.000+1.000*[#51-5.000])\nM30\n%\n";
 
-/// Measured values, followed by a program and a log, separated by lines of dashes.
+/// Adjusts a program to measured values. The data contain the values, the program and a log, separated by lines of dashes.
 fn values(data: &[u8]) {
     let mut parts = Vec::new();
     let mut rest = data;
@@ -223,7 +223,7 @@ fn values(data: &[u8]) {
     };
     if let Ok(adjusted) = adjust(&inputs) {
         let (least, most) = adjusted.corrections;
-        // Weights are rounded to three decimals, for which `adjust` has a tolerance.
+        // Weights rounded to three decimals need not sum to 1, so `adjust` permits corrections that exceed the limit by this factor and amount.
         let limit = 1.002 + 0.002 + 1e-9;
         assert!(least.abs() <= limit && most.abs() <= limit, "a correction is too large");
     }
@@ -231,7 +231,7 @@ fn values(data: &[u8]) {
 
 // Targets for the configuration and cached results.
 
-/// A pathbuild.toml.
+/// Reads the text of a `pathbuild.toml`.
 fn config(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else { return };
     for fault in config::faults(Utf8Path::new("pathbuild.toml"), text) {
@@ -240,14 +240,14 @@ fn config(data: &[u8]) {
     }
 }
 
-/// Cached findings.
+/// Decodes cached findings.
 fn cache(data: &[u8]) {
     if let Ok(found) = decode::<Diagnostic>(data) {
         _ = (found.text(Lang::En), found.help(Lang::De));
     }
 }
 
-/// A source of decisions. After the last byte, the first alternative is always taken.
+/// A source of decisions, one per byte. After the last byte, the first alternative is always taken.
 struct Choices<'a>(std::slice::Iter<'a, u8>);
 
 impl<'a> Choices<'a> {
@@ -267,7 +267,7 @@ impl<'a> Choices<'a> {
         items[usize::from(self.below(u8::try_from(items.len()).unwrap_or(u8::MAX)))]
     }
 
-    /// A coordinate in mm: on the grid, or slightly off it.
+    /// Returns a coordinate in mm: on the grid, or slightly off it.
     fn coordinate(&mut self) -> f64 {
         let place = 10.0 * f64::from(self.below(6));
         match self.below(16) {
@@ -285,7 +285,7 @@ const LINE_TYPES: [&str; 9] =
 
 const LAYERS: [&str; 6] = ["1001.1P", "1001.1P~A", "1001.2P", "8001.1P", "0", CLAMPS];
 
-/// The layer of clamps.
+/// Name of the layer with clamps.
 const CLAMPS: &str = "clamps";
 
 const CLAMP_TEXTS: [&str; 6] = ["Z25", "Z4", "Z0", "25", "Z25 T2", "Z1e9"];
@@ -337,7 +337,7 @@ const RADII: [f64; 9] = [0.5, 0.75, 1.0, 3.0, 1.0004, 1.001, 2.0, 7.5, 0.0];
 
 const ANGLES: [f64; 9] = [0.0, 90.0, 180.0, 270.0, 360.0, 450.0, 36.87, -90.0, 1e-7];
 
-/// A drawing determined by the bytes.
+/// Returns a drawing determined by the bytes.
 fn grid_drawing(choices: &mut Choices<'_>) -> String {
     let mut text = String::from("0\nSECTION\n2\nENTITIES\n");
     // A start and an end make a valid path likely.
@@ -395,7 +395,7 @@ fn any(text: &mut String, choices: &mut Choices<'_>) {
     }
 }
 
-/// Draws a rectangle, usually closed, with a height in it.
+/// Draws the rectangle of a clamp, usually closed, with a height in it.
 fn clamp(text: &mut String, choices: &mut Choices<'_>, x: f64, y: f64) {
     let (right, top) = (x + choices.coordinate(), y + choices.coordinate());
     let closed = if choices.below(8) == 7 { 0.0 } else { 1.0 };

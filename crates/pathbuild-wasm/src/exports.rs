@@ -1,5 +1,5 @@
-//! The C interface for the browser. It handles one message at a time: it requests a buffer ([`room`]), writes the question into it,
-//! requests the answer ([`answer`]), and reads it in place ([`answered`]).
+//! The C interface for the browser. It handles one message at a time: the page requests a buffer ([`room`]), writes the question into it, requests
+//! the answer ([`answer`]), and reads the answer in place ([`answered`]).
 #![expect(unsafe_code, reason = "an exported function needs a name that is unique in the program")]
 
 use std::cell::RefCell;
@@ -36,25 +36,25 @@ pub extern "C" fn answer() -> usize {
     ANSWER.with_borrow(Vec::len)
 }
 
-/// The address of the answer.
+/// Returns the address of the last answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn answered() -> *const u8 {
     ANSWER.with_borrow(Vec::as_ptr)
 }
 
-/// Length in bytes of the message of a panic that ended the call; 0 if it ended for another reason.
+/// Returns the length in bytes of the message of a panic that ended the call; 0 if it ended for another reason.
 #[unsafe(no_mangle)]
 pub extern "C" fn panicked() -> usize {
     PANIC.with_borrow(Vec::len)
 }
 
-/// The address of the panic's message.
+/// Returns the address of the message of the panic.
 #[unsafe(no_mangle)]
 pub extern "C" fn panic_text() -> *const u8 {
     PANIC.with_borrow(Vec::as_ptr)
 }
 
-/// Stores the message of a panic, since memory stays readable after the call has ended.
+/// Stores the message of a panic for the page, which can read memory even after the call has ended.
 fn keep(panic: &panic::PanicHookInfo<'_>) {
     let text = panic.payload_as_str().unwrap_or_default();
     PANIC.replace(text.as_bytes().to_vec());

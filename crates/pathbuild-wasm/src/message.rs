@@ -1,4 +1,4 @@
-//! Questions and answers.
+//! Messages between the page and the compiler: questions and answers.
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::dropped::Assumptions;
@@ -9,45 +9,45 @@ use serde_json::Value;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case")]
 pub enum Question {
-    /// Adds a file; its bytes follow. There is no answer.
+    /// Adds a file, whose bytes follow the line of JSON. There is no answer.
     Put {
-        /// The path of the file.
+        /// Path of the file, relative to the folder.
         file: String,
     },
-    /// Opens the files: `{ halted, problems, drawings, posts, seconds }`. All further questions come after this one.
+    /// Opens the files that were added: `{ halted, problems, drawings, posts, seconds }`. All further questions come after this one.
     Open {
         /// Options that override the configuration.
         #[serde(default)]
         options: Options,
-        /// Paths and drawings that ended earlier instances.
+        /// Paths and drawings that made earlier instances of the compiler end.
         #[serde(default)]
         lost: Vec<LostPath>,
     },
     /// The paths of a drawing, without their states: `{ rows }`. A drawing with an error of its own has a row without a path.
     Index {
-        /// The drawing.
+        /// Path of the drawing's file.
         file: String,
     },
-    /// A path with its state, as in `list`: `{ row }`.
+    /// Requests a path with its state, as in `list`: `{ row }`.
     Check(Place),
-    /// Totals over all checked paths, as in `stats`: `{ statistics }`.
+    /// Requests totals over all checked paths, as in `stats`: `{ statistics }`.
     Statistics,
-    /// A G-code program; its text follows. The answer is `{ seen }`, followed by the scene with the findings of `verify`.
+    /// Reads a G-code program, whose text follows the line of JSON. The answer is `{ seen }`, followed by the scene with the findings of `verify`.
     Program {
         /// The name of its file.
         name: String,
-        /// What is assumed for it.
+        /// Values assumed for what the program does not state.
         #[serde(flatten)]
         assumptions: Assumptions,
     },
-    /// The scene of a path, or of all paths of a drawing. The scene follows.
+    /// Requests the scene of a path, or of all paths of a drawing. It follows the line of JSON.
     Scene(Place),
-    /// The picture of a path, or of all paths of a drawing. The SVG follows.
+    /// Requests the picture of a path, or of all paths of a drawing. It follows the line of JSON, as SVG.
     Picture(Place),
-    /// The programs of paths, as written by `emit`: `{ refused, problems, files }`. Each file has a name and a size; the bytes of all files
-    /// follow in order.
+    /// Writes the programs of paths as `emit` does: `{ refused, problems, files }`. Each file has a name and a size; the bytes of all files follow
+    /// in order.
     Emit {
-        /// The paths.
+        /// Paths to write; a drawing without a path stands for all its paths.
         places: Vec<Place>,
     },
 }
@@ -55,9 +55,9 @@ pub enum Question {
 /// A path of a drawing, or all its paths.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize)]
 pub struct Place {
-    /// The drawing.
+    /// Path of the drawing's file.
     pub file: String,
-    /// The path; `None` for all paths.
+    /// Name of the path; `None` for all paths.
     pub path: Option<String>,
 }
 
@@ -75,7 +75,7 @@ pub struct Options {
     pub probe_feed: Option<String>,
     /// The post; `None` for the one in the configuration.
     pub post: Option<String>,
-    /// `de` or `en`.
+    /// Language of answers.
     pub lang: Language,
 }
 
@@ -91,10 +91,10 @@ pub enum Language {
 /// A path or drawing that took too long or triggered a bug, so that the instance of the compiler ended.
 #[derive(Clone, Debug, Deserialize)]
 pub struct LostPath {
-    /// The path.
+    /// The path or drawing.
     #[serde(flatten)]
     pub place: Place,
-    /// Why it is lost.
+    /// The reason, with its fields at the same level in JSON.
     #[serde(flatten)]
     pub why: LossReason,
 }
@@ -107,7 +107,7 @@ pub enum LossReason {
     Time,
     /// The path triggered a bug: PB006.
     Bug {
-        /// Details about the bug, if known.
+        /// Message of the panic, if known.
         reason: String,
     },
 }

@@ -1,4 +1,4 @@
-//! A session over the opened files, queried path by path.
+//! A session on the opened files, queried path by path.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -56,7 +56,7 @@ impl OpenedFiles {
             cache: None,
             reporter: Rc::new(SilentReporter),
         };
-        // Leaked, because it lives as long as the page: to open other files, the page starts a new instance.
+        // Leaked because it lives as long as the instance: to open other files, the page starts a new instance.
         let workspace: &'static Workspace = Box::leak(Box::new(workspace));
         let posts = BUILT_IN.iter().map(|post| json!({ "name": post.name, "for": post.description }));
         let posts: Value = posts.collect();
@@ -123,7 +123,7 @@ impl OpenedFiles {
         self.session.db().file(&clean(Utf8Path::new(file)))
     }
 
-    /// A path by its name; `None` if the drawing has no such path, or the path was lost.
+    /// Finds a path by its name; `None` if the drawing has no such path, or the path was lost.
     fn path(&self, place: &Place) -> Option<(SourceFile, PathName)> {
         if self.lost.contains_key(place) {
             return None;
@@ -133,7 +133,7 @@ impl OpenedFiles {
         Some((file, name.clone()))
     }
 
-    /// The rows of a drawing, without the states of its paths.
+    /// Returns the rows of a drawing, without the states of its paths.
     fn index(&self, file: &str) -> Vec<Value> {
         let whole = Place { file: file.to_owned(), path: None };
         if let Some(problem) = self.lost.get(&whole) {
@@ -148,13 +148,13 @@ impl OpenedFiles {
         whole.into_iter().chain(rows).collect()
     }
 
-    /// The row of a drawing that has errors of its own.
+    /// Returns the row of a drawing that has errors of its own.
     fn of_drawing(&self, found: Vec<Diagnostic>) -> Option<Value> {
         drawing_json(&self.session.workspace().findings(found))
     }
 
-    /// Whether a path is included in "write all": either the configuration lists it, or the configuration lists none and the path needs no
-    /// values for variables.
+    /// Whether "write all" includes a path: either the configuration lists it, or the configuration lists none and the path needs no values for
+    /// variables.
     fn is_emitted(&self, targets: &mut TargetPatterns<'_>, file: SourceFile, name: &PathName) -> bool {
         if !self.session.workspace().settings.emit.targets.value.is_empty() {
             return targets.matches(name.as_str());
@@ -163,7 +163,7 @@ impl OpenedFiles {
         index.is_some_and(|path| path.header.definitions.is_empty())
     }
 
-    /// The row of a path with its state.
+    /// Checks a path and returns its row with its state.
     fn check(&mut self, place: Place) -> Option<Value> {
         let path = if let Some(problem) = self.lost.get(&place) {
             let name = PathName::new(place.path.as_deref()?);
@@ -183,7 +183,7 @@ impl OpenedFiles {
         stats_json(&Stats::of(self.rows.values(), drawings))
     }
 
-    /// The scene of a path or drawing; `None` if it does not exist.
+    /// Returns the scene of a path or drawing; `None` if it does not exist.
     fn scene(&mut self, place: &Place) -> Option<Scene> {
         let workspace = self.session.workspace();
         if let Some(problem) = self.lost.get(place) {
@@ -226,7 +226,7 @@ impl OpenedFiles {
                 bytes.extend(text);
             }
         }
-        // Writing reports no errors in drawings, so they are added here.
+        // The emission reports no errors in drawings, so they are added here.
         let checked = self.session.check(&targets).into_iter().flat_map(|checked| checked.diagnostics);
         let found = workspace.findings(checked.chain(emission.diagnostics).collect());
         let problems = pathbuild_view::findings(&found.diagnostics, "");
@@ -280,7 +280,7 @@ impl Compiler {
     }
 }
 
-// The files of a page: those it was given, and those written but not yet handed over. The given files are never modified, so that the
+// The files of a page: those that it added, and those that were written but not yet handed over. The added files are never modified, so that the
 // state of a program reflects the visitor's disk.
 
 #[derive(Debug)]
@@ -301,7 +301,7 @@ impl Files {
         self.given.put(path, bytes);
     }
 
-    /// Hands over a file that was written or given.
+    /// Returns the bytes of a file that was written or added, and forgets a written one.
     pub(crate) fn take(&self, path: &Utf8Path) -> Vec<u8> {
         let bytes = self.read(path, u64::MAX).unwrap_or_default();
         _ = self.written.remove(path);

@@ -21,11 +21,11 @@ use crate::workspace::Workspace;
 /// Name of the baseline that is used unless another one is named, beside `pathbuild.toml`.
 const FILE_NAME: &str = "pathbuild-baseline.txt";
 
-/// Accepted findings, which are not reported.
+/// Accepted findings, read from a baseline file. They are not reported.
 #[derive(Clone, Debug, Default)]
 pub struct Baseline {
     file: Utf8PathBuf,
-    /// The file as it is.
+    /// Text of the file, unchanged.
     text: String,
     entries: BTreeMap<String, Entry>,
 }
@@ -34,13 +34,13 @@ pub struct Baseline {
 #[derive(Clone, Debug)]
 struct Entry {
     waiver: Waiver,
-    /// How deep in mm a finding about a tool in the material may reach into it.
+    /// Depth in mm up to which the finding is accepted, for findings about a tool in the material or outside the machine's travel.
     depth: Option<f64>,
     description: String,
     line: String,
 }
 
-/// What identifies a finding in a baseline.
+/// Fingerprints by which a baseline may identify a finding.
 struct FindingKey {
     fingerprint: String,
     /// The fingerprint in baselines of versions up to 0.2.0.
@@ -48,15 +48,15 @@ struct FindingKey {
 }
 
 impl Baseline {
-    /// A baseline without entries.
+    /// Creates a baseline without entries for this file.
     pub fn new(file: &Utf8Path) -> Self {
         Self { file: file.to_owned(), text: HEAD.to_owned(), entries: BTreeMap::new() }
     }
 
-    /// Reads a baseline file of at most `limit` bytes. Also returns what is wrong with its lines.
+    /// Reads a baseline file of at most `limit` bytes. Also returns diagnostics of its lines.
     ///
     /// # Errors
-    /// Why it cannot be read.
+    /// If the file cannot be read, with the reason.
     pub fn read(
         system: &dyn System,
         file: &Utf8Path,
@@ -64,7 +64,7 @@ impl Baseline {
     ) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
         let text = files::read(system, file, limit).map_err(|reason| {
             vec![match system.read(file, limit) {
-                // Reports the configuration key of the limit, as for other files.
+                // Name the configuration key of the limit, as for other files.
                 Err(error @ ReadError::TooLarge { .. }) => error.diagnostic(limit, "file-size").in_file(file),
                 _ => Diagnostic::new(&messages::BASELINE_UNREADABLE).in_file(file).with("reason", reason),
             }]
@@ -74,7 +74,7 @@ impl Baseline {
         Ok((baseline, faults))
     }
 
-    /// The text of a baseline that contains all these findings. Entries that still match keep their reasons and dates, and those of files
+    /// Returns the text of a baseline that contains all these findings. Entries that still match keep their reasons and dates, and those of files
     /// that the run did not cover stay as they are.
     pub fn rewritten(&self, findings: &[Diagnostic], workspace: &Workspace, coverage: &Coverage) -> String {
         let run = Run::new(workspace, coverage);
@@ -94,7 +94,7 @@ impl Baseline {
         shown::lines(&text).into_owned()
     }
 
-    /// The text of this baseline with a waiver of all findings that have a code, and their number.
+    /// Returns the text of this baseline, extended by a waiver for each finding with `code`, and the number of these findings.
     pub fn accepting(
         &self,
         findings: &[Diagnostic],
@@ -118,7 +118,8 @@ impl Baseline {
         (shown::lines(&text).into_owned(), accepted.len())
     }
 
-    /// Moves the findings of this baseline to those that are accepted. A finding whose entry has ended says so.
+    /// Moves the findings that this baseline accepts to the waived ones. A finding whose entry has expired, or accepts only a smaller depth, gets a
+    /// note about that.
     fn apply(&self, mut findings: Findings, run: Option<RunDate>, base: &Utf8Path) -> Findings {
         let keys = self.keys(&findings.diagnostics, base);
         let place = self.file.file_name().unwrap_or_default();
@@ -138,7 +139,7 @@ impl Baseline {
         findings
     }
 
-    /// Warnings about the entries that match none of these findings, among those of files that the run covered. (PB610)
+    /// Warns about entries that match none of these findings, among those of files that the run covered. (PB610)
     fn unused(&self, findings: &[Diagnostic], run: &Run<'_>) -> Vec<Diagnostic> {
         let base = run.working_directory;
         let keyed = findings.iter().zip(self.keys(findings, base));
@@ -156,7 +157,7 @@ impl Baseline {
         unused.collect()
     }
 
-    /// What entries may identify each of these findings by. `base`: the directory that their files are relative to.
+    /// Returns the fingerprints of each of these findings. The names of their files are relative to `base`.
     fn keys(&self, findings: &[Diagnostic], base: &Utf8Path) -> Vec<FindingKey> {
         let now = Fingerprint::with_places(findings, &|file| self.place(file, base));
         let keys = now.iter().zip(Fingerprint::of(findings));
@@ -167,8 +168,8 @@ impl Baseline {
         keys.map(text).collect()
     }
 
-    /// The name of a file in fingerprints. A program is identified by its path from the directory of the baseline, because different
-    /// programs often have one name. A drawing keeps its findings when it is moved: its paths have names of their own.
+    /// Returns the name of a file in fingerprints. A program is identified by its path from the directory of the baseline, because different
+    /// programs often have the same name. A drawing is identified by its name alone, so that its findings stay the same when it is moved.
     fn place(&self, file: &Utf8Path, base: &Utf8Path) -> String {
         let name = file.file_name().unwrap_or_default();
         let directory = clean(self.file.parent().unwrap_or(base));
@@ -177,8 +178,8 @@ impl Baseline {
         below.map_or(name.to_owned(), |below| format!("./{}", below.as_str().replace('\\', "/")))
     }
 
-    /// The entry for a finding, with its fingerprint. The entries of earlier versions contain only the name of a program; they hold for the
-    /// file that their description names.
+    /// Finds the entry for a finding, with its fingerprint. Entries of earlier versions contain only the name of a program; they hold for the file
+    /// that their description names.
     fn entry(&self, diagnostic: &Diagnostic, key: &FindingKey, base: &Utf8Path) -> Option<(&str, &Entry)> {
         let find = |fingerprint: &String| self.entries.get_key_value(fingerprint);
         let is_of_file = |entry: &Entry| {
@@ -191,7 +192,7 @@ impl Baseline {
         known.map(|(fingerprint, entry)| (fingerprint.as_str(), entry))
     }
 
-    /// Reads the entries; returns what is wrong with the text.
+    /// Parses the entries from the text; returns diagnostics of faulty lines.
     fn parse(&mut self) -> Vec<Diagnostic> {
         let mut faults = Vec::new();
         for (number, line) in (1..).zip(self.text.lines()) {
@@ -211,7 +212,7 @@ impl Baseline {
 }
 
 impl Workspace {
-    /// The baseline that is named, else the one beside the configuration, else the one in the working directory.
+    /// Returns the baseline file: `named` if given, else the one beside the configuration, else the one in the working directory.
     pub fn baseline_file(&self, named: Option<&Utf8Path>) -> Utf8PathBuf {
         match named {
             Some(file) => self.working_directory.join(file),
@@ -219,11 +220,11 @@ impl Workspace {
         }
     }
 
-    /// Moves the findings of the baseline, if there is one, to those that are accepted, and adds warnings about waivers that match nothing
-    /// any more.
+    /// Moves the findings that the baseline accepts, if there is one, to the waived ones, and adds warnings about waivers that match nothing any
+    /// more.
     ///
     /// # Errors
-    /// What is wrong with the baseline.
+    /// If the baseline cannot be read or has faulty lines.
     pub fn settle(
         &self,
         mut findings: Findings,
@@ -270,7 +271,7 @@ impl<'a> Run<'a> {
         Self { system, working_directory, checked, has_directories: coverage.has_directories }
     }
 
-    /// Whether an entry would have matched if its finding still occurred.
+    /// Whether a run covered the file of an entry, so that the entry would have matched if its finding still occurred.
     fn covers(&self, baseline: &Baseline, entry: &Entry) -> bool {
         let bases = [self.working_directory, baseline.file.parent().unwrap_or(self.working_directory)];
         let Some(files) = entry.possible_files(bases) else { return false };
@@ -280,12 +281,12 @@ impl<'a> Run<'a> {
 }
 
 impl Entry {
-    /// Whether a finding reaches no deeper into the material than when it was accepted.
+    /// Whether the finding is no deeper than the accepted depth, or has no depth.
     fn is_deep_enough(&self, diagnostic: &Diagnostic) -> bool {
         depth(diagnostic).is_none_or(|depth| self.depth.is_some_and(|accepted| depth <= accepted))
     }
 
-    /// Notes on a finding that it was accepted with a smaller depth.
+    /// Adds a note to a finding: it was accepted with a smaller depth, or without one.
     fn note_depth(&self, diagnostic: Diagnostic, file: &str) -> Diagnostic {
         let place = ("place", Value::quoted(format!("{file}:{}", self.waiver.line)));
         match (self.depth, depth(&diagnostic)) {
@@ -297,7 +298,8 @@ impl Entry {
         }
     }
 
-    /// The names that the description may begin with, which may contain spaces; `None` if it does not name a code first.
+    /// Returns the files that the description may name after the code. File names may contain spaces, so there are several; `None` if the
+    /// description does not begin with a code.
     fn possible_files(&self, bases: [&Utf8Path; 2]) -> Option<Vec<Utf8PathBuf>> {
         let (code, rest) = self.description.split_once(' ')?;
         code.parse::<Code>().ok()?;
@@ -312,8 +314,8 @@ const HEAD: &str = "\
 # Only the fingerprint at the beginning of a line counts, with until=DATE and reason=\"TEXT\" after it; the rest describes the finding.
 ";
 
-/// How deep in mm the tool is in the material, or how far it leaves the travel of the machine, rounded up to 0.01 mm, if the finding is
-/// about that.
+/// Returns how deep the tool is in the material, or how far it leaves the travel of the machine, in mm, rounded up to 0.01 mm; `None` for other
+/// findings.
 fn depth(diagnostic: &Diagnostic) -> Option<f64> {
     let number = |name| match diagnostic.arguments.iter().find(|(key, _)| *key == name) {
         Some((_, Value::Number(number))) => Some(number.0),
@@ -334,10 +336,10 @@ fn depth(diagnostic: &Diagnostic) -> Option<f64> {
     Some((depth * 100.0 - ROUNDING).ceil() / 100.0)
 }
 
-/// Share of 0.01 mm that is attributed to rounding.
+/// Share of 0.01 mm that counts as a rounding error and is not rounded up.
 const ROUNDING: f64 = 1e-6;
 
-/// A line of a baseline.
+/// Formats the line of a baseline for a finding.
 fn line(fingerprint: &str, waiver: &Waiver, diagnostic: &Diagnostic, base: &Utf8Path) -> String {
     let mut line = fingerprint.to_owned();
     if let Some(depth) = depth(diagnostic) {
@@ -353,8 +355,8 @@ fn line(fingerprint: &str, waiver: &Waiver, diagnostic: &Diagnostic, base: &Utf8
     line
 }
 
-/// Describes the finding without details that change whenever the CAD program saves the drawing, and always in English, so that the file
-/// does not depend on the user's language. File names are relative to `base`.
+/// Describes a finding without details that change whenever the CAD program saves the drawing, and always in English, so that the file does not
+/// depend on the user's language. File names are relative to `base`.
 fn description(diagnostic: &Diagnostic, base: &Utf8Path) -> String {
     let file = diagnostic.file.as_deref().map(|file| file.strip_prefix(base).unwrap_or(file).as_str());
     let path = diagnostic.path.as_deref().unwrap_or_default();
@@ -365,7 +367,7 @@ fn description(diagnostic: &Diagnostic, base: &Utf8Path) -> String {
     shown::line(&words.join(" ")).into_owned()
 }
 
-/// A fault in a line, with the faulty part.
+/// A fault in a line, with the part of the line that is wrong.
 struct LineFault {
     message: &'static Message,
     part: std::ops::Range<usize>,
@@ -383,7 +385,7 @@ impl LineFault {
     }
 }
 
-/// The fingerprint and the entry of a line.
+/// Parses a line into its fingerprint and its entry.
 fn entry(line: &str) -> Result<(&str, Entry), LineFault> {
     let Some(fingerprint) = fingerprint(line) else {
         let start = line.len() - line.trim_start().len();

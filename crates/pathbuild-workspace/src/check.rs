@@ -1,5 +1,5 @@
-//! `check`: checks drawings, paths and directories, without writing anything, with example values or all combinations of their variables'
-//! values, and only what depends on changed drawings if asked for. (book: reference/commands, `check`; book: language/variables)
+//! `check`: checks drawings, paths and directories without writing anything. Variables get example values, or all combinations of their values. On
+//! request, only results that depend on changed drawings are shown. (book: reference/commands, `check`; book: language/variables)
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fmt::Debug;
@@ -50,9 +50,9 @@ pub struct CheckOutcome {
 /// A drawing that was checked.
 #[derive(Clone, Debug)]
 pub struct CheckedFile {
-    /// The drawing.
+    /// Path of its file.
     pub file: Utf8PathBuf,
-    /// Its paths in file order, as the drawing spells them.
+    /// Names of its paths in file order, as the drawing spells them.
     pub paths: Vec<PathName>,
 }
 
@@ -60,7 +60,7 @@ pub struct CheckedFile {
 #[derive(Debug)]
 struct CheckTarget {
     drawing: Utf8PathBuf,
-    /// `None` means all paths.
+    /// The paths to check; `None` means all.
     names: Option<Vec<PathName>>,
 }
 
@@ -71,7 +71,7 @@ impl CheckTarget {
 }
 
 impl Request<'_> {
-    /// Opens a session that suits this request.
+    /// Opens a session that suits this request: it traces inputs if results are cached or filtered by changes.
     pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
         if workspace.keeps_results() || self.changed.is_some() {
             Session::traced(workspace)
@@ -98,7 +98,8 @@ impl Request<'_> {
         Ok(checked)
     }
 
-    /// The files that a run covered. A run on single paths covers no drawing completely, and one on some drawings not the whole library.
+    /// Returns what the run covered, for waivers that match nothing: a run on single paths covers no drawing completely, and one on some drawings
+    /// not the whole library.
     pub fn coverage(&self, workspace: &Workspace, checked: &[CheckedFile]) -> waivers::Coverage {
         let is_directory = |name: &Utf8Path| workspace.system.kind(name) == FileKind::Directory;
         let mut inputs = self.inputs.iter();
@@ -117,7 +118,7 @@ impl Request<'_> {
         }
     }
 
-    /// Checks the drawings without a valid cached result.
+    /// Checks the drawings that have no valid cached result.
     fn check(
         &self,
         session: &mut Session<'_>,
@@ -127,7 +128,7 @@ impl Request<'_> {
         let Results { selection, named, each } =
             session.with_stable_files(|session| self.results(session, matches, memo));
         if self.changed.is_some() && !(selection.named.is_empty() && selection.paths.is_empty()) {
-            // Dependents are found only for whole directories.
+            // Only for whole directories are all drawings found that depend on a changed one.
             let reason = session.workspace().choose(
                 "--changed-since is for directories or the library, not for single drawings or paths",
                 "--changed-since ist für Verzeichnisse oder die Bibliothek, nicht für einzelne Zeichnungen oder Pfade",
@@ -162,7 +163,7 @@ impl Request<'_> {
         Ok(checked)
     }
 
-    /// Resolves the arguments and checks the drawings.
+    /// Resolves the arguments, and checks the drawings or takes their results from the cache.
     fn results(&self, session: &mut Session<'_>, matches: &ArgumentMatches, memo: &Memo) -> Results {
         let mut named: Vec<Utf8PathBuf> =
             matches.candidates().map(|file| file.path(session.db()).clone()).collect();
@@ -190,7 +191,7 @@ impl Request<'_> {
         Results { selection, named, each }
     }
 
-    /// The state since which changed drawings are selected; `None` if everything is selected because a change affects all drawings.
+    /// Returns the state since which changed drawings are selected; `None` if everything is selected, because a change affects all drawings.
     fn since(&self, session: &Session<'_>, matches: &ArgumentMatches) -> Option<&dyn EarlierFiles> {
         let past = self.changed?;
         let directories: Vec<Utf8PathBuf> =
@@ -206,23 +207,24 @@ impl Request<'_> {
     }
 }
 
-/// The resolved arguments, and the results of drawings.
+/// The resolved arguments and the results of their drawings.
 struct Results {
     selection: Selection,
     /// Drawings that may define a named path.
     named: Vec<Answer<DrawingResult>>,
-    /// Drawings that were to be checked.
+    /// The drawings and paths that the arguments select.
     each: Vec<Answer<DrawingResult>>,
 }
 
-/// Reports, as a detail, how many drawings have cached results that still hold.
+/// Reports, at the level of details, how many drawings have cached results that still hold.
 fn report_known(context: &Workspace, known: usize, all: usize) {
     let phrase =
         context.choose("drawings whose results still hold", "Zeichnungen, deren Ergebnisse noch gelten");
     context.reporter.detail(&format!("{phrase}: {known} / {all}"));
 }
 
-/// The targets to check: each drawing, and for paths named individually the drawings that define them, unless these are checked as a whole.
+/// Returns the targets to check: each drawing as a whole, and the drawings that define individually named paths, unless these are checked as a
+/// whole.
 fn targets(session: &Session<'_>, selection: &Selection) -> Vec<CheckTarget> {
     let db = session.db();
     let named = selection.named.iter().map(|file| file.path(db));
@@ -264,7 +266,7 @@ fn compare_q_projects(
     memo.get_or(&pairs, subject, |_, result| Some(result), compare)
 }
 
-/// Leaks instead of dropping: freeing a million values takes longer than process exit.
+/// Leaks a value instead of dropping it: freeing a million values takes longer than process exit.
 fn leak<T>(value: T) {
     std::mem::forget(value);
 }
@@ -272,7 +274,7 @@ fn leak<T>(value: T) {
 /// Number of drawings checked between evictions of parsed data.
 const BATCH: usize = 512;
 
-/// Checks all paths of the drawings. Returns each result with its inputs.
+/// Checks all paths of the drawings. Returns the result of each drawing with its inputs.
 pub fn check_drawings(
     session: &mut Session<'_>,
     files: &[SourceFile],
@@ -282,7 +284,7 @@ pub fn check_drawings(
     check_paths(session, &targets, with_all_values)
 }
 
-/// A drawing, with the requested paths unless all are requested.
+/// A drawing, and the paths of it to check; `None` means all.
 type NamedDrawing<'a> = (SourceFile, Option<&'a [PathName]>);
 
 /// Like [`check_drawings`], for drawings that may be requested with only some of their paths.
@@ -330,7 +332,7 @@ fn check_drawing(
     (result(db, names, diagnostics, reached), traces)
 }
 
-/// Adds to the diagnostics of a drawing's paths those of the files that the paths reach.
+/// Combines the diagnostics of a drawing's paths with those of all files that the paths reach.
 fn result(
     db: &Database,
     names: &[PathName],
@@ -345,7 +347,7 @@ fn result(
     DrawingResult { names: names.to_vec(), diagnostics }
 }
 
-/// Inputs of a drawing's result that do not depend on its paths; empty if inputs are not traced.
+/// Returns the inputs of a drawing's result that do not depend on its paths; nothing if inputs are not traced.
 fn own_trace(is_traced: bool, file: SourceFile) -> Vec<Trace> {
     if is_traced { vec![Trace { files: vec![file], lookups: Vec::new() }] } else { Vec::new() }
 }
@@ -354,7 +356,7 @@ fn own_trace(is_traced: bool, file: SourceFile) -> Vec<Trace> {
 const MOST_COMBINATIONS: usize = 1000;
 
 impl Checker<'_> {
-    /// One target per combination of values, and a warning if there are too many combinations. A path without variables has a single
+    /// Returns one target per combination of values, and a warning if there are too many combinations. A path without variables has a single
     /// target.
     pub fn combined_targets(&self, file: SourceFile, name: &PathName) -> (Vec<Target>, Option<Diagnostic>) {
         let target = |role| self.db().target(file, name.as_str(), role);
@@ -415,7 +417,7 @@ struct MergedFault<'a> {
     count: usize,
 }
 
-/// Two diagnostics with the same identity are the same fault; the values in their messages do not matter.
+/// Identity of a diagnostic, without the values in its message: diagnostics with the same identity are the same fault.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Identity<'a> {
     message: &'static str,
@@ -438,35 +440,35 @@ impl<'a> Identity<'a> {
     }
 }
 
-/// Formats values as in a subpath's text: `:A0,5 :BX`.
+/// Formats values as in the text of a subpath: `:A0,5 :BX`.
 fn shown(values: &Bindings) -> String {
     let values: Vec<String> = values.iter().map(|(name, value)| format!(":{name}{value}")).collect();
     values.join(" ")
 }
 
-/// The files at an earlier time, such as in a Git revision.
+/// The state of files at an earlier time, such as a Git revision.
 pub trait EarlierFiles: Debug {
-    /// For each file, whether it has changed since or did not exist. Files about which nothing is known count as changed.
+    /// Returns for each file whether it has changed since, or did not exist. Files about which nothing is known count as changed.
     fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool>;
 
-    /// File names of the drawings that the directory contained.
+    /// Returns the file names of the drawings that the directory contained.
     fn drawings(&self, directory: &Utf8Path) -> &[String];
 
-    /// A file that has changed and affects all results, such as a configuration or a symbolic link. `directories` are those that were
-    /// searched.
+    /// Returns a file that has changed and affects all results, such as a configuration or a symbolic link. `directories` are the searched
+    /// directories.
     fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf>;
 }
 
-/// Selects the results that are shown.
+/// Selects the results that are shown: all of them, or only those that depend on changed drawings.
 pub(super) struct ChangeFilter<'a> {
     session: &'a Session<'a>,
     memo: &'a Memo,
-    /// `None` shows all results.
+    /// Drawings on which a shown result must depend; `None` shows all results.
     changed: Option<ChangedDrawings>,
 }
 
 impl<'a> ChangeFilter<'a> {
-    /// If `past` is given, selects those of the results that depend on files changed since then.
+    /// Creates a filter for these results. If `past` is given, only those pass that depend on files changed since then.
     pub(super) fn new<'r>(
         session: &'a Session<'a>,
         memo: &'a Memo,
@@ -492,7 +494,7 @@ impl<'a> ChangeFilter<'a> {
     }
 }
 
-/// Inputs of results that may have changed.
+/// The inputs of all results, of which some may have changed.
 #[derive(Debug, Default)]
 struct ReachedInputs {
     files: BTreeSet<Utf8PathBuf>,
@@ -509,7 +511,7 @@ struct ChangedDrawings {
 }
 
 impl ReachedInputs {
-    /// Adds the inputs of a result.
+    /// Adds the files and directories that a result depends on.
     fn add(&mut self, facts: &Dependencies<'_>) {
         facts.files.iter().for_each(|file| add(&mut self.files, file));
         facts.lookups.iter().for_each(|(directory, _)| add(&mut self.directories, directory));
@@ -524,7 +526,7 @@ fn add(paths: &mut BTreeSet<Utf8PathBuf>, path: &Utf8Path) {
 }
 
 impl ChangedDrawings {
-    /// Those of the given inputs that have changed since `past`.
+    /// Determines which of the given inputs have changed since `past`.
     fn new(session: &Session<'_>, past: &dyn EarlierFiles, reached: ReachedInputs) -> Self {
         let ReachedInputs { mut files, directories } = reached;
         let mut gone = BTreeSet::new();
@@ -547,14 +549,14 @@ impl ChangedDrawings {
             || facts.lookups.iter().any(|(directory, name)| self.answers(directory, name))
     }
 
-    /// Whether one of the drawings may answer a lookup of `name` in this directory.
+    /// Whether a lookup of `name` in this directory may find one of the drawings.
     fn answers(&self, directory: &Utf8Path, name: &str) -> bool {
         let names = self.names.get(directory);
         names.is_some_and(|names| names.iter().any(|file| self.coverage.may_hold(file, name)))
     }
 }
 
-/// File names of the drawings in a directory, hidden ones included.
+/// Returns the file names of the drawings in a directory, including hidden ones.
 fn drawings(session: &Session<'_>, directory: &Utf8Path) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     // Errors are ignored here: the lookups in this directory report them.

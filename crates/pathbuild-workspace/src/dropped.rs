@@ -1,4 +1,5 @@
-//! Programs that are dropped on the page: their moves, what [`verify`](crate::verify) finds, and what was assumed. (book: program/browser)
+//! Programs that a user drops on the page: their moves, the findings of [`verify`](crate::verify), and the assumptions made for them. (book:
+//! program/browser)
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang, shown};
@@ -17,9 +18,9 @@ use crate::workspace::Failure;
 /// A program that was dropped on the page.
 #[derive(Debug)]
 pub struct DroppedProgram {
-    /// The name of its file.
+    /// Name of its file.
     pub name: String,
-    /// Its text.
+    /// Bytes of the program's text.
     pub text: Vec<u8>,
     /// Values that the user typed in.
     pub assumptions: Assumptions,
@@ -48,7 +49,7 @@ struct ProgramScene<'s> {
 struct ProgramRecord {
     dialect: &'static str,
     dialects: Vec<&'static str>,
-    /// The dialect, and why it was guessed.
+    /// The dialect, and the reason if it was guessed.
     read_as: BilingualText,
     checks: Vec<ShownCheck>,
     cutters: Vec<ToolSpan>,
@@ -63,7 +64,7 @@ struct ShownCheck {
 }
 
 impl DroppedProgram {
-    /// The scene of the program as JSON, with its findings and a field `program`.
+    /// Returns the scene of the program as JSON, with its findings and a field `program`.
     pub fn scene(self, session: &mut Session<'_>) -> String {
         let workspace = session.workspace();
         let mut diagnostics = Vec::new();
@@ -75,7 +76,7 @@ impl DroppedProgram {
             Err(Failure::Post(diagnostics) | Failure::Found(diagnostics)) => {
                 VerifiedProgram { diagnostics, ..VerifiedProgram::default() }
             }
-            // Only a drawing to compare with can be named wrongly.
+            // Only the name of a drawing to compare with can be a usage error, and there is none here.
             Err(Failure::Usage(_)) => VerifiedProgram::default(),
         };
         diagnostics.extend(verified.diagnostics);
@@ -107,7 +108,7 @@ impl DroppedProgram {
 }
 
 impl Assumptions {
-    /// The options of `verify`. Adds what is wrong with the texts.
+    /// Converts the assumptions to options of `verify`. Adds diagnostics of invalid texts.
     fn options(&self, problems: &mut Vec<Diagnostic>) -> VerifyOptions {
         let mut value = |text: Option<&String>, read: fn(&str) -> Result<f64, Box<Diagnostic>>| {
             read(text?).map_err(|problem| problems.push(*problem)).ok()
@@ -124,7 +125,7 @@ impl Assumptions {
     }
 }
 
-/// The cutters and the upper face of the material that a program states.
+/// Returns the cutters and the height of the material's upper face that a program states.
 fn stated(program: &Program, rapids: Option<&RapidValues>) -> (Vec<ToolSpan>, Option<f64>) {
     let mut header = HeaderReader::default();
     for step in &program.read.steps {
@@ -138,7 +139,7 @@ fn stated(program: &Program, rapids: Option<&RapidValues>) -> (Vec<ToolSpan>, Op
     (header.tools.iter().filter_map(span).collect(), surface)
 }
 
-/// Gives a path the cutters that it is shown with: the one that was typed in, or those that its rapid moves were checked with.
+/// Sets the cutters with which a path is shown: the diameter that the user typed in, or those with which its rapid moves were checked.
 fn equip(path: &mut ScenePath, cutter: Option<f64>, stated: &[ToolSpan], rapids: Option<&RapidValues>) {
     let mut diameters: Vec<f64> = match (cutter, rapids) {
         (Some(cutter), _) => vec![cutter],

@@ -19,23 +19,23 @@ use crate::workspace::Workspace;
 /// A file other than a drawing that a result depends on.
 #[derive(Clone, Debug)]
 pub struct ExtraInput {
-    /// Its path.
+    /// Path of the file.
     pub path: Utf8PathBuf,
     /// Hash of the bytes that were read; `None` if reading failed.
     pub hash: Option<[u8; 32]>,
 }
 
-/// Whether a file exists under this name and is not a directory. Unreadable files are reported when they are read.
+/// Whether this name exists and is not a directory. Unreadable files are reported when they are read.
 pub fn is_there(file: &Utf8Path) -> bool {
     file.as_std_path().metadata().is_ok_and(|data| !data.is_dir())
 }
 
-/// Whether the name is taken, even by a dangling symbolic link.
+/// Whether the name exists, even as a dangling symbolic link.
 pub fn is_named(file: &Utf8Path) -> bool {
     file.as_std_path().symlink_metadata().is_ok()
 }
 
-/// Size of a file in bytes.
+/// Returns the size of a file in bytes; `None` if it cannot be determined.
 pub fn size(file: &Utf8Path) -> Option<u64> {
     file.as_std_path().metadata().ok().map(|data| data.len())
 }
@@ -48,7 +48,7 @@ pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<String, 
     utf_8(system.read(file, limit).map_err(|error| error.reason(limit))?)
 }
 
-/// Decodes text.
+/// Decodes bytes as UTF-8, or returns the reason why they cannot be read.
 pub(crate) fn utf_8(bytes: Vec<u8>) -> Result<String, Value> {
     String::from_utf8(bytes).map_err(|_| Value::Prose(&NOT_UTF_8))
 }
@@ -77,7 +77,7 @@ pub fn create(context: &Workspace, files: &[(Utf8PathBuf, &[u8])]) -> Result<(),
     }
     for (index, (file, content)) in files.iter().enumerate() {
         if let Err(error) = create_new(file, content) {
-            // Undo, so that the next attempt does not find these files.
+            // Undo the creation, so that the next attempt does not find these files.
             files[..index].iter().for_each(|(created, _)| _ = fs::remove_file(created));
             return Err(vec![cannot_write(file, reason(&error))]);
         }
@@ -112,7 +112,8 @@ pub fn replace_report(context: &Workspace, file: &Utf8Path, text: &str) -> Resul
     }
 }
 
-/// Why a name belongs to a drawing or to the configuration in use, which no other output may replace. Judged by the name alone.
+/// Returns the reason if a name is that of a drawing or of the configuration in use, which no other output may replace. Only the name matters, not
+/// whether the file exists.
 pub fn name_of_source(context: &Workspace, file: &Utf8Path) -> Option<&'static Text> {
     let is = |extension: &str| file.extension().is_some_and(|own| own.eq_ignore_ascii_case(extension));
     let is_configuration = file.file_name().is_some_and(|name| name.eq_ignore_ascii_case(FILE_NAME))
@@ -123,7 +124,7 @@ pub fn name_of_source(context: &Workspace, file: &Utf8Path) -> Option<&'static T
     is_configuration.then_some(&NAME_OF_CONFIGURATION)
 }
 
-/// The same for outputs that are no programs, and must not replace one either.
+/// Like [`name_of_source`], for outputs that are not programs and must not replace a program either.
 pub(crate) fn name_of_source_or_program(context: &Workspace, file: &Utf8Path) -> Option<&'static Text> {
     name_of_source(context, file).or_else(|| is_program(file).then_some(&NAME_OF_PROGRAM))
 }
@@ -131,10 +132,10 @@ pub(crate) fn name_of_source_or_program(context: &Workspace, file: &Utf8Path) ->
 /// File name of a configuration.
 pub const FILE_NAME: &str = "pathbuild.toml";
 
-/// The extensions of G-code programs; the first is that of native ones. A definition may write another one.
+/// The file extensions of G-code programs; the first is that of native ones. A post definition may choose another extension.
 pub(crate) const PROGRAM_EXTENSIONS: [&str; 6] = ["gcode", "nc", "ngc", "tap", "cnc", "din"];
 
-/// Whether the file is a G-code program, by its extension.
+/// Whether the extension of a file is one of G-code programs.
 pub(crate) fn is_program(path: &Utf8Path) -> bool {
     path.extension().is_some_and(|own| PROGRAM_EXTENSIONS.iter().any(|known| own.eq_ignore_ascii_case(known)))
 }
@@ -174,13 +175,13 @@ fn open_stream(path: &Utf8Path) -> std::io::Result<fs::File> {
     fs::File::options().write(true).open(path)
 }
 
-/// PB004 for an output that would replace a source, a program or a drawing of the user.
+/// Returns PB004 for an output that would replace a drawing, the configuration or a program.
 pub fn would_replace(file: &Utf8Path, reason: &'static Text) -> Diagnostic {
     let name = file.file_name().unwrap_or_default();
     Diagnostic::new(&files::WOULD_REPLACE).quoting("name", name).with("reason", reason).in_file(file)
 }
 
-/// PB004.
+/// Returns PB004 for a file that cannot be written.
 pub fn cannot_write(file: &Utf8Path, reason: impl Into<Value>) -> Diagnostic {
     let name = file.file_name().unwrap_or_default();
     Diagnostic::new(&files::CANNOT_WRITE).quoting("name", name).with("reason", reason).in_file(file)

@@ -18,17 +18,17 @@ use crate::workspace::Workspace;
 /// The diagnostics of a run, and what was checked.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
-    /// Sorted, without duplicates.
+    /// Diagnostics that are not waived, sorted, without duplicates.
     pub diagnostics: Vec<Diagnostic>,
     /// The checked drawings, sorted by name; empty for commands that do not check drawings.
     pub checked: Vec<CheckedFile>,
-    /// Findings that are accepted, sorted, without duplicates.
+    /// Diagnostics that are waived, sorted, without duplicates.
     pub waived: Vec<WaivedFinding>,
 }
 
 impl Findings {
-    /// Sorts diagnostics and drops duplicates. Several bindings or projects may lead to the same fault; the shortest trace is kept, and the
-    /// first in order among equally short ones.
+    /// Sorts diagnostics and drops duplicates. Several bindings or projects may lead to the same fault: of these, the diagnostic with the shortest
+    /// trace is kept.
     pub fn new(mut diagnostics: Vec<Diagnostic>) -> Self {
         if diagnostics.iter().any(|diagnostic| !diagnostic.trace.is_empty()) {
             diagnostics
@@ -40,17 +40,17 @@ impl Findings {
         Self { diagnostics, ..Self::default() }
     }
 
-    /// Number of errors.
+    /// Returns the number of errors.
     pub fn errors(&self) -> usize {
         self.diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count()
     }
 
-    /// All findings, also those that are accepted.
+    /// Iterates over all findings, including waived ones.
     pub fn all(&self) -> impl Iterator<Item = &Diagnostic> {
         self.diagnostics.iter().chain(self.waived.iter().map(|waived| &waived.diagnostic))
     }
 
-    /// Number of warnings.
+    /// Returns the number of warnings.
     pub fn warnings(&self) -> usize {
         self.diagnostics.len() - self.errors()
     }
@@ -81,7 +81,7 @@ impl Workspace {
         self.settings.tables.severity_in.value.iter().any(|entry| entry.waiver.is_stated())
     }
 
-    /// Warnings about waivers of the configuration that match nothing, among those of files that the run covered. (PB610)
+    /// Returns PB610 for waivers of the configuration that match nothing, among those of files that the run covered.
     pub fn unused_waivers(&self, findings: &Findings, coverage: &Coverage) -> Vec<Diagnostic> {
         let Some(configuration) = &self.settings.file else { return Vec::new() };
         let severities = self.severities();
@@ -116,7 +116,8 @@ fn is_same(a: &Diagnostic, b: &Diagnostic) -> bool {
     identity(a) == identity(b)
 }
 
-/// What tells a finding from others. Paths nested too deep may be reached from several projects, each with different arguments.
+/// Returns the parts of a finding that distinguish it from others. Arguments are left out for paths nested too deeply, which may be reached from
+/// several projects, each with different arguments.
 pub(crate) fn identity(found: &Diagnostic) -> impl Eq + Hashed + '_ {
     let arguments = (found.code() != Code::NestingTooDeep).then_some(&found.arguments);
     (found.message, &found.file, &found.path, &found.place, &found.text, arguments)
@@ -129,12 +130,12 @@ pub(crate) fn identity(found: &Diagnostic) -> impl Eq + Hashed + '_ {
 pub struct Fingerprint(u128);
 
 impl Fingerprint {
-    /// Fingerprints of findings, in their order. They do not depend on the directories of the files.
+    /// Returns the fingerprints of findings, in the same order. They do not depend on the directories of the files.
     pub fn of(diagnostics: &[Diagnostic]) -> Vec<Self> {
         Self::with_places(diagnostics, &|file| file.file_name().unwrap_or_default().to_owned())
     }
 
-    /// Fingerprints of findings, in their order, in which `place` names each file.
+    /// Returns the fingerprints of findings, in the same order, with the names that `place` gives to their files.
     pub(crate) fn with_places(diagnostics: &[Diagnostic], place: &dyn Fn(&Utf8Path) -> String) -> Vec<Self> {
         let mut met: BTreeMap<u128, u32> = BTreeMap::new();
         let mut fingerprint = |diagnostic: &Diagnostic| {
@@ -165,7 +166,7 @@ fn fnv(diagnostic: &Diagnostic, file: &str) -> Fnv {
         .and(fault.unwrap_or_default().as_bytes())
 }
 
-/// 128-bit FNV-1a, which is the same on every machine and in every version.
+/// State of the 128-bit FNV-1a hash, which is the same on every machine and in every version.
 #[derive(Clone, Copy)]
 struct Fnv(u128);
 

@@ -1,16 +1,16 @@
-//! The inputs of a command.
+//! The inputs of a command: drawings, paths and directories.
 
 use camino::{Utf8Path, Utf8PathBuf};
 
 /// Drawings, paths and directories, in the order in which they were given.
 #[derive(Clone, Debug, Default)]
 pub struct Inputs {
-    /// Each, as it was written.
+    /// Each input as the user wrote it.
     pub inputs: Vec<String>,
 }
 
 impl Inputs {
-    /// Names files, whatever their extensions.
+    /// Creates inputs that name files, whatever their extensions.
     pub fn places<'a>(files: impl IntoIterator<Item = &'a Utf8PathBuf>) -> Self {
         let place = |file: &Utf8PathBuf| {
             if file.components().count() > 1 { file.to_string() } else { format!("./{file}") }
@@ -18,7 +18,7 @@ impl Inputs {
         Self { inputs: files.into_iter().map(place).collect() }
     }
 
-    /// The inputs, classified.
+    /// Iterates over the inputs, each classified.
     pub fn iter(&self) -> impl Iterator<Item = Input<'_>> {
         self.inputs.iter().map(|text| Input::new(text))
     }
@@ -27,9 +27,9 @@ impl Inputs {
 /// A single input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input<'a> {
-    /// A drawing or directory: it ends in .dxf, contains a path separator, or is `.` or `..`.
+    /// A drawing or directory: the text ends in .dxf, contains a path separator, or is `.` or `..`.
     Place(&'a Utf8Path),
-    /// The name of a path; if there is none, of a drawing without its .dxf.
+    /// The name of a path; if there is no such path, of a drawing without its .dxf.
     Name(&'a str),
 }
 
@@ -42,7 +42,8 @@ impl<'a> Input<'a> {
         if is_place { Self::Place(Utf8Path::new(text)) } else { Self::Name(text) }
     }
 
-    /// Directory or program at which the upward search for the configuration begins; for a name this is the working directory (empty).
+    /// Returns the directory or program at which the upward search for the configuration begins; for the name of a path this is the working
+    /// directory (empty).
     pub(crate) fn search_start(self, is_directory: impl Fn(&Utf8Path) -> bool) -> &'a Utf8Path {
         match self {
             Self::Place(place) if is_drawing(place) => place.parent().unwrap_or(Utf8Path::new("")),
@@ -52,7 +53,7 @@ impl<'a> Input<'a> {
         }
     }
 
-    /// Whether it is a file other than a drawing. A program may lie outside the tree whose configuration applies to it.
+    /// Whether the input is a file other than a drawing. A program may lie outside the tree whose configuration applies to it.
     pub(crate) fn is_program(self, is_directory: impl Fn(&Utf8Path) -> bool) -> bool {
         matches!(self, Self::Place(place) if !is_drawing(place) && !is_directory(place))
     }

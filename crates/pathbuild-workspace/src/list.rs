@@ -24,38 +24,38 @@ use crate::{Inputs, emit};
 pub struct Request<'a> {
     /// Drawings, directories, and patterns for path names; without drawings or directories, all known paths.
     pub inputs: &'a Inputs,
-    /// The post-processor that programs are written through, instead of the configured one.
+    /// Name or file of the post-processor that replaces the configured one; `None` for the configured one.
     pub post: Option<&'a str>,
 }
 
 /// The listed paths.
 #[derive(Clone, Debug, Default)]
 pub struct PathListing {
-    /// Sorted by drawing, then in file order.
+    /// The paths, sorted by drawing, then in file order.
     pub paths: Vec<ListedPath>,
     /// Number of drawings that were searched.
     pub drawings: usize,
-    /// Diagnostics of directories and of drawings by themselves.
+    /// Diagnostics of directories and of the drawings themselves.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 /// A listed path. Lengths are in mm.
 #[derive(Clone, Debug)]
 pub struct ListedPath {
-    /// Its name as the layer spells it.
+    /// Name of the path, as the layer spells it.
     pub name: PathName,
-    /// The drawing that defines it.
+    /// Path of the drawing's file.
     pub drawing: Utf8PathBuf,
     /// Diagnostics of the path and of what it embeds.
     pub diagnostics: Vec<Diagnostic>,
-    /// Its figures.
+    /// Figures of its parameters and its program.
     pub figures: Figures,
     /// State of the program on disk.
     pub program: ProgramState,
 }
 
 impl ListedPath {
-    /// A path that could not be processed, with the error that prevented it.
+    /// Creates the entry of a path that could not be processed, with the error that prevented it.
     pub fn unknown(name: PathName, drawing: Utf8PathBuf, problem: Diagnostic) -> Self {
         Self {
             diagnostics: vec![problem.in_file(&drawing).in_path(name.as_str())],
@@ -70,14 +70,14 @@ impl ListedPath {
 /// State of a path's program on disk.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ProgramState {
-    /// There is none, or the path has no program of its own.
+    /// The program does not exist, or the path has no program of its own.
     #[default]
     None,
-    /// It is up to date.
+    /// The program is up to date.
     Current,
-    /// It differs from what would be written.
+    /// The program differs from what `emit` would write.
     Stale,
-    /// It exists, but no program can be generated to compare it with; the path has an error.
+    /// The program exists but cannot be compared, because the path has an error.
     Unknown,
 }
 
@@ -85,7 +85,7 @@ impl Request<'_> {
     /// Lists the paths.
     ///
     /// # Errors
-    /// Why a pattern is invalid, or what is wrong with the post-processor.
+    /// If a pattern or the post-processor is invalid, with the reason.
     pub fn run(&self, session: &mut Session<'_>) -> Result<PathListing, Failure> {
         let post_processor = PostProcessor::for_run(session.workspace(), self.post, PostArguments::default())
             .map_err(Failure::Post)?;
@@ -154,7 +154,7 @@ fn list_paths(
     (listed, unmade)
 }
 
-/// Compares the programs on disk with the paths. Returns errors that kept programs from being generated, which no check reports.
+/// Compares the programs on disk with the paths. Returns the errors that kept programs from being generated and that no check reports.
 fn compare(
     session: &mut Session<'_>,
     post_processor: Option<&PostProcessor>,
@@ -188,7 +188,7 @@ fn not_a_pattern(session: &Session<'_>, name: &str, reason: &Value) -> String {
     format!("{what}: {}", reason.render(session.workspace().lang()))
 }
 
-/// The resolved arguments.
+/// The arguments, divided into drawings or directories and patterns for path names.
 struct ListArguments {
     places: Inputs,
     patterns: Vec<Pattern>,
@@ -210,7 +210,8 @@ impl ListArguments {
         Ok(Self { places, patterns })
     }
 
-    /// The drawings in the given directories; without any, those of the library, or below the working directory if there is no library.
+    /// Returns the drawings in the given directories; without any, those of the library, or those below the working directory if there is no
+    /// library.
     fn files(&self, session: &Session<'_>, problems: &mut Vec<Diagnostic>) -> Vec<SourceFile> {
         if self.places.inputs.is_empty() {
             let (files, found) = session.all_drawings();
@@ -222,7 +223,7 @@ impl ListArguments {
         selection.whole(session)
     }
 
-    /// The patterns that match no path.
+    /// Returns the patterns that match no path.
     fn unmatched<'a>(&'a self, paths: &'a [ListedPath]) -> impl Iterator<Item = &'a str> {
         let is_unmet = |pattern: &&Pattern| !paths.iter().any(|path| pattern.matches(path.name.as_str()));
         self.patterns.iter().filter(is_unmet).map(Pattern::text)
@@ -263,17 +264,17 @@ type CheckedFigures = (CheckedTarget, Result<Figures, Box<Diagnostic>>);
 /// Figures from a path's parameters and from its program.
 #[derive(Clone, Debug, Default)]
 pub struct Figures {
-    /// Value of M.
+    /// Value of M, the name of the material.
     pub material: Option<Box<str>>,
-    /// Values of T and O; `None` if missing or invalid.
+    /// Values of T and O in mm; `None` if missing or invalid.
     pub thickness: Option<f64>,
     #[expect(missing_docs, reason = "see above")]
     pub tool: Option<f64>,
-    /// Bounding box of the tool tip while cutting.
+    /// Bounding box of the tool tip while cutting, in mm.
     pub cutting_box: Extent,
-    /// Length of the program; `None` if there is none.
+    /// Length of the program in mm; `None` if there is no program.
     pub length: Option<f64>,
-    /// Machining time; `None` if there is no program, or if `rapid` is not set.
+    /// Machining time in minutes; `None` if there is no program, or if `rapid` is not set.
     pub minutes: Option<f64>,
 }
 
@@ -298,7 +299,7 @@ impl Figures {
     }
 }
 
-/// A path, with its findings counted by the configured severities.
+/// A path with the numbers of its errors and warnings by the configured severities.
 #[derive(Clone, Debug)]
 pub struct Row {
     /// The path with its figures.

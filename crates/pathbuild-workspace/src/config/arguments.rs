@@ -13,27 +13,27 @@ use super::origin::SourcedValue;
 use super::types::{Directories, Restriction};
 use crate::waivers::RunDate;
 
-/// A command-line option that sets the key of its name. (book: reference/commands)
+/// A command-line option that sets the configuration key of the same name. (book: reference/commands)
 #[derive(Debug)]
 pub struct SettingOption {
     /// The name of the key and, after two hyphens, of the option.
     pub name: &'static str,
     /// Position among the common options in the help, from 0.
     pub position: usize,
-    /// The values it takes.
+    /// Kind and number of its values.
     pub values: OptionValues,
-    /// Its help.
+    /// Help text of the option.
     pub help: Text,
 }
 
 /// The values that an option takes, with their name in the help.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OptionValues {
-    /// None: the option is a switch.
+    /// No value: the option is a switch.
     Switch,
-    /// One text, which may begin with a hyphen.
+    /// One text, which may begin with a hyphen. The string names the value in the help.
     Text(&'static str),
-    /// One such text each time that the option is given.
+    /// One text each time that the option is given. The string names the value in the help.
     Texts(&'static str),
     /// One directory, relative to the working directory.
     Directory,
@@ -41,7 +41,7 @@ pub enum OptionValues {
     Directories,
 }
 
-/// Texts of the given options that set keys, by name; a switch has none. They are validated when the configuration is loaded.
+/// The given options that set keys: for each name its texts, none for a switch. They are validated when the configuration is loaded.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GivenOptions(BTreeMap<&'static str, Vec<String>>);
 
@@ -57,12 +57,12 @@ impl FromIterator<(&'static str, Vec<String>)> for GivenOptions {
     }
 }
 
-/// Values from the command line. Those that the configuration can also set are kept as text, so that they are validated in one place.
+/// Values from the command line. Options that set keys are stored as text, so that they are validated together with the configuration.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
     /// Options that set keys.
     pub settings: GivenOptions,
-    /// `--lang`.
+    /// Language of messages (`--lang`).
     pub lang: Option<Lang>,
     /// `--config`: the configuration to use instead of the nearest one.
     pub config: Option<Utf8PathBuf>,
@@ -124,7 +124,7 @@ fn fault(message: &'static Message, name: &str, text: &str) -> Diagnostic {
     Diagnostic::new(message).quoting("key", option).with_text(TextFault::new(&shown, span))
 }
 
-/// Validates options and collects the diagnostics.
+/// Validates options, applies them to the configured values, and collects the diagnostics.
 pub(super) struct OptionReader<'a> {
     given: &'a GivenOptions,
     working_directory: &'a Utf8Path,
@@ -177,7 +177,7 @@ impl<'a> OptionReader<'a> {
     }
 }
 
-/// An option with its texts. Of an option that takes one text, the last one counts.
+/// An option with its texts. For an option that takes one text, the last text counts.
 pub(super) struct GivenOption<'a> {
     name: &'static str,
     texts: &'a [String],

@@ -9,7 +9,7 @@ use super::origin::{Key, ShownSetting};
 use super::sections::{general, tables};
 use super::settings::{Settings, TABLES, TableEntry};
 
-/// Formats the settings as TOML, on request with their sources as comments.
+/// Formats the settings as TOML, optionally with their sources as comments.
 pub fn show(settings: &Settings, with_origin: bool) -> String {
     let mut text = match &settings.file {
         Some(file) => format!("# {}\n", shown::line(file.as_str())),
@@ -25,7 +25,7 @@ pub fn show(settings: &Settings, with_origin: bool) -> String {
     text
 }
 
-/// The tables whose keys come before all headers.
+/// Returns the tables without a header, whose keys come before all headers.
 fn without_header() -> impl Iterator<Item = &'static TableEntry> {
     TABLES.iter().filter(|(header, ..)| header.is_empty())
 }
@@ -34,14 +34,14 @@ fn with_header() -> impl Iterator<Item = &'static TableEntry> {
     TABLES.iter().filter(|(header, ..)| !header.is_empty())
 }
 
-/// A key with its value.
+/// A configuration key with its value.
 #[derive(Clone, Debug)]
 pub struct KeyValue {
-    /// Its table; empty for keys before the first table.
+    /// Header of its table; empty for keys before the first table.
     pub section: &'static str,
     /// Name of the key.
     pub name: &'static str,
-    /// Its value as TOML; `None` if not set.
+    /// The value as TOML; `None` if not set.
     pub value: Option<String>,
     /// Source of the value; empty if not set.
     pub origin: String,
@@ -68,7 +68,7 @@ fn write(text: &mut String, entries: Vec<ShownSetting>, with_origin: bool) {
     }
 }
 
-/// The JSON schema (draft 2020-12) of `pathbuild.toml`.
+/// Returns the JSON schema (draft 2020-12) of `pathbuild.toml`.
 pub fn schema() -> Json {
     let mut root: Map<String, Json> = without_header().flat_map(|(_, keys, _)| properties(keys)).collect();
     root.extend(with_header().map(|(header, keys, _)| ((*header).to_owned(), object(&properties(keys)))));
@@ -93,7 +93,7 @@ fn property(key: &Key) -> (String, Json) {
     (key.name.to_owned(), schema)
 }
 
-/// The text of a configuration with every key, its description, and its default or an example. All keys but `library` are commented out.
+/// Returns the text of a configuration with every key, its description, and its default or an example. All keys but `library` are commented out.
 pub fn template() -> String {
     let mut text = HEAD.to_owned();
     for key in general::KEYS {

@@ -1,4 +1,4 @@
-//! Types of values: numbers, sizes, times, texts, choices and patterns.
+//! Types of configuration values: numbers, sizes, times, texts, choices and patterns.
 
 use std::fmt::Write;
 use std::ops::{Range, RangeInclusive};
@@ -35,7 +35,7 @@ pub(in crate::config) const MEASURE: ValueType<Option<f64>> = ValueType {
     schema: || json!({ "type": "number", "minimum": MEASURES.start(), "maximum": MEASURES.end() }),
 };
 
-/// Bounds on such a value: rounded, it must be greater than 0, and no machine is larger or faster.
+/// Bounds of a [`MEASURE`]: it must be greater than 0 after rounding to three decimals, and no machine is larger or faster than the upper bound.
 pub(super) const MEASURES: RangeInclusive<f64> = 0.001..=1e6;
 
 /// A time in seconds greater than 0.
@@ -57,8 +57,8 @@ pub(in crate::config) const NOT_NEGATIVE: ValueType<f64> = ValueType {
     schema: || json!({ "type": "number", "minimum": 0 }),
 };
 
-/// Optional upper bound on the length of pieces of moves in mm; 0 means any length. Pieces that a machine cannot distinguish would only
-/// fill the disk.
+/// Optional upper bound on the length of pieces of moves in mm; 0 means any length. Very short pieces are refused: a machine cannot distinguish
+/// them, so they would only fill the disk.
 pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {
     read: |value, reader| {
         let length = number(value).filter(|number| *number == 0.0 || *number >= SHORTEST_PIECE);
@@ -68,10 +68,10 @@ pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {
     schema: || json!({ "oneOf": [{ "const": 0 }, { "type": "number", "minimum": SHORTEST_PIECE }] }),
 };
 
-/// Lower bound on that length in mm.
+/// Smallest [`PIECE`] in mm.
 const SHORTEST_PIECE: f64 = 0.1;
 
-/// Tolerance of the part check in mm. Below its bound the rounding of coordinates would be reported.
+/// Tolerance of the part check in mm. With a smaller one than the bound, the rounding of coordinates would be reported.
 pub(in crate::config) const PART_TOLERANCE: ValueType<f64> = ValueType {
     read: |value, reader| {
         let tolerance = number(value).filter(|number| *number >= FINEST_TOLERANCE);
@@ -81,7 +81,7 @@ pub(in crate::config) const PART_TOLERANCE: ValueType<f64> = ValueType {
     schema: || json!({ "type": "number", "minimum": FINEST_TOLERANCE }),
 };
 
-/// Lower bound on that tolerance in mm.
+/// Smallest [`PART_TOLERANCE`] in mm.
 const FINEST_TOLERANCE: f64 = 0.005;
 
 /// A positive whole number.
@@ -241,7 +241,7 @@ pub(in crate::config) const DIRECTORIES: ValueType<Directories> = ValueType {
     schema: || json!({ "type": "array", "items": { "type": "string" } }),
 };
 
-/// An absolute directory.
+/// An absolute path of a directory.
 pub(in crate::config) const ABSOLUTE: ValueType<Utf8PathBuf> = ValueType {
     read: |value, reader| match reader.text(value).map(Utf8PathBuf::from)? {
         path if path.is_absolute() => Some(path),
@@ -251,7 +251,7 @@ pub(in crate::config) const ABSOLUTE: ValueType<Utf8PathBuf> = ValueType {
     schema: || json!({ "type": "string" }),
 };
 
-/// A list of absolute directories.
+/// A list of absolute paths of directories.
 pub(in crate::config) const ABSOLUTES: ValueType<Directories> = ValueType {
     read: |value, reader| {
         let names = texts(value, reader)?;
@@ -264,12 +264,12 @@ pub(in crate::config) const ABSOLUTES: ValueType<Directories> = ValueType {
     ..DIRECTORIES
 };
 
-/// One of the texts of a choice.
+/// Returns the type of a value that is one of the texts of a choice.
 pub(in crate::config) const fn choice<T: Choice>() -> ValueType<T> {
     ValueType { read: read_choice, show: |choice| name_of(*choice).map(quoted), schema: choice_schema::<T> }
 }
 
-/// A list of values from a fixed list.
+/// Returns the type of a list of such values.
 pub(in crate::config) const fn choices<T: Choice>() -> ValueType<Vec<T>> {
     ValueType {
         read: |value, reader| {
@@ -306,12 +306,12 @@ pub(in crate::config) fn choice_schema<T: Choice>() -> Json {
     json!({ "enum": T::ALL.iter().map(|(name, _)| *name).collect::<Vec<_>>() })
 }
 
-/// The text of a choice.
+/// Returns the text of a choice.
 pub(in crate::config) fn name_of<T: Choice>(choice: T) -> Option<&'static str> {
     T::ALL.iter().find(|(_, value)| *value == choice).map(|(name, _)| *name)
 }
 
-/// The strings in a list, with their values; reports a value of another type.
+/// Returns the strings in a list, each with its TOML value; reports a value of another type.
 pub(in crate::config) fn texts<'v, 't>(
     value: &'v Spanned<DeValue<'t>>,
     reader: &mut TomlReader<'_>,
@@ -323,7 +323,7 @@ pub(in crate::config) fn texts<'v, 't>(
     reader.require(items.and_then(Iterator::collect::<Option<Vec<_>>>), &messages::LIST_OF_TEXTS, value)
 }
 
-/// Whether a string can be written in single quotes, where nothing is escaped.
+/// Whether a string can be written in single quotes, in which TOML escapes nothing.
 pub(in crate::config) fn is_literal(text: &str) -> bool {
     !text.contains('\'') && !text.contains("##") && !text.contains(shown::acts)
 }
@@ -393,7 +393,7 @@ pub(in crate::config) const PATTERNS: ValueType<Vec<Pattern>> = ValueType {
     schema: || json!({ "type": "array", "items": { "type": "string" } }),
 };
 
-/// A short description of the error in a regular expression, if there is one.
+/// Describes the error in a regular expression in short; `None` if it is valid.
 pub(in crate::config) fn regex_fault(text: &str) -> Option<Value> {
     let error = RegexBuilder::new(text).size_limit(REGEX_SIZE).build().err()?;
     Some(regex_reason(&error))

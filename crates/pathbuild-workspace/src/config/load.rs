@@ -22,9 +22,9 @@ use super::types::Directories;
 use crate::files;
 use crate::inputs::{Input, Inputs};
 
-/// Finds and reads the configuration of a run, and applies the command line on top.
+/// Finds and reads the configuration of a run, and applies the command line to it.
 ///
-/// Also returns all diagnostics. If there are errors, the run cannot go on, but the settings at least contain the language of messages.
+/// Also returns all diagnostics. If they include errors, the run cannot go on, but the settings at least contain the language of messages.
 pub fn load(
     system: &Arc<dyn System>,
     given: &Overrides,
@@ -50,7 +50,7 @@ pub fn load(
     (Settings { file, not_used, is_unexpected, confined, date: given.date, ..options.resolve() }, diagnostics)
 }
 
-/// The repositories that an untrusted run must not leave: that of the configuration, and that of each argument. `None` if all of them are
+/// Returns the repositories that an untrusted run must not leave: that of the configuration, and that of each argument. `None` if all of them are
 /// trusted.
 fn confinement(
     system: &Arc<dyn System>,
@@ -71,7 +71,7 @@ fn confinement(
 /// Upper bound on the size of a configuration in bytes. It is fixed because all other limits are set in the configuration.
 pub(super) const LARGEST: u64 = 4 << 20;
 
-/// Diagnostics of a configuration's text.
+/// Checks the text of a configuration and returns its diagnostics.
 pub fn faults(file: &Utf8Path, text: &str) -> Vec<Diagnostic> {
     parse(file, text, None).1
 }
@@ -125,7 +125,7 @@ fn syntax_fault(error: &toml::de::Error, source: &Source<'_>) -> Diagnostic {
     source.fault(&messages::TOML_SYNTAX, error.span().unwrap_or(0..0)).with("reason", Value::foreign(reason))
 }
 
-/// Searches for configurations.
+/// Searches for the configuration that applies to a run or a directory.
 pub(super) struct Discovery<'a> {
     pub(super) system: &'a dyn System,
     pub(super) inputs: &'a Inputs,
@@ -133,8 +133,8 @@ pub(super) struct Discovery<'a> {
 }
 
 impl Discovery<'_> {
-    /// The configuration of a run: the one above the first argument. If the argument is a program without a configuration above it, the
-    /// next argument decides, and finally the working directory.
+    /// Finds the configuration of a run: the one above the first argument. If that argument is a program without a configuration above it, the next
+    /// argument decides, and finally the working directory.
     pub(super) fn for_run(&self) -> Option<Utf8PathBuf> {
         for input in self.inputs.iter() {
             let configuration = self.above(&self.search_start_of(input));
@@ -145,23 +145,24 @@ impl Discovery<'_> {
         self.of_working_directory()
     }
 
-    /// The configuration that applies in the working directory.
+    /// Finds the configuration that applies in the working directory.
     pub(super) fn of_working_directory(&self) -> Option<Utf8PathBuf> {
         self.above(&clean(self.working_directory))
     }
 
-    /// The directory of a run without configuration: that of the first argument.
+    /// Returns the directory of a run without configuration: that of the first argument.
     pub(super) fn search_start(&self) -> Utf8PathBuf {
         let first = self.inputs.iter().next();
         first.map_or_else(|| clean(self.working_directory), |first| self.search_start_of(first))
     }
 
-    /// The directories of all arguments.
+    /// Returns the directories of all arguments.
     pub(super) fn search_starts(&self) -> impl Iterator<Item = Utf8PathBuf> + '_ {
         self.inputs.iter().map(|input| self.search_start_of(input))
     }
 
-    /// Whether this configuration applies to a program although the working directory has another one, or the program lies outside its tree.
+    /// Whether this configuration applies to a program unexpectedly: the working directory has another one, or the program lies outside the tree of
+    /// this configuration.
     pub(super) fn is_unexpected(&self, file: &Utf8Path) -> bool {
         let tree = file.parent().unwrap_or(Utf8Path::new(""));
         let mut programs =
@@ -174,10 +175,10 @@ impl Discovery<'_> {
         clean(&self.working_directory.join(input.search_start(|place| self.is_directory(place))))
     }
 
-    /// The configuration of a directory: the one in it, or else in the nearest directory above.
+    /// Finds the configuration of a directory: the one in it, or else in the nearest directory above.
     pub(super) fn above(&self, directory: &Utf8Path) -> Option<Utf8PathBuf> {
         let mut files = directory.ancestors().map(|directory| join(directory, files::FILE_NAME));
-        // A directory of this name, or a dangling link, counts as a configuration that cannot be read.
+        // A directory named like a configuration, or a dangling link, counts as a configuration that cannot be read.
         let is_one = |file: &Utf8PathBuf| match self.system.kind(file) {
             FileKind::File | FileKind::Directory => true,
             FileKind::Missing => files::is_named(file),
@@ -185,7 +186,7 @@ impl Discovery<'_> {
         files.find(is_one)
     }
 
-    /// Diagnostics for arguments with another configuration than that of the run.
+    /// Returns diagnostics for arguments with another configuration than that of the run.
     pub(super) fn misplaced_inputs(&self, used: Option<&Utf8Path>) -> Vec<Diagnostic> {
         let place = |input: Input<'_>| match input {
             Input::Place(place) => Some(place.to_owned()),
@@ -198,19 +199,20 @@ impl Discovery<'_> {
         self.inputs.iter().filter_map(place).filter_map(stranger).collect()
     }
 
-    /// Whether the argument is a directory; it may be one even if it contains no separator.
+    /// Whether an argument is a directory. This is looked up, because a directory's name need not contain a separator.
     fn is_directory(&self, place: &Utf8Path) -> bool {
         self.system.kind(&self.working_directory.join(place)) == FileKind::Directory
     }
 }
 
-/// The root of the Git repository that contains a directory, or the directory itself if there is none.
+/// Returns the root of the Git repository that contains a directory, or the directory itself if there is none.
 pub fn repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8Path {
     let is_repository = |directory: &&Utf8Path| system.kind(&directory.join(".git")) != FileKind::Missing;
     directory.ancestors().find(is_repository).unwrap_or(directory)
 }
 
-/// The repository that files of an untrusted tree must not lead out of. A symbolic link inside a repository does not lead into another one.
+/// Returns the repository that files of an untrusted tree must not lead out of. If a symbolic link leads to the directory, this is the repository
+/// that contains the link.
 pub(super) fn confining<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8Path {
     let is_link = |place: &&Utf8Path| {
         let (Some(parent), Some(name)) = (place.parent(), place.file_name()) else { return false };
@@ -236,16 +238,16 @@ fn misplaced_input(place: &Utf8Path, other: &Utf8Path, used: Option<&Utf8Path>) 
 /// Settings of the user for all trees.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct UserSettings {
-    /// `lang`: language of messages. Programs are written in the language that their tree configures.
+    /// `lang`: language of messages. Comments in programs keep the language that the configuration of their tree sets.
     pub lang: Option<Lang>,
     /// `[cache] dir`: where results are cached, in a subdirectory for each tree.
     pub cache_dir: Option<Utf8PathBuf>,
-    /// `[trust] roots`: trees elsewhere are treated as with `--untrusted`.
+    /// `[trust] roots`: directories with trusted trees; all other trees are treated as with `--untrusted`.
     pub trusted: Option<Directories>,
 }
 
 impl UserSettings {
-    /// Reads the file if it exists, and returns all its diagnostics.
+    /// Reads the file, if it exists, and returns all its diagnostics.
     pub fn load(system: &dyn System, file: &Utf8Path) -> (Self, Vec<Diagnostic>) {
         if !files::is_named(file) {
             return (Self::default(), Vec::new());
@@ -268,7 +270,7 @@ impl UserSettings {
     }
 }
 
-/// Applies the values from the command line to those of the configuration, and returns what is wrong with them.
+/// Applies the values from the command line to those of the configuration, and returns the diagnostics of invalid ones.
 fn apply_overrides(
     overrides: &Overrides,
     working_directory: &Utf8Path,
@@ -276,7 +278,7 @@ fn apply_overrides(
 ) -> Vec<Diagnostic> {
     let mut reader = OptionReader::new(&overrides.settings, working_directory);
     options.general.apply(&mut reader);
-    // PathDxf2GCode has a single option for messages and comments. Without `--compatible`, `--lang` does not change programs.
+    // PathDxf2GCode has one option for the language of both messages and comments. Without `--compatible`, `--lang` does not change programs.
     if let Some(lang) = overrides.lang.filter(|_| overrides.settings.has("compatible")) {
         options.general.comment_lang = Some(SourcedValue::option("lang", lang));
     }

@@ -1,4 +1,4 @@
-//! A value of a setting with its source, and facts about its key.
+//! The value of a setting with its source, and facts about its key.
 
 use std::fmt::{self, Debug};
 
@@ -17,7 +17,7 @@ pub enum Origin {
     Extended {
         /// Line of the configuration, counted from 1.
         line: u32,
-        /// Number of items that come from there; those of the option follow.
+        /// Number of items from the configuration; those of the option follow.
         configured: usize,
         /// Name of the option, without hyphens.
         option: &'static str,
@@ -25,7 +25,7 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// The line of the configuration, if the value comes from there.
+    /// Returns the line of the configuration, if the value or a part of it comes from there.
     pub fn line(self) -> Option<u32> {
         match self {
             Self::File(line) | Self::Extended { line, .. } => Some(line),
@@ -33,7 +33,7 @@ impl Origin {
         }
     }
 
-    /// Source of an item of a list, by its index.
+    /// Returns the source of an item of a list, by the index of the item.
     pub fn of_item(self, index: usize) -> Self {
         match self {
             Self::Extended { line, configured, .. } if index < configured => Self::File(line),
@@ -53,19 +53,19 @@ pub struct SourcedValue<T> {
 }
 
 impl<T> SourcedValue<T> {
-    /// A default value.
+    /// Wraps a default value.
     pub fn default(value: T) -> Self {
         Self { value, origin: Origin::Default }
     }
 
-    /// The value of a command-line option.
+    /// Wraps the value of the command-line option `name`.
     pub fn option(name: &'static str, value: T) -> Self {
         Self { value, origin: Origin::CommandLine(name) }
     }
 }
 
 impl<T> SourcedValue<Vec<T>> {
-    /// Appends the items of a command-line option.
+    /// Appends items that the command-line option `name` adds to a list.
     pub(super) fn extend(&mut self, name: &'static str, items: Vec<T>) {
         self.origin = match self.origin {
             Origin::File(line) => Origin::Extended { line, configured: self.value.len(), option: name },
@@ -86,14 +86,14 @@ impl fmt::Display for Origin {
     }
 }
 
-/// The cached results that depend on a setting.
+/// The command whose cached results depend on a setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ResultKind {
-    /// Results of `check`, and hence those of `emit`.
+    /// `check`, and hence also `emit`.
     Check,
-    /// Results of `emit` only.
+    /// `emit` only.
     Emit,
-    /// No results: the setting changes only what is requested or how it is reported.
+    /// Neither command: the setting changes only what is requested or how it is reported.
     Neither,
 }
 
@@ -116,7 +116,7 @@ pub(super) struct Key {
     pub(super) schema: fn() -> Json,
 }
 
-/// A key with its value as TOML, and its source.
+/// A key with its value as TOML, and the source of the value.
 pub(super) struct ShownSetting {
     pub(super) name: &'static str,
     pub(super) value: Option<String>,

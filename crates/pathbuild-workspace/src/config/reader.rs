@@ -1,4 +1,4 @@
-//! Reads the values of a TOML file, each with its place, and says where a misplaced or misspelled key belongs.
+//! Reads the values of a TOML file, each with its position, and says where a misplaced or misspelled key belongs.
 
 use std::borrow::Cow;
 use std::cell::LazyCell;
@@ -18,13 +18,13 @@ use super::origin::{Origin, SourcedValue};
 pub(super) struct TomlReader<'a> {
     source: Source<'a>,
     directory: &'a Utf8Path,
-    /// Directories that an untrusted configuration may refer to.
+    /// System that is confined to the directories of an untrusted configuration; `None` if the configuration is trusted.
     confined: Option<&'a ConfinedSystem>,
     /// Index for finding the table that a misplaced key belongs to; `None` for files other than `pathbuild.toml`.
     key_index: Option<LazyKeyIndex>,
     key: String,
     diagnostics: Vec<Diagnostic>,
-    /// Number of regular expressions and globs that were read.
+    /// Number of regular expressions and of globs that were read.
     counts: [u64; 2],
 }
 
@@ -50,7 +50,7 @@ impl LimitedKind {
 }
 
 impl<'a> TomlReader<'a> {
-    /// A reader for a file whose relative paths start at `directory`.
+    /// Creates a reader for a file whose relative paths start at `directory`.
     pub(super) fn new(
         source: Source<'a>,
         directory: &'a Utf8Path,
@@ -67,7 +67,7 @@ impl<'a> TomlReader<'a> {
         }
     }
 
-    /// From here on, reports which table of a `pathbuild.toml` of this schema a misplaced key belongs to.
+    /// Makes the reader report, from now on, to which table of a `pathbuild.toml` of this schema a misplaced key belongs.
     pub(super) fn suggest_tables(&mut self, schema: fn() -> Json) {
         self.key_index = Some(LazyCell::new(Box::new(move || KeyIndex::new(&schema()))));
     }
@@ -91,7 +91,7 @@ impl<'a> TomlReader<'a> {
         value
     }
 
-    /// A file or directory named by a value, relative to the configuration's directory.
+    /// Returns the file or directory that a value names, relative to the configuration's directory.
     pub(super) fn path(&mut self, name: &str, value: &Spanned<DeValue<'_>>) -> Option<Utf8PathBuf> {
         let path: Utf8PathBuf = spelt(self.directory.join(name).components().collect());
         match self.confined.filter(|confined| !confined.holds(&path)) {
@@ -109,12 +109,12 @@ impl<'a> TomlReader<'a> {
         self.confined.is_some()
     }
 
-    /// Full name of the key being read, for messages.
+    /// Full name of the key that is being read, for messages.
     pub(super) fn key(&self) -> &str {
         &self.key
     }
 
-    /// Reads a value inside the table being read.
+    /// Reads a value with `read`, while `name` is appended to the full name of the key.
     pub(super) fn within<T>(&mut self, name: &str, read: impl FnOnce(&mut Self) -> T) -> T {
         let table = std::mem::take(&mut self.key);
         self.key = format!("{table}.{}", short(name));
@@ -134,12 +134,12 @@ impl<'a> TomlReader<'a> {
         self.source.line_number(span.start)
     }
 
-    /// A diagnostic at a span, with the current key filled in.
+    /// Creates a diagnostic for a span, with the current key filled in.
     pub(super) fn fault(&self, message: &'static Message, span: Range<usize>) -> Diagnostic {
         self.source.fault(message, span).quoting("key", self.key.as_str())
     }
 
-    /// Counts another value of this kind. Returns whether the limit still permits it. Exceeding the limit is reported only once.
+    /// Counts a value of a limited kind. Returns whether the limit permits it. Exceeding the limit is reported only once.
     pub(super) fn counts(&mut self, what: LimitedKind, span: Range<usize>) -> bool {
         let (most, word) = what.most();
         let count = &mut self.counts[what as usize];
@@ -157,7 +157,7 @@ impl<'a> TomlReader<'a> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Returns `found`, or reports that the value is not what is expected.
+    /// Returns the value in `found`; if there is none, reports that `value` is not what is expected.
     pub(super) fn require<T>(
         &mut self,
         found: Option<T>,
@@ -167,7 +167,7 @@ impl<'a> TomlReader<'a> {
         found.or_else(|| self.expected(expected, value))
     }
 
-    /// Reports that a value is not what is expected, and returns `None`.
+    /// Reports that a value is not of the expected kind, and returns `None`.
     pub(super) fn expected<T>(&mut self, expected: &'static Text, value: &Spanned<DeValue<'_>>) -> Option<T> {
         let found = self.source.slice(value.span()).lines().next().unwrap_or_default();
         let fault = self
@@ -178,7 +178,7 @@ impl<'a> TomlReader<'a> {
         None
     }
 
-    /// The value as a string; reports a value of another type.
+    /// Returns the value as a string; reports a value of another type.
     pub(super) fn text<'v>(&mut self, value: &'v Spanned<DeValue<'_>>) -> Option<&'v str> {
         self.require(value.get_ref().as_str(), &messages::TEXT, value)
     }
@@ -189,7 +189,7 @@ impl<'a> TomlReader<'a> {
     }
 }
 
-/// A name for messages, shortened if it is very long.
+/// Shortens a very long name for messages.
 fn short(name: &str) -> Cow<'_, str> {
     const MAX_NAME_BYTES: usize = 100;
     if name.len() <= MAX_NAME_BYTES {
@@ -198,10 +198,10 @@ fn short(name: &str) -> Cow<'_, str> {
     format!("{}…", &name[..name.floor_char_boundary(MAX_NAME_BYTES)]).into()
 }
 
-/// Keys of earlier versions, with their replacements.
+/// Keys of earlier versions, each with the key that replaces it.
 const REPLACED: [(&str, &str); 1] = [("support-bars", "compatible")];
 
-/// A table being read.
+/// A table that is being read.
 pub(super) struct Table<'t, 'r, 'a> {
     content: &'t DeTable<'t>,
     prefix: String,
@@ -224,7 +224,7 @@ impl<'a> Table<'_, '_, 'a> {
         self.reader.is_untrusted()
     }
 
-    /// Reports a limit of an untrusted configuration that exceeds its default. `default` is formatted as TOML.
+    /// Reports that a limit of an untrusted configuration exceeds its default. `default` is formatted as TOML.
     pub(super) fn report_raised(&mut self, name: &'static str, default: &str) {
         let Some(value) = self.content.get(name) else { return };
         self.reader.key = format!("{}{name}", self.prefix);
@@ -232,7 +232,7 @@ impl<'a> Table<'_, '_, 'a> {
         self.reader.report(fault);
     }
 
-    /// Reports the value of a key that does not suit another key of the table.
+    /// Reports that the value of a key is incompatible with another key of the table.
     pub(super) fn unsuited(&mut self, name: &'static str, expected: &'static Text) {
         let Some(value) = self.content.get(name) else { return };
         self.reader.key = format!("{}{name}", self.prefix);
@@ -281,7 +281,7 @@ impl<'a> Table<'_, '_, 'a> {
         }
     }
 
-    /// Diagnostic for an unknown key. Suggests the table that has such a key, or a similar one.
+    /// Returns the diagnostic for an unknown key. It suggests the table that has such a key, or a similar key.
     fn unknown(&self, name: &str, span: Range<usize>) -> Diagnostic {
         let fault = |message| self.reader.fault(message, span.clone());
         let home = self.reader.home(name);
@@ -298,7 +298,7 @@ impl<'a> Table<'_, '_, 'a> {
     }
 }
 
-/// A diagnostic that names the place of a key: in a table, or before all tables.
+/// Returns a diagnostic that says where a key belongs: in a table, or before all tables.
 fn placed(
     fault: impl Fn(&'static Message) -> Diagnostic,
     home: &KeyPlace<'_>,
@@ -319,7 +319,7 @@ pub(super) struct KeyIndex(Vec<(Option<String>, String)>);
 /// A known key and its table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct KeyPlace<'a> {
-    /// Header of its table; `None` for the keys before all tables.
+    /// Header of the table; `None` for the keys before all tables.
     pub(super) header: Option<&'a str>,
     /// Name of the key.
     pub(super) key: &'a str,
@@ -348,7 +348,7 @@ impl KeyIndex {
         Self(all)
     }
 
-    /// Finds the table of a key that its own table does not know: by this name, or else by a similar one.
+    /// Finds the table for a key that is unknown in its own table: by this name, or else by a similar one.
     pub(super) fn find(&self, name: &str) -> Option<KeyPlace<'_>> {
         let exact = self.keys().find(|home| home.key == name);
         exact.or_else(|| {
@@ -376,9 +376,9 @@ fn properties(table: &Json) -> Option<&Map<String, Json>> {
 pub(super) struct Source<'a> {
     file: &'a Utf8Path,
     text: &'a str,
-    /// Offset of the beginning of each line.
+    /// Byte offset of the beginning of each line.
     lines: Vec<usize>,
-    /// Number of characters before each block.
+    /// Number of characters before each block of [`BLOCK`] bytes.
     characters: Vec<usize>,
 }
 
@@ -389,7 +389,7 @@ const BLOCK: usize = 1 << 10;
 const MOST_CONTEXT: usize = 200;
 
 impl<'a> Source<'a> {
-    /// A file with this text.
+    /// Creates the map of a file with this text.
     pub(super) fn new(file: &'a Utf8Path, text: &'a str) -> Self {
         let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
         let lines = std::iter::once(0).chain(ends.map(|(end, _)| end + 1)).collect();
@@ -401,7 +401,7 @@ impl<'a> Source<'a> {
         Self { file, text, lines, characters: counts.collect() }
     }
 
-    /// A diagnostic that underlines a byte range, or the part of it in its first line.
+    /// Returns a diagnostic that underlines a byte range, or the part of it in its first line.
     pub(super) fn fault(&self, message: &'static Message, span: Range<usize>) -> Diagnostic {
         let start = self.text.floor_char_boundary(span.start);
         let number = self.line_index(start);
@@ -417,12 +417,12 @@ impl<'a> Source<'a> {
             ))
     }
 
-    /// Number of the line that contains a byte, counted from 1.
+    /// Returns the number of the line that contains a byte, counted from 1.
     pub(super) fn line_number(&self, byte: usize) -> u32 {
         u32::try_from(self.line_index(byte) + 1).unwrap_or(u32::MAX)
     }
 
-    /// The text in a byte range.
+    /// Returns the text in a byte range.
     pub(super) fn slice(&self, span: Range<usize>) -> &'a str {
         self.text.get(span).unwrap_or_default()
     }
@@ -431,19 +431,19 @@ impl<'a> Source<'a> {
         self.lines.partition_point(|line| *line <= byte).saturating_sub(1)
     }
 
-    /// Number of characters that begin before a byte.
+    /// Returns the number of characters that begin before a byte.
     fn character(&self, byte: usize) -> usize {
         let block = (byte / BLOCK).min(self.characters.len().saturating_sub(1));
         let rest = &self.text.as_bytes()[block * BLOCK..byte];
         self.characters.get(block).copied().unwrap_or_default() + beginnings(rest)
     }
 
-    /// First byte that is shown of a line with a fault at `start`.
+    /// Returns the first byte that is shown of a line that begins at `begin`, for a fault at `start`.
     fn shown_from(&self, begin: usize, start: usize) -> usize {
         begin.max(self.text.floor_char_boundary(start.saturating_sub(MOST_CONTEXT)))
     }
 
-    /// End of the part that is shown if the fault ends at `end`.
+    /// Returns the end of the part of a line that is shown for a fault from `start` to `end`.
     fn shown_to(&self, start: usize, end: usize) -> usize {
         let most = self
             .text
@@ -453,18 +453,18 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Number of characters that begin in these bytes.
+/// Counts the characters that begin in these bytes.
 fn beginnings(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| byte.cast_signed() >= -0x40).count()
 }
 
-/// Type of a value: how to read it from TOML, to format it as TOML, and to describe it in the JSON schema.
+/// Type of a configuration value: functions that read it from TOML, format it as TOML, and describe it in the JSON schema.
 pub(super) struct ValueType<T> {
     /// Reads a value, or reports why it is invalid.
     pub(super) read: fn(&Spanned<DeValue<'_>>, &mut TomlReader<'_>) -> Option<T>,
     /// Formats the value as TOML; `None` if there is nothing to show.
     pub(super) show: fn(&T) -> Option<String>,
-    /// The type's JSON schema.
+    /// Returns the JSON schema of the type.
     pub(super) schema: fn() -> Json,
 }
 

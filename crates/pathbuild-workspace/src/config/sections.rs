@@ -1,7 +1,7 @@
 //! The keys of all tables, each with its type, default and description.
 
-/// Declares a table of the configuration. Each key has: a description and a field, its name in the file, its [`ValueType`], its default, a
-/// TOML value for the file that `init` writes, and the cached results that depend on it ([`ResultKind`]).
+/// Declares a table of the configuration. Each key has a description and a field, its name in the file, its [`ValueType`], its default, a TOML
+/// value for the file that `init` writes, and the cached results that depend on it ([`ResultKind`]).
 ///
 /// [`ValueType`]: super::reader::ValueType
 macro_rules! section {
@@ -14,7 +14,7 @@ macro_rules! section {
         use crate::config::origin::{Key, ResultKind, ShownSetting, SourcedValue};
         use crate::config::reader::Table;
 
-        /// The values that a source sets.
+        /// The values that one source sets; `None` for keys that it does not set.
         #[derive(Clone, Debug, Default)]
         pub struct Options {
             $($(#[doc = $meaning])+ pub $field: Option<SourcedValue<$type>>,)*
@@ -37,7 +37,7 @@ macro_rules! section {
         }
 
         impl Settings {
-            /// The keys with their values as TOML.
+            /// Returns the keys with their values as TOML.
             pub(in crate::config) fn shown(&self) -> Vec<ShownSetting> {
                 vec![$(ShownSetting { name: $name, value: ($kind.show)(&self.$field.value), origin: self.$field.origin },)*]
             }
@@ -52,14 +52,14 @@ macro_rules! section {
             }
         }
 
-        /// Descriptions of the keys.
+        /// The keys with their descriptions.
         pub(in crate::config) const KEYS: &[Key] = &[
             $(Key { name: $name, meaning: &[$($meaning),+], example: $example, schema: $kind.schema },)*
         ];
     };
 }
 
-/// Keys outside any table.
+/// Keys outside any table, before all headers.
 #[expect(clippy::doc_markdown, reason = "users see these texts in their pathbuild.toml")]
 pub mod general {
     use camino::Utf8PathBuf;
@@ -80,9 +80,9 @@ pub mod general {
     use crate::config::table_kinds::POST;
     use crate::config::types::{Directories, PartHolding, PostChoice, Restriction, SpindleControl};
 
-    /// Like [`section!`], for keys that command-line options can set. Such a key adds its option: position among the common options in the
-    /// help, whether its value replaces the configured one or adds to it (a function of [`OptionReader`]), parser, values, and help in both
-    /// languages.
+    /// Like [`section!`], for keys that command-line options can set. Such a key also declares its option: the position among the common options in
+    /// the help, whether the value replaces the configured one or adds to it (a function of [`OptionReader`]), the parser, the values, and the help
+    /// in both languages.
     macro_rules! overridable {
         ($(
             $(#[doc = $meaning:literal])+
@@ -193,7 +193,7 @@ pub mod limits {
 
     use crate::config::kinds::{COUNT, SECONDS, SIZE};
 
-    /// Like [`section!`], for values that an untrusted configuration may lower but not raise.
+    /// Like [`section!`], for limits, which an untrusted configuration may lower but not raise.
     macro_rules! limits {
         ($(
             $(#[doc = $meaning:literal])+
@@ -204,7 +204,7 @@ pub mod limits {
             }
 
             impl Options {
-                /// Reads the limits. Reports those of an untrusted configuration that exceed their defaults.
+                /// Reads the limits, and reports those that an untrusted configuration raises above their defaults.
                 pub(in crate::config) fn read_lowered(table: &mut Table<'_, '_, '_>) -> Self {
                     let options = Self::read(table);
                     $(if table.is_untrusted() && options.$field.as_ref().is_some_and(|limit| limit.value > $default) {
@@ -244,7 +244,7 @@ pub mod limits {
     }
 
     impl Settings {
-        /// Upper bound on the size of an output file in bytes.
+        /// Returns the upper bound on the size of an output file in bytes.
         pub fn output_size(&self) -> usize {
             usize::try_from(self.output_size.value).unwrap_or(usize::MAX)
         }

@@ -15,7 +15,7 @@ use super::reader::TomlReader;
 use super::sections::{emit, general, limits, machine, tables, verify, warnings, watch};
 use crate::waivers::RunDate;
 
-/// A table: its header, its keys, and the function that returns their values.
+/// A table of the configuration: its header, its keys, and the function that returns their values.
 pub(super) type TableEntry = (&'static str, &'static [Key], fn(&Settings) -> Vec<ShownSetting>);
 
 /// Declares the tables of the configuration, each with its header and the function that reads it. Keys of a table without a header come
@@ -28,10 +28,10 @@ macro_rules! tables {
         pub struct Settings {
             /// The configuration that was read. If `None`, only options and defaults apply, and nothing is cached.
             pub file: Option<Utf8PathBuf>,
-            /// The working directory's configuration if it does not apply, because the arguments lie outside its tree and below no other
-            /// configuration.
+            /// The working directory's configuration, if it is ignored because the arguments lie outside its tree and below no other configuration.
             pub not_used: Option<Utf8PathBuf>,
-            /// Whether `file` applies to a program although the working directory has another configuration, or the program lies outside its tree.
+            /// Whether `file` applies to a program unexpectedly: the working directory has another configuration, or the program lies outside the
+            /// tree of this configuration.
             pub is_unexpected: bool,
             /// The repositories that an untrusted run must not leave; `None` if the run is trusted.
             pub confined: Option<ConfinedSystem>,
@@ -40,7 +40,7 @@ macro_rules! tables {
             $(pub $table: $table::Settings,)*
         }
 
-        /// Settings of the configuration, to which the options of the command line are applied. Keys that neither sets are `None`.
+        /// Values of the configuration, to which the options of the command line are applied. Keys that neither of them sets are `None`.
         #[derive(Clone, Debug, Default)]
         #[expect(missing_docs, reason = "the tables of the configuration, by name")]
         pub struct Options {
@@ -48,7 +48,7 @@ macro_rules! tables {
         }
 
         impl Options {
-            /// Reads a parsed configuration. Diagnostics stay in the reader.
+            /// Reads a parsed configuration. Diagnostics are collected in the reader.
             pub(super) fn read(root: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Self {
                 reader.table(root, "", |table| {
                     let options = Self { $($table: table.section($header, $table::Options::$read),)* };
@@ -57,7 +57,7 @@ macro_rules! tables {
                 })
             }
 
-            /// Fills in the defaults.
+            /// Fills in the defaults of keys that are not set.
             pub fn resolve(self) -> Settings {
                 Settings {
                     file: None,
@@ -71,8 +71,8 @@ macro_rules! tables {
         }
 
         impl Settings {
-            /// Passes each setting that a command's cached results depend on to `add`, with its name. `result_kind` is
-            /// [`ResultKind::Check`] or [`ResultKind::Emit`].
+            /// Passes each setting that the cached results of a command depend on to `add`, with its name. `result_kind` is [`ResultKind::Check`]
+            /// or [`ResultKind::Emit`].
             pub fn visit_inputs(&self, result_kind: ResultKind, add: &mut dyn FnMut(&'static str, &dyn Debug)) {
                 $(self.$table.visit_inputs(result_kind, add);)*
             }
@@ -96,18 +96,18 @@ tables! {
 }
 
 impl Settings {
-    /// The files that a run with these settings may access.
+    /// Wraps a system so that the run accesses only the files that its configuration may refer to; returns it unchanged if the run is trusted.
     pub fn confine(&self, system: Arc<dyn System>) -> Arc<dyn System> {
         self.confined.clone().map_or(system, |confined| Arc::new(confined))
     }
 
-    /// Source of the value of a key outside any table.
+    /// Returns the source of the value of a key outside any table.
     pub fn origin_of_option(&self, name: &str) -> Origin {
         let mut options = self.general.shown().into_iter();
         options.find(|option| option.name == name).map_or(Origin::Default, |option| option.origin)
     }
 
-    /// Adds the place in the configuration that a value comes from, if it comes from there.
+    /// Adds the file and line of the configuration to a diagnostic, if the value with this origin comes from there.
     pub(crate) fn locate(&self, problem: Diagnostic, origin: Origin) -> Diagnostic {
         match (&self.file, origin.line()) {
             (Some(file), Some(line)) => problem.in_file(file).at_line(line, None),
@@ -115,12 +115,12 @@ impl Settings {
         }
     }
 
-    /// Directory that paths in the configuration are relative to, if there is a configuration.
+    /// Returns the directory that paths in the configuration are relative to; `None` without a configuration.
     pub fn directory(&self) -> Option<&Utf8Path> {
         self.file.as_deref().and_then(Utf8Path::parent)
     }
 
-    /// Language of comments in programs.
+    /// Returns the language of comments in programs.
     pub fn comment_lang(&self) -> Lang {
         match self.general.comment_lang.origin {
             Origin::Default => self.general.lang.value,
@@ -128,7 +128,7 @@ impl Settings {
         }
     }
 
-    /// Upper bound in mm on pieces of moves for height correction; 0 disables splitting. (book: language/probes)
+    /// Returns the upper bound in mm on pieces of moves for height correction; 0 disables splitting. (book: language/probes)
     pub fn z_split(&self) -> f64 {
         let default = if self.general.z_model.value == ZModel::Idw4 { 0.0 } else { 20.0 };
         self.general.z_split.value.unwrap_or(default)

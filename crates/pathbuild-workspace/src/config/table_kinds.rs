@@ -1,4 +1,4 @@
-//! Tables with user-defined keys.
+//! Types of configuration tables with user-defined keys.
 
 use camino::Utf8Path;
 use std::sync::LazyLock;
@@ -18,7 +18,7 @@ use crate::waivers::{Date, Waiver};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::PostMacro;
 
-/// Aliases of line types.
+/// A table of aliases of line types.
 pub(in crate::config) const LINE_TYPES: ValueType<Vec<LineTypeAlias>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;
@@ -39,7 +39,7 @@ pub(in crate::config) const LINE_TYPES: ValueType<Vec<LineTypeAlias>> = ValueTyp
     schema: || json!({ "type": "object", "additionalProperties": choice_schema::<LineType>() }),
 };
 
-/// Levels of codes.
+/// A table of severity levels by code.
 pub(in crate::config) const SEVERITY: ValueType<Vec<(Code, Level)>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;
@@ -49,7 +49,7 @@ pub(in crate::config) const SEVERITY: ValueType<Vec<(Code, Level)>> = ValueType 
     schema: || json!({ "type": "object", "propertyNames": code_schema(), "additionalProperties": choice_schema::<Level>() }),
 };
 
-/// Levels of codes in some drawings.
+/// A list of tables, each with severity levels for some drawings or programs.
 pub(in crate::config) const SEVERITY_IN: ValueType<Vec<FileSeverities>> = ValueType {
     read: |value, reader| {
         let tables =
@@ -94,7 +94,7 @@ pub(in crate::config) const SEVERITY_IN: ValueType<Vec<FileSeverities>> = ValueT
     },
 };
 
-/// The name of a built-in post-processor, or of a file that defines one.
+/// The name of a built-in post-processor, or the path of a file that defines one.
 const POST_NAME: ValueType<Box<str>> = ValueType {
     read: |value, reader| {
         let name = (TEXT.read)(value, reader)?;
@@ -106,7 +106,7 @@ const POST_NAME: ValueType<Box<str>> = ValueType {
     ..TEXT
 };
 
-/// Whether the user takes responsibility for programs that cannot be read back. Not allowed in untrusted trees.
+/// Whether the user takes responsibility for programs that cannot be read back. An untrusted configuration may not set this.
 const UNCHECKED: ValueType<bool> = ValueType {
     read: |value, reader| {
         let is_unchecked = (SWITCH.read)(value, reader)?;
@@ -119,7 +119,7 @@ const UNCHECKED: ValueType<bool> = ValueType {
     ..SWITCH
 };
 
-/// Tools by name.
+/// A table of tools by name.
 pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
     read: |value, reader| {
         let mut tools: Vec<Tool> = Vec::new();
@@ -190,7 +190,7 @@ pub(in crate::config) const POST: ValueType<PostChoice> = ValueType {
     },
 };
 
-/// Macros for post-processors.
+/// A table of macros for post-processors.
 pub(in crate::config) const MACROS: ValueType<Vec<PostMacro>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;
@@ -204,7 +204,7 @@ pub(in crate::config) const MACROS: ValueType<Vec<PostMacro>> = ValueType {
 
 type Entry<'v, 't> = (&'v Spanned<DeString<'t>>, &'v Spanned<DeValue<'t>>);
 
-/// The entries of a table; reports a value of another type.
+/// Returns the entries of a table; reports a value of another type.
 fn entries<'v, 't>(
     value: &'v Spanned<DeValue<'t>>,
     reader: &mut TomlReader<'_>,
@@ -246,7 +246,7 @@ fn severity((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option
     Some((code, level))
 }
 
-/// The code with the most similar number or name; the first if several are equally similar.
+/// Returns the code whose number or name is most similar to `name`; the first if several are equally similar.
 pub fn nearest_code(name: &str) -> Option<String> {
     static CODES: LazyLock<Vec<(String, &str)>> =
         LazyLock::new(|| Code::ALL.iter().map(|code| (code.to_string(), code.name())).collect());
@@ -271,7 +271,7 @@ fn severities_in(table: &DeTable<'_>, reader: &mut TomlReader<'_>) -> FileSeveri
     part
 }
 
-/// A date, as a text or as TOML's own kind of date.
+/// Reads a date, from a string or a TOML date.
 fn date(value: &Spanned<DeValue<'_>>, reader: &mut TomlReader<'_>) -> Option<Date> {
     let text = match value.get_ref() {
         DeValue::Datetime(date) => Some(date.to_string()),
@@ -295,7 +295,8 @@ fn tool((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Too
     reader.table(table, &prefix, |table| read_tool(name.get_ref(), table))
 }
 
-/// PB003 for a number that another cutter has: a program names its cutter by the number alone, so it would not be changed.
+/// Reports PB003 if two different cutters have the same number. A program selects its cutter by the number alone, so the machine would not change
+/// the tool.
 fn report_shared_number(
     tool: &Tool,
     (_, value): Entry<'_, '_>,
@@ -312,7 +313,7 @@ fn report_shared_number(
     }
 }
 
-/// Reads a tool. Without a diameter it suits no path, so it is dropped.
+/// Reads a tool. Without a diameter it fits no path, so it is dropped.
 fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
     let diameter = table.take("diameter", &POSITIVE).and_then(|value| value.value);
     let paths = table.take("paths", &REGEX).map(|value| value.value);
@@ -348,7 +349,7 @@ fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
 
 /// Whether a corner radius is more than half of the diameter, both in mm.
 pub(crate) fn is_too_round(corner_radius: f64, diameter: f64) -> bool {
-    /// What the conversion of both from inches may add, in mm.
+    /// Rounding error in mm that converting both values from inches may add.
     const ROUNDED: f64 = 2e-6;
     2.0 * corner_radius > diameter + ROUNDED
 }
@@ -379,7 +380,7 @@ fn inline_levels(levels: &[(Code, Level)]) -> Option<String> {
     inline(names.iter().map(|(code, level)| (code.as_str(), level.clone())))
 }
 
-/// Formats the entries that have values as an inline table; `None` if none has.
+/// Formats the entries that have values as an inline table; `None` if there are none.
 fn inline<'a>(entries: impl IntoIterator<Item = (&'a str, Option<String>)>) -> Option<String> {
     let entries = entries.into_iter().filter_map(|(name, value)| Some(format!("{} = {}", key(name), value?)));
     let entries: Vec<_> = entries.collect();
@@ -397,7 +398,7 @@ fn code_schema() -> Json {
     json!({ "enum": codes.collect::<Vec<_>>() })
 }
 
-/// Whether the name of a post is a file name: it has an extension or a directory.
+/// Whether the name of a post is a file name, which has an extension or a directory.
 pub(crate) fn is_file_name(name: &str) -> bool {
     name.contains(std::path::is_separator) || Utf8Path::new(name).extension().is_some()
 }

@@ -1,4 +1,4 @@
-//! Values more complex than a number or a string.
+//! Configuration values that are more complex than a number or a string.
 
 use camino::Utf8PathBuf;
 use globset::{GlobBuilder, GlobSet};
@@ -27,7 +27,7 @@ macro_rules! choice {
     };
 }
 
-/// A value from a fixed list.
+/// A configuration value from a fixed list.
 pub(crate) trait Choice: Copy + PartialEq + 'static {
     /// All values with their texts.
     const ALL: &[(&str, Self)];
@@ -46,7 +46,7 @@ impl Choice for ZModel {
     const ALL: &[(&str, Self)] = &[("idw4", Self::Idw4), ("plane", Self::Plane), ("tin", Self::Tin)];
 }
 
-/// The directions in which a tool may turn.
+/// The directions in which a tool may turn, as the configuration writes them.
 impl Choice for Turning {
     const ALL: &[(&str, Self)] = &[("cw", Self::Clockwise), ("ccw", Self::CounterClockwise)];
 }
@@ -64,23 +64,23 @@ impl Choice for Lang {
 }
 
 choice! {
-    /// What holds a part that is cut out of the plate. (book: language/part)
+    /// How a part is held while it is cut out of the plate. (book: language/part)
     PartHolding {
-        /// Support bars.
+        /// By support bars.
         Bars = "bars",
-        /// Something that no drawing shows: tape, vacuum.
+        /// By something that no drawing shows, such as tape or vacuum.
         Otherwise = "otherwise",
     }
 }
 
 choice! {
-    /// What a cutter cuts. (book: language/part)
+    /// The shape of a cutter, which determines the area that it cuts. (book: language/part)
     CutterShape {
-        /// The area that its diameter sweeps.
+        /// A cylinder: it cuts the area that its diameter sweeps.
         EndMill = "end-mill",
-        /// A slot beside or below that area: T-slot and side milling cutters.
+        /// A T-slot or side milling cutter: it cuts a slot beside or below that area.
         Slot = "slot",
-        /// A shape that depends on the depth: V-bits, drills, engravers.
+        /// A V-bit, drill or engraver: the width of the cut depends on the depth.
         Other = "other",
     }
 }
@@ -88,35 +88,35 @@ choice! {
 choice! {
     /// A check that `verify` must make. (book: program/reading)
     Requirement {
-        /// Rapid moves into material; values from comments of the program do not suffice.
+        /// That rapid moves do not enter material. Values from comments of the program do not suffice.
         Rapids = "rapids",
-        /// Rapid moves into material; values from comments suffice.
+        /// That rapid moves do not enter material. Values from comments of the program suffice.
         AssumedRapids = "rapids=assumed",
-        /// The travel of the machine.
+        /// That moves stay within the travel of the machine.
         Envelope = "envelope",
-        /// The machine's largest feed.
+        /// That feeds do not exceed the machine's maximum.
         Feeds = "feeds",
-        /// The range of the spindle's speed.
+        /// That the spindle speed is within the machine's range.
         Spindle = "spindle",
-        /// The moves of the drawing.
+        /// That the moves are those of the drawing.
         Drawing = "drawing",
-        /// The clamps in the drawing.
+        /// That moves do not enter the clamps in the drawing.
         Clamps = "clamps",
     }
 }
 
 impl Requirement {
-    /// All names.
+    /// Iterates over the names of all requirements.
     pub fn names() -> impl Iterator<Item = &'static str> {
         Self::ALL.iter().map(|(name, _)| *name)
     }
 
-    /// The requirement with this name.
+    /// Finds the requirement with this name.
     pub fn named(text: &str) -> Option<Self> {
         Self::ALL.iter().find(|(name, _)| *name == text).map(|(_, requirement)| *requirement)
     }
 
-    /// The name.
+    /// Returns the name in the configuration.
     pub fn name(self) -> &'static str {
         Self::ALL.iter().find(|(_, requirement)| *requirement == self).map_or("", |(name, _)| name)
     }
@@ -125,11 +125,11 @@ impl Requirement {
 choice! {
     /// File format of the setup sheet. (book: program/sheet)
     SheetFormat {
-        /// No setup sheet.
+        /// No setup sheet is written.
         No = "none",
-        /// Pages to print.
+        /// Pages for printing.
         Pdf = "pdf",
-        /// The same content for a browser.
+        /// The same content as a page for a browser.
         Html = "html",
         /// The same content as a single picture.
         Svg = "svg",
@@ -149,7 +149,7 @@ choice! {
 }
 
 impl Level {
-    /// The severity; `None` if the diagnostic is ignored.
+    /// Returns the severity; `None` if the diagnostic is ignored.
     pub fn severity(self) -> Option<Severity> {
         match self {
             Self::Error => Some(Severity::Error),
@@ -159,7 +159,7 @@ impl Level {
     }
 }
 
-/// An alias of a line type.
+/// A further name for a line type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LineTypeAlias {
     /// Name in drawings.
@@ -208,7 +208,7 @@ impl Pattern {
         self.set.is_match(name)
     }
 
-    /// The only name that it matches, if it contains no wildcard.
+    /// Returns the only name that the glob matches, if it contains no wildcard.
     pub fn literal(&self) -> Option<&str> {
         (!self.text.contains(['*', '?', '[', '{', '\\'])).then_some(&*self.text)
     }
@@ -219,19 +219,19 @@ impl Pattern {
     }
 }
 
-/// Levels for some drawings.
+/// Severity levels for the diagnostics of some drawings or programs.
 #[derive(Clone, Debug, Default)]
 pub struct FileSeverities {
-    /// The drawings, relative to the configuration's directory.
+    /// Globs of the drawings or programs, relative to the configuration's directory.
     pub files: Vec<Pattern>,
-    /// Levels of codes.
+    /// Levels by code.
     pub levels: Vec<(Code, Level)>,
-    /// Why, and for how long.
+    /// The reason and the last date of these levels.
     pub waiver: Waiver,
 }
 
 impl FileSeverities {
-    /// Whether the entry concerns a file, which is named relative to the configuration's directory, with slashes.
+    /// Whether the entry applies to a file, which is named relative to the configuration's directory, with slashes.
     pub fn concerns(&self, file: &str) -> bool {
         self.files.iter().any(|pattern| pattern.matches(file))
     }
@@ -250,9 +250,9 @@ pub struct Tool {
     pub diameter: f64,
     /// Regular expression searched in the names of the paths that the tool is for; `None` means all paths with its diameter.
     pub paths: Option<Box<str>>,
-    /// What it cuts.
+    /// Shape of the cutter.
     pub shape: CutterShape,
-    /// Number of its place in the machine.
+    /// Number of the tool in the machine's tool table or magazine.
     pub number: Option<u32>,
     /// Spindle speed in 1/min.
     pub spindle: Option<f64>,
@@ -271,19 +271,19 @@ pub struct Tool {
 }
 
 impl Tool {
-    /// The limits of the chip load, if they and the number of flutes are known.
+    /// Returns the limits of the chip load with the number of flutes, if both are known.
     pub fn chip_load(&self) -> Option<ChipLoad> {
         let Extent { from, to } = self.chip_load?;
         Some(ChipLoad { flutes: self.flutes?, speed: self.spindle, least: from, most: to })
     }
 
-    /// Direction of rotation; `None` if the operator chooses it.
+    /// Returns the direction of rotation; `None` if the operator chooses it.
     pub fn turning(&self) -> Option<Turning> {
         self.direction.or(self.spindle.map(|_| Turning::Clockwise))
     }
 
-    /// The widths for the check of rapid moves. A tip that is not flat counts as the centre line of the moves, both in removing material
-    /// and in hitting it: the tool fits into its own cut.
+    /// Returns the widths for the check of rapid moves. A tool with a tip that is not flat counts as the centre line of its moves, both in removing
+    /// material and in hitting it: such a tool fits into its own cut.
     pub fn cutter(&self) -> Cutter {
         let flat = match self.shape {
             CutterShape::Other => 0.0,
@@ -296,9 +296,9 @@ impl Tool {
 /// The configured post-processor. (book: program/posts)
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PostChoice {
-    /// Name of a built-in post-processor, or a file.
+    /// Name of a built-in post-processor, or path of a file that defines one.
     pub name: Box<str>,
-    /// Whether to write programs that cannot be read back. The user takes responsibility for them.
+    /// Whether to write programs that cannot be read back, for which the user takes responsibility.
     pub unchecked: bool,
     /// Program number for controls that call programs by number; `None` takes it from the path.
     pub program_number: Option<u32>,
@@ -311,26 +311,26 @@ impl From<&str> for PostChoice {
 }
 
 choice! {
-    /// Who controls the spindle.
+    /// How the spindle is controlled.
     SpindleControl {
-        /// The program, using the tools of the configuration.
+        /// By the program, which uses the speeds of the configured tools.
         Tool = "tool",
-        /// The operator.
+        /// By the operator: programs neither start nor stop the spindle.
         Manual = "manual",
     }
 }
 
 choice! {
-    /// Unit of dwell times, for controls on which it can be configured.
+    /// Unit of dwell times in programs, for controls on which it can be configured.
     DwellTime {
-        /// Seconds, as the manuals describe it.
+        /// Seconds, as in the controls' manuals.
         Seconds = "seconds",
-        /// Milliseconds, which Mach3 can be set to (Config > Logic).
+        /// Milliseconds, to which Mach3 can be set (Config > Logic).
         Milliseconds = "milliseconds",
     }
 }
 
-/// Travel of an axis in mm, in coordinates of the emitted program.
+/// A range with a lower and an upper end, such as the travel of an axis in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
     /// Lower end.

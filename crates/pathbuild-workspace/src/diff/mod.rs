@@ -42,7 +42,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Whether the problems of a side include errors of a path.
+    /// Whether the problems of either side include errors of this path.
     pub fn has_error_of(&self, path: &PathDiff) -> bool {
         let is_of = |problem: &Diagnostic| {
             let name = problem.path.as_deref().map(PathName::new);
@@ -55,30 +55,30 @@ impl Comparison {
 /// A path that differs between the sides.
 #[derive(Debug)]
 pub struct PathDiff {
-    /// Its name, as the newer drawing spells it.
+    /// Name of the path, as the newer drawing spells it.
     pub name: String,
-    /// The drawing that defines it on the old and on the new side, relative to the root.
+    /// Path of the drawing that defines it on the old and on the new side, relative to the root; `None` if the side lacks the path.
     pub files: [Option<Utf8PathBuf>; 2],
-    /// How it differs.
+    /// The kind of difference.
     pub outcome: Outcome,
 }
 
-/// How a path differs between the sides.
+/// The kind of difference of a path between the sides.
 #[derive(Debug)]
 pub enum Outcome {
     /// The path exists on the new side only.
     Added,
     /// The path exists on the old side only.
     Removed,
-    /// It has errors on the new side only.
+    /// The path has errors on the new side only.
     Broken,
-    /// It has errors on the old side only.
+    /// The path has errors on the old side only.
     Mended,
-    /// It has errors on both sides, so its moves are unknown.
+    /// The path has errors on both sides, so its moves are unknown.
     StillBroken,
-    /// It has the same moves, but is defined in another drawing.
+    /// The path has the same moves, but is defined in another drawing.
     OtherDrawing,
-    /// It has other moves.
+    /// The path has other moves.
     Changed(Box<ProgramDiff>),
 }
 
@@ -87,7 +87,7 @@ pub enum Outcome {
 pub struct ProgramDiff {
     /// Changes, grouped by kind.
     pub groups: Vec<Group>,
-    /// What explains the changes, if both sides are drawings. Empty if nothing that is drawn or set differs.
+    /// Reasons for the changes; `None` unless both sides are drawings, empty if no element and no setting differs.
     pub reasons: Option<Vec<Reason>>,
     /// Lengths and times before and after, if known.
     pub totals: [Option<Totals>; 2],
@@ -104,7 +104,7 @@ pub struct PictureSet {
     pub old: String,
     /// New moves only.
     pub new: String,
-    /// What the change removes from the stock, and what it leaves of it.
+    /// Pictures of the stock that the change removes, and of the stock that it leaves.
     pub stock: Vec<String>,
 }
 
@@ -153,11 +153,11 @@ fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Opti
     Comparison { paths, path_count, problems }
 }
 
-/// A path on one side.
+/// A path on one side of the comparison.
 #[derive(Clone, Debug)]
 struct SidePath {
     file: SourceFile,
-    /// Path of the drawing, relative to the root.
+    /// Path of the drawing's file, relative to the root.
     place: Utf8PathBuf,
     name: PathName,
     target: Target,
@@ -166,7 +166,7 @@ struct SidePath {
 }
 
 impl Tree<'_, '_> {
-    /// The paths of this side, and diagnostics of the drawings by themselves.
+    /// Returns the paths of this side, and the diagnostics of the drawings themselves.
     fn paths(&mut self) -> (Vec<SidePath>, Vec<Diagnostic>) {
         let selection = self.session.select(self.inputs);
         let files = selection.whole(self.session);
@@ -263,8 +263,8 @@ impl Pair {
     }
 }
 
-/// Compares a path whose moves differ; `None` if neither they nor the drawings do, but only comments of the program. If a limit prevents a
-/// side from being built, there are no moves to compare, and the diagnostics say why.
+/// Compares a path whose programs differ; returns `None` if they differ in comments only and the drawings are the same. If a limit prevents a side
+/// from being built, there are no moves to compare, and the diagnostics say why.
 fn changed(
     sessions: [&Session<'_>; 2],
     paths: [&SidePath; 2],
@@ -292,7 +292,7 @@ fn changed(
     Some(outcome)
 }
 
-/// What explains that the moves of a path changed; `None` if the drawings could not be compared, which the diagnostics then say.
+/// Returns the reasons why the moves of a path changed; `None`, with diagnostics, if the drawings could not be compared.
 fn explained(
     [before, after]: [&Session<'_>; 2],
     [old, new]: [&SidePath; 2],
@@ -309,14 +309,14 @@ fn explained(
     reasons.map_err(|problem| new_problems.push(*problem)).ok()
 }
 
-/// A path with its program.
+/// Builds the scene of a path with its program.
 ///
 /// # Errors
 /// The errors that prevent its program from being built.
 fn scene_path(session: &Session<'_>, known: &SidePath) -> Result<ScenePath, Vec<Diagnostic>> {
     let scene_path = session.scene(known.file, std::slice::from_ref(&known.name), ShownText::Native);
     let path = scene_path.scene.paths.into_iter().next().filter(|path| path.gcode.is_some());
-    // Errors of the drawing as a whole are reported already.
+    // Errors of the drawing as a whole have been reported already.
     let is_of_path = |problem: &Diagnostic| problem.is_error() && problem.path.is_some();
     path.ok_or_else(|| scene_path.diagnostics.into_iter().filter(is_of_path).collect())
 }

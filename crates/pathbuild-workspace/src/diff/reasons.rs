@@ -1,4 +1,4 @@
-//! Why the moves of a path changed: what differs between its drawings, those of the paths that it embeds, and the settings that it uses.
+//! Reasons why the moves of a path changed: differences between its drawings, those of the paths that it embeds, and the settings that it uses.
 //! (book: program/comparing)
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
@@ -16,9 +16,9 @@ use crate::config::{Settings, settings};
 /// A reason why moves changed.
 #[derive(Debug)]
 pub enum Reason {
-    /// Elements were changed in the drawing.
+    /// An element was added, removed or changed in the drawing.
     Drawn(DrawnChange),
-    /// The elements are the same, but in another order in the file, which decides between equal candidates. Nothing else has changed.
+    /// The file contains the same elements in another order, which decides between equal candidates. Nothing else has changed.
     Reordered,
     /// A variable of the path has another value.
     Variable(ValueChange),
@@ -26,17 +26,17 @@ pub enum Reason {
     Setting(ValueChange),
     /// An embedded path has changed.
     Embedded {
-        /// Its name.
+        /// Name of the embedded path.
         path: String,
-        /// What has changed in it; empty if an earlier reason says it.
+        /// The changes in that path; empty if an earlier reason already lists them.
         reasons: Vec<Reason>,
     },
 }
 
-/// A value by its name, before and after; `None` if it is not set.
+/// A named value before and after the change; `None` if it was or is not set.
 #[derive(Debug, PartialEq, Eq)]
 pub struct ValueChange {
-    /// The name.
+    /// Name of the variable or of the key.
     pub name: String,
     /// The old value.
     pub was: Option<String>,
@@ -45,7 +45,7 @@ pub struct ValueChange {
 }
 
 impl Reason {
-    /// The reason in words, without the reasons for it.
+    /// Returns the reason as a sentence, without the reasons within it.
     pub fn sentence(&self) -> Sentence {
         match self {
             Self::Drawn(change) => change.sentence(),
@@ -59,7 +59,7 @@ impl Reason {
         }
     }
 
-    /// The reasons for this reason.
+    /// Returns the reasons within this reason: those of an embedded path.
     pub fn reasons(&self) -> &[Self] {
         match self {
             Self::Embedded { reasons, .. } => reasons,
@@ -76,7 +76,7 @@ impl ValueChange {
     }
 }
 
-/// A side of the comparison of a path.
+/// One side of the comparison of a path: old or new.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side<'a> {
     pub(super) db: &'a Database,
@@ -84,7 +84,7 @@ pub(super) struct Side<'a> {
     pub(super) target: Target,
 }
 
-/// Lists what explains that the programs of a path differ. Empty if neither the drawings nor the settings do.
+/// Returns the reasons why the programs of a path differ; none if neither the drawings nor the settings differ.
 pub(super) fn reasons(old: Side<'_>, new: Side<'_>) -> Vec<Reason> {
     let (Some(was), Some(is)) = (closure(old.db, old.target).root, closure(new.db, new.target).root) else {
         return Vec::new();
@@ -117,16 +117,16 @@ pub(super) fn reasons(old: Side<'_>, new: Side<'_>) -> Vec<Reason> {
     reasons
 }
 
-/// Keys that decide what is read from a drawing.
+/// Keys that influence how a drawing is read.
 const READING_KEYS: [&str; 4] = ["approximate-curves", "compatible", "line-types", "units"];
 
-/// Keys that decide how drawn elements are followed. They count where nothing else explains the moves.
+/// Keys that influence how drawn elements are connected. They count only if nothing else explains the moves.
 const WALK_KEYS: [&str; 2] = ["compatible", "join-tolerance"];
 
-/// Keys whose values apply to elements without a value in a text.
+/// Keys with defaults for elements whose texts give no value.
 const DEFAULTS: [&str; 3] = ["feed", "probe-feed", "sweep-height"];
 
-/// The keys that can change moves, with values that differ.
+/// Returns the keys that can change moves and whose values differ.
 fn changed_settings(old: &Settings, new: &Settings) -> BTreeMap<&'static str, ValueChange> {
     let can_move = |name: &str| [&READING_KEYS[..], &WALK_KEYS, &DEFAULTS].concat().contains(&name);
     let values = |all: &Settings| {
@@ -142,19 +142,19 @@ fn changed_settings(old: &Settings, new: &Settings) -> BTreeMap<&'static str, Va
     changed.collect()
 }
 
-/// Compares paths with their values.
+/// Collects reasons by comparing paths and the paths that they embed.
 struct Explainer<'o, 'n> {
     old: &'o Database,
     new: &'n Database,
-    /// Whether settings differ that decide what is read from a drawing.
+    /// Whether a setting differs that influences how a drawing is read.
     is_read_otherwise: bool,
-    /// The compared paths, and whether they differ.
+    /// The pairs of paths compared so far, and whether they differ.
     known: HashMap<(Instance<'o>, Instance<'n>), bool>,
-    /// The options that any path takes a value from.
+    /// The options from which any of the paths takes a value.
     used_options: BTreeSet<&'static str>,
-    /// Whether a drawing with the same bytes was read otherwise.
+    /// Whether a drawing with the same bytes was read differently.
     has_same_file: bool,
-    /// Whether the same elements are in another order in a file.
+    /// Whether a file contains the same elements in another order.
     has_other_order: bool,
 }
 
@@ -166,7 +166,7 @@ struct Versions<'o, 'n> {
 }
 
 impl<'o, 'n> Explainer<'o, 'n> {
-    /// What has changed in a path and in those that it embeds.
+    /// Returns what has changed in a path and in those that it embeds.
     fn path(&mut self, versions: Versions<'o, 'n>, is_root: bool) -> Vec<Reason> {
         let Versions { old, new } = versions;
         let variables = variables(old.bindings(self.old), new.bindings(self.new));
@@ -175,7 +175,7 @@ impl<'o, 'n> Explainer<'o, 'n> {
         variables.into_iter().map(Reason::Variable).chain(drawn).chain(embedded).collect()
     }
 
-    /// What has changed in the drawing of a path.
+    /// Returns what has changed in the drawing of a path.
     fn drawn(&mut self, Versions { old, new }: Versions<'o, 'n>, is_root: bool) -> Vec<Reason> {
         let was = DrawnInstance::of(self.old, old, is_root);
         let is = DrawnInstance::of(self.new, new, is_root);
@@ -189,11 +189,11 @@ impl<'o, 'n> Explainer<'o, 'n> {
         self.has_other_order |= changes.is_reordered;
         changes.changes.into_iter().map(Reason::Drawn).collect()
     }
-    /// The embedded paths that have changed, each with what has changed in it.
+    /// Returns the embedded paths that have changed, each with its own reasons.
     fn embedded(&mut self, Versions { old, new }: Versions<'o, 'n>) -> Vec<Reason> {
         let mut were = children(self.old, old);
         let mut reasons = Vec::new();
-        // Paths with the same values correspond to each other; only then come those with others.
+        // First pair the paths that have the same values on both sides, and only then the remaining ones by name.
         let (alike, others): (Vec<_>, Vec<_>) =
             children(self.new, new).into_iter().partition(|child| were.iter().any(|was| was.is_same(child)));
         for child in alike.iter().chain(&others) {
@@ -236,7 +236,7 @@ impl Child<'_> {
     }
 }
 
-/// The paths that a path embeds, each once.
+/// Returns the paths that a path embeds, each once.
 fn children<'db>(db: &'db Database, instance: Instance<'db>) -> Vec<Child<'db>> {
     let mut children: Vec<Child<'db>> = Vec::new();
     let mut seen = HashSet::new();
@@ -273,7 +273,7 @@ impl<'db> DrawnInstance<'db> {
         DrawnSide { raw: self.drawn.raw, positions: self.drawn.positions, in_force: &self.in_force }
     }
 
-    /// The options that elements take values from.
+    /// Returns the options from which the elements take values.
     fn options(&self) -> impl Iterator<Item = &'static str> {
         let parameters = self.in_force.iter().flat_map(|row| &row.parameters);
         parameters.filter_map(|parameter| match parameter.from {
@@ -283,7 +283,7 @@ impl<'db> DrawnInstance<'db> {
     }
 }
 
-/// The variables with different values.
+/// Returns the variables with different values.
 fn variables(old: &Bindings, new: &Bindings) -> Vec<ValueChange> {
     let names: BTreeSet<char> = old.iter().chain(new.iter()).map(|(name, _)| name).collect();
     let change = |name: char| {

@@ -21,10 +21,10 @@ use super::sheet;
 use crate::posting::PostProcessor;
 use crate::session::{OutputKind, WriteSettings};
 
-/// A program with its generated files, which are empty if any of them cannot be written.
+/// The outcome of a program and its generated files. There are no files if any of them cannot be written.
 #[derive(Default)]
 pub(super) struct Built {
-    /// Everything about the program except the outcome of its files.
+    /// The outcome of the program, in which the files are still missing.
     pub(super) outcome: ProgramOutcome,
     pub(super) outputs: Vec<Output>,
 }
@@ -59,7 +59,7 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
     Built { outcome: delivered, outputs }
 }
 
-/// PB005: the output file is too large. Files on disk are not read beyond this limit either.
+/// Returns PB005 for an output file that is too large. Files on disk are not read beyond this limit either.
 fn file_too_large(db: &Database, job: &Job, output: &Output, writing: &WriteSettings) -> Diagnostic {
     Diagnostic::new(&files::FILE_TOO_LARGE)
         .quoting("name", output.path.file_name().unwrap_or_default())
@@ -82,7 +82,7 @@ fn sheets(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> Result<Vec
     Ok(outputs)
 }
 
-/// Errors that keep a program from being written: rapid moves into material, and moves beyond the machine's capabilities.
+/// Returns errors that keep a program from being written: rapid moves into material, and moves beyond the machine's capabilities.
 fn unsafe_moves(
     db: &Database,
     job: &Job,
@@ -93,7 +93,7 @@ fn unsafe_moves(
     errors.extend(machine.into_iter().flat_map(|machine| beyond_machine(program, machine)));
     errors.retain(Diagnostic::is_error);
     for problem in &mut errors {
-        // The line is a step number here, which says nothing to the user.
+        // The line is the number of a step here, which means nothing to the user.
         problem.place.line = None;
         problem.file = Some(job.drawing(db).path(db).clone());
         problem.path = Some(job.path.clone());
@@ -101,13 +101,13 @@ fn unsafe_moves(
     (!errors.is_empty()).then_some(errors)
 }
 
-/// Errors of programs that are correct on their own but cannot be joined.
+/// Returns errors of programs that are correct on their own but cannot be joined.
 fn unsafe_together(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Vec<Diagnostic>> {
     let errors = if programs.len() > 1 { joined::moves_into_clamps(db, job, programs) } else { Vec::new() };
     (!errors.is_empty()).then_some(errors)
 }
 
-/// PB005: cutting moves into pieces (z-split) exceeds a limit. Moves were counted before cutting, so the pieces are counted here. `steps`
+/// Returns PB005 if cutting moves into pieces (z-split) exceeds a limit. Moves were counted before cutting, so the pieces are counted here. `steps`
 /// is the number of pieces and of the comments between them.
 fn too_many_pieces(steps: u64, program: &Program, writing: &WriteSettings) -> Option<Diagnostic> {
     if steps <= program.steps.len() as u64 {
@@ -178,7 +178,7 @@ fn native(
     }
     match correction.outside(program) {
         Some(outside) => delivered.problems.push(at(outside_probes(&outside))),
-        // Probes outside the program are reported already; that some of them are unused follows from it.
+        // Probes that lie outside the program are unused for that reason, which is reported above.
         None => delivered.problems.extend(unused_probes(program, correction).map(&at)),
     }
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
@@ -192,7 +192,7 @@ fn native(
     job.files.iter().map(output).filter_map(Result::transpose).collect()
 }
 
-/// PB609: warns about probes that correct no move.
+/// Returns PB609 for each probe that corrects no move.
 fn unused_probes(program: &Program, correction: Correction) -> impl Iterator<Item = Diagnostic> {
     let unused = native::unused_probes(program, correction).into_iter();
     unused.map(|probe| Diagnostic {
@@ -201,7 +201,7 @@ fn unused_probes(program: &Program, correction: Correction) -> impl Iterator<Ite
     })
 }
 
-/// PB005: a line is so long that neither pathbuild nor any other program would read it back.
+/// Returns PB005 for a line that is too long to be read back, by pathbuild or any other program.
 fn too_long_line(text: &str, path: &Utf8Path) -> Option<Diagnostic> {
     let (number, line) = (1_u64..).zip(text.split('\n')).find(|(_, line)| line.len() > LONGEST_LINE)?;
     let problem = Diagnostic::new(&files::OUTPUT_LINE_TOO_LONG).with("line", number);

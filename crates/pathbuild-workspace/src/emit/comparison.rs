@@ -27,12 +27,12 @@ pub enum DrawingComparison {
     Same,
     /// The drawing produces different moves.
     Other {
-        /// The drawing.
+        /// Path of the drawing's file.
         drawing: Utf8PathBuf,
     },
     /// The drawing produces the same moves, but `emit` writes different lines.
     Edited {
-        /// The drawing.
+        /// Path of the drawing's file.
         drawing: Utf8PathBuf,
         /// The first line that differs.
         other: OtherLine,
@@ -43,14 +43,14 @@ pub enum DrawingComparison {
     NeedsOptions(Vec<MissingOption>),
     /// The drawing was not found.
     NoDrawing {
-        /// Its name as given in the program.
+        /// Name of the drawing, as the program states it.
         drawing: Box<str>,
     },
     /// The program does not identify its drawing.
     Unknown,
 }
 
-/// Compares a native program with its drawing. Without `named`, the drawing is the one in the program's title, searched for beside the
+/// Compares a native program with its drawing: the drawing `named`, or else the one in the program's title, which is searched for beside the
 /// program and then where paths are looked up.
 pub fn compare_with_drawing(
     session: &mut Session<'_>,
@@ -134,7 +134,7 @@ fn compared(
     }
 }
 
-/// Text of a native program as `emit` would write it with the current options; empty for setup sheets.
+/// Returns the text of a native program as `emit` would write it with the current options; empty for setup sheets.
 ///
 /// # Errors
 /// PB005 if it is too large.
@@ -148,8 +148,8 @@ pub fn native_text(
     Ok(text.unwrap_or_default())
 }
 
-/// Adds a note to each difference of moves that `--compatible` would remove. If there are any differences, `emit` generates the programs a
-/// second time for this, in a workspace of that mode.
+/// Adds a note to each problem of a file that differs from its drawing but equals the program written with `--compatible`. To find out, `emit`
+/// generates the programs a second time in that mode, if there are any problems.
 pub(super) fn name_compatible<'p>(
     workspace: &Workspace,
     jobs: impl Iterator<Item = &'p mut Job>,

@@ -14,8 +14,8 @@ use crate::files::{name_of_source_or_program, would_replace};
 use crate::posting::PostProcessor;
 use crate::session::Session;
 
-/// Writes one rule per job, from its drawings, the configuration, the post definition and the files that the post-processor inserted, to its
-/// output files. Nothing is written if a name cannot be spelled.
+/// Writes one rule per job: its output files depend on its drawings, the configuration, the post definition and the files that the post-processor
+/// inserted. Writes nothing if a name cannot be expressed.
 pub(super) fn write<'p>(
     session: &Session<'_>,
     file: &Utf8Path,
@@ -47,13 +47,13 @@ pub(super) fn write<'p>(
     written.err().map(|reason| cannot_write(file.as_str(), reason))
 }
 
-/// Whether `make` interprets the name however it is escaped: assignments (even `!=`), patterns and wildcards, order-only prerequisites,
-/// home directories, archive members, and line continuations.
+/// Whether no escaping keeps `make` from interpreting the name: assignments (even `!=`), patterns and wildcards, order-only prerequisites, home
+/// directories, archive members, and line continuations.
 fn has_no_spelling(name: &str) -> bool {
     name.contains(['=', '%', '|', '*', '?', '[']) || name.starts_with('~') || name.ends_with([')', '\\'])
 }
 
-/// Escapes a name for `make`, and for Ninja where it can express it. Line feeds and other control characters cannot be expressed; their
+/// Escapes a name for `make`, and for Ninja as far as it can express the name. Line feeds and other control characters cannot be expressed; their
 /// escaped form names a file that does not exist.
 fn escaped(path: &Utf8Path) -> String {
     let mut escaped = String::with_capacity(path.as_str().len());

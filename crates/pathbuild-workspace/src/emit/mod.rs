@@ -1,6 +1,6 @@
 //! `emit`: generates the programs of paths, and writes, compares or prints them. (book: reference/commands, `emit`; book: program/gcode)
 //!
-//! One flow: `select` the paths, `plan` their programs, `build` those that are not cached, `settle` the files.
+//! Stages: `select` the paths, `plan` their programs, `build` those that are not cached, `settle` the files.
 
 mod build;
 mod comparison;
@@ -50,11 +50,11 @@ pub struct Request<'a> {
     pub inputs: &'a Inputs,
     /// What to do with the generated files.
     pub task: Task,
-    /// The post-processor to write programs through, instead of the configured one.
+    /// Name or file of the post-processor that replaces the configured one; `None` for the configured one.
     pub post: Option<&'a str>,
     /// Arguments for the post-processor; native programs ignore them.
     pub post_arguments: PostArguments,
-    /// Joins all paths, in the order of the inputs, into one program of this name.
+    /// Name of the program into which all paths are joined, in the order of the inputs; `None` for one program per path.
     pub join: Option<&'a str>,
     /// Dependency file to write for `make` and `ninja`.
     pub deps: Option<&'a Utf8Path>,
@@ -76,7 +76,7 @@ pub struct Emission {
 }
 
 impl Request<'_> {
-    /// Opens a session that suits this request.
+    /// Opens a session that suits this request: it traces inputs if results are cached.
     pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
         if workspace.keeps_results() && !self.is_always_made() {
             Session::traced(workspace)
@@ -95,7 +95,7 @@ impl Request<'_> {
     /// Emits the programs in a session opened by [`session`](Self::session).
     ///
     /// # Errors
-    /// Why the request is invalid, or what is wrong with the post-processor.
+    /// If the request or the post-processor is invalid, with the reason.
     pub fn run(&self, session: &mut Session<'_>) -> Result<Emission, Failure> {
         let workspace = session.workspace();
         let post_processor = PostProcessor::for_run(workspace, self.post, self.post_arguments.clone());
@@ -108,7 +108,7 @@ impl Request<'_> {
             .map_err(Failure::Usage)
     }
 
-    /// Why the request needs a post-processor.
+    /// Returns the reason why the request needs a post-processor, if it needs one and none is given.
     fn missing_post<'w>(&self, workspace: &'w Workspace) -> Option<&'w str> {
         if self.join.is_some() {
             return Some(workspace.choose(
@@ -223,14 +223,14 @@ impl Emitter<'_> {
         Ok(Run { selection, plans, diagnostics })
     }
 
-    /// Everything that a program depends on besides drawings and settings.
+    /// Returns the part of the cache key for everything besides drawings and settings on which a program depends: the post-processor.
     fn query(&self) -> String {
         let Some(post_processor) = self.post_processor else { return "emit".to_owned() };
         let identity = blake3::hash(&post_processor.identity()).to_hex();
         format!("emit {:?} {identity}", post_processor.file())
     }
 
-    /// Adds to the inputs of a plan those of its program, and the files that were generated from it.
+    /// Adds the inputs of a plan's program, and the files that were generated from it, to the inputs of the plan.
     fn complete_inputs(&self, answer: &mut Answer<Plan>) {
         let Some(inputs) = &mut answer.inputs else { return };
         let job = answer.value.clear_job();
@@ -242,20 +242,20 @@ impl Emitter<'_> {
         if outcome.is_complete(job.files.len()) {
             inputs.outputs = outcome.generated(self.request.task);
         } else {
-            // The post-processor may accept the program once other files change. Writing that failed may succeed another time.
+            // A program refused by the post-processor may be accepted after other files change; a failed write may succeed in another run.
             inputs.is_transient |= !outcome.is_refused;
         }
     }
 }
 
-/// The paths of a run and what became of them.
+/// The selected paths of a run, with their plans and all diagnostics.
 struct Run {
     selection: TargetSelection,
     plans: Vec<Answer<Plan>>,
     diagnostics: Vec<Diagnostic>,
 }
 
-/// Reports, as a detail, how much was cached.
+/// Reports, at the level of details, how many results were cached.
 fn report_cached(context: &Workspace, selection: &TargetSelection, plans: &[Answer<Plan>]) {
     // A plan is for one path, or for all of them if they are joined.
     let paths = selection.targets.len() / plans.len().max(1);
@@ -272,7 +272,7 @@ fn report_cached(context: &Workspace, selection: &TargetSelection, plans: &[Answ
     }
 }
 
-/// For each target with a program on disk, whether that program is up to date, or the errors that keep it from being generated.
+/// Returns for each target with a program on disk whether that program is up to date, or the errors that keep it from being generated.
 pub(crate) fn freshness_on_disk(
     session: &mut Session<'_>,
     post_processor: Option<&PostProcessor>,

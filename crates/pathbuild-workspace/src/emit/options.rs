@@ -1,4 +1,4 @@
-//! The inputs of programs besides their paths: options that they need, and settings for writing them.
+//! Inputs of programs besides their paths: the options that programs need, and the settings for writing them.
 
 use std::borrow::Borrow;
 use std::fmt::Debug;
@@ -21,7 +21,7 @@ use crate::posting::{PostProcessor, machine, tool_table};
 use crate::session::{CheckedTarget, WriteSettings};
 use crate::workspace::Workspace;
 
-/// Reports missing values that an error-free path needs. This is an error in usage.
+/// Returns the usage error for missing values that paths without errors need; `None` if none is missing.
 pub(super) fn missing(context: &Workspace, task: Task, checked: &[CheckedTarget]) -> Option<String> {
     let sound = || checked.iter().filter(|checked| !checked.diagnostics.iter().any(Diagnostic::is_error));
     let is_missing = |option: &MissingOption| sound().any(|checked| checked.missing_options.contains(option));
@@ -43,7 +43,7 @@ pub fn missing_values(context: &Workspace, names: impl IntoIterator<Item = &'sta
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Names a configuration that does not apply here, so that users do not set keys in vain.
+/// Names a configuration that exists but does not apply to this run, so that users do not set keys in it in vain.
 fn no_configuration(context: &Workspace) -> Option<String> {
     if context.settings.file.is_some() {
         return None;
@@ -97,7 +97,7 @@ fn write_options(settings: &Settings) -> WriteOptions {
     WriteOptions { lang: settings.comment_lang(), charset: general.charset.value, rapid, correction }
 }
 
-/// How programs are written: natively or through a post-processor.
+/// The settings for writing programs, natively or through a post-processor.
 pub(super) struct OutputSettings<'a> {
     pub(super) writing: WriteSettings,
     pub(super) post_processor: Option<&'a PostProcessor>,
@@ -135,21 +135,21 @@ impl SheetSettings {
     }
 }
 
-/// Sum of the programs' lengths and times; `rapid` is the feed of rapid moves in mm/min.
+/// Returns the sum of the programs' lengths and times; `rapid` is the speed of rapid moves in mm/min.
 pub(super) fn total(programs: &[Arc<Program>], rapid: f64) -> Total {
     programs.iter().map(|program| statistics(program, rapid).sum()).fold(Total::default(), Add::add)
 }
 
-/// The part of the provenance that all programs of a run share.
+/// The part of the provenance that is the same for all programs of a run.
 #[derive(Clone, Debug)]
 pub struct Provenances {
-    /// All options besides the moves that influence a program's text.
+    /// Serialized options that influence a program's text in addition to its moves.
     options: Vec<u8>,
     dialect: Option<Dialect>,
 }
 
 impl Provenances {
-    /// Provenance of programs written with these settings, natively or through a post-processor.
+    /// Determines the provenance of programs that are written with these settings, natively or through a post-processor.
     pub fn new(settings: &Settings, post_processor: Option<&PostProcessor>) -> Self {
         let general = &settings.general;
         let mut options = Vec::new();
@@ -165,7 +165,7 @@ impl Provenances {
         Self { options, dialect }
     }
 
-    /// Provenance of the programs in one file.
+    /// Returns the provenance of the programs in one file.
     pub fn of<P: Borrow<Program>>(&self, programs: &[P]) -> Provenance {
         Provenance::of_programs(programs, &self.options, self.dialect)
     }

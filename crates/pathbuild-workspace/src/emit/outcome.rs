@@ -1,4 +1,4 @@
-//! What is done with generated files, and the outcome for each program.
+//! The task of `emit`, which decides what is done with generated files, and the outcome for each program.
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
@@ -16,17 +16,17 @@ use crate::session::OutputKind;
 /// What to do with the generated files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Task {
-    /// Write them.
+    /// Write the files.
     Write {
-        /// Whether to overwrite measured values.
+        /// Whether to overwrite files with measured values.
         force: bool,
     },
-    /// Compare them with the files on disk.
+    /// Compare the generated files with those on disk.
     Compare {
         /// Whether to compare moves only instead of bytes.
         moves_only: bool,
     },
-    /// Print them.
+    /// Print the programs.
     Print,
 }
 
@@ -39,14 +39,14 @@ pub struct ProgramOutcome {
     /// Each file with its outcome.
     #[serde(skip)]
     pub files: Vec<(Utf8PathBuf, State)>,
-    /// Expected content of each file, hashed by [`hash_output`].
+    /// Hash of the expected content of each file, computed by [`hash_output`].
     #[serde(skip)]
     pub(super) hashes: Vec<[u8; 32]>,
     /// Length of the program in mm.
     pub length: f64,
     /// Machining time in minutes.
     pub minutes: f64,
-    /// Errors, and differences in moves.
+    /// Errors of the program, and differences between its moves and those on disk.
     pub problems: Vec<Diagnostic>,
     /// Whether the program itself has errors, so that nothing is written.
     #[serde(skip)]
@@ -64,16 +64,16 @@ pub struct ProgramOutcome {
 }
 
 impl ProgramOutcome {
-    /// Whether all files of a program were written or compared, and no error occurred that may not recur.
+    /// Whether all `files` files of a program were written or compared, and no error occurred that may not recur.
     pub(super) fn is_complete(&self, files: usize) -> bool {
         self.files.len() == files
             && self.hashes.len() == files
             && !self.problems.iter().any(Diagnostic::is_error)
     }
 
-    /// The generated files, as they are now on disk.
+    /// Returns the generated files and their state on disk.
     pub(super) fn generated(&self, task: Task) -> Vec<GeneratedFile> {
-        // Programs with the same moves need not be equal byte for byte.
+        // Programs with the same moves may still differ in bytes.
         let is_compared_whole = task != Task::Compare { moves_only: true };
         let is_there = |state: &State| matches!(state, State::Written | State::Unchanged | State::Current);
         let file = |((path, state), hash): (&(Utf8PathBuf, State), &[u8; 32])| GeneratedFile {
@@ -84,7 +84,7 @@ impl ProgramOutcome {
         self.files.iter().zip(&self.hashes).map(file).collect()
     }
 
-    /// Whether the file on disk is now up to date.
+    /// Whether the file on disk is now up to date because this run wrote it or found it unchanged.
     pub fn has_written(&self, file: &Utf8Path) -> bool {
         let is_there = |state: &State| matches!(state, State::Written | State::Unchanged);
         self.files.iter().any(|(path, state)| path == file && is_there(state))
@@ -94,32 +94,32 @@ impl ProgramOutcome {
 /// The outcome of a single file.
 #[derive(Debug)]
 pub enum State {
-    /// Written.
+    /// Written by this run.
     Written,
-    /// Already up to date, not written.
+    /// Up to date before this run, so not written.
     Unchanged,
-    /// Compared: equal to what would be written.
+    /// Compared with the file on disk: equal.
     Current,
-    /// Compared: different.
+    /// Compared with the file on disk: different.
     Outdated,
-    /// Compared: does not exist.
+    /// Compared: there is no file on disk.
     Missing,
-    /// Content to print.
+    /// Not written; the content is to be printed.
     Printed(Vec<u8>),
 }
 
 impl Task {
-    /// Whether this task covers files of this kind. A comparison of moves skips measured values and setup sheets.
+    /// Whether this task covers files of this kind. A comparison of moves alone skips measured values and setup sheets.
     pub(super) fn compares(self, kind: OutputKind) -> bool {
         self != Self::Compare { moves_only: true } || (kind != OutputKind::Values && kind.sheet().is_none())
     }
 
-    /// Sheet formats that belong to this task. Printing outputs the program alone.
+    /// Returns the format of the setup sheets that this task generates. Printing generates none.
     pub(super) fn sheets(self, settings: &Settings) -> SheetFormat {
         if self == Self::Print { SheetFormat::No } else { settings.emit.sheet.value }
     }
 
-    /// The outcome of a file that this run neither writes nor compares, since an earlier one knows its state.
+    /// Returns the outcome of a file whose state is known from an earlier run, so that this run neither writes nor compares it.
     pub(super) fn known_state(self, state: OutputState) -> State {
         match state {
             OutputState::Current if matches!(self, Self::Write { .. }) => State::Unchanged,
@@ -129,13 +129,13 @@ impl Task {
         }
     }
 
-    /// Whether the results contain times.
+    /// Whether the results of this task contain machining times.
     pub(super) fn writes_times(self) -> bool {
         self != Self::Compare { moves_only: true }
     }
 }
 
-/// PB004: a file cannot be written.
+/// Returns PB004 for a file that cannot be written.
 pub(super) fn cannot_write(name: &str, reason: impl Into<Value>) -> Diagnostic {
     Diagnostic::new(&files::CANNOT_WRITE).quoting("name", name).with("reason", reason)
 }

@@ -1,4 +1,4 @@
-//! Plans programs: which files the paths become. (book: reference/commands, `emit`)
+//! Plans programs: determines which files the paths become. (book: reference/commands, `emit`)
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::fmt::Write;
@@ -19,15 +19,15 @@ use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, OutputKind, ProgramFacts, Session, stem_fault};
 use crate::workspace::Workspace;
 
-/// The target that each file was written for. File names are in lower case.
+/// For each file name, in lower case, the target for which the file was written.
 pub type FileOwners = HashMap<String, Target>;
 
-/// The plan for the paths of one program.
+/// The plan for one program: its job, or the reasons why there is none.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Plan {
     /// Diagnostics of the paths and of the drawings that they use.
     pub(super) diagnostics: Vec<Diagnostic>,
-    /// Why no program is generated although the paths have no errors.
+    /// Reasons why no program is generated although the paths have no errors.
     pub(super) refusals: Vec<Diagnostic>,
     /// `None` if no program is generated.
     pub(super) job: Option<Job>,
@@ -39,20 +39,21 @@ pub(super) struct Job {
     /// The paths in milling order; never empty.
     #[serde(skip)]
     pub(super) targets: Vec<Target>,
-    /// The drawings that were read for them, starting with the first path's own. Includes drawings that were searched without success.
+    /// The drawings that were read for the paths, starting with the first path's own. Includes drawings in which an embedded path was sought and
+    /// not found.
     #[serde(skip)]
     pub(super) sources: Vec<SourceFile>,
     /// Name of the path as the drawing spells it, or the name of the joined program.
     pub(super) path: Box<str>,
-    /// Output directory and common stem of the file names.
+    /// Output directory, joined with the common stem of the file names.
     pub(super) stem: Utf8PathBuf,
-    /// The files, with their kinds.
+    /// The files to generate, with their kinds.
     pub(super) files: Vec<(OutputKind, Utf8PathBuf)>,
     /// Title of the program, which follows its provenance.
     #[serde(skip)]
     pub(super) title: String,
-    /// Whether no files are generated although the paths have no errors: another job writes one of these files, or the configuration counts
-    /// a warning as an error.
+    /// Whether the job is left out, and no files are generated, although the paths have no errors: another job writes one of these files, or the
+    /// configuration counts a warning as an error.
     #[serde(skip)]
     pub(super) is_barred: bool,
     /// The outcome of the job; `None` until its files are generated.
@@ -60,12 +61,12 @@ pub(super) struct Job {
 }
 
 impl Plan {
-    /// Diagnostics, and reasons why no program is generated.
+    /// Iterates over the diagnostics and the reasons why no program is generated.
     pub(super) fn problems(&self) -> impl Iterator<Item = &Diagnostic> {
         self.diagnostics.iter().chain(&self.refusals)
     }
 
-    /// The outcome of the job, if it was not left out.
+    /// Returns the outcome of the job, unless the job is left out.
     pub(super) fn outcome(self) -> Option<ProgramOutcome> {
         self.job.filter(|job| !job.is_barred)?.outcome
     }
@@ -75,12 +76,12 @@ impl Plan {
         let is_wrong = workspace.has_error(self.problems());
         if let Some(job) = self.job.as_mut().filter(|_| is_wrong) {
             job.is_barred = true;
-            // An earlier run may have written it.
+            // An earlier run may have written its files.
             job.outcome = None;
         }
     }
 
-    /// PB524: the configuration lowers the errors that keep the program from being written.
+    /// Returns PB524 if the configuration lowers the severity of the errors that keep the program from being written.
     pub(super) fn lowered_error(&self, workspace: &Workspace) -> Option<Diagnostic> {
         let outcome = self.job.as_ref().and_then(|job| job.outcome.as_ref());
         let unwritten = outcome.filter(|outcome| outcome.files.is_empty());
@@ -89,25 +90,25 @@ impl Plan {
         )
     }
 
-    /// The job, unless it is left out.
+    /// Returns the job, unless it is left out.
     pub(super) fn clear_job(&self) -> Option<&Job> {
         self.job.as_ref().filter(|job| !job.is_barred)
     }
 }
 
 impl Job {
-    /// The drawing of the first path.
+    /// Returns the drawing of the first path.
     pub(super) fn drawing(&self, db: &Database) -> SourceFile {
         self.targets[0].file(db)
     }
 
-    /// The path and its drawing, for messages.
+    /// Names the path and its drawing, for messages.
     fn name(&self, session: &Session<'_>) -> String {
         let db = session.db();
         format!("{} ({})", self.path, self.drawing(db).path(db))
     }
 
-    /// Claims the job's file names. PB514 if another target that still yields a program has claimed one of them.
+    /// Claims the job's file names. Returns false and reports PB514 if another target that still yields a program has claimed one of them.
     pub(super) fn claim(
         &self,
         session: &Session<'_>,
@@ -129,10 +130,10 @@ impl Job {
     }
 }
 
-/// Plans the programs of a request: as an earlier run did if that holds, otherwise from their checked paths.
+/// Plans the programs of a request. Cached plans are reused if they still hold; the others are made from checked paths.
 ///
 /// # Errors
-/// The names of missing options.
+/// If options are missing, with a message that names them.
 pub(super) fn plan(
     builder: &JobBuilder<'_>,
     task: Task,
@@ -176,7 +177,7 @@ pub(super) fn plan(
         return Err(options::missing_values(workspace, ["rapid"]));
     }
     mark_clashes(session, plans.iter_mut().filter_map(|answer| answer.value.job.as_mut()), diagnostics);
-    // Jobs that an earlier run left out because their files clashed with those of others that are gone now.
+    // An earlier run may have left out jobs because their files clashed with those of jobs that no longer exist.
     for (answer, targets) in plans.iter_mut().zip(&programs) {
         let is_open = answer.value.clear_job().is_some_and(|job| job.outcome.is_none());
         if answer.inputs.is_none()
@@ -192,7 +193,7 @@ pub(super) fn plan(
     refusal.map_or(Ok(plans), Err)
 }
 
-/// The inputs of the plan of checked paths.
+/// Returns the inputs of the plan of checked paths.
 fn inputs(checked: &[CheckedTarget]) -> Inputs {
     let traces: Vec<Trace> = checked.iter().filter_map(|checked| checked.trace.clone()).collect();
     // A check that was aborted has no trace.
@@ -200,7 +201,7 @@ fn inputs(checked: &[CheckedTarget]) -> Inputs {
     Inputs { traces, is_transient, ..Inputs::default() }
 }
 
-/// The plan of an earlier run, if it suffices for the task. Before writing, a program is regenerated if one of its files has changed.
+/// Returns the plan of an earlier run, if it suffices for the task. For a task that writes, it does not if one of the files has changed on disk.
 fn still_suffices(
     session: &Session<'_>,
     memo: &Memo,
@@ -211,7 +212,7 @@ fn still_suffices(
     if let Some(Job { files, outcome: Some(outcome), .. }) = &mut plan.job
         && !outcome.problems.iter().any(Diagnostic::is_error)
     {
-        // The severity of a warning may have changed since.
+        // The configuration may have changed the severity of a warning since then.
         if session.workspace().has_error(&outcome.problems) {
             return None;
         }
@@ -223,7 +224,7 @@ fn still_suffices(
         let mut files = files.filter(|((kind, _), _)| task.compares(*kind));
         let system = session.db().system();
         let is_enough = |path: &Utf8Path, state: OutputState| match task {
-            // The file may contain the same program written by another version.
+            // A file with other bytes may contain the same program, written by another version.
             Task::Compare { moves_only: false } => {
                 state != OutputState::Outdated || !is_of_other_version(system, path)
             }
@@ -237,7 +238,7 @@ fn still_suffices(
     Some(plan)
 }
 
-/// Cache subject of the paths of one program. It begins with the first path's drawing, up to the first NUL.
+/// Returns the cache subject of the paths of one program. It begins with the first path's drawing, up to the first NUL.
 fn subject(db: &Database, targets: &[Target], join: Option<&str>) -> Box<str> {
     let each = targets.iter().map(|target| format!("{}\0{}", target.file(db).path(db), target.name(db)));
     let mut subject = each.collect::<Vec<_>>().join("\0");
@@ -247,7 +248,7 @@ fn subject(db: &Database, targets: &[Target], join: Option<&str>) -> Box<str> {
     subject.into()
 }
 
-/// Diagnostics of a path and of the drawings that it uses.
+/// Returns the diagnostics of a path and of the drawings that it uses.
 pub(super) fn found(session: &Session<'_>, checked: &CheckedTarget) -> Vec<Diagnostic> {
     let of_files = checked.files.iter().flat_map(|file| check_file(session.db(), *file));
     of_files.chain(&checked.diagnostics).cloned().collect()
@@ -256,16 +257,16 @@ pub(super) fn found(session: &Session<'_>, checked: &CheckedTarget) -> Vec<Diagn
 /// Turns checked paths into jobs.
 pub(super) struct JobBuilder<'a> {
     pub(super) session: &'a Session<'a>,
-    /// The post-processor to write programs through.
+    /// The post-processor for the programs; `None` for native programs.
     pub(super) post_processor: Option<&'a PostProcessor>,
-    /// Name of the one program that all paths are joined into.
+    /// Name of the program into which all paths are joined; `None` for one program per path.
     pub(super) join: Option<&'a str>,
     /// Format of the setup sheet.
     pub(super) sheet: SheetFormat,
 }
 
 impl JobBuilder<'_> {
-    /// The plan for the checked paths of one program.
+    /// Returns the plan for the checked paths of one program.
     pub(super) fn plan(&self, checked: &[CheckedTarget]) -> Plan {
         let diagnostics = checked.iter().flat_map(|checked| found(self.session, checked)).collect();
         let (job, refusals) = match self.job(checked) {
@@ -275,10 +276,10 @@ impl JobBuilder<'_> {
         Plan { diagnostics, refusals, job }
     }
 
-    /// The job for the paths of one program; `None` if any of them has errors.
+    /// Returns the job for the paths of one program; `None` if any of them has errors.
     ///
     /// # Errors
-    /// Why no program can be generated from error-free paths.
+    /// If no program can be generated from paths without errors, with the reasons.
     pub(super) fn job(&self, checked: &[CheckedTarget]) -> Result<Option<Job>, Vec<Diagnostic>> {
         match (self.join, checked) {
             (Some(name), checked) => self.joined_job(name, checked),
@@ -358,31 +359,31 @@ impl JobBuilder<'_> {
     }
 }
 
-/// The drawings that were read for the paths, without duplicates.
+/// Returns the drawings that were read for the paths, without duplicates.
 fn sources(db: &Database, checked: &[CheckedTarget]) -> Vec<SourceFile> {
     let mut seen = HashSet::new();
     let read = checked.iter().flat_map(|checked| &trace(db, checked.target).files).copied();
     read.filter(|file| seen.insert(*file)).collect()
 }
 
-/// Title of a joined program. It contains neither a comma nor a drawing's name, so that the program is not mistaken for a single drawing's
-/// stale program.
+/// Returns the title of a joined program. It contains neither a comma nor a drawing's name, so that the program is not mistaken for a stale program
+/// of a single drawing.
 fn joined_title(name: &str, checked: &[CheckedTarget]) -> String {
     let paths = checked.iter().filter_map(|checked| checked.emitted.as_ref()).map(|emitted| &*emitted.path);
     format!("Paths {} joined as {name}", paths.collect::<Vec<_>>().join(" + ")).replace(',', " ")
 }
 
-/// File name of a program written through a post-processor.
+/// Returns the file name of a program written through a post-processor.
 pub(super) fn program_name(stem: &str, post_processor: &PostProcessor) -> String {
     format!("{stem}_Milling.{}", post_processor.extension())
 }
 
-/// Directory of the files of a drawing's paths: that of the drawing, unless the configuration names one.
+/// Returns the directory of the files of a drawing's paths: the configured one, or else that of the drawing.
 pub(super) fn output_directory(out_dir: Option<&Utf8Path>, drawing: &Utf8Path) -> Utf8PathBuf {
     out_dir.or(drawing.parent()).unwrap_or(Utf8Path::new("")).to_owned()
 }
 
-/// Marks jobs that would write the same file (PB514). Case is ignored, as some file systems do.
+/// Leaves out jobs that would write the same file (PB514). Case is ignored, as some file systems ignore it.
 pub(super) fn mark_clashes<'p>(
     session: &Session<'_>,
     jobs: impl Iterator<Item = &'p mut Job>,
@@ -396,7 +397,7 @@ pub(super) fn mark_clashes<'p>(
         }
     }
     for (path, owners) in owners.into_values().filter(|(_, owners)| owners.len() > 1) {
-        // For two jobs that share several files, the first file is enough.
+        // If two jobs share several files, reporting the first one is enough.
         if owners.iter().any(|owner| !jobs[*owner].is_barred) {
             let [first, second] = [owners[0], owners[1]].map(|owner| jobs[owner].name(session));
             let drawing = jobs[owners[0]].drawing(session.db()).path(session.db());
@@ -408,7 +409,7 @@ pub(super) fn mark_clashes<'p>(
     }
 }
 
-/// PB514: two programs have a file of the same name.
+/// Returns PB514 for two programs with a file of the same name.
 fn same_output(name: Option<&str>, first: String, second: String, drawing: &Utf8Path) -> Diagnostic {
     Diagnostic::new(&messages::SAME_OUTPUT)
         .quoting("name", name.unwrap_or_default())
@@ -417,7 +418,7 @@ fn same_output(name: Option<&str>, first: String, second: String, drawing: &Utf8
         .in_file(drawing)
 }
 
-/// Joins a file name to a directory, unless the system forbids the name. `rest` is the part that does not stem from the drawing's name.
+/// Joins a file name to a directory, unless the system forbids the name. `rest` is the part of the name that is not the drawing's name.
 fn named(name: &str, rest: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
     if let Some(fault) = stem_fault(name, rest) {
         return Err(Box::new(cannot_write(name, Value::Prose(fault))));

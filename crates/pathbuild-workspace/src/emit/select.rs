@@ -15,13 +15,13 @@ use crate::session::{Argument, ArgumentMatches, Selection, Session, several_path
 /// The paths to emit, and the drawings that were considered.
 #[derive(Debug, Default)]
 pub(super) struct TargetSelection {
-    /// Each path; joined paths are listed as often as they were named.
+    /// Every path once; if paths are joined, as often as the arguments name it.
     pub(super) targets: Vec<Target>,
     /// Drawings whose paths were all considered.
     pub(super) covered: Vec<Answer<DrawingResult>>,
     /// Drawings that were named, or that may define a named path.
     pub(super) named: Vec<Answer<DrawingResult>>,
-    /// Directories that were searched for drawings, and in which outputs may be stale.
+    /// Directories that were searched for drawings. Stale programs are searched for in them.
     pub(super) directories: Vec<Utf8PathBuf>,
 }
 
@@ -76,7 +76,7 @@ impl TargetSelection {
         Some(selection)
     }
 
-    /// All drawings that were considered.
+    /// Iterates over all drawings that were considered.
     pub(super) fn drawings(&self) -> impl Iterator<Item = &Answer<DrawingResult>> {
         self.covered.iter().chain(&self.named)
     }
@@ -94,7 +94,7 @@ impl TargetCollector<'_> {
     fn configured(&mut self, library: &[Answer<DrawingResult>]) {
         let mut configured = TargetPatterns::new(&self.session.workspace().settings);
         for drawing in library {
-            // An unreadable drawing may contain a target, so its errors matter.
+            // An unreadable drawing may contain a target, so its errors are reported.
             let DrawingResult { names, diagnostics } = &drawing.value;
             self.diagnostics.extend(diagnostics.iter().filter(|found| found.is_error()).cloned());
             for name in names.iter().filter(|name| configured.matches(name.as_str())) {
@@ -137,7 +137,7 @@ impl TargetCollector<'_> {
         }
     }
 
-    /// PB512, unless a path of the drawing has errors: these are the more likely cause, for example a line that strayed onto another path's
+    /// Reports PB512, unless a path of the drawing has errors: these are the more likely cause, for example a line that strayed onto another path's
     /// layer and so made a second path.
     fn refuse_several(&mut self, drawing: &Utf8Path, names: &[PathName]) {
         let file = self.session.file(drawing);
@@ -159,20 +159,20 @@ impl TargetCollector<'_> {
     }
 }
 
-/// Matches path names against the configured patterns, one after the other.
+/// Matches path names against the configured patterns, and records which patterns matched.
 pub struct TargetPatterns<'a> {
     settings: &'a Settings,
-    /// For each pattern, whether a path has matched it.
+    /// For each pattern, whether it has matched any path.
     is_met: Vec<bool>,
 }
 
 impl<'a> TargetPatterns<'a> {
-    /// Starts with no pattern matched.
+    /// Creates a matcher in which no pattern has matched yet.
     pub fn new(settings: &'a Settings) -> Self {
         Self { settings, is_met: vec![false; settings.emit.targets.value.len()] }
     }
 
-    /// Whether a pattern matches the path of this name.
+    /// Returns true if a pattern matches this name, and records all patterns that do.
     pub fn matches(&mut self, name: &str) -> bool {
         let mut is_target = false;
         for (pattern, is_met) in self.settings.emit.targets.value.iter().zip(&mut self.is_met) {
@@ -183,7 +183,7 @@ impl<'a> TargetPatterns<'a> {
         is_target
     }
 
-    /// Warns about patterns that matched nothing: they are mistakes in the configuration.
+    /// Warns about patterns that have matched nothing: they are mistakes in the configuration.
     pub fn unmatched(&self) -> impl Iterator<Item = Diagnostic> {
         let targets = &self.settings.emit.targets;
         let unmatched = targets.value.iter().zip(&self.is_met).filter(|(_, is_met)| !**is_met);

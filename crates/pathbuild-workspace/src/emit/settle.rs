@@ -23,8 +23,8 @@ use crate::memo::hash_output;
 use crate::posting::PostProcessor;
 use crate::session::{OutputKind, Session, without_places, without_values};
 
-/// Builds and settles the jobs that are not cached. If one file of a job cannot be written, none of its files is. Files are written on a
-/// separate thread: replacing a file waits for the disk, and the cores need not.
+/// Builds and settles the jobs that are not cached. If one file of a job cannot be written, none of its files is. Files are written on a separate
+/// thread, so that the other cores do not wait for the disk.
 pub(super) fn deliver<'j>(
     session: &mut Session<'_>,
     jobs: impl Iterator<Item = &'j mut Job>,
@@ -48,9 +48,9 @@ pub(super) fn deliver<'j>(
             if severities.has_error(&delivered.problems) {
                 outputs.clear();
             }
-            // Last point to give up: after this, all files of the job are written.
+            // Last chance to time out: from here on, all files of the job are written.
             db.check_time_limit();
-            // Without a receiver (the system had no thread left), write here.
+            // If there is no receiver, because the system had no thread left, write the files here.
             if let Err(SendError((_, outputs))) = sender.send((*index, outputs)) {
                 add_files(&mut delivered, settled(outputs));
             }
@@ -80,13 +80,13 @@ pub(super) fn deliver<'j>(
     }
 }
 
-/// Number of jobs that may wait to be written. Their files are held in memory.
+/// Number of jobs that may wait to be written. Bounded because their files are held in memory.
 const QUEUE_LENGTH: usize = 32;
 
 /// The generated files of a job, with its index.
 type NumberedOutputs = (usize, Vec<Output>);
 
-/// Adds the outcome of each file after writing.
+/// Adds the outcome of writing the files to that of generating them.
 fn add_files(generated: &mut ProgramOutcome, written: ProgramOutcome) {
     generated.files.extend(written.files);
     generated.hashes.extend(written.hashes);
@@ -102,7 +102,7 @@ fn settle(
 ) -> ProgramOutcome {
     let mut delivered = ProgramOutcome::default();
     let (post_processor, limit) = (settings.post_processor, settings.writing.most_bytes as u64);
-    // Hash what this version writes, not a kept file of another version: that file must not become the expected content.
+    // Hash what this version writes, and not the file of another version that is kept, or that file would become the expected content.
     let hashes: Vec<[u8; 32]> =
         outputs.iter().map(|output| hash_output(&output.path, &output.text)).collect();
     if task != Task::Print {
@@ -133,7 +133,7 @@ fn settle(
     delivered
 }
 
-/// Keeps the file of another pathbuild version if it contains the same program.
+/// Replaces the generated text by the file on disk if another pathbuild version wrote the same program to it.
 fn keep_other_version(system: &dyn System, output: &mut Output, limit: u64) {
     if is_of_other_version(system, &output.path)
         && let Ok(present) = system.read(&output.path, limit)
@@ -143,7 +143,7 @@ fn keep_other_version(system: &dyn System, output: &mut Output, limit: u64) {
     }
 }
 
-/// Writes files; each comes with the hash of the content that this version generates.
+/// Writes files, each with the hash of the content that this version generates.
 fn write<'a>(
     system: &dyn System,
     outputs: impl Iterator<Item = (&'a Output, [u8; 32])> + Clone,
@@ -170,20 +170,20 @@ fn write<'a>(
     Ok(())
 }
 
-/// Whether the file contains measured values for other probes than the current ones.
+/// Whether the file on disk contains measured values for other probes than the generated one.
 fn would_lose_values(system: &dyn System, output: &Output) -> bool {
     let Some(present) = present(system, &output.path) else { return false };
     let has_values = without_values(present.as_bytes()) != present.trim_end();
     has_values && !is_for_probes(&present, &output.text)
 }
 
-/// Whether the file of values exists and matches the current probes.
+/// Whether the file of measured values exists and is for the same probes as the generated one.
 fn has_same_probes(system: &dyn System, output: &Output) -> bool {
     present(system, &output.path).is_some_and(|present| is_for_probes(&present, &output.text))
 }
 
-/// Whether two files of values are for the same probes. A file without the probes' places in the emitted drawing was written by an older
-/// version or by the original tool.
+/// Whether two files of measured values are for the same probes. A file that does not state where the probes are in the emitted drawing was written
+/// by an older version or by PathDxf2GCode.
 fn is_for_probes(present: &str, written: &[u8]) -> bool {
     let (present, written) = (without_values(present.as_bytes()), without_values(written));
     present == written || present == without_places(&written)
@@ -194,8 +194,8 @@ fn present(system: &dyn System, path: &Utf8Path) -> Option<String> {
     Some(String::from_utf8_lossy(&bytes).replace("\r\n", "\n"))
 }
 
-/// Compares a file on disk with the generated one: byte for byte, or by its moves only, ignoring comments, formulas, line ends, tool and
-/// spindle. Also returns where the moves differ first, or why they cannot be read. A file larger than `limit` counts as different.
+/// Compares a file on disk with the generated one: byte for byte, or by its moves only, ignoring comments, formulas, line ends, tool and spindle.
+/// Also returns problems: the first move that differs, or errors that prevent reading the file. A file larger than `limit` counts as different.
 fn compare(
     system: &dyn System,
     output: &Output,
@@ -216,7 +216,7 @@ fn compare(
     if !moves_only {
         return (State::Outdated, Vec::new());
     }
-    // Without a reader for the dialect, only bytes can be compared.
+    // If the dialect cannot be read, only bytes can be compared.
     let Some(reading) = ComparisonSettings::of(post_processor) else { return (State::Outdated, Vec::new()) };
     let problems = difference(&present, &output.text, &reading);
     let problems = problems.into_iter().map(|problem| problem.in_file(&output.path)).collect::<Vec<_>>();
@@ -224,7 +224,7 @@ fn compare(
     (state, problems)
 }
 
-/// How programs are read for comparison.
+/// Settings for reading programs that are compared.
 struct ComparisonSettings {
     dialect: Dialect,
     tolerance: Tolerance,
@@ -239,7 +239,7 @@ impl ComparisonSettings {
         Some(Self { dialect, tolerance: Tolerance { ends: Ends::Cutting, ..TOLERANCE } })
     }
 
-    /// The steps of a program that are compared: without those after the last cut if the foot depends on the machine.
+    /// Returns the steps of a program that are compared: without those after the last cut if the end of the program depends on the machine.
     fn compared<'s>(&self, steps: &'s [Step]) -> &'s [Step] {
         let is_cut = |step: &Step| step.as_move().is_some_and(|(_, movement)| movement.pace != Pace::Rapid);
         match self.tolerance.ends {
@@ -249,9 +249,9 @@ impl ComparisonSettings {
     }
 }
 
-/// Returns why a program on disk cannot be read, or else which words change its moves, or where its moves differ first. Lines are compared
-/// before moves: numbers that differ by one unit of their last digit are equal however they are interpreted, even where rounding turns a
-/// very short arc into a full circle. Only programs with different lines are interpreted.
+/// Compares a program on disk with the expected one. Returns the errors that prevent reading it, or else words that change its moves, or else the
+/// first move that differs. Lines are compared before moves: numbers that differ by one unit of their last digit are equal however they are
+/// interpreted, even where rounding turns a very short arc into a full circle. Only programs with different lines are interpreted.
 fn difference(present: &[u8], expected: &[u8], reading: &ComparisonSettings) -> Vec<Diagnostic> {
     let [found_text, expected_text] = [present, expected].map(String::from_utf8_lossy);
     if verify::same_move_lines(&found_text, &expected_text) {
@@ -284,6 +284,6 @@ fn difference(present: &[u8], expected: &[u8], reading: &ComparisonSettings) -> 
     difference.iter().map(verify::Difference::diagnostic).collect()
 }
 
-/// One unit of the last printed digit: two programs may have rounded a value between two such numbers differently.
+/// One unit in the last printed digit, because two programs may round the same value differently.
 const TOLERANCE: Tolerance =
     Tolerance { place: 0.001 * (1.0 + 1e-6), feed: 0.001 * (1.0 + 1e-6), chord: 0.0, ends: Ends::All };

@@ -17,7 +17,7 @@ use super::plan::Job;
 use crate::config::types::SheetFormat;
 use crate::session::{OutputKind, WriteSettings, finished_parts, program_scene};
 
-/// Content of a job's sheet; `None` if a drawing changed in the meantime.
+/// Renders a job's setup sheet; returns `None` if a drawing changed in the meantime.
 ///
 /// # Errors
 /// PB005 if it is too large, PB004 if it cannot be generated.
@@ -33,7 +33,7 @@ pub(super) fn bytes(
         .map_err(|reason| Box::new(cannot_write(&job.path, reason)))
 }
 
-/// Renders a sheet.
+/// Renders a setup sheet in a file format.
 ///
 /// # Errors
 /// If it cannot be rendered: because of a bug, or because the program has no pictures.
@@ -87,13 +87,13 @@ pub(super) fn sheet(
     }))
 }
 
-/// Entities on the layers of a program's paths that are not part of the program.
+/// Describes, in both languages, the entities on the layers of a program's paths that are not part of the program.
 fn left_out(program: &Program) -> impl Iterator<Item = BilingualText> + use<> {
     let [en, de] = [Lang::En, Lang::De].map(|lang| native::left_out_lines(program, lang));
     en.into_iter().zip(de).map(|(en, de)| BilingualText { en, de })
 }
 
-/// Adds a path with the clamps in its way, in the coordinates of its program.
+/// Adds a path, in the coordinates of its program, with the clamps of its drawing and of those that it embeds.
 fn add(
     db: &Database,
     scene: &mut Scene,
@@ -117,7 +117,7 @@ fn file_name(db: &Database, file: SourceFile) -> String {
     file.path(db).file_name().unwrap_or_default().to_owned()
 }
 
-/// Name of the program that the machine finally runs: the adjusted one if there are probes.
+/// Returns the name of the program that the machine finally runs: the adjusted one if there are probes.
 fn adjusted_name(program: &str) -> String {
     let clean = OutputKind::Clean.suffix();
     match program.strip_suffix(clean) {
@@ -126,7 +126,7 @@ fn adjusted_name(program: &str) -> String {
     }
 }
 
-/// Identifies a program independently of the version that wrote it, so that an otherwise unchanged sheet stays the same.
+/// Returns the hashes that identify a program independently of the version that wrote it, so that an otherwise unchanged sheet stays the same.
 fn hashes(provenance: &Provenance) -> String {
     format!("{}-{}", provenance.moves, provenance.options)
 }
@@ -139,7 +139,7 @@ fn bounding_box(a: [Option<(f64, f64)>; 3], b: [Option<(f64, f64)>; 3]) -> [Opti
     [either(a[0], b[0]), either(a[1], b[1]), either(a[2], b[2])]
 }
 
-/// The tools, without duplicates.
+/// Returns the tools of the programs, without duplicates.
 fn tools(programs: &[Arc<Program>], settings: &SheetSettings) -> Vec<SheetTool> {
     let mut tools: Vec<SheetTool> = Vec::new();
     for program in programs {

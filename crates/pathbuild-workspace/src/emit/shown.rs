@@ -1,4 +1,4 @@
-//! Views of a path for other commands: its scene, the text of its program, its setup sheet.
+//! Views of a path for other commands: its scene, the text of its program, and its setup sheet.
 
 use std::slice;
 
@@ -29,7 +29,7 @@ use crate::workspace::{Workspace, relative};
 /// A scene, with the diagnostics of its paths.
 #[derive(Debug)]
 pub struct SceneReport {
-    /// The scene. Its findings are empty until severities are applied.
+    /// The scene, without findings until [`with_findings`](Self::with_findings) adds them.
     pub scene: Scene,
     /// Diagnostics with their locations.
     pub diagnostics: Vec<Diagnostic>,
@@ -45,15 +45,15 @@ pub enum ShownText<'a> {
 }
 
 impl SceneReport {
-    /// Completes the scene with its findings, according to the configured severities. `file` is the drawing that is shown.
+    /// Adds the findings to the scene, with configured severities. `file` is the drawing that is shown.
     pub fn with_findings(self, workspace: &Workspace, file: &str) -> (Scene, Findings) {
         let (mut scene, findings) = (self.scene, workspace.findings(self.diagnostics));
         scene.set_findings(&findings.diagnostics, file);
         (scene, findings)
     }
 
-    /// Like [`with_findings`](Self::with_findings), for a document that is sent to others: absolute names of files become relative to the
-    /// file that is shown, and do not reveal where its directory is.
+    /// Like [`with_findings`](Self::with_findings), for a document that is sent to others: absolute file names become relative to the shown file,
+    /// so that they do not reveal the user's directories.
     pub fn for_others(mut self, workspace: &Workspace, file: &str) -> (Scene, Findings) {
         let findings = workspace.findings(self.diagnostics);
         let directory = Utf8Path::new(file).parent().unwrap_or(Utf8Path::new(""));
@@ -75,7 +75,7 @@ impl SceneReport {
     }
 }
 
-/// The name of a file or directory relative to a directory, if both are absolute and have more in common than the root.
+/// Returns the name of a file or directory relative to a directory, if both are absolute and have more in common than the root.
 fn near_name(name: &str, directory: &Utf8Path) -> Option<String> {
     let name = Utf8Path::new(name);
     let common = name.components().zip(directory.components()).take_while(|(one, other)| one == other);
@@ -87,15 +87,15 @@ fn is_normal(component: &Utf8Component<'_>) -> bool {
     matches!(component, Utf8Component::Normal(_))
 }
 
-/// The last component of an absolute name; any other name as it is.
+/// Returns the last component of an absolute name; any other name unchanged.
 fn outer_name(name: &str) -> String {
     let path = Utf8Path::new(name);
     path.file_name().filter(|_| path.is_absolute()).unwrap_or(name).to_owned()
 }
 
 impl Session<'_> {
-    /// The scene of some paths of a drawing, with their texts. If options are missing, or if a path has variables, its program is that of a
-    /// check: with example values, and with S as if it were embedded.
+    /// Returns the scene of some paths of a drawing, with the texts of their programs. If options are missing, or if a path has variables, its
+    /// program is that of a check: with example values, and with S as if it were embedded.
     pub fn scene(&self, file: SourceFile, names: &[PathName], text: ShownText<'_>) -> SceneReport {
         let name = file.path(self.db()).as_str();
         let title = match names {
@@ -120,14 +120,14 @@ impl Session<'_> {
         SceneReport { scene, diagnostics }
     }
 
-    /// The scene of a path by the names of its drawing and itself; `None` if the drawing has no such path.
+    /// Returns the scene of a path, given the drawing's file and the path's name; `None` if the drawing has no such path.
     pub fn scene_of(&self, drawing: &Utf8Path, name: &str) -> Option<Scene> {
         let file = self.file(drawing);
         let name = path_names(self.db(), file).iter().find(|path| path.as_str() == name)?;
         Some(self.scene(file, slice::from_ref(name), ShownText::Native).scene)
     }
 
-    /// Adds the place in pathbuild.toml to each parameter that an option gives.
+    /// Adds the line in pathbuild.toml to each parameter whose value is a default from the configuration.
     fn add_origins(&self, scene: &mut Scene) {
         let elements = scene.paths.iter_mut().flat_map(|path| &mut path.elements);
         for parameter in elements.flat_map(|element| &mut element.parameters) {
@@ -137,7 +137,7 @@ impl Session<'_> {
         }
     }
 
-    /// The scene of a path, its diagnostics, and the clamps that it embeds, at their places in the program.
+    /// Returns the scene of a path, its diagnostics, and the clamps of the paths that it embeds, at their positions in the program.
     fn scene_path(
         &self,
         file: SourceFile,
@@ -194,7 +194,7 @@ impl Session<'_> {
     }
 }
 
-/// The message of a diagnostic in both languages.
+/// Returns the message of a diagnostic in both languages.
 fn bilingual(problem: &Diagnostic) -> BilingualText {
     BilingualText { en: problem.text(Lang::En), de: problem.text(Lang::De) }
 }
@@ -202,7 +202,7 @@ fn bilingual(problem: &Diagnostic) -> BilingualText {
 /// A sheet with the diagnostics of its path.
 #[derive(Debug)]
 pub struct SheetOutcome {
-    /// `None` if the path has errors.
+    /// The sheet; `None` if the path has errors.
     pub sheet: Option<Sheet>,
     /// All diagnostics of the path.
     pub diagnostics: Vec<Diagnostic>,
@@ -211,7 +211,7 @@ pub struct SheetOutcome {
 /// Creates the setup sheet of a path, or of a drawing's only path.
 ///
 /// # Errors
-/// Why the argument is invalid, or which options are missing.
+/// If the argument is invalid or options are missing, with the message.
 pub fn sheet_of(
     session: &mut Session<'_>,
     post_processor: Option<&PostProcessor>,
@@ -267,7 +267,7 @@ fn of_target(
     Ok(SheetOutcome { sheet, diagnostics: session.with_hints(diagnostics) })
 }
 
-/// Sheet of a job; `None` if its program would not be written.
+/// Returns the sheet of a job; `None` if its program would not be written.
 fn of_job(
     session: &Session<'_>,
     job: &Job,
@@ -291,19 +291,19 @@ fn of_job(
     })
 }
 
-/// A program file in memory.
+/// The bytes of a program file that is not on disk.
 struct ProgramText {
     /// Path that `emit` would write it to.
     file: Utf8PathBuf,
     bytes: Vec<u8>,
-    /// Dialect to read it in.
+    /// Dialect in which the text is read.
     dialect: Dialect,
 }
 
-/// Generates the program of a checked path; `None` if the path has errors.
+/// Generates the program of a checked path; returns `None` if the path has errors.
 ///
 /// # Errors
-/// Why `emit` would refuse to write it.
+/// If `emit` would refuse to write the program, with the reasons.
 fn program_text(
     session: &Session<'_>,
     post_processor: Option<&PostProcessor>,

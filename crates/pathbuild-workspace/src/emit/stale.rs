@@ -1,9 +1,10 @@
-//! Stale programs: G-code that was written earlier and that no path yields any more (PB520), or whose paths could not be written now: these
-//! show an earlier state of the drawing (PB522). (book: reference/commands)
+//! Finds stale programs: G-code that was written earlier and that no path yields any more (PB520), or whose paths could not be written by this run,
+//! so that it shows an earlier state of the drawing (PB522). (book: reference/commands)
 //!
-//! Each program names its drawing and path, and has a hash of its moves. Programs of removed paths are searched for only where the run
-//! knows every drawing that could have produced them: beside the drawings of named directories, or in the output directory. Former files of
-//! the run's own paths are always searched for.
+//!
+//! Each program names its drawing and path, and has a hash of its moves. Programs of removed paths are searched for only where the run knows every
+//! drawing that could have produced them: beside the drawings of named directories, or in the output directory. Former files of the run's own paths
+//! are always searched for.
 
 use std::cell::LazyCell;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -25,27 +26,27 @@ use crate::memo::{Answer, DrawingResult};
 use crate::posting::PostProcessor;
 use crate::session::{OutputKind, Session};
 
-/// A program that must not be taken to the machine.
+/// A program on disk that must not be run on the machine.
 #[derive(Debug)]
 struct StaleProgram {
     path: Utf8PathBuf,
     reason: Reason,
 }
 
-/// Why a program is stale.
+/// The reason why a program is stale.
 #[derive(Debug)]
 enum Reason {
-    /// No path yields it any more.
+    /// No path yields the program any more.
     Left,
-    /// Its drawing is not in the library, but may be in another one that shares the output directory.
+    /// The program's drawing is not in the library, but may be in another one that shares the output directory.
     OfOthers,
-    /// It was adjusted from a program that has changed since.
+    /// The program was adjusted from the program `clean`, which has changed since.
     Adjusted { clean: Utf8PathBuf },
-    /// It is not the result of adjusting that program with the measured heights that it states.
+    /// The program is not the result of adjusting `clean` with the measured heights that it states.
     Edited { clean: Utf8PathBuf },
-    /// It was adjusted with heights other than those in this file.
+    /// The program was adjusted with heights other than those in the file `values`.
     OtherValues { values: Utf8PathBuf },
-    /// It was written through another post-processor when the path had other moves than this program.
+    /// The program was written through another post-processor, and its moves differ from those of the current `program`.
     OtherMoves { program: Utf8PathBuf },
 }
 
@@ -71,7 +72,7 @@ impl StaleProgram {
         problem.quoting("name", name(&self.path)).in_file(&self.path)
     }
 
-    /// Whether the path exists but has other moves now; a comparison reports such a program as out of date.
+    /// Whether the path still exists but has other moves now; a comparison reports such a program as out of date.
     fn is_outdated(&self) -> bool {
         !matches!(self.reason, Reason::Left | Reason::OfOthers)
     }
@@ -83,16 +84,16 @@ pub(super) struct StaleOutcome {
     /// Earlier programs of paths that could not be written now.
     pub(super) older: Vec<ProgramOutcome>,
     pub(super) removed: Vec<Utf8PathBuf>,
-    /// Programs whose paths have other moves now.
+    /// Stale programs whose paths still exist.
     pub(super) outdated: Vec<Utf8PathBuf>,
 }
 
-/// The programs of earlier runs in the directories of this run's programs.
+/// The search for programs of earlier runs in the directories of this run's programs.
 pub(super) struct EarlierPrograms<'a> {
     pub(super) session: &'a Session<'a>,
     pub(super) task: Task,
     pub(super) post_processor: Option<&'a PostProcessor>,
-    /// Name of the one program that all paths are joined into.
+    /// Name of the program into which all paths are joined; `None` for one program per path.
     pub(super) join: Option<&'a str>,
     /// The configured output directory.
     pub(super) out_dir: Option<Utf8PathBuf>,
@@ -101,7 +102,7 @@ pub(super) struct EarlierPrograms<'a> {
 }
 
 impl EarlierPrograms<'_> {
-    /// Finds those that show another state of the drawings, and reports or removes those that no path yields any more.
+    /// Finds programs that show another state of the drawings, and reports or, if `is_removed`, removes those that are stale.
     pub(super) fn clear(&self, is_removed: bool, diagnostics: &mut Vec<Diagnostic>) -> StaleOutcome {
         if self.task == Task::Print {
             return StaleOutcome::default();
@@ -111,7 +112,7 @@ impl EarlierPrograms<'_> {
         StaleOutcome { older, ..self.settle(stale, is_removed, diagnostics) }
     }
 
-    /// Reports stale programs, or removes them.
+    /// Removes stale programs if `is_removed`, otherwise reports them.
     fn settle(
         &self,
         stale: Vec<StaleProgram>,
@@ -120,7 +121,7 @@ impl EarlierPrograms<'_> {
     ) -> StaleOutcome {
         let mut dealt = StaleOutcome::default();
         for stale in stale {
-            // Another library may need the one, and edits would be lost with the other.
+            // Keep a program that another library may need, and one whose edits would be lost.
             let is_kept = matches!(stale.reason, Reason::OfOthers | Reason::Edited { .. });
             if !is_removed || is_kept {
                 diagnostics.push(stale.diagnostic());
@@ -171,8 +172,8 @@ impl EarlierPrograms<'_> {
         stale
     }
 
-    /// Finds the programs on disk of targets for which nothing was written or compared. Each becomes an outcome of its own; a comparison
-    /// counts it as out of date.
+    /// Finds the programs on disk of targets for which nothing was written or compared. Each becomes a separate outcome; a comparison counts it as
+    /// out of date.
     fn older(&self, diagnostics: &mut Vec<Diagnostic>) -> Vec<ProgramOutcome> {
         let targets = &self.selection.targets;
         let is_done = |job: &&&Job| job.outcome.as_ref().is_some_and(|outcome| !outcome.files.is_empty());
@@ -195,8 +196,8 @@ impl EarlierPrograms<'_> {
         older
     }
 
-    /// The programs of a target. Their names begin with that of the drawing or of the path, whatever R was; the head of each program names
-    /// its path.
+    /// Returns the programs on disk that belong to a target. Their names begin with that of the drawing or of the path; the head of each program
+    /// names its path.
     fn of_target(&self, target: Target, listings: &mut Listings) -> Vec<Utf8PathBuf> {
         let db = self.session.db();
         let (drawing, path) = (target.file(db).path(db), &**target.name(db));
@@ -214,7 +215,7 @@ impl EarlierPrograms<'_> {
         programs.into_iter().filter(is_of_target).collect()
     }
 
-    /// The program that the targets were joined into earlier.
+    /// Returns the program into which the targets were joined earlier.
     fn of_joined(&self, first: Target, name: &str, post_processor: &PostProcessor) -> Option<Utf8PathBuf> {
         let db = self.session.db();
         let directory = output_directory(self.out_dir.as_deref(), first.file(db).path(db));
@@ -223,13 +224,13 @@ impl EarlierPrograms<'_> {
     }
 }
 
-/// Provenance and title from the head of a program.
+/// Reads the provenance and the title from the head of a program.
 fn provenance(session: &Session<'_>, program: &Utf8Path) -> Option<(Provenance, Box<str>)> {
     Provenance::of_head(&session.db().system().head(program, HEAD).ok()?)
 }
 
-/// A former file of a job's path, or one adjusted from it: `_Milling` beside `_Clean`, or `_Clean` and `_Probing` from when the path had
-/// probes.
+/// A file of a job's path that the job does not generate: `_Milling` beside `_Clean` (adjusted from it, or from before the path had probes), or
+/// `_Clean` and `_Probing` from when the path had probes.
 struct FormerFile<'a> {
     job: &'a Job,
     kind: OutputKind,
@@ -249,7 +250,7 @@ struct StaleSearch<'a> {
 }
 
 impl<'a> StaleSearch<'a> {
-    /// The programs and setup sheets in a directory that the run does not generate.
+    /// Returns the programs and setup sheets in a directory that the run does not generate.
     fn candidates(&self, directory: &Utf8Path, names: &Names) -> impl Iterator<Item = Utf8PathBuf> {
         let programs = names.iter().filter(|name| is_gcode(name, self.run.post_processor) || is_sheet(name));
         let programs = programs.map(|name| join(directory, name));
@@ -259,7 +260,7 @@ impl<'a> StaleSearch<'a> {
         programs.into_iter()
     }
 
-    /// The names that former files of paths outside the searched directories would have.
+    /// Returns the names that former files would have, for paths outside the searched directories.
     fn former_files(&self, directories: &[Utf8PathBuf]) -> impl Iterator<Item = Utf8PathBuf> {
         let searched: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
         let stems = self.run.jobs.iter().map(|job| &job.stem);
@@ -274,7 +275,8 @@ impl<'a> StaleSearch<'a> {
         paths.filter(|path| !self.outputs.contains(&**path))
     }
 
-    /// Whether a program is stale. `beside` lists the files in its directory if programs of removed paths count.
+    /// Returns the program at `path` if it is stale. `beside` lists the files in its directory, if programs of removed paths are searched for as
+    /// well.
     fn judge(&self, path: Utf8PathBuf, beside: Option<&Names>) -> Option<StaleProgram> {
         let (found, title) = provenance(self.run.session, &path)?;
         match self.own(&path) {
@@ -289,7 +291,7 @@ impl<'a> StaleSearch<'a> {
         }
     }
 
-    /// A program of one of the run's paths that was written through another post-processor, or natively, if the path has other moves now.
+    /// Returns a program of one of the run's paths that was written natively or through another post-processor, if the path has other moves now.
     fn of_other_post(&self, path: &Utf8Path, found: &Provenance, title: &str) -> Option<StaleProgram> {
         let name = path.with_extension("");
         let stem = PROGRAMS.iter().find_map(|kind| name.as_str().strip_suffix(kind))?;
@@ -301,7 +303,7 @@ impl<'a> StaleSearch<'a> {
         is_meant.then(|| StaleProgram { path: path.to_owned(), reason: Reason::OtherMoves { program } })
     }
 
-    /// The native job whose path may have produced this file earlier.
+    /// Finds the native job whose path may have produced this file earlier.
     fn own(&self, path: &Utf8Path) -> Option<FormerFile<'a>> {
         if self.run.post_processor.is_some() {
             return None;
@@ -316,7 +318,7 @@ impl<'a> StaleSearch<'a> {
 }
 
 impl FormerFile<'_> {
-    /// Whether a former file is stale: always, unless it was adjusted from the current program.
+    /// Returns the former file as stale, unless it was adjusted from the current program.
     fn stale(&self, session: &Session<'_>, path: Utf8PathBuf, found: &Provenance) -> Option<StaleProgram> {
         if self.kind != OutputKind::Milling {
             return Some(StaleProgram { path, reason: Reason::Left });
@@ -334,7 +336,8 @@ impl FormerFile<'_> {
         self.job.files.iter().find(|(present, _)| *present == kind).map(|(_, path)| path.as_path())
     }
 
-    /// Why a program with the current provenance is not the result of adjusting the current program. Unreadable files are not judged.
+    /// Returns the reason if a program with the current provenance is not the result of adjusting the current program. Unreadable files are not
+    /// judged.
     fn edited(&self, session: &Session<'_>, path: &Utf8Path, clean: &Utf8Path) -> Option<Reason> {
         let limit = session.workspace().settings.limits.file_size.value;
         let read = |file: &Utf8Path| session.db().system().read(file, limit).ok();
@@ -350,7 +353,7 @@ impl FormerFile<'_> {
     }
 }
 
-/// Whether the title is that of the job's path.
+/// Whether a program's title names the path of this job.
 fn is_of(job: &Job, session: &Session<'_>, title: &str) -> bool {
     let db = session.db();
     let drawing = job.drawing(db).path(db).file_name().unwrap_or_default();
@@ -360,7 +363,7 @@ fn is_of(job: &Job, session: &Session<'_>, title: &str) -> bool {
 /// Endings of program names, without extension.
 const PROGRAMS: [&str; 3] = ["_Milling", "_Clean", "_Probing"];
 
-/// Whether a name is that of a program. Another extension of a definition is known only while that definition is in use.
+/// Whether a name is that of a program. The extension that a post definition chooses is recognised only while that definition is in use.
 fn is_gcode(name: &str, post_processor: Option<&PostProcessor>) -> bool {
     let name = Utf8Path::new(name);
     let is_own = |post: &PostProcessor| {
@@ -376,20 +379,20 @@ fn is_sheet(name: &str) -> bool {
 
 /// The drawings and paths that may have produced a program.
 struct Writers {
-    /// Paths of covered drawings for which the run generates nothing, because they have errors or are no targets. Existing files may still
-    /// belong to them.
+    /// Titles of paths in covered drawings for which the run generates nothing, because they have errors or are not selected. Existing files may
+    /// still belong to them.
     idle: BTreeSet<Title>,
     /// Drawings whose paths are all known.
     covered: BTreeSet<Title>,
     /// Other existing drawings.
     others: BTreeSet<Title>,
-    /// Whether all drawings of the library, or beside the program, are known, so that any other drawing no longer exists.
+    /// Whether the run knows all drawings of the library, or all beside the program, so that any other drawing no longer exists.
     knows_all: bool,
-    /// Whether the output directory lies outside of the configuration's directory, where other libraries may use it.
+    /// Whether the output directory lies outside the configuration's directory, where other libraries may use it.
     is_shared: bool,
 }
 
-/// Title of a program, reduced for comparison.
+/// Returns the title of a program, normalised for comparison.
 fn title(drawing: &str, path: &str) -> String {
     plain_title(&native::title(drawing, path))
 }
@@ -398,7 +401,7 @@ fn file_name(drawing: &Utf8Path) -> &str {
     drawing.file_name().unwrap_or_default()
 }
 
-/// Output directory of programs, and their title or drawing, reduced for comparison (see [`plain_title`]).
+/// Output directory of a program, and its title or drawing, normalised for comparison (see [`plain_title`]).
 type Title = (Utf8PathBuf, String);
 
 impl Writers {
@@ -434,8 +437,8 @@ impl Writers {
         }
     }
 
-    /// Why a program that no path of the run yields is stale, if no other drawing yields it either. `beside` lists the files in its
-    /// directory.
+    /// Returns the reason why a program that no path of the run yields is stale; `None` if another drawing may yield it. `beside` lists the files
+    /// in its directory.
     fn gone<'n>(
         &self,
         directory: &Utf8Path,
@@ -459,7 +462,7 @@ impl Writers {
     }
 }
 
-/// Whether a directory lies outside of that of the configuration.
+/// Whether a directory lies outside the directory of the configuration.
 fn is_outside(session: &Session<'_>, directory: &Utf8Path) -> bool {
     let workspace = session.workspace();
     let own = session.normal(workspace.settings.directory().unwrap_or(&workspace.working_directory));
@@ -467,7 +470,7 @@ fn is_outside(session: &Session<'_>, directory: &Utf8Path) -> bool {
     !rest.is_ok_and(|rest| rest.is_relative() && !rest.starts_with(".."))
 }
 
-/// Programs in output directories, each of which is listed once.
+/// Lists the programs in output directories, each directory at most once.
 #[derive(Default)]
 struct Listings {
     programs: HashMap<Utf8PathBuf, Vec<(String, Utf8PathBuf)>>,
@@ -475,7 +478,7 @@ struct Listings {
 }
 
 impl Listings {
-    /// Programs in a directory with names that begin with `stem`, ignoring case.
+    /// Returns the programs in a directory whose names begin with `stem`, ignoring case.
     fn beginning(
         &mut self,
         run: &EarlierPrograms<'_>,
