@@ -163,7 +163,6 @@ impl System for ConfinedSystem {
     }
 }
 
-
 /// Wraps another system and resolves relative paths against a fixed directory. The working directory of the process may change at any time, and a
 /// program that embeds pathbuild chooses it for reasons of its own.
 #[derive(Clone, Debug)]

@@ -310,7 +310,7 @@ pub struct Row {
     pub warnings: usize,
 }
 
-/// State of a path and of its program on disk, in one word.
+/// State of a path and of its program on disk, combined into one value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum State {
     /// The path has errors.
@@ -326,7 +326,7 @@ pub enum State {
 impl State {
     pub(super) const ALL: [Self; 4] = [Self::Errors, Self::Stale, Self::Current, Self::Ok];
 
-    /// Name in JSON.
+    /// Returns the name of the state in JSON.
     pub(super) fn key(self) -> &'static str {
         match self {
             Self::Errors => "errors",
@@ -345,7 +345,7 @@ impl Row {
         Self { path, errors, warnings: found.diagnostics.len() - errors }
     }
 
-    /// The state of the path and its program.
+    /// Returns the combined state of the path and its program.
     pub fn state(&self) -> State {
         match self.path.program {
             _ if self.errors > 0 => State::Errors,
@@ -355,7 +355,7 @@ impl Row {
         }
     }
 
-    /// Width and height of the area that the tool tip reaches while cutting, in mm.
+    /// Returns the width and height of the area that the tool tip reaches while cutting, in mm; `None` if the path cuts nothing.
     pub fn size(&self) -> Option<[f64; 2]> {
         let [x, y, _] = self.path.figures.cutting_box;
         let width = |(low, high): (f64, f64)| high - low;
@@ -363,7 +363,7 @@ impl Row {
     }
 }
 
-/// Totals of paths.
+/// Totals of a library or of some paths.
 #[derive(Clone, Debug)]
 pub struct Stats {
     /// Number of drawings.
@@ -374,20 +374,20 @@ pub struct Stats {
     pub warnings: usize,
     /// Number of paths in each state.
     pub states: BTreeMap<State, usize>,
-    /// Totals by M; `None` for paths without M.
+    /// Totals by the value of M (material); `None` for paths without M.
     pub materials: BTreeMap<Option<Box<str>>, Total>,
-    /// Totals by O in micrometres, an integer so that it can be a key.
+    /// Totals by the value of O (cutter diameter) in micrometres, an integer so that it can be a key.
     pub cutters: BTreeMap<Option<u64>, Total>,
 }
 
-/// Totals of some paths. Paths with errors have no length.
+/// Totals of some paths. Paths with errors count, but add no length.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Total {
     /// Number of paths.
     pub paths: usize,
     /// Length in mm.
     pub length: f64,
-    /// Time in minutes, as far as it is known.
+    /// Machining time in minutes, of the paths for which it is known.
     pub minutes: f64,
 }
 
@@ -399,7 +399,7 @@ impl Total {
     }
 }
 
-/// A diameter in whole micrometres; 0 for a negative one.
+/// Returns a diameter in whole micrometres; 0 for a negative one.
 fn micrometres(tool: f64) -> u64 {
     #[expect(
         clippy::cast_possible_truncation,
@@ -411,7 +411,7 @@ fn micrometres(tool: f64) -> u64 {
 }
 
 impl Stats {
-    /// Totals of these paths, which were found in `drawings` drawings.
+    /// Computes the totals of these paths, which were found in `drawings` drawings.
     pub fn of<'a>(rows: impl IntoIterator<Item = &'a Row>, drawings: usize) -> Self {
         let mut stats = Self {
             drawings,
@@ -432,7 +432,7 @@ impl Stats {
     }
 }
 
-/// A path as a JSON object. `file` is the displayed name of its drawing.
+/// Returns a path as a JSON object. `file` is the displayed name of its drawing.
 pub fn path_json(file: &str, row: &Row) -> Json {
     let path = &row.path;
     let axis = |ends: Option<(f64, f64)>| ends.map(|(low, high)| [low, high]);
@@ -458,13 +458,13 @@ pub fn path_json(file: &str, row: &Row) -> Json {
     })
 }
 
-/// A drawing with errors of its own, as a JSON object beside those of its paths; `None` if there are only warnings.
+/// Returns a drawing with errors of its own as a JSON object, which is listed beside those of its paths; `None` if there are only warnings.
 pub fn drawing_json(found: &Findings) -> Option<Json> {
     let (errors, warnings) = (found.errors(), found.warnings());
     (errors > 0).then(|| json!({ "path": null, "state": "errors", "errors": errors, "warnings": warnings }))
 }
 
-/// Totals as a JSON object.
+/// Returns totals as a JSON object.
 pub fn stats_json(stats: &Stats) -> Json {
     let states =
         stats.states.iter().map(|(state, count): (&State, _)| (state.key().to_owned(), json!(count)));

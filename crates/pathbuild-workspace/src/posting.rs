@@ -24,7 +24,7 @@ use crate::config::{Origin, Settings, is_file_name, types};
 use crate::files::ExtraInput;
 use crate::workspace::Workspace;
 
-/// A post definition with everything that its output depends on besides the program.
+/// A post-processor: its definition, and everything else that its output depends on besides the program.
 #[derive(Debug)]
 pub struct PostProcessor {
     post: PostDefinition,
@@ -34,38 +34,38 @@ pub struct PostProcessor {
     definition: Vec<u8>,
     /// File of the definition; `None` for a built-in post.
     file: Option<Utf8PathBuf>,
-    /// Files that it inserts, relative to its directory.
+    /// Files that the definition inserts into programs, relative to its directory.
     insertions: Vec<Utf8PathBuf>,
     /// The configured tools.
     pub tools: ToolTable,
     /// Feed in mm/min for cuts without a feed of their own.
     feed: Option<f64>,
-    /// The options of all programs, without the files of a definition.
+    /// Options for all programs. Files that the definition inserts are not included.
     pub(crate) options: PostOptions<'static>,
     system: Arc<dyn System>,
-    /// Whether commands are refused because the definition is untrusted.
+    /// Whether commands are not run, because the definition is untrusted.
     runs_no_command: bool,
 }
 
 /// Command-line options of a post-processor.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PostArguments {
-    /// Date that the post-processor may write.
+    /// Date that the post-processor may write into programs.
     pub date: Option<Box<str>>,
-    /// Dialect of the output, if the definition does not name it.
+    /// Name of the dialect of the output, for a definition that does not name it.
     pub dialect: Option<Box<str>>,
     /// Whether to run the command that the post-processor requests.
     pub run_post_build: bool,
 }
 
-/// Upper bound on the inserted files of a definition that are read in advance.
+/// Upper bound on the number of inserted files that are read in advance, per definition.
 const MOST_INSERTIONS: usize = 1000;
 
-/// The name that stands for native programs. (book: program/gcode)
+/// Name in the configuration that selects native programs instead of a post-processor. (book: program/gcode)
 const NATIVE: &str = "native";
 
 impl PostProcessor {
-    /// The post-processor named by `--post`, or else by the configuration; `None` means native programs.
+    /// Opens the post-processor named by `--post`, or else by the configuration; `None` means native programs.
     ///
     /// # Errors
     /// If there is no such post, or its definition has errors.
@@ -164,12 +164,12 @@ impl PostProcessor {
         }
     }
 
-    /// File of the definition; `None` if the post is built in.
+    /// Returns the file of the definition; `None` if the post is built in.
     pub fn file(&self) -> Option<&Utf8Path> {
         self.file.as_deref()
     }
 
-    /// The files that the post-processor is read from: its definition, and the files that it inserts into every program.
+    /// Returns the files that make up the post-processor: its definition, and the files that it inserts into every program.
     pub fn sources(&self) -> Vec<Utf8PathBuf> {
         let Some(file) = &self.file else { return Vec::new() };
         let directory = file.parent().unwrap_or(Utf8Path::new(""));
@@ -177,31 +177,31 @@ impl PostProcessor {
         std::iter::once(file.clone()).chain(inserted).collect()
     }
 
-    /// Extension of its output files, without the dot.
+    /// Returns the extension of output files, without the dot.
     pub fn extension(&self) -> &str {
         self.post.extension()
     }
 
-    /// Dialect for reading its output back, if known.
+    /// Returns the dialect in which output is read back, if known.
     pub fn reader(&self) -> Option<Dialect> {
         self.post.reader(self.options.dialect.as_deref())
     }
 
-    /// Whether programs start the spindle.
+    /// Whether programs of this post-processor start the spindle.
     pub fn starts_spindle(&self) -> bool {
         !self.options.manual_spindle
     }
 
-    /// The configured feed in mm/min for cuts without a feed of their own.
+    /// Returns the configured feed in mm/min for cuts without a feed of their own.
     pub fn feed(&self) -> Option<f64> {
         self.feed
     }
 
-    /// Writes a program to be stored in the file `output`. Adds the files that it inserted or failed to insert to `inserted`, even if
-    /// writing fails.
+    /// Writes a program to be stored in the file `output`. Adds the files that it inserted or failed to insert to `inserted`, even if writing
+    /// fails.
     ///
     /// # Errors
-    /// What the post-processor cannot express, or writes incorrectly.
+    /// If the post-processor cannot express a part of the program, or writes it incorrectly.
     pub fn write(
         &self,
         job: &Job,
@@ -212,8 +212,8 @@ impl PostProcessor {
         self.write_with(job, PostOptions { output, ..self.options.clone() }, inserted)
     }
 
-    /// The words that it writes in a dialect, collected from sample programs that use every feature, which the machine need not be able to
-    /// run.
+    /// Returns the words that the post-processor writes in a dialect, collected from sample programs. These use every feature, even those that the
+    /// configured machine cannot run.
     pub fn words(&self, dialect: Dialect) -> PostWords {
         let written = samples().into_iter().filter_map(|job| {
             let options = PostOptions { unchecked: true, machine: None, ..self.options.clone() };
@@ -229,28 +229,28 @@ impl PostProcessor {
             .of_definition(&self.name(), left_out)
     }
 
-    /// Translates a program of this post into the words of RS274, by its definition; `None` if a dialect defines its words.
+    /// Translates a program of this post into the words of RS274 by means of its definition; `None` if a dialect covers its words.
     pub fn translate(&self, text: &[u8]) -> Option<TranslatedText> {
         self.is_read_by_definition().then(|| self.post.translate(text))
     }
 
-    /// Whether its programs are read by the definition: no dialect defines its words, or its axes are not those of the drawing.
+    /// Whether its programs are read back by means of the definition, because no dialect covers its words or its axes are not those of the drawing.
     fn is_read_by_definition(&self) -> bool {
         self.reader().is_none() || self.post.has_own_axes()
     }
 
-    /// Whether its programs are written without being compared with the drawing.
+    /// Whether programs are written without being compared with the drawing.
     pub fn is_unchecked(&self) -> bool {
         self.options.unchecked
     }
 
-    /// The name of the definition's file.
+    /// Returns the file name of the definition; empty for a built-in post.
     pub fn name(&self) -> String {
         self.file.as_deref().and_then(Utf8Path::file_name).unwrap_or_default().to_owned()
     }
 
-    /// The first line, from 1, in which a program differs from another program of this post, and the line of the other one. Lines that
-    /// contain only a comment in both count as equal.
+    /// Compares a program with another one of this post. Returns the number of the first line that differs, from 1, and the other program's line.
+    /// Lines that contain only a comment in both count as equal.
     pub fn first_other_line(&self, found: &[u8], expected: &[u8]) -> Option<(u32, String)> {
         self.post.first_other_line(found, expected)
     }
@@ -281,7 +281,7 @@ impl PostProcessor {
         }
     }
 
-    /// Everything that a program's text depends on besides drawings and general options, for its provenance.
+    /// Returns everything that a program's text depends on besides drawings and general options, for its provenance.
     pub fn identity(&self) -> Vec<u8> {
         let Self { definition, tools, options, .. } = self;
         let PostOptions {
@@ -296,7 +296,7 @@ impl PostProcessor {
             milliseconds,
             ..
         } = options;
-        // Programs contain a hash of this text: a different one makes all of them out of date.
+        // Programs contain a hash of this text, so changing its format makes all of them out of date.
         let manner = format_args!(
             "Manner {{ unchecked: {unchecked}, program_number: {program_number:?}, manual_spindle: {manual_spindle}, spin_up: {spin_up:?}, milliseconds: {milliseconds} }}"
         );
@@ -305,8 +305,8 @@ impl PostProcessor {
     }
 }
 
-/// The words allowed in programs of a dialect: those of the post-processor that wrote the program, if known; else of the built-in post for
-/// the dialect.
+/// Returns the words allowed in programs of a dialect: those of the post-processor that wrote the program, if known; else those of the built-in
+/// post for the dialect.
 pub fn known_words(
     settings: &Settings,
     system: &Arc<dyn System>,
@@ -323,7 +323,7 @@ pub fn known_words(
         .map_or_else(|_| PostWords::native(dialect), |post_processor| post_processor.words(dialect))
 }
 
-/// A file name relative to the working directory, if it is inside.
+/// Returns a file name relative to the working directory, if the file is inside.
 fn relative(file: &Utf8Path, context: &Workspace) -> Utf8PathBuf {
     file.strip_prefix(&context.working_directory).unwrap_or(file).to_owned()
 }
@@ -331,7 +331,7 @@ fn relative(file: &Utf8Path, context: &Workspace) -> Utf8PathBuf {
 /// Runs the command in the directory of the file and waits for it. Its output goes to stderr, since stdout is for results.
 ///
 /// # Errors
-/// If it cannot be started, or exits with a status other than 0.
+/// If the command cannot be started, or exits with a status other than 0.
 pub fn run_post_build(command: &[String], file: &Utf8Path) -> Result<(), Box<Diagnostic>> {
     let Some((program, arguments)) = command.split_first() else { return Ok(()) };
     let mut run = Command::new(program);
@@ -347,14 +347,14 @@ pub fn run_post_build(command: &[String], file: &Utf8Path) -> Result<(), Box<Dia
     }
 }
 
-/// Access to a directory and everything below it.
+/// Read access to the files in a directory and below it.
 #[derive(Debug)]
 pub(super) struct DirectoryFiles<'a> {
     pub(super) directory: &'a Utf8Path,
     pub(super) system: &'a dyn System,
 }
 
-/// Like [`DirectoryFiles`], and records the files that were read.
+/// Like [`DirectoryFiles`], but also records which files were read.
 #[derive(Debug)]
 pub(super) struct RecordedFiles<'a> {
     pub(super) below: DirectoryFiles<'a>,
@@ -386,7 +386,7 @@ impl PostFiles for DirectoryFiles<'_> {
     }
 }
 
-/// The machine of the configuration; `None` if nothing is configured.
+/// Returns the limits of the configured machine; `None` if nothing is configured.
 pub fn machine(settings: &Settings) -> Option<Machine> {
     let settings = &settings.machine;
     let placed = [settings.x.value, settings.y.value, settings.z.value];
@@ -404,12 +404,12 @@ pub fn machine(settings: &Settings) -> Option<Machine> {
     (machine != Machine::default()).then_some(machine)
 }
 
-/// Lower and upper end of an axis; unlimited if not configured.
+/// Returns the lower and upper end of an axis; infinite if not configured.
 fn ends(extent: Option<Extent>) -> (f64, f64) {
     extent.map_or((f64::NEG_INFINITY, f64::INFINITY), |extent| (extent.from, extent.to))
 }
 
-/// The tools of `[tool.NAME]`. Their patterns compile, because the configuration has no errors.
+/// Returns the tools of `[tool.NAME]`. Their patterns compile, because the configuration has no errors.
 pub fn tool_table(settings: &Settings) -> ToolTable {
     ToolTable { entries: settings.tables.tools.value.iter().map(entry).collect() }
 }
@@ -426,8 +426,8 @@ fn entry(tool: &types::Tool) -> ToolEntry {
     }
 }
 
-/// Completes the operations of a program that was read with the table's data about their tools, unless the program itself has them. Warns
-/// about unknown tool numbers. The spindle stands still while probing, and in a program that cuts nothing.
+/// Adds the table's data about tools to the operations of a job, where the program that the job was read from has none. Warns about unknown tool
+/// numbers. The spindle stands still while probing, and in a program that cuts nothing.
 pub fn complete_tools(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
     let (mut unknown, mut reported) = (Vec::new(), FxHashSet::default());
     let mut entries: FxHashMap<u32, &ToolEntry> = FxHashMap::default();

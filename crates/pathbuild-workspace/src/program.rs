@@ -23,10 +23,10 @@ use crate::config::Settings;
 use crate::config::types::DwellTime;
 use crate::workspace::Workspace;
 
-/// How programs are read.
+/// Options for reading programs.
 #[derive(Clone, Copy, Debug)]
 pub struct ReadingOptions {
-    /// The dialect; `None` guesses it.
+    /// The dialect; `None` means to guess it.
     pub dialect: Option<Dialect>,
     /// Meaning of G70 and G71.
     pub unit_codes: UnitCodes,
@@ -43,7 +43,7 @@ impl Default for ReadingOptions {
 }
 
 impl ReadingOptions {
-    /// Reads programs in the dialect of this name; `None` if there is no such dialect.
+    /// Returns options for the dialect with this name; `None` if there is no such dialect.
     pub fn in_dialect(name: &str) -> Option<Self> {
         Some(Self { dialect: Some(name.parse().ok()?), ..Self::default() })
     }
@@ -59,7 +59,7 @@ impl ReadingOptions {
     }
 }
 
-/// A program that was read.
+/// A program that was read from a file.
 #[derive(Debug)]
 pub struct Program {
     /// File name as given.
@@ -72,30 +72,31 @@ pub struct Program {
     pub evidence: Option<Evidence>,
     /// The dialect that was named or guessed; it differs from `dialect` if the program is read by a definition.
     pub shown: Dialect,
-    /// Steps and diagnostics.
+    /// Steps and diagnostics of the program.
     pub read: Interpretation,
     /// The translation that was read, if the program was read by the definition that wrote it instead of a dialect.
     pub by_definition: Option<ByDefinition>,
     options: Options,
 }
 
-/// Translates a text by the definition that wrote it, if one is known. The second argument is the guess, if no dialect is named.
+/// Function that translates a text by means of the post definition that wrote it, if the definition is known. The second argument is the guessed
+/// dialect; `None` if a dialect was specified.
 pub type Translate<'t> = dyn Fn(&[u8], Option<&Guess>) -> Option<ByDefinition> + 't;
 
-/// A program read by the definition that wrote it.
+/// The translation of a program by means of the post definition that wrote it.
 #[derive(Debug)]
 pub struct ByDefinition {
-    /// The definition's name.
+    /// Name of the definition.
     pub name: String,
     /// The program in the words of RS274, line for line.
     pub translated: TranslatedText,
 }
 
 impl Program {
-    /// Reads a file and keeps its steps.
+    /// Reads a file and stores its steps.
     ///
     /// # Errors
-    /// If the file cannot be read at all; diagnostics of its lines are in [`read`](Self::read).
+    /// If the file cannot be read at all. Diagnostics of its lines are in [`read`](Self::read).
     pub fn open(
         workspace: &Workspace,
         file: &Utf8Path,
@@ -105,10 +106,10 @@ impl Program {
         Self::of_text(workspace, file, text, reading)
     }
 
-    /// Reads the text of a file and keeps its steps.
+    /// Interprets the text of a file and stores its steps.
     ///
     /// # Errors
-    /// The program has more steps than may be kept.
+    /// If the program has more steps than may be stored.
     pub fn of_text(
         workspace: &Workspace,
         file: &Utf8Path,
@@ -135,8 +136,8 @@ impl Program {
         Ok(program)
     }
 
-    /// Reads the text of a file and passes on its steps without keeping them; large programs are interpreted again instead. `definition`
-    /// translates the text if a post's definition defines its words; it gets the guess if no dialect is named.
+    /// Interprets the text of a file and passes each step to `each` without storing it, because a large program is rather interpreted again.
+    /// `definition` translates a text in words that only a post definition defines.
     pub fn read_each(
         settings: &Settings,
         file: &Utf8Path,
@@ -174,9 +175,9 @@ impl Program {
         });
         if let Some(by) = &by_definition {
             problems.extend(by.translated.unstated.iter().cloned());
-            // Only a dialect defines when M5 acts.
+            // The definition does not say when M5 takes effect, which this problem depends on.
             problems.retain(|problem| problem.message.key != gcode::STOP_BEFORE_MOTION.key);
-            // Columns are those of the translation.
+            // Columns and lines of text are those of the translation, which the user does not see.
             for problem in &mut problems {
                 problem.text = None;
                 problem.place.column = None;
@@ -198,22 +199,22 @@ impl Program {
         Text { text: self.code(), dialect: self.dialect, options }
     }
 
-    /// The number of the word for inches, times ten.
+    /// Returns ten times the G code that selects inches.
     pub fn inch_word(&self) -> u16 {
         self.options.unit_words(self.dialect.rules())[0]
     }
 
-    /// The text that is read in its dialect.
+    /// Returns the text in the program's dialect: the translation, if there is one.
     pub fn code(&self) -> &[u8] {
         self.by_definition.as_ref().map_or(&self.text, |by| by.translated.text.as_bytes())
     }
 
-    /// Words that the reader of its definition leaves out.
+    /// Returns the words that the translation left out.
     pub fn words_left_out(&self) -> impl Iterator<Item = &DoubtfulWord> {
         self.by_definition.iter().flat_map(|by| &by.translated.doubtful)
     }
 
-    /// The name of the dialect or the definition by which it was read.
+    /// Returns the name of the dialect, or of the definition by means of which the program was read.
     pub fn manner(&self) -> &str {
         self.by_definition.as_ref().map_or_else(|| self.dialect.name(), |by| &by.name)
     }
@@ -228,7 +229,7 @@ impl Program {
         place(diagnostics.iter_mut().filter(|diagnostic| diagnostic.file.is_none()), &self.file, &self.text);
     }
 
-    /// The dialect, and why it was guessed.
+    /// Names the dialect, with the reason if it was guessed.
     pub fn read_as(&self, lang: Lang) -> String {
         let mut text = self.manner().to_owned();
         if let Some(evidence) = self.evidence.filter(|_| self.by_definition.is_none()) {
@@ -242,14 +243,14 @@ impl Program {
         text
     }
 
-    /// The first line whose moves are unknown, such as a call of a subprogram: lengths and times are then unknown as well.
+    /// Returns the first line whose moves are unknown, such as a call of a subprogram; lengths and times are then unknown as well.
     pub fn first_unfollowed_line(&self) -> Option<u32> {
         let is_unfollowed =
             |problem: &&Diagnostic| problem.is_error() && problem.code() == Code::WordNotFollowed;
         self.read.problems.iter().find(is_unfollowed).map(|problem| problem.place.line.unwrap_or(0))
     }
 
-    /// The program as a path of a scene. It has no totals if some of its moves are unknown.
+    /// Returns the program as a path of a scene. It has no totals if some of its moves are unknown.
     pub fn scene_path(&self, workspace: &Workspace) -> ScenePath {
         let source = GcodeSource {
             file: self.file.as_str(),
@@ -263,13 +264,13 @@ impl Program {
         ScenePath { totals, ..path }
     }
 
-    /// Number of lines.
+    /// Returns the number of lines.
     pub fn lines(&self) -> usize {
         self.text.split_inclusive(|byte| *byte == b'\n').count()
     }
 }
 
-/// The bytes of a program.
+/// Reads the bytes of a program from a file.
 ///
 /// # Errors
 /// If the file cannot be read, or is too large.
@@ -283,14 +284,14 @@ pub(crate) fn read(
     system.read(file, limit).map_err(unreadable)
 }
 
-/// PB779: words on which the dialects disagree that a program may be in.
+/// Returns PB779 for words that have different meanings in the dialects that the program may be in.
 fn dialect_not_named(disputes: &Disputes, dialect: Dialect) -> Option<Diagnostic> {
     let (line, words) = disputes.finish()?;
     let found = Diagnostic::new(&gcode::DIALECT_NOT_NAMED).quoting("words", words.join(", "));
     Some(found.quoting("dialect", dialect.name()).at_line(line, None))
 }
 
-/// PB005: the program has more steps than an emitted program may have moves.
+/// Returns PB005 for a program with more steps than an emitted program may have moves.
 fn too_much_memory(count: usize, limit: u64) -> Diagnostic {
     let count = count as u64;
     Diagnostic::new(&files::PROGRAM_TOO_LONG)
@@ -302,7 +303,7 @@ fn too_much_memory(count: usize, limit: u64) -> Diagnostic {
 
 fn place<'d>(diagnostics: impl IntoIterator<Item = &'d mut Diagnostic>, file: &Utf8Path, text: &[u8]) {
     let mut all: Vec<&mut Diagnostic> = diagnostics.into_iter().collect();
-    // Count the lines once for all diagnostics.
+    // Locate all diagnostics together, so that the lines are counted only once.
     quote(all.iter_mut().map(|diagnostic| &mut **diagnostic), text);
     for diagnostic in all {
         diagnostic.file = Some(file.to_owned());

@@ -1,4 +1,4 @@
-//! The archives in which Fusion 360 keeps tool libraries (`.tools`): zip files with a single entry, `tools.json`.
+//! Archives in which Fusion 360 stores tool libraries (`.tools`): zip files with a single entry, `tools.json`.
 
 use std::io::{self, Read};
 
@@ -6,15 +6,15 @@ use flate2::bufread::DeflateDecoder;
 use pathbuild_diagnostic::{Text, Value};
 use rawzip::{CompressionMethod, ZipArchive};
 
-/// Whether a file is an archive, by its first bytes.
+/// Whether a file is a zip archive, judging by its first bytes.
 pub(super) fn is_archive(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04")
 }
 
-/// The content of the only entry.
+/// Returns the content of the only entry.
 ///
 /// # Errors
-/// The archive is broken, has several entries, or its content has more than `limit` bytes.
+/// If the archive is broken or has several entries, or if the content has more than `limit` bytes.
 pub(super) fn unpack(bytes: &[u8], limit: u64) -> Result<Vec<u8>, Value> {
     let archive = ZipArchive::from_slice(bytes).map_err(Value::foreign)?;
     let mut entries = archive.entries();

@@ -1,4 +1,4 @@
-//! Changes values in the text of a configuration. Comments, order and spelling of everything else remain.
+//! Changes values in the text of a configuration, and preserves the comments, order and spelling of everything else.
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
@@ -7,16 +7,16 @@ use toml_edit::{Array, DocumentMut, Item, Key, Table, TableLike, Value};
 
 use super::{DescribedValue, Quantity, Target};
 
-/// A value of a description beside that of the configuration.
+/// A value from a description, with the value that the configuration had before.
 #[derive(Debug)]
 pub struct Change {
-    /// Name of the table.
+    /// Name of the table, with dots.
     pub table: String,
     /// Name of the key.
     pub key: &'static str,
-    /// Value in the configuration as TOML; `None` if it has none.
+    /// Previous value in the configuration, as TOML; `None` if it had none.
     pub old: Option<String>,
-    /// Value of the description as TOML.
+    /// Value from the description, as TOML.
     pub new: String,
     /// Names of the entries that the value was read from.
     pub source: String,
@@ -24,10 +24,10 @@ pub struct Change {
     pub is_new: bool,
 }
 
-/// Puts values into the text of a configuration. Returns the new text, and each value beside the old one.
+/// Inserts values into the text of a configuration. Returns the new text, and each value with the previous one.
 ///
 /// # Errors
-/// The configuration declares a table in a way that cannot take the values.
+/// If the configuration declares a table in a way that cannot take the values.
 pub fn edit(
     file: &Utf8Path,
     text: &str,
@@ -36,7 +36,7 @@ pub fn edit(
     let fault = || Box::new(Diagnostic::new(&say::NOT_EDITABLE).in_file(file));
     let mut document: DocumentMut = text.parse().map_err(|_| fault())?;
     let mut changes = Vec::new();
-    // Tools for which there was no table before.
+    // Tools that had no table in the configuration.
     let mut added = Vec::new();
     for value in values {
         let path = table_path(&document, &value.target);
@@ -70,7 +70,7 @@ pub fn edit(
     Ok((with_line_ends(document.to_string(), text), changes))
 }
 
-/// The names of a table. A tool with a number is the one that the configuration has under this number, whatever its name is.
+/// Returns the names that lead to a target's table. A tool with a number gets the configured table with the same number, whatever its name is.
 fn table_path(document: &DocumentMut, target: &Target) -> Vec<String> {
     let Target::Tool { number, name } = target else { return vec!["machine".to_owned()] };
     let has_number = |item: &Item| {
@@ -86,7 +86,7 @@ fn table<'d>(document: &'d DocumentMut, path: &[String]) -> Option<&'d Item> {
     path.iter().try_fold(document.as_item(), |item, name| item.get(name))
 }
 
-/// The table of this path, which is added if there is none; `None` if something else has its name.
+/// Returns the table of this path, and adds it if it is missing; `None` if a part of the path is not a table.
 fn table_mut<'d>(document: &'d mut DocumentMut, path: &[String]) -> Option<&'d mut dyn TableLike> {
     let mut table: &mut dyn TableLike = document.as_table_mut();
     for (depth, name) in path.iter().enumerate() {
@@ -98,13 +98,13 @@ fn table_mut<'d>(document: &'d mut DocumentMut, path: &[String]) -> Option<&'d m
     Some(table)
 }
 
-/// A value with the spaces and comments around the one that it replaces.
+/// Gives a value the spaces and comments around the value that it replaces.
 fn with_decor(mut new: Value, old: &Value) -> Value {
     *new.decor_mut() = old.decor().clone();
     new
 }
 
-/// The text with the line ends of the old one.
+/// Gives a text the line ends of the old one.
 fn with_line_ends(text: String, old: &str) -> String {
     if old.contains("\r\n") { text.replace("\r\n", "\n").replace('\n', "\r\n") } else { text }
 }
@@ -119,7 +119,7 @@ fn toml(value: &Quantity) -> Value {
     }
 }
 
-/// Writes whole numbers as a user would, without decimals.
+/// Converts a number to TOML, as a user would write it: whole numbers without decimals.
 #[expect(clippy::cast_possible_truncation, reason = "small whole numbers only")]
 fn toml_number(number: f64) -> Value {
     const MAX_INTEGER: f64 = 1e15;

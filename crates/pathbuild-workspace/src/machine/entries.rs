@@ -1,4 +1,4 @@
-//! The entries of a description, from which values are taken one by one. Entries that remain have no key.
+//! The entries of a description, from which values are taken one by one. Entries that are never taken have no corresponding key.
 
 use pathbuild_diagnostic::messages::configuration::{NUMBER, POSITIVE};
 use pathbuild_diagnostic::messages::import as say;
@@ -10,15 +10,15 @@ use super::{DescribedValue, Description, Quantity, Target};
 /// An entry of a description.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// The name, for example `$110` or `axes/x/max_travel_mm`.
+    /// Name of the entry, for example `$110` or `axes/x/max_travel_mm`.
     pub name: String,
     /// The text of the value.
     pub value: String,
-    /// The line, counted from 1, if it is known.
+    /// Line of the entry, counted from 1, if it is known.
     pub line: Option<u32>,
 }
 
-/// A number and its place.
+/// A number that was read, with its line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
     pub(super) number: f64,
@@ -30,7 +30,7 @@ pub(super) struct Reading {
 pub(super) struct Entries {
     list: Vec<Entry>,
     is_used: Vec<bool>,
-    /// The last entry of each name, which is the one in force.
+    /// Index of the last entry of each name, which overrides earlier ones.
     by_name: FxHashMap<String, usize>,
     values: Vec<DescribedValue>,
     problems: Vec<Diagnostic>,
@@ -54,14 +54,14 @@ impl Entries {
         self.list.iter()
     }
 
-    /// Takes the entry of this name.
+    /// Returns the last entry of this name, and marks it as used.
     pub(super) fn take(&mut self, name: &str) -> Option<&Entry> {
         let index = *self.by_name.get(name)?;
         self.is_used[index] = true;
         Some(&self.list[index])
     }
 
-    /// Takes the number of this name. Reports a value that is not a number.
+    /// Takes the number in the entry of this name. Reports a value that is not a number.
     pub(super) fn number(&mut self, name: &str) -> Option<Reading> {
         self.number_where(name, |_| true, &NUMBER)
     }
@@ -86,7 +86,7 @@ impl Entries {
         None
     }
 
-    /// Reports an entry whose value is not what the key needs.
+    /// Reports an entry whose value is not of the kind that the key needs.
     pub(super) fn not_taken(&mut self, entry: &Entry, expected: &'static Text) {
         let problem = Diagnostic::new(&say::VALUE_NOT_TAKEN).quoting("name", entry.name.as_str());
         let problem = problem.quoting("value", entry.value.as_str()).with("expected", Shown::Prose(expected));
@@ -115,7 +115,7 @@ impl Entries {
         }
     }
 
-    /// Sets a key to the numbers of the entries for X, Y and Z, multiplied by `scale`. The key takes all three or none.
+    /// Sets a key to the numbers of the entries for X, Y and Z, multiplied by `scale`. Sets nothing unless all three are present.
     pub(super) fn set_axes(&mut self, key: &'static str, names: [&str; 3], scale: f64) {
         let readings = names.map(|name| self.positive(name));
         let given: Vec<&str> =
@@ -156,7 +156,7 @@ impl Entries {
     }
 }
 
-/// Removes the digits that a conversion of units leaves behind.
+/// Rounds away the digits that a conversion of units leaves behind.
 pub(super) fn rounded(number: f64) -> f64 {
     const DIGITS: f64 = 1e6;
     (number * DIGITS).round() / DIGITS

@@ -1,7 +1,7 @@
 //! The configuration of `FluidNC`, a YAML file.
 //!
-//! Source: "Config File" of the `FluidNC` wiki. Rates are in mm/min, accelerations in mm/s². Anchors, aliases and tags have no meaning
-//! there; an alias is kept as text and never expanded.
+//! Source: "Config File" of the `FluidNC` wiki. Rates are in mm/min, accelerations in mm/s². `FluidNC` gives anchors, aliases and tags no meaning;
+//! an alias is stored as text and never expanded.
 
 use pathbuild_diagnostic::messages::import as say;
 use pathbuild_diagnostic::{Diagnostic, Text};
@@ -33,7 +33,7 @@ pub(super) fn read(text: &str) -> Result<Description, Box<Diagnostic>> {
     Ok(entries.finish("FluidNC"))
 }
 
-/// Sets the speeds of the spindle, if there is exactly one. The map of speeds of a laser contains powers.
+/// Sets the speeds of the spindle, if there is exactly one spindle. The speed map of a laser is ignored, because it contains powers.
 fn spindle(entries: &mut Entries) {
     let is_map = |name: &str| {
         name.strip_suffix("/speed_map")
@@ -117,7 +117,7 @@ impl Walk {
         self.next();
     }
 
-    /// Proceeds to the next key or item of the innermost level.
+    /// Proceeds to the next key or item of the innermost level that is open.
     fn next(&mut self) {
         match self.levels.last_mut() {
             Some(Level::Mapping { key }) => *key = None,

@@ -1,7 +1,7 @@
 //! The settings that GRBL and grblHAL print for `$$`.
 //!
-//! Source: "Grbl v1.1 Configuration" (wiki of gnea/grbl) and the settings list of grblHAL. Their lengths are in mm even if `$13` selects
-//! inches, which concerns positions in status reports only.
+//! Source: "Grbl v1.1 Configuration" (wiki of gnea/grbl) and the settings list of grblHAL. Lengths are in mm even if `$13` selects inches, which
+//! applies to positions in status reports only.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::import as say;
@@ -26,7 +26,7 @@ pub(super) fn read(text: &str) -> Description {
     entries.set_axes("accelerations", ["$120", "$121", "$122"], 1.0);
     entries.set_axes("travel", ["$130", "$131", "$132"], 1.0);
     entries.set_number("junction-deviation", "$11", 1.0);
-    // In laser mode these are the limits of the beam's power.
+    // In laser mode, the spindle's speed limits are limits of the beam's power.
     if entries.get("$32").is_some_and(|mode| mode.value == "1") {
         let problem = Diagnostic::new(&say::LASER);
         let line = entries.take("$32").and_then(|mode| mode.line);
@@ -47,7 +47,7 @@ fn setting(line: &str) -> Option<(&str, &str)> {
     is_number.then_some((name, value))
 }
 
-/// Whether a line is one that a controller or a sender prints around the settings.
+/// Whether a line contains no setting, but is printed around the settings by a controller or a sender.
 fn is_furniture(line: &str) -> bool {
     let line = line.trim().trim_start_matches('>').trim_start();
     line.is_empty()

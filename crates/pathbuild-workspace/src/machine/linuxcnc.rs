@@ -41,14 +41,14 @@ pub(super) fn read(text: &str) -> Result<Description, Box<Diagnostic>> {
     Ok(entries.finish(FORMAT))
 }
 
-/// Lower bound on the travel in mm of an axis without limits, whose defaults are far apart.
+/// Travel in mm from which an axis counts as unlimited: LinuxCNC's default limits are farther apart than this.
 const UNLIMITED: f64 = 1e9;
 
 const FORMAT: &str = "LinuxCNC";
 
 static UNIT: Text = Text { en: "mm or inch", de: "mm oder inch" };
 
-/// The unit of lengths, if the file names a known one.
+/// Returns the unit of lengths, if the file names a known one.
 pub(super) fn length_unit(text: &str) -> Option<LengthUnit> {
     named_unit(&entries(text).ok()?.take("TRAJ/LINEAR_UNITS")?.value)
 }
@@ -61,7 +61,7 @@ fn named_unit(name: &str) -> Option<LengthUnit> {
     }
 }
 
-/// The unit of lengths in mm; reports that it is missing.
+/// Returns the unit of lengths in mm; reports a missing or unknown unit.
 fn unit(entries: &mut Entries) -> Option<f64> {
     let Some(entry) = entries.take("TRAJ/LINEAR_UNITS").cloned() else {
         entries.report(Diagnostic::new(&say::UNIT_MISSING));
@@ -112,7 +112,7 @@ fn entries(text: &str) -> Result<Entries, Box<Diagnostic>> {
     Ok(entries)
 }
 
-/// A value without the comment that may follow it after a space.
+/// Removes the comment that may follow a value after a space.
 fn without_comment(value: &str) -> &str {
     let value = value.trim();
     let comments = [" #", " ;", "\t#", "\t;"];

@@ -6,8 +6,8 @@ use pathbuild_diagnostic::messages::import as say;
 
 use super::{DescribedTool, DescribedValue, Description, Target};
 
-/// The values of all descriptions, in the order of the files. Tools of the same number that contradict each other are left out, and
-/// reported with both places; so are two tools of one file, unless they are equal.
+/// Combines the values of all descriptions, in the order of the files. Tools with the same number that contradict each other are left out and
+/// reported with both places. Two tools of one file contradict each other unless they are equal.
 pub fn merge(descriptions: &[(&Utf8Path, Description)]) -> (Vec<DescribedValue>, Vec<Diagnostic>) {
     let mut values = Vec::new();
     let mut tools: Vec<ToolEntry<'_>> = Vec::new();
@@ -39,7 +39,7 @@ pub fn merge(descriptions: &[(&Utf8Path, Description)]) -> (Vec<DescribedValue>,
     (values, problems)
 }
 
-/// A tool of a file.
+/// A tool with the file that describes it.
 struct ToolEntry<'d> {
     file: &'d Utf8Path,
     tool: &'d DescribedTool,
@@ -77,7 +77,7 @@ impl ToolEntry<'_> {
     }
 }
 
-/// The name of a tool, with its number appended if another tool has the same name.
+/// Returns the name of a tool, with its number appended if another tool has the same name.
 fn unique_name<'d>(tool: &'d DescribedTool, names: &mut Vec<(String, &'d DescribedTool)>) -> String {
     let number = tool.number.map(|number| format!("T{number}"));
     let own = Some(tool.name.clone()).filter(|name| !name.is_empty()).or(number.clone());

@@ -1,4 +1,4 @@
-//! Descriptions of machines and tools that controllers and CAM programs keep, turned into `[machine]` and `[tool]`. (book: howto/machine)
+//! Imports descriptions of machines and tools, as controllers and CAM programs store them, into `[machine]` and `[tool]`. (book: howto/machine)
 
 mod archive;
 mod edit;
@@ -24,7 +24,7 @@ pub use self::merge::merge;
 /// Upper bound on the size of a description in bytes. The settings of a machine take a few kilobytes.
 pub const LARGEST: u64 = 4 << 20;
 
-/// The unit of lengths that a description does not name itself.
+/// The unit of lengths, for descriptions that do not name it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LengthUnit {
     /// Millimetres.
@@ -34,7 +34,7 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
-    /// The length of the unit in mm.
+    /// Returns the length of the unit in mm.
     fn millimetres(self) -> f64 {
         match self {
             Self::Millimetre => 1.0,
@@ -43,38 +43,38 @@ impl LengthUnit {
     }
 }
 
-/// The contents of a description.
+/// The values, tools and remaining entries of a description.
 #[derive(Debug)]
 pub struct Description {
-    /// The controller or program that writes this format.
+    /// Name of the controller or program that writes this format.
     pub format: &'static str,
     /// Values for keys of `[machine]`.
     pub values: Vec<DescribedValue>,
-    /// The tools.
+    /// The tools, in the order of the description.
     pub tools: Vec<DescribedTool>,
     /// The entries for which there is no key.
     pub unused: Vec<Entry>,
-    /// Entries that a key should take, but whose values it cannot.
+    /// Diagnostics of entries that correspond to a key, but whose values the key cannot take.
     pub problems: Vec<Diagnostic>,
 }
 
 /// A tool of a description.
 #[derive(Debug)]
 pub struct DescribedTool {
-    /// Its number in the machine.
+    /// Number of the tool in the machine.
     pub number: Option<u32>,
-    /// Its name, which may be empty or that of another tool.
+    /// Name of the tool, which may be empty, or the same as that of another tool.
     pub name: String,
-    /// The line of the file, if known.
+    /// Line of the tool in the description, if known.
     pub line: Option<u32>,
-    /// Values for keys of its table.
+    /// Values for the keys of the tool's table.
     pub values: Vec<DescribedValue>,
 }
 
 /// A value for the configuration.
 #[derive(Clone, Debug)]
 pub struct DescribedValue {
-    /// The table that has the key.
+    /// The table of the configuration to which the value belongs.
     pub target: Target,
     /// Name of the key.
     pub key: &'static str,
@@ -82,41 +82,41 @@ pub struct DescribedValue {
     pub value: Quantity,
     /// Names of the entries that the value was read from.
     pub source: String,
-    /// Whether the value does not concern a tool that the configuration has already.
+    /// Whether the value is only for tools that the configuration does not contain yet.
     pub is_for_new_tools: bool,
 }
 
-/// A table of the configuration.
+/// A table of the configuration that takes values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Target {
-    /// `[machine]`
+    /// The table `[machine]`.
     Machine,
-    /// A table of `[tool]`: the one of this number, or else of this name.
+    /// A table of `[tool]`: the one with this number, or else the one with this name.
     Tool {
-        /// Its number in the machine.
+        /// Number of the tool in the machine.
         number: Option<u32>,
-        /// Its name in the description.
+        /// Name of the tool in the description.
         name: String,
     },
 }
 
-/// A value as the configuration takes it.
+/// A value of one of the types that keys of the configuration take.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Quantity {
-    /// A number.
+    /// A number, in the unit of the key.
     Number(f64),
-    /// A list of numbers.
+    /// A list of numbers, in the unit of the key.
     Numbers(Vec<f64>),
-    /// A name.
+    /// A string, such as the shape of a cutter.
     Text(String),
 }
 
-/// The unit of lengths that a text names for other files as well: that of an ini file of `LinuxCNC`.
+/// Returns the unit of lengths that a text names for other files as well: that of an ini file of `LinuxCNC`. `None` for other texts.
 pub fn machine_unit(text: &str) -> Option<LengthUnit> {
     if linuxcnc::is_ini(text) { linuxcnc::length_unit(text) } else { None }
 }
 
-/// The text of a description, which may be in an archive of Fusion 360.
+/// Reads the text of a description, which may be in an archive of Fusion 360.
 ///
 /// # Errors
 /// The reason why it cannot be read.
@@ -126,11 +126,11 @@ pub fn text(system: &dyn System, file: &Utf8Path) -> Result<String, Shown> {
     utf_8(bytes)
 }
 
-/// Reads a description. The format is recognized by the content. `unit` is that of a tool table, and `bit` gives the text of a tool bit that
-/// a FreeCAD library names.
+/// Parses a description, whose format is recognized by its content. `unit` is the unit of a tool table that does not name it. `bit` returns the
+/// text of a tool bit that a FreeCAD library names.
 ///
 /// # Errors
-/// The text is in none of the known formats, or is broken.
+/// If the text is in none of the known formats, or is broken.
 pub fn read(
     file: &Utf8Path,
     text: &str,
@@ -160,7 +160,7 @@ pub fn read(
     }
 }
 
-/// PB612 at a line: the description is broken.
+/// Returns PB612 for a description that is broken at this line.
 fn broken(reason: &str, line: usize) -> Box<Diagnostic> {
     let problem = Diagnostic::new(&say::BROKEN_DESCRIPTION).with("reason", Shown::foreign(reason));
     Box::new(problem.at_line(u32::try_from(line).unwrap_or(u32::MAX), None))

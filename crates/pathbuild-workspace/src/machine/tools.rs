@@ -12,10 +12,10 @@ use super::entries::rounded;
 use super::{DescribedTool, DescribedValue, Description, Entry, LengthUnit, Quantity, Target, broken};
 use crate::config::is_too_round;
 
-/// Returns the text of a tool bit that a FreeCAD library names.
+/// Function that returns the text of a tool bit named in a FreeCAD library.
 pub(super) type ReadBit<'r> = &'r dyn Fn(&str) -> Result<String, Shown>;
 
-/// Whether every line of the text is a tool of `LinuxCNC` or a comment.
+/// Whether every line of the text describes a tool of `LinuxCNC` or is a comment.
 pub(super) fn is_table(text: &str) -> bool {
     let is_tool = |line: &str| {
         let mut words = line.split_whitespace();
@@ -25,7 +25,7 @@ pub(super) fn is_table(text: &str) -> bool {
     lines.clone().next().is_some() && lines.all(is_tool)
 }
 
-/// Reads a `tool.tbl`. Its lengths are in the unit of the machine, which only the ini file names.
+/// Reads a `tool.tbl`. Its lengths are in the unit of the machine, which only the machine's ini file names.
 pub(super) fn read_table(text: &str, unit: Option<LengthUnit>) -> Result<Description, Box<Diagnostic>> {
     let Some(unit) = unit else { return Err(Box::new(Diagnostic::new(&say::TABLE_WITHOUT_UNIT))) };
     let mut tools = Tools::new("LinuxCNC");
@@ -43,7 +43,7 @@ pub(super) fn read_table(text: &str, unit: Option<LengthUnit>) -> Result<Descrip
             Some(diameter) => tool.length("diameter", diameter, unit, "D"),
             None => tools.without_diameter(&tool),
         }
-        // The table does not contain the shape of the tip.
+        // A tool table does not contain the shape of the tip.
         tool.shape(None);
         let others = words.split_whitespace().filter(|word| !word.starts_with(['T', 'D']));
         tools.unused.extend(others.map(|word| {
@@ -75,7 +75,7 @@ pub(super) fn read_json(text: &str, bit: ReadBit<'_>) -> Result<Description, Box
     }
 }
 
-/// The lines of the objects in the arrays of the root object.
+/// Returns the line of each object in the arrays of the root object.
 fn object_lines(text: &str) -> Vec<u32> {
     let (mut lines, mut line, mut depth, mut is_string, mut is_escaped) =
         (Vec::new(), 1_u32, 0_u32, false, false);
@@ -98,7 +98,7 @@ fn object_lines(text: &str) -> Vec<u32> {
     lines
 }
 
-/// The line of an entry of a library, unless the file has other objects beside its entries.
+/// Returns the line of an entry of a library; `None` if the file contains objects other than the entries, so that the lines are unclear.
 fn line_of(index: usize, library: &[Value], lines: &[u32]) -> Option<u32> {
     lines.get(index).copied().filter(|_| lines.len() == library.len())
 }
@@ -186,7 +186,7 @@ fn freecad_bit(bit: &Value, number: Option<u32>, line: Option<u32>, tools: &mut 
         let radius = match shape {
             "endmill" => Some((0.0, unit)),
             "ballend" => Some((diameter / 2.0, unit)),
-            // The meaning of the older FlatRadius differs between versions.
+            // The older name `FlatRadius` is ignored: its meaning differs between versions.
             "bullnose" => length(&mut fields, "CornerRadius"),
             _ => None,
         };
@@ -218,7 +218,7 @@ fn measured(text: &str) -> Option<(f64, LengthUnit)> {
     number.parse().ok().filter(|number: &f64| number.is_finite()).map(|number| (number, unit))
 }
 
-/// The values of a JSON object by their paths, such as `geometry/DC`.
+/// The values of a JSON object by their paths, such as `geometry/DC`. Values are removed when they are used.
 struct Fields {
     values: Map<String, Value>,
 }
@@ -238,12 +238,12 @@ impl Fields {
         Some(shown(&self.take(name)?))
     }
 
-    /// A number, which FreeCAD also writes as a text.
+    /// Takes a number, which FreeCAD also writes as a string.
     fn number(&mut self, name: &str) -> Option<f64> {
         shown(&self.take(name)?).parse().ok().filter(|number: &f64| number.is_finite())
     }
 
-    /// The values that have not been used.
+    /// Returns the values that have not been used.
     fn unused(self) -> impl Iterator<Item = Entry> {
         self.values.into_iter().map(|(name, value)| Entry { name, value: shown(&value), line: None })
     }
@@ -272,7 +272,7 @@ struct ToolDescription {
     number: Option<u32>,
     line: Option<u32>,
     values: Vec<(&'static str, Quantity, String)>,
-    /// The value of `shape` for a tool that the configuration does not have yet.
+    /// Value of `shape`, set only for tools that the configuration does not contain yet.
     shape: Option<Quantity>,
 }
 
@@ -302,7 +302,7 @@ impl ToolDescription {
         }
     }
 
-    /// Sets the corner radius; `None` if the tip is neither flat nor round, or not known.
+    /// Sets the corner radius, which is 0 for a flat tip. `None` stands for any other or an unknown tip, and sets `shape` to "other".
     fn shape(&mut self, radius: Option<(f64, LengthUnit)>) {
         match radius {
             Some((radius, unit)) => self.length("corner-radius", radius, unit, "type"),
@@ -311,7 +311,7 @@ impl ToolDescription {
     }
 }
 
-/// The tools of a description.
+/// The tools of a description that is being read.
 struct Tools {
     format: &'static str,
     described: Vec<DescribedTool>,
@@ -339,14 +339,14 @@ impl Tools {
         }
     }
 
-    /// Reports a tool whose diameter, or its unit, is not known.
+    /// Reports a tool whose diameter is missing, or in an unknown unit.
     fn without_diameter(&mut self, tool: &ToolDescription) {
         let problem = Diagnostic::new(&say::NO_DIAMETER).quoting("name", tool.name.as_str());
         let problem = problem.with("number", u64::from(tool.number.unwrap_or_default()));
         self.problems.push(problem.at_line(tool.line, None));
     }
 
-    /// Adds a tool, unless it has no diameter, which the configuration requires, or a tip that no tool can have.
+    /// Adds a tool, unless it has no diameter, which the configuration requires, or an impossible corner radius.
     fn add(&mut self, tool: ToolDescription) {
         let Some(diameter) = tool.number_of("diameter") else { return };
         let radius = tool.number_of("corner-radius").unwrap_or_default();

@@ -1,5 +1,5 @@
-//! Builds the catalogue to be stored: results that still hold keep their facts, new results get current ones. It also contains
-//! facts about the drawings themselves, from an earlier run or newly read.
+//! Builds the catalogue to be stored. Results that still hold keep their facts; new results get current facts. Also returns the names and
+//! diagnostics of drawings themselves, from an earlier run or newly read.
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -38,7 +38,7 @@ impl Store {
         for fresh in fresh {
             builder.add_fresh(fresh);
         }
-        // Results are not cached without write access.
+        // Best effort: without write access, results are not cached.
         _ = self.place.store(&self.key, builder.finish());
     }
 }
@@ -49,14 +49,14 @@ struct CatalogueBuilder<'a> {
     session: &'a Session<'a>,
     begun: Clock,
     catalogue: Catalogue,
-    /// Index of each file, directory, directory list and lookup of the new catalogue.
+    /// Indices of files, directories, lists of directories and lookups in the new catalogue.
     files: HashMap<Utf8PathBuf, usize>,
     directories: HashMap<Utf8PathBuf, usize>,
     lists: HashMap<Vec<usize>, usize>,
     lookups: HashMap<Lookup, usize>,
-    /// New index of each lookup of the old catalogue.
+    /// For each lookup of the old catalogue, its index in the new one; `None` until it is carried over.
     kept_lookups: Vec<Option<usize>>,
-    /// Index of each file of the old catalogue.
+    /// Index of each file in the old catalogue.
     kept_files: HashMap<&'a Utf8Path, usize>,
     run: RunFacts<'a>,
 }
@@ -98,7 +98,8 @@ impl<'a> CatalogueBuilder<'a> {
         self.catalogue.records.push(Record { subject, files, lookups, outputs, payload });
     }
 
-    /// Adds a new result, unless one of its drawings could not be read or changed during the run: such a result is not stable.
+    /// Adds a new result. Leaves it out if one of its drawings could not be read or changed during the run, because such a result may not be
+    /// reproducible.
     fn add_fresh(&mut self, result: &FreshResult<'_>) {
         let Some(payload) = &result.payload else { return };
         let db = self.session.db();
@@ -124,7 +125,7 @@ impl<'a> CatalogueBuilder<'a> {
         });
     }
 
-    /// Whether this run read other bytes than the old catalogue has for a file that was not verified.
+    /// Whether this run read bytes from a file that was not verified, and they differ from those in the old catalogue.
     fn is_other(&self, number: usize) -> bool {
         let file = &self.store.kept.files[number];
         self.store.verdict.files[number] == FileState::Unchecked && self.run.is_other(&file.path, file.hash)
@@ -139,7 +140,7 @@ impl<'a> CatalogueBuilder<'a> {
         match self.store.verdict.files[number] {
             FileState::Unchanged | FileState::Unchecked => {}
             FileState::Touched(stamp) => fact.stamp = stamp.settled(self.begun),
-            // The output is out of date. The hash stays, because it describes the expected content.
+            // The output is out of date. Its hash stays, because it describes the expected content.
             FileState::Changed => fact.stamp = Stamp::UNKNOWN,
         }
         // If the file has changed since it was compared, it is unclear which content a result belongs to.
@@ -179,7 +180,7 @@ impl<'a> CatalogueBuilder<'a> {
     /// Records an output file written or compared in this run.
     fn output(&mut self, GeneratedFile { path, hash, is_there }: &GeneratedFile) -> usize {
         let stamp = if *is_there { Stamp::of(path).settled(self.begun) } else { Stamp::UNKNOWN };
-        // If the file has vanished meanwhile, the stamp does not belong to the hash.
+        // If the file has vanished meanwhile, the stamp of a missing file must not be stored with the hash.
         let stamp = if stamp == Stamp::MISSING { Stamp::UNKNOWN } else { stamp };
         self.add_file(FileFact { path: path.clone(), stamp, hash: Some(*hash) })
     }
@@ -249,7 +250,7 @@ impl<'a> CatalogueBuilder<'a> {
     }
 }
 
-/// Index of a value in a list without duplicates.
+/// Returns the index of a value in a list without duplicates, and appends the value if it is new.
 fn number<T: Clone + Eq + Hash>(numbers: &mut HashMap<T, usize>, all: &mut Vec<T>, value: T) -> usize {
     match numbers.entry(value) {
         Entry::Occupied(known) => *known.get(),
@@ -292,7 +293,7 @@ impl<'a> RunFacts<'a> {
         }
     }
 
-    /// Content that was read from a drawing.
+    /// Returns the content that was read from a drawing; `None` if it was not read, or not stable.
     fn content(&self, path: &Utf8Path) -> Option<Content> {
         self.read.get(path).copied().flatten()
     }
@@ -302,7 +303,7 @@ impl<'a> RunFacts<'a> {
         self.read.get(path).is_some_and(|content| content.map(|(read, _)| read) != hash)
     }
 
-    /// Whether the database saw the same names in a directory, if it made lookups there.
+    /// Whether the database saw the same names in a directory as the old catalogue, or made no lookups there.
     fn agrees(&self, fact: &DirectoryFact) -> bool {
         if !self.searched.contains(&*fact.path) {
             return true;
@@ -313,7 +314,7 @@ impl<'a> RunFacts<'a> {
     }
 }
 
-/// Content of a drawing, if it did not change during the run.
+/// Returns the content of a drawing; `None` if it changed during the run.
 fn steady_content(db: &Database, file: SourceFile) -> Option<Content> {
     content(db, file).filter(|_| !db.has_drifted(file))
 }
@@ -321,20 +322,20 @@ fn steady_content(db: &Database, file: SourceFile) -> Option<Content> {
 /// The result of checking a drawing, or only of reading it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DrawingResult {
-    /// Names of its paths.
+    /// Names of the drawing's paths.
     #[serde(serialize_with = "serialize_names", deserialize_with = "deserialize_names")]
     pub names: Vec<PathName>,
-    /// Diagnostics of the drawing, of its paths, and of what they embed.
+    /// Diagnostics of the drawing; those of a check also include its paths and everything that they embed.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 impl DrawingResult {
-    /// Both fields as slices.
+    /// Returns both fields as slices.
     pub fn parts(&self) -> (&[PathName], &[Diagnostic]) {
         (&self.names, &self.diagnostics)
     }
 
-    /// This result with what it was computed from.
+    /// Combines this result with the inputs from which it was computed.
     pub fn with_inputs(self, traces: Vec<Trace>) -> (Self, Inputs) {
         let is_transient = self.diagnostics.iter().any(is_transient);
         (self, Inputs { traces, is_transient, ..Inputs::default() })
@@ -342,20 +343,20 @@ impl DrawingResult {
 }
 
 impl Answer<DrawingResult> {
-    /// The drawing that the result is about.
+    /// Returns the path of the drawing that the result is about.
     pub fn drawing(&self) -> &Utf8Path {
         Utf8Path::new(self.subject.split('\0').next().unwrap_or_default())
     }
 }
 
-/// Cache subject of a drawing's result, or of the result of some of its paths.
+/// Returns the cache subject of a drawing's result, or of the result of some of its paths.
 pub(crate) fn subject(drawing: &Utf8Path, paths: Option<&[PathName]>) -> Box<str> {
     let Some(paths) = paths else { return drawing.as_str().into() };
     let names: String = paths.iter().flat_map(|path| ["\0", path.as_str()]).collect();
     format!("{drawing}\0{names}").into()
 }
 
-/// Names and own diagnostics of drawings, sorted by path. Drawings without a cached result are read now.
+/// Returns the names and diagnostics of drawings themselves, sorted by path. Drawings without a cached result are read.
 pub(crate) fn read_drawings(
     session: &Session<'_>,
     memo: &Memo,
@@ -377,7 +378,7 @@ pub(crate) fn read_drawings(
 }
 
 impl Session<'_> {
-    /// Names of all paths in the library, or below the working directory if there is no library; sorted, without duplicates.
+    /// Returns the names of all paths in the library, or below the working directory if there is no library; sorted, without duplicates.
     pub fn names_of_library(&self) -> Vec<PathName> {
         let paths = self.paths_of_library(MOST_UNKNOWN);
         let mut names: Vec<PathName> = paths.into_iter().map(|(name, _)| name).collect();
@@ -385,8 +386,8 @@ impl Session<'_> {
         names
     }
 
-    /// Like [`names_of_library`](Self::names_of_library), with the drawings that define the paths. A drawing with a cached result of
-    /// `check` is not read again; of the others, only the first `most_unknown` are read.
+    /// Like [`names_of_library`](Self::names_of_library), with the drawings that define the paths. A drawing with a cached result of `check` is not
+    /// read again; of the remaining drawings, only the first `most_unknown` are read.
     pub(crate) fn paths_of_library(&self, most_unknown: usize) -> Vec<(PathName, SourceFile)> {
         let (files, _) = self.all_drawings();
         let memo = Memo::of_checks(self.workspace()).unwrap_or_default();
@@ -422,7 +423,7 @@ pub(crate) fn find<'a>(
     place.ok().map(|place| &answers[place])
 }
 
-/// Whether a diagnostic may disappear although no input changes: a file that another process had locked, a busy machine, a bug.
+/// Whether a diagnostic may disappear although no input changes: another process had locked a file, the machine was busy, or there was a bug.
 pub fn is_transient(diagnostic: &Diagnostic) -> bool {
     match diagnostic.code() {
         Code::UnreadableFile | Code::InternalError => true,

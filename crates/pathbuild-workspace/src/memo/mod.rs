@@ -1,6 +1,5 @@
-//! The memo: results of earlier runs, for commands that process a whole library. No other module accesses them. (crate pathbuild-cache)
-//!
-//! Only results of the database are cached, not what the configuration derives from them (severities, baselines, output formats).
+//! The memo: cached results of earlier runs, for commands that process a whole library. Other modules access the cache through it only. (crate
+//! pathbuild-cache)
 
 mod builder;
 mod store;
@@ -22,13 +21,13 @@ use store::Store;
 pub use store::{Answer, Dependencies, FreshResult, GeneratedFile, Inputs, OutputState, hash_output};
 pub use store::{BUILD, Coverage, CoveredPaths};
 
-/// Results of earlier runs of a command, if there are any.
+/// Cached results of a command; `None` if nothing is cached.
 #[derive(Debug, Default)]
 pub struct Memo(Option<Store>);
 
 impl Memo {
-    /// Loads the results of earlier runs. `text` is what they depend on besides settings and files. No results are known if the session does
-    /// not trace its inputs. Drawings that have to be read are read ahead.
+    /// Loads the results of earlier runs, unless the session does not trace its inputs. `text` is the part of the cache key besides settings and
+    /// files. Drawings without a cached result are read ahead.
     pub fn open(
         session: &Session<'_>,
         kind: ResultKind,
@@ -46,15 +45,15 @@ impl Memo {
         memo
     }
 
-    /// Results of the last checks; `None` if no results are cached.
+    /// Loads the results of the last checks; `None` if no results are cached.
     pub fn of_checks(workspace: &Workspace) -> Option<Self> {
         let store =
             Store::open(workspace, ResultKind::Check, &check_query(false), Scope::All, Listings::new());
         store.map(|store| Self(Some(store)))
     }
 
-    /// Results of earlier verifications of these programs. `text` is what they depend on besides settings and files. `directories` were
-    /// searched for programs.
+    /// Loads the results of earlier verifications of these programs. `text` is the part of the cache key besides settings and files. `directories`
+    /// were searched for programs.
     pub(crate) fn of_programs(
         session: &Session<'_>,
         text: &str,
@@ -69,8 +68,8 @@ impl Memo {
         Self(Store::open(session.workspace(), ResultKind::Emit, text, scope, Listings::new()))
     }
 
-    /// The result for each item: that of an earlier run if it still holds and `accept` takes it, otherwise the one that `build` computes. It
-    /// gets all open items at once, and may compute fewer results than it gets items. The results are in the order of the items.
+    /// Returns the result for each item, in the same order: the cached one if it still holds and `accept` takes it, otherwise one that `build`
+    /// computes. `build` gets all items without a cached result at once, and may compute fewer results than it gets items.
     pub fn get_or<K, T: DeserializeOwned>(
         &self,
         items: &[K],
@@ -96,7 +95,7 @@ impl Memo {
         answers
     }
 
-    /// Whether there is any cache.
+    /// Whether results are cached at all.
     pub fn is_some(&self) -> bool {
         self.0.is_some()
     }
@@ -106,17 +105,17 @@ impl Memo {
         self.0.as_ref().is_some_and(|store| store.payload(subject).is_some())
     }
 
-    /// Whether the paths of a drawing are known.
+    /// Whether the names of a drawing's paths are cached.
     fn knows(&self, drawing: &Utf8Path) -> bool {
         self.holds(drawing.as_str()) || self.holds(&subject(drawing, Some(&[])))
     }
 
-    /// States of the files that were generated from a cached result, in the order in which they were stored.
+    /// Returns the states of the files that were generated from a cached result, in the order in which they were stored.
     pub fn outputs(&self, subject: &str) -> Vec<OutputState> {
         self.0.as_ref().map(|store| store.outputs(subject)).unwrap_or_default()
     }
 
-    /// The inputs of a result; `None` if they are unknown.
+    /// Returns the inputs of a result; `None` if they are unknown.
     pub fn dependencies<'a, T>(
         &'a self,
         db: &'a Database,
@@ -128,7 +127,7 @@ impl Memo {
         }
     }
 
-    /// Why a cached result no longer holds: empty if it holds, `None` if there is none.
+    /// Returns the reasons why a cached result no longer holds: none if it holds; `None` if there is no such result.
     pub fn why(&self, subject: &str) -> Option<Vec<Reason>> {
         self.0.as_ref()?.why(subject)
     }
@@ -141,7 +140,7 @@ impl Memo {
     }
 }
 
-/// Everything that results of `check` depend on besides drawings and settings.
+/// Returns the part of the cache key of `check` besides drawings and settings.
 pub(crate) fn check_query(with_all_values: bool) -> String {
     format!("check {with_all_values}")
 }

@@ -1,4 +1,4 @@
-//! The cached results of a query, verified against the files, and the key of what they depend on besides files.
+//! The cached results of a query, verified against the files, and the cache key, which contains everything that they depend on besides files.
 
 use std::cell::Cell;
 use std::collections::HashSet;
@@ -21,25 +21,25 @@ use crate::files::ExtraInput;
 use crate::session::{ArgumentMatches, OutputKind, Session, without_values};
 use crate::workspace::Workspace;
 
-/// A result, of an earlier run or of this one.
+/// A result with its subject, cached or computed by this run.
 #[derive(Debug)]
 pub struct Answer<T> {
     /// The subject of the result. It begins with the path of a drawing; anything more specific follows after a NUL.
     pub subject: Box<str>,
     /// The result.
     pub value: T,
-    /// The inputs that this run computed it from; `None` if it was cached.
+    /// The inputs from which this run computed the result; `None` if the result was cached.
     pub inputs: Option<Inputs>,
 }
 
 /// The inputs of a result of this run, and the files that were generated from it.
 #[derive(Clone, Debug, Default)]
 pub struct Inputs {
-    /// The drawings and lookups that it depends on.
+    /// The drawings and lookups that the result depends on.
     pub traces: Vec<Trace>,
-    /// Other files that it depends on.
+    /// Other files that the result depends on.
     pub further: Vec<ExtraInput>,
-    /// The files that were generated from it.
+    /// The files that were generated from the result.
     pub outputs: Vec<GeneratedFile>,
     /// Whether another run may get a different result although no input changes.
     pub is_transient: bool,
@@ -50,12 +50,12 @@ pub struct Inputs {
 pub struct FreshResult<'a> {
     pub(super) subject: &'a str,
     pub(super) inputs: &'a Inputs,
-    /// `None` if it must not be cached.
+    /// The encoded result; `None` if it must not be cached.
     pub(super) payload: Option<Vec<u8>>,
 }
 
 impl<T: Serialize> Answer<T> {
-    /// The encoded result, if this run computed it.
+    /// Encodes the result for the cache; `None` if it was cached already.
     pub fn fresh(&self) -> Option<FreshResult<'_>> {
         let inputs = self.inputs.as_ref()?;
         let payload = if inputs.is_transient { None } else { encode(&self.value) };
@@ -71,33 +71,33 @@ pub(super) struct Store {
     pub(super) base: Utf8PathBuf,
     pub(super) coverage: Coverage,
     pub(super) scope: Scope,
-    /// The time before anything was read; `None` if the cache is not writable.
+    /// Time of the file system before anything was read; `None` if the cache is not writable.
     pub(super) begun: Option<Clock>,
     pub(super) kept: Catalogue,
     pub(super) verdict: Verdict,
-    /// Index of the record that is likely requested next, since requests come in order.
+    /// Index of the record that is likely to be requested next, since requests come in order.
     pub(super) next: Cell<usize>,
 }
 
 /// A generated file.
 #[derive(Clone, Debug)]
 pub struct GeneratedFile {
-    /// Its path.
+    /// Path of the file.
     pub path: Utf8PathBuf,
     /// Hash of its expected content, as computed by [`hash_output`].
     pub hash: [u8; 32],
-    /// Whether the file on disk has that content.
+    /// Whether the file on disk has the expected content.
     pub is_there: bool,
 }
 
 /// State of a generated file on disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputState {
-    /// Has the expected content.
+    /// The file has the expected content.
     Current,
-    /// Has other content.
+    /// The file has other content.
     Outdated,
-    /// Does not exist.
+    /// The file does not exist.
     Missing,
 }
 
@@ -106,7 +106,7 @@ pub enum OutputState {
 pub struct Dependencies<'a> {
     /// Paths of the files that were read.
     pub files: Vec<&'a Utf8Path>,
-    /// Lookups, as directory and path name.
+    /// Lookups of paths by name, each with the directory in which it was made.
     pub lookups: Vec<(&'a Utf8Path, &'a str)>,
 }
 
@@ -121,7 +121,7 @@ impl<'a> Dependencies<'a> {
 }
 
 impl Store {
-    /// Loads the cached results and verifies them against the files; `None` without a configuration, or if nothing is to be cached.
+    /// Loads the cached results and verifies them against the files; `None` without a configuration, or if caching is disabled.
     pub(super) fn open(
         context: &Workspace,
         kind: ResultKind,
@@ -145,7 +145,7 @@ impl Store {
             report_old_cache(context, &base);
         }
         let key = Key::new(BUILD, &query_text(context, kind, text));
-        // Taken before any file is examined, so that later changes are detected.
+        // Take the time before any file is examined, so that later changes are detected.
         let begun = place.clock().ok();
         let kept = match place.load(&key) {
             Ok(kept) => kept.unwrap_or_default(),
@@ -159,13 +159,13 @@ impl Store {
         Some(Self { place, key, base, coverage, scope, begun, kept, verdict, next: Cell::new(0) })
     }
 
-    /// The encoded result of a subject, if it still holds.
+    /// Returns the encoded result of a subject, if it still holds.
     pub(super) fn payload(&self, subject: &str) -> Option<&[u8]> {
         let number = self.record(subject)?;
         self.verdict.holds[number].then(|| &*self.kept.records[number].payload)
     }
 
-    /// States of the files that were generated from a result, in the order in which they were stored.
+    /// Returns the states of the files that were generated from a result, in the order in which they were stored.
     pub(super) fn outputs(&self, subject: &str) -> Vec<OutputState> {
         let Some(number) = self.record(subject) else { return Vec::new() };
         let state = |file: &usize| match self.verdict.files[*file] {
@@ -180,7 +180,7 @@ impl Store {
         self.kept.records[number].outputs.iter().map(state).collect()
     }
 
-    /// The inputs of a cached result.
+    /// Returns the inputs of a cached result.
     pub(super) fn dependencies(&self, subject: &str) -> Option<Dependencies<'_>> {
         let record = &self.kept.records[self.record(subject)?];
         let files = record.files.iter().map(|file| &*self.kept.files[*file].path);
@@ -195,7 +195,7 @@ impl Store {
         })
     }
 
-    /// Why a cached result no longer holds: empty if it holds, `None` if there is none.
+    /// Returns the reasons why a cached result no longer holds: none if it holds; `None` if there is no such result.
     pub(super) fn why(&self, subject: &str) -> Option<Vec<Reason>> {
         let number = self.record(subject)?;
         let coverage = &self.coverage;
@@ -240,7 +240,7 @@ fn verify_snapshot(
     verify(kept, context, listings)
 }
 
-/// Hash of an output file. In a file of measured values, the values that users entered do not count.
+/// Hashes the content of an output file. In a file of measured values, the values that users entered are left out.
 pub fn hash_output(path: &Utf8Path, bytes: &[u8]) -> [u8; 32] {
     let is_values = path.as_str().ends_with(OutputKind::Values.suffix());
     let hash = if is_values { blake3::hash(without_values(bytes).as_bytes()) } else { blake3::hash(bytes) };
@@ -257,7 +257,7 @@ fn report_old_cache(context: &Workspace, base: &Utf8Path) {
     }
 }
 
-/// Directory of that cache.
+/// Directory of the cache of earlier versions.
 const OLD: &str = ".pathbuild";
 
 fn report_fault(context: &Workspace, reason: CacheFault) {
@@ -277,8 +277,8 @@ fn report_fault(context: &Workspace, reason: CacheFault) {
 /// Identifies this build of the program.
 pub const BUILD: &str = env!("PATHBUILD_BUILD");
 
-/// The query with all settings that results depend on. Directories are relative to the configuration, so that a tree keeps its results when
-/// it is moved or copied as a whole.
+/// Returns the cache key: the query with all settings that results depend on. Directories are relative to the configuration, so that a tree keeps
+/// its results when it is moved or copied as a whole.
 pub(super) fn query_text(context: &Workspace, result_kind: ResultKind, query: &str) -> String {
     let mut text = query.to_owned();
     let base = context.settings.directory().map(|base| format!("\"{base}/")).unwrap_or_default();
@@ -288,7 +288,7 @@ pub(super) fn query_text(context: &Workspace, result_kind: ResultKind, query: &s
         _ = write!(text, "\n{name} = {value}");
     });
     if result_kind == ResultKind::Emit {
-        // These depend on whether a key is set, not only on its value.
+        // These values depend on whether a key is set, not only on the key's value.
         _ = write!(text, "\n{:?}", (context.settings.comment_lang(), context.settings.z_split()));
     }
     // Untrusted trees are checked more strictly than the user's own.
@@ -296,14 +296,14 @@ pub(super) fn query_text(context: &Workspace, result_kind: ResultKind, query: &s
     text
 }
 
-/// The working directory relative to the configuration, because names in results are relative to the working directory.
+/// Returns the working directory relative to the configuration. It is part of the key because names in results are relative to it.
 fn place_of(context: &Workspace) -> &str {
     let directory = &context.working_directory;
     let base = context.settings.directory();
     base.and_then(|base| directory.strip_prefix(base).ok()).unwrap_or(directory).as_str()
 }
 
-/// Decides which files may contain which paths, by their names.
+/// Decides by file names which drawings may contain which paths.
 #[derive(Clone, Debug)]
 pub struct Coverage {
     paths: PathPattern,
@@ -320,12 +320,12 @@ impl Coverage {
         }
     }
 
-    /// Whether a drawing of this name may contain the path of that name.
+    /// Whether a drawing with the file name `file` may contain the path with the name `path`.
     pub fn may_hold(&self, file: &str, path: &str) -> bool {
         self.of_files([file]).may_hold(path)
     }
 
-    /// The paths that drawings of these names may contain.
+    /// Returns the set of paths that drawings with these file names may contain.
     pub fn of_files<'f>(&self, files: impl IntoIterator<Item = &'f str>) -> CoveredPaths<'_> {
         let stem = |file: &'f str| file.rsplit_once('.').map_or(file, |(stem, _)| stem);
         let ranges = files.into_iter().flat_map(|file| self.files.ranges(stem(file)));
@@ -341,14 +341,13 @@ pub struct CoveredPaths<'a> {
 }
 
 impl CoveredPaths<'_> {
-    /// Whether any of the drawings may contain the path of this name.
+    /// Whether any of the drawings may contain the path with this name.
     pub fn may_hold(&self, path: &str) -> bool {
         PathKey::new(path, self.paths).is_some_and(|key| !self.ranges.files(&key).is_empty())
     }
 }
 
-/// The drawings of a run. The subject of a result is a drawing, or something in it whose description follows the drawing's path after a
-/// NUL.
+/// The drawings that a run uses. The subject of a result is a drawing, or something in it whose description follows the drawing's path after a NUL.
 #[derive(Debug)]
 pub(super) enum Scope {
     /// All drawings.
@@ -357,13 +356,13 @@ pub(super) enum Scope {
     Drawings {
         /// Paths of the drawings.
         drawings: HashSet<String>,
-        /// Directories that were listed completely: they contain no other drawings.
+        /// Directories that were listed completely, so that they contain no other drawings.
         directories: HashSet<String>,
     },
 }
 
 impl Scope {
-    /// The drawings that the arguments may refer to.
+    /// Returns the drawings that the arguments may refer to.
     pub(super) fn of(session: &Session<'_>, found: &ArgumentMatches) -> Self {
         let named = found.named().map(|file| file.path(session.db()).to_string());
         let drawings = found.directories().flat_map(|directory| &directory.drawings);
@@ -382,7 +381,7 @@ impl Scope {
         }
     }
 
-    /// Whether a result may be needed again because its drawing still exists. A run over single drawings keeps the results of others.
+    /// Whether a result may be needed again, because its drawing still exists. A run on single drawings keeps the results of other drawings.
     pub(super) fn may_return(&self, subject: &str, system: &dyn System) -> bool {
         let drawing = Utf8Path::new(drawing(subject));
         let is_file = || system.kind(drawing) == FileKind::File;
