@@ -690,3 +690,44 @@ fn a_cutter_without_a_number_has_the_same_one_in_each_program() {
     assert_eq!(changes("1234.1P 1300.1P --join both"), ["T2 M6", "T3 M6"]);
     assert_eq!(changes("1300.1P 1234.1P --join both"), ["T3 M6", "T2 M6"]);
 }
+
+const SLOTS: &str = "( T1 D=6 CR=0 - flat end mill )\nG17 G21 G40 G49 G54 G80 G90 G94\nT1 M6\nM3 S12000\nG0 Z5\nG0 X0 Y0\n\
+    G1 Z-1 F100\nG1 X40\nG0 Y20\nG1 X0\nG0 Z5\nM5\nM30\n";
+
+/// `post` knows the cutter and the surface: a program whose rapid move goes through material is not written for another machine.
+#[test]
+fn a_program_with_a_rapid_move_through_material_is_not_written() {
+    let post = |program: &str, diameter: &str, more: &str| {
+        let tools = format!("[tool.a]\ndiameter = {diameter}\nnumber = 1\nspindle = 12000\n{more}");
+        let place = Place::new().file("pathbuild.toml", tools).file("a.nc", program);
+        let run = place.run("post a.nc --dialect linuxcnc --post grbl --surface 0 -o b.nc");
+        assert_eq!(place.path().join("b.nc").exists(), run.status == Some(0), "{run}");
+        run
+    };
+    let refused = post(SLOTS, "6", "");
+    assert!(
+        refused.status == Some(1) && refused.stderr.contains("error[PB740] rapid-in-material · a.nc:9:1"),
+        "{refused}"
+    );
+    let back = post(&SLOTS.replace("G0 Y20", "G0 Z5\nG0 Y20\nG1 Z-1"), "6", "");
+    assert!(back.status == Some(0) && back.stderr == "b.nc: written\n", "{back}");
+    // The machine's operator answers for it.
+    let lowered = post(SLOTS, "6", "[severity]\nPB740 = \"warning\"\n");
+    assert!(lowered.status == Some(0) && lowered.stderr.contains("warning[PB740]"), "{lowered}");
+    let waiver = "[[severity-in]]\nfiles = [\"a.nc\"]\nPB740 = \"ignore\"\nreason = \"milled before\"\n";
+    let waived = post(SLOTS, "6", waiver);
+    assert!(waived.status == Some(0) && !waived.stderr.contains("PB740"), "{waived}");
+    let other_cutter = post(&SLOTS.replace("G0 Y20\nG1 X0\n", ""), "3", "");
+    assert!(other_cutter.status == Some(0) && other_cutter.stderr.contains("PB777"), "{other_cutter}");
+}
+
+/// `verify` compares with a drawing or a travel if the configuration demands it; `post` has no drawing.
+#[test]
+fn demanded_checks_do_not_concern_post() {
+    let options = "[verify]\nrequire = [\"drawing\"]\n[tool.a]\ndiameter = 6\nnumber = 1\nspindle = 12000\n";
+    let place = Place::new()
+        .file("pathbuild.toml", options)
+        .file("a.nc", SLOTS.replace("G0 Y20", "G0 Z5\nG0 Y20\nG1 Z-1"));
+    assert_eq!(place.run("verify a.nc --dialect linuxcnc --surface 0").status, Some(1));
+    assert_eq!(place.run("post a.nc --dialect linuxcnc --post grbl --surface 0").status, Some(0));
+}

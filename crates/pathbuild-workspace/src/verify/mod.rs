@@ -149,10 +149,26 @@ impl<'w> Verifier<'w> {
         let each = &mut |step| as_written.step(&step);
         let program =
             Program::read_each(self.settings, file, text, self.options.reading, &by_definition, each);
+        let mut verified = self.examine(&program, as_written);
+        let required = self.required();
+        let unmade = verified.checks.iter().filter_map(|record| record.unmade(&required));
+        let mut unmade: Vec<Diagnostic> = unmade.collect();
+        program.place(&mut unmade);
+        verified.diagnostics.append(&mut unmade);
+        verified
+    }
+
+    /// The findings about a program that was read with its steps. Checks that are required need not be made.
+    pub fn findings(&self, program: &Program) -> Vec<Diagnostic> {
+        let mut as_written = WrittenSteps::new(self.machine.as_ref());
+        program.read.steps.iter().for_each(|step| as_written.step(step));
+        self.examine(program, as_written).diagnostics
+    }
+
+    fn examine(&self, program: &Program, as_written: WrittenSteps<'_>) -> VerifiedProgram {
         let has_probed = as_written.has_probed;
-        let (header, stated) = as_written.finish(&program);
-        let examination = Examination::new(self, &program, &header, has_probed);
-        let verified = examination.run(stated);
+        let (header, stated) = as_written.finish(program);
+        let verified = Examination::new(self, program, &header, has_probed).run(stated);
         verified.unwrap_or_else(|diagnostics| VerifiedProgram { diagnostics, ..VerifiedProgram::default() })
     }
 
@@ -426,10 +442,10 @@ impl<'v> Examination<'v> {
         (found, comparison)
     }
 
-    /// The checks. Adds an error to the findings for each check that is required and was not made.
+    /// The checks.
     fn checks(
         &self,
-        found: &mut Vec<Diagnostic>,
+        found: &mut [Diagnostic],
         comparison: Option<&MoveComparison>,
         blind: Option<BlindRapids>,
         speeds: SeenSpeeds,
@@ -451,10 +467,7 @@ impl<'v> Examination<'v> {
             !speeds.has_cut || speeds.has_started || self.program.dialect == Dialect::Xpertmill;
         let machine = verifier.machine.as_ref();
         let rapids = self.sources.rapids(is_limit_reached, blind);
-        let records = checks::records(rapids, machine, references, states_speed);
-        let required = verifier.required();
-        found.extend(records.iter().filter_map(|record| record.unmade(&required)));
-        records
+        checks::records(rapids, machine, references, states_speed)
     }
 
     /// Doubts about the program's words. With a drawing to compare with, doubts about something that the drawing does not contain are

@@ -2,7 +2,7 @@
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::{gcode, posts};
-use pathbuild_diagnostic::{Diagnostic, Note, Severity};
+use pathbuild_diagnostic::{Code, Diagnostic, Note, Severity};
 use pathbuild_gcode::adjust::first_open_formula;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::path_of_title;
@@ -15,10 +15,13 @@ use crate::args::{PostArgs, PostCommand};
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::render::Format;
+use pathbuild_workspace::Failure;
 use pathbuild_workspace::config::number;
 use pathbuild_workspace::files::{cannot_write, name_of_source, would_replace};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor, complete_tools, run_post_build};
 use pathbuild_workspace::program::Program;
+use pathbuild_workspace::session::Session;
+use pathbuild_workspace::verify::{Verifier, VerifyOptions};
 
 use super::output_state;
 
@@ -102,15 +105,18 @@ fn written(
     let mut program =
         Program::open(context, file, args.reading.options()).map_err(|problem| vec![*problem])?;
     program.read.problems.iter_mut().for_each(refuse_machine_value);
-    let is_wrong = program.read.problems.iter().any(Diagnostic::is_error);
-    diagnostics.append(&mut program.read.problems);
-    if is_wrong {
+    if program.read.problems.iter().any(Diagnostic::is_error) {
+        return Err(program.read.problems);
+    }
+    let given = args.surface.as_deref().map(|text| number("surface", text)).transpose();
+    let given = given.map_err(|fault| vec![*fault])?;
+    diagnostics.extend(findings(context, args, &program, given)?);
+    if context.has_error(&*diagnostics) {
         return Err(Vec::new());
     }
     let steps = std::mem::take(&mut program.read.steps);
-    let given = args.surface.as_deref().map(|text| number("surface", text)).transpose();
     let of_header = || Provenance::of_head(&program.text).and_then(|(provenance, _)| provenance.thickness);
-    let surface = given.map_err(|fault| vec![*fault])?.or_else(of_header);
+    let surface = given.or_else(of_header);
     let to = file_to_write(args);
     let output = output(&program, steps, post_processor, surface, to).map_err(|mut problems| {
         program.place_own(&mut problems);
@@ -135,6 +141,41 @@ fn written(
         Some(command) => run_post_build(command, to).map_err(|failure| vec![*failure]),
         None => Ok(()),
     }
+}
+
+/// What `verify` finds in the program, except for what the post-processor completes.
+fn findings(
+    context: &Context,
+    args: &PostArgs,
+    program: &Program,
+    surface: Option<f64>,
+) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
+    let options = VerifyOptions { reading: args.reading.options(), surface, ..VerifyOptions::default() };
+    let mut session = Session::new(context);
+    match Verifier::new(&mut session, options) {
+        Ok(verifier) => {
+            let mut found = verifier.findings(program);
+            found.retain(|problem| !is_judged_in_output(problem));
+            Ok(found)
+        }
+        Err(Failure::Post(problems) | Failure::Found(problems)) => Err(problems),
+        // Only a drawing to compare with can be named wrongly.
+        Err(Failure::Usage(_)) => Err(Vec::new()),
+    }
+}
+
+/// Whether a finding is about something that the post-processor adds or completes: the spindle, tools of the table, and the end of the
+/// program.
+fn is_judged_in_output(problem: &Diagnostic) -> bool {
+    matches!(
+        problem.code(),
+        Code::EndNotRaised
+            | Code::SpindleOff
+            | Code::SpindleSpeed
+            | Code::OutsideMachine
+            | Code::UnknownTool
+            | Code::SpindleLeftOn
+    )
 }
 
 /// The file to write; `None` for standard output, which is named by `-o -` as in `emit`.
