@@ -50,7 +50,7 @@ pub struct Chain {
     pub infeed: f64,
     /// W in mm: the depth from which on milling is sweepless.
     pub first_depth: Option<f64>,
-    /// Never empty; see [`WalkedPath::members`].
+    /// Range of its members in [`WalkedPath::members`]; never empty.
     pub(crate) members: Range<usize>,
 }
 
@@ -70,9 +70,9 @@ pub struct ChainSegment {
 pub struct Sweep {
     /// The drawn segment, as an index into [`Path::segments`].
     pub segment: usize,
-    /// The start.
+    /// The point at which the move starts.
     pub start: Xy,
-    /// The end.
+    /// The point at which the move ends.
     pub end: Xy,
     /// Its own S in mm; `None` for the path's.
     pub height: Option<f64>,
@@ -110,7 +110,7 @@ pub(crate) struct ChainBuilder<'a> {
 }
 
 impl<'a> ChainBuilder<'a> {
-    /// Starts without segments.
+    /// Creates a builder without segments.
     pub(crate) fn new(path: &'a Path) -> Self {
         let members = Vec::with_capacity(path.cuts.len());
         Self { path, walked: WalkedPath { members, ..WalkedPath::default() }, chained: 0 }
@@ -184,7 +184,7 @@ fn is_new(diagnostics: &[Diagnostic], doubt: &Diagnostic) -> bool {
 impl Chain {
     /// PB211 if W is outside of the material that the chain removes.
     fn doubtful_first_depth(&self, path: &Path, members: &[ChainSegment]) -> Option<Diagnostic> {
-        // Other values are reported as out of range.
+        // Other values of W are reported as out of range.
         let depth = self.first_depth.filter(|depth| above(*depth, 0.0))?;
         let first = members.first()?;
         let bottom = members.iter().map(|member| member.cut(path).bottom).fold(f64::INFINITY, f64::min);
@@ -208,7 +208,7 @@ impl Chain {
 }
 
 impl Item {
-    /// Its segment if it follows just one, as an index into [`Path::segments`].
+    /// The item's segment, as an index into [`Path::segments`]; `None` for a chain, which consists of several.
     pub fn segment(&self) -> Option<usize> {
         match self {
             Self::Chain(_) => None,
@@ -284,7 +284,7 @@ impl Passage {
         self.turned_if(true)
     }
 
-    /// The passage in the opposite direction if `is_turned`. Ends are selected by index, since the direction is unpredictable for a branch.
+    /// Returns the passage, reversed if `is_turned`. Ends are selected by index and not by an `if`, which the processor would often mispredict.
     #[inline]
     pub(crate) fn turned_if(mut self, is_turned: bool) -> Self {
         let (ends, first) = ([self.start, self.end], usize::from(is_turned));

@@ -70,14 +70,14 @@ pub(crate) struct Texts<'v, 't> {
 }
 
 impl PathNumbers {
-    /// S of a path in a role that does not give it: that of the option, or the default; `None` if the option is missing.
+    /// Returns S of a path in a role if the path does not give it: that of the option, or the default; `None` if the option is missing.
     pub(crate) fn sweep_height(self, options: &PathOptions, role: PathRole) -> Option<f64> {
         fallback(Letter::S, ElementClass::PathStart, self, options, role).map(|(height, _)| height)
     }
 }
 
 impl Provider {
-    /// The name in JSON.
+    /// The name of the provider in JSON.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Own => "own",
@@ -89,7 +89,7 @@ impl Provider {
         }
     }
 
-    /// The name in messages.
+    /// The name of the provider in messages.
     pub fn word(&self) -> &'static Text {
         match self {
             Self::Own => &words::OWN_TEXT,
@@ -101,7 +101,7 @@ impl Provider {
         }
     }
 
-    /// The path or option, if it has a name.
+    /// The name of the lending path or of the option, for providers that have a name.
     pub fn which(&self) -> Option<&str> {
         match self {
             Self::Lender(path) => Some(path.as_str()),
@@ -139,7 +139,7 @@ impl<'v, 't> Texts<'v, 't> {
         self.source(letter).map_or(GivenNumber::Absent, |(values, _)| values.number(letter))
     }
 
-    /// The number of a letter, given or by the language's default, without regard to options.
+    /// The number that the texts give for a letter, or else the language's default. Options are not considered.
     pub(crate) fn number_or_default(&self, letter: Letter) -> Option<f64> {
         match self.number(letter) {
             GivenNumber::Absent => {

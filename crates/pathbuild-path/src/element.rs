@@ -51,7 +51,7 @@ pub struct Origin {
     pub entity: EntityKind,
     /// Its layer.
     pub layer: SmolStr,
-    /// Its start, or its centre.
+    /// The start of a line or arc, or the centre of a circle.
     pub point: Point,
 }
 
@@ -68,13 +68,13 @@ pub enum Shape {
 pub enum Role {
     /// A cut: milled, marked, or milled with bars. On a circle: a hole or a helical circle.
     Cut(Cut),
-    /// DASHED.
+    /// DASHED: a sweep.
     Sweep,
     /// HIDDEN: a sweep without a text.
     SilentSweep,
     /// DOT: a disabled subpath, swept instead. It keeps its text, which is ignored, so that it can be enabled again.
     SkippedSubpath,
-    /// DASHDOT.
+    /// DASHDOT: a subpath.
     Subpath,
 }
 
@@ -132,7 +132,7 @@ impl Shape {
         }
     }
 
-    /// Its start, or its centre.
+    /// The start of a line or arc, or the centre of a circle.
     pub fn point(&self) -> Xy {
         match self {
             Self::Curve(curve) => curve.start(),
@@ -260,7 +260,7 @@ pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning 
 const RADIUS_SLIP: f64 = 0.1;
 
 impl MeantMarker {
-    /// What a PHANTOM circle whose radius means nothing was probably meant as.
+    /// Returns the marker that a PHANTOM circle was probably meant as, although it does not have the radius of any marker.
     pub(crate) fn of_radius(radius: f64) -> Self {
         let is_about = |known: f64| (radius - known).abs() <= RADIUS_SLIP;
         if is_about(START_RADIUS) {

@@ -37,15 +37,15 @@ pub struct PathSignature {
     pub name: SpeltName,
     /// Cutter diameter (O).
     pub tool: f64,
-    /// T.
+    /// Thickness of the material (T).
     pub thickness: f64,
     /// S, if the path gives it.
     pub sweep_height: Option<f64>,
     /// The faces that S must clear.
     pub sweep_limits: SweepLimits,
-    /// M.
+    /// Name of the material (M).
     pub material: Option<SmolStr>,
-    /// R.
+    /// Suffix of the output file's name (R).
     pub output_suffix: SmolStr,
     /// E: the regular expression for names of embedded paths.
     pub embeds_only: Option<SmolStr>,
@@ -255,7 +255,7 @@ impl SweepLimits {
     }
 }
 
-/// Paths whose names match PARENT may only embed paths whose names match CHILD.
+/// A rule of `--restrict`: paths whose names match PARENT may only embed paths whose names match CHILD.
 #[derive(Clone, Debug)]
 pub struct Restriction {
     /// Matched anywhere in the name of the embedding path.
@@ -507,7 +507,8 @@ impl<'a> Judge<'a> {
             .with("there", inner.tool)
     }
 
-    /// A path whose name selects another tool of the same diameter. A path that gets just any tool of its diameter fits all of them.
+    /// Reports an embedded path whose name selects another tool of the same diameter. A path whose tool is found by its diameter alone can be milled
+    /// with any tool of that diameter.
     fn other_tool(&self, inner: &PathSignature) -> Option<Diagnostic> {
         let tool = |path: &PathSignature| self.language.tools.of(path.name.as_str(), path.tool);
         let (here, there) = (tool(self.outer)?, tool(inner)?);

@@ -25,11 +25,11 @@ pub struct Arc {
     pub centre: Xy,
     /// Radius in mm, greater than 0.
     pub radius: f64,
-    /// The start.
+    /// Start of the arc.
     pub start: Xy,
-    /// The end.
+    /// End of the arc.
     pub end: Xy,
-    /// The direction.
+    /// Whether the arc runs clockwise from start to end.
     pub clockwise: bool,
     /// The angle covered in that direction in degrees, greater than 0 and at most 360.
     pub degrees: f64,
@@ -51,7 +51,7 @@ pub struct Placement {
 }
 
 impl Curve {
-    /// The start.
+    /// Returns the start point.
     pub fn start(&self) -> Xy {
         match self {
             Self::Line(line) => line.start,
@@ -59,7 +59,7 @@ impl Curve {
         }
     }
 
-    /// The end.
+    /// Returns the end point.
     pub fn end(&self) -> Xy {
         match self {
             Self::Line(line) => line.end,

@@ -82,7 +82,7 @@ impl KeepOutMap {
         self.clamps.is_empty()
     }
 
-    /// The numbers of the clamps that a tool of this radius hits on its way, in ascending order. `slack`: tolerance in mm for rounding
+    /// Returns the indices of the clamps that a tool of this radius hits in a move, in ascending order. `slack`: tolerance in mm for rounding
     /// errors.
     pub fn entered(&self, way: &TipMove, radius: f64, slack: f64) -> Vec<usize> {
         let radius = (radius - slack).max(0.0);
@@ -99,12 +99,12 @@ impl KeepOutMap {
 }
 
 impl TipMove {
-    /// The lowest height.
+    /// The lowest Z of the move.
     pub fn lowest(&self) -> f64 {
         self.from_z.min(self.to_z)
     }
 
-    /// The part of the way below a height.
+    /// The part of the move below a height, as a curve in the plane.
     pub(crate) fn below(&self, height: f64) -> Option<Curve> {
         let (from, to) = (above(height, self.from_z), above(height, self.to_z));
         let length = self.curve.length();

@@ -29,7 +29,7 @@ pub struct Language {
     pub join_tolerance: f64,
     /// Maximum length in bytes of a value with variables substituted.
     pub text_limit: usize,
-    /// Thresholds beyond which something is doubtful.
+    /// Thresholds beyond which values are reported as doubtful.
     pub doubts: DoubtThresholds,
     /// The configured tools.
     pub tools: PathTools,
@@ -38,9 +38,9 @@ pub struct Language {
 /// A configured tool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathTool {
-    /// Name of its table.
+    /// Name of the tool: NAME in `[tool.NAME]`.
     pub name: SmolStr,
-    /// Whether it is meant for the path in particular, by the path's name.
+    /// Whether the configuration assigns it by the path's name and not only by its diameter.
     pub is_named: bool,
     /// The chip load that the user allows.
     pub chip_load: Option<ChipLoad>,
@@ -70,7 +70,7 @@ impl PathTools {
 }
 
 impl Default for PathTools {
-    /// None.
+    /// Finds no tools.
     fn default() -> Self {
         Self::new(|_, _| None)
     }
@@ -82,7 +82,7 @@ impl fmt::Debug for PathTools {
     }
 }
 
-/// Thresholds beyond which something is doubtful.
+/// Thresholds beyond which values are reported as doubtful.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoubtThresholds {
     /// Depth in mm that B may extend below the plate.
@@ -135,7 +135,7 @@ impl Language {
         self.path_pattern.is_layer(layer) || self.is_keep_out(layer) || self.is_part(layer)
     }
 
-    /// What was left out of a drawing. Blocks count only if everything that they draw lies on layers without a meaning.
+    /// Returns the curves that were left out of a drawing. Blocks count only if everything that they draw lies on layers without a meaning.
     pub(crate) fn left_out<'d>(&self, drawing: &'d Drawing) -> impl Iterator<Item = &'d OmittedCurve> {
         drawing.left_out.iter().filter(|left_out| !left_out.layers.iter().any(|layer| self.is_read(layer)))
     }

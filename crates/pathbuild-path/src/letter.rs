@@ -172,7 +172,7 @@ pub enum LetterUse {
 /// The letters of the columns.
 const COLUMNS: &str = "F B D I C W P U S N Q T O M A H Z L > : E R @";
 
-/// The rows. (M of a path is only required if it is embedded; `>` and M of a subpath are checked together with the embedded path.)
+/// The rows of the table. (M of a path is only required if it is embedded; `>` and M of a subpath are checked together with the embedded path.)
 const ROWS: [(ElementClass, &str); 13] = [
     (ElementClass::PathStart, "o o o o o o o o o . . ! ! o o . o . . o o o o"),
     (ElementClass::Mill, "o ! - C c c . . - o o p p p . . . . . . . . ."),
@@ -189,7 +189,7 @@ const ROWS: [(ElementClass, &str); 13] = [
     (ElementClass::Probe, ". . . . . . . . p . . ! p p . o o o . . . . ."),
 ];
 
-/// The cells by row and letter.
+/// The cells of the table by row and letter.
 const CELLS: [[LetterUse; Letter::COUNT]; ROWS.len()] = {
     let mut cells = [[LetterUse::Unknown; Letter::COUNT]; ROWS.len()];
     let (columns, mut row) = (COLUMNS.as_bytes(), 0);

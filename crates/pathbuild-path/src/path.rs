@@ -24,17 +24,17 @@ pub struct Path {
     pub thickness: f64,
     /// S in mm, if the path gives it; the default depends on its role: [`Path::embedded_sweep_height`].
     pub sweep_height: Option<f64>,
-    /// M.
+    /// Name of the material (M).
     pub material: Option<SmolStr>,
     /// F in mm/min.
     pub feed: Option<f64>,
-    /// R.
+    /// Suffix of the output file's name (R).
     pub output_suffix: SmolStr,
     /// E: the regular expression for names of embedded paths.
     pub embeds_only: Option<SmolStr>,
-    /// The start.
+    /// Centre of the start marker.
     pub start: Xy,
-    /// The end.
+    /// Centre of the end marker.
     pub end: Xy,
     /// Turn markers.
     pub turns: Vec<Turn>,
@@ -54,13 +54,13 @@ pub struct Path {
     /// together with its other values.
     pub(crate) surface: Option<Surface>,
     pub(crate) probe_surfaces: Vec<Surface>,
-    /// The start marker.
+    /// Location of the start marker.
     pub start_origin: Origin,
-    /// The end marker.
+    /// Location of the end marker.
     pub end_origin: Origin,
-    /// Curves that do not belong to it.
+    /// Curves on its layers that do not belong to it, with their start points if known.
     pub left_out: Vec<(EntityKind, Option<Point>)>,
-    /// What errors leave unknown about it.
+    /// Properties that errors leave unknown; `None` for a path without errors.
     pub(crate) faults: Option<Box<Faults>>,
 }
 
@@ -86,7 +86,7 @@ pub struct Turn {
 /// A Z-probe. (book: language/probes)
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probe {
-    /// The circle.
+    /// Location of the probe's circle.
     pub origin: Origin,
     /// Its centre.
     pub at: Xy,
@@ -94,7 +94,7 @@ pub struct Probe {
     pub height: f64,
     /// Z: probing feed in mm/min.
     pub feed: Option<f64>,
-    /// L.
+    /// Label (L).
     pub label: Option<Box<str>>,
     /// Its own text, see [`DrawnElements::texts`].
     pub(crate) text: Option<TextId>,
@@ -107,7 +107,7 @@ pub struct Segment {
     pub element: u32,
     /// Order at a star: N, or the default for its kind.
     pub order: f64,
-    /// Its kind.
+    /// Its kind, with its parameters or their index.
     pub kind: SegmentKind,
 }
 
@@ -117,9 +117,9 @@ pub struct Segment {
 pub enum SegmentKind {
     /// Member of a milling chain, as an index into [`Path::cuts`].
     Cut(u32),
-    /// Index into [`Path::holes`].
+    /// A drilled hole or drilled mark, as an index into [`Path::holes`].
     Hole(u32),
-    /// Index into [`Path::helices`].
+    /// A helical circle, as an index into [`Path::helices`].
     Helix(u32),
     /// A sweep with its own S in mm; `None` for the path's.
     Sweep {
@@ -133,7 +133,7 @@ pub enum SegmentKind {
 pub struct CutParameters {
     /// The kind of cut.
     pub cut: Cut,
-    /// F.
+    /// Feed (F).
     pub feed: Option<f64>,
     /// Z of the bottom: B, or D of a mark.
     pub bottom: f64,
@@ -143,7 +143,7 @@ pub struct CutParameters {
     pub chain: ChainParameters,
     /// Its own text, if that gives I, C or W; see [`DrawnElements::texts`].
     pub chain_letters: Option<TextId>,
-    /// Q.
+    /// Comment for the program (Q).
     pub comment: Option<SmolStr>,
 }
 
@@ -205,7 +205,7 @@ pub struct Subpath {
     pub start: Xy,
     /// The point that determines the direction to the embedded path's end.
     pub end: Xy,
-    /// The embedded path.
+    /// The name of the embedded path.
     pub name: SubpathName,
     /// T in mm, from the segment or the path.
     pub thickness: f64,

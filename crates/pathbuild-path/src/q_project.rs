@@ -88,7 +88,7 @@ pub struct QProject {
 pub struct QProjectLine {
     /// Its length in mm.
     pub length: f64,
-    /// Its text.
+    /// Its parameter text.
     pub text: String,
 }
 
@@ -177,7 +177,7 @@ impl<'a> Judge<'a> {
         self.component.proxies.iter().flat_map(of_proxy).collect()
     }
 
-    /// PB517, without a place.
+    /// Returns PB517 for a proxy line that disagrees with its own path, without a place.
     fn problems(&self, proxy: &ProxyLine) -> Vec<Diagnostic> {
         let written = proxy.text().piece(Letter::Embed);
         let written = written.map(|piece| (proxy.text().value(piece), proxy.text().fault(piece)));

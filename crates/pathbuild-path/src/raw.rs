@@ -33,7 +33,7 @@ pub struct RawPath {
     pub(crate) parameters: Option<TextId>,
     /// The path named by @, and its start marker, which has the parameters.
     pub(crate) borrowed_from: Option<Box<(PathName, Origin)>>,
-    /// What errors leave unknown.
+    /// Properties that errors leave unknown.
     pub(crate) faults: DrawingFaults,
     /// Its variables in the order written.
     pub definitions: Vec<Definition>,
@@ -61,7 +61,7 @@ pub struct SourceMap(pub(crate) Vec<Position>);
 /// All paths of a drawing, in order of first appearance.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RawFile {
-    /// The paths.
+    /// The paths, each with the positions of its elements in the file.
     pub paths: Vec<(RawPath, SourceMap)>,
     /// Findings about the file that belong to none of its paths.
     pub diagnostics: Vec<Diagnostic>,
@@ -178,7 +178,7 @@ impl SourceMap {
     }
 }
 
-/// What errors in the drawing of a path leave unknown.
+/// Properties of a path that errors in its drawing leave unknown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct DrawingFaults {
     /// Letters in texts without an element: any element may lack them for that reason.
@@ -197,7 +197,7 @@ pub(crate) struct DrawingFaults {
     pub(crate) variables: Vec<char>,
 }
 
-/// What is unknown about a path with errors.
+/// Properties of a path that errors leave unknown, after its variables are bound.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Faults {
     /// Letters with unknown values.

@@ -21,7 +21,7 @@ pub struct ParameterTexts {
     texts: Vec<Text>,
 }
 
-/// The number of a text in a path, counted from 1.
+/// Identifies a text of a path: its number, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TextId(NonZeroU32);
 
@@ -63,9 +63,9 @@ pub(crate) enum ValueKind {
     Number(f64),
     /// A text, for a letter with a text value.
     Text,
-    /// Contains references, so it is unknown before variables are bound.
+    /// A value that contains references, so it is unknown before variables are bound.
     Reference,
-    /// Not a number, although the letter requires one.
+    /// A value that is not a number, although the letter requires one.
     NoNumber,
 }
 
@@ -297,7 +297,8 @@ impl<'t> ParameterText<'t> {
         })
     }
 
-    /// The advice depends on the intention: a depth whose letter has no effect should be replaced by the other depth, not just removed.
+    /// Returns PB210. The advice depends on the intention: a depth whose letter has no effect should be replaced by the other depth, not just
+    /// removed.
     fn without_effect(self, letter: Letter, piece: &LetterValue, class: ElementClass) -> Diagnostic {
         let counts = |other| class.use_of(other) == LetterUse::Needed;
         let problem = match letter {
@@ -585,7 +586,7 @@ fn definition_apart<'t>(text: ParameterText<'t>, piece: &LetterValue) -> Option<
     Some((definition, definition_in_pieces(text, definition)?))
 }
 
-/// The definition that the piece of a variable and the pieces after it would be without the spaces between them, if it is valid only so.
+/// The definition that the piece of a variable and the pieces after it would give without the spaces between them, if only that is valid.
 pub(crate) fn definition_in_pieces(text: ParameterText<'_>, definition: &LetterValue) -> Option<String> {
     let is_valid = |piece: &str| Definition::parse(&piece[Letter::Variable.as_char().len_utf8()..]).is_ok();
     let own = text.piece_text(definition);

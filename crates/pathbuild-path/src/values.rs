@@ -20,7 +20,7 @@ use crate::variables::Interpolation;
 /// The value that a text gives a letter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) enum GivenNumber {
-    /// None.
+    /// The text does not give the letter.
     #[default]
     Absent,
     /// A value with a reported problem; consequences are not reported.
@@ -35,7 +35,7 @@ pub(crate) struct Values<'t> {
     text: ParameterText<'t>,
     /// The values of its pieces with variables substituted; empty if all values are literal.
     filled: Vec<FilledValue<'t>>,
-    /// Letters missing from the text that a faulty piece of it may stand for.
+    /// Letters that the text lacks, but that an unreadable piece of it may have been meant to give.
     pub(crate) unread: Letters,
     /// PB205, PB303, PB305 and PB005, without places.
     pub(crate) problems: Vec<Diagnostic>,
@@ -245,13 +245,13 @@ fn other_characters(letter: Letter, value: &str) -> Option<Diagnostic> {
 const POSITIVE: [Letter; 8] =
     [Letter::F, Letter::I, Letter::C, Letter::O, Letter::T, Letter::A, Letter::W, Letter::Z];
 
-/// Feed in mm/min below which a program's three decimals leave none.
+/// Feed in mm/min below which a program, which gives three decimals, would give a feed of 0.
 const SLOWEST: f64 = 0.0005;
 
 /// Letters that must be positive on paths and on elements with bars.
 const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
 
-/// Problems with the values that `own` gives; other values come from the path.
+/// Returns findings about the values that `own` gives. Values that it does not give come from the path.
 pub(crate) fn check_limits(own: &Values<'_>, path: &Values<'_>, class: ElementClass) -> Vec<Diagnostic> {
     let mut limits = LimitCheck { own, path, class, problems: Vec::new() };
     let is_known =
@@ -420,7 +420,7 @@ pub(crate) fn check_doubts(
         let problem = Diagnostic::new(&messages::FEED_ABOVE_MACHINE).with("value", feed);
         own.underline(Letter::F, problem.with("limit", maximum))
     });
-    // A drill takes its chips along its axis.
+    // A drill cuts along its axis, so the chip load of milling does not apply to its feed.
     let is_milled = !matches!(class, ElementClass::DrilledHole | ElementClass::DrilledMark);
     let milling_feed = value(Letter::F).filter(|_| is_milled);
     let chips = chip_load.zip(milling_feed).and_then(|(limits, feed)| limits.check(feed, None));

@@ -27,8 +27,8 @@ pub(crate) struct Interpolation<'a> {
 /// The reason why a value is undefined; `None` if it was reported with a definition.
 type Problem = Option<Box<Diagnostic>>;
 
-/// Maximum depth of references in values. More than there are letters and digits for names; without a limit, thousands of variables would
-/// each cause a pass over the whole text.
+/// Maximum depth of references in values: more than there are letters and digits for names. Without a limit, thousands of variables would each
+/// cause a pass over the whole text.
 const MOST_LEVELS: usize = 64;
 
 impl Bindings {
@@ -40,7 +40,7 @@ impl Bindings {
         Self(values)
     }
 
-    /// The example values for checking a path on its own; k counts the definitions from 0 as written.
+    /// The example values for checking a path on its own. They depend on the position of each definition.
     pub fn check_values(definitions: &[Definition]) -> Self {
         let value = |(k, definition): (usize, &Definition)| (definition.name, definition.check_value(k));
         Self::new(definitions.iter().enumerate().map(value))

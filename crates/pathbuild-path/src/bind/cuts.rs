@@ -74,7 +74,7 @@ impl Binder<'_> {
         Some(bars)
     }
 
-    /// PB211 for bars that are next to nothing above the plate; of those with the path's D only the first.
+    /// Reports PB211 for bars that stand hardly above the plate. Of the bars whose height is the path's D, only the first is reported.
     fn note_thin_bars(&mut self, scope: &Scope<'_>, top: f64) {
         let Some((problem, is_path)) = check_bar(top, scope.values, &self.values) else { return };
         if !is_path {

@@ -77,22 +77,22 @@ struct Binder<'a> {
     has_gap: bool,
     /// The finding about the first segment without a gap.
     gapless: Option<Diagnostic>,
-    /// What is unknown because of errors.
+    /// Values that are unknown because of errors.
     unknown: UnknownValues,
 }
 
-/// What errors leave unknown.
+/// Kinds of values that errors leave unknown.
 #[derive(Default)]
 struct UnknownValues {
-    /// I of some segment.
+    /// Whether I of some segment is unknown.
     infeed: bool,
-    /// N of some segment, and therefore the order at a star.
+    /// Whether N of some segment is unknown, and therefore the order at a star.
     order: bool,
-    /// A value that is required for a path.
+    /// Whether a value that every path requires is unknown.
     needed: bool,
 }
 
-/// The location of a finding.
+/// The element or marker that a finding is about.
 #[derive(Clone, Copy)]
 enum FaultSite<'a> {
     Element(&'a Element),
@@ -198,7 +198,7 @@ impl<'a> Binder<'a> {
         })
     }
 
-    /// Records what is unknown about a path with errors.
+    /// Records in the path which of its properties errors leave unknown.
     fn add_faults(&self, path: &mut Path) {
         let DrawingFaults { has_broken_entity, has_second_start, other_ends, unclear_circles, .. } =
             &self.raw.faults;
@@ -287,7 +287,7 @@ impl<'a> Binder<'a> {
         });
     }
 
-    /// The bottom of a cut, from its own text or the path's. Doubtful marks are reported; of those with the path's D only the first.
+    /// Returns the bottom of a cut, from its own text or the path's. Reports doubtful marks; of those with the path's D, only the first.
     fn bottom(&mut self, scope: &Scope<'_>, cut: Cut) -> Option<f64> {
         let bottom = self.value(scope, cut.depth())?;
         let doubts = &self.language.doubts;
@@ -428,7 +428,7 @@ impl Binder<'_> {
                     let (order, kind) = self.circle(element, cut, *centre, *radius, tool);
                     segments.push(segment(order, kind));
                 }
-                // Their texts are ignored.
+                // The texts of these elements are ignored.
                 (Role::SilentSweep | Role::SkippedSubpath, _) => {
                     segments.push(segment(UNNUMBERED, SegmentKind::Sweep { height: None }));
                 }
@@ -575,8 +575,8 @@ fn pushed<T>(list: &mut Vec<T>, thing: T) -> u32 {
     u32::try_from(list.len() - 1).unwrap_or(u32::MAX)
 }
 
-/// Whether a cutter of this diameter closes the gap between the ends of an outline, and leaves something standing inside: its area is
-/// larger than what the cutter mills of it.
+/// Whether a cutter of this diameter closes the gap between the ends of an outline, and leaves material standing inside: the area of the outline
+/// is larger than the area that the cutter removes from it.
 fn is_closed_by(tool: f64, outline: &[Curve]) -> bool {
     let ([first, ..], [.., last]) = (outline, outline) else { return false };
     let gap = Curve::Line(Line { start: last.end(), end: first.start() });

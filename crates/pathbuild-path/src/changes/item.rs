@@ -1,4 +1,4 @@
-//! What is compared: the elements and markers of a path, each with its own text and its effective parameters.
+//! The items that are compared: the elements and markers of a path, each with its own text and its effective parameters.
 
 use std::collections::BTreeSet;
 
@@ -89,7 +89,7 @@ fn can_move(letter: Letter) -> bool {
 }
 
 impl Item<'_> {
-    /// Its start, or its centre.
+    /// The start of a line or arc, or the centre of a circle.
     pub(super) fn at(&self) -> Xy {
         self.shape.point()
     }
@@ -179,7 +179,7 @@ fn excerpt(text: &str) -> String {
     }
 }
 
-/// The role with which an element is treated: all sweeps are alike, whatever their line type.
+/// Returns the role by which an element is compared: all sweeps are alike, whatever their line type.
 fn swept(role: Role) -> Role {
     match role {
         Role::SilentSweep | Role::SkippedSubpath => Role::Sweep,
@@ -199,25 +199,23 @@ fn line_type(role: Role) -> LineType {
     line_types.into_iter().find(is_role).unwrap_or(LineType::Continuous)
 }
 
-// How the shape of an element changed.
-
 /// A change of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ShapeChange {
-    /// The same shape elsewhere.
+    /// The shape was moved by this vector in mm.
     Moved([f64; 2]),
-    /// One end is elsewhere.
+    /// One end was moved by this vector in mm.
     EndMoved([f64; 2]),
-    /// The radius before and after.
+    /// The radius before and after, in mm.
     Radius([f64; 2]),
-    /// Anything else.
+    /// The shape was changed in another way.
     Reshaped,
 }
 
 /// Difference in mm up to which places and lengths are equal. CAD programs write at least four decimals.
 pub(super) const SAME: f64 = 1e-4;
 
-/// The changes from one shape to another, which is expected to be shifted. Their drawn direction does not matter.
+/// Returns the changes from one shape to another, apart from a move by `shift`. The drawn directions do not matter.
 pub(super) fn shape_changes(
     old: &Shape,
     new: &Shape,
@@ -291,7 +289,7 @@ fn arc_change(
     }
 }
 
-/// The new curve in the direction of the old one: that of its turn for arcs, and that in which its ends are nearer for lines.
+/// Returns the new curve in the direction of the old one: an arc turns the same way, and a line has its ends nearer to the old ones.
 fn alike(old: &Curve, new: &Curve, shift: Vector2<f64>) -> Curve {
     let distance = |curve: &Curve| {
         (curve.start() - old.start() - shift).norm() + (curve.end() - old.end() - shift).norm()
@@ -304,7 +302,7 @@ fn alike(old: &Curve, new: &Curve, shift: Vector2<f64>) -> Curve {
     if is_reversed { reversed } else { *new }
 }
 
-/// The middle between the ends, or the centre: the same in either direction.
+/// The point midway between the ends of a curve, or the centre of a circle. It does not depend on the drawn direction.
 pub(super) fn middle(shape: &Shape) -> Xy {
     match shape {
         Shape::Circle { centre, .. } => *centre,

@@ -1,7 +1,7 @@
 //! The drawn differences between two versions of a path, as far as they can change its program. (book: program/comparing)
 //!
-//! Elements are paired by what they are, then by their handles, then by what is left of their geometry. Their order and their numbers in
-//! the file do not matter, nor does the place of the whole path on its sheet.
+//! Elements are paired by kind and place first, then by handle, and then by those parts of their geometry that did not change. Their order and
+//! their numbers in the file do not matter, nor does the place of the whole path on its sheet.
 
 mod item;
 mod pairing;
@@ -22,7 +22,7 @@ use pairing::{Frame, pair};
 /// One side of a comparison: a path as drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnSide<'a> {
-    /// The path.
+    /// The path as drawn.
     pub raw: &'a RawPath,
     /// The positions of its elements in the file.
     pub positions: &'a SourceMap,
@@ -42,9 +42,9 @@ pub struct DrawnChanges {
 /// A change that applies to one or more elements alike.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnChange {
-    /// What the elements are.
+    /// The kind of the elements.
     pub kind: ElementKind,
-    /// How they were changed.
+    /// The change that all of these elements have in common.
     pub change: ElementChange,
     /// Number of elements.
     pub count: usize,
@@ -52,7 +52,7 @@ pub struct DrawnChange {
     pub at: Point,
 }
 
-/// What an element is, for a reader of the drawing.
+/// The kind of an element, as the user of a CAD program knows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "glossary in book: reference/glossary")]
 pub enum ElementKind {
@@ -65,31 +65,31 @@ pub enum ElementKind {
     Arc,
 }
 
-/// How an element was changed. Lengths are in mm.
+/// A change of an element. Lengths are in mm.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ElementChange {
-    /// It is only in the new drawing.
+    /// The element is only in the new drawing.
     Added,
-    /// It is only in the old drawing.
+    /// The element is only in the old drawing.
     Removed,
-    /// It is elsewhere, relative to the path's start.
+    /// The element was moved by this vector, relative to the path's start.
     Moved([f64; 2]),
-    /// One of its ends is elsewhere.
+    /// One end of the element was moved by this vector.
     EndMoved([f64; 2]),
-    /// It runs otherwise.
+    /// The shape of the element was changed in another way.
     Reshaped,
-    /// A circle's diameter before and after.
+    /// The circle's diameter before and after.
     Diameter([f64; 2]),
-    /// An arc's radius before and after.
+    /// The arc's radius before and after.
     Radius([f64; 2]),
-    /// Its line type before and after, by its usual name.
+    /// The line type before and after, by its usual name.
     LineType([&'static str; 2]),
-    /// The parameters of its text that differ, before and after. Either may be empty.
+    /// The parameters in the element's text that differ, before and after. Either may be empty.
     Text([String; 2]),
 }
 
-/// Compares two versions of a path. Changes that cannot affect its program are left out: comments, materials, texts that say the same, line
-/// types that mean the same, and the place of the whole path.
+/// Compares two versions of a path. Changes that cannot affect its program are left out: comments, materials, texts or line types with the same
+/// meaning, and the place of the whole path.
 pub fn drawn_changes(old: DrawnSide<'_>, new: DrawnSide<'_>) -> DrawnChanges {
     let (old_items, new_items) = (items(old), items(new));
     let frame = Frame::between(&old_items, &new_items);
@@ -108,7 +108,7 @@ pub fn drawn_changes(old: DrawnSide<'_>, new: DrawnSide<'_>) -> DrawnChanges {
     DrawnChanges { changes: grouped(found), is_reordered }
 }
 
-/// A changed element, of the new drawing if it is there.
+/// A change with its element, which is that of the new drawing unless the element was removed.
 type FoundChange<'i> = (&'i Item<'i>, ElementChange);
 
 /// The changes from one version of an element to the other.
@@ -150,7 +150,7 @@ fn by_place(kind: ElementKind, at: Xy, other_kind: ElementKind, other: Xy) -> st
 }
 
 impl ElementChange {
-    /// Its name in JSON.
+    /// The name of the change in JSON.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Added => "added",
@@ -165,7 +165,7 @@ impl ElementChange {
         }
     }
 
-    /// Equal for changes that read the same.
+    /// A key that is equal for changes with the same text.
     fn key(&self) -> String {
         format!("{}{:?}", self.name(), self.arguments())
     }
@@ -186,7 +186,7 @@ impl ElementChange {
         }
     }
 
-    /// The values in its text.
+    /// The arguments of the change's text.
     fn arguments(&self) -> Vec<(&'static str, Value)> {
         let pair = |[was, now]: [Value; 2]| vec![("was", was), ("now", now)];
         match self {
@@ -200,14 +200,14 @@ impl ElementChange {
 }
 
 impl DrawnChange {
-    /// The change in words.
+    /// Returns a sentence that describes the change.
     pub fn sentence(&self) -> Sentence {
         let arguments = self.change.arguments();
         let sentence = Sentence::new(self.change.text()).with("what", self.subject());
         arguments.into_iter().fold(sentence, |sentence, (name, value)| sentence.with(name, value))
     }
 
-    /// The elements, by their number and the place of the first.
+    /// Returns the subject of the sentence: the number of elements and the place of the first.
     fn subject(&self) -> Sentence {
         let [one, several] = self.kind.texts();
         let text = if self.count == 1 { one } else { several };
@@ -216,7 +216,7 @@ impl DrawnChange {
 }
 
 impl ElementKind {
-    /// Its name in JSON.
+    /// The name of the kind in JSON.
     pub fn name(self) -> &'static str {
         match self {
             Self::Start => "start",
@@ -229,7 +229,7 @@ impl ElementKind {
         }
     }
 
-    /// Its name with a place, for one and for several elements.
+    /// The texts for one element and for several elements of this kind.
     fn texts(self) -> [&'static Text; 2] {
         match self {
             Self::Start => [&texts::START, &texts::START],

@@ -26,7 +26,7 @@ pub(super) struct Pairs<'i> {
 }
 
 impl Pairs<'_> {
-    /// Whether elements come after each other in the one file that come before each other in the other.
+    /// Whether some elements follow each other in one file in another order than in the other file.
     pub(super) fn is_reordered(&self) -> bool {
         let elements = self.both.iter().filter(|(old, _)| old.role.is_some());
         let mut numbers: Vec<[usize; 2]> = elements.map(|(old, new)| [new.number, old.number]).collect();
@@ -36,7 +36,7 @@ impl Pairs<'_> {
 }
 
 impl Frame {
-    /// The shift that most elements share, if the start is not where it was. Otherwise everything is compared where it is.
+    /// Returns the shift that most elements share, if the start was moved. Otherwise there is no shift.
     pub(super) fn between(old: &[Item<'_>], new: &[Item<'_>]) -> Self {
         let start =
             |items: &[Item<'_>]| items.iter().find(|item| item.kind == ElementKind::Start).map(Item::at);
@@ -74,7 +74,7 @@ fn common_shift(old: &[Item<'_>], new: &[Item<'_>]) -> Option<Vector2<f64>> {
     votes.into_values().filter(|(count, _)| *count > 1).max_by_key(by_count).map(|(_, by)| by)
 }
 
-/// Pairs elements by ever weaker signs that they are the same.
+/// Pairs elements by one criterion after another, from the most to the least reliable.
 pub(super) fn pair<'i>(old: &'i [Item<'i>], new: &'i [Item<'i>], frame: &Frame) -> Pairs<'i> {
     let mut pairing = Pairing {
         old: old.iter().collect(),
@@ -120,7 +120,7 @@ impl<'i> Pairing<'i> {
         });
     }
 
-    /// Pairs each old element with the new one that `find` names by its index, which must not name one twice.
+    /// Pairs each old element with the new one whose index `find` returns. `find` must not return an index twice.
     fn take(&mut self, mut find: impl FnMut(&[&'i Item<'i>], &'i Item<'i>) -> Option<usize>) {
         let mut is_taken = vec![false; self.new.len()];
         let (new, both) = (&self.new, &mut self.both);
@@ -159,7 +159,7 @@ impl<'i> Pairing<'i> {
         });
     }
 
-    /// Whether the CAD program has kept the handles of elements: at least half of the elements that are where they were have theirs.
+    /// Whether the CAD program has kept the handles of elements: at least half of the elements that were not moved have their old handle.
     fn has_lasting_handles(&self) -> bool {
         let handles = self.both.iter().filter_map(|(old, new)| Some((old.handle?, new.handle?)));
         let (kept, all) =
@@ -223,7 +223,7 @@ impl<'i> Pairing<'i> {
 /// Upper bound on the candidates among which the nearest one is looked for, so that hostile drawings do not take quadratic time.
 const MOST_CANDIDATES: usize = 64;
 
-/// A vector in micrometres: equal for vectors that differ by less than programs show.
+/// A vector rounded to whole micrometres, the last digit that programs show.
 type Micrometres = [i64; 2];
 
 /// The outline of an element: a point of it, and its form relative to that. Neither depends on the direction in which it is drawn.

@@ -32,7 +32,7 @@ impl Default for FilePattern {
 }
 
 impl FilePattern {
-    /// The default: `1234` or `1234.5`.
+    /// The default pattern, for names like `1234` or `1234.5`.
     pub const DEFAULT: &str = DefaultPattern::File.source();
 
     /// Creates a pattern from the configuration or the command line.
@@ -52,7 +52,7 @@ impl FilePattern {
         found
     }
 
-    /// Calls `take` for each of these names and ranges.
+    /// Calls `take` for each name and range in the stem of a file name.
     pub fn each_range(&self, stem: &str, mut take: impl FnMut(NameRange)) {
         // A range contains a dash, which most names do not.
         if stem.contains(DASHES) {
@@ -156,7 +156,7 @@ enum FirstGroup {
 }
 
 impl FirstGroup {
-    /// `None` for a group that did not participate, and for an integer that is too long.
+    /// Returns the first group; `None` if the group did not participate in the match or is an integer that is too long.
     fn new(group: &str) -> Option<Self> {
         match group {
             "" => None,
@@ -296,7 +296,7 @@ pub fn q_project_name(stem: &str) -> String {
     format!("{stem}_Q")
 }
 
-/// The full path names in a file's name, without duplicates. The ends of a range do not count.
+/// The full path names in a file's name, without duplicates. The ends of a range are left out.
 fn promised(stem: &str, files: &FilePattern, paths: &PathPattern) -> Vec<PathName> {
     let ranges = files.range_spans(stem);
     let mut promised: Vec<PathName> = Vec::new();

@@ -31,7 +31,7 @@ pub struct PathPattern(Pattern);
 /// A layer that contains a path or part of one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathLayer {
-    /// The path.
+    /// Name of the path.
     pub path: PathName,
     /// Whether it is a tilde layer (`2916.1P~A`), whose texts and elements only match each other.
     pub tilde: bool,
@@ -78,7 +78,7 @@ impl Default for PathPattern {
 }
 
 impl PathPattern {
-    /// The default: `2913.2P`.
+    /// The default pattern, for names like `2913.2P`.
     pub const DEFAULT: &str = DefaultPattern::Path.source();
 
     /// Creates a pattern from the configuration or the command line.

@@ -130,7 +130,7 @@ impl Pattern {
         }
     }
 
-    /// The positions of the ranges.
+    /// Returns the byte ranges of the name ranges in a text.
     pub(crate) fn range_spans(&self, text: &str) -> Vec<Range<usize>> {
         match self {
             Self::Default(pattern) => {
@@ -229,9 +229,9 @@ fn compile(source: &str) -> Result<Regex, PatternError> {
 /// check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum DefaultPattern {
-    /// `2913.2P`
+    /// The pattern for path names such as `2913.2P`.
     Path,
-    /// `1234` or `1234.5`
+    /// The pattern for names in file names, such as `1234` or `1234.5`.
     File,
 }
 

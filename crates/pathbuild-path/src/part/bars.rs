@@ -17,23 +17,23 @@ const BAR_LOSS: f64 = 0.05;
 /// A support bar that the cuts of an element take away.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LostBar {
-    /// The number of the bar's path.
+    /// Index of the path that the bar belongs to.
     pub of: usize,
-    /// The number of the path that takes it away.
+    /// Index of the path that cuts the bar away.
     pub by: usize,
-    /// Index into [`PathCuts::elements`] of that path.
+    /// Index into [`PathCuts::elements`] of the latter path.
     pub element: u32,
     /// The length in mm that is cut away.
     pub lost: f64,
     /// The length of the bar in mm.
     pub length: f64,
-    /// Its middle.
+    /// The midpoint of the bar.
     pub at: Xy,
     /// Its middle line.
     pub middle: Curve,
 }
 
-/// The bars of all paths that cuts take away, once for each element that does.
+/// Returns the bars of all paths that are cut away, once for each element that does so.
 pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
     let mut found = Vec::new();
     for (of, path) in cuts.paths.iter().enumerate() {
@@ -50,7 +50,7 @@ pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
 }
 
 impl LostBar {
-    /// PB218. `path`: the path of the bar.
+    /// Returns PB218. `path` is the path that the bar belongs to.
     pub fn problem(&self, path: &PathCuts) -> Diagnostic {
         Diagnostic::new(&messages::BAR_CUT_AWAY)
             .with("lost", self.lost)

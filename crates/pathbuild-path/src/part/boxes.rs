@@ -10,7 +10,7 @@ type IndexedBox = GeomWithData<Rectangle<[f64; 2]>, usize>;
 
 /// Boxes, which are numbered from 0.
 pub(crate) enum BoxIndex {
-    /// So few that comparing all of them takes less time than building and searching a tree.
+    /// The boxes themselves, if they are so few that comparing all of them takes less time than building and searching a tree.
     Few(Vec<AABB<[f64; 2]>>),
     Many(RTree<IndexedBox>),
 }
@@ -18,7 +18,7 @@ pub(crate) enum BoxIndex {
 /// Number of boxes up to which all are compared.
 const MAX_COMPARED_BOXES: usize = 500;
 
-/// Number of boxes for which there is room in an answer before it must grow.
+/// Initial capacity, in boxes, of the result of a query.
 const RESERVED_BOXES: usize = 16;
 
 impl BoxIndex {
@@ -56,7 +56,7 @@ pub(crate) fn may_be_near(one: &Curve, other: &Curve, reach: f64) -> bool {
     around(one, reach).intersects(&around(other, 0.0))
 }
 
-/// The square round a point.
+/// The square whose sides are `reach` mm away from a point.
 pub(crate) fn square(at: Xy, reach: f64) -> AABB<[f64; 2]> {
     AABB::from_corners([at.x - reach, at.y - reach], [at.x + reach, at.y + reach])
 }

@@ -23,9 +23,9 @@ pub struct PartFindings {
     pub uncut: Vec<(usize, usize)>,
     /// Findings about each path.
     pub of_paths: Vec<Vec<Diagnostic>>,
-    /// For each path, the indices of the parts that it cuts.
+    /// The indices of the parts that each path cuts, by path.
     pub parts: Vec<Vec<usize>>,
-    /// The material that each path leaves at outlines.
+    /// The material that each path leaves at outlines, by path.
     pub left: Vec<Vec<LeftMaterial>>,
     /// The indices of the parts that nothing holds.
     pub loose: Vec<usize>,
@@ -146,7 +146,7 @@ impl<'s> PartCheck<'s> {
         found
     }
 
-    /// PB213.
+    /// Returns PB213 for the cuts into the part.
     fn gouged(&self) -> impl Iterator<Item = (usize, Diagnostic)> {
         let gouges = gouges(self.part, self.judged.values());
         gouges.into_iter().map(|((path, element), gouge)| {
@@ -160,7 +160,7 @@ impl<'s> PartCheck<'s> {
         LeftoverSearch::new(self.part, self.cuts, &self.judged, &self.contours, tolerance).leftovers()
     }
 
-    /// PB215, one for each element beside which material is left, and PB216.
+    /// Returns PB215 for each element beside which material is left, and PB216 for outlines that the cutter cannot reach.
     fn left_over(&self, Leftovers { stretches, unreachable }: &Leftovers) -> Vec<(usize, Diagnostic)> {
         let mut of_elements: BTreeMap<(usize, u32, bool), Vec<&Leftover>> = BTreeMap::new();
         for left in stretches {

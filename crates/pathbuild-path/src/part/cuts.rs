@@ -13,7 +13,7 @@ use crate::names::SpeltName;
 /// The cuts of a path, in the coordinates and heights of its drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathCuts {
-    /// The path.
+    /// Name of the path.
     pub name: SpeltName,
     /// Half of O in mm.
     pub radius: f64,
@@ -36,7 +36,7 @@ pub struct PathCuts {
 pub struct EmbeddedPlace {
     /// Index into [`Path::segments`](crate::Path::segments).
     pub segment: usize,
-    /// Where it starts and ends.
+    /// The start and end of the embedded path.
     pub ends: (Xy, Xy),
     /// H in mm, by which it is raised.
     pub height: f64,
@@ -51,7 +51,7 @@ pub struct CutElement {
     pub is_mark: bool,
     /// Z of its lowest cut.
     pub lowest: f64,
-    /// If it has support bars, its whole segment: its cuts, and the feet of its bars.
+    /// If it has support bars, its whole segment: its cuts, and the sections where its bars stand.
     pub supported: Option<Curve>,
 }
 
@@ -138,7 +138,7 @@ impl IndexedCut<'_> {
         (self.path, self.cut.element)
     }
 
-    /// Its element in its path.
+    /// The element that makes the cut.
     pub(super) fn element<'c>(&self, index: &CutIndex<'c>) -> &'c CutElement {
         &index.paths[self.path].elements[self.cut.element as usize]
     }

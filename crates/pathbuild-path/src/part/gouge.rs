@@ -33,7 +33,8 @@ pub(super) struct Gouge {
     pub(super) length: f64,
 }
 
-/// Judges cuts of a drawing, given by their numbers, against a part. Cuts above the plate count only as far as they may shape the outline.
+/// Finds out on which side of a part each cut lies and where it goes into the part. `numbers` are those of the cuts. Cuts above the plate count
+/// only as far as they may shape the outline.
 pub(super) fn judged<'c>(
     part: &PreparedPart<'_>,
     index: &CutIndex<'c>,
@@ -82,8 +83,8 @@ pub(super) fn gouges<'j>(
     found
 }
 
-/// The stretches of ways on which a cutter goes into a part, for pictures. `ways` are those of the program in which the part is placed and
-/// raised.
+/// Returns the stretches of moves on which a cutter goes into a part, for pictures. `ways` are the moves of the program in which the part is
+/// placed and raised.
 pub fn gouging_ways<'w>(
     part: &Part,
     placement: &Placement,

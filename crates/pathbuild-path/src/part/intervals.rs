@@ -8,10 +8,10 @@ use crate::geometry::{Arc, Curve, Line, Xy};
 /// A stretch of a curve, in mm along it.
 pub(crate) type Stretch = (f64, f64);
 
-/// Gap in mm below which two stretches are one.
+/// Gap in mm below which two stretches count as one.
 pub(crate) const GAP: f64 = 1e-9;
 
-/// Gap in mm below which stretches of neighbouring curves are one.
+/// Gap in mm below which stretches of neighbouring curves count as one.
 pub(crate) const BETWEEN_CURVES: f64 = 1e-6;
 
 /// Adds the stretches of `along` that are nearer to `other` than `reach` mm.
@@ -141,7 +141,7 @@ pub(crate) fn without(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
     one.iter().flat_map(|stretch| rest(other, *stretch)).collect()
 }
 
-/// Joins the last stretch of a ring with the first if they meet where it begins.
+/// Joins the last stretch of a ring with the first if they meet where the ring begins.
 pub(crate) fn closed(mut stretches: Vec<Stretch>, whole: f64) -> Vec<Stretch> {
     let meets = |stretches: &[Stretch]| {
         stretches.len() > 1

@@ -12,10 +12,10 @@ use super::prepared::{PreparedPart, Side};
 use crate::geometry::{Curve, Xy};
 use crate::keep_out::around;
 
-/// Length in mm below which nothing is reported.
+/// Minimum length in mm of leftover material that is reported.
 const MIN_REPORTED_LENGTH: f64 = 0.1;
 
-/// Number of samples of a stretch, for its thickness.
+/// Number of samples for determining the thickness of the material along a stretch.
 const SAMPLES: u32 = 16;
 
 /// A stretch of an outline at which material is left.
@@ -89,9 +89,9 @@ pub(super) struct LeftoverSearch<'s> {
 /// Stretches of a ring that through cuts do not reach, in mm along it.
 #[derive(Default)]
 struct RingStretches {
-    /// Where material is left.
+    /// Stretches at which material is left.
     left: Vec<Stretch>,
-    /// Where no cut comes near.
+    /// Stretches that no cut comes near.
     never: Vec<Stretch>,
     unreachable: Vec<Stretch>,
     length: f64,
@@ -101,7 +101,7 @@ struct RingStretches {
 struct RingCurve<'r> {
     ring: usize,
     curve: &'r Curve,
-    /// The numbers of these cuts.
+    /// The numbers of the cuts near the curve.
     near: Vec<usize>,
 }
 
@@ -209,7 +209,7 @@ impl<'s> LeftoverSearch<'s> {
         })
     }
 
-    /// The stretches of a curve that through cuts reach within the tolerance, or the feet of bars between them.
+    /// The stretches of a curve that are within the tolerance of through cuts, or of the support bars between them.
     fn covered(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         let mut last = None;
@@ -254,7 +254,7 @@ impl<'s> LeftoverSearch<'s> {
         joined(found.into_iter().map(|(from, to)| (from * scale, to * scale)).collect(), GAP)
     }
 
-    /// Whether a cutter of an inner arc's own radius reaches all of it, from its centre.
+    /// Whether a cutter reaches all of an inner arc that has its own radius: it does so from the arc's centre.
     fn fits(&self, curve: &Curve, radius: f64) -> bool {
         let Curve::Arc(arc) = curve else { return false };
         let reach = radius - self.tolerance;
@@ -262,7 +262,7 @@ impl<'s> LeftoverSearch<'s> {
         arc.radius >= reach && near.all(|(_, other)| other.distance_to(arc.centre) >= reach)
     }
 
-    /// The stretches at the feet of bars: there the path cuts down to the bar, which is all that it should.
+    /// The stretches beside support bars: there the path is to cut only down to the bar.
     fn bar_feet(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         for (bar, radius) in self.bars() {

@@ -1,4 +1,4 @@
-//! Whether cuts close a ring round a part. (book: language/part)
+//! Determines whether cuts form a closed ring around a part. (book: language/part)
 
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
@@ -12,14 +12,14 @@ use crate::keep_out::around;
 /// Largest distance in mm between an arc and the chords that stand for it.
 const SAGITTA: f64 = 0.02;
 
-/// A straight sweep of a cutter.
+/// The area that a cutter covers while it moves in a straight line.
 #[derive(Clone, Copy)]
 struct Sweep {
     line: Line,
     radius: f64,
 }
 
-/// Whether through cuts, with their radii, close a ring round a part. `bars`: those near the part, with half of O.
+/// Whether the through cuts, each with its cutter radius, enclose a part. `bars` are the bars near the part, each with its cutter radius.
 pub(super) fn is_cut_out<'b>(
     part: &PreparedPart<'_>,
     cuts: &[(Curve, f64)],
@@ -84,10 +84,10 @@ fn has_way_out(at: Xy, sweeps: &[Sweep]) -> bool {
     end < first + TAU
 }
 
-/// Whether sweeps close a ring round a point, which is under none of them.
+/// Whether sweeps close a ring around a point, which is under none of them.
 ///
-/// Sweeps that overlap are united, and each remembers the angle round the point by which it is ahead of the first of its group. Two sweeps
-/// of a group that overlap with another angle than the remembered one close a ring.
+/// A union-find over overlapping sweeps. Each sweep stores its angle around the point relative to its parent. If two sweeps of one group
+/// overlap at an angle that differs from the stored one, they close a ring.
 fn is_ring_closed(centre: Xy, sweeps: &[Sweep]) -> bool {
     let boxes = BoxIndex::new(sweeps.iter().map(|sweep| around(&Curve::Line(sweep.line), sweep.radius)));
     let mut groups = Groups { parents: (0..sweeps.len()).collect(), angles: vec![0.0; sweeps.len()] };
@@ -111,7 +111,7 @@ fn is_ring_closed(centre: Xy, sweeps: &[Sweep]) -> bool {
     false
 }
 
-/// Overlap in mm from which two sweeps are one opening.
+/// Minimum overlap in mm for two sweeps to count as connected.
 const MIN_OVERLAP: f64 = 1e-6;
 
 /// The angle from one point to another as seen from `centre`, from -pi to pi.
@@ -121,8 +121,8 @@ fn turn(centre: Xy, from: Xy, to: Xy) -> f64 {
 }
 
 impl Sweep {
-    /// The range of directions in which it is seen from a point, which begins between -pi and pi. It may be a little larger than needed.
-    /// `None` if the point is under it.
+    /// The range of directions in which the sweep is seen from a point, which begins between -pi and pi. It may be a little larger than needed.
+    /// `None` if the point is under the sweep.
     fn seen_from(&self, at: Xy) -> Option<(f64, f64)> {
         let radius = self.radius + SAGITTA;
         if Curve::Line(self.line).distance_to(at) <= radius {
@@ -139,7 +139,7 @@ impl Sweep {
     }
 }
 
-/// Sweeps that overlap, directly or through others.
+/// Union-find of sweeps that overlap, directly or through others.
 struct Groups {
     parents: Vec<usize>,
     /// The angle by which each sweep is ahead of its parent.
@@ -176,7 +176,7 @@ impl Groups {
     }
 }
 
-/// A point of the part that is under no cut, near its rim.
+/// A point of the part near its edge that no cut covers.
 fn point_in_material(part: &PreparedPart<'_>, cuts: &[(Curve, f64)], boxes: &BoxIndex) -> Option<Xy> {
     let mut curves: Vec<&Curve> = part.part.rings[0].curves.iter().collect();
     curves.sort_by(|one, other| other.length().total_cmp(&one.length()));

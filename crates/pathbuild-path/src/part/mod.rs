@@ -35,7 +35,7 @@ pub use neighbours::{NeighbourCuts, NeighbourGouge, PlacedCuts};
 pub struct PartSettings {
     /// The layers with finished parts.
     pub pattern: LayerPattern,
-    /// How far in mm a cut may miss the outline on either side.
+    /// Distance in mm by which a cut may miss the outline on either side.
     pub tolerance: f64,
     /// Whether something other than support bars holds the parts.
     pub is_held_otherwise: bool,
@@ -56,14 +56,14 @@ impl SlotPaths {
         Self(Arc::new(is_slot))
     }
 
-    /// Whether a path is one of them.
+    /// Whether a slot cutter mills this path.
     pub fn contains(&self, path: &str, diameter: f64) -> bool {
         (self.0)(path, diameter)
     }
 }
 
 impl Default for SlotPaths {
-    /// No path.
+    /// Contains no paths.
     fn default() -> Self {
         Self::new(|_, _| false)
     }

@@ -15,15 +15,15 @@ use crate::keep_out::{TipMove, around};
 pub struct PlacedCuts<'c> {
     /// The path, as drawn.
     pub cuts: &'c PathCuts,
-    /// The parts that it brings, as drawn.
+    /// The parts that are placed with the path, as drawn.
     pub parts: Vec<&'c Part>,
-    /// Its place.
+    /// Its placement in the program.
     pub placement: Placement,
     /// The height in mm by which it is raised.
     pub raised: f64,
-    /// The box of what the cutter sweeps, as placed; `None` if it cuts nothing.
+    /// The bounding box of the area that the cutter covers, as placed; `None` if the path cuts nothing.
     swept: Option<AABB<[f64; 2]>>,
-    /// The box of its parts and bars, as placed; `None` if it has none.
+    /// The bounding box of its parts and bars, as placed; `None` if it has none.
     kept: Option<AABB<[f64; 2]>>,
 }
 
@@ -61,7 +61,7 @@ impl<'c> PlacedCuts<'c> {
         Self { cuts, parts, placement, raised, swept: swept.map(placed), kept: kept.map(placed) }
     }
 
-    /// The cuts of another path into the parts and bars of this one.
+    /// Returns the cuts that another path makes into the parts and bars of this one.
     pub fn taken_by(&self, other: &Self, tolerance: f64) -> NeighbourCuts {
         let is_near = self.kept.zip(other.swept).is_some_and(|(kept, swept)| kept.intersects(&swept));
         if !is_near {
@@ -85,7 +85,7 @@ impl<'c> PlacedCuts<'c> {
         NeighbourCuts { gouges: gouged, bars }
     }
 
-    /// The start of a part's rim, as placed.
+    /// The start of a part's outermost ring, as placed.
     pub fn start_of(&self, part: usize) -> Xy {
         self.placement.place(self.parts[part].rings[0].curves[0].start())
     }
@@ -117,7 +117,7 @@ impl<'c> PlacedCuts<'c> {
     }
 }
 
-/// The box of a placed box.
+/// The bounding box of a box after placing it.
 fn placed_box(placement: &Placement, extent: AABB<[f64; 2]>) -> AABB<[f64; 2]> {
     let ([left, low], [right, high]) = (extent.lower(), extent.upper());
     let corners = [[left, low], [right, low], [left, high], [right, high]];

@@ -1,4 +1,4 @@
-//! A part prepared for queries: where a point is, and how deep a cutter there goes into the part.
+//! A part prepared for queries: on which side of it a point lies, and how deep a cutter at that point goes into the part.
 
 use std::cell::OnceCell;
 
@@ -25,25 +25,25 @@ struct PreparedRing {
     outline: OnceCell<Outline>,
 }
 
-/// How a cutter moves past a part or into it.
+/// The result of moving a cutter past a part or into it.
 pub(crate) struct Passage {
-    /// Where the middle of the cutter's way lies.
+    /// The side of the part on which the midpoint of the cutter's path lies.
     pub(crate) side: Side,
     /// The stretches on which the cutter goes into the part.
     pub(crate) entered: Vec<Stretch>,
 }
 
-/// Where a point lies with respect to a part.
+/// The position of a point relative to a part.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Side {
     Outside,
     Material,
-    /// Inside these openings.
+    /// Inside these openings, given as indices into [`Part::rings`].
     Openings(Vec<usize>),
 }
 
 impl Passage {
-    /// The passage of a way that lies on one side as a whole.
+    /// Returns the passage along a curve that lies on one side as a whole.
     pub(crate) fn on_side(side: Side, way: &Curve) -> Self {
         let entered = if side == Side::Material { vec![(0.0, way.length())] } else { Vec::new() };
         Self { side, entered }
@@ -127,14 +127,14 @@ impl<'p> PreparedPart<'p> {
         }
     }
 
-    /// The side on which a whole way lies; `None` if a cutter of this radius goes deeper than `tolerance` into a ring.
+    /// Returns the side on which a whole curve lies; `None` if a cutter of this radius goes deeper than `tolerance` into a ring.
     pub(crate) fn clear_side(&self, way: &Curve, radius: f64, tolerance: f64) -> Option<Side> {
         let reach = (radius - tolerance).max(GAP);
         let mut near = self.curves_near(around(way, radius));
         (!near.any(|(_, curve)| curve.distance(way) < reach)).then(|| self.side(way.start()))
     }
 
-    /// How a cutter of this radius passes the part: where it goes deeper than `tolerance` into it.
+    /// Returns the passage of a cutter of this radius along a curve: the stretches are those on which it goes deeper than `tolerance` into the part.
     pub(crate) fn passage(&self, way: &Curve, radius: f64, tolerance: f64) -> Passage {
         match self.clear_side(way, radius, tolerance) {
             Some(side) => Passage::on_side(side, way),
@@ -145,7 +145,7 @@ impl<'p> PreparedPart<'p> {
         }
     }
 
-    /// The stretches of a way on which a cutter of this radius goes deeper than `tolerance` into the part. A way without length gives a
+    /// Returns the stretches of a curve on which a cutter of this radius goes deeper than `tolerance` into the part. A curve without length gives a
     /// stretch without length.
     fn entered(&self, way: &Curve, radius: f64, tolerance: f64) -> Vec<Stretch> {
         let length = way.length();

@@ -28,7 +28,7 @@ pub(super) struct BrokenOutline {
     /// The number of a curve at the place of the problem.
     pub(super) curve: usize,
     pub(super) at: Xy,
-    /// `None` for ends that almost meet, which are reported in pairs.
+    /// The finding; `None` for ends that almost meet, which are reported in pairs.
     pub(super) problem: Option<Diagnostic>,
     /// The ends of a chain that crosses itself.
     overlong: Option<(Point, Point)>,
@@ -83,7 +83,7 @@ impl SortedOutlines {
         Self { rings, broken, boxes, overlong }
     }
 
-    /// Whether a broken outline is drawn round a ring, which is then no rim of a part.
+    /// Whether a broken outline encloses a ring, which is then not the outer edge of a part.
     pub(super) fn is_enclosed(&self, ring: &[Curve]) -> bool {
         let near = self.boxes.near(square(ring[0].start(), 0.0));
         near.into_iter().any(|number| self.broken[number].border.encloses(ring))
@@ -186,7 +186,7 @@ impl Border {
         Self(Outline::new(curves))
     }
 
-    /// Whether all of a ring lies inside.
+    /// Whether the whole ring lies inside the border.
     fn encloses(&self, ring: &[Curve]) -> bool {
         let extent = self.0.extent();
         let quarters =

@@ -84,7 +84,7 @@ impl SearchBudget {
         self.0.get() == 0
     }
 
-    /// Uses up one unit, if that does not exhaust the budget.
+    /// Uses up one unit. Returns whether any units are left.
     fn take(&self) -> bool {
         self.0.set(self.0.get().saturating_sub(1));
         !self.is_exhausted()
@@ -174,7 +174,7 @@ pub(crate) fn nearest_miss(
         if nearest.as_ref().is_some_and(|nearest| nearest.distance < at_least - circle.radius) {
             break;
         }
-        // The first few candidates are free for each text.
+        // The first few candidates of each text do not use up the budget.
         if number >= MAX_SCANNED_CANDIDATES && !budget.take() {
             return None;
         }
@@ -330,7 +330,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { cases: 512, failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// For lists and for trees.
+        /// Searching in lists and in trees gives the same results as comparing everything.
         #[test]
         fn boxes_hide_nothing(
             shapes in prop_oneof![
@@ -364,7 +364,7 @@ mod tests {
         (0..count).map(|_| candidate((line, false))).collect()
     }
 
-    /// One unit for each candidate, with one left over.
+    /// The budget has one unit for each candidate, and one more.
     #[test]
     fn what_is_found_when_the_looks_are_over_is_not_trusted() {
         for count in [10, 200] {
@@ -381,7 +381,7 @@ mod tests {
         }
     }
 
-    /// The first few of 200 candidates are free for each text.
+    /// The first few of the 200 candidates do not use up the budget of a text.
     #[test]
     fn the_hint_of_the_nearest_is_given_up_when_the_looks_are_over() {
         let (circle, candidates) = (TextCircle { centre: Xy::new(0.0, 9.0), radius: 0.5 }, bundle(200));

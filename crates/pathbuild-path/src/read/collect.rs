@@ -51,7 +51,7 @@ pub(crate) struct PathCollector<'d> {
     pub(super) has_elements: bool,
 }
 
-/// A circle without a meaning because of its line type or diameter.
+/// A circle that means nothing, because of its line type or its diameter.
 pub(crate) struct UnclearCircle {
     pub(super) marker: Marker,
     pub(super) shape: Shape,
@@ -238,7 +238,7 @@ impl PathCollector<'_> {
         self.given = given;
     }
 
-    /// Adds to PB107 the first entity that was left out: a text on it finds nothing.
+    /// Adds to PB107 the first entity that was left out: a text on such an entity has no element.
     pub(super) fn with_left_out(&self, problem: Diagnostic) -> Diagnostic {
         let first = self.left_out.iter().find_map(|(kind, point)| Some((kind, (*point)?)));
         let Some((kind, point)) = first else { return problem };
@@ -399,7 +399,7 @@ impl<'d> PathCollector<'d> {
 
     fn check_plane(&mut self, source: Source, points: &[Point3], begin: Xy) {
         self.has_elements = true;
-        // The usual case.
+        // Nearly all entities lie in the plane.
         if points.iter().all(|point| point.z == 0.0) {
             return;
         }
@@ -474,7 +474,7 @@ impl<'d> PathCollector<'d> {
         self.start = Some(marker);
     }
 
-    /// Adds an element with a meaningless line type. It still takes its text, which would otherwise be reported as belonging to nothing.
+    /// Adds an element with a meaningless line type. It still takes its text, which would otherwise be reported as belonging to no element.
     fn add_unknown(&mut self, found: &LayerEntity<'_>, shape: Shape) {
         let known: Value = LineType::NAMES.iter().map(|(name, _)| *name).collect();
         let name = &*found.entity.line_type;

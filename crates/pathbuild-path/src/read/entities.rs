@@ -118,22 +118,22 @@ impl TextCircle {
         }
     }
 
-    /// The distance from its centre to the centre of another circle.
+    /// The distance between the centres of this circle and another one.
     pub fn distance_to_centre(&self, centre: Xy) -> f64 {
         (centre - self.centre).norm()
     }
 
-    /// The distance from its centre to the rim of a circle.
+    /// The distance from the centre of this circle to the rim of another one.
     pub(crate) fn distance_to_circle(&self, centre: Xy, radius: f64) -> f64 {
         ((self.centre - centre).norm() - radius).abs()
     }
 
-    /// The distance from its centre to an arc, if its radial projection lies on the arc.
+    /// The distance from the circle's centre to an arc, if the radial projection of the centre lies on the arc.
     pub fn distance_to_arc(&self, arc: &Arc) -> Option<f64> {
         arc.spans(self.centre - arc.centre).then(|| self.distance_to_circle(arc.centre, arc.radius))
     }
 
-    /// The distance from its centre to a line, if the foot of the perpendicular lies on the line.
+    /// The distance from the circle's centre to a line, if the foot of the perpendicular lies on the line.
     pub fn distance_to_line(&self, line: &Line) -> Option<f64> {
         let direction = line.end - line.start;
         let length = direction.norm();
@@ -145,7 +145,7 @@ impl TextCircle {
         (0.0..=length).contains(&foot).then(|| (direction.perp(&out) / length).abs())
     }
 
-    /// The gap between its rim and a curve, for help; 0 if they touch.
+    /// The gap between the rim of the circle and a curve, for help; 0 if they touch.
     pub fn gap_to(&self, curve: &Curve) -> f64 {
         let beside = match curve {
             Curve::Line(line) => self.distance_to_line(line),

@@ -36,7 +36,7 @@ pub fn keep_outs(drawing: &Drawing, language: &Language) -> KeepOuts {
         }
         found.problems.append(&mut reading.problems);
     }
-    // Beside an outline with an error, a hatch may belong to that.
+    // If an outline has an error, a hatch may belong to that outline.
     if !found.problems.iter().any(Diagnostic::is_error) {
         found.problems.extend(lone_hatches(drawing, language, &found.all));
     }
@@ -66,8 +66,8 @@ fn lone_hatches(drawing: &Drawing, language: &Language, clamps: &[KeepOut]) -> V
     hatches.filter(|place| !fills(place)).map(problem).collect()
 }
 
-/// PB119 for the first height of a clamp in a closed outline on each layer that is neither of a path nor one with clamps, if any layer is to
-/// have clamps. `is_other`: whether a layer is to be searched.
+/// Returns PB119 for closed outlines with the height of a clamp on layers that hold neither paths nor clamps: one for each layer, and only if
+/// layers with clamps are configured. `is_other`: whether a layer is to be searched.
 pub(super) fn unread_clamps(
     drawing: &Drawing,
     language: &Language,
@@ -137,7 +137,7 @@ struct Reading<'d> {
 /// The texts inside an outline.
 #[derive(Clone, Default)]
 struct OutlineTexts<'d> {
-    /// The first few, with the indices of their entities.
+    /// The first few texts, with the indices of their entities.
     first: Vec<(usize, AnyText<'d>)>,
     count: usize,
 }
@@ -205,7 +205,7 @@ impl Reading<'_> {
         self.problems.append(&mut problems);
     }
 
-    /// PB110 at the first entity outside of the plane. A polyline is many entities.
+    /// Reports PB110 at the first entity outside of the plane, but not at the others: a polyline consists of many entities.
     fn check_plane(&mut self, entities: &[usize]) {
         let off_plane = |entity: &usize| Some((*entity, self.off_plane(*entity)?));
         let off_plane: Vec<(usize, Point3)> = entities.iter().filter_map(off_plane).collect();
@@ -226,7 +226,7 @@ impl Reading<'_> {
         points.iter().find(|point| !near(point.z, 0.0)).copied()
     }
 
-    /// The closed outlines, and the boxes around all others, which are PB117.
+    /// Returns the closed outlines, and the boxes around all others. Reports PB117 for the latter.
     fn outlines(&mut self, entities: &[usize]) -> (Vec<ClosedOutline>, Vec<[Xy; 2]>) {
         let (mut outlines, mut parts, mut broken) = (Vec::new(), Vec::new(), Vec::new());
         for number in entities {
@@ -273,8 +273,8 @@ impl Reading<'_> {
         self.report(problem);
     }
 
-    /// The height of each outline, from the one text inside or overlapping it. PB117 if there is none, if there are several, or if the text
-    /// gives no height. A text in the box around a broken outline probably belongs to that.
+    /// Returns the height of each outline, from the one text inside or overlapping it. Reports PB117 if there is none, if there are several, or if
+    /// the text gives no height. A text in the box around a broken outline probably belongs to that outline.
     fn heights(
         &mut self,
         entities: &[usize],
@@ -442,7 +442,7 @@ enum Junction {
 /// State of joining curves.
 struct RingBuilder<'p> {
     parts: &'p [Part],
-    /// What each end meets.
+    /// For each end, the other ends that it coincides with.
     junctions: Vec<Junction>,
     is_done: Vec<bool>,
 }
@@ -509,13 +509,13 @@ impl<'p> RingBuilder<'p> {
         (ring, end)
     }
 
-    /// The only end that this end meets, if that meets no other.
+    /// The only end that this end meets, if that other end meets no further one.
     fn next(&self, end: End) -> Option<End> {
         let Junction::One(next) = self.junctions[end] else { return None };
         (self.junctions[next] == Junction::One(end)).then_some(next)
     }
 
-    /// A curve in the direction that ends there.
+    /// Marks a curve as done and returns it in the direction towards this end.
     fn run_to(&mut self, end: End) -> Part {
         let part = self.parts[end / 2];
         self.is_done[end / 2] = true;

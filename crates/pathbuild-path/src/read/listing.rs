@@ -26,9 +26,9 @@ pub struct AssignedText {
     pub text: Box<str>,
     /// TEXT or MTEXT.
     pub entity: EntityKind,
-    /// The path.
+    /// Name of the path to which the text belongs.
     pub path: PathName,
-    /// Its layer.
+    /// Name of the text's layer.
     pub layer: Box<str>,
     /// Its position in the file.
     pub position: Position,
@@ -118,7 +118,7 @@ pub struct ProxyLine {
 }
 
 impl ProxyLine {
-    /// Its text.
+    /// The parameter text of the line.
     pub fn text(&self) -> ParameterText<'_> {
         self.text.first().unwrap_or_default()
     }
@@ -133,12 +133,12 @@ impl ProxyLine {
             .filter(|name| !name.is_part_of_word(value))
     }
 
-    /// The value of a letter. `None` if it refers to variables, which belong to the project it is copied into.
+    /// The value of a letter. `None` if it refers to variables, which belong to the project that the line is copied into.
     pub fn value(&self, letter: Letter) -> Option<(&str, TextFault)> {
         self.known(self.text().piece(letter)?)
     }
 
-    /// The values that it sets, by variable.
+    /// The values that the line sets, each with its variable.
     pub fn variables(&self) -> impl Iterator<Item = (char, &str)> {
         let pieces = self.text().pieces().iter().filter(|piece| piece.letter == Some(Letter::Variable));
         pieces.filter_map(|piece| {

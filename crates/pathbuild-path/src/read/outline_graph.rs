@@ -48,7 +48,7 @@ impl Graph {
         graph
     }
 
-    /// Drops curves that are drawn twice: curves are equal if their nodes and their middles are.
+    /// Drops curves that are drawn twice. Curves are equal if their nodes and their midpoints are equal.
     fn drop_duplicates(&mut self) {
         let middle = |curve: &Curve| curve.section(0.0, curve.length() / 2.0).end();
         let mut known: BTreeMap<(usize, usize), Vec<Xy>> = BTreeMap::new();
@@ -115,7 +115,7 @@ impl Graph {
         face[0].is_multiple_of(2) && self_crossing(&curves).is_some()
     }
 
-    /// The numbers of the curves with different faces on their sides.
+    /// The numbers of the curves that have different faces on their two sides.
     fn dividing(&self) -> Vec<usize> {
         let faces = self.faces(&self.numbers);
         let mut face_of = vec![0; 2 * self.curves.len()];

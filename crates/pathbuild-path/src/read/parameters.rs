@@ -22,12 +22,12 @@ pub(super) type Starts = BTreeMap<PathName, Start>;
 
 pub(super) struct Start {
     pub(super) text: Box<str>,
-    /// Whether it refers to another path itself.
+    /// Whether the start's text itself refers to another path.
     pub(super) borrows: bool,
     pub(super) origin: Origin,
 }
 
-/// Where the text of a path's start was found instead of on its start marker.
+/// Hints at the place where the text of a path's start was drawn instead of on its start marker.
 #[derive(Default)]
 pub(super) struct StartHints {
     /// A text with O and T that does not belong to the start marker, and its place.
@@ -67,7 +67,7 @@ impl PathCheck<'_> {
         self.check_elements(self.raw.tool());
     }
 
-    /// Adds to PB207 where the path's text probably is.
+    /// Adds to PB207 the place where the path's text probably is.
     fn with_start_text(&self, problem: Diagnostic) -> Diagnostic {
         match &self.hints {
             StartHints { swapped: Some(end), .. } => {
@@ -128,7 +128,7 @@ impl PathCheck<'_> {
                 Ok(definition) => definitions.push(definition),
                 Err(problem) => {
                     faulty.extend(parameters.value(piece).chars().next());
-                    // The spaces in it are reported.
+                    // The spaces in the definition are reported separately.
                     if definition_in_pieces(parameters, piece).is_some() {
                         continue;
                     }
@@ -145,8 +145,8 @@ impl PathCheck<'_> {
 }
 
 impl PathCheck<'_> {
-    /// PB210 for each variable that no text of the path refers to. If paths of the drawing borrow texts from each other, it may be meant for
-    /// one of them, and what errors hide may refer to it as well.
+    /// Reports PB210 for each variable that no text of the path refers to. Nothing is reported if paths of the drawing borrow texts from each other,
+    /// since the variable may be meant for one of them, or if errors may hide a reference.
     fn check_uses(&mut self, starts: &Starts) {
         let faults = &self.raw.faults;
         let may_be_hidden = faults.has_broken_entity || faults.stray_letters != Letters::default();

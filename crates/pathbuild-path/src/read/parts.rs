@@ -44,7 +44,7 @@ pub fn parts(drawing: &Drawing, language: &Language) -> DrawnParts {
     found
 }
 
-/// Whether a text on a layer with parts may be one of a path. Texts on layers that are not read are noted by the reader.
+/// Whether a text on a layer with parts may be a parameter text of a path. Texts on layers that are not read are noted by the reader.
 pub fn has_text_on_part(drawing: &Drawing, language: &Language) -> bool {
     let is_part = |layer: u32| language.is_part(&drawing.layers[layer as usize].name);
     let is_stray = |text: AnyText<'_>| may_be_stray_text(text.string().as_bytes());
@@ -68,7 +68,7 @@ struct OutlineLayers<'d> {
     language: &'d Language,
     /// The layers with parts.
     layers: Vec<bool>,
-    /// The curves, by the name that the pattern captures in that of their layer.
+    /// The curves, by the name that the pattern captures in the name of their layer.
     curves: BTreeMap<Option<SmolStr>, Vec<OutlineCurve>>,
 }
 

@@ -96,7 +96,7 @@ pub(super) fn self_crossing(curves: &[Curve]) -> Option<Crossing> {
     })
 }
 
-/// The places in mm along each curve where others cross it, in ascending order. None if there are too many to compare.
+/// The places in mm along each curve where others cross it, in ascending order. There are no places if too many curves would have to be compared.
 pub(super) fn crossings(curves: &[Curve]) -> Vec<Vec<f64>> {
     let boxes = BoxIndex::new(curves.iter().map(|curve| around(curve, 0.0)));
     let mut compared = 0;
@@ -116,7 +116,7 @@ pub(super) fn crossings(curves: &[Curve]) -> Vec<Vec<f64>> {
     cuts
 }
 
-/// The rings that cross the rim of a larger one, each with the place in its own curves.
+/// The rings that cross the rim of a larger one, each with the crossing, which refers to the ring's own curves.
 pub(super) fn rims_crossed(rings: &[Chain], is_outermost: &[bool]) -> Vec<(usize, Crossing)> {
     let all: Vec<(usize, usize, Curve)> = (0..)
         .zip(rings)

@@ -114,7 +114,7 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
     findings
 }
 
-/// What the name of a layer without a meaning resembles.
+/// The path or the kind of layer whose name resembles that of a layer without a meaning.
 enum NearLayer<'n> {
     Path(&'n PathName),
     Clamps,
@@ -135,7 +135,7 @@ impl<'n> NearLayer<'n> {
     }
 }
 
-/// Whether the name of a layer resembles one with clamps or finished parts, of which [`stray_findings`] reports what is drawn there.
+/// Whether the name of a layer resembles that of a layer with clamps or finished parts. [`stray_findings`] reports the entities on such layers.
 pub fn is_near_clamps_or_parts(layer: &str, language: &Language) -> bool {
     let has_patterns = language.keep_out.is_some() || language.part.is_some();
     has_patterns && NearLayer::of(layer, &NearNames::new(std::iter::empty()), language).is_some()

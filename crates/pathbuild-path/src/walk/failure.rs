@@ -41,13 +41,13 @@ impl Walker<'_> {
         if begin.is_some() { problem } else { self.with_hints(problem) }
     }
 
-    /// The nearest segment that was not reached, and where it begins, if that is in the middle of a traversed one.
+    /// The nearest segment that was not reached, and the point at which it begins, if that point is in the middle of a traversed segment.
     fn begin_on_another(&self) -> Option<(usize, Xy)> {
         let (segment, begin, _) = self.nearest_end(self.at)?;
         self.passing_by(begin).map(|_| (segment, begin))
     }
 
-    /// Whether the remaining segments branch off earlier on the way here.
+    /// Whether the remaining segments branch off at a point that the walk has already passed.
     fn is_dead_end(&self) -> bool {
         let Some((_, end, _)) = self.nearest_end(self.at) else { return false };
         let mut passed = Vec::new();
@@ -194,13 +194,13 @@ pub(super) struct Curves<'a> {
     known: Vec<(CurveKey, usize)>,
 }
 
-/// Equal for curves that lie on each other: the kind of segment, both ends in order of their coordinates, and the middle.
+/// A key that is equal for curves that lie on each other: the kind of segment, both ends in order of their coordinates, and the midpoint.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct CurveKey(u8, [[i64; 2]; 3]);
 
 /// Number of grid squares per mm: programs have three decimals.
 const SQUARES_PER_MM: f64 = 1000.0;
-/// Offset of the grid in squares, so that points with few decimals, and the middles between them, are not on a border between squares.
+/// Offset of the grid in squares, so that points with few decimals, and the midpoints between them, are not on a border between squares.
 const SHIFT: f64 = 0.37;
 
 impl<'a> Curves<'a> {

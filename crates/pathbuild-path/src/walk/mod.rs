@@ -179,7 +179,7 @@ impl<'a> Walker<'a> {
         (distance <= SMALL_GAP).then_some(end)
     }
 
-    /// A failure, unless there is a circle without a meaning here, where the walk may turn or end.
+    /// Returns a failure, unless there is a circle without a meaning at the current point, where the walk may turn or end.
     fn unless_unclear(&self, problem: impl FnOnce(&Self) -> Diagnostic) -> Failure {
         let circles = self.path.faults.as_ref().map_or(&[][..], |faults| &faults.unclear_circles);
         let is_unclear =
@@ -273,7 +273,7 @@ impl<'a> Walker<'a> {
         self.turns.act(self.path, self.at)
     }
 
-    /// Retraces the way until `is_found` succeeds; an error if it reaches the start first. (book: language/order-and-turns)
+    /// Retraces the traversed segments until `is_found` succeeds; an error if it reaches the start first. (book: language/order-and-turns)
     fn go_back(&mut self, is_found: impl Fn(&mut Self) -> bool) -> Result<(), ()> {
         loop {
             let (segment, passage) = self.way_back.pop().ok_or(())?;

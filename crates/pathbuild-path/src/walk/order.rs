@@ -1,4 +1,4 @@
-//! What comes next at a point: the segments that end there, their order, and turn markers. (book: language/chains-and-passes, book:
+//! Determines the next segment at a point: the segments that end there, their order, and turn markers. (book: language/chains-and-passes, book:
 //! language/order-and-turns)
 //!
 //! The segments of crowded points are sorted once, so that the work of a walk is linear in the number of segments.
@@ -10,8 +10,8 @@ use crate::approx::{coincide, near};
 use crate::geometry::Xy;
 use crate::path::Path;
 
-/// Whether a segment is taken before another one. Lengths are compared approximately, which is not transitive, so use this for a single
-/// scan in segment order.
+/// Whether segment `a` comes before segment `b`. Lengths are compared approximately, which is not transitive, so use this for a single scan in
+/// segment order.
 pub(super) fn comes_before(path: &Path, ends: &Ends, a: usize, b: usize) -> bool {
     let (ranked, other) = (rank(path, a), rank(path, b));
     if ranked != other {
