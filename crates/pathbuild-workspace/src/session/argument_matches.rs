@@ -1,4 +1,5 @@
-//! First step of resolving arguments, by file names alone: only patterns of path names read drawings. (book: reference/commands)
+//! Finds the files and directories that arguments may refer to, as the first step of resolving arguments. It looks at file names alone: only
+//! patterns of path names read drawings. (book: reference/commands)
 //!
 //! Meanwhile directories are listed and drawings read before they are needed: listing a directory of ten thousand drawings takes longer than
 //! building a program from ten of them, so the drawings that are most likely embedded are read in the meantime.
@@ -26,15 +27,15 @@ use crate::inputs::{Input, Inputs};
 /// The files and directories that the arguments may refer to.
 #[derive(Debug, Default)]
 pub struct ArgumentMatches {
-    /// Each argument; without any, the directories of the library.
+    /// The matches of each argument; without arguments, the directories of the library.
     pub arguments: Vec<Argument>,
-    /// Whether there are no arguments.
+    /// Whether there are no arguments, so that the library is selected.
     pub is_library: bool,
     /// Contents of the directories that were listed.
     pub listings: Listings,
-    /// Missing directories of the configuration.
+    /// Diagnostics of configured directories that do not exist.
     pub problems: Vec<Diagnostic>,
-    /// Where names were searched for, if there are names.
+    /// Directories in which names were searched for; empty if no argument is a name.
     pub(super) name_directories: Vec<Utf8PathBuf>,
     /// Errors while searching the library for names.
     pub(super) name_problems: Vec<Diagnostic>,
@@ -45,17 +46,17 @@ pub struct ArgumentMatches {
 pub enum Argument {
     /// A directory.
     Directory(SearchedDirectory),
-    /// A drawing, whether it exists or not.
+    /// A drawing by its file, whether it exists or not.
     Drawing(SourceFile),
-    /// The first of these that exists: a path, a drawing without its `.dxf`, a directory.
+    /// A name without a separator. It refers to the first of these that exists: a path, a drawing without its `.dxf`, a directory.
     Name {
-        /// The name as given.
+        /// The name as the user wrote it.
         name: PathName,
-        /// Drawings that may define the path, judging by their names.
+        /// Drawings whose file names allow them to define the path.
         candidates: Vec<SourceFile>,
-        /// The drawing of this name.
+        /// The drawing whose file name is this name with `.dxf`.
         drawing: Option<SourceFile>,
-        /// The directory of this name.
+        /// The directory with this name.
         directory: Option<SearchedDirectory>,
     },
 }
@@ -63,9 +64,9 @@ pub enum Argument {
 /// A directory that was searched recursively.
 #[derive(Debug)]
 pub struct SearchedDirectory {
-    /// Its path.
+    /// Path of the directory.
     pub path: Utf8PathBuf,
-    /// All drawings in and below it, sorted.
+    /// All drawings in and below the directory, sorted.
     pub drawings: Vec<Utf8PathBuf>,
     /// The directory itself and all below it.
     pub directories: Vec<Utf8PathBuf>,
@@ -74,12 +75,12 @@ pub struct SearchedDirectory {
 }
 
 impl ArgumentMatches {
-    /// The directories that the arguments may refer to.
+    /// Returns the directories that the arguments may refer to.
     pub fn directories(&self) -> impl Iterator<Item = &SearchedDirectory> {
         self.arguments.iter().filter_map(Argument::directory)
     }
 
-    /// The names of the arguments that may be paths, and of the paths that match a pattern.
+    /// Returns the names of the arguments that may be paths, and of the paths that match a pattern.
     pub fn names(&self) -> impl Iterator<Item = &PathName> {
         self.arguments.iter().filter_map(|argument| match argument {
             Argument::Name { name, .. } => Some(name),
@@ -87,7 +88,7 @@ impl ArgumentMatches {
         })
     }
 
-    /// The drawings that were named, or may define a named path.
+    /// Returns the drawings that were named, or that may define a named path.
     pub fn named(&self) -> impl Iterator<Item = SourceFile> {
         let named = self.arguments.iter().filter_map(|argument| match argument {
             Argument::Drawing(file) => Some(*file),
@@ -97,7 +98,7 @@ impl ArgumentMatches {
         named.chain(self.candidates())
     }
 
-    /// The drawings that may define a named path.
+    /// Returns the drawings that may define a named path.
     pub fn candidates(&self) -> impl Iterator<Item = SourceFile> {
         let candidates = self.arguments.iter().filter_map(|argument| match argument {
             Argument::Name { candidates, .. } => Some(candidates),
@@ -123,7 +124,7 @@ impl Argument {
 }
 
 impl Session<'_> {
-    /// Finds what the arguments may refer to; without any, the library.
+    /// Finds the files and directories that the arguments may refer to; without arguments, those of the library.
     pub fn match_arguments(&self, inputs: &Inputs) -> ArgumentMatches {
         let is_library = inputs.inputs.is_empty();
         let mut found = ArgumentMatches {
@@ -160,8 +161,8 @@ impl Session<'_> {
         found
     }
 
-    /// Expands a pattern that the shell passed on unexpanded, as Windows shells do. Matches wanted files and directories by the last
-    /// component, unless a file of just that name exists.
+    /// Expands a pattern that the shell passed on unexpanded, as Windows shells do. The last component of the pattern is matched with the names of
+    /// wanted files and of directories. Returns nothing if a file of exactly that name exists.
     pub(super) fn expand_pattern(
         &self,
         place: &Utf8Path,
@@ -176,7 +177,7 @@ impl Session<'_> {
         entries.filter(|name| pattern.matches(name)).map(|name| join(directory, name)).collect()
     }
 
-    /// Adds the paths of the library whose names match a pattern, and the findings of drawings without any known path.
+    /// Adds the paths of the library whose names match a pattern, and the diagnostics of drawings without any known path.
     fn add_matching_paths(&self, pattern: &Pattern, found: &mut ArgumentMatches) {
         let paths = self.paths_of_library(usize::MAX);
         let (files, problems) = self.all_drawings();
@@ -229,7 +230,7 @@ impl Session<'_> {
         Argument::Name { name: path, candidates, drawing, directory }
     }
 
-    /// The drawing whose name without extension, in any case, is `name`; the first in order if there are several.
+    /// Finds the drawing whose name without extension, in any case, is `name`; the first in order if there are several.
     fn drawing_of_name(&self, name: &str, directories: &[Utf8PathBuf]) -> Option<SourceFile> {
         directories.iter().find_map(|directory| {
             let is_meant = |file: &&str| file.rsplit_once('.').is_some_and(|(stem, _)| stem == name);
@@ -271,7 +272,7 @@ impl Session<'_> {
         each.map(|(path, walked)| self.found_directory(path, walked, listings)).collect()
     }
 
-    /// Directories in which names are searched for: the working directory, the search directories, the library and everything below it.
+    /// Returns the directories in which names are searched for: the working directory, the search directories, the library and everything below it.
     pub fn name_directories(&self) -> Vec<Utf8PathBuf> {
         self.listed_name_directories(&mut Listings::new()).0
     }
@@ -287,12 +288,12 @@ impl Session<'_> {
         (directories, walked.into_iter().flat_map(|directory| directory.problems).collect())
     }
 
-    /// The directories of the library that contain drawings.
+    /// Returns the directories of the library that contain drawings.
     pub fn library_directories(&self) -> Vec<Utf8PathBuf> {
         holding_drawings(&self.library_walked(&mut Listings::new()))
     }
 
-    /// The drawings of the configured library, and errors while listing it.
+    /// Returns the drawings of the configured library, and errors while listing it.
     pub fn library(&self) -> (Vec<Utf8PathBuf>, Vec<Diagnostic>) {
         let (mut drawings, mut problems) = (Vec::new(), Vec::new());
         for mut directory in self.library_walked(&mut Listings::new()) {
@@ -302,7 +303,7 @@ impl Session<'_> {
         (drawings, problems)
     }
 
-    /// All known drawings: those of the library, or without a library those in and below the working directory. Also returns errors while
+    /// Returns all known drawings: those of the library, or without a library those in and below the working directory. Also returns errors while
     /// listing them.
     pub fn all_drawings(&self) -> (Vec<SourceFile>, Vec<Diagnostic>) {
         let (drawings, problems) = if self.has_library() {
@@ -314,12 +315,12 @@ impl Session<'_> {
         (drawings.iter().map(|drawing| self.file(drawing)).collect(), problems)
     }
 
-    /// The drawings in and below a directory.
+    /// Returns the drawings in and below a directory.
     pub fn drawings_below(&self, directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
         self.walk(is_drawing).through(directory).drawings.into_iter()
     }
 
-    /// Passes the names of freshly listed directories to the database, to save listing them again, unless they are doubtful.
+    /// Passes the names of freshly listed directories to the database, so that it need not list them again. Incomplete listings are left out.
     pub fn provide_names(&self, listings: &Listings) {
         for (directory, listing) in
             listings.iter().filter(|(_, listing)| !listing.is_doubtful && listing.links.is_empty())
@@ -351,7 +352,7 @@ impl Session<'_> {
     }
 }
 
-/// An argument as a pattern, if it contains wildcards.
+/// Returns an argument as a pattern, if it contains wildcards.
 fn pattern_of(name: &str) -> Option<Pattern> {
     name.contains(['*', '?', '[']).then(|| Pattern::new(name).ok()).flatten()
 }
@@ -363,7 +364,7 @@ fn holding_drawings(walked: &[SearchedDirectory]) -> Vec<Utf8PathBuf> {
     parents.filter(|directory| seen.insert(*directory)).map(Utf8Path::to_owned).collect()
 }
 
-/// Removes duplicates and keeps the order.
+/// Removes duplicates, keeping the order.
 fn distinct(directories: impl Iterator<Item = Utf8PathBuf>) -> Vec<Utf8PathBuf> {
     let mut seen = FxHashSet::default();
     directories.filter(|directory| seen.insert(directory.clone())).collect()
@@ -391,7 +392,7 @@ impl Session<'_> {
         }
     }
 
-    /// The drawing that an argument most likely refers to, and the directory from which paths are searched for; `None` if no names are
+    /// Returns the drawing that an argument most likely refers to, and the directory from which paths are searched for; `None` if no names are
     /// needed, or if a recursive search lists the directories anyway.
     fn likely_drawing(
         &self,
@@ -414,7 +415,7 @@ impl Session<'_> {
         }
     }
 
-    /// Lists directories on a thread of its own. If the system has no thread left, the queries that need the names list them.
+    /// Lists directories on a separate thread. If the system has no thread left, the queries that need the names list them.
     fn list_ahead(&self, directories: &[Directory]) {
         let pending: Vec<PendingListing> =
             directories.iter().map(|directory| self.db.list_ahead(directory.path(&self.db))).collect();

@@ -15,16 +15,16 @@ use crate::Inputs;
 use crate::session::Session;
 use crate::session::work::about;
 
-/// Paths, and which path embeds which.
+/// A graph of paths, whose edges are embeddings.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     /// Each path once per set of values; the requested paths come first.
     pub nodes: Vec<Node>,
     /// Embeddings in the order of the embedding path's segments.
     pub embeddings: Vec<Embedding>,
-    /// The requested nodes.
+    /// Indices of the requested nodes.
     pub roots: Vec<usize>,
-    /// Why the embeddings of some targets are unknown.
+    /// Diagnostics of targets whose embeddings are unknown.
     pub problems: Vec<Diagnostic>,
 }
 
@@ -33,20 +33,20 @@ pub struct Graph {
 pub struct Node {
     /// Name of the path, as its drawing spells it.
     pub name: PathName,
-    /// The drawing that defines it.
+    /// Path of the drawing that defines it.
     pub file: Utf8PathBuf,
-    /// Values of its variables.
+    /// Values of the path's variables.
     pub bindings: Bindings,
-    /// Whether the values are only examples for checking, with which nothing embeds the path.
+    /// Whether the values are only examples for checking, and no path embeds this one with them.
     pub is_example: bool,
-    /// Whether its drawing has no errors. Otherwise the path may embed more than is known.
+    /// Whether the path's drawing has no errors. If it has, the path may embed more than is known.
     pub is_sound: bool,
 }
 
 /// One or more subpath segments that embed the same path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Embedding {
-    /// The embedding path, as an index into [`Graph::nodes`].
+    /// Index of the embedding path in [`Graph::nodes`].
     pub from: usize,
     /// The embedded path.
     pub to: End,
@@ -54,12 +54,12 @@ pub struct Embedding {
     pub count: usize,
 }
 
-/// Target of a subpath segment.
+/// The path that a subpath segment embeds, or the reason why there is none.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum End {
-    /// A path, as an index into [`Graph::nodes`].
+    /// Index of a path in [`Graph::nodes`].
     Node(usize),
-    /// No path: the name in the segment, and the reason.
+    /// No path; the name in the segment, and the code of the error.
     Nowhere(Option<PathName>, Code),
 }
 
@@ -73,7 +73,7 @@ pub enum Direction {
 }
 
 impl Graph {
-    /// The nodes of a path, for all sets of values. The example node counts only if nothing embeds the path.
+    /// Returns the nodes of a path, one for each set of values. The node with example values is left out if another path embeds this one.
     pub fn nodes_of(&self, name: &PathName, file: &Utf8Path) -> Vec<usize> {
         let is_it = |node: &Node| node.name == *name && node.file == *file;
         let mut indices: Vec<usize> =
@@ -84,7 +84,7 @@ impl Graph {
         indices
     }
 
-    /// For each node, its embeddings in a direction, as indices into [`Graph::embeddings`].
+    /// Returns, for each node, its embeddings in a direction, as indices into [`Graph::embeddings`].
     pub fn neighbours(&self, direction: Direction) -> Vec<Vec<usize>> {
         let mut neighbours = vec![Vec::new(); self.nodes.len()];
         for (index, embedding) in self.embeddings.iter().enumerate() {
@@ -97,7 +97,7 @@ impl Graph {
         neighbours
     }
 
-    /// The part of the graph that is reachable from some nodes, which become its roots. The nodes must be distinct.
+    /// Returns the part of the graph that is reachable from some nodes, which become its roots. The nodes must be distinct.
     pub fn part(&self, roots: &[usize], direction: Direction) -> Self {
         let neighbours = self.neighbours(direction);
         let mut order: Vec<usize> = Vec::new();
@@ -129,7 +129,7 @@ impl Graph {
         }
     }
 
-    /// The node at the far end of an embedding; `None` if there is no path.
+    /// Returns the node at the far end of an embedding; `None` if there is no path.
     pub fn end(&self, embedding: usize, direction: Direction) -> Option<usize> {
         let embedding = &self.embeddings[embedding];
         match (direction, &embedding.to) {
@@ -140,12 +140,12 @@ impl Graph {
     }
 }
 
-/// The graph of some arguments.
+/// The graph for some arguments, with its diagnostics.
 #[derive(Debug)]
 pub struct GraphOutcome {
     /// The graph; its roots are the paths of the arguments.
     pub graph: Graph,
-    /// Diagnostics of the arguments and of their drawings, and why embeddings are unknown.
+    /// Diagnostics of the arguments and of their drawings, and reasons why embeddings are unknown.
     pub diagnostics: Vec<Diagnostic>,
     /// Number of paths with errors, which may embed more than is known.
     pub incomplete: usize,
@@ -159,7 +159,7 @@ impl GraphOutcome {
     }
 }
 
-/// The resolved arguments.
+/// The targets of the arguments, and diagnostics.
 struct GraphArguments {
     targets: Vec<Target>,
     files: Vec<SourceFile>,
@@ -183,7 +183,7 @@ impl GraphArguments {
         Self { targets, files, problems }
     }
 
-    /// The targets of the arguments, and all others that may embed them.
+    /// Returns the targets of the arguments, followed by all other targets, which may embed them.
     fn with_all_others(&mut self, session: &Session<'_>) -> Vec<Target> {
         let (files, problems) = session.all_drawings();
         self.problems.extend(problems);
@@ -194,7 +194,7 @@ impl GraphArguments {
         self.targets.iter().copied().chain(others).collect()
     }
 
-    /// The part of the graph of the whole library that embeds the arguments.
+    /// Returns the part of the whole library's graph that consists of the arguments and the paths that embed them.
     fn part_above(&self, db: &Database, whole: &Graph) -> Graph {
         let named = self.targets.iter().flat_map(|target| {
             let name = PathName::new(target.name(db));
@@ -211,7 +211,7 @@ impl GraphArguments {
 }
 
 impl Session<'_> {
-    /// What drawings and paths embed, directly or through others.
+    /// Returns the graph of the paths that drawings and paths embed, directly or through others.
     pub fn embedded_paths(&mut self, inputs: &Inputs) -> GraphOutcome {
         self.with_stable_files(|session| {
             let arguments = GraphArguments::new(session, inputs);
@@ -219,7 +219,7 @@ impl Session<'_> {
         })
     }
 
-    /// What embeds drawings and paths, directly or through others, among all paths of the library.
+    /// Returns the graph of the paths that embed drawings and paths, directly or through others, among all paths of the library.
     pub fn embedding_paths(&mut self, inputs: &Inputs) -> GraphOutcome {
         self.with_stable_files(|session| {
             let mut arguments = GraphArguments::new(session, inputs);
@@ -229,7 +229,7 @@ impl Session<'_> {
         })
     }
 
-    /// The graph of everything that these targets embed.
+    /// Returns the graph of everything that these targets embed.
     pub fn graph(&self, targets: &[Target]) -> Graph {
         let mut builder = GraphBuilder::default();
         let mut parts = Vec::with_capacity(targets.len());
@@ -261,15 +261,15 @@ impl Session<'_> {
 
 /// The graph of the paths that one target embeds.
 struct TargetGraph {
-    /// The first node is the target.
+    /// The paths; the first one is the target.
     nodes: Vec<Node>,
     embeddings: Vec<(usize, End)>,
-    /// Why the graph of this target is incomplete.
+    /// Diagnostics that explain why the graph of this target is incomplete.
     problems: Vec<Diagnostic>,
 }
 
 impl TargetGraph {
-    /// Nodes with missing embeddings, because the target embeds them too deep or embeds too many paths.
+    /// Returns the nodes whose embeddings are incomplete, because the target embeds them too deep or embeds too many paths.
     fn cut(&self) -> HashSet<usize> {
         let cut = |(from, to): &(usize, End)| match to {
             End::Nowhere(_, Code::NestingTooDeep | Code::LimitReached) => Some(*from),
@@ -282,9 +282,9 @@ impl TargetGraph {
 /// Whether all embeddings of a path are known.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Completeness {
-    /// All are known.
+    /// All embeddings are known.
     Whole,
-    /// Some are too deep below the target or beyond a limit. Another target may have shown them all.
+    /// Some embeddings are unknown, because they are too deep below the target or beyond a limit. The graph of another target may contain them.
     Cut,
 }
 
@@ -301,7 +301,7 @@ fn part(db: &Database, target: Target) -> TargetGraph {
     let too_many_paths = too_many_paths(reached);
     let beyond = if too_many_paths.is_empty() { Code::NestingTooDeep } else { Code::LimitReached };
     let end = |to| match to {
-        // The closure does not contain paths that are embedded too deep or beyond a limit.
+        // The closure does not contain paths that are embedded too deeply or beyond a limit.
         Destination::Path(child) => number
             .get(&child)
             .map_or_else(|| End::Nowhere(Some(node(db, child).name), beyond), |to| End::Node(*to)),
@@ -311,7 +311,7 @@ fn part(db: &Database, target: Target) -> TargetGraph {
     TargetGraph { embeddings: embeddings.collect(), nodes, problems: too_many_paths }
 }
 
-/// PB005 if the target embeds more paths than the limit allows, so that some are missing.
+/// Returns PB005 if the target embeds more paths than the limit allows, so that some are missing.
 fn too_many_paths(closure: &Closure<'_>) -> Vec<Diagnostic> {
     let is_limit = |problem: &&Diagnostic| *problem.message == files::TOO_MANY_PATHS;
     closure.diagnostics.iter().filter(is_limit).cloned().collect()
@@ -338,7 +338,7 @@ fn node(db: &Database, instance: Instance<'_>) -> Node {
 struct GraphBuilder {
     graph: Graph,
     nodes: HashMap<(PathName, Utf8PathBuf, Bindings), usize>,
-    /// Nodes with complete embeddings. They are the same for every target that reaches the node.
+    /// Nodes whose embeddings have all been added. These are the same for every target that reaches the node.
     complete: HashSet<usize>,
 }
 
@@ -346,13 +346,13 @@ impl GraphBuilder {
     fn add_root(&mut self, part: &TargetGraph) {
         let Some(node) = part.nodes.first() else { return };
         let root = self.node(node.clone());
-        // Nodes are numbered in order of appearance, so an existing root was requested before.
+        // Nodes are numbered in order of appearance, so a node with a lower number is a root already.
         if self.graph.roots.len() == root {
             self.graph.roots.push(root);
         }
     }
 
-    /// Adds the embeddings of those nodes of a part that have the given reach.
+    /// Adds the embeddings of those nodes of a part that have the given completeness.
     fn add(&mut self, part: &TargetGraph, completeness: Completeness) {
         let numbers: Vec<usize> = part.nodes.iter().map(|node| self.node(node.clone())).collect();
         let cut = part.cut();

@@ -1,6 +1,5 @@
-//! Searches directories recursively for drawings, and obeys the .gitignore and .ignore files there. Patterns have the same meaning as in Git.
-//! Files outside the library, such as a user's global excludes, are not read: results must not depend on the user. (book:
-//! howto/large-libraries)
+//! Searches directories recursively for drawings, and obeys the .gitignore and .ignore files in them. Patterns have the same meaning as in Git.
+//! Files outside the library, such as a user's global excludes, are not read: results must not depend on the user. (book: howto/large-libraries)
 
 use std::cmp;
 use std::collections::HashSet;
@@ -23,27 +22,27 @@ use rayon::prelude::*;
 use super::Session;
 use crate::files::is_program;
 
-/// The programs that arguments name.
+/// The programs that arguments name, with the directories that were searched.
 #[derive(Debug, Default)]
 pub struct ProgramMatches {
     /// Paths of the programs, in the order of the arguments.
     pub programs: Vec<Utf8PathBuf>,
     /// The directories that were searched.
     pub directories: Vec<Utf8PathBuf>,
-    /// Directories that cannot be listed, or without programs.
+    /// Diagnostics of directories that cannot be listed or contain no programs.
     pub problems: Vec<Diagnostic>,
 }
 
 /// The contents of a directory and of all directories below it.
 #[derive(Debug, Default)]
 pub(super) struct WalkResult {
-    /// All drawings, or other wanted files, sorted by place.
+    /// All drawings, or other wanted files, in the order of [`by_place`].
     pub(super) drawings: Vec<Utf8PathBuf>,
-    /// The directory itself and all directories below it, sorted by place.
+    /// The directory itself and all directories below it, in the order of [`by_place`].
     pub(super) directories: Vec<Utf8PathBuf>,
-    /// Contents of these directories, as far as they are known.
+    /// Contents of those directories that could be listed.
     pub(super) listings: Listings,
-    /// Errors for directories that cannot be listed. If the limit is exceeded, PB005 is the only content: a partial result would be
+    /// Errors for directories that cannot be listed. If the limit is exceeded, the result contains nothing but PB005: a partial result would be
     /// misleading.
     pub(super) problems: Vec<Diagnostic>,
 }
@@ -54,24 +53,23 @@ const MAX_SEQUENTIAL_DIRECTORIES: usize = 4;
 /// Settings of a recursive search.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Walk<'a> {
-    /// The file system.
+    /// The file system that is searched.
     pub(super) system: &'a dyn System,
-    /// Upper bound on the number of files and directories.
+    /// Upper bound on the number of files and directories that are found.
     pub(super) limit: u64,
     /// Upper bound on the size of an ignore file in bytes.
     pub(super) rules_limit: u64,
     /// Whether to use all cores.
     pub(super) is_parallel: bool,
-    /// Which files are searched for, by their names.
+    /// Function that decides by a file's name whether it is searched for.
     pub(super) is_wanted: fn(&Utf8Path) -> bool,
     /// Whether .gitignore files apply, besides .ignore.
     pub(super) obeys_git: bool,
 }
 
 impl Walk<'_> {
-    /// Finds all drawings in and below a directory, respecting .gitignore and .ignore files inside it. Symbolic links to directories are
-    /// not followed: they may lead anywhere, even in circles. The resulting paths begin with `root` as given, so they are normal if `root`
-    /// is.
+    /// Finds all wanted files in and below a directory, respecting .gitignore and .ignore files inside it. Symbolic links to directories are not
+    /// followed: they may lead anywhere, even in circles. The resulting paths begin with `root` as given, so they are normal if `root` is.
     pub(super) fn through(self, root: &Utf8Path) -> WalkResult {
         let (mut walked, count) = match self.levels(root) {
             Ok(walked) => walked,
@@ -89,7 +87,7 @@ impl Walk<'_> {
         walked
     }
 
-    /// The ignore rules of a directory that apply to this search.
+    /// Reads the ignore rules of a directory, as far as they apply to this search.
     fn rules(
         self,
         directory: &Utf8Path,
@@ -105,7 +103,7 @@ impl Walk<'_> {
         Ok(rules)
     }
 
-    /// Collects the contents unsorted, together with their number. Stops once the limit is exceeded.
+    /// Collects the contents unsorted, and counts them. Stops once the limit is exceeded.
     fn levels(self, root: &Utf8Path) -> Result<(WalkResult, u64), Box<Diagnostic>> {
         let mut walked = WalkResult::default();
         let mut open: Vec<(Utf8PathBuf, Option<Arc<Rules>>)> = vec![(root.to_owned(), None)];
@@ -157,18 +155,18 @@ struct Directory {
     drawings: Vec<Utf8PathBuf>,
     directories: Vec<Utf8PathBuf>,
     listing: Listing,
-    /// Entries with names that are not UTF-8: nothing can be opened under their lossy spellings.
+    /// Entries with names that are not UTF-8. Their names are lossy, so nothing can be opened under them.
     inexact: Listing,
-    /// Ignore rules that apply here and below, if there are any.
+    /// Ignore rules that apply in this directory and below, if there are any.
     rules: Option<Arc<Rules>>,
     /// Number of entries that are not ignored.
     count: u64,
-    /// Errors of listing the directory, and names under which nothing can be read.
+    /// Errors of listing the directory, and diagnostics of names under which nothing can be read.
     problems: Vec<Diagnostic>,
 }
 
 impl Directory {
-    /// A directory whose listing triggered a bug, so that its contents are unknown.
+    /// Returns a directory whose contents are unknown, because listing it triggered a bug.
     fn failed(directory: &Utf8Path, bug: Diagnostic) -> Self {
         let problems = vec![bug.in_file(readable(directory))];
         Self { problems, listing: Listing { is_doubtful: true, ..Listing::default() }, ..Self::default() }
@@ -193,7 +191,7 @@ impl Directory {
             }
         });
         if has_own {
-            // Most directories have no ignore file. One that has is listed again, with its rules.
+            // Most directories have no ignore file, so they are first listed without rules. One that has such a file is listed again.
             found = Self { rules: Some(walk.rules(directory, above, budget)?), ..Self::default() };
             listed = walk.system.each_entry(directory, &mut |entry| {
                 found.add(directory, entry, walk.is_wanted);
@@ -201,7 +199,7 @@ impl Directory {
             });
         }
         if let Err(error) = &listed {
-            // The directory is gone, or it is a drawing. Any other error is reported, for example a path that is too long.
+            // The directory is gone, or is a file. Any other error, such as a path that is too long, is reported.
             let is_none = match walk.system.kind(directory) {
                 FileKind::Directory => false,
                 FileKind::Missing => *error == ReadError::Missing,
@@ -253,7 +251,7 @@ impl Directory {
         }
     }
 
-    /// Whether a name is part of the library, i.e. not ignored.
+    /// Whether a name is part of the library, which means that it is not ignored.
     fn counts(&self, directory: &Utf8Path, name: &str, is_directory: bool) -> bool {
         match &self.rules {
             Some(rules) => !rules.exclude(&join(directory, name), is_directory),
@@ -266,7 +264,7 @@ fn is_hidden(name: &str) -> bool {
     name.starts_with('.')
 }
 
-/// Compares names like `Ord`, with a shortcut over the first eight bytes.
+/// Compares names like `Ord`, but faster: first as numbers made of the first eight bytes.
 pub fn by_name(a: &str, b: &str) -> cmp::Ordering {
     let begin = |name: &str| name.as_bytes().first_chunk().map(|bytes| u64::from_be_bytes(*bytes));
     match (begin(a), begin(b)) {
@@ -298,8 +296,8 @@ fn too_many(directory: &Utf8Path, limit: u64) -> Diagnostic {
 }
 
 impl Session<'_> {
-    /// The programs that these arguments name, each once, and what is wrong with directories. A directory stands for the programs in and
-    /// below it. A pattern that the shell passed on unexpanded stands for the files and directories that match its last component.
+    /// Finds the programs that these arguments name, each once, and diagnostics of directories. A directory stands for the programs in and below
+    /// it. A pattern that the shell passed on unexpanded stands for the files and directories that match its last component.
     pub fn match_programs(&self, arguments: &[Utf8PathBuf]) -> ProgramMatches {
         let mut found = ProgramMatches::default();
         for argument in arguments {
@@ -321,7 +319,7 @@ impl Session<'_> {
     fn add_directory(&self, directory: &Utf8Path, found: &mut ProgramMatches) {
         self.start_workers();
         let root = if directory == "." { Utf8Path::new("") } else { directory };
-        // Programs are generated, so that .gitignore often names them.
+        // Programs are generated files, which .gitignore often excludes, so it is disregarded.
         let walked = Walk { obeys_git: false, ..self.walk(is_program) }.through(root);
         if walked.drawings.is_empty() && walked.problems.is_empty() {
             let problem = Diagnostic::new(&outputs::NO_PROGRAM);
@@ -334,6 +332,7 @@ impl Session<'_> {
 
     /// Queries the database about a directory.
     ///
+    /// # Errors
     /// PB006 if this triggers a bug, PB001 if a drawing changed in the meantime or if the directory cannot be listed.
     pub(super) fn query_directory<R>(
         &self,
@@ -348,7 +347,7 @@ impl Session<'_> {
         }
     }
 
-    /// Names of the entries of a directory that are not directories themselves; empty if the directory does not exist.
+    /// Returns the names of the entries of a directory that are not directories themselves; empty if the directory does not exist.
     ///
     /// # Errors
     /// PB001 if it cannot be listed, PB006 if this triggers a bug.
@@ -362,7 +361,7 @@ impl Session<'_> {
     }
 }
 
-/// The rules that apply in a directory: those of its own files, and those from above.
+/// The ignore rules that apply in a directory: those in its own files, and those from the directories above.
 #[derive(Debug)]
 pub(super) struct Rules {
     git: Gitignore,
@@ -385,12 +384,12 @@ pub(super) struct Budget {
 const ALL: u64 = 16;
 
 impl Budget {
-    /// `each` is the value of `[limits] ignore-file-size`.
+    /// Creates a budget. `each` is the value of `[limits] ignore-file-size`.
     pub(super) fn new(each: u64) -> Self {
         Self { each, read: AtomicU64::new(0) }
     }
 
-    /// PB005 if the total was exceeded by any thread; rules are missing then.
+    /// Returns PB005 if the files read by all threads exceed the total, so that rules are missing.
     pub(super) fn exceeded(&self, root: &Utf8Path) -> Option<Box<Diagnostic>> {
         let problem = || {
             Diagnostic::new(&messages::TOO_MANY_RULES)
@@ -425,7 +424,7 @@ pub(crate) fn is_ignore_file(name: &str) -> bool {
     IGNORE_FILES.contains(&name)
 }
 
-/// Whether an entry of this name changes the rules: an ignore file, or a repository if there are rules already.
+/// Whether an entry of this name changes the rules: an ignore file does, and the root of a repository if there are rules already.
 pub(super) fn changes_rules(name: &str, are_some: bool) -> bool {
     is_ignore_file(name) || are_some && name == ".git"
 }
@@ -434,7 +433,7 @@ impl Rules {
     /// Reads the ignore files of a directory, within a budget.
     ///
     /// # Errors
-    /// Why a file cannot be read: without its rules, it is unknown what is ignored.
+    /// If a file cannot be read: without its rules, it is unknown which files are ignored.
     pub(super) fn read(
         system: &dyn System,
         directory: &Utf8Path,
@@ -462,7 +461,7 @@ impl Rules {
         std::iter::successors(Some(self), |level| level.above.as_deref())
     }
 
-    /// The levels up to the root of the repository.
+    /// Iterates over the directories from this one up to the root of its repository.
     fn git_levels(&self) -> impl Iterator<Item = &Self> {
         std::iter::successors(Some(self), |level| level.above.as_deref().filter(|_| !level.is_repository))
     }

@@ -39,27 +39,27 @@ pub use work::{CheckedTarget, Checker, Pair, ProgramFacts, pairs as q_project_pa
 pub struct Session<'a> {
     db: Database,
     context: &'a Workspace,
-    /// Whether the inputs of targets are traced.
+    /// Whether the inputs of results are recorded.
     is_traced: bool,
-    /// Started on first use.
+    /// Thread that enforces time limits; started on first use.
     watchdog: OnceLock<Watchdog>,
-    /// Progress display over all batches. Without one, each parallel loop shows its own.
+    /// Progress display over all batches. If there is none, each parallel loop shows its own.
     progress: Option<Box<dyn ProgressCounter>>,
     workers: OnceLock<Option<Workers>>,
-    /// Time spent, by phase.
+    /// Time spent in each phase.
     pub timings: Timings,
 }
 
-/// Upper bound on repetitions of work during which drawings changed. A drawing that keeps changing is then reported.
+/// Upper bound on repetitions of work during which drawings changed. After that, a drawing that keeps changing is reported.
 const ROUNDS: usize = 8;
 
 impl<'a> Session<'a> {
-    /// A session over the files of a workspace.
+    /// Opens a session on the files of a workspace.
     pub fn new(context: &'a Workspace) -> Self {
         Self::over(context, false, Arc::clone(&context.system))
     }
 
-    /// A session that traces inputs, so that its results can be cached.
+    /// Opens a session that traces inputs, so that its results can be cached.
     pub fn traced(context: &'a Workspace) -> Self {
         Self { is_traced: true, ..Self::over(context, true, Arc::clone(&context.system)) }
     }
@@ -74,7 +74,7 @@ impl<'a> Session<'a> {
         self.db.touch_directory(path);
     }
 
-    /// A session in which a drawing exists that has not been written to disk.
+    /// Opens a session in which a drawing exists that has not been written to disk.
     pub fn with_drawing(context: &'a Workspace, path: &Utf8Path, bytes: Vec<u8>) -> Self {
         let overlay = OverlaySystem::new(Arc::clone(&context.system), path.to_owned(), bytes);
         Self::over(context, false, Arc::new(overlay))
@@ -106,17 +106,17 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// The workspace.
+    /// The workspace of the session.
     pub fn workspace(&self) -> &'a Workspace {
         self.context
     }
 
-    /// The database.
+    /// The database of the session.
     pub fn db(&self) -> &Database {
         &self.db
     }
 
-    /// The drawing with this path.
+    /// Returns the drawing with this path, whether it exists or not.
     pub fn file(&self, path: &Utf8Path) -> SourceFile {
         if self.is_normal(path) { self.db.file(path) } else { self.db.file(&self.normal(path)) }
     }
@@ -126,12 +126,12 @@ impl<'a> Session<'a> {
         normal(path, &self.context.working_directory)
     }
 
-    /// The configured output directory of all programs.
+    /// Returns the configured output directory of all programs; `None` if programs are written beside their drawings.
     pub fn out_dir(&self) -> Option<Utf8PathBuf> {
         self.context.settings.general.out_dir.value.as_ref().map(|directory| self.normal(directory))
     }
 
-    /// Like [`normal`](Self::normal), without a copy if the path is normal already.
+    /// Like [`normal`](Self::normal), but does not copy a path that is normal already.
     fn normalised(&self, path: Utf8PathBuf) -> Utf8PathBuf {
         if self.is_normal(&path) { path } else { self.normal(&path) }
     }
@@ -148,7 +148,7 @@ fn normal(path: &Utf8Path, working_directory: &Utf8Path) -> Utf8PathBuf {
     clean(path.strip_prefix(working_directory).unwrap_or(path))
 }
 
-/// Whether a path is normal already, as nearly all paths are: relative, or outside the working directory.
+/// Whether a path is normal already, as nearly all paths are: without redundant components, and not an absolute path inside the working directory.
 fn is_normal(path: &Utf8Path, working_directory: &Utf8Path) -> bool {
     let is_redundant = |part: &str| matches!(part, "" | "." | "..");
     let below_root =

@@ -1,4 +1,4 @@
-//! Kinds of files that belong to a program. (book: program/gcode)
+//! Kinds of output files of a program. (book: program/gcode)
 
 use pathbuild_diagnostic::reasons::{DEVICE_NAME, NO_FILE_NAME};
 use pathbuild_diagnostic::{Diagnostic, Text};
@@ -16,7 +16,7 @@ pub enum OutputKind {
     Clean,
     /// The program that measures the probes.
     Probing,
-    /// The file into which users enter measured values. These must not be lost.
+    /// The file into which users enter measured values, which must never be lost.
     Values,
     /// The setup sheet for the machine operator.
     SheetPdf,
@@ -33,14 +33,14 @@ pub struct WriteSettings {
     pub options: WriteOptions,
     /// Upper bound on a program's moves, after cutting them into pieces.
     pub most_moves: u64,
-    /// Upper bound on the memory of its moves, in bytes. (`[limits] program-memory`)
+    /// Upper bound on the memory of a program's moves, in bytes. (`[limits] program-memory`)
     pub most_memory: u64,
-    /// Upper bound on its text, in bytes. (`[limits] output-size`)
+    /// Upper bound on the size of a file's text, in bytes. (`[limits] output-size`)
     pub most_bytes: usize,
 }
 
 impl OutputKind {
-    /// All kinds.
+    /// All kinds of output files.
     pub const ALL: [Self; 7] = [
         Self::Milling,
         Self::Clean,
@@ -51,7 +51,7 @@ impl OutputKind {
         Self::SheetSvg,
     ];
 
-    /// The kind of setup sheets in this format.
+    /// Returns the kind of setup sheets in this format.
     pub fn of_sheet(format: SheetFormat) -> Option<Self> {
         match format {
             SheetFormat::No => None,
@@ -61,7 +61,7 @@ impl OutputKind {
         }
     }
 
-    /// The format of a setup sheet; `None` for other kinds.
+    /// Returns the format of a setup sheet; `None` for other kinds.
     pub fn sheet(self) -> Option<SheetFormat> {
         match self {
             Self::Milling | Self::Clean | Self::Probing | Self::Values => None,
@@ -76,12 +76,12 @@ impl OutputKind {
         matches!(self, Self::Milling | Self::Clean)
     }
 
-    /// The files of a program, apart from its setup sheet.
+    /// Returns the kinds of files of a program, apart from its setup sheet.
     pub fn of(has_probes: bool) -> &'static [Self] {
         if has_probes { &[Self::Clean, Self::Probing, Self::Values] } else { &[Self::Milling] }
     }
 
-    /// Ending of the file name, which follows the name of the drawing or path and the value of R.
+    /// Returns the ending of the file name, which follows the name of the drawing or path and the value of R.
     pub fn suffix(self) -> &'static str {
         match self {
             Self::Milling => "_Milling.gcode",
@@ -94,10 +94,10 @@ impl OutputKind {
         }
     }
 
-    /// Checks that the text, when read back, makes the machine do what the program says.
+    /// Reads the text back and checks that the machine would do what the program says.
     ///
     /// # Errors
-    /// PB006 if it does not.
+    /// PB006 if the text differs from the program.
     pub fn read_back(self, text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
         match self {
             Self::Milling | Self::Clean => native::read_back(text, program),
@@ -136,8 +136,8 @@ impl WriteSettings {
     }
 }
 
-/// Why a name is not allowed as a file name, if it is not. `rest` is the part that does not stem from an existing file name, such as R: it must
-/// be valid on every system, and must not deceive the reader. On Windows, `x:y` is a hidden stream of the file `x`.
+/// Returns the reason why a name is not allowed as a file name, if it is not. `rest` is the part that does not stem from an existing file name,
+/// such as R: it must be valid on every system, and must not deceive the reader. On Windows, `x:y` is a hidden stream of the file `x`.
 pub fn stem_fault(name: &str, rest: &str) -> Option<&'static Text> {
     let is_invalid = name.contains(['/', '\\'])
         || name.contains(char::is_control)
@@ -149,7 +149,7 @@ pub fn stem_fault(name: &str, rest: &str) -> Option<&'static Text> {
     (name == rest && is_device(name)).then_some(&DEVICE_NAME)
 }
 
-/// Whether Windows takes a file name that begins like this for a device: whatever follows the first point does not matter there.
+/// Whether Windows takes a file name that begins like this for a device. It ignores everything after the first dot.
 fn is_device(name: &str) -> bool {
     let Some((base, _)) = name.split_once('.') else { return false };
     let base = base.trim_end().to_ascii_uppercase();
@@ -160,19 +160,19 @@ fn is_device(name: &str) -> bool {
     matches!(&*base, "CON" | "PRN" | "AUX" | "NUL") || is_port("COM") || is_port("LPT")
 }
 
-/// Whether the character changes the writing direction of the characters around it.
+/// Whether a character changes the writing direction of the characters around it.
 fn is_direction(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A file of values without the text after each `=`, and with normalized line ends.
+/// Returns the text of a file of measured values without the text after each `=`, and with normalized line ends.
 pub fn without_values(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes);
     let line = |line: &str| line.split_inclusive('=').filter(|part| part.ends_with('=')).collect::<String>();
     text.lines().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// A file of values without the probes' places in the emitted drawing.
+/// Returns the text of a file of measured values without the positions of the probes in the emitted drawing.
 pub fn without_places(values: &str) -> String {
     let line = |line: &str| match line.rsplit_once(PLACE) {
         Some((before, place)) => format!("{before}{}", place.split_once(']').unwrap_or_default().1),
@@ -181,5 +181,5 @@ pub fn without_places(values: &str) -> String {
     values.lines().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Separates the name of a probe from its place in the emitted drawing.
+/// Text that separates the name of a probe from its position in the emitted drawing.
 const PLACE: &str = " @ [";

@@ -1,6 +1,6 @@
-//! Resolves arguments to drawings and paths, with hints about what is missing: paths that exist elsewhere in the library, misspelled names on
-//! the command line, missing directories, directories without drawings, drawings without paths. (book: reference/commands; book:
-//! language/embedding; book: reference/diagnostics)
+//! Resolves arguments to drawings and paths. Diagnostics get hints: paths that exist elsewhere in the library, misspelled names on the command
+//! line, missing directories, directories without drawings, drawings without paths. (book: reference/commands; book: language/embedding; book:
+//! reference/diagnostics)
 
 use std::cell::LazyCell;
 use std::collections::BTreeMap;
@@ -23,7 +23,7 @@ use crate::workspace::relative;
 /// The drawings and paths that arguments resolve to.
 #[derive(Debug, Default)]
 pub struct Selection {
-    /// Drawings in named directories, sorted by place, without those that were named themselves.
+    /// Drawings in named directories, in the order of their places, without those that were named themselves.
     pub drawings: Vec<Utf8PathBuf>,
     /// Drawings that were named.
     pub named: Vec<SourceFile>,
@@ -31,22 +31,22 @@ pub struct Selection {
     pub paths: Vec<SelectedPath>,
     /// Directories that were named; without arguments, those of the library.
     pub directories: Vec<Utf8PathBuf>,
-    /// These directories and all below them.
+    /// The named directories and all directories below them.
     pub below: Vec<Utf8PathBuf>,
-    /// Names that are unknown or ambiguous.
+    /// Diagnostics of names that are unknown or ambiguous.
     pub problems: Vec<Diagnostic>,
 }
 
 /// A path that was named.
 #[derive(Clone, Debug)]
 pub struct SelectedPath {
-    /// The drawing that defines it.
+    /// The drawing that defines the path.
     pub file: SourceFile,
-    /// Its name as the drawing spells it.
+    /// Name of the path, as the drawing spells it.
     pub name: PathName,
 }
 
-/// Returns the names of a drawing's paths. A cached answer saves reading the drawing.
+/// Function that returns the names of a drawing's paths, from the cache if possible, so that the drawing need not be read.
 pub type NamesOf<'a> = &'a dyn Fn(SourceFile) -> &'a [PathName];
 
 impl Session<'_> {
@@ -88,7 +88,7 @@ impl Session<'_> {
         selection
     }
 
-    /// Adds the drawings and paths of an argument. Returns the directory if the argument is one.
+    /// Adds the drawings and paths of an argument. Returns the directory if the argument is a directory.
     fn add<'f>(
         &self,
         argument: &'f Argument,
@@ -106,7 +106,7 @@ impl Session<'_> {
                 let defines = |file: &SourceFile| names(*file).contains(name);
                 let files = self.distinct(candidates.iter().copied().filter(defines));
                 if !files.is_empty() {
-                    // Another definition may have been missed.
+                    // The errors may have hidden another definition of the path.
                     selection.problems.extend_from_slice(&found.name_problems);
                 }
                 match (files.as_slice(), drawing, directory) {
@@ -118,7 +118,7 @@ impl Session<'_> {
                         selection.problems.push(self.defined_twice(name, *first, *second));
                     }
                     ([], Some(drawing), _) => selection.name(*drawing),
-                    // Users type `check components`; nothing else has that name.
+                    // A directory in the working directory, as in `check components`, if neither a path nor a drawing has that name.
                     ([], None, Some(directory)) => {
                         selection.add(directory);
                         return Some(directory);
@@ -139,8 +139,8 @@ impl Session<'_> {
         None
     }
 
-    /// Errors that kept candidate drawings from being read. Only candidates without a known path matter: the wanted path may be in one of
-    /// them.
+    /// Returns the errors that kept candidate drawings from being read. Only candidates without a known path matter, because any of them may
+    /// contain the wanted path.
     fn read_errors(&self, candidates: &[SourceFile], names: NamesOf<'_>) -> Vec<Diagnostic> {
         let is_unread = |file: &SourceFile| names(*file).is_empty();
         let files = self.distinct(candidates.iter().copied().filter(is_unread));
@@ -148,13 +148,13 @@ impl Session<'_> {
         problems.filter(|problem| problem.is_error()).cloned().collect()
     }
 
-    /// Errors that may have kept a name from being found.
+    /// Returns the errors that may have kept a name from being found.
     fn name_problems(&self, found: &ArgumentMatches) -> Vec<Diagnostic> {
         if self.has_library() { found.name_problems.clone() } else { self.all_drawings().1 }
     }
 
-    /// The distinct drawings in these directories that define a path. Directories that cause an internal error are skipped: for arguments
-    /// the error was already reported, and hints can do without.
+    /// Returns the distinct drawings in these directories that define a path. Directories whose query triggers a bug are skipped: for arguments the
+    /// bug was already reported, and hints are not essential.
     pub fn definitions(&self, name: &PathName, directories: &[Utf8PathBuf]) -> Vec<SourceFile> {
         let holders = |directory: &Utf8PathBuf| {
             self.query_directory(directory, |directory| holders(&self.db, directory, name))
@@ -162,7 +162,7 @@ impl Session<'_> {
         self.distinct(directories.iter().flat_map(holders).flatten())
     }
 
-    /// Removes drawings that are reached under a second name.
+    /// Removes drawings that occur again under another file name.
     fn distinct(&self, files: impl Iterator<Item = SourceFile>) -> Vec<SourceFile> {
         let mut seen = FxHashSet::default();
         files.filter(|file| seen.insert(self.db.system().canonical(file.path(&self.db)))).collect()
@@ -179,7 +179,7 @@ impl Session<'_> {
 }
 
 impl Selection {
-    /// All drawings that are selected as a whole.
+    /// Returns all drawings that are selected as a whole.
     pub fn whole(&self, session: &Session<'_>) -> Vec<SourceFile> {
         let mut files = session.db().files(self.drawings.clone());
         files.extend(&self.named);
@@ -208,23 +208,23 @@ fn no_such_path(name: &PathName, directories: &[Utf8PathBuf]) -> Diagnostic {
     Diagnostic::new(&messages::NO_SUCH_PATH).quoting("name", name.as_str()).with("directories", directories)
 }
 
-/// A drawing with those of its paths that an argument means.
+/// A drawing with the paths in it that an argument selects.
 #[derive(Debug)]
 pub struct NamedPaths {
-    /// The drawing.
+    /// The drawing that contains the paths.
     pub file: SourceFile,
-    /// The path that was named, or all paths of the drawing that was named.
+    /// The path that the argument names, or all paths if it names the drawing.
     pub names: Vec<PathName>,
 }
 
-/// Why an argument does not name one path.
+/// The reason why an argument does not name exactly one path.
 #[derive(Debug)]
 pub enum NotOnePath {
-    /// It names a directory.
+    /// The argument names a directory.
     Directory,
-    /// It names a drawing with several paths.
+    /// The argument names a drawing with several paths.
     Several(NamedPaths),
-    /// It is unknown or ambiguous, or names a drawing without a path.
+    /// The argument is unknown or ambiguous, or names a drawing without a path.
     Wrong(Vec<Diagnostic>),
 }
 
@@ -253,10 +253,10 @@ impl Session<'_> {
         })
     }
 
-    /// Resolves an argument to one path: its name, or that of a drawing with no other path.
+    /// Resolves an argument to one path, which it names directly or by a drawing with no other path.
     ///
     /// # Errors
-    /// What it names instead.
+    /// If the argument does not name exactly one path, with the reason.
     pub fn one_path(&self, argument: &str, role: Role) -> Result<Target, NotOnePath> {
         let named = self.named_paths(argument).map_err(NotOnePath::Wrong)?.ok_or(NotOnePath::Directory)?;
         match &*named.names {
@@ -270,7 +270,7 @@ impl Session<'_> {
         }
     }
 
-    /// PB513 for a drawing that was named but contains no path, unless its errors explain that.
+    /// Returns PB513 for a drawing that was named but contains no path, unless the drawing's errors explain that.
     pub fn no_path(
         &self,
         drawing: &Utf8Path,
@@ -286,7 +286,7 @@ impl Session<'_> {
     }
 }
 
-/// PB512 for a drawing that was named where one path is meant.
+/// Returns PB512 for a drawing with several paths that was named where one path is needed.
 pub fn several_paths(drawing: &Utf8Path, names: &[PathName]) -> Diagnostic {
     let list: Value = names.iter().map(PathName::as_str).collect();
     Diagnostic::new(&messages::SEVERAL_PATHS)
@@ -296,8 +296,7 @@ pub fn several_paths(drawing: &Utf8Path, names: &[PathName]) -> Diagnostic {
 }
 
 impl Session<'_> {
-    /// Adds to each PB503 of a subpath where in the library the path is defined. The library is searched only if there is such a
-    /// diagnostic.
+    /// Adds to each PB503 of a subpath where in the library the path is defined. The library is searched only if there is such a diagnostic.
     pub(super) fn with_library_hints(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         let directories = LazyCell::new(|| self.library_directories());
         let mut definitions: BTreeMap<PathName, Option<Utf8PathBuf>> = BTreeMap::new();
@@ -330,7 +329,7 @@ impl Session<'_> {
     }
 }
 
-/// The path that a subpath segment names and that was not found.
+/// Returns the path that a subpath segment names, if the diagnostic says that it was not found.
 fn missing_path(diagnostic: &Diagnostic) -> Option<PathName> {
     let name = diagnostic.quoted("name").filter(|_| *diagnostic.message == paths::NOT_FOUND);
     name.map(PathName::new)
@@ -363,7 +362,7 @@ impl Session<'_> {
         self.with_library_hints(diagnostics).into_iter().map(with_near).collect()
     }
 
-    /// Finds a missing path elsewhere: in the library, in a drawing whose file name does not cover it, or under a similar name.
+    /// Finds a missing path elsewhere: in the library, in a drawing whose file name does not cover the path, or under a similar name.
     fn near_path(&self, name: &str, known: &KnownNames) -> Option<(&'static Message, String)> {
         let path = PathName::new(name);
         let in_drawing = |message, file: SourceFile| Some((message, file.path(self.db()).to_string()));
@@ -379,7 +378,7 @@ impl Session<'_> {
         nearest(name, others).map(|near| (&outputs::NEAR_PATH, near.to_owned()))
     }
 
-    /// Everything that a name without a separator may refer to.
+    /// Collects everything that a name without a separator may refer to.
     fn known(&self) -> KnownNames {
         KnownNames {
             paths: self.paths_of_library(MOST_UNKNOWN),
@@ -387,7 +386,7 @@ impl Session<'_> {
         }
     }
 
-    /// The existing drawing or directory with the most similar name, if the first missing component of the path is misspelled.
+    /// Returns the existing drawing or directory with the most similar name, if the first missing component of the path is misspelled.
     fn near_file(&self, file: &Utf8Path) -> Option<Utf8PathBuf> {
         let is_there = |directory: &&Utf8Path| {
             directory.as_str().is_empty() || self.db().system().kind(directory) == FileKind::Directory
@@ -398,11 +397,11 @@ impl Session<'_> {
         let entries = self.entries(directory, is_drawing);
         let near = join(directory, nearest(name.as_str(), entries.iter().map(String::as_str))?);
         let whole = join(&near, missing.as_path());
-        // The components after the misspelled one may exist.
+        // The components after the misspelled one may exist in the directory that was meant.
         Some(if self.db().system().kind(&whole) == FileKind::Missing { near } else { whole })
     }
 
-    /// Sorted names of the wanted files and the directories in a directory, without hidden ones.
+    /// Returns the sorted names of the wanted files and of the directories in a directory, without hidden ones.
     pub(super) fn entries(&self, directory: &Utf8Path, is_wanted: fn(&Utf8Path) -> bool) -> Vec<String> {
         let mut names = Vec::new();
         let mut take = |entry: Entry<'_>| {
@@ -428,7 +427,7 @@ struct KnownNames {
 }
 
 impl Session<'_> {
-    /// PB003 for each missing directory of the keys `library` and `search`.
+    /// Returns PB003 for each missing directory of the keys `library` and `search`.
     pub(crate) fn missing_directories(&self) -> Vec<Diagnostic> {
         let general = &self.context.settings.general;
         let library = self.missing("library", &general.library, &[FileKind::Directory, FileKind::File]);
@@ -452,7 +451,8 @@ impl Session<'_> {
         })
     }
 
-    /// PB518 for each named directory without drawings. A library may be new, so for it only if all its directories are empty.
+    /// Returns PB518 for each named directory without drawings. A new library may have empty directories, so for the library it is returned only if
+    /// all directories are empty.
     pub(super) fn without_drawings(is_library: bool, directories: &[&SearchedDirectory]) -> Vec<Diagnostic> {
         let empty = directories.iter().filter(|directory| directory.drawings.is_empty());
         let empty: Vec<&Utf8Path> = empty.map(|directory| directory.path.as_path()).collect();
@@ -464,7 +464,7 @@ impl Session<'_> {
         }
     }
 
-    /// PB518 if there are drawings, but none of them contains a path. A drawing with an error of its own may contain one. PathDxf2GCode
+    /// Returns PB518 if there are drawings, but none of them contains a path. A drawing with an error of its own may contain one. PathDxf2GCode
     /// accepts such a library. `drawings` has the paths and the diagnostics of each drawing.
     pub fn no_path_anywhere<'a>(
         &self,
@@ -484,7 +484,7 @@ impl Session<'_> {
         })
     }
 
-    /// Whether the run mimics PathDxf2GCode.
+    /// Whether the run must behave as PathDxf2GCode does.
     pub fn is_compatible(&self) -> bool {
         self.context.settings.general.compatible.value
     }
@@ -496,5 +496,5 @@ fn no_drawing(directories: &[&Utf8Path]) -> Diagnostic {
     Diagnostic::new(&outputs::NO_DRAWING).with("directories", directories)
 }
 
-/// Upper bound on the number of drawings that are read just for the names of their paths; takes half a second.
+/// Upper bound on the number of drawings that are read only for the names of their paths. Reading that many takes half a second.
 pub(crate) const MOST_UNKNOWN: usize = 2000;

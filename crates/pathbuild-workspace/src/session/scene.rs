@@ -25,23 +25,23 @@ pub struct HashedPath {
     pub file: SourceFile,
     /// Name of the path.
     pub name: PathName,
-    /// The target whose program that is.
+    /// The target whose program was hashed.
     pub target: Target,
-    /// Hash of its program's moves; `None` if the path has errors, or if its program could not be built.
+    /// Hash of the moves of the path's program; `None` if the path has errors, or if its program could not be built.
     pub moves: Option<Box<str>>,
-    /// Limits and bugs that kept the program from being built.
+    /// Diagnostics of exceeded limits and bugs that kept the program from being built.
     pub problems: Vec<Diagnostic>,
 }
 
 impl Session<'_> {
-    /// Scenes of the geometry in some drawings, without programs; `None` for a drawing that triggers a bug.
+    /// Returns scenes of the geometry in some drawings, without programs; `None` for a drawing that triggers a bug.
     pub fn drawn_scenes(&self, files: &[&Utf8Path]) -> Vec<Option<Scene>> {
         let files: Vec<SourceFile> = files.iter().map(|file| self.file(file)).collect();
         let scenes = self.map_guarded(&files, |db: &Database, file: &SourceFile| drawn_scene(db, *file));
         scenes.into_iter().map(Result::ok).collect()
     }
 
-    /// Hashes the moves of each path in some drawings. The programs are those that `scene` shows.
+    /// Hashes the moves of each path in some drawings. The programs are those that [`scene`](Self::scene) shows.
     pub fn move_hashes(&self, files: &[SourceFile]) -> Vec<HashedPath> {
         let names = files.iter().map(|file| (*file, path_names(&self.db, *file)));
         let paths: Vec<(SourceFile, PathName)> =
@@ -60,7 +60,7 @@ impl Session<'_> {
                 checked.diagnostics.into_iter().filter(stops_making).collect();
             let moves = hash.unwrap_or_else(|problem| {
                 let problem = about(&self.db, target, *problem);
-                // A timeout may already have been reported by the check.
+                // The check may have reported the same timeout already.
                 problems.extend((!problems.contains(&problem)).then_some(problem));
                 None
             });
@@ -70,12 +70,12 @@ impl Session<'_> {
     }
 }
 
-/// Whether a limit or a bug kept a program from being built. This says nothing about the drawing, which may be correct.
+/// Whether a limit or a bug kept a program from being built, which does not mean that the drawing is wrong.
 fn stops_making(problem: &Diagnostic) -> bool {
     matches!(problem.code(), Code::LimitReached | Code::InternalError) && problem.is_error()
 }
 
-/// Values that were chosen only for display: of variables, of S, and of options that are not set.
+/// Returns values that were chosen only for display: of variables, of S, and of options that are not set.
 pub(crate) fn examples(
     db: &dyn Db,
     TracedProgram { program, parts, .. }: &TracedProgram,
@@ -102,7 +102,7 @@ pub(crate) fn examples(
     examples
 }
 
-/// The scene of a drawing's geometry.
+/// Returns the scene of a drawing's geometry.
 fn drawn_scene(db: &dyn Db, file: SourceFile) -> Scene {
     let mut scene = Scene::new(file.path(db).file_name().unwrap_or_default());
     scene.keep_outs.extend(keep_outs(db, file).iter().map(|clamp| view::keep_out(clamp, [0.0, 0.0])));
@@ -113,7 +113,7 @@ fn drawn_scene(db: &dyn Db, file: SourceFile) -> Scene {
     scene
 }
 
-/// The scene of a program with the origin of its moves; `None` if a drawing changed in the meantime.
+/// Returns the scene of a program, with the elements from which its moves come; `None` if a drawing changed in the meantime.
 ///
 /// # Errors
 /// PB005 if its text is too large.
@@ -124,7 +124,7 @@ pub(crate) fn program_scene(
     emitted: Option<EmittedText<'_>>,
 ) -> Result<Option<ScenePath>, Box<Diagnostic>> {
     let TracedProgram { program, trace, parts } = traced;
-    // The first part is the path that is emitted.
+    // The first part is the emitted path itself.
     let known = parts
         .iter()
         .zip(0..)
@@ -135,7 +135,7 @@ pub(crate) fn program_scene(
         Some((drawn_source(db, part.file, drawn, known), &part.path))
     });
     let Some(sources) = sources.collect::<Option<Vec<_>>>() else { return Ok(None) };
-    // Disable z-split: each line of the text must correspond to one move.
+    // Do not split moves for height correction: each line of the text must correspond to one move.
     let correction = Correction { longest: 0.0, ..writing.options.correction };
     let options = WriteOptions { correction, ..writing.options };
     let text = WriteSettings { options, ..*writing }.text(program, &Header::default())?;
@@ -160,7 +160,7 @@ pub(crate) fn drawn_source<'db>(
     DrawnSource { file: file.path(db).as_str(), raw, positions, texts: assigned_texts(db, file), in_force }
 }
 
-/// The finished parts that the program of a target cuts.
+/// Returns the finished parts that the program of a target cuts.
 pub(crate) fn finished_parts(db: &Database, target: Target) -> Vec<FinishedPart> {
     let part = |part: PlacedPart<'_>| {
         view::finished_part(&PartSource {

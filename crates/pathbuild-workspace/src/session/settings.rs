@@ -13,7 +13,7 @@ use crate::config::{self, types};
 use crate::posting::tool_table;
 use crate::workspace::Workspace;
 
-/// Sets the database's settings. The configuration has no errors at this point, so its patterns compile.
+/// Applies the configuration to the database. The configuration has no errors at this point, so its patterns compile.
 pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     let general = &context.settings.general;
     let reading = reading(&context.settings, is_hashed);
@@ -42,7 +42,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     _ = Settings::new(db, reading, Arc::new(language), file_pattern, search, restrictions, fold, limits);
 }
 
-/// The tools that posts choose for paths.
+/// Returns the tools that posts choose for paths.
 fn path_tools(context: &Workspace) -> PathTools {
     let tool = |tool: &types::Tool| PathTool {
         name: (&*tool.name).into(),
@@ -71,7 +71,7 @@ fn part(context: &Workspace) -> Option<PartSettings> {
     })
 }
 
-/// The database's settings for reading drawings. `is_hashed`: whether to hash them.
+/// Returns the database's settings for reading drawings. If `is_hashed`, drawings are hashed when they are read.
 pub fn reading(settings: &config::Settings, is_hashed: bool) -> Reading {
     let (general, limits) = (&settings.general, &settings.limits);
     let count = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
@@ -87,7 +87,7 @@ pub fn reading(settings: &config::Settings, is_hashed: bool) -> Reading {
     }
 }
 
-/// The database's limits. Their defaults are declared by the configuration alone.
+/// Returns the database's limits. Their defaults are declared in the configuration only.
 pub fn limits(settings: &config::Settings) -> Limits {
     let limits = &settings.limits;
     Limits {

@@ -1,4 +1,4 @@
-//! Time spent in each phase of a run: `check --timings`.
+//! The time spent in each phase of a run: `check --timings`.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -6,31 +6,31 @@ use std::time::{Duration, Instant};
 
 use pathbuild_diagnostic::Text;
 
-/// Measured times.
+/// The times of phases, and of the slowest paths.
 #[derive(Debug, Default)]
 pub struct Timings {
-    /// Whether times are requested. A long-lived session would otherwise accumulate paths forever.
+    /// Whether times are recorded. In a long-lived session, the list of paths would otherwise grow without end.
     is_on: AtomicBool,
     phases: Mutex<Vec<(&'static Text, Duration)>>,
     paths: Mutex<Vec<(String, Duration)>>,
 }
 
-/// Finding the drawings that the arguments refer to.
+/// Phase in which the drawings are found that the arguments refer to.
 pub static FINDING: Text = Text { en: "finding drawings", de: "Zeichnungen suchen" };
-/// Comparing cached results with the files.
+/// Phase in which cached results are compared with the files.
 pub static VERIFYING: Text = Text { en: "verifying cached results", de: "gespeicherte Ergebnisse prüfen" };
-/// Reading drawings.
+/// Phase in which drawings are read.
 pub static READING: Text = Text { en: "reading drawings", de: "Zeichnungen lesen" };
-/// Checking paths.
+/// Phase in which paths are checked.
 pub static CHECKING: Text = Text { en: "checking paths", de: "Pfade prüfen" };
-/// Storing results in the cache.
+/// Phase in which results are stored in the cache.
 pub static KEEPING: Text = Text { en: "storing results", de: "Ergebnisse speichern" };
 
 /// Number of slowest paths that are listed.
 const MAX_LISTED_PATHS: usize = 10;
 
 impl Timings {
-    /// Starts measuring.
+    /// Starts recording times.
     pub fn switch_on(&self) {
         self.is_on.store(true, Ordering::Relaxed);
     }
@@ -55,7 +55,7 @@ impl Timings {
         result
     }
 
-    /// Checks a path and records its time.
+    /// Runs the check of a path and records its time.
     pub(super) fn measure_path<R>(&self, name: impl FnOnce() -> String, work: impl FnOnce() -> R) -> R {
         if !self.is_on() {
             return work();
@@ -66,7 +66,7 @@ impl Timings {
         result
     }
 
-    /// Formats one line per phase, followed by one line for each of the slowest paths.
+    /// Returns one line per phase, followed by one line for each of the slowest paths.
     pub fn lines(&self, lang: pathbuild_diagnostic::Lang) -> Vec<String> {
         let line = |time: Duration, what: &str| format!("{:>10.1} ms  {what}", time.as_secs_f64() * 1000.0);
         let mut lines: Vec<String> =

@@ -20,17 +20,17 @@ use super::{SelectedPath, Session};
 /// The outcome of checking a target.
 #[derive(Debug)]
 pub struct CheckedTarget {
-    /// The target.
+    /// The target that was checked.
     pub target: Target,
     /// Diagnostics of the target and of everything it embeds, with their locations.
     pub diagnostics: Vec<Diagnostic>,
-    /// The drawings that it uses, its own first.
+    /// The drawings that the target uses, its own first.
     pub files: Vec<SourceFile>,
-    /// Options that it needs but that are not set.
+    /// Options that the target needs but that are not set.
     pub missing_options: Vec<MissingOption>,
-    /// Facts about its program; `None` if there are errors.
+    /// Facts about the target's program; `None` if there are errors.
     pub emitted: Option<ProgramFacts>,
-    /// All inputs of the check, if the session traces them.
+    /// All inputs of the check; `None` unless the session traces them.
     pub trace: Option<Trace>,
 }
 
@@ -39,13 +39,13 @@ pub struct CheckedTarget {
 pub struct ProgramFacts {
     /// Name of the path, as the drawing spells it.
     pub path: Box<str>,
-    /// Value of R, appended to the names of its files.
+    /// Value of R, which is appended to the names of the program's files.
     pub suffix: Box<str>,
     /// Whether the path, or any path that it embeds, contains probes.
     pub has_probes: bool,
 }
 
-/// Checks targets one by one on a worker thread.
+/// Checks targets one by one, on a worker thread with its own clone of the database.
 #[derive(Debug)]
 pub struct Checker<'a> {
     db: &'a Database,
@@ -55,26 +55,26 @@ pub struct Checker<'a> {
     timings: &'a Timings,
 }
 
-/// Upper bound on items per rayon chunk. Other threads cannot take over items of a chunk and would have to wait at the end. But each chunk
-/// clones the database, whose caches grow anew, so shorter chunks cost more than the waiting.
+/// Upper bound on items per rayon chunk. Other threads cannot take over items of a chunk, so they may have to wait at the end. But each chunk
+/// clones the database, whose caches then grow anew, so shorter chunks would cost more than the waiting.
 const ITEMS_PER_CHUNK: usize = 32;
 
 /// Building a program costs about 1000 times as much as cloning the database, so programs are scheduled one by one.
 const PROGRAMS_PER_CHUNK: usize = 1;
 
 impl Session<'_> {
-    /// One target for each path of a file.
+    /// Returns one target for each path of a file.
     pub fn targets(&self, file: SourceFile, role: &Role) -> Vec<Target> {
         let names = path_names(&self.db, file).iter();
         names.map(|name| self.db.target(file, name.as_str(), role.clone())).collect()
     }
 
-    /// The target of a path that was named.
+    /// Returns the target of a path that was named.
     pub fn target(&self, path: &SelectedPath, role: Role) -> Target {
         self.target_in(path.file, &path.name, role)
     }
 
-    /// The target of a path in a drawing.
+    /// Returns the target of a path in a drawing.
     pub fn target_in(&self, file: SourceFile, name: &PathName, role: Role) -> Target {
         self.db.target(file, name.as_str(), role)
     }
@@ -116,17 +116,17 @@ impl Session<'_> {
         work: impl FnMut(&Self, &[T]) -> Vec<R>,
     ) -> Vec<R> {
         const PROGRAMS: usize = 6;
-        // Starting threads does not pay for a few programs.
+        // For a few programs, starting threads costs more than it saves.
         let threads = if all.len() > PROGRAMS { self.threads() } else { 1 };
         self.in_batches(all, PROGRAMS * threads, work)
     }
 
-    /// Checks targets. The results are in the order of the targets.
+    /// Checks targets, and returns the results in the same order.
     pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
         self.map_with_checker(targets, |checker, target| checker.check(*target))
     }
 
-    /// Processes items on all cores. The results are in the order of the items.
+    /// Processes items on all cores, and returns the results in the same order.
     pub fn map_with_checker<T: Sync, R: Send>(
         &self,
         items: &[T],
@@ -138,10 +138,10 @@ impl Session<'_> {
         self.timings.measure(&CHECKING, || self.map_parallel(items, work))
     }
 
-    /// Queries more about a target than its check did.
+    /// Runs further queries about a target that was checked.
     ///
     /// # Errors
-    /// PB005 if it takes too long, PB001 if a drawing changed in the meantime, PB006 if it triggers a bug.
+    /// PB005 if they take too long, PB001 if a drawing changed in the meantime, PB006 if they trigger a bug.
     pub fn query_target<R>(
         &self,
         target: Target,
@@ -176,13 +176,13 @@ impl Session<'_> {
         self.map_in_chunks(items, PROGRAMS_PER_CHUNK, work)
     }
 
-    /// Processes items that need no database, such as programs, in parallel. The results are in the order of the items.
+    /// Processes items that need no database, such as programs, in parallel. Returns the results in the same order.
     pub fn map_programs<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
         self.map_in_chunks(items, PROGRAMS_PER_CHUNK, |_, item| work(item))
     }
 
-    /// Processes items in parallel, with results in the order of the items. A single item is processed on this thread: starting threads
-    /// takes longer than most paths.
+    /// Processes items in parallel, and returns the results in the same order. A single item is processed on this thread: starting threads takes
+    /// longer than most paths.
     pub(super) fn map_parallel<T: Sync, R: Send>(
         &self,
         items: &[T],
@@ -221,20 +221,20 @@ impl Session<'_> {
         }
     }
 
-    /// Number of threads that process items.
+    /// Returns the number of threads that process items.
     fn threads(&self) -> usize {
         let shared = || self.workers().map_or(1, Workers::count);
         if self.context.jobs == Some(1) { 1 } else { shared() }
     }
 
-    /// The worker threads, started on first use; `None` if the system provides none.
+    /// Returns the worker threads, which are started on first use; `None` if the system provides none.
     fn workers(&self) -> Option<&Workers> {
         self.workers.get_or_init(|| Workers::start(self.context.jobs)).as_ref()
     }
 }
 
 impl Checker<'_> {
-    /// This thread's clone of the database.
+    /// The clone of the database that belongs to this thread.
     pub fn db(&self) -> &Database {
         self.db
     }
@@ -244,8 +244,8 @@ impl Checker<'_> {
         self.is_traced
     }
 
-    /// Checks a path as it is emitted. A path with variables or missing options is checked as if it were embedded: with example values, and
-    /// with S above what it embeds.
+    /// Checks a path in the role in which it is emitted. A path with variables or missing options is checked as if it were embedded: with example
+    /// values, and with S above what it embeds.
     pub fn check_leniently(&self, file: SourceFile, name: &PathName) -> CheckedTarget {
         let target = |role| self.db.target(file, name.as_str(), role);
         let index = file_index(self.db, file).path(name);
@@ -258,7 +258,7 @@ impl Checker<'_> {
         self.check(target(Role::Checked))
     }
 
-    /// Checks a target. A timeout or an internal error becomes the diagnostic of the target.
+    /// Checks a target. A timeout or a bug becomes a diagnostic of the target.
     pub fn check(&self, target: Target) -> CheckedTarget {
         let watchdog = self.watchdog.get_or_init(|| Watchdog::start(self.limit));
         let _watched = watchdog.begin(self.db);
@@ -269,7 +269,7 @@ impl Checker<'_> {
     }
 }
 
-/// The outcome of a target after its check was aborted.
+/// Returns the outcome of a target whose check was aborted.
 fn aborted_target(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget {
     CheckedTarget {
         target,
@@ -281,7 +281,7 @@ fn aborted_target(db: &Database, target: Target, problem: Diagnostic) -> Checked
     }
 }
 
-/// Locates a diagnostic about a target as a whole.
+/// Adds the file and the path to a diagnostic about a target as a whole.
 pub(super) fn about(db: &Database, target: Target, problem: Diagnostic) -> Diagnostic {
     problem.in_file(target.file(db).path(db)).in_path(target.name(db))
 }
@@ -318,7 +318,7 @@ fn signature<'db>(db: &'db Database, instance: Instance<'db>) -> Option<&'db Pat
 }
 
 impl Session<'_> {
-    /// For each pair, the discrepancies between the drawing and its Q-project.
+    /// Returns, for each pair, the discrepancies between the drawing and its Q-project.
     pub fn compare_q_projects(&self, pairs: &[Pair]) -> Vec<Vec<Diagnostic>> {
         let judge = |db: &Database, [drawing, q_project]: &Pair| {
             let found = q_project_findings(db, *drawing, *q_project).iter().cloned();
@@ -334,9 +334,9 @@ impl Session<'_> {
 /// A drawing and its Q-project.
 pub type Pair = [SourceFile; 2];
 
-/// Pairs each drawing with its Q-project, if that is among the drawings too.
+/// Pairs each drawing with its Q-project, if that is among the drawings as well.
 pub fn pairs<'a>(drawings: impl Iterator<Item = &'a Utf8PathBuf> + Clone) -> Vec<[&'a Utf8PathBuf; 2]> {
-    // Fast path: a library of ten thousand drawings has few Q-projects or none.
+    // Fast path: even a library of ten thousand drawings has few Q-projects or none.
     if !drawings.clone().any(|drawing| may_be_q_project(drawing)) {
         return Vec::new();
     }
@@ -350,7 +350,7 @@ pub fn pairs<'a>(drawings: impl Iterator<Item = &'a Utf8PathBuf> + Clone) -> Vec
     drawings.filter_map(pair).collect()
 }
 
-/// A cheap test that does not split the path into components.
+/// Whether the name may be that of a Q-project. This cheap test does not split the path into components.
 fn may_be_q_project(drawing: &Utf8Path) -> bool {
     let stem = drawing.as_str().rsplit_once('.').map_or(drawing.as_str(), |(stem, _)| stem);
     is_q_project(stem)

@@ -14,7 +14,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 #[derive(Debug)]
 pub(super) struct Workers {
     pool: ThreadPool,
-    /// Set once there is work.
+    /// Becomes true when there is work, so that the threads stop reserving memory.
     is_wanted: Arc<AtomicBool>,
 }
 
@@ -45,15 +45,15 @@ impl Workers {
     }
 }
 
-/// Allocates the memory that a thread will need in one piece and frees it at once, so that it is at hand later. Otherwise glibc requests a
-/// thread's memory page by page while all other threads wait. glibc keeps at most twice the size of the largest piece that was returned to
-/// the system, which is why memory is allocated and freed once before.
+/// Allocates the memory that a thread will need in one piece and frees it at once, so that it is available later. Otherwise glibc requests a
+/// thread's memory page by page while all other threads wait. glibc keeps at most twice the size of the largest piece that was returned to the
+/// system, which is why memory is allocated and freed once before.
 fn reserve_memory(is_wanted: &AtomicBool) {
     drop(reserved());
     touch(&mut reserved(), is_wanted);
 }
 
-/// A block of untouched memory; smaller if the system has less.
+/// Allocates a block of memory without touching it; a smaller one if the system has less.
 fn reserved() -> Vec<u8> {
     const RESERVED: usize = 16 << 20;
     let mut memory = Vec::new();
@@ -61,7 +61,7 @@ fn reserved() -> Vec<u8> {
     memory
 }
 
-/// Touches the first pages of the block until there is work, so that the work need not wait for each page.
+/// Touches the first pages of the block until there is work, so that the work does not have to wait for each page.
 fn touch(memory: &mut Vec<u8>, is_wanted: &AtomicBool) {
     const PAGE: usize = 4 << 10;
     /// Number of pages touched: roughly the size of the results of a few hundred drawings.
@@ -92,7 +92,7 @@ struct WorkList {
     is_over: bool,
 }
 
-/// Work item being watched; dropping it ends the watch.
+/// Guard of a work item that is being watched; dropping it ends the watch.
 pub(super) struct WatchGuard<'a> {
     watchdog: &'a Watchdog,
     db: &'a Database,
@@ -100,7 +100,7 @@ pub(super) struct WatchGuard<'a> {
 }
 
 impl Watchdog {
-    /// Starts the thread. If the system has no thread left, work is not limited in time.
+    /// Starts the thread. If the system has no thread left, work has no time limit.
     pub(super) fn start(limit: Duration) -> Self {
         let shared = Arc::new(SharedState { limit, state: Mutex::default(), changed: Condvar::new() });
         let watching = Arc::clone(&shared);
@@ -130,7 +130,7 @@ impl Drop for Watchdog {
 impl Drop for WatchGuard<'_> {
     fn drop(&mut self) {
         self.watchdog.0.state().underway[self.place] = None;
-        // The work may have been cancelled at the very moment when it ended.
+        // Clear a cancellation that arrived at the very moment when the work ended.
         self.db.clear_cancellation();
     }
 }
