@@ -65,7 +65,7 @@ pub struct Settings {
     /// Settings of the drawing language.
     #[returns(ref)]
     pub language: Arc<Language>,
-    /// How file names map to path names.
+    /// The pattern by which file names give the names of paths.
     #[returns(ref)]
     pub file_pattern: FilePattern,
     /// Directories searched for embedded paths after the drawing's own, in order.
@@ -85,7 +85,7 @@ pub struct Settings {
 /// Options for reading drawings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// How $INSUNITS is treated.
+    /// The treatment of $INSUNITS.
     pub units: Units,
     /// Tolerance in mm for approximating ELLIPSE and SPLINE; 0 ignores them.
     pub approximate_curves: f64,

@@ -243,7 +243,7 @@ impl<'d> Collector<'d> {
         }
     }
 
-    /// Reports a missing block that is inserted on a layer that is not read: it may draw on those that are.
+    /// Reports a missing block that is inserted on a layer that is not read: the block may draw on layers that are read.
     pub(crate) fn note_missing_block(
         &mut self,
         placed: &PlacedEntity<'_>,
@@ -317,7 +317,7 @@ impl<'d> Collector<'d> {
         Err(self.too_many())
     }
 
-    /// PB005, because the drawing has more entities than the limit allows.
+    /// Returns PB005, because the drawing has more entities than the limit allows.
     #[cold]
     fn too_many(&self) -> Fatal {
         too_many_entities(self.limits.entities)
@@ -348,7 +348,7 @@ fn with_block(mut problem: Diagnostic, block: Option<&str>, layers: &[SmolStr]) 
     problem.with("layers", layers.iter().take(MOST_NAMED).map(SmolStr::to_string).collect::<Value>())
 }
 
-/// PB005 with this limit of entities.
+/// Returns PB005 with this limit of entities.
 #[cold]
 pub(crate) fn too_many_entities(most: usize) -> Fatal {
     Box::new(exceeded(&ENTITIES, most, "entities"))

@@ -11,7 +11,7 @@ pub struct Options<'a> {
     /// Test for the undecoded bytes of each TEXT, or last part of an MTEXT, on an unwanted layer. If one passes, [`Drawing::has_noted_text`] is
     /// set.
     pub note_text: Option<TextTest<'a>>,
-    /// How $INSUNITS is treated.
+    /// The treatment of $INSUNITS.
     pub units: Units,
     /// Tolerance in mm for approximating ELLIPSE and SPLINE by arcs; 0 leaves them out with PB111.
     pub approximate_curves: f64,
@@ -27,13 +27,13 @@ pub struct Options<'a> {
 /// A predicate on the bytes of a text.
 pub type TextTest<'a> = &'a dyn Fn(&[u8]) -> bool;
 
-/// How $INSUNITS is treated. (book: reference/configuration, `units`)
+/// The treatment of $INSUNITS, which states the unit of a drawing. (book: reference/configuration, `units`)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Units {
     /// Accept millimetres (4), none (0) or a missing value; PB113 for all others.
     #[default]
     Header,
-    /// Convert to millimetres.
+    /// Convert from the unit of the header to millimetres.
     Drawing,
     /// Ignore the header and take all numbers as millimetres.
     Millimetres,

@@ -132,7 +132,7 @@ fn dos<'b>(page: &TableType, bytes: &[u8]) -> (Cow<'b, str>, bool) {
 /// Encoding declared for the texts of a file.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum CodePage {
-    /// None, or `ANSI_1252`, which many programs write regardless of the actual encoding.
+    /// No declared encoding, or `ANSI_1252`, which many programs write regardless of the actual encoding.
     Usual,
     /// An encoding of the WHATWG standard.
     Standard(&'static Encoding),

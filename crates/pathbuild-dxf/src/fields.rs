@@ -21,7 +21,7 @@ pub(crate) struct Value<'a> {
     entity: u32,
 }
 
-/// A faulty group.
+/// A group that is missing or faulty.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum BadGroup<'a> {
     /// A required group is missing.
@@ -60,11 +60,11 @@ pub(crate) struct Fields<'a> {
 /// Whether [`Fields::fill`] keeps an entity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Want {
-    /// Keep its groups.
+    /// Keep the groups of the entity.
     Keep,
-    /// Skip them.
+    /// Skip the groups of the entity.
     Skip,
-    /// Skip them, but keep a text (code 1).
+    /// Skip the groups of the entity, but keep a text (code 1).
     Note,
 }
 
@@ -188,20 +188,20 @@ impl<'a> Fields<'a> {
         Some(Value { bytes: without_cr(value.bytes), ..*value })
     }
 
-    /// An optional number.
+    /// Returns the number of a group that may be missing.
     #[inline]
     pub(crate) fn number(&self, code: i32) -> Result<Option<f64>, BadGroup<'a>> {
         let Some(value) = self.get(code) else { return Ok(None) };
         real(value.bytes).map(Some).map_err(|reason| BadGroup::Number { code, value, reason })
     }
 
-    /// A required number.
+    /// Returns the number of a group that must be present.
     #[inline]
     pub(crate) fn required(&self, code: i32) -> Result<f64, BadGroup<'a>> {
         self.number(code)?.ok_or(BadGroup::Missing { code })
     }
 
-    /// A required length, which must be positive.
+    /// Returns the length of a group that must be present. It must be positive.
     #[inline]
     pub(crate) fn length(&self, code: i32) -> Result<f64, BadGroup<'a>> {
         let length = self.required(code)?;
@@ -211,7 +211,7 @@ impl<'a> Fields<'a> {
         Err(self.get(code).map_or(BadGroup::Missing { code }, |value| BadGroup::NotPositive { code, value }))
     }
 
-    /// An optional integer.
+    /// Returns the integer of a group that may be missing.
     pub(crate) fn whole(&self, code: i32) -> Result<Option<i64>, BadGroup<'a>> {
         let Some(value) = self.get(code) else { return Ok(None) };
         whole(value.bytes).map(Some).map_err(|reason| BadGroup::Number { code, value, reason })

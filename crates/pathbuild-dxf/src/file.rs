@@ -54,7 +54,7 @@ struct File<'a> {
     blocks: Option<Pairs<'a>>,
 }
 
-/// What ends the sections before the entities.
+/// The end of the sections before the entities: the ENTITIES section, or the end of the file.
 enum AfterHead {
     Entities,
     EndOfFile,

@@ -257,11 +257,11 @@ fn without_first(bits: u64) -> u64 {
     bits & bits.wrapping_sub(1)
 }
 
-/// The role of a group: what the reader does with its value.
+/// The role of a group code: it decides what the reader does with the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Role(u8);
 
-/// How lines with group codes usually end in this file.
+/// The form in which lines with group codes usually end in this file.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CodeEnd {
     /// The byte that ends a line: LF or CR.

@@ -62,12 +62,12 @@ impl<'a> Header<'a> {
         })
     }
 
-    /// `$DWGCODEPAGE`.
+    /// Returns the value of `$DWGCODEPAGE`, if the header has it.
     pub(crate) fn code_page(&self) -> Option<&'a [u8]> {
         self.code_page.map(<[u8]>::trim_ascii)
     }
 
-    /// `$INSUNITS`.
+    /// Returns the value of `$INSUNITS`, if the header has it.
     pub(crate) fn units(&self) -> Result<Option<i64>, Fatal> {
         let Some((pair, _)) = self.units else { return Ok(None) };
         whole(pair.value).map(Some).map_err(|reason| {

@@ -166,7 +166,7 @@ impl UsedLayer {
 pub(crate) struct LayerTable<'a> {
     /// The TABLES section.
     tables: Option<Pairs<'a>>,
-    /// Number of lookups.
+    /// Number of lookups so far.
     lookups: usize,
     /// All layers, read after many lookups.
     all: Option<KnownLayers<'a>>,

@@ -4,14 +4,14 @@
 //! digits or the place of the point cannot be predicted. The value is exactly that of a general parser: up to 15 digits and powers of ten up
 //! to 10^22 are exact, so a single division rounds correctly; 16 digits have no point, and are rounded once, by the conversion.
 
-/// Why a value is not a number.
+/// The reason why a value is not a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NotANumber {
-    /// Empty or malformed.
+    /// The value is empty or malformed.
     Invalid,
-    /// It has a comma where a decimal point belongs.
+    /// The value has a comma instead of a decimal point.
     Comma,
-    /// NaN, infinite or too large.
+    /// The value is NaN, infinite or too large.
     NotFinite,
 }
 

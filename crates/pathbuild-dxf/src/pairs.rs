@@ -13,7 +13,6 @@ use memchr::{memchr, memchr_iter, memchr2};
 /// A group code and its value.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair<'a> {
-    /// The group code.
     pub(crate) code: i32,
     /// 1-based line of the code.
     pub(crate) line: u32,
@@ -21,7 +20,7 @@ pub(crate) struct Pair<'a> {
     pub(crate) value: &'a [u8],
 }
 
-/// Why there is no further pair.
+/// The reason why there is no further pair.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Stop<'a> {
     /// The input ends. An incomplete pair and blank lines at the end do not count.
@@ -71,7 +70,7 @@ impl<'a> Pairs<'a> {
         Self { bytes, at: 0, line: 1, line_end: line_end(bytes) }
     }
 
-    /// The next pair.
+    /// Reads the next pair.
     pub(crate) fn next(&mut self) -> Result<Pair<'a>, Stop<'a>> {
         let line = self.line;
         let code = self.code()?;
@@ -193,7 +192,7 @@ pub(crate) static LAYER: Keyword = LazyLock::new(|| Finder::new("LAYER"));
 static SECTION_OR_END: Keyword = LazyLock::new(|| Finder::new("SEC"));
 static EOF: LazyLock<FinderRev<'static>> = LazyLock::new(|| FinderRev::new("EOF"));
 
-/// How a skipped section ended.
+/// The end of a skipped section.
 pub(crate) enum SectionEnd<'a> {
     /// The section ended with `0/ENDSEC`; the pairs continue after it.
     Ended,

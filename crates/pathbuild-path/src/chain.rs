@@ -46,7 +46,7 @@ pub enum Item {
 /// Consecutive milling, marking and support segments, which are milled together pass by pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
-    /// I in mm.
+    /// Infeed (I) in mm.
     pub infeed: f64,
     /// W in mm: the depth from which on milling is sweepless.
     pub first_depth: Option<f64>,
@@ -74,7 +74,7 @@ pub struct Sweep {
     pub start: Xy,
     /// The point at which the move ends.
     pub end: Xy,
-    /// Its own S in mm; `None` for the path's.
+    /// The sweep's own height (S) in mm; `None` if it has the path's.
     pub height: Option<f64>,
 }
 
@@ -182,7 +182,7 @@ fn is_new(diagnostics: &[Diagnostic], doubt: &Diagnostic) -> bool {
 }
 
 impl Chain {
-    /// PB211 if W is outside of the material that the chain removes.
+    /// Returns PB211 if W is outside of the material that the chain removes.
     fn doubtful_first_depth(&self, path: &Path, members: &[ChainSegment]) -> Option<Diagnostic> {
         // Other values of W are reported as out of range.
         let depth = self.first_depth.filter(|depth| above(*depth, 0.0))?;

@@ -32,11 +32,11 @@ pub enum PathRole {
 /// The parameters of a path from which defaults follow.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PathNumbers {
-    /// O in mm.
+    /// Cutter diameter (O) in mm.
     pub tool: Option<f64>,
-    /// T in mm.
+    /// Thickness of the material (T) in mm.
     pub thickness: Option<f64>,
-    /// F in mm/min.
+    /// Feed (F) in mm/min.
     pub feed: Option<f64>,
 }
 

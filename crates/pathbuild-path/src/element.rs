@@ -14,9 +14,9 @@ use crate::text::TextId;
 pub struct Element {
     /// Its entity in the file.
     pub source: Source,
-    /// The drawn shape.
+    /// The shape as drawn.
     pub shape: Shape,
-    /// Its meaning.
+    /// Its meaning in the drawing language.
     pub role: Role,
     /// Its parameter text, see [`DrawnElements::texts`](crate::DrawnElements::texts).
     pub text: Option<TextId>,
@@ -27,13 +27,13 @@ pub struct Element {
 pub struct Source {
     /// Its number in the path's source map.
     pub id: ElementId,
-    /// Its type.
+    /// Its entity type.
     pub entity: EntityKind,
     /// Its layer, as an index into [`DrawnElements::layers`](crate::DrawnElements::layers).
     pub layer: u32,
 }
 
-/// A special circle.
+/// A circle that marks the start, the end, a turn or a Z-probe.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "as in Element")]
 pub struct Marker {
@@ -49,7 +49,7 @@ pub struct Origin {
     pub id: ElementId,
     /// Its type in the file.
     pub entity: EntityKind,
-    /// Its layer.
+    /// Name of its layer.
     pub layer: SmolStr,
     /// The start of a line or arc, or the centre of a circle.
     pub point: Point,

@@ -26,7 +26,7 @@ pub struct PathHeader {
     pub name: SpeltName,
     /// Whether the drawing of the path has no errors, apart from its values.
     pub is_sound: bool,
-    /// Its variables.
+    /// The definitions of its variables, in the order written.
     pub definitions: Vec<Definition>,
 }
 
@@ -70,7 +70,7 @@ pub struct SubpathCall {
     pub segment: usize,
     /// The location of its element.
     pub origin: Origin,
-    /// Its parameters.
+    /// The parameters of the segment.
     pub subpath: Subpath,
     /// Its own text with a letter underlined, for each compared letter that it gives.
     faults: Box<[(Letter, TextFault)]>,
@@ -166,7 +166,7 @@ impl PathSignature {
         self.raised_probes.iter().map(|probe| probe.height).fold(self.thickness, f64::max)
     }
 
-    /// PB203 for each of its own probes that reaches the sweep height, in mm.
+    /// Returns PB203 for each of its own probes that reaches the sweep height, in mm.
     pub fn raised_probe_problems(&self, sweep_height: f64) -> Vec<Diagnostic> {
         let too_high = self.raised_probes.iter().filter(|probe| !above(sweep_height, probe.height));
         let problem =
@@ -174,8 +174,8 @@ impl PathSignature {
         too_high.map(problem).collect()
     }
 
-    /// PB203 if the path embedded by a segment reaches the sweep height. `top`: height in mm of everything embedded, above the plane of
-    /// this path.
+    /// Returns PB203 if the path embedded by a segment reaches the sweep height. `top`: height in mm of everything embedded, above the plane of this
+    /// path.
     pub fn raised_subpath_problem(
         &self,
         call: &SubpathCall,
@@ -235,8 +235,7 @@ impl SweepLimits {
         Self { path: path.name.clone(), faces }
     }
 
-    /// PB203 for each face that a sweep height in mm does not clear. `role` is that of the path without S that
-    /// gets this height.
+    /// Returns PB203 for each face that a sweep height in mm does not clear. `role` is that of the path without S that gets this height.
     pub fn check(&self, height: f64, role: PathRole) -> Vec<Diagnostic> {
         let message = match role {
             PathRole::Emitted => &parameters::DEFAULT_SWEEP_TOO_LOW,
@@ -301,7 +300,7 @@ enum Rule<'a> {
     Own(&'a str, Option<Regex>),
     /// `--restrict`: the first restriction that applies to the path.
     Restriction(&'a Regex),
-    /// No rule.
+    /// Any name is allowed.
     Any,
 }
 
@@ -325,7 +324,7 @@ impl<'a> Judge<'a> {
         Self { outer, language, rule, is_compatible }
     }
 
-    /// PB502 as a warning if `>` is followed by more than a name.
+    /// Returns PB502 as a warning if `>` is followed by more than a name.
     pub fn warnings(&self, call: &SubpathCall) -> Vec<Diagnostic> {
         let SubpathName::Found { name, has_more: Some(value) } = &call.subpath.name else {
             return Vec::new();
@@ -416,8 +415,8 @@ impl<'a> Judge<'a> {
         self.at_name(call, problem.quoting("first", first).quoting("second", second))
     }
 
-    /// PB302 to PB304: problems with the values that a segment gives the variables of the embedded path. Nothing is reported for a path
-    /// whose drawing has errors.
+    /// Returns PB302 to PB304: problems with the values that a segment gives the variables of the embedded path. Nothing is reported for a path whose
+    /// drawing has errors.
     pub fn binding_problems(&self, call: &SubpathCall, inner: &PathHeader) -> Vec<Diagnostic> {
         if !inner.is_sound {
             return Vec::new();
@@ -460,7 +459,7 @@ impl<'a> Judge<'a> {
         Some(self.at(call, problem, Some(&given.text)))
     }
 
-    /// PB201, PB505, PB506, PB510: mismatches between a segment and the path it embeds in M, T, O and the size.
+    /// Returns PB201, PB505, PB506, PB510: mismatches between a segment and the path it embeds in M, T, O and the size.
     pub fn misfits(&self, call: &SubpathCall, inner: &PathSignature) -> Vec<Diagnostic> {
         let subpath = &call.subpath;
         let mut problems: Vec<Diagnostic> = self.material(call, inner).into_iter().collect();

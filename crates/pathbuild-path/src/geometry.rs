@@ -18,7 +18,7 @@ pub struct Line {
 
 /// A circular arc from `start` to `end`.
 ///
-/// Both ends and angles are stored: the ends determine what meets, the angles determine the length.
+/// Both ends and angles are stored: the ends determine which curves meet, the angles determine the length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
     /// Centre.
@@ -322,7 +322,7 @@ impl Arc {
         if squared == 0.0 {
             return false;
         }
-        // Where the line through the crossings of both circles meets the line between the centres, as a fraction of their distance.
+        // The point where the line through the crossings of both circles meets the line between the centres, as a fraction of their distance.
         let along = (squared + self.radius * self.radius - other.radius * other.radius) / (2.0 * squared);
         let half = self.radius * self.radius / squared - along * along;
         if half < 0.0 {

@@ -28,7 +28,7 @@ pub struct ElementParameters {
     pub parameters: Vec<Parameter>,
 }
 
-/// An effective parameter.
+/// A letter with its effective value and the provider of that value.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Parameter {

@@ -8,10 +8,10 @@ use smol_str::SmolStr;
 use crate::approx::above;
 use crate::geometry::{Arc, Curve, Line, Placement, Xy};
 
-/// A clamp.
+/// A clamp: an area that the tool must not enter below a given height.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeepOut {
-    /// Its layer.
+    /// Name of its layer.
     pub layer: SmolStr,
     /// The start of its outline; for a circle, the centre.
     pub at: Xy,

@@ -130,7 +130,7 @@ impl Language {
         self.keep_out.as_ref().is_some_and(|pattern| pattern.is_layer(layer))
     }
 
-    /// Whether something on a layer counts: a path, a clamp or a finished part.
+    /// Whether the contents of a layer have a meaning: the layer belongs to a path, to clamps or to finished parts.
     fn is_read(&self, layer: &str) -> bool {
         self.path_pattern.is_layer(layer) || self.is_keep_out(layer) || self.is_part(layer)
     }

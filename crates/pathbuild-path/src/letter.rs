@@ -246,7 +246,7 @@ impl ElementClass {
             .map(|(character, _)| character)
     }
 
-    /// The required letters.
+    /// The letters that elements of this class require.
     pub(crate) fn needed_letters(self) -> impl Iterator<Item = Letter> {
         Letter::ALL
             .into_iter()

@@ -10,8 +10,8 @@ const LETTERS: [(&str, &str); 3] = [
     ("асеорхуіѕ", "aceopxyis"),
 ];
 
-/// The character of the keyboard that a character looks like: a minus for longer dashes, and Latin letters and digits for those of full
-/// width, Cyrillic and Greek ones.
+/// Returns the keyboard character that a character looks like: a minus for longer dashes, and Latin letters and digits for Cyrillic, Greek and
+/// full-width ones.
 pub(crate) fn ascii(character: char) -> Option<char> {
     match character {
         '\u{2010}'..='\u{2015}' | '\u{2212}' | '\u{fe63}' => Some('-'),

@@ -18,15 +18,15 @@ use crate::text::TextId;
 pub struct Path {
     /// The name as spelt by its layer.
     pub name: SpeltName,
-    /// O in mm.
+    /// Cutter diameter (O) in mm.
     pub tool: f64,
-    /// T in mm.
+    /// Thickness of the material (T) in mm.
     pub thickness: f64,
     /// S in mm, if the path gives it; the default depends on its role: [`Path::embedded_sweep_height`].
     pub sweep_height: Option<f64>,
     /// Name of the material (M).
     pub material: Option<SmolStr>,
-    /// F in mm/min.
+    /// Feed (F) in mm/min.
     pub feed: Option<f64>,
     /// Suffix of the output file's name (R).
     pub output_suffix: SmolStr,
@@ -88,7 +88,7 @@ pub struct Turn {
 pub struct Probe {
     /// Location of the probe's circle.
     pub origin: Origin,
-    /// Its centre.
+    /// Centre of the circle.
     pub at: Xy,
     /// T + H: the expected height in mm, without the height that the path is raised by.
     pub height: f64,
@@ -188,7 +188,7 @@ pub struct Helix {
     pub radius: f64,
     /// Z down to which the whole circle is milled: B, or D for marks and circles with bars.
     pub bottom: f64,
-    /// For circles with bars: B, and the bars.
+    /// For circles with bars: Z down to which the circle is milled between them (B), and the bars.
     pub bars: Option<(f64, Bars)>,
     /// F in mm/min.
     pub feed: Option<f64>,

@@ -171,7 +171,7 @@ struct Judge<'a> {
 type Difference = (String, Value, Value, Option<TextFault>);
 
 impl<'a> Judge<'a> {
-    /// PB517 for each proxy line that disagrees with its own path.
+    /// Returns PB517 for each proxy line that disagrees with its own path.
     fn proxies(&self) -> Vec<Diagnostic> {
         let of_proxy = |proxy| self.problems(proxy).into_iter().map(|problem| at_proxy(proxy, problem));
         self.component.proxies.iter().flat_map(of_proxy).collect()
@@ -246,7 +246,7 @@ impl<'a> Judge<'a> {
         self.component.names().flat_map(of_name).collect()
     }
 
-    /// PB516 if a subpath agrees with none of its path's proxy lines. Faulty proxy lines are ignored.
+    /// Returns PB516 if a subpath agrees with none of its path's proxy lines. Faulty proxy lines are ignored.
     fn embedding(
         &self,
         name: &PathName,

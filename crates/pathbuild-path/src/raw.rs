@@ -21,7 +21,7 @@ pub struct RawPath {
     pub name: SpeltName,
     /// The start marker. Its text is the path's own, even if @ refers to the text of another path.
     pub start: Option<Marker>,
-    /// The end marker.
+    /// The end marker; `None` if it is missing.
     pub end: Option<Marker>,
     /// Turn markers, in file order.
     pub turns: Vec<Marker>,
@@ -87,7 +87,7 @@ impl RawPath {
         self.diagnostics.iter().filter(|found| !is_repeated(found)).cloned().collect()
     }
 
-    /// Its first layer.
+    /// Returns the name of the path's first layer in the file.
     pub fn layer(&self) -> &str {
         &self.drawn.layers[0]
     }
@@ -112,7 +112,7 @@ impl RawPath {
         }
     }
 
-    /// PB302 for each variable without a value, since a path with variables cannot be emitted on its own.
+    /// Returns PB302 for each variable without a value, since a path with variables cannot be emitted on its own.
     pub fn missing_values(&self, bindings: &Bindings) -> Vec<Diagnostic> {
         let missing = self.definitions.iter().filter(|definition| bindings.get(definition.name).is_none());
         let report = |definition: &Definition| {

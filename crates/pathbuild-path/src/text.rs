@@ -34,7 +34,7 @@ struct Text {
     is_plain: bool,
 }
 
-/// A parameter text.
+/// A parameter text, split into pieces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ParameterText<'t> {
     string: &'t str,
@@ -114,7 +114,7 @@ impl ParameterTexts {
         self.texts.iter().map(|text| self.text(text))
     }
 
-    /// The first text.
+    /// Returns the first text, if there is one.
     pub fn first(&self) -> Option<ParameterText<'_>> {
         self.texts.first().map(|text| self.text(text))
     }
@@ -283,7 +283,7 @@ impl<'t> ParameterText<'t> {
         (how == LetterUse::Ignored).then(|| self.without_effect(letter, piece, class))
     }
 
-    /// PB202 for a word among parameters: `B2 tief`.
+    /// Returns PB202 for a word among parameters: `B2 tief`.
     fn word(self, piece: &LetterValue, class: ElementClass) -> Option<Diagnostic> {
         let word = self.piece_text(piece);
         let is_word = word.chars().nth(2).is_some() && word.chars().all(char::is_alphabetic);
@@ -579,7 +579,7 @@ pub(crate) fn is_without_value(text: ParameterText<'_>, piece: &LetterValue) -> 
     piece.letter.is_some_and(|letter| !letter.is_text()) && matches!(text.value(piece), "" | "-" | "+")
 }
 
-/// The definition of a variable that spaces separate from this piece, and how it was meant: `:D 0 ~ 1`.
+/// Returns the definition of a variable that spaces have separated from this piece, and the definition as it was meant: `:D 0 ~ 1`.
 fn definition_apart<'t>(text: ParameterText<'t>, piece: &LetterValue) -> Option<(&'t LetterValue, String)> {
     let at = text.pieces().iter().position(|other| other == piece)?;
     let definition = text.pieces()[..at].iter().rfind(|other| other.letter.is_some())?;
@@ -646,7 +646,7 @@ fn mistake_in_piece(text: ParameterText<'_>, piece: &LetterValue, class: Element
     Some(Diagnostic::new(message).quoting("meant", meant).with("element", class.word()))
 }
 
-/// PB202 for a sign that CAD programs write as a code, such as `%%c` for the diameter.
+/// Returns PB202 for a sign that CAD programs write as a code, such as `%%c` for the diameter.
 fn drawn_code(text: ParameterText<'_>, piece: &LetterValue) -> Diagnostic {
     let (code, sign) = match text.value(piece).chars().next() {
         Some('D') => ("%%c", "\u{2300}"),

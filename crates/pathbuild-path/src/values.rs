@@ -98,7 +98,7 @@ impl<'t> Values<'t> {
                 Some(letter) if letter.is_literal() && text.value(piece).contains('=') => {
                     FilledValue::Nothing
                 }
-                // The number is separated from its letter, which is reported there.
+                // The number is separated from its letter, which is reported elsewhere.
                 Some(_) if is_apart(piece) => FilledValue::Nothing,
                 Some(letter) => values.fill(letter, piece, interpolation),
                 None => FilledValue::Nothing,
@@ -258,7 +258,7 @@ pub(crate) fn check_limits(own: &Values<'_>, path: &Values<'_>, class: ElementCl
         |letter: &Letter| !matches!(class.use_of(*letter), LetterUse::Unknown | LetterUse::PathOnly);
     limits.check_positive(POSITIVE.into_iter().filter(is_known));
     limits.check_above(Letter::S, Letter::T, &messages::NOT_ABOVE);
-    // T of a probe or a subpath is the thickness there, which is unrelated to the path's depths.
+    // For a probe or a subpath, T is the thickness at its place, which is unrelated to the path's depths.
     for depth in [Letter::B, Letter::D].into_iter().filter(|depth| class.use_of(*depth) != LetterUse::Unknown)
     {
         limits.check_above(Letter::T, depth, &messages::NOT_BELOW);
@@ -323,7 +323,7 @@ impl LimitCheck<'_> {
         if above(high, low) {
             return;
         }
-        // The message concerns the letter that can be corrected here.
+        // The message is about the letter that can be corrected in this text.
         let says_upper = *message == messages::NOT_ABOVE;
         let (subject, limit) = if says_upper { (upper, lower) } else { (lower, upper) };
         let (subject_value, limit_value) = if says_upper { (high, low) } else { (low, high) };

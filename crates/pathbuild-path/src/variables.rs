@@ -91,7 +91,7 @@ impl Interpolation<'_> {
         }
     }
 
-    /// PB305 for the variable with references left in its value.
+    /// Returns PB305 for the variable with references left in its value.
     fn endless(&self, name: String) -> Box<Diagnostic> {
         let problem = if self.bindings.0.len() > MOST_LEVELS {
             Diagnostic::new(&messages::TOO_DEEP).with("limit", MOST_LEVELS)

@@ -75,7 +75,7 @@ impl Workshop {
         workshop
     }
 
-    /// All files.
+    /// All files of the library, by path.
     pub fn files(&self) -> &Files {
         &self.files
     }

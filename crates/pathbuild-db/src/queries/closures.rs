@@ -39,9 +39,9 @@ pub struct Closure<'db> {
 /// An option that must be given because a path does not set the parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MissingOption {
-    /// `--feed`.
+    /// The option `--feed`.
     Feed,
-    /// `--sweep-height`.
+    /// The option `--sweep-height`.
     SweepHeight,
 }
 
@@ -500,7 +500,7 @@ impl<'db> Walk<'db> {
     }
 }
 
-/// PB005 if a program of this many moves would be too long or take too much memory.
+/// Returns PB005 if a program of this many moves would be too long or take too much memory.
 fn size_limit_problem(count: u64, limits: Limits) -> Option<Diagnostic> {
     let size = memory(count);
     let problem = if count > limits.moves {
@@ -529,11 +529,11 @@ fn hash(value: &impl Hash) -> u64 {
 /// A subpath segment of a path in a closure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge<'db> {
-    /// The embedding path.
+    /// The path that contains the segment.
     pub from: Instance<'db>,
     /// The start of its subpath segment, in its drawing.
     pub point: Point,
-    /// The embedded path.
+    /// The path that the segment embeds.
     pub to: Destination<'db>,
 }
 
@@ -546,7 +546,7 @@ pub enum Destination<'db> {
     Nowhere {
         /// The name it refers to, if any.
         name: Option<PathName>,
-        /// The reason.
+        /// The code of the finding that gives the reason.
         code: Code,
     },
 }

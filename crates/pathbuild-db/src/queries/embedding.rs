@@ -1,4 +1,4 @@
-//! Paths with bound variables, and what each embeds directly: every subpath segment with the path that it names, checked against each
+//! Paths with bound variables, and the direct embeddings of each: every subpath segment with the path that it names, checked against each
 //! other. (book: language/embedding; the order of errors: book: reference/diagnostics)
 
 use pathbuild_diagnostic::{Diagnostic, Value};
@@ -69,7 +69,7 @@ fn embeddings<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Embedding<'d
 
 struct Embedder<'a, 'db> {
     db: &'db dyn Db,
-    /// The embedding drawing.
+    /// The drawing of the embedding path.
     file: SourceFile,
     judge: Judge<'db>,
     ends: LayerEnds<'a>,

@@ -1,4 +1,4 @@
-//! A compact index of a drawing: the names of its paths, and what other paths and a check need of each.
+//! A compact index of a drawing: the names of its paths, and the data of each path that other paths and a check need.
 
 use std::cell::{Cell, RefCell};
 use std::panic::resume_unwind;
@@ -272,7 +272,7 @@ impl FileIndex {
         &self.diagnostics
     }
 
-    /// The fingerprint of the bytes it was built from, if there were any.
+    /// The fingerprint of the bytes that the index was built from, if they could be read.
     pub(super) fn fingerprint(&self) -> Option<Fingerprint> {
         self.content.fingerprint
     }
@@ -461,7 +461,7 @@ pub(super) fn walk_within_limit(db: &dyn Db, path: &Path, language: &Language) -
     pathbuild_path::walk_watched(path, language.join_tolerance, &checkpoint)
 }
 
-/// What the part check needs of a drawing. Positions are left out, so that edits elsewhere in the drawing leave it equal.
+/// The data of a drawing that the part check needs. Positions are left out, so that edits elsewhere in the drawing leave it equal.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FileParts {
     /// The finished parts.

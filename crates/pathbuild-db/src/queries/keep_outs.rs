@@ -1,4 +1,4 @@
-//! Clamps: those of a drawing, their places in a program, and the moves that hit them. (book: language/keep-outs)
+//! Clamps: the clamps of a drawing, their places in a program, and the moves that hit them. (book: language/keep-outs)
 
 use std::collections::BTreeMap;
 
@@ -58,7 +58,7 @@ fn placed(db: &dyn Db, traced: &TracedProgram) -> Vec<PlacedKeepOut> {
     all
 }
 
-/// PB407 for moves that hit clamps: one per kind of move, element and clamp, reported in the path that contains both.
+/// Returns PB407 for moves that hit clamps: one per kind of move, element and clamp, reported in the path that contains both.
 pub(super) fn entered_keep_outs(db: &dyn Db, target: Target) -> &[Diagnostic] {
     // Most programs have no clamps around them; no query is needed then.
     if has_keep_outs(db, target) { moves_into_keep_outs(db, target) } else { &[] }

@@ -60,13 +60,13 @@ pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     }
 }
 
-/// PB001 for a directory that cannot be listed, since it may define the path.
+/// Returns PB001 for a directory that cannot be listed, since it may define the path.
 pub fn unlisted(db: &dyn Db, directory: Directory) -> Option<Diagnostic> {
     let fault = name_table(db, directory).fault.as_ref()?;
     Some(unlistable(directory.path(db), fault))
 }
 
-/// PB001 for a directory with this error.
+/// Returns PB001 for a directory with this error.
 pub fn unlistable(directory: &Utf8Path, fault: &ReadError) -> Diagnostic {
     let reason = match fault {
         ReadError::Other(reason) => reason.clone(),

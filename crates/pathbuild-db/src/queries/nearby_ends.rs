@@ -120,7 +120,7 @@ impl<'a> LayerEnds<'a> {
         which: usize,
         message: &'static Message,
     ) -> Option<(Note, f64)> {
-        // A note about another circle is already there.
+        // There already is a note about another circle.
         if problem.notes.iter().any(|note| note.message != &drawing::START_TEXT) {
             return None;
         }

@@ -18,7 +18,7 @@ use crate::queries::index::soften;
 use crate::queries::part::{file_parts, part_findings, parts_of, path_cuts};
 use crate::queries::programs::{TracedProgram, traced_program};
 
-/// PB214 for cuts of one embedded path into the part of another, and PB218 for cuts through its support bars: one per part or bar and
+/// Returns PB214 for cuts of one embedded path into the part of another, and PB218 for cuts through its support bars: one per part or bar and
 /// element, reported in the path that contains both.
 pub(super) fn harmed_neighbours(db: &dyn Db, target: Target) -> &[Diagnostic] {
     // Most paths embed no others; no query is needed then.

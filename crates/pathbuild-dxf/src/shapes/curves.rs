@@ -209,7 +209,7 @@ pub(crate) struct Tolerance {
     pub(crate) most_pieces: usize,
 }
 
-/// Why a curve cannot be approximated.
+/// The reason why a curve cannot be approximated.
 pub(crate) enum ApproximationFailure {
     /// It would take more pieces than the limit allows.
     TooMany,

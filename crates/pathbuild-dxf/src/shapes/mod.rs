@@ -46,7 +46,8 @@ fn from_object_coordinates<'a>(
     Ok(geometry)
 }
 
-/// A point of a HATCH: the first of its boundary, or the centre of an arc there. The very first point is the elevation.
+/// Returns a point of a HATCH: the first of its boundary, or the centre of an arc of the boundary. The very first point of the entity is left
+/// out, since it is the elevation.
 pub(crate) fn hatch_point(fields: &Fields<'_>) -> Option<Point> {
     let second = |code: i32| {
         let of_code = fields.repeated.iter().filter(|pair| pair.code == code);

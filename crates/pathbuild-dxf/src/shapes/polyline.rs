@@ -135,7 +135,7 @@ fn piece(from: Corner, to: Corner) -> Option<Geometry> {
 /// The arc over a chord. Its height is the bulge times half the chord.
 fn bulged(start: Point3, end: Point3, bulge: f64) -> Arc {
     let [x, y] = [end.x - start.x, end.y - start.y];
-    // From the middle of the chord to the centre, to the left, in units of the chord.
+    // Distance of the centre from the middle of the chord, to the left, in units of the chord.
     let to_centre = (1.0 - bulge * bulge) / (4.0 * bulge);
     let centre = Point3 {
         x: f64::midpoint(start.x, end.x) - y * to_centre,

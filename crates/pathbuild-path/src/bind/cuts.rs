@@ -178,7 +178,7 @@ impl Binder<'_> {
         }
     }
 
-    /// PB118 if a circle was probably meant as a drilled hole.
+    /// Reports PB118 if a circle was probably meant as a drilled hole.
     fn check_margin(&mut self, scope: &Scope<'_>, radius: f64, tool: f64) {
         let difference = 2.0 * radius - tool;
         if above(difference, self.language.doubts.hole_margin) {

@@ -604,7 +604,7 @@ impl Binder<'_> {
         }
     }
 
-    /// PB212 if there are no bars and the cuts through the material form a ring, so that the part would come loose.
+    /// Reports PB212 if there are no bars and the cuts through the material form a ring, so that the part would come loose.
     fn check_bars(&mut self, tool: Option<f64>) {
         let elements = &self.raw.drawn.elements;
         if elements.iter().any(|element| element.role == Role::Cut(Cut::Support)) {

@@ -254,7 +254,7 @@ impl RangeTable {
     }
 }
 
-/// PB519 for paths in the file's name that are on no layer, and PB521 for paths that are never searched in a file of this name. Q-projects
+/// Returns PB519 for paths in the file's name that are on no layer, and PB521 for paths that are never searched in a file of this name. Q-projects
 /// are exempt, since they are named after the drawing that they test. `stem`: the name without `.dxf`.
 pub fn judge_file_name(
     stem: &str,

@@ -136,7 +136,7 @@ impl PathName {
         Self(name.into())
     }
 
-    /// The name as spelt.
+    /// Returns the name as spelt by the layer or the user.
     pub fn as_str(&self) -> &str {
         &self.0
     }

@@ -182,7 +182,7 @@ impl<'s> PartCheck<'s> {
         found
     }
 
-    /// PB217 if the part is cut out all round, reported in the first of its paths.
+    /// Returns PB217 if the part is cut out all round, reported in the first of its paths.
     fn loose(&self) -> Option<(usize, Diagnostic)> {
         if self.settings.is_held_otherwise {
             return None;
@@ -239,7 +239,7 @@ fn gouge_problem(gouge: &Gouge, radius: f64) -> Diagnostic {
     problem
 }
 
-/// PB215 for the material left beside an element, at the longest of these stretches. `None` if there are none.
+/// Returns PB215 for the material left beside an element, at the longest of these stretches. `None` if there are none.
 fn leftover_problem(stretches: &[&Leftover]) -> Option<Diagnostic> {
     let left = stretches.iter().reduce(|best, next| if best.is_exceeded_by(next) { next } else { best })?;
     let problem = match left.height {

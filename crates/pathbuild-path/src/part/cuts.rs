@@ -34,7 +34,7 @@ pub struct PathCuts {
 /// The place of an embedded path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EmbeddedPlace {
-    /// Index into [`Path::segments`](crate::Path::segments).
+    /// Index of the embedding segment in [`Path::segments`](crate::Path::segments).
     pub segment: usize,
     /// The start and end of the embedded path.
     pub ends: (Xy, Xy),
@@ -45,7 +45,7 @@ pub struct EmbeddedPlace {
 /// An element that cuts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CutElement {
-    /// Its location.
+    /// Location of the drawn element.
     pub origin: Origin,
     /// Whether it only marks the plate.
     pub is_mark: bool,
@@ -64,7 +64,7 @@ pub struct PartCut {
     pub element: u32,
 }
 
-/// A support bar.
+/// A support bar that a path leaves standing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StandingBar {
     /// The section of its middle line that the cuts beside it leave; `None` if they leave nothing of it.
@@ -133,7 +133,7 @@ impl<'c> CutIndex<'c> {
 }
 
 impl IndexedCut<'_> {
-    /// The index of its path, and that of its element there.
+    /// Returns the index of the cut's path, and that of the element in the path.
     pub(super) fn number(&self) -> (usize, u32) {
         (self.path, self.cut.element)
     }

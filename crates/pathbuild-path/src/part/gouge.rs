@@ -27,7 +27,7 @@ pub(super) struct JudgedCut<'c> {
 pub(super) struct Gouge {
     /// The centre of the cutter where it goes deepest into the part.
     pub(super) at: Xy,
-    /// The depth there, in mm.
+    /// The depth at that place, in mm.
     pub(super) depth: f64,
     /// The length in mm, along the path of the cutter, on which it goes into the part.
     pub(super) length: f64,

@@ -41,7 +41,7 @@ pub(super) struct Leftover {
 pub struct LeftMaterial {
     /// The stretch of the outline.
     pub outline: Vec<Curve>,
-    /// How far in mm the material reaches from the outline.
+    /// Distance in mm that the material extends from the outline.
     pub reach: f64,
 }
 

@@ -89,7 +89,7 @@ pub struct Part {
 /// A closed ring of a part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartRing {
-    /// Its curves.
+    /// The curves in order.
     pub curves: Vec<Curve>,
     /// Index of the outermost opening that contains this ring, or of the ring itself if none does. Rings of the same nest are alternatives,
     /// of which only one must be cut: for example, a hole and the circle around it that shows its thread.
@@ -116,8 +116,8 @@ pub struct DrawnParts {
 }
 
 impl Part {
-    /// Whether a path may cut the part: any path if the pattern captures no name, otherwise those whose names are the captured one,
-    /// possibly followed by letters.
+    /// Whether a path may cut the part. If the pattern captures no name, any path may; otherwise, paths with the captured name, possibly followed
+    /// by letters.
     pub fn may_belong_to(&self, path: &PathName) -> bool {
         let Some(name) = &self.paths else { return true };
         let path = path.folded();

@@ -36,7 +36,7 @@ pub struct NeighbourGouge {
     pub element: u32,
     /// The centre of the cutter where it goes deepest into the part, as placed.
     pub at: Xy,
-    /// The depth there, in mm.
+    /// The depth at that place, in mm.
     pub depth: f64,
 }
 

@@ -105,8 +105,8 @@ impl<'p> PreparedPart<'p> {
         of_ring.map(|(_, curve)| curve.distance_to(at)).fold(f64::INFINITY, f64::min)
     }
 
-    /// How deep a cutter of this radius goes into the part with its centre there, in mm; negative if it stays outside. A cutter inside
-    /// several openings may stay inside any of them.
+    /// Returns the depth in mm to which a cutter of this radius goes into the part with its centre at a point; negative if it stays outside. A
+    /// cutter inside several openings may stay inside any of them.
     pub(crate) fn depth(&self, at: Xy, radius: f64) -> f64 {
         match self.side(at) {
             Side::Outside => radius - self.distance(at, Some(0), radius),

@@ -97,8 +97,8 @@ impl<'d> LayerTexts<'d> {
         }
     }
 
-    /// PB116 if another element of the same kind is about as near, or one of another kind is nearer. Other elements do not count if the
-    /// text would be an error there: a marker instead of an element or the reverse, and elements that do not accept one of its letters.
+    /// Returns PB116 if another element of the same kind is about as near, or one of another kind is nearer. Other elements do not count if the text
+    /// would be an error there: a marker instead of an element or the reverse, and elements that do not accept one of its letters.
     fn doubt(
         &self,
         text: &FoundText<'_>,

@@ -38,7 +38,7 @@ pub(super) struct BrokenOutline {
 /// The area inside a closed sequence of curves.
 struct Border(Outline);
 
-/// The outlines of a layer: those that can be compared with cuts, and those that cannot.
+/// The outlines of a layer, sorted into those that can be compared with cuts and those that cannot.
 pub(super) struct SortedOutlines {
     pub(super) rings: Vec<Chain>,
     pub(super) broken: Vec<BrokenOutline>,
@@ -140,8 +140,8 @@ impl BrokenOutline {
     }
 }
 
-/// The outlines that open chains form between the points where they cross each other, if hardly anything of the chains lies beyond those
-/// points: lines that overshoot all corners, as in `#`.
+/// The outlines that open chains form between the points where they cross each other, if hardly any part of the chains lies beyond those
+/// points. An example are lines that overshoot all corners, as in `#`.
 fn overshooting(chains: &[Chain]) -> Vec<BrokenOutline> {
     let curves: Vec<(usize, usize, Curve)> = (0..)
         .zip(chains)
@@ -173,7 +173,7 @@ fn overshooting(chains: &[Chain]) -> Vec<BrokenOutline> {
     graph.rings().into_iter().filter_map(outline).collect()
 }
 
-/// PB219 for two ends that should meet.
+/// Returns PB219 for two ends that should meet.
 pub(super) fn gap_problem(end: Xy, other: Xy) -> Diagnostic {
     Diagnostic::new(&messages::OUTLINE_GAP)
         .with("point", shown(end))

@@ -43,7 +43,7 @@ pub fn keep_outs(drawing: &Drawing, language: &Language) -> KeepOuts {
     found
 }
 
-/// PB117 for each hatch on a layer with clamps that fills no outline of a clamp.
+/// Returns PB117 for each hatch on a layer with clamps that fills no outline of a clamp.
 fn lone_hatches(drawing: &Drawing, language: &Language, clamps: &[KeepOut]) -> Vec<Diagnostic> {
     let is_clamp = |place: &&Place| {
         let is_on = |layer: &str| language.is_keep_out(layer) && !language.path_pattern.is_layer(layer);
@@ -181,7 +181,7 @@ impl Reading<'_> {
         self.problems.push(problem);
     }
 
-    /// PB003 if the layer is also a path layer.
+    /// Reports PB003 if the layer is also a path layer.
     fn report_path(&mut self) {
         let problem = Diagnostic::new(&configuration::KEEP_OUT_IS_PATH).quoting("layer", &*self.layer.name);
         self.report(on_layer(&self.layer.name, problem));

@@ -97,7 +97,7 @@ impl<'d> OutlineLayers<'d> {
         Self { drawing, language, layers, curves }
     }
 
-    /// PB219 for curves that may be part of an outline and could not be read.
+    /// Returns PB219 for curves that may be part of an outline and could not be read.
     fn unreadable(&self) -> impl Iterator<Item = Diagnostic> {
         let left_out =
             self.language.left_out(self.drawing).map(|left_out| (left_out.layer, &left_out.diagnostic));
@@ -110,7 +110,7 @@ impl<'d> OutlineLayers<'d> {
         })
     }
 
-    /// PB219 for layers of which no curve belongs to a closed ring, and about which nothing else is reported.
+    /// Returns PB219 for layers of which no curve belongs to a closed ring, and about which nothing else is reported.
     fn without_rings(&self, found: &DrawnParts) -> Vec<Diagnostic> {
         let reported =
             found.problems.iter().filter(|problem| problem.message != &messages::OUTLINE_UNREADABLE);

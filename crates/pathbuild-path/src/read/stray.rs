@@ -50,8 +50,8 @@ impl NearNames {
         Self { by_folded: paths.map(|path| (folded(path.as_str()), path.clone())).collect() }
     }
 
-    /// The path whose name the name of another layer resembles: followed by a tilde and anything else, or by at most two more characters.
-    /// Spaces, points and other separators, and case are ignored; letters that look like digits are taken for those.
+    /// Returns the path whose name resembles that of another layer: the layer has the path's name, followed by a tilde and any text, or by at most
+    /// two more characters. Spaces, points and other separators, and case are ignored; letters that look like digits count as those digits.
     pub fn path(&self, layer: &str) -> Option<&PathName> {
         let layer = folded(layer);
         let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));
@@ -61,7 +61,7 @@ impl NearNames {
     }
 }
 
-/// Normalizes a name for comparison: upper case, no spaces and separators, and plain characters and digits for those that look like them.
+/// Normalizes a name for comparison: upper case, without spaces and separators, with look-alikes replaced by plain characters and digits.
 fn folded(name: &str) -> String {
     let plain = look_alikes::with_digits(&look_alikes::replaced(name));
     let seen =
@@ -70,7 +70,7 @@ fn folded(name: &str) -> String {
     tildes.flat_map(char::to_uppercase).collect()
 }
 
-/// PB119 and PB120 for a drawing that was read with all its layers.
+/// Returns PB119 and PB120 for a drawing that was read with all its layers.
 pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic> {
     let layers = PathLayers::find(drawing, &language.path_pattern);
     let mut paths = collect::paths(drawing, language);
@@ -144,8 +144,8 @@ pub fn is_near_clamps_or_parts(layer: &str, language: &Language) -> bool {
 /// Length in characters below which a name resembles too many others.
 const SHORTEST_NAME: usize = 4;
 
-/// Whether a pattern that does not match a name would match it without a tilde and what follows, without up to two characters at its end, or
-/// with another ending of the plural. Spaces are ignored, and characters are taken for those that they look like.
+/// Whether a name that a pattern does not match would match without a tilde and the text after it, without up to two characters at its end, or
+/// with another plural ending. Spaces are ignored, and look-alikes are replaced by plain characters.
 fn nearly_matches(layer: &str, is_layer: &dyn Fn(&str) -> bool) -> bool {
     let plain = look_alikes::replaced(layer);
     let plain = plain.split('~').next().unwrap_or_default().trim_end();
@@ -161,7 +161,7 @@ fn nearly_matches(layer: &str, is_layer: &dyn Fn(&str) -> bool) -> bool {
 /// Endings of plurals, in English and German.
 const PLURALS: [&str; 4] = ["s", "e", "n", "en"];
 
-/// PB119 if a text would have an effect on the layer of a path.
+/// Returns PB119 if a text would have an effect on the layer of a path.
 fn stray_text(
     drawing: &Drawing,
     entity: usize,
@@ -219,7 +219,7 @@ impl PathCollector<'_> {
     }
 }
 
-/// PB120 for a layer with these entities.
+/// Returns PB120 for a layer with these entities.
 fn near_layer(drawing: &Drawing, near: &NearLayer<'_>, layer: u32, entities: &[usize]) -> Option<Diagnostic> {
     let first = *entities.first()?;
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();

@@ -88,7 +88,7 @@ impl<'d> Texts<'d> {
         layer.candidates.push(candidate);
     }
 
-    /// Removes an element of the path: the indices of those after it decrease by one.
+    /// Removes an element of the path. The indices of the elements after it decrease by one.
     pub(super) fn forget_element(&mut self, index: usize) {
         for candidate in self.layers.iter_mut().flat_map(|layer| &mut layer.candidates) {
             candidate.owner = match candidate.owner {

@@ -144,7 +144,7 @@ impl Walker<'_> {
         Curves::new(self.path, traversed).have_another(segment)
     }
 
-    /// A segment that is drawn twice, where one of the two was traversed: either the other is left over, or the walk went along both.
+    /// A segment that lies on a traversed one: either it was not reached, or the walk went along both.
     fn duplicate(&self) -> Option<usize> {
         let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
         let curves = Curves::new(self.path, traversed.clone());
@@ -188,7 +188,7 @@ impl Walker<'_> {
 
 // Segments that are drawn twice. (book: language/chains-and-passes)
 
-/// Lines and arcs of a path, sorted so that those that lie on each other are neighbours.
+/// Lines and arcs of a path, sorted so that curves that lie on each other are neighbours.
 pub(super) struct Curves<'a> {
     path: &'a Path,
     known: Vec<(CurveKey, usize)>,
@@ -220,7 +220,7 @@ impl<'a> Curves<'a> {
         same.take(2).any(|(_, other)| *other != segment)
     }
 
-    /// PB121 for milled segments on top of another of their kind, unless both have a text: then the user milled the same curve twice on
+    /// Returns PB121 for milled segments on top of another of their kind, unless both have a text: then the user milled the same curve twice on
     /// purpose.
     pub(super) fn milled_twice(&self) -> Vec<Diagnostic> {
         let pairs = self.known.windows(2).filter(|pair| pair[0].0 == pair[1].0);

@@ -37,7 +37,7 @@ pub(super) fn length(ends: &Ends, segment: usize) -> f64 {
 #[derive(Default)]
 pub(super) struct Stars(BTreeMap<Squares, Star>);
 
-/// A crowded point.
+/// A crowded point: the segments that meet there, in groups.
 pub(super) struct Star {
     /// The corners of the bounding box of the ends that meet here.
     corners: [Xy; 2],
@@ -131,7 +131,7 @@ impl Group {
 pub(super) struct Turns {
     /// The markers in each square; of several at exactly the same point only the first.
     squares: BTreeMap<Square, Vec<usize>>,
-    /// For each marker, the first one at exactly the same point.
+    /// For each marker, the index of the first one at exactly the same point.
     first: Vec<usize>,
     has_acted: Vec<bool>,
 }
@@ -217,7 +217,7 @@ const SEARCH_DISTANCE: f64 = 0.22;
 /// Search distance in squares for points that coincide with a point only by way of others, each of which coincides with the next: slightly
 /// more than three times that distance.
 const WIDE_REACH: f64 = 0.5;
-/// So large that adding it rounds to an integer: the low bits of the sum count whole numbers. (1.5 * 2^52)
+/// Addend so large that adding it rounds to an integer: the low bits of the sum count whole numbers. (1.5 * 2^52)
 const ROUNDING_ADDEND: f64 = 6_755_399_441_055_744.0;
 
 impl Ends {

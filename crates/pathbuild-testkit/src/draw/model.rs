@@ -479,9 +479,9 @@ pub struct Text {
     pub height: f64,
     /// Rotation in degrees, counterclockwise.
     pub rotation: f64,
-    /// Group 72.
+    /// Horizontal alignment (group 72).
     pub horizontal: Horizontal,
-    /// Group 73.
+    /// Vertical alignment (group 73).
     pub vertical: Vertical,
     /// Whether the text is mirrored horizontally (group 71, bit 2).
     pub backwards: bool,
@@ -489,7 +489,7 @@ pub struct Text {
     pub upside_down: bool,
 }
 
-/// Group 72 of TEXT.
+/// Horizontal alignment of a TEXT (group 72).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Horizontal {
     /// 0: the anchor is at the left end.
@@ -507,7 +507,7 @@ pub enum Horizontal {
     Fit(Point),
 }
 
-/// Group 73 of TEXT.
+/// Vertical alignment of a TEXT (group 73).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Vertical {
