@@ -143,9 +143,9 @@ pub struct EmbeddedPath {
     pub ends: [Point; 2],
     /// Height in mm by which the path is raised.
     pub raised: f64,
-    /// Z in mm of the upper face of the path's material, raised by [`raised`](Self::raised).
+    /// Z in mm of the upper face of the path's material, raised by [`raised`](EmbeddedPath::raised).
     pub thickness: f64,
-    /// Sweep height in mm, raised by [`raised`](Self::raised).
+    /// Sweep height in mm, raised by [`raised`](EmbeddedPath::raised).
     pub sweep_height: f64,
 }
 

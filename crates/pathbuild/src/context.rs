@@ -20,18 +20,18 @@ use crate::output::Output;
 use crate::printer::{Printer, Stream};
 use crate::render::{Format, View, json as lines, render};
 
-/// Everything that a command needs besides its arguments.
+/// Everything that a command needs in addition to its arguments.
 #[derive(Debug)]
 pub struct Context {
-    /// The only access to stdout and stderr.
+    /// Prints to stdout and stderr, which nothing else may access.
     pub printer: Rc<Printer>,
-    /// Format of diagnostics.
+    /// Format in which diagnostics are printed.
     pub format: Format,
     /// The machine-readable document and reports of the run.
     pub(crate) output: Output,
     /// Values from the command line that override the configuration.
     pub overrides: Overrides,
-    /// Settings, files and directories.
+    /// Settings, files and directories of the run.
     pub workspace: Workspace,
 }
 
@@ -44,13 +44,13 @@ impl Deref for Context {
 }
 
 impl Context {
-    /// The context of a command line in this workspace.
+    /// Creates the context for a command line in this workspace.
     pub fn new(cli: &Cli, overrides: Overrides, printer: Rc<Printer>, workspace: Workspace) -> Self {
         let output = Output::new(&cli.command, &cli.common);
         Self { printer, format: output.format, output, overrides, workspace }
     }
 
-    /// The context of a command line in the working directory. Also returns diagnostics of the configuration.
+    /// Creates the context for a command line in the working directory. Also returns diagnostics of the configuration.
     pub fn of(cli: &Cli) -> (Self, Vec<Diagnostic>) {
         let Cli { command, common } = cli;
         let (user, mut faults) = environment::user();
@@ -73,7 +73,7 @@ impl Context {
         (Self::new(cli, overrides, printer, workspace), faults)
     }
 
-    /// Why options or the environment ask for something impossible.
+    /// Returns the reason why the options or the environment are invalid; `None` if they are valid.
     pub(crate) fn refusal(&self) -> Option<String> {
         self.output.refusal(self).or_else(|| environment::refusal(self))
     }
@@ -89,7 +89,8 @@ impl Context {
         }
     }
 
-    /// A workspace for another tree, with that tree's configuration and without a cache. Also returns diagnostics of that configuration.
+    /// Returns a workspace for another tree, with that tree's configuration and without a cache. Also returns diagnostics of that
+    /// configuration.
     pub fn elsewhere(&self, inputs: &Inputs) -> (Workspace, Vec<Diagnostic>) {
         let (settings, faults) =
             config::load(&OsSystem::shared(), &self.overrides, inputs, &self.working_directory);
@@ -102,7 +103,7 @@ impl Context {
         (workspace, faults)
     }
 
-    /// Shows findings: to users on stderr, in machine-readable formats in the document of the run.
+    /// Shows findings: on stderr as text, or as part of the document if the format is machine-readable.
     pub fn show(&self, findings: &Findings) {
         if let Some((stream, text)) = self.output.take(findings, |stream| self.view(stream)) {
             if self.format.is_for_machines() {
@@ -113,21 +114,21 @@ impl Context {
         }
     }
 
-    /// Shows findings and returns the exit status that they mean.
+    /// Shows findings and returns the corresponding exit status.
     pub(crate) fn conclude(&self, diagnostics: Vec<Diagnostic>) -> ExitStatus {
         let findings = self.findings(diagnostics);
         self.show(&findings);
         ExitStatus::of(&findings)
     }
 
-    /// Shows only some of the findings to users; reports contain all of them.
+    /// Shows only `some` of the findings to users. Reports contain all of them.
     pub(crate) fn show_some(&self, findings: &Findings, some: &Findings) {
         _ = self.output.take(findings, |stream| self.view(stream));
         let view = self.view(Stream::Stderr);
         self.printer.diagnostics(Stream::Stderr, &render(self.format, some, &view));
     }
 
-    /// Begins the machine-readable document.
+    /// Prints the beginning of the machine-readable document.
     pub(crate) fn begin(&self) {
         if let Some(header) = self.output.header() {
             self.printer.json(self.output.stream, header);
@@ -148,12 +149,12 @@ impl Context {
         }
     }
 
-    /// Name of a file in the document, relative to the repository's root.
+    /// Returns the name of a file in the machine-readable document, relative to the repository's root.
     pub(crate) fn file(&self, file: &Utf8Path) -> String {
         self.machine_view().raw_name(file).into_owned()
     }
 
-    /// Ends the document and writes the reports. A report that cannot be written is an error.
+    /// Prints the end of the machine-readable document, and writes the reports. A report that cannot be written is an error.
     pub(crate) fn end(&self, status: ExitStatus) -> ExitStatus {
         let (status, view) = (self.write_reports(status), self.machine_view());
         if let Some(text) = self.output.end(status.code(), &view) {
@@ -180,13 +181,13 @@ impl Context {
         if failed.is_empty() { status } else { status.max(self.fail(failed)) }
     }
 
-    /// The view for machine-readable formats: file names are relative to the repository's root.
+    /// Returns the view for machine-readable formats, in which file names are relative to the repository's root.
     fn machine_view(&self) -> View {
         let directory = self.settings.directory().unwrap_or(&self.working_directory);
         View { root: Some(config::repository(&OsSystem, directory).to_owned()), ..self.plain_view() }
     }
 
-    /// The view for text files: no colours, no wrapping.
+    /// Returns the view for text files, without colours and wrapping.
     fn plain_view(&self) -> View {
         View {
             lang: self.lang(),
@@ -203,13 +204,13 @@ impl Context {
         ExitStatus::Usage
     }
 
-    /// Shows errors and ends the run with them.
+    /// Shows errors, and returns the exit status of a run with errors.
     pub fn fail(&self, diagnostics: Vec<Diagnostic>) -> ExitStatus {
         self.show(&Findings::new(diagnostics));
         ExitStatus::Errors
     }
 
-    /// Says why a request has no outcome.
+    /// Shows why a request failed, and returns the exit status.
     pub fn failed(&self, failure: Failure) -> ExitStatus {
         match failure {
             Failure::Usage(reason) => self.usage(&reason),
@@ -217,7 +218,7 @@ impl Context {
         }
     }
 
-    /// Refuses to run because nothing was named to work on.
+    /// Reports a usage error: the command line names nothing to work on.
     pub fn refuse_empty_input(&self) -> ExitStatus {
         let advice = match self.settings.file {
             Some(_) => {
@@ -236,12 +237,12 @@ impl Context {
         self.usage(&(reason + advice))
     }
 
-    /// Reports wrong usage.
+    /// Reports a usage error.
     pub fn usage(&self, reason: &str) -> ExitStatus {
         german::wrong(reason, self.lang(), &self.printer)
     }
 
-    /// The view for a stream in the chosen format.
+    /// Returns the view for a stream in the chosen format.
     pub fn view(&self, stream: Stream) -> View {
         if self.format.is_for_machines() {
             return self.machine_view();

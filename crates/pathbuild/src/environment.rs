@@ -15,18 +15,20 @@ use pathbuild_workspace::config::{self, Overrides, UserSettings, clean};
 use pathbuild_workspace::waivers::{Date, DateSource, RunDate};
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 
-/// Variable with the seconds since 1970 that stand for the present, so that results can be reproduced (reproducible-builds.org).
+/// Environment variable with the time, in seconds since 1970, to use as the current one, so that results can be reproduced
+/// (reproducible-builds.org).
 const EPOCH: &str = "SOURCE_DATE_EPOCH";
 
-/// Variable that names the cache directory, like `--cache-dir`.
+/// Environment variable that names the cache directory, like `--cache-dir`.
 const CACHE_DIR: &str = "PATHBUILD_CACHE_DIR";
 
-/// The user's own settings, with diagnostics of their file.
+/// Loads the user's own settings. Also returns diagnostics of their file.
 pub(crate) fn user() -> (UserSettings, Vec<Diagnostic>) {
     user_configuration().map(|file| UserSettings::load(&OsSystem, &file)).unwrap_or_default()
 }
 
-/// A workspace in the working directory for these inputs, which caches and reports nothing. Also returns diagnostics of the configuration.
+/// Returns a workspace in the working directory for these inputs, without a cache and without output. Also returns diagnostics of the
+/// configuration.
 pub(crate) fn workspace(
     overrides: &Overrides,
     user: &UserSettings,
@@ -47,13 +49,13 @@ pub(crate) fn workspace(
     (workspace, faults)
 }
 
-/// The working directory; empty if it is unknown or not UTF-8, so that relative names stay relative.
+/// Returns the working directory; empty if it is unknown or not UTF-8, so that relative names remain relative.
 pub(crate) fn working_directory() -> Utf8PathBuf {
     let directory = env::current_dir().ok();
     directory.and_then(|directory| Utf8PathBuf::from_path_buf(directory).ok()).map(spelt).unwrap_or_default()
 }
 
-/// Path of the user's `config.toml`, whether it exists or not; `None` if its directory is unknown.
+/// Returns the path of the user's `config.toml`, whether the file exists or not; `None` if its directory is unknown.
 pub(crate) fn user_configuration() -> Option<Utf8PathBuf> {
     let below_home = |directory: &str| absolute("HOME").map(|home| home.join(directory));
     let directory = if cfg!(windows) {
@@ -66,19 +68,20 @@ pub(crate) fn user_configuration() -> Option<Utf8PathBuf> {
     directory.map(|directory| directory.join("pathbuild").join("config.toml"))
 }
 
-/// Language chosen by `PATHBUILD_LANG`: `de`, `en`, or the name of a locale such as `de_AT.UTF-8`.
+/// Returns the language chosen by `PATHBUILD_LANG`: `de`, `en`, or the name of a locale such as `de_AT.UTF-8`.
 fn lang() -> Option<Lang> {
     named_lang(&env::var("PATHBUILD_LANG").ok()?)
 }
 
-/// Language of the system's locale: from the POSIX variables on every system, else the user's language on Windows and macOS.
+/// Returns the language of the system's locale: from the POSIX variables on every system, or else the user's language on Windows and
+/// macOS.
 fn system_lang() -> Option<Lang> {
     let variables = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter();
     let named = variables.filter_map(|variable| env::var(variable).ok()).find(|name| !name.is_empty());
     named_lang(&named.or_else(sys_locale::get_locale)?)
 }
 
-/// The language of a name such as `de`, `de-AT` or `de_DE.UTF-8`, if it is supported.
+/// Returns the language of a name such as `de`, `de-AT` or `de_DE.UTF-8`, if it is supported.
 pub(crate) fn named_lang(name: &str) -> Option<Lang> {
     match name.split(['_', '-', '.', '@']).next()?.to_ascii_lowercase().as_str() {
         "de" => Some(Lang::De),
@@ -87,7 +90,7 @@ pub(crate) fn named_lang(name: &str) -> Option<Lang> {
     }
 }
 
-/// The date of a run: the given one, else that of `SOURCE_DATE_EPOCH`, else today in UTC.
+/// Returns the date of a run: the given one, or else that of `SOURCE_DATE_EPOCH`, or else the current date in UTC.
 pub(crate) fn date(given: Option<Date>) -> Option<RunDate> {
     if let Some(date) = given {
         return Some(RunDate { date, source: DateSource::Given });
@@ -99,13 +102,13 @@ pub(crate) fn date(given: Option<Date>) -> Option<RunDate> {
     Some(RunDate { date: Date::of_unix_time(now.as_secs())?, source: DateSource::Clock })
 }
 
-/// The date of `SOURCE_DATE_EPOCH`, if that is one.
+/// Returns the date of `SOURCE_DATE_EPOCH`; `None` if the variable is missing or not a time.
 fn epoch() -> Option<Date> {
     Date::of_unix_time(env::var(EPOCH).ok()?.parse().ok()?)
 }
 
-/// Refuses variables that cannot be read: otherwise results would be cached in another place than the user expects, or waivers be
-/// compared with another date.
+/// Returns an error for an environment variable that is set but invalid. Ignoring it would put the cache in another place than the user
+/// expects, or compare waivers with another date.
 pub(crate) fn refusal(workspace: &Workspace) -> Option<String> {
     if env::var_os(EPOCH).is_some() && epoch().is_none() {
         return Some(workspace.phrase(
@@ -118,8 +121,8 @@ pub(crate) fn refusal(workspace: &Workspace) -> Option<String> {
     is_unreadable.then(|| workspace.phrase("{}: it is not UTF-8", "{}: das ist nicht in UTF-8", CACHE_DIR))
 }
 
-/// The directory of `--cache-dir` or `PATHBUILD_CACHE_DIR`, else the user's cache directory, which `config.toml` may name; `None` if it is
-/// unknown.
+/// Returns the directory of `--cache-dir` or `PATHBUILD_CACHE_DIR`, or else the user's cache directory, which `config.toml` may name;
+/// `None` if it is unknown.
 pub(crate) fn cache_home(
     named: Option<&Utf8Path>,
     configured: Option<Utf8PathBuf>,
@@ -132,7 +135,7 @@ pub(crate) fn cache_home(
     }
 }
 
-/// The user's cache directory, according to XDG or the conventions of the system.
+/// Returns the user's cache directory, according to XDG or the conventions of the system.
 fn user_caches() -> Option<Utf8PathBuf> {
     if cfg!(windows) {
         return absolute("LOCALAPPDATA").map(|local| local.join("pathbuild").join("cache"));
@@ -142,7 +145,7 @@ fn user_caches() -> Option<Utf8PathBuf> {
     caches.map(|caches| caches.join("pathbuild"))
 }
 
-/// The absolute directory in a variable. XDG requires that relative ones are ignored.
+/// Returns the directory in an environment variable if it is absolute. XDG requires that relative ones are ignored.
 fn absolute(variable: &str) -> Option<Utf8PathBuf> {
     directory(variable).filter(|directory| directory.is_absolute())
 }

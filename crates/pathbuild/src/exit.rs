@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use pathbuild_workspace::findings::Findings;
 
-/// How a run ended.
+/// The exit status of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[must_use]
 pub enum ExitStatus {
@@ -17,12 +17,12 @@ pub enum ExitStatus {
 }
 
 impl ExitStatus {
-    /// The status that findings mean.
+    /// Returns the status of a run with these findings.
     pub(crate) fn of(findings: &Findings) -> Self {
         if findings.errors() > 0 { Self::Errors } else { Self::Success }
     }
 
-    /// The number that the shell sees.
+    /// Returns the number that the shell receives.
     pub fn code(self) -> u8 {
         match self {
             Self::Success => 0,

@@ -1,5 +1,5 @@
-//! The command line in German: definitions with German help, and error messages. The English texts come from `args` and from clap. Also the
-//! answers to arguments that cannot be processed, in both languages.
+//! The command line in German: definitions with German help, and error messages. The English texts come from `args` and from clap. This
+//! module also prints help and usage errors, in both languages.
 
 use std::error::Error as _;
 use std::fmt::Write as _;
@@ -16,7 +16,7 @@ use crate::printer::Printer;
 
 const TEMPLATE: &str = "{before-help}{about-with-newline}\nAufruf: {usage}\n\n{all-args}{after-help}";
 
-/// The definition of the command line with help in a language. The German one is used to show help and errors only.
+/// Returns the definition of the command line with help in a language. The German definition only serves to show help and errors.
 pub fn command(lang: Lang) -> Command {
     let mut command = Cli::command();
     command.build();
@@ -26,13 +26,13 @@ pub fn command(lang: Lang) -> Command {
     }
 }
 
-/// English and German of every help text, value name and possible value, except for settings. A test compares it with the definition of the
-/// command line.
+/// Returns the English and German text of every help text, value name and possible value, except for settings. A test compares it with the
+/// definition of the command line.
 pub fn catalogue() -> impl Iterator<Item = (&'static str, &'static str)> {
     args::GERMAN.into_iter().chain([OTHERS]).flatten().copied()
 }
 
-/// The German translation of a text of the command line.
+/// Returns the German translation of a text of the command line.
 pub fn german(english: &str) -> Option<&'static str> {
     let settings = OPTIONS.iter().map(|option| (option.help.en, option.help.de));
     catalogue().chain(settings).find(|(en, _)| *en == english).map(|(_, de)| de)
@@ -44,7 +44,7 @@ fn shown(help: &str) -> String {
         ("[OPTIONS]", "[OPTIONEN]"),
         ("\nArguments:\n", "\nArgumente:\n"),
         ("\nOptions:\n", "\nOptionen:\n"),
-        // Second line of a usage.
+        // The second line of a usage message is indented by the length of its first word.
         ("\n       pathbuild ", "\n        pathbuild "),
     ];
     words.into_iter().fold(help.to_owned(), |help, (en, de)| help.replace(en, de))
@@ -71,7 +71,7 @@ fn argument(argument: Arg) -> Arg {
     if names.is_empty() { argument } else { argument.value_names(names) }
 }
 
-/// Translates the help of an argument, including its possible values.
+/// Translates the help of an argument and of its possible values.
 fn with_help(argument: Arg) -> Arg {
     let help = argument.get_help().and_then(|help| german(&help.to_string())).unwrap_or_default();
     let values = argument.get_possible_values();
@@ -90,9 +90,7 @@ fn value(value: PossibleValue) -> PossibleValue {
     help.into_iter().fold(value, PossibleValue::help)
 }
 
-// Answers in both languages: help, and errors of usage. The arguments cannot be processed, whatever the drawings contain.
-
-/// Prints clap's answer in this language: help and version, or an error of usage.
+/// Prints clap's answer to a command line that is not run, in this language: help, the version, or a usage error.
 pub(crate) fn answer(error: &Error, lang: Lang, printer: &Printer) -> ExitStatus {
     let text = error.render().to_string();
     let text = if lang == Lang::De { shown(&text) } else { text };
@@ -108,13 +106,13 @@ pub(crate) fn answer(error: &Error, lang: Lang, printer: &Printer) -> ExitStatus
     }
 }
 
-/// Prints requested help.
+/// Prints help that was requested.
 pub(crate) fn help(text: &str, printer: &Printer) -> ExitStatus {
     printer.result(text);
     ExitStatus::Success
 }
 
-/// Prints an error of usage.
+/// Prints a usage error.
 pub(crate) fn wrong(reason: &str, lang: Lang, printer: &Printer) -> ExitStatus {
     let (error, advice) = match lang {
         Lang::En => ("error", "For more information, try '--help'."),
@@ -124,12 +122,10 @@ pub(crate) fn wrong(reason: &str, lang: Lang, printer: &Printer) -> ExitStatus {
     ExitStatus::Usage
 }
 
-// Messages for errors of the command line are built from the parts of clap's errors.
-
-/// Points to the help.
+/// Last line of German usage errors, which refers to the help.
 const ADVICE: &str = "Mehr dazu mit '--help'.";
 
-/// The error with tips and usage.
+/// Returns the German message for a usage error, with tips and the usage. It is composed from the parts of clap's error.
 fn reason(error: &Error) -> String {
     let mut text = what(error);
     let tips = tips(error);
@@ -195,7 +191,7 @@ fn tips(error: &Error) -> Vec<String> {
     near.chain(other.iter().filter_map(|tip| tip_of(&tip.to_string()))).collect()
 }
 
-/// Translates a tip that clap has composed.
+/// Translates a tip composed by clap; `None` if it is unknown.
 fn tip_of(english: &str) -> Option<String> {
     match *english.split('\'').collect::<Vec<_>>() {
         ["to pass ", value, " as a value, use ", line, ""] => {
@@ -218,7 +214,7 @@ fn lines(items: &[String]) -> String {
     items.iter().flat_map(|item| ["\n  ", item.as_str()]).collect()
 }
 
-/// Values that a clap error has in a certain context.
+/// Returns the values that a clap error has for a kind of context.
 fn context_values(error: &Error, kind: ContextKind) -> Vec<String> {
     match error.get(kind) {
         Some(ContextValue::String(text)) => vec![text.clone()],
@@ -227,7 +223,7 @@ fn context_values(error: &Error, kind: ContextKind) -> Vec<String> {
     }
 }
 
-/// Messages of clap itself and values that are defined elsewhere, in English and German.
+/// Texts of clap itself and of values that are defined elsewhere, in English and German.
 const OTHERS: &[(&str, &str)] = &[
     (
         "Print this message or the help of the given subcommand(s)",

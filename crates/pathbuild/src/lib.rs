@@ -1,5 +1,5 @@
-//! The program `pathbuild`: arguments, configuration, output and exit status. The meaning of drawings is decided in other crates; this one
-//! holds none of that logic. (book: reference/commands, book: reference/configuration)
+//! The program `pathbuild`: arguments, configuration, output and exit status. Other crates decide what drawings mean. (book:
+//! reference/commands, book: reference/configuration)
 
 pub mod args;
 pub mod commands;
@@ -33,7 +33,7 @@ use args::{Cli, Command, CommonArgs, CompatArgs};
 use commands::compat::{self, Translation};
 use printer::{ColorChoice, Printer};
 
-/// Runs the program with its command-line arguments, of which the first is the program's own name.
+/// Runs the program with its command-line arguments, the first of which is the program's own name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
     let arguments = compat::with_separator(arguments.into_iter().collect());
     if let Some(status) = complete(&arguments) {
@@ -51,7 +51,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
     }
 }
 
-/// Answers a completion request of a shell; `None` if this is an ordinary run.
+/// Answers a shell's request for completions; `None` if this is an ordinary run.
 fn complete(arguments: &[OsString]) -> Option<ExitStatus> {
     let definition = || german::command(lang_of(arguments));
     match CompleteEnv::with_factory(definition).var(VARIABLE).try_complete(arguments, None) {
@@ -61,7 +61,7 @@ fn complete(arguments: &[OsString]) -> Option<ExitStatus> {
     }
 }
 
-/// Translates a command line of another program and runs the resulting commands.
+/// Translates a command line of the original tools and runs the resulting commands.
 fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) -> ExitStatus {
     let lang = lang_of(arguments);
     let translated = match compat::translate(&args.arguments, lang) {
@@ -83,13 +83,13 @@ fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) ->
     each.max().unwrap_or(ExitStatus::Success)
 }
 
-/// Language of messages about a command line that is not run; determined like that of any other.
+/// Returns the language of messages about a command line that is not run. It is determined like that of any other command line.
 pub(crate) fn lang_of(arguments: &[OsString]) -> Lang {
     let common = CommonArgs { lang: Cli::lang(arguments), ..CommonArgs::default() };
     Context::of(&Cli { command: Command::Man, common }).0.lang()
 }
 
-/// Prints something that needs no configuration.
+/// Prints an answer that does not depend on the configuration.
 fn print(answer: impl FnOnce(&Printer) -> ExitStatus) -> ExitStatus {
     let printer = Printer::default();
     let status = answer(&printer);
@@ -119,7 +119,7 @@ fn execute(cli: &Cli) -> ExitStatus {
     context.printer.finish(status)
 }
 
-/// Tells which configuration applies to a program, unless it is obvious.
+/// Reports which configuration applies to a program, unless it is obvious.
 fn say_unexpected_configuration(context: &Context) {
     if let Some(file) = context.unexpected_configuration() {
         let configuration = context.choose("configuration", "Konfiguration");

@@ -1,4 +1,4 @@
-//! Machine-readable output of a run: one document, on stdout unless the command needs stdout itself, and reports in files.
+//! The machine-readable output of a run: one document, on stdout unless the command needs stdout itself, and reports in files.
 
 use std::cell::RefCell;
 
@@ -11,22 +11,22 @@ use crate::args::{Command, CommonArgs, ReportFile};
 use crate::printer::Stream;
 use crate::render::{Format, RenderedText, View, json as lines, page, pictures, render};
 
-/// The document of a run, with everything to be written at its end.
+/// The document of a run. It collects everything that is written at its end.
 #[derive(Debug)]
 pub(crate) struct Output {
     pub(crate) command: &'static str,
     pub(crate) format: Format,
-    /// Stream of machine-readable formats.
+    /// Stream on which machine-readable formats are written.
     pub(crate) stream: Stream,
     pub(crate) reports: Vec<ReportFile>,
-    /// Whether the command has findings; other commands have no document.
+    /// Whether the command has a document, because it reports findings.
     is_document: bool,
     found: RefCell<Findings>,
     figures: RefCell<Map<String, Value>>,
 }
 
 impl Output {
-    /// The document of a command.
+    /// Creates the output of a command.
     pub(crate) fn new(command: &Command, common: &CommonArgs) -> Self {
         Self {
             command: command.name(),
@@ -39,7 +39,7 @@ impl Output {
         }
     }
 
-    /// Why the options ask for something impossible.
+    /// Returns the reason why the options are invalid; `None` if they are valid.
     pub(crate) fn refusal(&self, workspace: &Workspace) -> Option<String> {
         let on_stdout = self.reports.iter().filter(|report| report.is_stdout()).count();
         let taken = usize::from(self.format.is_for_machines() || self.stream == Stream::Stderr);
@@ -67,18 +67,18 @@ impl Output {
         })
     }
 
-    /// Whether stdout carries the document, so that text for users goes elsewhere.
+    /// Whether the document is written to stdout, so that results for users go to stderr.
     pub(crate) fn takes_stdout(&self) -> bool {
         let reports = self.reports.iter().any(ReportFile::is_stdout);
         self.is_document && self.stream == Stream::Stdout && (reports || self.format.is_for_machines())
     }
 
-    /// The first line of JSON.
+    /// Returns the first line of a JSON document; `None` if the run has none.
     pub(crate) fn header(&self) -> Option<String> {
         (self.is_document && self.format == Format::Json).then(|| lines::header(self.command))
     }
 
-    /// Collects findings. Returns what to show of them now, and on which stream.
+    /// Collects findings. Returns the text to show now and its stream; `None` if the format is only written at the end.
     pub(crate) fn take(
         &self,
         findings: &Findings,
@@ -97,17 +97,17 @@ impl Output {
         Some((stream, render(self.format, findings, &view(stream))))
     }
 
-    /// Adds a number to the last line of JSON.
+    /// Adds a number to the last line of the JSON document.
     pub(crate) fn figure(&self, name: &str, value: impl Into<Value>) {
         self.figures.borrow_mut().insert(name.to_owned(), value.into());
     }
 
-    /// Whether the run writes the last line of JSON anywhere.
+    /// Whether the run writes a JSON document or report, whose last line contains numbers.
     pub(crate) fn has_figures(&self) -> bool {
         self.format == Format::Json || self.reports.iter().any(|report| report.format == Format::Json)
     }
 
-    /// The rest of the document, printed at the end.
+    /// Returns the rest of the document, which is printed at the end.
     pub(crate) fn end(&self, status: u8, view: &View) -> Option<RenderedText> {
         match self.format {
             _ if !self.is_document => None,
@@ -117,13 +117,13 @@ impl Output {
         }
     }
 
-    /// An HTML report.
+    /// Returns the findings as an HTML report.
     pub(crate) fn page(&self, workspace: &Workspace, view: &View) -> RenderedText {
         let found = self.found.borrow();
         page(&found, &pictures(workspace, &found.diagnostics), view)
     }
 
-    /// The text of a report.
+    /// Returns the findings as a report in another format.
     pub(crate) fn whole(&self, format: Format, status: u8, view: &View) -> RenderedText {
         let found = self.found.borrow();
         let rendered = render(format, &found, view);

@@ -42,7 +42,7 @@ pub enum ColorChoice {
     Never,
 }
 
-/// How much is printed.
+/// The amount of output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verbosity {
     /// `-qq`: results only.
@@ -57,7 +57,7 @@ pub enum Verbosity {
 }
 
 impl Verbosity {
-    /// The level for these numbers of `-q` and `-v`.
+    /// Returns the level for these numbers of `-q` and `-v`.
     pub fn from_counts(quiet: u8, verbose: u8) -> Self {
         match (quiet, verbose) {
             (0, 0) => Self::Normal,
@@ -68,7 +68,7 @@ impl Verbosity {
     }
 }
 
-/// Prints to both streams, respecting verbosity and colours.
+/// Prints to both streams, as verbosity and choice of colours require.
 #[derive(Debug, Default)]
 pub struct Printer {
     verbosity: Verbosity,
@@ -78,7 +78,7 @@ pub struct Printer {
     failures: RefCell<Failures>,
 }
 
-/// The first write error of each stream. After it, nothing more is written there.
+/// The first write error of each stream. After it, nothing more is written to that stream.
 #[derive(Debug, Default)]
 struct Failures {
     stdout: Option<io::Error>,
@@ -88,9 +88,9 @@ struct Failures {
 /// An output stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stream {
-    /// For results.
+    /// The stream for results.
     Stdout,
-    /// For messages about the run.
+    /// The stream for messages about the run.
     Stderr,
 }
 
@@ -105,7 +105,7 @@ impl Stream {
 }
 
 impl Printer {
-    /// A printer with this verbosity and choice of colours.
+    /// Creates a printer with this verbosity and choice of colours.
     pub fn new(verbosity: Verbosity, color: ColorChoice) -> Self {
         Self { verbosity, color, ..Self::default() }
     }
@@ -119,7 +119,7 @@ impl Printer {
         if self.is_stdout_taken { Stream::Stderr } else { Stream::Stdout }
     }
 
-    /// How much is printed.
+    /// Returns the amount of output.
     pub fn verbosity(&self) -> Verbosity {
         self.verbosity
     }
@@ -133,7 +133,7 @@ impl Printer {
         }
     }
 
-    /// Width of the stream's terminal in columns; `None` if it is no terminal.
+    /// Returns the width of the stream's terminal in columns; `None` if the stream is not a terminal.
     pub fn width(&self, stream: Stream) -> Option<usize> {
         let size = match stream {
             Stream::Stdout => terminal_size::terminal_size_of(io::stdout()),
@@ -204,7 +204,7 @@ impl Printer {
         }
     }
 
-    /// Prints an error about wrong usage.
+    /// Prints a usage error.
     pub fn usage(&self, text: impl Display) {
         self.write(Stream::Stderr, &shown::lines(&text.to_string()));
     }
@@ -246,7 +246,7 @@ impl Reporter for Printer {
         Self::detail(self, line);
     }
 
-    /// A progress bar if stderr is a terminal.
+    /// Returns a counter that shows a progress bar if stderr is a terminal.
     fn progress(&self, total: usize) -> Box<dyn ProgressCounter> {
         if self.verbosity < Verbosity::Normal || !Stream::Stderr.is_terminal() {
             return Box::new(SilentReporter);
@@ -257,21 +257,19 @@ impl Reporter for Printer {
 
 fn write_unless(failed: &mut Option<io::Error>, mut stream: impl Write, text: &str) {
     if failed.is_none() {
-        // Write in one piece: stderr is unbuffered, and lines of concurrent processes must not mix.
+        // Write the text in one piece, because stderr is unbuffered, and lines of concurrent processes must not mix.
         *failed = stream.write_all(text.as_bytes()).and_then(|()| stream.flush()).err();
     }
 }
 
-// A progress bar on a terminal, for work that takes longer than half a second.
-
-/// Time after which the bar appears.
+/// Time after which a progress bar appears. Shorter work shows none.
 const BAR_DELAY: Duration = Duration::from_millis(500);
-/// Interval at which the bar is redrawn.
+/// Interval at which the progress bar is redrawn.
 const INTERVAL: Duration = Duration::from_millis(100);
-/// Width of the bar in columns.
+/// Width of the progress bar in columns.
 const WIDTH: usize = 30;
 
-/// A progress bar, drawn by its own thread and erased when dropped.
+/// A progress bar on a terminal. It is drawn by a thread of its own, and erased when dropped.
 #[derive(Debug)]
 pub struct Progress {
     counters: Arc<Counters>,
@@ -287,7 +285,7 @@ struct Counters {
 }
 
 impl Progress {
-    /// Counts up to `total` and draws on `stream`, if there is one.
+    /// Creates a progress bar that counts up to `total` and draws on `stream`, if there is one.
     pub fn new(total: usize, stream: Option<Box<dyn Write + Send>>) -> Self {
         let over = Condvar::new();
         let counters =
@@ -313,7 +311,7 @@ impl Drop for Progress {
         *self.counters.is_over.lock().unwrap_or_else(PoisonError::into_inner) = true;
         self.counters.over.notify_all();
         if let Some(drawing) = self.drawing.take() {
-            // A bar that could not be drawn is not worth reporting.
+            // A panic of the drawing thread is ignored: the progress bar does not affect the results.
             _ = drawing.join();
         }
     }
@@ -339,7 +337,7 @@ impl Counters {
         *waited.unwrap_or_else(PoisonError::into_inner).0
     }
 
-    /// `[#######-----------------------] 512/2014`
+    /// Formats the progress bar: `[#######-----------------------] 512/2014`.
     fn bar(&self) -> String {
         let done = self.done.load(Ordering::Relaxed).min(self.total);
         let full = (done * WIDTH).checked_div(self.total).unwrap_or(WIDTH);

@@ -1,4 +1,4 @@
-//! Findings at the end of a run: waivers, display, summary, pictures. (book: reference/commands, book: reference/diagnostics)
+//! Reports the findings at the end of a run: waivers, display, summary, pictures. (book: reference/commands, book: reference/diagnostics)
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::mem::ManuallyDrop;
@@ -15,7 +15,7 @@ use crate::render::write_pictures;
 use crate::text::{DRAWING, ERROR, PATH, WARNING, count, counted, table};
 use crate::waivers;
 
-/// Ends a check of the given duration: applies severities and waivers, shows findings, writes reports and the summary, and returns the
+/// Ends a check that took the given time: applies severities and waivers, shows findings, writes reports and the summary, and returns the
 /// exit status.
 pub fn conclude(
     context: &Context,
@@ -54,10 +54,10 @@ fn deliver(context: &Context, args: &CheckArgs, findings: &Findings, time: Durat
     if is_wrong { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-/// Number of findings beyond which they are counted by code, because users do not read that many.
+/// Number of findings above which a table counts them by code, because users do not read that many.
 const MAX_LISTED_FINDINGS: usize = 100;
 
-/// Shows findings. Text output stops after `most` errors.
+/// Shows findings. Output for users stops after `most` errors.
 fn show(context: &Context, most: Option<usize>, findings: &Findings) {
     let Some(most) = most.filter(|_| !context.format.is_for_machines()) else {
         return context.show(findings);
@@ -77,7 +77,7 @@ fn show(context: &Context, most: Option<usize>, findings: &Findings) {
     }
 }
 
-/// A table of how often each code was found, the most frequent first.
+/// Formats a table of how often each code was found, the most frequent first.
 fn by_code(context: &Context, findings: &Findings) -> String {
     let mut counts: BTreeMap<(Code, Severity), usize> = BTreeMap::new();
     for found in &findings.diagnostics {
@@ -95,8 +95,8 @@ fn by_code(context: &Context, findings: &Findings) -> String {
     table(&[(context.choose("count", "Anzahl"), true), ("", false), ("", false), ("", false)], rows)
 }
 
-/// The last line of a check: `2,014 paths in 812 drawings: 3 errors in 2 drawings, 14 warnings (0.4 s)`. `known` is the number of findings
-/// accepted by waivers.
+/// Formats the last line of a check: `2,014 paths in 812 drawings: 3 errors in 2 drawings, 14 warnings (0.4 s)`. `known` is the number of
+/// findings accepted by waivers.
 pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) -> String {
     let counted = |number, noun| counted(number, noun, lang);
     let errors = match findings.errors() {

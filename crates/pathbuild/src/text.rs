@@ -1,4 +1,4 @@
-//! Numbers in the conventions of a language, and tables, for texts that users read.
+//! Formats numbers in the conventions of a language, and tables, for texts that users read.
 
 use comfy_table::{Cell, CellAlignment, Table};
 use pathbuild_diagnostic::{Lang, in_prose, shown};
@@ -43,12 +43,10 @@ pub(crate) fn decimal(number: f64, places: usize, lang: Lang) -> String {
     in_prose(text.to_owned(), lang)
 }
 
-// Tables: one line per row, columns separated by two blanks, numbers aligned to the right.
-
-/// A column's heading, and whether the column holds numbers.
+/// The heading of a column, and whether the column contains numbers, which are aligned to the right.
 pub(crate) type Column<'a> = (&'a str, bool);
 
-/// Formats a table with headings, without trailing blanks. Names are escaped.
+/// Formats a table with headings: one line per row, columns separated by two blanks, without trailing blanks. Names are escaped.
 pub(crate) fn table(columns: &[Column<'_>], rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let aligned = |(text, (_, is_number)): (&str, &Column<'_>)| {
         let alignment = if *is_number { CellAlignment::Right } else { CellAlignment::Left };

@@ -1,4 +1,5 @@
-//! Accepted findings at the end of `check` and `verify`: applies the baseline, warns about waivers that match nothing, and writes new ones.
+//! Handles accepted findings at the end of `check` and `verify`: applies the baseline, warns about waivers that match nothing, and writes
+//! new ones.
 //! (book: howto/ci)
 
 use camino::Utf8Path;
@@ -19,7 +20,7 @@ use crate::text::counted;
 /// `--update-baseline` or `--accept`, writes the baseline instead.
 ///
 /// # Errors
-/// The status with which the run ends, because the baseline was written, or cannot be read or written.
+/// The status with which the run ends, because the baseline was written, or because it cannot be read or written.
 pub(crate) fn settle(
     context: &Context,
     args: &WaiverArgs,
@@ -36,7 +37,7 @@ pub(crate) fn settle(
     context.settle(findings, args.baseline.as_deref(), coverage).map_err(|faults| context.refuse(faults))
 }
 
-/// The status line that names the date of the run, if a waiver that ends was compared with it.
+/// Returns the status line that names the date of the run, if a waiver with an end was compared with it.
 pub(crate) fn date_line(context: &Context, findings: &Findings) -> Option<String> {
     let has_end = findings.waived.iter().any(|waived| waived.waiver.until.is_some());
     let date = context.settings.date.filter(|_| has_end)?.text(context.lang());
@@ -51,7 +52,7 @@ fn acceptance(args: &WaiverArgs) -> Option<(Code, Waiver)> {
     Some((args.accept?, Waiver { reason: args.reason.as_deref().map(Box::from), until: args.until, line: 0 }))
 }
 
-/// The baseline that is to be changed, which need not exist yet.
+/// Reads the baseline that is to be changed, or returns an empty one if the file does not exist yet.
 fn read_or_new(context: &Context, file: &Utf8Path) -> Result<(Baseline, Vec<Diagnostic>), Vec<Diagnostic>> {
     match context.system.kind(file) {
         FileKind::File => Baseline::read(&*context.system, file, context.settings.limits.file_size.value),
@@ -59,7 +60,7 @@ fn read_or_new(context: &Context, file: &Utf8Path) -> Result<(Baseline, Vec<Diag
     }
 }
 
-/// Rewrites the baseline. Lines without a fingerprint are dropped; a reason or date that cannot be read is an error.
+/// Rewrites the baseline. Lines without a fingerprint are dropped. A reason or date that cannot be read is an error.
 fn update(context: &Context, file: &Utf8Path, findings: &[Diagnostic], coverage: &Coverage) -> ExitStatus {
     let (baseline, mut faults) =
         read_or_new(context, file).unwrap_or_else(|_| (Baseline::new(file), Vec::new()));
@@ -72,7 +73,7 @@ fn update(context: &Context, file: &Utf8Path, findings: &[Diagnostic], coverage:
     write(context, file, &baseline.rewritten(findings, context, coverage), &known)
 }
 
-/// Adds waivers of all findings with a code to the baseline.
+/// Adds waivers for all findings with a code to the baseline.
 fn accept(
     context: &Context,
     file: &Utf8Path,
@@ -101,7 +102,7 @@ fn accept(
     write(context, file, &text, &accepted)
 }
 
-/// Why a waiver would have no effect.
+/// Returns the reason why a waiver would have no effect; `None` if it would have one.
 fn refusal(context: &Context, waiver: &Waiver, run: Option<RunDate>) -> Option<String> {
     if waiver.reason.as_ref().is_some_and(|reason| reason.trim().is_empty()) {
         let reason = context.choose("--reason must not be empty", "--reason darf nicht leer sein");

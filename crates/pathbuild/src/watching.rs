@@ -1,4 +1,5 @@
-//! `watch` across changes of the configuration: each change restarts it, and a temporarily invalid configuration does not end it.
+//! Runs `watch` across changes of the configuration. Each change restarts `watch`, and a temporarily invalid configuration does not end
+//! it.
 
 use std::thread;
 use std::time::Duration;
@@ -15,8 +16,8 @@ use pathbuild_diagnostic::shown;
 /// Interval at which an invalid configuration is checked again.
 const CONFIGURATION_INTERVAL: Duration = Duration::from_millis(200);
 
-/// Runs `watch` until it ends. An invalid configuration ends the run at the beginning; later the run waits until the configuration is valid
-/// again.
+/// Runs `watch` until it ends. An invalid configuration at the beginning ends the run; later, the run waits until the configuration is
+/// valid again.
 pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
     let mut has_begun = false;
     let mut had_file = false;
@@ -26,7 +27,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
         if has_begun && !is_back(cli, &home, server.as_ref()) {
             return Context::of(cli).0.printer.finish(ExitStatus::Success);
         }
-        // Taken before the configuration is read, so that later changes are noticed.
+        // Read these before the configuration is loaded, so that later changes are noticed.
         let sources = Sources::of(&Context::of(cli).0);
         let (context, faults) = Context::of(cli);
         if let Some(refusal) = context.refusal() {
@@ -44,7 +45,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
         let waits = server.as_ref().is_some_and(Server::waits);
         let is_lost = had_file && context.settings.file.is_none() && cli.common.config.is_none();
         let ended = match faults.is_empty() {
-            // An editor may remove the file before it writes the new one.
+            // An editor may remove the configuration before it writes the new one.
             true if is_lost => {
                 if let Some(server) = &server {
                     server.halt(&[], lost(&context));
@@ -85,8 +86,8 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
     }
 }
 
-/// Returns to the working directory, which may have been replaced. If arguments are relative to it, waits until it exists again. Returns whether to
-/// go on: the page may be closed meanwhile.
+/// Returns to the working directory, which may have been replaced. If arguments are relative to it, waits until it exists again. Returns
+/// false if the page was closed meanwhile, so that the run ends.
 fn is_back(cli: &Cli, home: &Utf8Path, server: Option<&Server>) -> bool {
     let inputs = cli.command.inputs();
     let is_named = inputs.inputs.iter().all(|input| Utf8Path::new(input).is_absolute());
@@ -113,18 +114,18 @@ fn is_back(cli: &Cli, home: &Utf8Path, server: Option<&Server>) -> bool {
     true
 }
 
-/// Changes the working directory; returns whether that succeeded.
+/// Changes the working directory. Returns whether that succeeded.
 fn enter(home: &Utf8Path) -> bool {
-    // It is empty if the system does not know it.
+    // `home` is empty if the system could not determine the working directory.
     home.as_str().is_empty() || std::env::set_current_dir(home).is_ok()
 }
 
-/// Tells that nothing is checked because the configuration has disappeared.
+/// Returns the message that the configuration has disappeared, so that nothing is checked.
 fn lost(context: &Context) -> &'static str {
     context.choose("pathbuild.toml is missing", "pathbuild.toml fehlt")
 }
 
-/// The files that make up a configuration, with their contents.
+/// The files that a configuration consists of, with their contents.
 #[derive(PartialEq, Eq)]
 struct Sources(Vec<(Utf8PathBuf, Option<Vec<u8>>)>);
 

@@ -14,10 +14,10 @@ use pathbuild_workspace::program::ReadingOptions;
 use super::completions;
 use super::shared::{Address, InputArgs, WaiverArgs};
 
-/// `pathbuild check`
+/// Arguments of `pathbuild check`.
 #[derive(Clone, Debug, Default, Args)]
 pub struct CheckArgs {
-    /// What to check.
+    /// Drawings, paths and directories to check.
     #[command(flatten)]
     pub inputs: InputArgs,
     /// Check every combination of the variables' values, not one example of each
@@ -26,7 +26,7 @@ pub struct CheckArgs {
     /// Exit with 1 on warnings too
     #[arg(long)]
     pub error_on_warning: bool,
-    /// What is accepted.
+    /// Accepted findings.
     #[command(flatten)]
     pub waivers: WaiverArgs,
     /// Check only what depends on files changed since this Git revision
@@ -43,11 +43,11 @@ pub struct CheckArgs {
     pub pictures: Option<Utf8PathBuf>,
 }
 
-/// `pathbuild emit`
+/// Arguments of `pathbuild emit`.
 #[derive(Clone, Debug, Default, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own on the command line")]
 pub struct EmitArgs {
-    /// What to write.
+    /// Drawings, paths and directories whose programs are written.
     #[command(flatten)]
     pub inputs: InputArgs,
     /// Write nothing; report the files on disk that are out of date
@@ -86,7 +86,7 @@ pub struct EmitArgs {
     pub run_post_build: bool,
 }
 
-/// `pathbuild adjust`
+/// Arguments of `pathbuild adjust`.
 #[derive(Clone, Debug, Args)]
 pub struct AdjustArgs {
     /// DRAWING.dxf, `DRAWING_Clean.gcode`, `DRAWING_Z.txt` or DRAWING
@@ -103,10 +103,10 @@ pub struct AdjustArgs {
     pub log: Option<Utf8PathBuf>,
 }
 
-/// `pathbuild watch`
+/// Arguments of `pathbuild watch`.
 #[derive(Clone, Debug, Default, Args)]
 pub struct WatchArgs {
-    /// What to watch.
+    /// Drawings, paths and directories to watch.
     #[command(flatten)]
     pub inputs: InputArgs,
     /// Write the files of `[emit] targets` as well
@@ -134,15 +134,15 @@ pub struct ServeArgs {
     pub until_closed: bool,
 }
 
-/// `pathbuild graph`, `deps`, `rdeps`, `where` and `why`. `--format` takes dot and mermaid here.
+/// Arguments of `pathbuild graph`, `deps`, `rdeps`, `where` and `why`. For `graph`, `--format` also accepts dot and mermaid.
 #[derive(Clone, Debug, Default, Args)]
 pub struct GraphArgs {
-    /// What is asked about.
+    /// Drawings, paths and directories that the command shows.
     #[command(flatten)]
     pub inputs: InputArgs,
 }
 
-/// `pathbuild list` and `stats`.
+/// Arguments of `pathbuild list` and `stats`.
 #[derive(Clone, Debug, Default, Args)]
 pub struct ListArgs {
     /// Patterns of path names (8*, 20[0-5]?.1P), drawings (.dxf), directories; without drawings or directories the library
@@ -154,13 +154,13 @@ pub struct ListArgs {
 }
 
 impl ListArgs {
-    /// What is asked about.
+    /// Returns the arguments as inputs of a request.
     pub fn inputs(&self) -> Inputs {
         Inputs { inputs: self.inputs.clone() }
     }
 }
 
-/// How programs are read.
+/// Options for reading G-code programs.
 #[derive(Clone, Debug, Default, Args)]
 pub struct ReadingArgs {
     /// G-code dialect: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas, marlin, estlcam or din; without it pathbuild guesses
@@ -178,7 +178,7 @@ pub struct ReadingArgs {
 }
 
 impl ReadingArgs {
-    /// The options as the workspace takes them.
+    /// Converts the options to the workspace's options for reading.
     pub fn options(&self) -> ReadingOptions {
         ReadingOptions {
             dialect: self.dialect,
@@ -192,7 +192,7 @@ impl ReadingArgs {
     }
 }
 
-/// What G70 and G71 mean.
+/// Meaning of G70 and G71 in programs for `XpertMILL`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum UnitCodesArg {
     /// G70 inches, G71 millimetres.
@@ -216,18 +216,18 @@ fn dialects() -> impl TypedValueParser<Value = Dialect> {
     PossibleValuesParser::new(names).try_map(|name| name.parse::<Dialect>().map_err(|()| "unknown dialect"))
 }
 
-/// `pathbuild import`
+/// Arguments of `pathbuild import`.
 #[derive(Clone, Debug, Args)]
 pub struct ImportArgs {
     /// G-code programs
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<Utf8PathBuf>,
-    /// How they are read.
+    /// Options for reading the programs.
     #[command(flatten)]
     pub reading: ReadingArgs,
 }
 
-/// `pathbuild verify`
+/// Arguments of `pathbuild verify`.
 #[derive(Clone, Debug, Args)]
 pub struct VerifyArgs {
     /// G-code programs, directories with programs, or - for standard input
@@ -248,16 +248,16 @@ pub struct VerifyArgs {
     /// Post-processor that wrote the programs: sets the known words and the dialect
     #[arg(long, value_name = "POST", add = completions::posts())]
     pub post: Option<String>,
-    /// What is accepted.
+    /// Accepted findings.
     #[command(flatten)]
     pub waivers: WaiverArgs,
-    /// How they are read.
+    /// Options for reading the programs.
     #[command(flatten)]
     pub reading: ReadingArgs,
 }
 
 impl VerifyArgs {
-    /// The programs, followed by the path. The path's configuration applies to programs outside its tree.
+    /// Returns the programs, followed by the path. The path's configuration applies to programs outside its tree.
     pub(super) fn inputs(&self) -> Inputs {
         let mut inputs = Inputs::places(self.files.iter().filter(|file| *file != "-"));
         inputs.inputs.extend(self.against.clone());
@@ -265,11 +265,11 @@ impl VerifyArgs {
     }
 }
 
-/// `pathbuild post`
+/// Arguments of `pathbuild post`.
 #[derive(Clone, Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct PostArgs {
-    /// Post-processors instead of programs.
+    /// Subcommand about the built-in posts, in place of a program.
     #[command(subcommand)]
     pub command: Option<PostCommand>,
     /// G-code program
@@ -293,12 +293,12 @@ pub struct PostArgs {
     /// After writing, run the command that the post names
     #[arg(long, requires = "output")]
     pub run_post_build: bool,
-    /// How the program is read.
+    /// Options for reading the program.
     #[command(flatten)]
     pub reading: ReadingArgs,
 }
 
-/// What can be asked about post-processors.
+/// Subcommands of `post`.
 #[derive(Clone, Debug, Subcommand)]
 pub enum PostCommand {
     /// List the built-in posts
@@ -311,7 +311,7 @@ pub enum PostCommand {
     },
 }
 
-/// `pathbuild texts`
+/// Arguments of `pathbuild texts`.
 #[derive(Clone, Debug, Default, Args)]
 pub struct TextsArgs {
     /// Drawings with the texts to list.
@@ -322,7 +322,7 @@ pub struct TextsArgs {
     pub pattern: Option<String>,
 }
 
-/// `pathbuild view`
+/// Arguments of `pathbuild view`.
 #[derive(Clone, Debug, Args)]
 pub struct ViewArgs {
     /// Name of a path, drawing (.dxf), or G-code program
@@ -340,12 +340,12 @@ pub struct ViewArgs {
     /// Height of a program's material; programs by pathbuild contain it
     #[arg(long, value_name = "MM", requires = "stock", allow_hyphen_values = true)]
     pub surface: Option<String>,
-    /// How a program is read.
+    /// Options for reading a program.
     #[command(flatten)]
     pub reading: ReadingArgs,
 }
 
-/// `pathbuild sheet`
+/// Arguments of `pathbuild sheet`.
 #[derive(Clone, Debug, Args)]
 pub struct SheetArgs {
     /// Name of a path, or drawing (.dxf) with one path
@@ -359,7 +359,7 @@ pub struct SheetArgs {
     pub post: Option<String>,
 }
 
-/// `pathbuild diff`
+/// Arguments of `pathbuild diff`.
 #[derive(Clone, Debug, Args)]
 pub struct DiffArgs {
     /// Before the change: a directory, a drawing, a Git revision, or a G-code program
@@ -371,12 +371,12 @@ pub struct DiffArgs {
     /// Also write a file: .html (with pictures) or .md (for a pull request)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
-    /// How programs are read.
+    /// Options for reading programs.
     #[command(flatten)]
     pub reading: ReadingArgs,
 }
 
-/// `pathbuild q-project`
+/// Arguments of `pathbuild q-project`.
 #[derive(Clone, Debug, Args)]
 pub struct QProjectArgs {
     /// Drawing to embed
@@ -390,15 +390,15 @@ pub struct QProjectArgs {
     pub output: Option<Utf8PathBuf>,
 }
 
-/// `pathbuild cache`
+/// Arguments of `pathbuild cache`.
 #[derive(Clone, Debug, Args)]
 pub struct CacheArgs {
-    /// What to do with it.
+    /// Subcommand of `cache`.
     #[command(subcommand)]
     pub command: CacheCommand,
 }
 
-/// What can be done with the cache.
+/// Subcommands of `cache`.
 #[derive(Clone, Debug, Subcommand)]
 pub enum CacheCommand {
     /// Print the directory of the cached results
@@ -413,7 +413,7 @@ pub enum CacheCommand {
     Verify,
 }
 
-/// `pathbuild explain`
+/// Arguments of `pathbuild explain`.
 #[derive(Clone, Debug, Default, Args)]
 pub struct ExplainArgs {
     /// Code or name of a message: PB203, parameter-out-of-range
@@ -421,7 +421,7 @@ pub struct ExplainArgs {
     pub codes: Vec<String>,
 }
 
-/// `pathbuild init`
+/// Arguments of `pathbuild init`.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct InitArgs {
     /// Write a small library to learn on: a first drawing, two components, a project, templates for CAD programs
@@ -429,15 +429,15 @@ pub struct InitArgs {
     pub example: bool,
 }
 
-/// `pathbuild config`
+/// Arguments of `pathbuild config`.
 #[derive(Clone, Debug, Args)]
 pub struct ConfigArgs {
-    /// What to show.
+    /// Subcommand of `config`.
     #[command(subcommand)]
     pub command: ConfigCommand,
 }
 
-/// What can be shown of the configuration.
+/// Subcommands of `config`.
 #[derive(Clone, Debug, Subcommand)]
 pub enum ConfigCommand {
     /// Print the values in force
@@ -445,7 +445,7 @@ pub enum ConfigCommand {
         /// Also say where each value comes from
         #[arg(long)]
         origin: bool,
-        /// For which drawings.
+        /// Drawings, paths and directories whose configuration is shown.
         #[command(flatten)]
         inputs: InputArgs,
     },
@@ -453,15 +453,15 @@ pub enum ConfigCommand {
     Schema,
 }
 
-/// `pathbuild machine`
+/// Arguments of `pathbuild machine`.
 #[derive(Clone, Debug, Args)]
 pub struct MachineArgs {
-    /// What to do.
+    /// Subcommand of `machine`.
     #[command(subcommand)]
     pub command: MachineCommand,
 }
 
-/// What can be done with a description of a machine.
+/// Subcommands of `machine`.
 #[derive(Clone, Debug, Subcommand)]
 pub enum MachineCommand {
     /// Compare descriptions of the machine with `[machine]` and `[tool]`, and take them over with --write
@@ -478,7 +478,7 @@ pub enum MachineCommand {
     },
 }
 
-/// `pathbuild completions`
+/// Arguments of `pathbuild completions`.
 #[derive(Clone, Debug, Args)]
 pub struct CompletionsArgs {
     /// Shell to print the script for
@@ -486,7 +486,7 @@ pub struct CompletionsArgs {
     pub shell: String,
 }
 
-/// `pathbuild compat`
+/// Arguments of `pathbuild compat`.
 #[derive(Clone, Debug, Default, Args)]
 pub struct CompatArgs {
     /// Print the pathbuild command line instead of running it
@@ -498,7 +498,7 @@ pub struct CompatArgs {
 }
 
 german! {
-    /// English and German of the help of the arguments of commands.
+    /// Help of the arguments of all commands, each text in English and German.
     pub(super) GERMAN:
     "List the built-in posts", "Listet die eingebauten Postprozessoren auf";
     "Print a built-in post's definition", "Gibt die Definition eines eingebauten Postprozessors aus";

@@ -13,10 +13,10 @@ use pathbuild_workspace::session::Session;
 
 use crate::environment;
 
-/// Environment variable that requests completions.
+/// Name of the environment variable by which a shell requests completions.
 pub(crate) const VARIABLE: &str = "PATHBUILD_COMPLETE";
 
-/// Completes names of paths, drawings and directories.
+/// Completes names of paths, and file names of drawings and directories.
 pub(crate) fn paths() -> ArgValueCompleter {
     ArgValueCompleter::new(|current: &OsStr| {
         #[expect(clippy::disallowed_methods, reason = "completions are no input of a run")]
@@ -29,7 +29,7 @@ pub(crate) fn paths() -> ArgValueCompleter {
     })
 }
 
-/// Completes built-in posts and files.
+/// Completes names of built-in posts, and file names.
 pub(crate) fn posts() -> ArgValueCompleter {
     ArgValueCompleter::new(|current: &OsStr| {
         let begins = |name: &str| name.starts_with(&*current.to_string_lossy());
@@ -53,8 +53,8 @@ pub(crate) fn codes() -> ArgValueCandidates {
     ArgValueCandidates::new(move || Code::ALL.iter().map(candidate).collect())
 }
 
-/// Candidates that can be inserted into a command line as they are: they contain nothing that controls a terminal or is special to a shell.
-/// For other names, the shell's own file completion adds the quotes.
+/// Returns the candidates that can be inserted into a command line as they are, because they contain nothing that controls a terminal or
+/// is special to a shell. For other names, the shell's own file completion adds the quotes.
 fn harmless(candidates: Vec<CompletionCandidate>) -> impl Iterator<Item = CompletionCandidate> {
     candidates.into_iter().filter(|candidate| candidate.get_value().to_str().is_some_and(is_harmless))
 }
@@ -64,7 +64,7 @@ fn is_harmless(name: &str) -> bool {
     !name.chars().any(|c| shown::acts(c) || is_special(c) && !(cfg!(windows) && c == '\\'))
 }
 
-/// Paths of the working directory's library that begin with the current word.
+/// Returns the paths of the working directory's library whose names begin with the current word.
 fn path_names(current: &OsStr) -> Vec<CompletionCandidate> {
     let (user, mut faults) = environment::user();
     let overrides = Overrides { trusted: user.trusted.clone(), ..Overrides::default() };

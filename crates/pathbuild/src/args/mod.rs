@@ -1,5 +1,5 @@
-//! Definition of commands and options, and nothing more: no defaults that depend on the configuration, no checks that need a file. (book:
-//! reference/commands)
+//! Defines the commands and options of the program. Defaults that depend on the configuration, and checks that need a file, are elsewhere.
+//! (book: reference/commands)
 
 /// Declares a table of texts in English and German.
 macro_rules! german {
@@ -49,15 +49,15 @@ pub use self::shared::{Address, Host, WaiverArgs};
     after_help = "Exit status: 0 nothing wrong (warnings allowed), 1 errors found, 2 wrong usage or configuration."
 )]
 pub struct Cli {
-    /// What to do.
+    /// The command to run.
     #[command(subcommand)]
     pub command: Command,
-    /// What holds for every command.
+    /// Options that every command accepts.
     #[command(flatten)]
     pub common: CommonArgs,
 }
 
-/// The commands.
+/// All commands, each with its arguments.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Check every path of the given drawings, paths or directories; without arguments the library. Writes no programs
@@ -117,12 +117,12 @@ pub enum Command {
 }
 
 impl Command {
-    /// Whether the arguments may be programs.
+    /// Whether the arguments may be G-code programs.
     pub(crate) fn reads_programs(&self) -> bool {
         matches!(self, Self::Verify(_) | Self::Import(_) | Self::Post(_) | Self::View(_) | Self::Adjust(_))
     }
 
-    /// The date that waivers are compared with, if the command line states one. Posts also accept dates in other forms.
+    /// Returns the date that waivers are compared with, if the command line states one. A date for a post in another form is ignored.
     pub fn date(&self) -> Option<Date> {
         match self {
             Self::Check(args) => args.waivers.date,
@@ -133,7 +133,7 @@ impl Command {
         }
     }
 
-    /// The drawings and paths that the command works on; empty for other commands.
+    /// Returns the drawings and paths that the command works on; empty for commands without such arguments.
     pub fn inputs(&self) -> Inputs {
         match self {
             Self::Check(args) => (*args.inputs).clone(),
@@ -161,19 +161,19 @@ impl Command {
         }
     }
 
-    /// Whether an invalid configuration prevents the command.
+    /// Whether the command cannot run with an invalid configuration.
     pub fn needs_configuration(&self) -> bool {
         !matches!(self, Self::Explain(_) | Self::Init(_) | Self::Completions(_) | Self::Man | Self::Compat(_))
     }
 
-    /// Whether the command has findings or results in machine-readable formats.
+    /// Whether the command prints findings or results in machine-readable formats.
     pub fn has_document(&self) -> bool {
         !matches!(self, Self::Explain(_) | Self::Init(_) | Self::Completions(_) | Self::Man | Self::Compat(_))
             && !matches!(self, Self::Config(args) if matches!(args.command, ConfigCommand::Schema))
             && !matches!(self, Self::Post(args) if matches!(args.command, Some(PostCommand::Show { .. })))
     }
 
-    /// Whether stdout carries a program or other raw output, so that everything else goes to stderr.
+    /// Whether the command writes a program or other raw output to stdout, so that everything else goes to stderr.
     pub fn owns_stdout(&self) -> bool {
         match self {
             Self::Emit(args) => args.output.is_some(),
@@ -217,10 +217,10 @@ impl Command {
 }
 
 impl Cli {
-    /// Parses a command line, which begins with the program's own name.
+    /// Parses a command line, whose first argument is the program's own name.
     ///
     /// # Errors
-    /// An error of usage, or the requested help or version.
+    /// A usage error, or a request for help or the version, which clap also treats as an error.
     pub fn read(arguments: &[OsString]) -> Result<Self, Error> {
         if let Some(read) = Self::read_command(arguments) {
             return Ok(read);
@@ -229,10 +229,10 @@ impl Cli {
         Self::from_arg_matches(&matches).map_err(|error| error.format(&mut Self::command()))
     }
 
-    /// Parses a command line with a definition in some language.
+    /// Parses a command line with a definition, whose language is that of the errors.
     ///
     /// # Errors
-    /// An error of usage, or the requested help or version, in that language.
+    /// A usage error, or a request for help or the version, which clap also treats as an error.
     pub fn matches(definition: &Definition, arguments: &[OsString]) -> Result<ArgMatches, Error> {
         let read = |arguments: &[OsString]| definition.clone().try_get_matches_from(arguments);
         read(arguments).or_else(|error| match drawing_as_command(&error, arguments) {
@@ -241,7 +241,7 @@ impl Cli {
         })
     }
 
-    /// The language requested by a command line, even if the command line has errors.
+    /// Returns the language requested by a command line, even if the command line has errors.
     pub fn lang(arguments: &[OsString]) -> Option<LangArg> {
         let texts: Vec<&str> = arguments.iter().filter_map(|argument| argument.to_str()).collect();
         let apart = texts.windows(2).filter(|pair| pair[0] == "--lang").map(|pair| pair[1]);
@@ -249,8 +249,8 @@ impl Cli {
         apart.chain(joined).find_map(|name| LangArg::from_str(name, false).ok())
     }
 
-    /// Fast path for a command line that begins with a command and has no errors: defines only that command. Every command gets its own
-    /// copy of the common options, and defining all of them takes a quarter of the time of a short run.
+    /// Fast path for a command line that begins with a command and has no errors. It defines only that command, because every command gets
+    /// its own copy of the common options, and defining all of them takes a quarter of the time of a short run.
     fn read_command(arguments: &[OsString]) -> Option<Self> {
         let commands = Command::augment_subcommands(Definition::new("pathbuild"));
         let command = commands.find_subcommand(arguments.get(1)?)?.clone();
@@ -259,7 +259,7 @@ impl Cli {
     }
 }
 
-/// Inserts `check` before a drawing that is given in place of a command.
+/// Inserts `check` if a drawing is given in place of a command; `None` otherwise.
 fn drawing_as_command(error: &Error, arguments: &[OsString]) -> Option<Vec<OsString>> {
     let named = error.get(ContextKind::InvalidSubcommand);
     let (ErrorKind::InvalidSubcommand, Some(ContextValue::String(named))) = (error.kind(), named) else {
@@ -271,11 +271,11 @@ fn drawing_as_command(error: &Error, arguments: &[OsString]) -> Option<Vec<OsStr
     Some([before, &["check".into()], after].concat())
 }
 
-/// English and German of all help texts.
+/// All help texts, in English and German.
 pub(crate) const GERMAN: [&[(&str, &str)]; 3] = [COMMANDS, commands::GERMAN, shared::GERMAN];
 
 german! {
-    /// English and German of the help of the program and its commands.
+    /// Help of the program and of its commands, each text in English and German.
     COMMANDS:
     "Compiles drawings of milling paths to G-code", "Übersetzt Zeichnungen von Fräspfaden in G-Code";
     "Exit status: 0 nothing wrong (warnings allowed), 1 errors found, 2 wrong usage or configuration.",

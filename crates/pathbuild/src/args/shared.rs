@@ -1,4 +1,4 @@
-//! Arguments that several commands share, and the types of their values.
+//! Arguments that several commands share, with the types of their values.
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::ops::Deref;
@@ -67,7 +67,7 @@ pub struct CommonArgs {
 const FORMATS: &str = "full|concise|json|sarif|github|gitlab|junit";
 
 impl CommonArgs {
-    /// The values that override the configuration.
+    /// Returns the values that override the configuration.
     pub fn overrides(&self) -> Overrides {
         Overrides {
             settings: self.settings.0.clone(),
@@ -79,7 +79,7 @@ impl CommonArgs {
         }
     }
 
-    /// How much to print.
+    /// Returns the amount of output to print.
     pub fn verbosity(&self) -> Verbosity {
         Verbosity::from_counts(self.quiet, self.verbose)
     }
@@ -107,7 +107,7 @@ fn jobs(text: &str) -> Result<u16, &'static str> {
     text.parse().ok().filter(|jobs| (1..=1024).contains(jobs)).ok_or("expected a number from 1 to 1024")
 }
 
-/// The options given on the command line that override settings, not yet validated.
+/// Options given on the command line that override settings of the configuration, not yet validated.
 #[derive(Clone, Debug, Default)]
 pub struct SettingArgs(pub GivenOptions);
 
@@ -157,7 +157,7 @@ fn texts(option: &SettingOption, matches: &ArgMatches) -> Option<Vec<String>> {
     matches.get_many::<String>(option.name).map(|texts| texts.cloned().collect())
 }
 
-/// Accepted findings, and findings to accept from now on.
+/// Options for accepted findings, and for findings to accept from now on.
 #[derive(Clone, Debug, Default, Args)]
 pub struct WaiverArgs {
     /// Report only findings that are not in this file (default: pathbuild-baseline.txt beside pathbuild.toml)
@@ -188,7 +188,7 @@ fn date(text: &str) -> Result<Date, &'static str> {
     text.parse().map_err(|()| "expected a date such as 2026-12-31")
 }
 
-/// Drawings, paths and directories as arguments.
+/// Drawings, paths and directories given as arguments of a command.
 #[derive(Clone, Debug, Default)]
 pub struct InputArgs(Inputs);
 
@@ -233,17 +233,17 @@ impl FromArgMatches for InputArgs {
 pub struct ReportFile {
     /// Format of the report.
     pub format: Format,
-    /// File to write.
+    /// File to write, or `-` for standard output.
     pub file: Utf8PathBuf,
 }
 
 impl ReportFile {
-    /// Whether it goes to standard output: `FORMAT=-`.
+    /// Whether the report goes to standard output (`FORMAT=-`).
     pub fn is_stdout(&self) -> bool {
         self.file == "-"
     }
 
-    /// Parses `FORMAT=FILE`.
+    /// Parses a report of the form `FORMAT=FILE`.
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         let (format, file) = text.split_once('=').ok_or("expected FORMAT=FILE")?;
         let format = Format::from_str(format, false).ok().filter(|format| format.shows_diagnostics());
@@ -256,12 +256,12 @@ impl ReportFile {
     }
 }
 
-/// An address of this machine.
+/// An address of this machine, at which the server listens.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Address {
-    /// Name or IP address.
+    /// Host name or IP address.
     pub host: Host,
-    /// Port; `None` means the default port, or a free one if that is taken.
+    /// Port; `None` means the default port, or a free one if the default port is in use.
     pub port: Option<u16>,
 }
 
@@ -274,14 +274,14 @@ pub enum Host {
 }
 
 impl Address {
-    /// The loopback address, which only this machine can reach.
+    /// Loopback address, which only this machine can reach.
     pub const LOOPBACK: Self = Self { host: Host::Ip(IpAddr::V4(Ipv4Addr::LOCALHOST)), port: None };
 
     /// Parses `8080`, `127.0.0.1`, `[::1]:8080`, `localhost` or `name:8080`. Another name without a port is refused, because it could as
     /// well be a path or a directory.
     ///
     /// # Errors
-    /// What is accepted.
+    /// A description of the accepted forms.
     pub fn parse(text: &str) -> Result<Self, String> {
         if let Ok(port) = text.parse() {
             return Ok(Self { port: Some(port), ..Self::LOOPBACK });
@@ -305,7 +305,7 @@ impl Address {
 
 const ADVICE: &str = "an address is PORT, IP, IP:PORT, localhost or NAME:PORT (drawings, paths and directories stand before --serve)";
 
-/// Whether the text can be a host name.
+/// Whether a text is a valid host name.
 fn is_name(text: &str) -> bool {
     let is_part = |part: &str| {
         !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'-')
@@ -313,7 +313,7 @@ fn is_name(text: &str) -> bool {
     text.split('.').all(is_part)
 }
 
-/// Arguments of a command, defined only if the command is used.
+/// Arguments of a command whose definition is deferred until the command is used, because defining those of all commands takes time.
 #[derive(Clone, Debug)]
 pub struct DeferredArgs<T>(T);
 
@@ -345,7 +345,7 @@ impl<T: FromArgMatches> FromArgMatches for DeferredArgs<T> {
     }
 }
 
-/// Defines the arguments of a command, keeping the description that the command already has.
+/// Adds the arguments of a command to its definition. The description that the command already has is kept.
 fn define<T: Args>(command: Definition) -> Definition {
     let about = command.get_about().cloned().unwrap_or_default();
     let long_about = command.get_long_about().cloned();
@@ -357,7 +357,7 @@ fn define<T: Args>(command: Definition) -> Definition {
 }
 
 german! {
-    /// English and German of the help of shared arguments and their values.
+    /// Help of shared arguments and their values, each text in English and German.
     pub(super) GERMAN:
     "Drawings (.dxf), names of paths or patterns of them (8*.1P), directories",
         "Zeichnungen (.dxf), Namen von Pfaden oder Muster dafür (8*.1P), Verzeichnisse";

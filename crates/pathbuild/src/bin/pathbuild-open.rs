@@ -1,5 +1,6 @@
-//! Opens the page of `pathbuild watch --serve` without a console: for files dropped on it, or for the folder that it lies in. All work is
-//! done by the program `pathbuild` beside it, which therefore never has to guess how it was started. (book: program/live)
+//! Opens the page of `pathbuild watch --serve` without a console: for files dropped on this program, or for the folder that contains it.
+//! The
+//! program `pathbuild` beside it does all the work, and therefore never has to guess how it was started. (book: program/live)
 #![windows_subsystem = "windows"]
 #![expect(clippy::disallowed_methods, reason = "no result depends on its own location and arguments")]
 
@@ -21,7 +22,7 @@ fn main() -> ExitCode {
 
 const MISSING: &str = "pathbuild-open needs the program pathbuild in its own folder.\npathbuild-open braucht das Programm pathbuild im selben Ordner.\n";
 
-/// Starts `pathbuild`. Returns its error output if it failed without opening a page.
+/// Starts `pathbuild`. Returns its error output if it failed without showing a page.
 fn run(dropped: &[PathBuf], own: Option<&Path>) -> io::Result<Option<String>> {
     let mut command = Command::new(program(own));
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
@@ -38,19 +39,19 @@ fn run(dropped: &[PathBuf], own: Option<&Path>) -> io::Result<Option<String>> {
     }
     let output = command.spawn()?.wait_with_output()?;
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    // A program with errors is displayed together with them.
+    // If a page was written in spite of errors, it shows the errors as well.
     let is_shown = message.lines().any(|line| ends_in(Path::new(line), "html"));
     Ok(if output.status.success() || is_shown { None } else { Some(message) })
 }
 
-/// The program beside this one, or else the one on the search path.
+/// Returns the program `pathbuild` beside this one, or the one on the search path if there is none.
 fn program(own: Option<&Path>) -> PathBuf {
     let name = format!("pathbuild{}", env::consts::EXE_SUFFIX);
     let beside = own.map(|own| own.join(&name)).filter(|beside| beside.is_file());
     beside.unwrap_or_else(|| PathBuf::from(name))
 }
 
-/// Makes an argument absolute: a bare name could be taken for a path of a drawing.
+/// Makes an argument absolute, because a bare name could be taken for the name of a path in a drawing.
 fn absolute(argument: OsString) -> PathBuf {
     path::absolute(&argument).unwrap_or_else(|_| argument.into())
 }
@@ -74,7 +75,7 @@ fn without_console(command: &mut Command) {
 #[cfg(not(windows))]
 fn without_console(_: &mut Command) {}
 
-/// Shows a text to a user without a console, as a temporary file that the system opens. The file is kept.
+/// Shows a text to a user without a console: writes it to a temporary file, which the system opens. The file is not removed.
 fn show(text: &str) -> ExitCode {
     let shown = || -> io::Result<()> {
         let file = tempfile::Builder::new().prefix("pathbuild-").suffix(".txt").tempfile()?;
@@ -82,7 +83,7 @@ fn show(text: &str) -> ExitCode {
         let (_, path) = file.keep()?;
         open::that_detached(path)
     };
-    // For users who started it from a console.
+    // Users who started this program from a console see the text there.
     _ = io::stderr().write_all(text.as_bytes());
     _ = shown();
     ExitCode::FAILURE

@@ -22,7 +22,7 @@ use pathbuild_workspace::files::cannot_write;
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::session::Session;
 
-/// Runs the command. Each of several programs is written unless it has errors itself.
+/// Runs the command. If there are several programs, an error in one does not prevent writing the others.
 pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
     let mut adjustment = match Adjustment::new(context, args) {
         Ok(adjustment) => adjustment,
@@ -66,10 +66,10 @@ struct Adjustment<'a> {
     has_failed: bool,
 }
 
-/// Files of one program.
+/// The files of a program that is adjusted.
 #[derive(Clone, Debug)]
 struct Job {
-    /// The drawing, if the argument names one.
+    /// The drawing, if the argument is the name of one.
     drawing: Option<Utf8PathBuf>,
     clean: Utf8PathBuf,
     values: Utf8PathBuf,
@@ -80,8 +80,9 @@ pub(super) const CLEAN: &str = "_Clean.gcode";
 pub(super) const VALUES: &str = "_Z.txt";
 
 impl Job {
-    /// The programs that an argument refers to: a file of a program, or a drawing with programs where `emit` writes them. Their names
-    /// may contain more than the drawing's name (R, or the path in a drawing with several); then their headers identify the drawing.
+    /// Returns the programs that an argument refers to. It names a file of a program, or a drawing whose programs are where `emit` writes
+    /// them. The names of programs may contain more than the drawing's name (R, or the path in a drawing with several); such programs are
+    /// recognised by their headers, which identify the drawing.
     ///
     /// # Errors
     /// PB006 if listing the programs' directory triggers a bug.
@@ -95,7 +96,7 @@ impl Job {
         let Some(drawing) = drawing_of(argument).filter(|_| !is_there(&job)) else {
             return Ok(vec![job]);
         };
-        // The program may lie elsewhere than where this configuration would write it.
+        // The program may be beside the drawing, although this configuration would write it elsewhere.
         let beside = Self::new(Utf8Path::new(&format!("{argument}{CLEAN}")), out_dir);
         if is_there(&beside) {
             return Ok(vec![beside]);
@@ -134,7 +135,7 @@ impl Job {
     }
 }
 
-/// File name of the drawing that an argument names, with or without extension; `None` for a file of a program.
+/// Returns the file name of the drawing that an argument names, with or without extension; `None` if the argument is a file of a program.
 fn drawing_of(argument: &Utf8Path) -> Option<String> {
     let name = argument.file_name()?;
     let is_file = [CLEAN, VALUES].iter().any(|suffix| without(name, suffix).is_some());
@@ -161,7 +162,7 @@ impl<'a> Adjustment<'a> {
         Ok(Self {
             context,
             max_correction,
-            // Validated above.
+            // The pattern was validated above, so this cannot fail.
             shown: shown.and_then(|pattern| Regex::new(pattern).ok()),
             log: args.log.as_deref(),
             errors: Vec::new(),
@@ -196,7 +197,10 @@ impl<'a> Adjustment<'a> {
         Ok(())
     }
 
-    /// Refuses a program whose drawing now produces a different one. Returns whether the program is known to be what `emit` writes.
+    /// Compares a program with its drawing. Returns whether the program is known to be up to date.
+    ///
+    /// # Errors
+    /// The drawing now produces a different program, or the program was edited.
     fn compare(&self, job: &Job, clean: &[u8]) -> Result<bool, Vec<Diagnostic>> {
         let context = self.context;
         let not_compared =
@@ -243,7 +247,7 @@ impl<'a> Adjustment<'a> {
         Ok(false)
     }
 
-    /// PB608 if the program is up to date with the other setting of `--compatible`.
+    /// Returns PB608 if the program is up to date with the opposite setting of `--compatible`.
     fn other_mode(&self, job: &Job, clean: &[u8]) -> Option<Diagnostic> {
         let is_compatible = self.context.settings.general.compatible.value;
         let workspace = self.context.in_mode(!is_compatible);
@@ -257,7 +261,7 @@ impl<'a> Adjustment<'a> {
         matches!(comparison, DrawingComparison::Same).then(problem)
     }
 
-    /// Reads program, values and log. Reports every file that cannot be read.
+    /// Reads the program, the measured values and the log. Reports every file that cannot be read.
     #[expect(clippy::type_complexity, clippy::result_large_err, reason = "destructured by its only caller")]
     fn read(&self, job: &Job) -> Result<(Vec<u8>, Vec<u8>, Option<Vec<u8>>), Vec<Diagnostic>> {
         let limit = self.context.settings.limits.file_size.value;
@@ -304,7 +308,8 @@ impl<'a> Adjustment<'a> {
             .status(format_args!("{file}: {state}, {count} {heights} {lowest} {to} {highest} mm"));
     }
 
-    /// Errors keep their severity regardless of the configuration, since they prevent a program from being written.
+    /// Shows all diagnostics and returns the exit status. Errors keep their severity regardless of the configuration, because they prevent
+    /// a program from being written.
     fn conclude(self) -> ExitStatus {
         let mut diagnostics = self.context.findings(self.warnings).diagnostics;
         diagnostics.extend(self.errors);

@@ -70,7 +70,7 @@ fn report(context: &Context, removed: Result<usize, RemoveError>) -> ExitStatus 
     }
 }
 
-/// Reports the state of each results file. A file of another build is not an error; this build just cannot use it.
+/// Reports the state of each results file. A file of another build is not an error; this build just cannot read it.
 fn verify(context: &Context, entries: &[Entry]) -> ExitStatus {
     let mut is_whole = true;
     for Entry { path, size, fault } in entries {

@@ -48,18 +48,18 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     status
 }
 
-/// The file names and blob ids of a revision. File names are relative to the root.
+/// The file names and blob ids in a revision. File names are relative to the root of the working tree.
 #[derive(Debug)]
 struct RevisionFiles<'a> {
     context: &'a Context,
     repository: Repository<'a>,
     files: BTreeMap<Utf8PathBuf, String>,
     links: BTreeMap<Utf8PathBuf, String>,
-    /// File names of drawings, by directory.
+    /// File names of the drawings, by directory.
     drawings: BTreeMap<Utf8PathBuf, Vec<String>>,
 }
 
-/// Upper bound on symbolic links that are followed in a row, as in operating systems.
+/// Maximum number of symbolic links that are followed in a row, as in operating systems.
 const MOST_LINKS: usize = 40;
 
 impl<'a> RevisionFiles<'a> {
@@ -91,7 +91,7 @@ impl<'a> RevisionFiles<'a> {
             self.drawings.entry(directory.to_owned()).or_default().push(name.to_owned());
         }
         match kind {
-            // Git for Windows writes links as plain files.
+            // Git for Windows checks symbolic links out as plain files.
             EntryKind::Link if cfg!(unix) => self.links.insert(file, id),
             EntryKind::File | EntryKind::Link => self.files.insert(file, id),
             // The contents of a submodule are unknown: all its files count as new.
@@ -99,21 +99,21 @@ impl<'a> RevisionFiles<'a> {
         };
     }
 
-    /// Real path of a file.
+    /// Returns the real path of a file, with all symbolic links resolved.
     fn real(&self, file: &Utf8Path) -> Utf8PathBuf {
         self.context.system.canonical(&clean(&self.context.working_directory.join(file)))
     }
 
-    /// Path relative to the root, if the file is inside it.
+    /// Returns a real path relative to the root; `None` if it is outside.
     fn below_root(&self, real: &Utf8Path) -> Option<Utf8PathBuf> {
         Some(spelt(real.strip_prefix(&self.repository.root).ok()?.to_owned()))
     }
 
-    /// Real path and former blob id of a file that may be unchanged.
+    /// Returns the real path of a file and its blob id in the revision; `None` if the file must count as changed.
     fn known(&self, file: &Utf8Path) -> Option<(Utf8PathBuf, &str)> {
         let real = self.real(file);
         let id = self.files.get(&self.below_root(&real)?)?;
-        // Git would hang on special and very large files, and expects one file name per line.
+        // Git would hang on special files and very large ones, and expects one file name per line.
         let largest = self.context.settings.limits.file_size.value;
         let is_regular = self.context.system.head(&real, 1).is_ok();
         let is_comparable = is_regular
@@ -122,7 +122,7 @@ impl<'a> RevisionFiles<'a> {
         (is_comparable && self.has_old_links(file, &real)).then_some((real, id))
     }
 
-    /// Whether all symbolic links on the way to a file existed in the revision. Their targets are compared elsewhere.
+    /// Whether all symbolic links on the way to a file existed in the revision. Their targets are compared in `changed_link`.
     fn has_old_links(&self, file: &Utf8Path, real: &Utf8Path) -> bool {
         let spelt = clean(&self.context.working_directory.join(file));
         if spelt == real {
@@ -145,10 +145,10 @@ impl<'a> RevisionFiles<'a> {
         false
     }
 
-    /// A symbolic link with a new target.
+    /// Returns a symbolic link whose target has changed.
     fn changed_link(&self) -> Option<Utf8PathBuf> {
         let ids: Vec<&str> = self.links.values().map(String::as_str).collect();
-        // Unknown targets count as changed.
+        // A target that cannot be read counts as changed.
         let targets = self.repository.targets(&ids).unwrap_or_else(|_| vec![None; ids.len()]);
         let mut links = self.links.keys().map(|link| self.repository.root.join(link)).zip(targets);
         let is_same = |link: &Utf8Path, target: Option<&str>| {
@@ -157,7 +157,7 @@ impl<'a> RevisionFiles<'a> {
         links.find(|(link, target)| !is_same(link, target.as_deref())).map(|(link, _)| link)
     }
 
-    /// Files that determine what is checked and how: those of the revision, and the current ones.
+    /// Returns the files that determine what is checked and how, such as configurations: those of the revision, and the current ones.
     fn rules(&self, directories: &[Utf8PathBuf]) -> Vec<Utf8PathBuf> {
         let is_rule = |file: &&Utf8PathBuf| {
             matches!(file.file_name(), Some(FILE_NAME | ".gitignore" | ".ignore"))
@@ -197,8 +197,8 @@ impl EarlierFiles for RevisionFiles<'_> {
     }
 }
 
-/// The place whose repository is used: the root of an untrusted tree; otherwise the first argument, the configuration's directory, or the
-/// working directory.
+/// Returns the place whose repository is used: the root of an untrusted tree; otherwise the first argument, the configuration's directory,
+/// or the working directory.
 fn place(context: &Context, inputs: &Inputs) -> Utf8PathBuf {
     if let Some(confined) = &context.settings.confined {
         return confined.root().to_owned();

@@ -23,7 +23,7 @@ use super::adjust;
 use crate::environment::named_lang;
 use crate::german;
 
-/// Options that are passed on with their value.
+/// Options with a value, and the options of pathbuild that they become.
 const VALUES: &[(char, &str)] = &[
     ('f', "--feed"),
     ('v', "--rapid"),
@@ -39,13 +39,13 @@ const VALUES: &[(char, &str)] = &[
 /// The translation of a command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Translation {
-    /// Command lines of pathbuild without the program's name, to be run in order.
+    /// Command lines of pathbuild, without the program's name, to be run in order.
     Commands(Vec<Vec<String>>),
-    /// The help was requested, in this language if one was given.
+    /// A request for help, with the language given by `/l`, if any.
     Help(Option<Lang>),
 }
 
-/// The help printed for `/h`.
+/// Returns the help printed for `/h`.
 pub(crate) fn help(lang: Lang) -> &'static str {
     match lang {
         Lang::En => HELP,
@@ -82,7 +82,7 @@ pathbuild compat [/OPTION[WERT]]... DATEIEN
 /// Translates a command line of the original tools.
 ///
 /// # Errors
-/// Why the command line is invalid.
+/// The reason why the command line is invalid.
 pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translation, String> {
     let say = |en: &str, de: &str, argument: &str| {
         let phrase = if lang == Lang::De { de } else { en };
@@ -115,7 +115,7 @@ pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translation,
             }
         }
     }
-    // Without arguments, pathbuild would process the whole library.
+    // An error is needed, because without arguments pathbuild would process the whole library.
     if parsed.files.is_empty() {
         return Err(say("no file is named", "es ist keine Datei genannt", ""));
     }
@@ -129,7 +129,7 @@ pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translation,
     Ok(Translation::Commands(parsed.commands()))
 }
 
-/// The language of the last `/l` in the command line.
+/// Returns the language of the last `/l` in a command line.
 fn named_lang_in(arguments: &[String]) -> Option<Lang> {
     let named = |(at, argument): (usize, &String)| match option(argument)? {
         ('l', "") => named_lang(arguments.get(at + 1)?),
@@ -139,7 +139,7 @@ fn named_lang_in(arguments: &[String]) -> Option<Lang> {
     arguments.iter().enumerate().filter_map(named).next_back()
 }
 
-/// Inserts `--` after `compat`, so that options with one hyphen, such as `-v` and `-h`, are those of the original tools.
+/// Inserts `--` after `compat`, so that options with one hyphen, such as `-v` and `-h`, are treated as options of the original tools.
 pub(crate) fn with_separator(mut arguments: Vec<OsString>) -> Vec<OsString> {
     let text = |at: usize| arguments.get(at).and_then(|argument| argument.to_str());
     let Some(mut at) = (1..arguments.len()).find(|at| text(*at).is_none_or(|text| !text.starts_with('-')))
@@ -159,7 +159,7 @@ pub(crate) fn with_separator(mut arguments: Vec<OsString>) -> Vec<OsString> {
     arguments
 }
 
-/// Formats arguments as a line for a shell.
+/// Formats arguments as a command line for a shell, with quotes where necessary.
 pub(crate) fn shown(arguments: &[String]) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_=./:,".contains(c);
     let quoted = |word: &String| {
@@ -169,7 +169,7 @@ pub(crate) fn shown(arguments: &[String]) -> String {
     arguments.iter().map(quoted).collect::<Vec<_>>().join(" ")
 }
 
-/// Replaces the arguments of `compat` by the translated ones; options before `compat` stay.
+/// Replaces `compat` and its arguments by the translated ones. Options before `compat` remain.
 pub(crate) fn replace_arguments(
     arguments: &[OsString],
     given: usize,
@@ -186,13 +186,13 @@ struct CompatArguments {
     options: Vec<String>,
     shown: Option<String>,
     max_correction: Option<String>,
-    /// Options of pathbuild itself.
+    /// Options that already have pathbuild's own form.
     own: Vec<String>,
     files: Vec<String>,
 }
 
 impl CompatArguments {
-    /// Takes an option; returns whether it exists.
+    /// Applies an option of the original tools. Returns whether such an option exists.
     fn take(&mut self, letter: char, value: &str) -> bool {
         match letter {
             'x' => self.shown = Some(value.to_owned()),
@@ -210,7 +210,7 @@ impl CompatArguments {
         true
     }
 
-    /// Whether programs are adjusted, judging by the options and file names.
+    /// Whether the command line adjusts programs, judging by its options and file names.
     fn adjusts(&self) -> bool {
         let is_adjusted = |file: &String| {
             [adjust::CLEAN, adjust::VALUES].iter().any(|suffix| adjust::without(file, suffix).is_some())
@@ -218,7 +218,7 @@ impl CompatArguments {
         self.max_correction.is_some() || self.files.iter().any(is_adjusted)
     }
 
-    /// Whether the largest allowed correction is missing.
+    /// Whether the option for the largest permitted correction is missing.
     fn lacks_correction(&self) -> bool {
         let is_ours = self.own.iter().any(|option| option.starts_with("--max-correction"));
         self.adjusts() && self.max_correction.is_none() && !is_ours
@@ -258,18 +258,19 @@ fn takes_value(option: &str) -> bool {
             .any(|subcommand| ours.contains(&subcommand.get_name()) && has(subcommand))
 }
 
-/// The language in a name such as `de-AT`.
+/// Returns the language in the name of a locale such as `de-AT`.
 fn language(name: &str) -> String {
     name.split(['-', '_']).next().unwrap_or(name).to_ascii_lowercase()
 }
 
-/// The value attached to an option.
+/// Returns the value attached to an option, without a separator before it.
 fn value(letter: char, glued: &str) -> &str {
     let is_pattern = matches!(letter, 'x' | 'n' | 'p' | 'e');
     if is_pattern { glued } else { glued.strip_prefix(['=', ':']).unwrap_or(glued) }
 }
 
-/// The letter of an option with the attached text. A drawing whose name begins with `/` or a hyphen is not an option.
+/// Splits an option into its letter and the attached text. Returns `None` for other arguments, including the name of a drawing that begins
+/// with `/` or a hyphen.
 fn option(argument: &str) -> Option<(char, &str)> {
     let is_drawing = is_drawing(Utf8Path::new(argument));
     let option = match argument.strip_prefix('-') {

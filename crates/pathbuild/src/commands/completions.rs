@@ -1,4 +1,4 @@
-//! `pathbuild completions`: a script for shells that completes commands, options, and names of paths, posts and codes.
+//! `pathbuild completions`: prints a script with which a shell completes commands, options, and names of paths, posts and codes.
 
 use clap_complete::env::Shells;
 

@@ -1,4 +1,4 @@
-//! `pathbuild config show` and `config schema`.
+//! `pathbuild config`: shows the settings in force, or the schema of the configuration.
 
 use serde_json::json;
 

@@ -78,7 +78,7 @@ fn conclude(context: &Context, task: Task, emission: Emission) -> ExitStatus {
     if findings.errors() > 0 || !is_current { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-/// Entities on the layers of paths that are not part of the programs: counts by type, for each path.
+/// Returns a line for each path with entities that are on its layer but not part of its program, counted by type.
 fn left_out(diagnostics: &[Diagnostic]) -> Vec<String> {
     let curves = diagnostics.iter().filter(|found| found.code() == Code::UnsupportedCurve);
     let curves: BTreeSet<_> = curves.map(|found| (&found.path, &found.file, &found.place)).collect();
@@ -108,7 +108,7 @@ pub(super) fn show_all(context: &Context, delivered: &[ProgramOutcome]) -> bool 
     is_current
 }
 
-/// Runs the commands that post-processors request for their output, and returns errors.
+/// Runs the commands that post-processors request for their output. Returns the errors.
 fn post_builds(delivered: &[ProgramOutcome]) -> Vec<Diagnostic> {
     let commands = delivered.iter().filter_map(|delivered| {
         delivered.post_build.as_ref().filter(|(_, file)| delivered.has_written(file))
@@ -124,7 +124,7 @@ fn show(context: &Context, delivered: &ProgramOutcome) -> bool {
     let mut is_current = true;
     for (index, (path, state)) in delivered.files.iter().enumerate() {
         let phrase = |en, de| context.choose(en, de);
-        // The program comes first; the files of its probes have no length of their own.
+        // Only the first file, the program, gets a length; the files of its probes have none.
         context.json_row(|| row(context, path, state, Some(delivered), index == 0));
         match state {
             State::Written | State::Unchanged => {
@@ -149,7 +149,7 @@ fn show(context: &Context, delivered: &ProgramOutcome) -> bool {
     is_current
 }
 
-/// Shows how many files are up to date.
+/// Reports how many files are up to date.
 fn count_current(context: &Context, delivered: &[ProgramOutcome], outdated: usize) {
     let states = || delivered.iter().flat_map(|delivered| &delivered.files);
     let current = states().filter(|(_, state)| matches!(state, State::Current)).count();
@@ -163,7 +163,7 @@ fn count_current(context: &Context, delivered: &[ProgramOutcome], outdated: usiz
     });
 }
 
-/// A file as JSON.
+/// Returns a JSON row about a file.
 fn row(
     context: &Context,
     path: &Utf8Path,

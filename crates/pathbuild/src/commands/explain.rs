@@ -1,4 +1,4 @@
-//! `pathbuild explain`: shows the page about a code, or the list of all codes.
+//! `pathbuild explain`: shows the page about a code, or a list of all codes.
 
 use pathbuild_diagnostic::{Code, Lang, Severity};
 
@@ -8,7 +8,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::config::nearest_code;
 
-/// Prints the pages of the given codes; an unknown code prevents all output.
+/// Prints the pages of the given codes. If one of them is unknown, nothing is printed.
 pub fn run(context: &Context, args: &ExplainArgs) -> ExitStatus {
     if args.codes.is_empty() {
         context.printer.result(list(context));
@@ -24,7 +24,7 @@ pub fn run(context: &Context, args: &ExplainArgs) -> ExitStatus {
     }
 }
 
-/// Finds a code by its name, or by its number with or without letters.
+/// Finds a code by its name, or by its number with or without the letters PB.
 fn code(name: &str) -> Option<Code> {
     name.parse().or_else(|()| format!("PB{name}").parse()).ok()
 }

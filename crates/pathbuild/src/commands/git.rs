@@ -10,11 +10,11 @@ use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::Text;
 use pathbuild_workspace::{Workspace, config};
 
-/// A repository with its working tree.
+/// A Git repository with its working tree.
 #[derive(Debug)]
 pub(super) struct Repository<'a> {
     workspace: &'a Workspace,
-    /// Real path of the working tree.
+    /// Real path of the working tree's root.
     pub(super) root: Utf8PathBuf,
 }
 
@@ -24,7 +24,7 @@ pub(super) struct Entry {
     pub(super) kind: EntryKind,
     /// Object id of its blob.
     pub(super) id: String,
-    /// Path from the root, as stored by Git; it may be hostile.
+    /// Path relative to the root, as stored by Git. It may be hostile: check [`is_plain`](Entry::is_plain) before writing a file.
     pub(super) name: String,
 }
 
@@ -33,17 +33,17 @@ pub(super) struct Entry {
 pub(super) enum EntryKind {
     File,
     Link,
-    /// Another repository, of which only the commit is known.
+    /// A submodule, that is, another repository, of which only the commit is known.
     Submodule,
 }
 
-/// Receives the bytes of a blob, or its size if that exceeds the limit.
+/// Callback that gets the index of a blob and its bytes, or its size if that exceeds the limit.
 pub(super) type TakeBlob<'t> = &'t mut dyn FnMut(usize, Result<&mut dyn Read, u64>) -> io::Result<()>;
 
-/// Upper bound in bytes on a `.git` file, and on the header of a blob or file in Git's output: no system has longer file names.
+/// Maximum length in bytes of a `.git` file, and of the header line of a blob or file in Git's output. No system has longer file names.
 const LONGEST_LINE: u64 = 4096;
 
-/// Upper bound in bytes on the blobs of a single request: a few Git objects can expand to any size.
+/// Maximum total size in bytes of the blobs in a single request, because a few Git objects can expand to any size.
 const MOST_BYTES: u64 = 4 << 30;
 
 static TOO_MANY_FILES: Text = Text {
@@ -56,14 +56,15 @@ static LONG_NAME: Text = Text {
     de: "der Name einer Datei in der Revision ist zu lang",
 };
 
-/// Upper bound in bytes on the target of a symbolic link.
+/// Maximum length in bytes of a symbolic link's target.
 const LONGEST_LINK: u64 = 4096;
 
-/// Environment variables that could redirect Git to another repository, such as that of a hook.
+/// Environment variables that are removed because they could redirect Git to another repository, for example to that of a hook.
 const NOT_INHERITED: [&str; 5] =
     ["GIT_DIR", "GIT_WORK_TREE", "GIT_COMMON_DIR", "GIT_INDEX_FILE", "GIT_PREFIX"];
 
-/// Keeps a partial clone from fetching missing objects with configured commands. Older versions of Git know only the second variable.
+/// Environment variables that prevent a partial clone from fetching missing objects with configured commands. Older versions of Git know
+/// only the second one.
 const NO_FETCHES: [(&str, &str); 3] =
     [("GIT_NO_LAZY_FETCH", "1"), ("GIT_ALLOW_PROTOCOL", "none"), ("GIT_TERMINAL_PROMPT", "0")];
 
@@ -76,16 +77,17 @@ const OPTIONS: [&str; 10] = [
     if cfg!(windows) { "core.hooksPath=NUL" } else { "core.hooksPath=/dev/null" },
     "-c",
     "protocol.allow=never",
-    // Files of a tree can look like a bare repository.
+    // Do not discover bare repositories, because files of a tree can look like one.
     "-c",
     "safe.bareRepository=explicit",
 ];
 
 impl<'a> Repository<'a> {
-    /// The repository of a place: the nearest directory at or above it with a `.git`. Without one, Git itself reports the error.
+    /// Returns the repository that contains a place: the nearest directory at or above it with a `.git`. If there is none, Git itself will
+    /// report the error.
     ///
     /// # Errors
-    /// If the repository is untrusted and its `.git` refers to a directory outside.
+    /// The repository is untrusted, and its `.git` refers to a directory outside.
     pub(super) fn of(workspace: &'a Workspace, place: &Utf8Path) -> Result<Self, String> {
         let real = |place: &Utf8Path| workspace.system.canonical(&workspace.working_directory.join(place));
         let place = real(place);
@@ -103,7 +105,8 @@ impl<'a> Repository<'a> {
         Ok(repository)
     }
 
-    /// Whether `.git` refers to a repository elsewhere that does not list this working tree. A repository of `git worktree` lists it.
+    /// Whether `.git` refers to a repository elsewhere that does not list this working tree. The repository of a tree made by `git
+    /// worktree` lists the tree.
     fn leads_out(&self) -> bool {
         let system = &self.workspace.system;
         let git = self.root.join(".git");
@@ -121,10 +124,7 @@ impl<'a> Repository<'a> {
         !directory.starts_with(&self.root) && !is_known()
     }
 
-    /// Object id of a revision's tree.
-    ///
-    /// # Errors
-    /// Git's message if there is no such revision.
+    /// Returns the object id of a revision's tree.
     pub(super) fn tree(&self, revision: &str) -> Result<String, String> {
         let id = self.run(&["rev-parse", "--verify", "--end-of-options", &format!("{revision}^{{tree}}")])?;
         Ok(String::from_utf8_lossy(&id).trim().to_owned())
@@ -141,10 +141,10 @@ impl<'a> Repository<'a> {
             && branch().and_then(|name| refs(&name)).is_some_and(|output| output.is_empty())
     }
 
-    /// All files in a tree.
+    /// Returns all files in a tree.
     ///
     /// # Errors
-    /// If there are more files than the limit allows (a few objects can describe any number), or if Git cannot read the tree.
+    /// There are more files than the limit permits (a few objects can describe any number), or Git cannot read the tree.
     pub(super) fn entries(&self, tree: &str) -> Result<Vec<Entry>, String> {
         let most = self.workspace.settings.limits.library_entries.value;
         let arguments = ["ls-tree", "-r", "-z", "--full-tree", tree];
@@ -154,10 +154,10 @@ impl<'a> Repository<'a> {
         if is_whole { Ok(entries) } else { Err(self.failed("")) }
     }
 
-    /// Passes the contents of blobs to `take`, in order. For a blob larger than `most`, passes only its size.
+    /// Passes the contents of blobs to `take`, in order. For a blob larger than `most` bytes, passes only its size.
     ///
     /// # Errors
-    /// If a blob is missing, if the total size is too large, or if `take` fails.
+    /// A blob is missing, the total size is too large, or `take` fails.
     pub(super) fn each_blob(&self, ids: &[&str], most: u64, take: TakeBlob<'_>) -> Result<(), String> {
         let lines = |ids: &mut dyn Iterator<Item = &str>| ids.flat_map(|id| [id, "\n"]).collect::<String>();
         let (sizes, _) = self.run_with_input(
@@ -182,10 +182,11 @@ impl<'a> Repository<'a> {
         .map(|_| ())
     }
 
-    /// Targets of symbolic links, given by the ids of their blobs; `None` for a target that is too long or not UTF-8.
+    /// Returns the targets of symbolic links, which are given by the ids of their blobs; `None` for a target that is too long or not
+    /// UTF-8.
     ///
     /// # Errors
-    /// If a blob is missing.
+    /// A blob is missing.
     pub(super) fn targets(&self, ids: &[&str]) -> Result<Vec<Option<String>>, String> {
         let mut targets = Vec::with_capacity(ids.len());
         self.each_blob(ids, LONGEST_LINK, &mut |_, bytes| {
@@ -197,20 +198,20 @@ impl<'a> Repository<'a> {
         Ok(targets)
     }
 
-    /// The blob ids of the current contents of files; fewer if one of them cannot be read. The files must be regular files without line
-    /// breaks in their names.
+    /// Returns the blob ids that the current contents of files would have. If a file cannot be read, the list ends before it. The files
+    /// must be regular files without line breaks in their names.
     pub(super) fn ids(&self, files: &[&Utf8Path]) -> Vec<String> {
         let lines: String = files.iter().flat_map(|file| [without_verbatim_prefix(file), "\n"]).collect();
         let arguments = ["hash-object", "--no-filters", "--stdin-paths"];
         let mut ids = Vec::new();
-        // Callers treat files without an id as changed.
+        // Errors are ignored, because callers treat files without an id as changed.
         _ = self.run_with_input(&arguments, &lines, |answers| {
             answers.lines().try_for_each(|line| line.map(|line| ids.push(line)))
         });
         ids
     }
 
-    /// Advice if a shallow clone does not contain a revision.
+    /// Returns advice for the user if the revision is missing because the clone is shallow.
     pub(super) fn too_shallow(&self, revision: &str) -> Option<String> {
         let is_shallow = self.run(&["rev-parse", "--is-shallow-repository"]).ok()?;
         let is_there = self.run(&["cat-file", "-e", &format!("{revision}^{{commit}}")]).is_ok();
@@ -238,7 +239,7 @@ impl<'a> Repository<'a> {
         format!("git: {}", message.lines().next().unwrap_or(nothing))
     }
 
-    /// Runs Git with input, and passes its output to `take`. Also returns whether Git succeeded.
+    /// Runs Git with input, and passes its output to `take`. Returns the result of `take` and whether Git succeeded.
     fn run_with_input<R>(
         &self,
         arguments: &[&str],
@@ -250,7 +251,7 @@ impl<'a> Repository<'a> {
         let mut child = command.spawn().map_err(|error| self.not_run(&error))?;
         let (stdin, stdout) = (child.stdin.take(), child.stdout.take());
         let answer = thread::scope(|scope| {
-            // Git answers while it reads, so both must happen concurrently to avoid a deadlock.
+            // Git writes answers while it reads, so writing and reading must happen concurrently to avoid a deadlock.
             scope.spawn(move || stdin.map(|mut stdin| stdin.write_all(lines.as_bytes())));
             stdout.map(|stdout| take(BufReader::new(stdout)))
         });
@@ -269,7 +270,7 @@ impl<'a> Repository<'a> {
         for name in NOT_INHERITED {
             command.env_remove(name);
         }
-        // Git must not search above the root.
+        // Git must not search for a repository above the root.
         let above = self.root.parent().map(without_verbatim_prefix).unwrap_or_default();
         command.env("GIT_CEILING_DIRECTORIES", above).envs(NO_FETCHES);
         command.args(OPTIONS).args(arguments).stdin(Stdio::null());
@@ -283,7 +284,7 @@ impl<'a> Repository<'a> {
 }
 
 impl Entry {
-    /// Parses a line of `ls-tree`.
+    /// Parses a line of the output of `ls-tree`.
     fn read(line: &str) -> Option<Self> {
         let (facts, name) = line.split_once('\t')?;
         let mut facts = facts.split(' ');
@@ -295,7 +296,7 @@ impl Entry {
         Some(Self { kind, id: facts.nth(1)?.to_owned(), name: name.to_owned() })
     }
 
-    /// Whether the name is a safe relative path on every system. Names that are not UTF-8 are not.
+    /// Whether the name is a safe relative path on every system. A name that is not UTF-8 is not safe.
     pub(super) fn is_plain(&self) -> bool {
         let is_foreign = |part: &str| cfg!(windows) && part.contains(['\\', ':']);
         let is_special = |part: &str| matches!(part, "" | "." | "..") || part.eq_ignore_ascii_case(".git");
@@ -304,10 +305,10 @@ impl Entry {
     }
 }
 
-/// Refuses a revision that Git would take for an option.
+/// Refuses the name of a revision that Git would take for an option.
 ///
 /// # Errors
-/// If it is not a revision.
+/// The name begins with a hyphen.
 pub(super) fn revision<'a>(workspace: &Workspace, name: &'a str) -> Result<&'a str, String> {
     if name.starts_with('-') {
         return Err(workspace.phrase("{} is not a revision", "{} ist keine Revision", &format!("{name:?}")));
@@ -315,7 +316,7 @@ pub(super) fn revision<'a>(workspace: &Workspace, name: &'a str) -> Result<&'a s
     Ok(name)
 }
 
-/// Parses the output of `ls-tree -z`, unless a limit is exceeded.
+/// Parses the output of `ls-tree -z`. Stops with a reason if a limit is exceeded.
 fn entries(answers: &mut impl BufRead, most: u64) -> io::Result<Result<Vec<Entry>, &'static Text>> {
     let mut entries = Vec::new();
     let mut line = Vec::new();
@@ -332,7 +333,7 @@ fn entries(answers: &mut impl BufRead, most: u64) -> io::Result<Result<Vec<Entry
     Ok(Ok(entries))
 }
 
-/// Reads the header line of a blob in `cat-file` output, and returns the size.
+/// Reads the header line of a blob in the output of `cat-file`. Returns the size in bytes.
 fn read_size(answers: &mut impl BufRead) -> io::Result<u64> {
     let mut head = String::new();
     answers.by_ref().take(LONGEST_LINE).read_line(&mut head)?;
@@ -352,7 +353,7 @@ fn read_blob(
     answers.read_exact(&mut [0])
 }
 
-/// A path without the prefix of long Windows paths, which Git does not understand.
+/// Removes the prefix of long Windows paths, which Git does not understand.
 fn without_verbatim_prefix(path: &Utf8Path) -> &str {
     path.as_str().strip_prefix(r"\\?\").unwrap_or(path.as_str())
 }

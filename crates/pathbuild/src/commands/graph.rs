@@ -13,12 +13,12 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::render::Format;
 
-/// Runs `graph`: lists all embeddings of the given paths; without arguments, those of the library.
+/// Runs `graph`: lists all embeddings of the given paths, or of the library's paths if no arguments are given.
 pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
     show(context, args, list)
 }
 
-/// Runs `deps`: shows what paths embed, level by level.
+/// Runs `deps`: shows the paths that the given ones embed, level by level.
 pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
     show(context, args, |graph, words| tree(graph, Direction::Down, words))
 }
@@ -33,8 +33,8 @@ fn show(context: &Context, args: &GraphArgs, text: impl Fn(&Graph, &Words) -> St
     finish(context, outcome)
 }
 
-/// Runs `rdeps`: shows what embeds the given paths, level by level, among all paths of the library; without a library, among those in and
-/// below the working directory.
+/// Runs `rdeps`: shows the paths that embed the given ones, level by level. All paths of the library are searched; without a library,
+/// those in and below the working directory.
 pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() {
         return context.usage(
@@ -46,7 +46,7 @@ pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
     finish(context, outcome)
 }
 
-/// Shows diagnostics, and reports where the graph is incomplete.
+/// Shows diagnostics, and warns if the graph is incomplete.
 fn finish(context: &Context, GraphOutcome { diagnostics, incomplete, .. }: GraphOutcome) -> ExitStatus {
     if incomplete > 0 {
         context.printer.status(format_args!(
@@ -70,17 +70,17 @@ fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph, &Words) -> Stri
     }
 }
 
-/// A path with the values of its variables, written as in a subpath's text: `2051.1P :A0,5 :BX`.
+/// Formats a path with the values of its variables as in the text of a subpath: `2051.1P :A0,5 :BX`.
 fn path(node: &Node) -> String {
     with_values(node.name.as_str(), &node.bindings)
 }
 
-/// The drawing of a path.
+/// Returns the drawing that contains a path.
 fn file(node: &Node) -> Cow<'_, str> {
     shown::line(node.file.as_str())
 }
 
-/// The target of an embedding.
+/// Formats the target of an embedding.
 fn end(graph: &Graph, end: &End) -> String {
     match end {
         End::Node(node) => path(&graph.nodes[*node]),
@@ -88,7 +88,7 @@ fn end(graph: &Graph, end: &End) -> String {
     }
 }
 
-/// A missing target with the reason: `9999.1P (PB503 path-not-found)`.
+/// Formats a missing target with the reason: `9999.1P (PB503 path-not-found)`.
 fn nowhere(name: Option<&PathName>, code: Code) -> String {
     format!("{} ({code} {})", shown::line(name.map_or("?", PathName::as_str)), code.name())
 }
@@ -103,12 +103,12 @@ fn with_values(name: &str, bindings: &Bindings) -> String {
     label
 }
 
-/// A tree for each root.
+/// Formats a tree for each root.
 fn tree(graph: &Graph, direction: Direction, words: &Words) -> String {
     let neighbours = graph.neighbours(direction);
     let mut text = String::new();
     let mut is_shown = vec![false; graph.nodes.len()];
-    // Not recursive: a library may nest deeper than the stack.
+    // Avoid recursion, because a library may nest deeper than the stack permits.
     let mut open: Vec<Step> = graph.roots.iter().rev().map(|root| Step::root(*root)).collect();
     while let Some(step) = open.pop() {
         let (label, mut remarks) = words.line(graph, &step);
@@ -128,13 +128,13 @@ fn tree(graph: &Graph, direction: Direction, words: &Words) -> String {
     text
 }
 
-/// Upper bound on the indentation level: deeper lines would be unreadable, and the output of a long chain would grow quadratically.
+/// Maximum indentation level. Deeper lines would be unreadable, and the output of a long chain would grow quadratically.
 const MAX_INDENTATION: usize = 100;
 
 /// A line of a tree.
 struct Step {
     to: End,
-    /// Number of segments that embed it at this point.
+    /// Number of segments that embed the path at this point of the tree.
     count: usize,
     level: usize,
 }
@@ -153,7 +153,7 @@ impl Step {
     }
 }
 
-/// The words of lists and trees in one language.
+/// Texts of lists and trees in one language.
 struct Words {
     times: &'static str,
     shown: &'static str,
@@ -173,7 +173,7 @@ impl Words {
         }
     }
 
-    /// The label of a line, with remarks.
+    /// Returns the text of a line and the remarks about it.
     fn line(&self, graph: &Graph, step: &Step) -> (String, Vec<String>) {
         let mut remarks = Vec::new();
         if step.count > 1 {
@@ -191,8 +191,8 @@ impl Words {
     }
 }
 
-/// One line per embedding, such as `8001.1P > 2051.1P :A0,5`, sorted by embedding path. Paths without any embeddings are listed on their
-/// own.
+/// Formats one line per embedding, such as `8001.1P > 2051.1P :A0,5`, sorted by the embedding path. Paths without any embeddings get a
+/// line of their own.
 fn list(graph: &Graph, words: &Words) -> String {
     let (below, above) = (graph.neighbours(Direction::Down), graph.neighbours(Direction::Up));
     let mut text = String::new();
@@ -259,7 +259,7 @@ fn mermaid(graph: &Graph) -> String {
     text
 }
 
-/// Replaces characters that are special to Mermaid by entity codes.
+/// Replaces characters that are special in Mermaid by entity codes.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
@@ -277,8 +277,8 @@ fn json(context: &Context, graph: &Graph) -> Value {
     json!({ "paths": paths, "embeddings": embeddings })
 }
 
-/// `example`: whether the values are only examples, with which nothing embeds the path. `erroneous`: whether its drawing has errors, so that
-/// its embeddings may be incomplete.
+/// Returns the JSON object of a path. `example` states whether the values are only examples, with which no path embeds it; `erroneous`
+/// states whether its drawing has errors, so that its embeddings may be incomplete.
 fn path_json(context: &Context, node: &Node) -> Value {
     json!({
         "path": node.name.as_str(),
@@ -293,7 +293,8 @@ fn values(bindings: &Bindings) -> Map<String, Value> {
     bindings.iter().map(|(variable, value)| (variable.to_string(), value.into())).collect()
 }
 
-/// `to` is null if nothing is embedded; then `path` is the name in the segment, and `code` the reason.
+/// Returns the JSON object of an embedding. If the target does not exist, `to` is null, `path` is the name in the segment, and `code` is
+/// the reason.
 fn embedding(graph: &Graph, edge: &Embedding) -> Value {
     let (to, path, code) = match &edge.to {
         End::Node(to) => (Some(*to), Some(graph.nodes[*to].name.as_str()), None),

@@ -14,7 +14,8 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::render::Format;
 
-/// Runs the command: prints the summary and the diagnostics of each program. A program with errors is summarized as far as it was read.
+/// Runs the command: prints the summary and the diagnostics of each program. A program with errors is summarized as far as it could be
+/// read.
 pub fn run(context: &Context, args: &ImportArgs) -> ExitStatus {
     let mut diagnostics = Vec::new();
     for file in &args.files {
@@ -33,7 +34,7 @@ pub fn run(context: &Context, args: &ImportArgs) -> ExitStatus {
     context.conclude(diagnostics)
 }
 
-/// A program's summary, completed by the configuration.
+/// A summary of a program, with values that depend on the configuration.
 struct Facts<'a> {
     program: &'a Program,
     summary: Summary,
@@ -41,9 +42,9 @@ struct Facts<'a> {
     rapid: Option<f64>,
     /// Machining time in seconds, if the machine's capabilities are configured.
     machine_seconds: Option<f64>,
-    /// The first line whose moves are unknown: then lengths, times and the box are unknown as well.
+    /// First line whose moves are unknown. If there is one, lengths, times and the extent are unknown as well.
     unfollowed: Option<u32>,
-    /// Assumptions that were made while reading.
+    /// Diagnostics about assumptions that were made while reading.
     taken: Vec<&'a Diagnostic>,
 }
 
@@ -63,8 +64,8 @@ impl<'a> Facts<'a> {
         }
     }
 
-    /// Compatible time in whole minutes; only of cutting moves if the rapid feed is unknown. (book: program/gcode) `None` if a cutting move
-    /// has no feed, or a line is not followed.
+    /// Working time in whole minutes, computed as by PathDxf2GCode (book: program/gcode). If the rapid feed is unknown, only cutting moves
+    /// are included. `None` if a cutting move has no feed, or if the moves of a line are unknown.
     fn minutes(&self) -> Option<f64> {
         let total = &self.summary.total;
         let minutes = self.rapid.map_or(total.cutting(), |rapid| total.sum(rapid)).minutes();
@@ -72,7 +73,7 @@ impl<'a> Facts<'a> {
     }
 }
 
-/// Speeds and accelerations from `[machine]`; `None` unless they are complete. Rapid moves default to `rapid`.
+/// Returns the speeds and accelerations in `[machine]`; `None` unless they are complete. The speed of rapid moves defaults to `rapid`.
 fn kinematics(context: &Context) -> Option<Kinematics> {
     let machine = &context.settings.machine;
     let rapid = context.settings.general.rapid.value;
@@ -129,7 +130,7 @@ fn used(used: &ToolTotals) -> Value {
     json!({ "tool": used.tool, "moves": tally(&used.tally), "feeds": used.feeds, "speeds": used.speeds })
 }
 
-/// Formats the summary; the first line begins with the file's name.
+/// Formats the summary. The first line begins with the file's name.
 fn text(context: &Context, facts: &Facts<'_>) -> String {
     let formatter = Formatter(context);
     let mut text = formatter.title(facts);
@@ -229,7 +230,7 @@ impl Formatter<'_> {
         in_prose(format!("{number:.1}"), self.0.lang())
     }
 
-    /// `X 0.000 to 40.000, Y 0.000 to 20.000`; `None` if no axis moves to a known position.
+    /// Formats an extent, such as `X 0.000 to 40.000, Y 0.000 to 20.000`; `None` if no axis moves to a known position.
     fn extent(&self, extent: &Extent) -> Option<String> {
         let to = self.choose("to", "bis");
         let axis = |(axis, ends): (char, &Option<(f64, f64)>)| {
@@ -324,7 +325,7 @@ impl Formatter<'_> {
     }
 }
 
-/// Formats a few numbers, or the range if there are many.
+/// Formats a list of numbers, or only their range if there are many.
 fn numbers(values: &[f64]) -> String {
     const MAX_SHOWN_VALUES: usize = 6;
     let mut values = values.to_vec();

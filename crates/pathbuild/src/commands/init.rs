@@ -14,7 +14,8 @@ macro_rules! example {
     };
 }
 
-/// The example library. Its drawings are derived from text files beside them; the tests of the book keep both in sync.
+/// Files of the example library with their contents. Its drawings are derived from text files beside them; the tests of the book keep both
+/// in sync.
 const EXAMPLE: &[(&str, &[u8])] = example![
     "pathbuild.toml",
     "starter.dxf",
@@ -26,7 +27,7 @@ const EXAMPLE: &[(&str, &[u8])] = example![
     "templates/qcad.dxf",
 ];
 
-/// Writes the files into the working directory, unless one of them exists.
+/// Writes the files into the working directory. If one of them already exists, nothing is written.
 pub fn run(context: &Context, example: bool) -> ExitStatus {
     let template = template();
     let configuration = [(FILE_NAME, template.as_bytes())];

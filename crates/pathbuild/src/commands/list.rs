@@ -1,4 +1,4 @@
-//! `pathbuild list` and `stats`: the paths of a library, and their totals. (book: reference/commands)
+//! `pathbuild list` and `stats`: show the paths of a library, and their totals. (book: reference/commands)
 
 use std::fmt::Write;
 
@@ -36,8 +36,8 @@ pub fn stats(context: &Context, args: &ListArgs) -> ExitStatus {
     })
 }
 
-/// Lists and shows the paths. Only findings of directories and drawings are shown separately, since the errors of paths are part of the
-/// list.
+/// Lists the paths and shows them with `print`. Errors of paths are part of the list, so only findings about directories and drawings are
+/// shown separately.
 fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row], usize)) -> ExitStatus {
     let mut session = Session::new(context);
     let listed = Request { inputs: &args.inputs(), post: args.post.as_deref() }.run(&mut session);

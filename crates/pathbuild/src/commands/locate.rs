@@ -37,7 +37,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     context.conclude(problems)
 }
 
-/// The definitions of each path. A path that is defined twice, which is an error, is listed at both places.
+/// Returns the definitions of each path. A path that is defined twice, which is an error, is listed at both places.
 fn definitions(
     session: &Session<'_>,
     names: &[PathName],

@@ -56,8 +56,8 @@ fn unreadable(file: &Utf8Path, reason: Value) -> Diagnostic {
     Diagnostic::new(&say::DESCRIPTION_UNREADABLE).with("reason", reason).in_file(file)
 }
 
-/// The text of a tool bit that a FreeCAD library names: a file beside the library, or in the directory Bit beside that of the library. Other
-/// directories are not read.
+/// Returns the text of a tool bit that a FreeCAD library names. The bit is a file beside the library, or in the directory `Bit` beside the
+/// library's directory. Other directories are not read.
 fn bit(context: &Context, library: &Utf8Path, name: &str) -> Result<String, Value> {
     let name = Utf8Path::new(name).file_name().unwrap_or(name);
     let library = context.working_directory.join(library);
@@ -67,10 +67,10 @@ fn bit(context: &Context, library: &Utf8Path, name: &str) -> Result<String, Valu
         .or_else(|reason| sibling.map_or(Err(reason), |file| text(context, &file)))
 }
 
-/// A file with its description.
+/// A file with the description of a machine that it contains.
 type DescribedFile<'f> = (&'f Utf8Path, Description);
 
-/// Shows the values beside those of the configuration, and writes them if requested.
+/// Shows the values of the descriptions and those of the configuration, and writes them if requested.
 fn compare(
     context: &Context,
     values: &[DescribedValue],
@@ -103,7 +103,7 @@ fn compare(
     Ok(())
 }
 
-/// The configuration of the run, or the one that would be created in the working directory.
+/// Returns the configuration file of the run, or the one that would be created in the working directory.
 fn configuration(context: &Context) -> Utf8PathBuf {
     context.settings.file.clone().unwrap_or_else(|| join(&context.working_directory, FILE_NAME))
 }
@@ -133,7 +133,7 @@ fn show(context: &Context, file: &Utf8Path, changes: &[Change], descriptions: &[
     }
     let has_unused = |(_, description): &&DescribedFile<'_>| !description.unused.is_empty();
     for (file, Description { format, unused, .. }) in descriptions.iter().filter(has_unused) {
-        // All tools of a library have the same entries: name each once.
+        // All tools of a library have the same entries, so name each entry once.
         let mut names: Vec<&str> = Vec::new();
         for entry in unused {
             if !names.contains(&entry.name.as_str()) {
@@ -147,7 +147,7 @@ fn show(context: &Context, file: &Utf8Path, changes: &[Change], descriptions: &[
     context.printer.result(text);
 }
 
-/// Adds the old and the new value of a key.
+/// Adds a line with the old and the new value of a key.
 fn change_lines(text: &mut String, change: &Change) {
     let Change { key, old, new, source, is_new, .. } = change;
     if let Some(old) = old.as_ref().filter(|_| *is_new) {

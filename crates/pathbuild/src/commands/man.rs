@@ -1,4 +1,4 @@
-//! `pathbuild man`: the manual as roff, with all commands on one page.
+//! `pathbuild man`: prints the manual as roff, with all commands on one page.
 
 use std::io;
 
@@ -10,7 +10,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::german;
 
-/// Prints the page: `pathbuild man | man -l -`.
+/// Prints the manual page, for example for `pathbuild man | man -l -`.
 pub fn run(context: &Context) -> ExitStatus {
     let mut page = Vec::new();
     // Writing to memory cannot fail.
@@ -59,7 +59,7 @@ fn write_subcommands(command: &Command, prefix: &str, page: &mut Vec<u8>) -> io:
     Ok(())
 }
 
-/// A command with its own options; the common ones are listed once, for the program.
+/// Writes the section of a command with its own options. Common options are listed once, for the program.
 fn write_subcommand(command: &Command, name: &str, page: &mut Vec<u8>) -> io::Result<()> {
     let own = command.clone().mut_args(|arg| if arg.is_global_set() { arg.hide(true) } else { arg });
     let man = Man::new(own);

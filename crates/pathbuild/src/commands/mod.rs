@@ -1,4 +1,4 @@
-//! One module for each command: `run(&Context, &Args) -> ExitStatus`.
+//! The commands. Each has a module with a function `run(&Context, &Args) -> ExitStatus`.
 
 pub mod adjust;
 pub mod cache;
@@ -38,7 +38,7 @@ use crate::exit::ExitStatus;
 use crate::german;
 use crate::render::Format;
 
-/// A file that was written, as a line in JSON.
+/// Returns a JSON row about a file that was written.
 fn output_row(context: &Context, file: &Utf8Path, written: WriteOutcome) -> (&'static str, Value) {
     let state = match written {
         WriteOutcome::Changed => "written",
@@ -47,7 +47,7 @@ fn output_row(context: &Context, file: &Utf8Path, written: WriteOutcome) -> (&'s
     ("output", json!({ "file": context.file(file), "state": state }))
 }
 
-/// Adds a file that was written to the document. Returns its state for users.
+/// Adds a file that was written to the document. Returns the file's state as shown to users.
 fn output_state(context: &Context, file: &Utf8Path, written: WriteOutcome) -> &'static str {
     context.json_row(|| output_row(context, file, written));
     state_word(context, written)
@@ -95,7 +95,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
     }
 }
 
-/// Refuses formats of graphs for commands that print none.
+/// Returns an error if the format is one for graphs but the command prints none.
 fn format_refusal(context: &Context, command: &Command) -> Option<String> {
     if context.format == Format::Html {
         let refusal = context.choose(

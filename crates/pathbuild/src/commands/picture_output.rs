@@ -9,10 +9,10 @@ use pathbuild_workspace::files::cannot_write;
 use super::output_state;
 use crate::context::Context;
 
-/// Writes a file and reports it.
+/// Writes a file and reports that it was written.
 ///
 /// # Errors
-/// If the content cannot be generated or written.
+/// The content cannot be generated or written.
 pub(super) fn deliver(
     context: &Context,
     file: &Utf8Path,
@@ -28,16 +28,16 @@ pub(super) fn deliver(
 /// Shows a page in the browser.
 ///
 /// # Errors
-/// If the page cannot be generated or shown.
+/// The page cannot be generated or shown.
 pub(super) fn show(context: &Context, page: Result<Vec<u8>, Value>) -> Result<(), Box<Diagnostic>> {
     let shown = page.and_then(|page| open_page(context, &page));
     shown.map_err(|reason| Box::new(cannot_write(Utf8Path::new(BROWSER), reason)))
 }
 
-/// Stands for the file name in errors about the browser.
+/// Text that replaces the file name in errors about the browser.
 const BROWSER: &str = "(browser)";
 
-/// Keeps the temporary file, because the browser may read it later.
+/// Writes a page to a temporary file and opens it in the browser. The file is not removed, because the browser may read it later.
 #[cfg(feature = "pictures")]
 fn open_page(context: &Context, page: &[u8]) -> Result<(), Value> {
     use std::io::Write;

@@ -1,4 +1,4 @@
-//! `pathbuild post`: rewrites a program for another machine, and shows the built-in posts. (book: program/posts)
+//! `pathbuild post`: rewrites a program for another machine, or shows the built-in posts. (book: program/posts)
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::{gcode, posts};
@@ -94,7 +94,8 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
     context.conclude(diagnostics)
 }
 
-/// Reads the program, writes it and reports that. Adds warnings to `diagnostics`; nothing is written if there are errors.
+/// Reads the program, writes its new version and reports that it was written. Adds warnings to `diagnostics`. If there are errors, nothing
+/// is written.
 fn written(
     context: &Context,
     file: &Utf8Path,
@@ -143,7 +144,7 @@ fn written(
     }
 }
 
-/// What `verify` finds in the program, except for what the post-processor completes.
+/// Returns the findings of `verify` about the program, except those about things that the post-processor adds or completes.
 fn findings(
     context: &Context,
     args: &PostArgs,
@@ -159,7 +160,7 @@ fn findings(
             Ok(found)
         }
         Err(Failure::Post(problems) | Failure::Found(problems)) => Err(problems),
-        // Only a drawing to compare with can be named wrongly.
+        // Usage errors only concern the drawing to compare with, and there is none.
         Err(Failure::Usage(_)) => Err(Vec::new()),
     }
 }
@@ -178,12 +179,12 @@ fn is_judged_in_output(problem: &Diagnostic) -> bool {
     )
 }
 
-/// The file to write; `None` for standard output, which is named by `-o -` as in `emit`.
+/// Returns the file to write; `None` for standard output, which may also be given as `-o -`, as in `emit`.
 fn file_to_write(args: &PostArgs) -> Option<&Utf8Path> {
     args.output.as_deref().filter(|file| *file != "-")
 }
 
-/// Turns the warning about a value that only the machine knows into an error, because the post would write the assumed number.
+/// Converts the warning about a value that only the machine knows to an error, because the post would write an assumed number.
 fn refuse_machine_value(problem: &mut Diagnostic) {
     if problem.message == &gcode::MACHINE_VALUE {
         problem.message = &posts::JOB_MACHINE_VALUE;
@@ -191,7 +192,8 @@ fn refuse_machine_value(problem: &mut Diagnostic) {
     }
 }
 
-/// The output of the post-processor for an error-free program. `surface` is the height of the material's upper face in mm, if known.
+/// Returns the output of the post-processor for an error-free program. `surface` is the height in mm of the material's upper face, if it
+/// is known.
 fn output(
     program: &Program,
     steps: Vec<Step>,
@@ -215,7 +217,7 @@ fn output(
     let mut job = Job::from_steps(name, &steps, program.dialect, &remark)?;
     drop(steps);
     if let Some((provenance, title)) = head {
-        // The new program is the same one in another dialect.
+        // The new program has the same provenance as the original, except for the dialect.
         job.remarks =
             vec![Provenance { dialect: post_processor.reader(), ..provenance }.to_string().into(), title];
     }
@@ -232,8 +234,8 @@ fn output(
     Ok(output)
 }
 
-/// Completes the tools of a job from the table: by their numbers, or by the path and the cutter O in the head of a native program. Warns
-/// about unknown tools.
+/// Completes the tools of a job from the tool table: by their numbers, or for a native program by the path and the cutter O in its header.
+/// Returns warnings about unknown tools.
 fn complete(job: &mut Job, native_cutter: Option<(String, f64)>, tools: &ToolTable) -> Vec<Diagnostic> {
     let Some((path, diameter)) = native_cutter else { return complete_tools(job, tools) };
     let tools = tools.numbered();

@@ -48,12 +48,12 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
     }
 }
 
-/// `NAME_Q.dxf` beside `NAME.dxf`.
+/// Returns `NAME_Q.dxf` in the directory of the drawing `NAME.dxf`.
 fn beside(drawing: &Utf8Path) -> Utf8PathBuf {
     spelt(drawing.with_file_name(format!("{}.dxf", q_project_name(drawing.file_stem().unwrap_or_default()))))
 }
 
-/// Name of the Q-project's path: the given one, or the drawing's first number with `.0Q`.
+/// Returns the name of the Q-project's path: the given one, or the drawing's first number with `.0Q`.
 fn path_name(session: &Session<'_>, drawing: SourceFile, given: Option<&str>) -> Result<PathName, String> {
     let name = given.map_or_else(|| default_name(drawing.path(session.db())), str::to_owned);
     let pattern = &Settings::get(session.db()).language(session.db()).path_pattern;
@@ -79,7 +79,7 @@ fn path_name(session: &Session<'_>, drawing: SourceFile, given: Option<&str>) ->
     Ok(name)
 }
 
-/// The first number in the drawing's name with `.0Q`.
+/// Returns the first number in the drawing's name, with `.0Q`.
 fn default_name(drawing: &Utf8Path) -> String {
     let stem = drawing.file_stem().unwrap_or_default();
     let is_digit = |character: char| character.is_ascii_digit();
@@ -88,7 +88,7 @@ fn default_name(drawing: &Utf8Path) -> String {
     format!("{}.0Q", &number[..end])
 }
 
-/// Draws the Q-project as DXF. Also returns the number of embedded paths.
+/// Draws the Q-project. Returns the DXF and the number of embedded paths.
 fn drawn(
     context: &Context,
     session: &Session<'_>,
@@ -127,8 +127,8 @@ fn drawn(
     if problems.iter().any(is_wrong) { Err(problems) } else { Ok((bytes, count)) }
 }
 
-/// Names for the paths of a Q-project, one per cutter: the first one, followed by free names with higher last numbers. `None` if there are
-/// not enough.
+/// Returns names for the paths of a Q-project, one per cutter: the first one, followed by free names with higher last numbers. `None` if
+/// not enough names are free.
 fn names(first: &PathName, count: usize, is_free: impl Fn(&PathName) -> bool) -> Option<Vec<PathName>> {
     let is_digit = |character: char| character.is_ascii_digit();
     let text = first.as_str();
@@ -141,10 +141,10 @@ fn names(first: &PathName, count: usize, is_free: impl Fn(&PathName) -> bool) ->
     (names.len() >= count).then_some(names)
 }
 
-/// Upper bound on the numbers that are tried.
+/// Maximum number of names that are tried.
 const MOST_TRIED: u64 = 1000;
 
-/// Diagnostics of a drawing and all its paths, including PB513 if it has none.
+/// Returns the diagnostics of a drawing and of all its paths, including PB513 if it has none.
 fn faults(session: &Session<'_>, drawing: SourceFile) -> Vec<Diagnostic> {
     let db = session.db();
     let mut problems = check_file(db, drawing).to_vec();
@@ -186,8 +186,8 @@ fn write(
     ExitStatus::Success
 }
 
-/// Whether a drawing of this name exists that q-project did not write: it lacks the mark, which a CAD program drops when it saves, and is
-/// not what an earlier version wrote without it.
+/// Whether the output file is a drawing that q-project did not write: it lacks the mark, which CAD programs drop when they save, and it is
+/// not the drawing that an earlier version wrote without a mark.
 fn is_of_user(session: &Session<'_>, output: &Utf8Path, bytes: &[u8]) -> bool {
     let system = session.db().system();
     let is_there = system.kind(output) == FileKind::File;
@@ -195,5 +195,5 @@ fn is_of_user(session: &Session<'_>, output: &Utf8Path, bytes: &[u8]) -> bool {
     is_there && !system.head(output, bytes.len()).is_ok_and(is_ours)
 }
 
-/// First lines of every Q-project: a comment.
+/// First lines of every Q-project: a DXF comment that marks it.
 const MARK: &[u8] = b"999\r\npathbuild q-project\r\n";

@@ -11,7 +11,7 @@ use crate::args::SheetArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 
-/// Runs the command. A path with errors has no sheet.
+/// Runs the command. A path with errors gets no setup sheet.
 pub fn run(context: &Context, args: &SheetArgs) -> ExitStatus {
     let format = match &args.output {
         None => SheetFormat::Html,

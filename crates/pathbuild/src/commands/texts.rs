@@ -43,15 +43,15 @@ pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
     context.conclude(problems)
 }
 
-/// A text, or the parameters of an element, ready to be printed.
+/// A text, or the parameters of an element, in the form in which it is printed.
 enum OutputItem {
-    /// A line of JSON: type and values.
+    /// A row of the JSON document: its type and its values.
     Row(&'static str, Json),
-    /// Text lines.
+    /// Lines of plain text.
     Lines(String),
 }
 
-/// Everything to show about each text, and diagnostics of drawings and arguments.
+/// Returns everything to show about each text, and the diagnostics of drawings and arguments.
 fn texts(
     context: &Context,
     session: &Session<'_>,
@@ -72,7 +72,7 @@ fn texts(
         };
         let name = file.path(db).as_str();
         let of_whole = path.is_none().then(|| path_names(db, file)).into_iter().flatten();
-        // A search for texts shows only texts.
+        // If texts are searched, the tables of parameters are not shown.
         let paths = of_whole.chain(path).filter(|_| pattern.is_none());
         shown.extend(assigned_texts(db, file).iter().filter(is_wanted).map(|text| match context.format {
             Format::Json => OutputItem::Row("text", object(&context.file(file.path(db)), text)),
@@ -83,7 +83,7 @@ fn texts(
     (shown, session.with_hints(problems))
 }
 
-/// A text in a few lines: its content, its place, and the elements that it belongs to.
+/// Formats a text in a few lines: its content, its place, and the elements that it belongs to.
 fn lines(context: &Context, file: &str, text: &AssignedText) -> String {
     let TextCircle { centre, radius } = text.circle;
     let layer = context.choose("layer", "Layer");
@@ -110,7 +110,7 @@ fn lines(context: &Context, file: &str, text: &AssignedText) -> String {
     shown
 }
 
-/// `LINE 1F`, or `LINE :120` (its line in the file) without a handle.
+/// Names an element by its handle, as in `LINE 1F`, or else by its line in the file, as in `LINE :120`.
 fn named(entity: &str, position: Position) -> String {
     match position.handle {
         Some(handle) => format!("{entity} {handle}"),
@@ -185,7 +185,7 @@ fn handle(handle: Option<Handle>) -> Option<String> {
     handle.map(|handle| handle.to_string())
 }
 
-/// The parameters of a path: a table, or one JSON object per element.
+/// Returns the parameters of a path: as a table, or as one JSON row per element.
 fn table_of(context: &Context, db: &Database, file: SourceFile, path: &PathName) -> Vec<OutputItem> {
     let index = file_index(db, file).path(path);
     let Some((index, drawn)) = index.zip(drawn_path(db, file, path)) else { return Vec::new() };
@@ -236,7 +236,7 @@ fn source(context: &Context, from: &Provider) -> String {
     }
 }
 
-/// The configuration key or option that sets a value.
+/// Returns the configuration key or the option that sets a value.
 fn option(context: &Context, word: &str, name: &str) -> String {
     match context.settings.origin_of_option(name) {
         Origin::File(line) | Origin::Extended { line, .. } => context

@@ -63,13 +63,13 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
     status
 }
 
-/// The argument that stands for standard input.
+/// Argument that means standard input.
 const STANDARD_INPUT: &str = "-";
 
 /// Reads a program from standard input.
 ///
 /// # Errors
-/// If it cannot be read, or is too large.
+/// Standard input cannot be read, or is too large.
 fn read_standard_input(context: &Context) -> Result<Vec<u8>, Box<Diagnostic>> {
     let limit = context.settings.limits.file_size.value;
     let mut text = Vec::new();
@@ -125,19 +125,19 @@ fn conclude(
     ExitStatus::of(&findings)
 }
 
-/// The checks of the programs of a run.
+/// The checks made for each program of a run.
 #[derive(Default)]
 struct CheckReport(Vec<(String, Vec<CheckRecord>)>);
 
 impl CheckReport {
-    /// Adds the checks of a program.
+    /// Adds the checks made for a program.
     fn add(&mut self, file: String, checks: Vec<CheckRecord>) {
         if !checks.is_empty() {
             self.0.push((file, checks));
         }
     }
 
-    /// Prints a summary for all programs with the same checks, and adds the checks of each program to the document of the run.
+    /// Prints a summary for all programs with the same checks, and adds the checks of each program to the machine-readable document.
     fn finish(self, context: &Context) {
         for (line, files) in self.summaries(context.lang()) {
             let programs = match &*files {
@@ -155,7 +155,7 @@ impl CheckReport {
         }
     }
 
-    /// The summaries, each with its programs.
+    /// Returns a summary for each distinct list of checks, with the programs that it applies to.
     fn summaries(&self, lang: Lang) -> Vec<(String, Vec<&str>)> {
         let mut texts: Vec<(&[CheckRecord], usize)> = Vec::new();
         let mut lines: Vec<(String, Vec<&str>)> = Vec::new();
@@ -203,7 +203,7 @@ fn row(record: &CheckRecord, lang: Lang) -> Value {
     }
 }
 
-/// Reports which moves were compared with the drawing, and how many are equal.
+/// Reports which moves were compared with the drawing, and how many of them are equal.
 fn report_comparison(context: &Context, file: &Utf8Path, comparison: &MoveComparison) {
     let MoveComparison { path, drawing, dialect, read_as, moves, equal } = comparison;
     context.json_row(|| {

@@ -19,7 +19,7 @@ use crate::args::ViewArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 
-/// Runs the command. Errors are shown in the picture.
+/// Runs the command. A path with errors is shown with its findings in the picture.
 pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
     let output = match Output::of(context, args) {
         Ok(output) => output,
@@ -51,14 +51,14 @@ fn no_stock(context: &Context, findings: &Findings) -> ExitStatus {
     ))
 }
 
-/// The scene of an argument.
+/// The scene of the argument, ready to be shown.
 struct TargetScene {
     report: SceneReport,
-    /// The drawing or program that is shown.
+    /// Name of the drawing or program that is shown.
     file: String,
 }
 
-/// The scene of the argument. A file that is not a drawing is read as a program.
+/// Returns the scene of the argument. A file that is not a drawing is read as a program.
 fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failure> {
     let file = Utf8Path::new(&args.what);
     if !is_drawing(file) && is_there(file) {
@@ -104,22 +104,22 @@ fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {
     let missing = session.no_path(file.path(db), &names, &report.diagnostics);
     report.diagnostics.extend(missing);
     if names.is_empty() {
-        // An empty picture could replace one that shows something.
+        // Refuse to write an empty picture, which could replace one that shows something.
         return Err(Failure::Found(report.diagnostics));
     }
     report.diagnostics = session.with_hints(report.diagnostics);
     Ok(TargetScene { report, file: file.path(db).to_string() })
 }
 
-/// Destination of a scene, with its format.
+/// The destination of a scene, with its format.
 struct Output {
     format: Format,
-    /// The file; `None` shows the scene in the browser.
+    /// File to write; `None` to show the scene in the browser.
     file: Option<Utf8PathBuf>,
     shown: VisibleParts,
 }
 
-/// Format of a picture.
+/// The formats of scenes.
 #[derive(Clone, Copy)]
 enum Format {
     Svg,
@@ -133,7 +133,7 @@ enum Format {
 }
 
 impl Format {
-    /// Chooses the format by the extension.
+    /// Chooses the format by the extension of a file.
     #[cfg(feature = "pictures")]
     fn of(extension: &str) -> Option<Self> {
         Some(match extension {
@@ -197,10 +197,10 @@ impl Format {
 }
 
 impl Output {
-    /// Chooses the format by the extension.
+    /// Chooses the destination and its format by the extension.
     ///
     /// # Errors
-    /// If the extension is unknown, or is not that of a picture of the stock.
+    /// The extension is unknown, or is not one for pictures of the stock.
     fn of(context: &Context, args: &ViewArgs) -> Result<Self, String> {
         let shown = VisibleParts { stock: args.stock, ..VisibleParts::all(context.lang()) };
         let Some(file) = &args.output else { return Self::browser(context, shown) };
@@ -230,10 +230,10 @@ impl Output {
         Err(format!("{needs}: {}", Format::names(context)))
     }
 
-    /// Writes or shows the scene.
+    /// Writes the scene to the file or shows it in the browser.
     ///
     /// # Errors
-    /// If it cannot be written or shown.
+    /// The scene cannot be written or shown.
     fn deliver(&self, context: &Context, scene: &Scene) -> Result<(), Box<Diagnostic>> {
         let bytes = self.format.bytes(scene, self.shown);
         match &self.file {

@@ -17,10 +17,10 @@ use crate::serving::Server;
 use crate::text::{DRAWING, ERROR, PATH, WARNING, counted};
 use pathbuild_workspace::findings::Findings;
 
-/// Runs the command.
+/// Runs the command until it ends.
 ///
 /// # Errors
-/// Why everything must be restarted, as a sentence.
+/// The reason why everything must be restarted, as a sentence.
 pub(crate) fn run(
     context: &Context,
     args: &WatchArgs,
@@ -32,7 +32,7 @@ pub(crate) fn run(
             server.halt(problems, reason);
         }
     };
-    // Without a library, show everything that `list` lists.
+    // Without a library, show all drawings that `list` would list.
     let is_everything = page.is_some() && args.inputs.inputs.is_empty() && !context.has_library();
     let here = Inputs { inputs: vec![".".to_owned()] };
     let inputs = if is_everything { &here } else { &*args.inputs };
@@ -76,7 +76,7 @@ pub(crate) fn run(
     })
 }
 
-/// Prints the first check like `check`, then one line per changed file. Forwards all events to the page, if one is served.
+/// Prints the first check as `check` does, then one line per changed file. Forwards all events to the page, if one is served.
 struct WatchPrinter<'a> {
     context: &'a Context,
     page: Option<Box<dyn Listener + 'a>>,

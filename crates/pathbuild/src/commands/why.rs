@@ -14,8 +14,8 @@ use crate::render::Format;
 use pathbuild_workspace::memo::Memo;
 use pathbuild_workspace::session::Session;
 
-/// Runs the command: for each drawing, shows whether the result of the last `check` of the library still holds, and otherwise which inputs
-/// have changed.
+/// Runs the command. For each drawing, shows whether the result of the last `check` of the library is still valid, or which inputs have
+/// changed since then.
 pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
@@ -41,10 +41,10 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     context.conclude(session.with_hints(selection.problems))
 }
 
-/// State of a drawing's cached result.
+/// The state of a drawing's cached result.
 struct DrawingState<'a> {
     drawing: &'a Utf8PathBuf,
-    /// Why it no longer holds; `None` if nothing is cached.
+    /// Reasons why the result is no longer valid; empty if it is valid, and `None` if nothing is cached.
     reasons: Option<Vec<Reason>>,
 }
 
@@ -73,7 +73,7 @@ impl DrawingState<'_> {
 
     fn json(&self, context: &Context) -> Value {
         let reasons = self.reasons.iter().flatten().map(|reason| object(context, reason));
-        // `null` if nothing is cached.
+        // `holds` is null if nothing is cached.
         let holds = self.reasons.as_ref().map(Vec::is_empty);
         json!({ "file": context.file(self.drawing), "holds": holds, "reasons": reasons.collect::<Value>() })
     }
@@ -108,7 +108,8 @@ fn describe(context: &Context, reason: &Reason) -> String {
     }
 }
 
-/// `change` is `changed`, `gone`, `new` or `links`; `path` is the path that the file may contain or have contained.
+/// Returns the JSON object of a reason. `change` is `changed`, `gone`, `new` or `links`; `path` is the path whose drawing the file may be
+/// or may have been.
 fn object(context: &Context, reason: &Reason) -> Value {
     let (file, change, path) = match reason {
         Reason::File { path, is_gone } => (&**path, if *is_gone { "gone" } else { "changed" }, None),

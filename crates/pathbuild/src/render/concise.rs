@@ -1,4 +1,4 @@
-//! One line per diagnostic, understood by editors and `grep`: `FILE:LINE: error[PB203] message (path, element, place)`.
+//! Renders one line per diagnostic, which editors and `grep` understand: `FILE:LINE: error[PB203] message (path, element, place)`.
 
 use pathbuild_diagnostic::Diagnostic;
 

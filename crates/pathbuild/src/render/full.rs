@@ -1,4 +1,5 @@
-//! Format for users: message, place, the faulty text underlined as compilers do, help, notes, and the embeddings that lead to the path.
+//! Renders diagnostics for users: the message, its place, the faulty text underlined as in a compiler, help, notes, and the embeddings
+//! that lead to the path.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -27,7 +28,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     for diagnostic in &findings.diagnostics {
         let page = Page::new(diagnostic, view);
         let mut report = String::new();
-        // Writing to a String cannot fail, and labels lie within their text.
+        // Rendering cannot fail: writing to a String succeeds, and labels are within their text.
         _ = handler.render_report(&mut report, &page);
         text.extend(report.split_inclusive('\n').map(|line| labelled(line, view)));
         for line in &page.further {
@@ -40,7 +41,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     text
 }
 
-/// Translates miette's label in front of the help.
+/// Translates the label that miette puts in front of the help.
 fn labelled<'a>(line: &'a str, view: &View) -> Cow<'a, str> {
     let is_help = line.strip_prefix(HELP_COLOR).unwrap_or(line).starts_with(HELP);
     if is_help { line.replacen(HELP, view.choose(HELP, "  Tipp: "), 1).into() } else { line.into() }
@@ -49,7 +50,7 @@ fn labelled<'a>(line: &'a str, view: &View) -> Cow<'a, str> {
 const HELP: &str = "  help: ";
 const HELP_COLOR: &str = "\u{1b}[36m";
 
-/// A diagnostic as miette sees it. Code and place are in the header, because most faults have no text to underline.
+/// A diagnostic in the form that miette renders. Code and place are in the header, because most faults have no text to underline.
 #[derive(Debug)]
 struct Page {
     header: String,
@@ -76,8 +77,8 @@ impl Page {
     }
 }
 
-/// The part of a faulty text that is shown, and the range of the fault in it. Very long texts (such as pasted files) are cut around the
-/// fault.
+/// Returns the part of a faulty text that is shown, and the range of the fault in it. Very long texts (such as pasted files) are cut
+/// around the fault.
 fn excerpt(fault: &TextFault) -> (String, Range<usize>) {
     let (text, span) = (&*fault.text, fault.span());
     let start =
@@ -98,7 +99,7 @@ fn excerpt(fault: &TextFault) -> (String, Range<usize>) {
     (excerpt, from..to)
 }
 
-/// Number of bytes shown before, within and after a fault.
+/// Maximum number of bytes shown before, within and after a fault.
 const EXCERPT_BYTES: usize = 400;
 
 fn header(diagnostic: &Diagnostic, view: &View) -> String {
@@ -112,7 +113,7 @@ fn header(diagnostic: &Diagnostic, view: &View) -> String {
     header
 }
 
-/// Notes, then the embeddings of the path from the inside out.
+/// Returns the notes, followed by the embeddings of the path, innermost first.
 fn further(diagnostic: &Diagnostic, view: &View) -> Vec<String> {
     let note = view.choose("note", "Hinweis");
     let notes = diagnostic.notes.iter().map(|remark| format!("{note}: {}", remark.text(view.lang)));
@@ -155,7 +156,7 @@ impl miette::Diagnostic for Page {
     }
 }
 
-/// The faulty text. A line of a text file keeps its number; texts in drawings are numbered from 1.
+/// A faulty text in the form that miette renders. A line of a text file keeps its number; texts in drawings are numbered from 1.
 #[derive(Debug)]
 struct Source {
     text: String,

@@ -1,5 +1,5 @@
-//! GitLab code quality: a JSON list. GitLab requires a location, so diagnostics without a file, such as those of option values, refer to
-//! the project itself (`.`).
+//! Renders findings for GitLab code quality, as a JSON list. GitLab requires a location, so a diagnostic without a file, such as one about
+//! an option's value, refers to the project itself (`.`).
 
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use serde_json::{Value as Json, json};

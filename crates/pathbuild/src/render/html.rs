@@ -1,4 +1,5 @@
-//! HTML page: findings by drawing, each with a detail picture of its place. A single file that loads nothing from the network.
+//! Renders findings as an HTML page: by drawing, each with a picture of its place. It is a single file that loads nothing from the
+//! network.
 
 use std::fmt::Write;
 
@@ -9,7 +10,7 @@ use super::{RenderedText, View, view};
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::waivers::WaivedFinding;
 
-/// Renders the page. `pictures` has one entry per finding.
+/// Renders the page. `pictures` has one entry per finding; `None` if it has no picture.
 pub(crate) fn page(findings: &Findings, pictures: &[Option<String>], view: &View) -> RenderedText {
     let title = view.choose("Findings", "Meldungen");
     let mut text = format!("<!doctype html>\n<html lang=\"{}\">\n{HEAD}", view.choose("en", "de"));
@@ -35,7 +36,7 @@ pub(crate) fn page(findings: &Findings, pictures: &[Option<String>], view: &View
     RenderedText(text + "</html>\n")
 }
 
-/// The findings that are accepted for a stated reason.
+/// Adds the findings that are accepted for a stated reason.
 fn accepted(text: &mut String, findings: &Findings, view: &View) {
     let stated = findings.waived.iter().filter_map(|waived| Some((waived, waived.waiver.reason.as_deref()?)));
     let mut items = String::new();
@@ -67,7 +68,7 @@ fn summary(findings: &Findings, view: &View) -> String {
     format!("{error}: {errors} · {warning}: {warnings}")
 }
 
-/// One finding: picture, code, message, help, place.
+/// Adds one finding: picture, code, message, help, place.
 fn article(text: &mut String, diagnostic: &Diagnostic, picture: Option<&str>, view: &View) {
     let severity = view::severity(diagnostic.severity, view);
     let class = if diagnostic.is_error() { "error" } else { "warning" };
@@ -94,7 +95,7 @@ fn article(text: &mut String, diagnostic: &Diagnostic, picture: Option<&str>, vi
     text.push_str("</div>\n</article>\n");
 }
 
-/// Escapes a text and separates its lines by `<br>`.
+/// Escapes a text and separates its lines with `<br>`.
 fn lines(text: &str) -> String {
     text.lines().map(escaped).collect::<Vec<_>>().join("<br>")
 }

@@ -1,7 +1,9 @@
-//! One JSON object per line, always with the same keys; unknown values are `null`. Keys and codes are English in every language.
+//! Renders one JSON object per line. All objects of a type have the same keys; unknown values are `null`. Keys and codes are English in
+//! every language.
 //!
-//! `span` is the faulty part of `text`: the first character and the one after the last, counted in characters from 0. `x` and `y` are
-//! millimetres in the drawing. `trace` lists the embeddings that led to the path, outermost first.
+//! `span` is the faulty part of `text`: the position of its first character, and the position after its last one, counted in characters
+//! from 0.
+//! `x` and `y` are in mm, in the drawing. `trace` lists the embeddings that led to the path, outermost first.
 
 use pathbuild_diagnostic::{Diagnostic, EntityKind, TextFault, TraceStep, shown};
 use serde::Serialize;
@@ -32,7 +34,7 @@ struct Object<'a> {
     trace: Vec<Step<'a>>,
 }
 
-/// A finding that is accepted for a stated reason.
+/// The JSON object of a finding that is accepted for a stated reason.
 #[derive(Serialize)]
 struct AcceptedFinding<'a> {
     #[serde(flatten)]
@@ -61,7 +63,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     reported.chain(waived.map(|waived| line(&waived))).collect()
 }
 
-/// The first line of a document: version of the format, and name of the command.
+/// Returns the first line of a document, with the version of the format and the name of the command.
 pub(crate) fn header(command: &str) -> String {
     let header =
         Header { r#type: "header", schema_version: VERSION, pathbuild: env!("CARGO_PKG_VERSION"), command };
@@ -69,17 +71,17 @@ pub(crate) fn header(command: &str) -> String {
     serde_json::to_string(&header).unwrap_or_default()
 }
 
-/// Serializes an object with its type as the first key.
+/// Serializes an object so that its type is the first key.
 pub(crate) fn typed(kind: &str, object: &Value) -> String {
     format!("{{\"type\":\"{kind}\",{}", object.to_string().trim_start_matches('{'))
 }
 
-/// Makes JSON lines printable.
+/// Escapes characters with special effects in lines of JSON.
 pub(crate) fn rendered(lines: &str) -> RenderedText {
     RenderedText(shown::json(lines).into_owned())
 }
 
-/// Version of docs/schemas/output.json.
+/// Version of the format that docs/schemas/output.json describes.
 const VERSION: u32 = 2;
 
 #[derive(Serialize)]

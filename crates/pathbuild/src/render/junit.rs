@@ -1,5 +1,5 @@
-//! `JUnit` XML: a test suite per drawing and a test case per path, which fails if the path has errors. Errors of the file itself fail a
-//! test case named after the file. Warnings are output of their test case.
+//! Renders findings as `JUnit` XML: a test suite per drawing, and a test case per path, which fails if the path has errors. Errors of the
+//! file itself fail a test case named after the file. Warnings are the output of their test case.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -34,7 +34,7 @@ struct PathCase<'a> {
     warnings: Vec<&'a Diagnostic>,
 }
 
-/// All checked paths, and all files and paths with findings.
+/// Returns all checked paths, and all files and paths with findings, as test suites.
 fn suites(findings: &Findings) -> SuitesByFile<'_> {
     let mut suites = SuitesByFile::new();
     for file in &findings.checked {
@@ -55,7 +55,7 @@ impl PathCase<'_> {
         let mut shown = TestCase::new(name, self.status(view));
         shown.set_classname(file);
         shown.extra.insert("file".into(), file.into());
-        // Surefire's schema requires a time; results must not depend on the clock.
+        // Surefire's schema requires a time. It is zero, because results must not depend on the clock.
         shown.set_time(Duration::ZERO);
         if !self.warnings.is_empty() {
             shown.set_system_out(lines(&self.warnings, view));
@@ -79,7 +79,7 @@ fn lines(diagnostics: &[&Diagnostic], view: &View) -> String {
     shown::lines(lines.trim_end()).into()
 }
 
-/// A line as in a log, followed by the help.
+/// Returns the text of a failure: a line as in the concise format, followed by the help.
 fn body(diagnostic: &Diagnostic, view: &View) -> String {
     let mut body = concise::line(diagnostic, view);
     for line in view.help(diagnostic).iter().flat_map(|help| help.lines()) {

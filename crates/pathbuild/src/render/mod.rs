@@ -1,4 +1,4 @@
-//! Renders diagnostics as text, with one module per format. The selection of what is shown is made elsewhere. (book: reference/commands)
+//! Renders diagnostics as text, with one module per format. Callers select the diagnostics to show. (book: reference/commands)
 
 mod concise;
 mod full;
@@ -19,19 +19,19 @@ pub(crate) use html::page;
 pub(crate) use pictures::{pictures, write as write_pictures};
 pub use view::View;
 
-/// Rendered findings. Only [`render`] creates them; they contain no control sequences except our own colours, so that they are safe to
-/// print.
+/// The text of rendered findings. Only [`render`] creates it. It contains no control sequences except pathbuild's own colours, so that it
+/// is safe to print.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RenderedText(String);
 
 impl RenderedText {
-    /// The text.
+    /// Returns the text.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 }
 
-/// How something is shown.
+/// The format of diagnostics or graphs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
 pub enum Format {
     /// With the faulty text underlined, help and notes
@@ -61,35 +61,35 @@ pub enum Format {
 }
 
 impl Format {
-    /// Whether the format shows diagnostics; the others show graphs.
+    /// Whether the format shows diagnostics. The other formats show graphs.
     pub fn shows_diagnostics(self) -> bool {
         !matches!(self, Self::Dot | Self::Mermaid)
     }
 
-    /// Whether the format is machine-readable, so that it is the result of a run.
+    /// Whether the format is machine-readable, so that findings are written as the result of the run.
     pub fn is_for_machines(self) -> bool {
         self == Self::Json || self.is_report()
     }
 
-    /// Whether the format contains only findings.
+    /// Whether the format contains only findings, but not other results of commands.
     pub fn is_report(self) -> bool {
         matches!(self, Self::Sarif | Self::Github | Self::Gitlab | Self::Junit)
     }
 
-    /// Whether the format can only be written once all findings are known.
+    /// Whether the format can only be written when all findings are known.
     pub fn is_whole(self) -> bool {
         matches!(self, Self::Sarif | Self::Gitlab | Self::Junit)
     }
 }
 
-/// Renders findings in a format. Graph formats show no diagnostics, and an HTML page needs pictures (see `page`): both fall back to
-/// [`Format::Full`].
+/// Renders findings in a format. [`Format::Full`] is used for formats of graphs, which show no diagnostics, and for HTML, which needs
+/// pictures (see `page`).
 pub fn render(format: Format, findings: &Findings, view: &View) -> RenderedText {
     let text = match format {
         Format::Concise => shown::lines(&concise::render(findings, view)).into_owned(),
         Format::Json => shown::json(&json::render(findings, view)).into_owned(),
         Format::Sarif => shown::json(&sarif::render(findings, view)).into_owned(),
-        // This format consists of lines beginning with `::`, and escapes all other such lines itself.
+        // This format consists of lines that begin with `::`. Its renderer escapes all other lines that begin so.
         Format::Github => shown::framed(&github::render(findings, view)).into_owned(),
         Format::Gitlab => shown::json(&gitlab::render(findings, view)).into_owned(),
         Format::Junit => shown::lines(&junit::render(findings, view)).into_owned(),

@@ -1,4 +1,4 @@
-//! Pictures of findings: details of their drawings. (book: reference/output)
+//! Pictures of findings, each of which shows a detail of a drawing. (book: reference/output)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
@@ -10,13 +10,14 @@ use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::findings::Fingerprint;
 use pathbuild_workspace::session::Session;
 
-/// Upper bound on the number of findings that get a picture.
+/// Maximum number of findings that get a picture.
 const MAX_PICTURES: usize = 1000;
 
-/// Size in bytes of all pictures after which no more are drawn: pictures with thousands of elements each could add up to gigabytes.
+/// Total size of pictures in bytes at which no more are drawn. Pictures with thousands of elements each could otherwise add up to
+/// gigabytes.
 const MAX_PICTURE_BYTES: usize = 256 << 20;
 
-/// One picture per finding; `None` if the finding has no place in a drawing.
+/// Returns one picture per finding as SVG; `None` if the finding has no place in a drawing.
 pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic]) -> Vec<Option<String>> {
     let mut files: Vec<&Utf8Path> =
         diagnostics.iter().take(MAX_PICTURES).filter_map(|diagnostic| drawing(diagnostic)).collect();
@@ -52,10 +53,10 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
     diagnostics.iter().enumerate().map(picture).collect()
 }
 
-/// A path with its drawing, and its scene if anything is cut.
+/// The file of a drawing, the name of a path in it, and the path's scene if the path cuts anything.
 type StockScene<'d> = ((&'d Utf8Path, &'d str), Option<Scene>);
 
-/// The drawing and the path of a finding about a finished part, which its stock shows.
+/// Returns the drawing and the path of a finding about a finished part, which is shown in a picture of the stock.
 fn part_and_path(diagnostic: &Diagnostic) -> Option<(&Utf8Path, &str)> {
     let is_about_part = matches!(
         diagnostic.code(),
@@ -69,14 +70,14 @@ fn part_and_path(diagnostic: &Diagnostic) -> Option<(&Utf8Path, &str)> {
     Some((drawing(diagnostic)?, diagnostic.path.as_deref()?)).filter(|_| is_about_part)
 }
 
-/// The drawing in which a finding has a place.
+/// Returns the drawing that contains the place of a finding.
 fn drawing(diagnostic: &Diagnostic) -> Option<&Utf8Path> {
     diagnostic.place.point?;
     let file = diagnostic.file.as_deref()?;
     is_drawing(file).then_some(file)
 }
 
-/// The place of a finding, with further places named in its message and notes.
+/// Returns the place of a finding, with further places mentioned in its message and notes.
 fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<Spot> {
     let pair = |point: pathbuild_diagnostic::Point| [point.x.0, point.y.0];
     let at = places.and_then(|places| places.of(diagnostic)).or(diagnostic.place.point.map(pair))?;
@@ -98,7 +99,7 @@ fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<Spot> {
     Some(Spot { at, related, circle, is_error: diagnostic.is_error() })
 }
 
-/// Writes a picture of each finding that has a place into a directory, and returns errors. The same finding has the same file name in every
+/// Writes a picture of each finding that has a place into a directory. Returns errors. The same finding has the same file name in every
 /// run.
 pub(crate) fn write(workspace: &Workspace, directory: &Utf8Path, findings: &Findings) -> Vec<Diagnostic> {
     let directory = workspace.working_directory.join(directory);
@@ -116,10 +117,10 @@ pub(crate) fn write(workspace: &Workspace, directory: &Utf8Path, findings: &Find
     problems
 }
 
-/// Upper bound in bytes on the part of a picture's name that stems from the drawing.
+/// Maximum length in bytes of the part of a picture's name that is taken from the drawing.
 const LONGEST_STEM: usize = 80;
 
-/// `2050.1P-PB401-3f2a9c0d.svg`
+/// Returns the file name of a finding's picture, such as `2050.1P-PB401-3f2a9c0d.svg`.
 fn name(diagnostic: &Diagnostic, fingerprint: Fingerprint) -> Utf8PathBuf {
     let stem = diagnostic.file.as_deref().and_then(Utf8Path::file_stem).unwrap_or_default();
     let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, '.' | '_' | ' ' | '~');

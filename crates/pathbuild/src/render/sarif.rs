@@ -1,5 +1,5 @@
-//! SARIF 2.1.0 for GitHub code scanning and others: file names are relative to the source root, the path is a logical location, point and
-//! handle are properties.
+//! Renders findings as SARIF 2.1.0, for GitHub code scanning and other tools. File names are relative to the source root, the path is a
+//! logical location, and the point and the handle are properties.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::findings::Fingerprint;
 use pathbuild_workspace::waivers::Waiver;
 
-/// Upper bound on results: GitHub refuses runs with more.
+/// Maximum number of results. GitHub refuses runs with more.
 const MOST_RESULTS: usize = 25_000;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
@@ -43,7 +43,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     format!("{log:#}\n")
 }
 
-/// A finding to be shown; accepted ones have a waiver.
+/// A finding to be shown. An accepted one has a waiver.
 struct ShownFinding<'a> {
     diagnostic: &'a Diagnostic,
     fingerprint: Fingerprint,
@@ -55,7 +55,7 @@ fn reported(findings: &Findings) -> Vec<ShownFinding<'_>> {
     findings.diagnostics.iter().zip(Fingerprint::of(&findings.diagnostics)).map(shown).collect()
 }
 
-/// The findings that are accepted for a stated reason.
+/// Returns the findings that are accepted for a stated reason.
 fn accepted(findings: &Findings) -> impl Iterator<Item = ShownFinding<'_>> {
     let all: Vec<Diagnostic> = findings.waived.iter().map(|waived| waived.diagnostic.clone()).collect();
     let accepted = findings.waived.iter().zip(Fingerprint::of(&all));
@@ -79,7 +79,7 @@ fn rule(code: Code, view: &View) -> Json {
     rule
 }
 
-/// First paragraph of a page.
+/// Returns the first paragraph of a page.
 fn description(page: &str) -> String {
     let text = page.lines().skip_while(|line| line.starts_with('#') || line.trim().is_empty());
     let text: Vec<&str> = text.take_while(|line| !line.trim().is_empty()).collect();
@@ -130,7 +130,7 @@ fn result(shown: &ShownFinding<'_>, rules: &[Code], view: &View) -> Json {
     result
 }
 
-/// Message, help, and place. SARIF viewers would not show the place otherwise.
+/// Returns the message with the help and the place, which SARIF viewers would not show otherwise.
 fn message(diagnostic: &Diagnostic, view: &View) -> String {
     let element = view::element(diagnostic, view);
     let parts =

@@ -5,23 +5,23 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Lang, Severity, TraceStep, Value, shown};
 use pathbuild_workspace::config::clean;
 
-/// Properties of the output device: language, colours, width, and how file names are shown.
+/// Properties of an output device: language, colours, width, and form of file names.
 #[derive(Clone, Debug)]
 pub struct View {
     /// Language of messages.
     pub lang: Lang,
     /// Whether colour escape sequences are supported.
     pub color: bool,
-    /// Column to wrap at; `None` disables wrapping.
+    /// Column at which text is wrapped; `None` disables wrapping.
     pub width: Option<usize>,
-    /// Directory that displayed file names are relative to.
+    /// Directory that file names shown to users are relative to.
     pub base: Utf8PathBuf,
-    /// Directory that file names in machine-readable formats are relative to, possibly above `base`; `None` uses `base`.
+    /// Directory that file names in machine-readable formats are relative to, possibly above `base`; `None` means `base`.
     pub root: Option<Utf8PathBuf>,
 }
 
 impl View {
-    /// A file name for users: relative to the base if inside it, with `/` as separator, and with control characters escaped.
+    /// Returns a file name for users: relative to the base if it is inside, with `/` as separator, and with control characters escaped.
     pub fn name<'a>(&self, file: &'a Utf8Path) -> Cow<'a, str> {
         match self.raw_name(file) {
             Cow::Borrowed(name) => shown::line(name),
@@ -29,7 +29,7 @@ impl View {
         }
     }
 
-    /// A file name for formats that escape characters themselves.
+    /// Returns a file name for formats that escape characters themselves.
     pub fn raw_name<'a>(&self, file: &'a Utf8Path) -> Cow<'a, str> {
         match &self.root {
             None => Cow::Borrowed(file.strip_prefix(&self.base).unwrap_or(file).as_str()),
@@ -40,30 +40,30 @@ impl View {
         }
     }
 
-    /// Name of a diagnostic's file for users.
+    /// Returns the name of a diagnostic's file for users.
     pub fn file<'a>(&self, diagnostic: &'a Diagnostic) -> Option<Cow<'a, str>> {
         diagnostic.file.as_deref().map(|file| self.name(file))
     }
 
-    /// Name of a diagnostic's file for formats that escape characters themselves.
+    /// Returns the name of a diagnostic's file for formats that escape characters themselves.
     pub fn raw_file<'a>(&self, diagnostic: &'a Diagnostic) -> Option<Cow<'a, str>> {
         diagnostic.file.as_deref().map(|file| self.raw_name(file))
     }
 
-    /// Help and notes of a diagnostic, one per line.
+    /// Returns the help and the notes of a diagnostic, one per line.
     pub fn help(&self, diagnostic: &Diagnostic) -> Option<String> {
         let notes = diagnostic.notes.iter().map(|note| note.text(self.lang));
         let lines: Vec<String> = diagnostic.help(self.lang).into_iter().chain(notes).collect();
         (!lines.is_empty()).then(|| lines.join("\n"))
     }
 
-    /// Picks the phrase in the view's language.
+    /// Returns the phrase in the view's language.
     pub fn choose<'a>(&self, en: &'a str, de: &'a str) -> &'a str {
         self.lang.choose(en, de)
     }
 }
 
-/// `parts/2913.dxf:1234:5`, as far as known; editors can open this place.
+/// Formats the location of a diagnostic as far as it is known, so that editors can open it: `parts/2913.dxf:1234:5`.
 pub(super) fn location(diagnostic: &Diagnostic, view: &View) -> Option<String> {
     let mut location = view.file(diagnostic)?.into_owned();
     for number in [diagnostic.place.line, diagnostic.place.column].into_iter().flatten() {
@@ -72,7 +72,8 @@ pub(super) fn location(diagnostic: &Diagnostic, view: &View) -> Option<String> {
     Some(location)
 }
 
-/// `path 2913.1P, LINE 4A1 on layer 2913.1P~A at (12.5, 30)`, as far as known; may be empty.
+/// Formats the element that a diagnostic is about, as far as it is known: `path 2913.1P, LINE 4A1 on layer 2913.1P~A at (12.5, 30)`. May
+/// be empty.
 pub(super) fn element(diagnostic: &Diagnostic, view: &View) -> String {
     let place = &diagnostic.place;
     let mut parts = Vec::new();
@@ -99,7 +100,7 @@ pub(super) fn element(diagnostic: &Diagnostic, view: &View) -> String {
     parts.join(", ")
 }
 
-/// `embedded by 8001.1P at (10, 20), projects/8001.dxf`
+/// Formats an embedding: `embedded by 8001.1P at (10, 20), projects/8001.dxf`.
 pub(super) fn embedding(step: &TraceStep, view: &View) -> String {
     let (by, at) = (view.choose("embedded by", "eingebettet von"), view.choose("at", "bei"));
     format!(
@@ -110,7 +111,7 @@ pub(super) fn embedding(step: &TraceStep, view: &View) -> String {
     )
 }
 
-/// `error` or `warning`
+/// Returns the word `error` or `warning` in the view's language.
 pub(super) fn severity(severity: Severity, view: &View) -> &'static str {
     match severity {
         Severity::Error => view.choose("error", "Fehler"),

@@ -1,4 +1,4 @@
-//! Address on which the server listens, and the names by which it may be called.
+//! The address on which the server listens, the host names that it accepts, and the checks of requests.
 
 use std::convert::Infallible;
 use std::io;
@@ -19,15 +19,15 @@ use tokio::time::sleep;
 
 use crate::args::{Address, Host};
 
-/// Default port.
+/// Port used by default.
 pub(super) const PORT: u16 = 8347;
 
-/// A listening socket with the names it answers to.
+/// The address of a listening socket, and what requests to it must contain.
 pub(super) struct Endpoint {
-    /// The host that was requested.
+    /// Host that was requested on the command line.
     host: Host,
     local: SocketAddr,
-    /// Secret that pages must present; `None` if only this machine can connect.
+    /// Secret that pages must present; `None` if only this machine can connect, so that none is needed.
     token: Option<String>,
 }
 
@@ -35,7 +35,7 @@ impl Endpoint {
     /// Starts listening.
     ///
     /// # Errors
-    /// Why the address cannot be used.
+    /// The reason why the address cannot be used.
     pub(super) fn open(address: &Address) -> io::Result<(TcpListener, Self)> {
         let listener = match address.port {
             Some(port) => bind(&address.host, port)?,
@@ -58,7 +58,7 @@ impl Endpoint {
         self.token.as_deref()
     }
 
-    /// The URL for a browser. The token is in the fragment, which browsers send to no server and no proxy.
+    /// Returns the URL for a browser. The token is in the fragment, which browsers send to no server and no proxy.
     pub(super) fn link(&self) -> String {
         let host = match &self.host {
             Host::Name(name) => name.clone(),
@@ -69,8 +69,8 @@ impl Endpoint {
         format!("http://{host}:{}/{fragment}", self.port())
     }
 
-    /// Whether `authority` in a `Host` header means this server. Other names must be refused: their owners could point them here, and pages
-    /// from there would be allowed to read everything (DNS rebinding).
+    /// Whether `authority` in a `Host` header refers to this server. Other names must be refused, because their owners could let them
+    /// point to this server, and pages of their sites could then read everything (DNS rebinding).
     pub(super) fn answers_to(&self, authority: &str) -> bool {
         let authority = authority.to_ascii_lowercase();
         let suffix = format!(":{}", self.port());
@@ -98,7 +98,7 @@ fn bind(host: &Host, port: u16) -> io::Result<TcpListener> {
     }
 }
 
-/// Formats an address for a URL.
+/// Formats an IP address for a URL.
 fn literal(ip: IpAddr) -> String {
     match ip {
         IpAddr::V4(ip) => ip.to_string(),
@@ -106,13 +106,13 @@ fn literal(ip: IpAddr) -> String {
     }
 }
 
-/// Whether the host is an IP address, which cannot be redirected by DNS.
+/// Whether a host is an IP address, which DNS cannot redirect.
 fn is_literal(host: &str) -> bool {
     let inner = host.strip_prefix('[').and_then(|host| host.strip_suffix(']'));
     inner.map_or_else(|| host.parse::<Ipv4Addr>().is_ok(), |host| host.parse::<Ipv6Addr>().is_ok())
 }
 
-/// The address by which others reach this machine if it listens on all addresses. Sends nothing.
+/// Returns the address by which other machines reach this one if the server listens on all addresses. Sends nothing.
 fn own_address(unspecified: IpAddr) -> IpAddr {
     let (from, to, loopback): (_, SocketAddr, IpAddr) = match unspecified {
         IpAddr::V4(_) => (unspecified, (Ipv4Addr::new(192, 0, 2, 1), 9).into(), Ipv4Addr::LOCALHOST.into()),
@@ -129,7 +129,7 @@ fn own_address(unspecified: IpAddr) -> IpAddr {
     route().unwrap_or(loopback)
 }
 
-/// A random number of 128 bits in hexadecimal.
+/// Returns a random number of 128 bits in hexadecimal.
 pub(super) fn random() -> io::Result<String> {
     let mut bits = [0; 16];
     getrandom::fill(&mut bits).map_err(io::Error::other)?;
@@ -139,10 +139,10 @@ pub(super) fn random() -> io::Result<String> {
 /// Prefix of routes that return data of drawings.
 pub(super) const DATA: &str = "/api/";
 
-/// Route that gets the text of a program. Nothing of it is kept.
+/// Route that receives the text of a program, which the server does not store.
 pub(super) const PROGRAM: &str = "/api/program";
 
-/// The method of a route.
+/// Returns the method that a route accepts.
 pub(super) fn method(path: &str) -> Method {
     if path == PROGRAM { Method::POST } else { Method::GET }
 }
@@ -150,7 +150,7 @@ pub(super) fn method(path: &str) -> Method {
 /// Decides whether a request is answered.
 ///
 /// # Errors
-/// Status of a refused request.
+/// The status with which the request is refused.
 pub(super) fn admit(endpoint: &Endpoint, request: &Parts) -> Result<(), StatusCode> {
     if request.method != method(request.uri.path()) {
         return Err(StatusCode::METHOD_NOT_ALLOWED);
@@ -159,7 +159,7 @@ pub(super) fn admit(endpoint: &Endpoint, request: &Parts) -> Result<(), StatusCo
         SingleHeader::One(host) => endpoint.answers_to(host),
         SingleHeader::None | SingleHeader::Other => false,
     };
-    // The request line may name another server than the header.
+    // The request line may name another server than the `Host` header.
     let is_meant = request.uri.authority().is_none_or(|authority| endpoint.answers_to(authority.as_str()));
     if !is_called_rightly || !is_meant {
         return Err(StatusCode::MISDIRECTED_REQUEST);
@@ -189,7 +189,7 @@ fn has_token(headers: &HeaderMap, token: &str) -> bool {
     blake3::hash(given.as_bytes()) == blake3::hash(token.as_bytes())
 }
 
-/// Value of a header that may occur only once.
+/// The value of a header that may occur only once.
 enum SingleHeader<'a> {
     None,
     One(&'a str),
@@ -206,7 +206,8 @@ fn single(headers: &HeaderMap, name: header::HeaderName) -> SingleHeader<'_> {
     }
 }
 
-/// Headers of every response: nothing is loaded from elsewhere, nothing is cached, no other page may embed it.
+/// Headers of every response. They ensure that nothing is loaded from elsewhere, that nothing is cached, and that no other page can embed
+/// it.
 pub(super) const HEADERS: [(header::HeaderName, &str); 5] = [
     (
         header::CONTENT_SECURITY_POLICY,
@@ -218,20 +219,20 @@ pub(super) const HEADERS: [(header::HeaderName, &str); 5] = [
     (header::CACHE_CONTROL, "no-store"),
 ];
 
-/// Upper bound on concurrent connections; further ones wait. A page uses two, and briefly a third.
+/// Maximum number of concurrent connections; further ones wait. A page uses two, and briefly a third.
 const MAX_CONNECTIONS: usize = 256;
 
-/// Time that a connection may take to send a request. Responses, such as the event stream, may take longer.
+/// Time within which a connection must send its request. Responses, such as the event stream, may take longer.
 const REQUEST_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// Pause after a system error, such as too many open files.
+/// Pause after a system error, such as too many open files, before the next connection is accepted.
 const ERROR_PAUSE: Duration = Duration::from_secs(1);
 
 /// Accepts and serves connections forever.
 pub(super) async fn answer(listener: tokio::net::TcpListener, router: Router) -> Infallible {
     let free = Arc::new(Semaphore::new(MAX_CONNECTIONS));
     loop {
-        // The semaphore is never closed, so a permit is always available eventually.
+        // The semaphore is never closed, so waiting for a permit cannot fail.
         let permit = Arc::clone(&free).acquire_owned().await.ok();
         let stream = next(&listener).await;
         let router = router.clone();
@@ -239,7 +240,7 @@ pub(super) async fn answer(listener: tokio::net::TcpListener, router: Router) ->
             let _permit = permit;
             let mut http = http1::Builder::new();
             http.timer(TokioTimer::new()).header_read_timeout(REQUEST_TIMEOUT);
-            // Malformed or missing requests are answered by closing the connection.
+            // A malformed or missing request is answered by closing the connection.
             _ = http.serve_connection(TokioIo::new(stream), TowerToHyperService::new(router)).await;
         });
     }

@@ -10,14 +10,14 @@ use pathbuild_workspace::dropped::DroppedProgram;
 use pathbuild_workspace::watch::Bell;
 use tokio::sync::{oneshot, watch};
 
-/// Published state and pending questions.
+/// The published state, and the pending questions of pages.
 #[derive(Default)]
 pub(super) struct Hub {
     state: Mutex<State>,
     revisions: watch::Sender<u64>,
 }
 
-/// Published state.
+/// The state that pages show.
 #[derive(Default)]
 pub(super) struct State {
     /// Number of the last change.
@@ -29,25 +29,25 @@ pub(super) struct State {
     pub(super) statistics: String,
     /// Diagnostics of the configuration and of directories, as JSON.
     problems: String,
-    /// Whether everything has been checked once.
+    /// Whether all drawings have been checked once.
     pub(super) is_complete: bool,
-    /// Why nothing is checked until the user fixes it, as JSON; empty while checks run.
+    /// Reason why nothing is checked until the user fixes an error, as JSON; empty while checks run.
     halted: String,
     bell: Option<Bell>,
     questions: Vec<Question>,
     is_over: bool,
 }
 
-/// Published facts about a drawing.
+/// The facts about a drawing that are published.
 struct PublishedDrawing {
     revision: u64,
-    /// Its rows, as JSON.
+    /// Rows of the drawing in the list, as JSON.
     text: String,
 }
 
 /// A request of a page for a picture or a scene.
 pub(super) struct Question {
-    /// The subject of the scene or picture.
+    /// Subject of the scene or picture.
     pub(super) subject: Subject,
     /// Receives the answer; `None` means that there is no such path.
     pub(super) answer: oneshot::Sender<Option<String>>,
@@ -57,9 +57,9 @@ pub(super) struct Question {
 pub(super) enum Subject {
     /// A drawing of the library.
     Drawing {
-        /// Its name in the list.
+        /// Name of the drawing in the list.
         file: String,
-        /// The path; `None` for the whole drawing.
+        /// Name of the path; `None` for the whole drawing.
         path: Option<String>,
         /// Form of the answer.
         form: AnswerForm,
@@ -68,12 +68,12 @@ pub(super) enum Subject {
     Program(DroppedProgram),
 }
 
-/// Form in which a drawing or path is returned.
+/// The form in which a drawing or path is returned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum AnswerForm {
-    /// Scene as JSON.
+    /// A scene as JSON.
     Scene,
-    /// Picture as SVG.
+    /// A picture as SVG.
     Picture,
 }
 
@@ -95,7 +95,7 @@ impl Hub {
         }
     }
 
-    /// Publishes why nothing is checked any more.
+    /// Publishes the reason why nothing is checked any more.
     pub(super) fn halt(&self, problems: &[Diagnostic], reason: &str) {
         self.publish(|state, _| {
             state.halted = serde_json::Value::from(reason).to_string();
@@ -104,14 +104,14 @@ impl Hub {
         self.leave();
     }
 
-    /// Drops pending questions, because they will not be answered any more.
+    /// Drops pending questions, because nobody will answer them any more.
     pub(super) fn leave(&self) {
         let mut state = self.state();
         state.bell = None;
         state.questions.clear();
     }
 
-    /// Changes the published state. The closure gets the number of the change.
+    /// Changes the published state. The closure gets the number of the new change.
     pub(super) fn publish<R>(&self, change: impl FnOnce(&mut State, u64) -> R) -> R {
         let mut state = self.state();
         state.revision += 1;
@@ -122,17 +122,17 @@ impl Hub {
         result
     }
 
-    /// Notifies of new changes by their numbers.
+    /// Returns a receiver that is notified of new changes by their numbers.
     pub(super) fn revisions(&self) -> watch::Receiver<u64> {
         self.revisions.subscribe()
     }
 
-    /// The changes since a revision as JSON, with at most `most` drawings.
+    /// Returns the changes since a revision as JSON, with at most `most` drawings.
     pub(super) fn library(&self, since: u64, most: usize) -> String {
         self.state().to_json(since, most)
     }
 
-    /// Asks the watching thread for a scene or picture. The channel is closed if there is no such thread.
+    /// Asks the watching thread for a scene or picture. If no such thread is running, the returned channel is closed.
     pub(super) fn ask(&self, subject: Subject) -> oneshot::Receiver<Option<String>> {
         let (answer, answered) = oneshot::channel();
         let mut state = self.state();
@@ -143,12 +143,12 @@ impl Hub {
         answered
     }
 
-    /// Takes the pending questions.
+    /// Removes and returns the pending questions.
     pub(super) fn questions(&self) -> Vec<Question> {
         std::mem::take(&mut self.state().questions)
     }
 
-    /// Requests the end of watching.
+    /// Requests that watching ends.
     pub(super) fn end(&self) {
         let mut state = self.state();
         state.is_over = true;

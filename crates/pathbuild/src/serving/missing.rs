@@ -1,4 +1,4 @@
-//! Replacement for `watch --serve` in builds without it.
+//! Replaces `watch --serve` in builds without the server.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_workspace::watch::Listener;
@@ -6,12 +6,12 @@ use pathbuild_workspace::watch::Listener;
 use crate::args::ServeArgs;
 use crate::context::Context;
 
-/// A server that cannot exist.
+/// A server that cannot exist in this build.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Server {}
 
 impl Server {
-    /// Refuses `--serve`.
+    /// Refuses `--serve`, because this build has no server.
     pub(crate) fn start(context: &Context, args: &ServeArgs) -> Result<Option<Self>, String> {
         let missing = context.choose(
             "--serve: this pathbuild was built without the feature `serve`",

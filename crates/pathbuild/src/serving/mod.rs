@@ -1,8 +1,10 @@
 //! `watch --serve`: the library as a live page. (book: program/live)
 //!
-//! The watching thread owns the session. It publishes the list of paths and answers questions through a [`Hub`]; the server runs in its own
-//! thread and knows only the hub. Every change has a number: pages are notified of new numbers by events, and request all changes since the
-//! one they know.
+//! The watching thread owns the session. It publishes the list of paths and answers questions through a [`Hub`]. The server runs in its
+//! own
+//! thread and knows only the hub. Every change has a number. Pages are notified of new numbers by events, and request all changes since
+//! the
+//! last one that they know.
 
 mod endpoint;
 mod hub;
@@ -24,7 +26,7 @@ use hub::Hub;
 use page::Page;
 use routes::Routes;
 
-/// A running server, which outlives changes of the configuration.
+/// A running server. It outlives changes of the configuration.
 pub(crate) struct Server {
     hub: Arc<Hub>,
     waits: bool,
@@ -34,7 +36,7 @@ impl Server {
     /// Starts the server if the arguments request it.
     ///
     /// # Errors
-    /// Why it cannot be started.
+    /// The reason why the server cannot be started.
     pub(crate) fn start(context: &Context, args: &ServeArgs) -> Result<Option<Self>, String> {
         let Some(address) = &args.serve else { return Ok(None) };
         let (listener, endpoint) = Endpoint::open(address).map_err(|reason| format!("--serve: {reason}"))?;
@@ -55,22 +57,22 @@ impl Server {
         Ok(Some(Self { hub, waits: args.until_closed }))
     }
 
-    /// The listener that feeds the page under one configuration.
+    /// Returns the listener that updates the page while one configuration is in force.
     pub(crate) fn page<'a>(&self, context: &'a Context) -> Box<dyn Listener + 'a> {
         Box::new(Page::new(context, Arc::clone(&self.hub)))
     }
 
-    /// Shows on the page why nothing is checked.
+    /// Shows on the page the reason why nothing is checked.
     pub(crate) fn halt(&self, problems: &[Diagnostic], reason: &str) {
         self.hub.halt(problems, reason);
     }
 
-    /// Whether the end was requested.
+    /// Whether the user has requested the end of watching.
     pub(crate) fn is_over(&self) -> bool {
         self.hub.is_over()
     }
 
-    /// Whether to wait for fixes even at the beginning, because the user only sees the page.
+    /// Whether to wait for fixes if the configuration is invalid at the beginning, because the user only sees the page.
     pub(crate) fn waits(&self) -> bool {
         self.waits
     }

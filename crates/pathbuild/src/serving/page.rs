@@ -1,4 +1,4 @@
-//! Feeds the page from the watching thread.
+//! Updates the page from the watching thread.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
@@ -19,14 +19,14 @@ use serde_json::{Value, json};
 use super::hub::{AnswerForm, Hub, Question, Subject};
 use crate::context::Context;
 
-/// The page of a watched library.
+/// Updates the page of a watched library.
 pub(super) struct Page<'a> {
     context: &'a Context,
     hub: Arc<Hub>,
     library: RefCell<Library>,
 }
 
-/// Published rows.
+/// The rows that have been published.
 #[derive(Default)]
 struct Library {
     rows: BTreeMap<Utf8PathBuf, Vec<Row>>,
@@ -39,7 +39,7 @@ impl<'a> Page<'a> {
         Self { context, hub, library: RefCell::default() }
     }
 
-    /// The scene or picture of a listed drawing or path; others are not accessible.
+    /// Returns the scene or picture of a drawing or path in the list. Other drawings are not accessible.
     fn seen(
         &self,
         session: &mut Session<'_>,
@@ -57,7 +57,7 @@ impl<'a> Page<'a> {
             };
             let file_name = file.path(session.db()).as_str();
             let post_processor = PostProcessor::for_run(self.context, None, PostArguments::default());
-            // A broken post is already reported for the whole library.
+            // If the post is invalid, show the native text: the error is already reported for the whole library.
             let text = post_processor
                 .as_ref()
                 .map_or(ShownText::Native, |post_processor| ShownText::Emitted(post_processor.as_ref()));
@@ -143,7 +143,7 @@ impl Listener for Page<'_> {
 
     fn woken(&self, session: &mut Session<'_>) {
         for Question { subject, answer } in self.hub.questions() {
-            // The client may have disconnected.
+            // Skip questions of clients that have disconnected.
             if answer.is_closed() {
                 continue;
             }

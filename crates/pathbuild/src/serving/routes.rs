@@ -33,29 +33,29 @@ pub(super) struct Routes {
     endpoint: Endpoint,
     hub: Arc<Hub>,
     lang: Lang,
-    /// Identifies this run: pages of an earlier run reload everything.
+    /// Identifies this run of the server. Pages of an earlier run reload everything.
     run: String,
     /// Number of open pages.
     pages: watch::Sender<usize>,
 }
 
-/// Time within which a page must reconnect, for example when it is reloaded.
+/// Time within which a page must reconnect, for example after it was reloaded, before it counts as closed.
 const RECONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 
-/// Time that a browser may take to start.
+/// Time that a browser may take to start before the page counts as closed.
 const START: Duration = Duration::from_secs(90);
 
 impl Routes {
-    /// Prepares the routes.
+    /// Creates the routes.
     ///
     /// # Errors
-    /// If the system provides no random numbers.
+    /// The system provides no random numbers.
     pub(super) fn new(endpoint: Endpoint, hub: Arc<Hub>, lang: Lang) -> Result<Self, String> {
         let run = random().map_err(|error| error.to_string())?;
         Ok(Self { endpoint, hub, lang, run, pages: watch::Sender::new(0) })
     }
 
-    /// Serves until the program ends.
+    /// Serves requests until the program ends.
     pub(super) fn run(self, listener: TcpListener, until_closed: bool) {
         let Ok(runtime) = runtime::Builder::new_current_thread().enable_all().build() else {
             return self.hub.end();
@@ -75,7 +75,7 @@ impl Routes {
     }
 }
 
-/// Ends watching on Ctrl+C, and the process on the second Ctrl+C.
+/// Ends watching on the first Ctrl+C, and the process on the second one.
 async fn end_by_key(hub: Arc<Hub>) {
     if tokio::signal::ctrl_c().await.is_ok() {
         hub.end();
@@ -137,7 +137,7 @@ fn file(kind: &'static str, text: &'static str) -> impl IntoResponse {
 
 #[derive(Deserialize)]
 struct ChangesQuery {
-    /// Number of the last change that the page knows.
+    /// Number of the last change that the page knows; 0 if it knows none.
     #[serde(default)]
     since: u64,
     /// Maximum number of drawings to return; `None` means all.
@@ -152,7 +152,7 @@ async fn library(
         .into_response()
 }
 
-/// A path, or a whole drawing.
+/// Query of a request for a path, or for a whole drawing.
 #[derive(Deserialize)]
 struct SceneQuery {
     file: String,
@@ -173,10 +173,10 @@ fn drawing(SceneQuery { file, path }: SceneQuery, form: AnswerForm) -> Subject {
     Subject::Drawing { file, path, form }
 }
 
-/// Size in bytes of the largest program that a page may send.
+/// Maximum size in bytes of a program that a page may send.
 const LARGEST_PROGRAM: usize = 64 << 20;
 
-/// The name of a program, and what is assumed for it.
+/// Query of a request that sends a program: the program's name, and assumptions about it.
 #[derive(Deserialize)]
 struct ProgramQuery {
     name: String,
@@ -202,7 +202,7 @@ async fn answer_with(routes: &Routes, subject: Subject, kind: &'static str) -> R
     }
 }
 
-/// Stream of the numbers of changes, beginning with the last one.
+/// Returns a stream of the numbers of changes, beginning with the last one.
 async fn events(State(routes): State<Arc<Routes>>) -> impl IntoResponse {
     let (revisions, run) = (routes.hub.revisions(), routes.run.clone());
     let open = OpenPage::new(routes.pages.clone());
@@ -220,7 +220,7 @@ async fn events(State(routes): State<Arc<Routes>>) -> impl IntoResponse {
     Sse::new(numbers).keep_alive(KeepAlive::default())
 }
 
-/// Counts as an open page until dropped.
+/// Counts an open page until it is dropped.
 struct OpenPage(watch::Sender<usize>);
 
 impl OpenPage {

@@ -25,7 +25,7 @@ use crate::render::Format;
 use output::Output;
 use revision::Revision;
 
-/// Runs the command. Changes are not errors, but paths that can no longer be compared are.
+/// Runs the command. Changed paths are not errors, but paths that can no longer be compared are.
 pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
     let output = match Output::of(context, args.output.as_deref()) {
         Ok(output) => output,
@@ -95,18 +95,18 @@ fn finish(context: &Context, output: &Output, comparison: &Comparison) -> ExitSt
     }
 }
 
-/// One side of the comparison.
+/// One side of a comparison.
 pub(super) enum Side {
     Drawings(Box<Drawings>),
     Program(Box<ComparedProgram>),
 }
 
-/// Drawings below a directory, with their configuration.
+/// The drawings below a directory, with their configuration.
 pub(super) struct Drawings {
     pub(super) workspace: Workspace,
     pub(super) inputs: Inputs,
     pub(super) root: Utf8PathBuf,
-    /// The revision that they were checked out from; owns the files.
+    /// The revision from which the drawings were checked out. It owns their files.
     revision: Option<Revision>,
 }
 
@@ -116,23 +116,23 @@ pub(super) struct ComparedProgram {
     pub(super) problems: Vec<Diagnostic>,
 }
 
-/// Why nothing can be compared.
+/// The reason why nothing can be compared.
 pub(super) enum Failure {
     Usage(String),
     Refused(Vec<Diagnostic>),
     Found(Vec<Diagnostic>),
 }
 
-/// Kind of an argument.
+/// The kinds of arguments that can be compared.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum ArgumentKind {
     Drawings,
     Program,
-    /// A revision, or a path if the other argument is a program.
+    /// The name of a revision, or of a path if the other argument is a program.
     Name,
 }
 
-/// Resolves both sides, the old one first.
+/// Resolves both sides of the comparison, the old one first.
 pub(super) fn sides(context: &Context, args: &DiffArgs) -> Result<[Side; 2], Failure> {
     let new = args.new.as_deref().unwrap_or(".");
     let arguments = [args.old.as_str(), new];
@@ -177,7 +177,7 @@ fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revisio
     let root = if is_drawing { place.parent().unwrap_or(Utf8Path::new("")).to_owned() } else { place };
     let absolute =
         |place: &Utf8Path| pathbuild_workspace::config::clean(&context.working_directory.join(place));
-    // A directory with a configuration stands for its library.
+    // A directory that has a configuration with a library stands for the library.
     let is_library = !is_drawing
         && workspace.has_library()
         && workspace.settings.directory().is_some_and(|directory| absolute(directory) == absolute(&root));
@@ -186,7 +186,7 @@ fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revisio
 }
 
 impl Drawings {
-    /// Renames files of a revision to `REVISION:FILE`, as Git does.
+    /// Renames files of a revision in diagnostics to `REVISION:FILE`, as Git does.
     pub(super) fn name(&self, context: &Context, problems: &mut [Diagnostic]) {
         let Some(revision) = &self.revision else { return };
         for problem in problems {
@@ -205,7 +205,7 @@ fn program(context: &Context, file: &Utf8Path, args: &DiffArgs) -> Result<Compar
     Ok(ComparedProgram { path: program.scene_path(context), problems: program.read.problems })
 }
 
-/// The program of a path in the working directory, for comparing it with the program in a file.
+/// Returns the program of a path in the working directory, for comparing it with a program in a file.
 fn path(
     context: &Context,
     name: &str,
@@ -245,7 +245,8 @@ fn path(
     })
 }
 
-/// The configured post-processor if it has written a program. Its rounding and its additional moves then do not count as differences.
+/// Returns the configured post-processor if it has written a program. If the path's program is also written by it, its rounding and its
+/// additional moves do not count as differences.
 fn post_processor_of(context: &Context, program: &Utf8Path) -> Option<PostProcessor> {
     let head = context.system.head(program, HEAD).ok()?;
     let (provenance, _) = Provenance::of_head(&head)?;
@@ -253,7 +254,7 @@ fn post_processor_of(context: &Context, program: &Utf8Path) -> Option<PostProces
     (provenance.dialect.is_some() && post_processor.reader() == provenance.dialect).then_some(post_processor)
 }
 
-/// A path's program as read back from the text of its post-processor, as a file with this text is read.
+/// Replaces a path's program by the text of its post-processor, read in the same way as a program in a file.
 fn as_posted(context: &Context, path: ScenePath, args: &DiffArgs) -> Result<ScenePath, Failure> {
     let text = path.gcode.unwrap_or_default().into_bytes();
     let program = Program::of_text(context, Utf8Path::new(&path.file), text, args.reading.options());
@@ -261,7 +262,7 @@ fn as_posted(context: &Context, path: ScenePath, args: &DiffArgs) -> Result<Scen
     Ok(ScenePath { name: path.name, totals: path.totals, ..program.scene_path(context) })
 }
 
-/// A path's program as read back from its native text, with numbers rounded as printed.
+/// Replaces a path's program by its native text as read back, so that numbers are rounded as printed.
 fn as_printed(path: ScenePath) -> ScenePath {
     let text = path.gcode.unwrap_or_default();
     let read = interpret(text.as_bytes(), Dialect::Native, &Options::default());

@@ -1,4 +1,4 @@
-//! Writes a comparison to a file, besides printing it.
+//! Prints a comparison, and writes it to a file.
 
 use std::fmt::Write;
 
@@ -15,7 +15,7 @@ use crate::commands::state_word;
 use crate::context::Context;
 use crate::text::counted;
 
-/// A file to write with its format, if any.
+/// The file to write with its format; `None` if the comparison is only printed.
 pub(super) struct Output(Option<(Format, Utf8PathBuf)>);
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -25,10 +25,10 @@ enum Format {
 }
 
 impl Output {
-    /// Chooses the format by the extension.
+    /// Chooses the format of a file by its extension.
     ///
     /// # Errors
-    /// If the extension is unknown.
+    /// The extension is unknown.
     pub(super) fn of(context: &Context, file: Option<&Utf8Path>) -> Result<Self, String> {
         let Some(file) = file else { return Ok(Self(None)) };
         let format = match file.extension().unwrap_or_default().to_ascii_lowercase().as_str() {
@@ -50,10 +50,10 @@ impl Output {
         matches!(self.0, Some((Format::Html, _)))
     }
 
-    /// Writes the file.
+    /// Writes the file, if one was requested.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// The file cannot be written.
     pub(super) fn deliver(&self, context: &Context, comparison: &Comparison) -> Result<(), Box<Diagnostic>> {
         let Some((format, file)) = &self.0 else { return Ok(()) };
         let text = match format {
@@ -67,7 +67,7 @@ impl Output {
     }
 }
 
-/// The whole comparison: the outcome of each path, and a summary.
+/// Formats the whole comparison: the outcome of each path, and a summary.
 pub(super) fn text(comparison: &Comparison, lang: Lang) -> String {
     let mut text = String::new();
     for path in &comparison.paths {
@@ -91,7 +91,7 @@ pub(super) fn text(comparison: &Comparison, lang: Lang) -> String {
     text
 }
 
-/// The drawing of a path, or both if it moved to another drawing.
+/// Returns the drawing of a path, or both drawings if the path moved to another one.
 pub(super) fn place(path: &PathDiff) -> String {
     let [old, new] = path.files.each_ref().map(|file| file.as_deref().map(Utf8Path::as_str));
     match (old, new) {
@@ -101,10 +101,10 @@ pub(super) fn place(path: &PathDiff) -> String {
     }
 }
 
-/// The outcome of a path, in a few words.
+/// Describes the outcome of a path in a few words.
 pub(super) fn outcome(path: &PathDiff, comparison: &Comparison, lang: Lang) -> &'static str {
     let (en, de) = match &path.outcome {
-        // `check` builds no programs, so it does not report limits that only programs exceed.
+        // `check` would not report this error if it is a limit that only programs exceed, because `check` builds no programs.
         Outcome::Broken if comparison.has_error_of(path) => ("has errors now", "hat jetzt Fehler"),
         Outcome::Added => ("new", "neu"),
         Outcome::Removed => ("gone", "weg"),
@@ -121,7 +121,7 @@ pub(super) fn outcome(path: &PathDiff, comparison: &Comparison, lang: Lang) -> &
     lang.choose(en, de)
 }
 
-/// Errors that kept paths and drawings from being compared, one per line.
+/// Returns the errors that prevented comparing paths and drawings, one per line.
 pub(super) fn problems(comparison: &Comparison, lang: Lang) -> Vec<String> {
     let errors = comparison.problems.iter().flatten().filter(|problem| problem.is_error());
     let line = |problem: &Diagnostic| {
@@ -136,7 +136,7 @@ pub(super) fn problems(comparison: &Comparison, lang: Lang) -> Vec<String> {
     errors.map(line).collect()
 }
 
-/// One line for each kind of change, and one for the totals.
+/// Returns a line for each kind of change, and one for the totals.
 pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
     let mut lines: Vec<String> = program.groups.iter().map(|group| line(group, lang)).collect();
     if let [Some(old), Some(new)] = program.totals {
@@ -145,10 +145,11 @@ pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
     lines
 }
 
-/// Upper bound on the lines of an explanation. Those that are left out are counted.
+/// Maximum number of lines of an explanation. Further lines are counted.
 const MOST_REASONS: usize = 24;
 
-/// What explains the changes, if that is known: an introduction, then the reasons, each with its depth below it.
+/// Returns lines that explain the changes, each with its indentation level: an introduction, then the reasons, with the reasons of a
+/// reason below it. Empty if it is unknown whether there is an explanation.
 fn explanation(program: &ProgramDiff, lang: Lang) -> Vec<(usize, String)> {
     let Some(reasons) = &program.reasons else { return Vec::new() };
     if reasons.is_empty() {
@@ -194,7 +195,7 @@ fn totals(old: &Totals, new: &Totals, lang: Lang) -> String {
     format!("{}: {} → {} mm{minutes}", lang.choose("cutting", "Fräsweg"), length(old), length(new))
 }
 
-/// "2 of 35 paths changed, 1 new".
+/// Formats a summary such as "2 of 35 paths changed, 1 new".
 pub(super) fn summary(comparison: &Comparison, lang: Lang) -> String {
     let count = |is: fn(&Outcome) -> bool| comparison.paths.iter().filter(|path| is(&path.outcome)).count();
     let changed = count(|outcome| matches!(outcome, Outcome::Changed(_)));
@@ -229,7 +230,7 @@ fn tenths(value: f64) -> Number {
     Number((value * 10.0).round() / 10.0)
 }
 
-/// A table with one row per path.
+/// Formats the comparison as Markdown: a table with one row per path.
 pub(super) fn markdown(comparison: &Comparison, lang: Lang) -> String {
     let mut text = format!("**pathbuild**: {}\n", summary(comparison, lang));
     let problems = problems(comparison, lang);
@@ -260,7 +261,7 @@ fn table(text: &mut String, comparison: &Comparison, lang: Lang) {
     }
 }
 
-/// Escapes everything that could be markup or a mention as character references.
+/// Replaces every character that could be markup or begin a mention by a character reference.
 fn escaped_markdown(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in shown::line(text).chars() {
@@ -275,21 +276,21 @@ fn escaped_markdown(text: &str) -> String {
     escaped
 }
 
-/// Formats a name as code in a table cell.
+/// Formats a name as code within a table cell.
 fn cell_of(name: &str) -> String {
     code(name).replace('|', "\\|")
 }
 
-/// Formats a text as code, since GitHub turns addresses, numbers and hashes in ordinary text into links, however they are escaped.
+/// Formats a text as code, because GitHub turns addresses, numbers and hashes in ordinary text into links, even if they are escaped.
 fn code(text: &str) -> String {
     let text = shown::line(text);
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     let ticks = "`".repeat(longest + 1);
-    // Markdown strips the blanks next to the backticks.
+    // Markdown removes the blanks next to the backticks.
     format!("{ticks} {text} {ticks}")
 }
 
-/// Prints a line for each changed path, and one for the whole comparison.
+/// Prints a JSON row for each changed path, and one for the whole comparison.
 pub(super) fn rows(context: &Context, comparison: &Comparison) {
     for changed in &comparison.paths {
         context.row("path_change", path(changed, context.lang()));
@@ -395,7 +396,7 @@ fn thousandths(value: f64) -> f64 {
 
 const TEMPLATE: &str = include_str!("page.html");
 
-/// Renders the page.
+/// Renders the comparison as an HTML page.
 pub(super) fn page(comparison: &Comparison, lang: Lang) -> String {
     let (before, behind) = TEMPLATE.split_once("{{paths}}").unwrap_or((TEMPLATE, ""));
     let code = lang.choose("en", "de");
@@ -433,7 +434,7 @@ fn section(page: &mut String, path: &PathDiff, comparison: &Comparison, lang: La
     page.push_str("</section>\n");
 }
 
-/// Lists what explains the changes, the reasons of a reason below it.
+/// Adds nested lists of the reasons that explain the changes.
 fn reasons(page: &mut String, program: &ProgramDiff, lang: Lang) {
     let mut open = 0;
     for (depth, line) in explanation(program, lang) {
@@ -442,7 +443,7 @@ fn reasons(page: &mut String, program: &ProgramDiff, lang: Lang) {
             _ = writeln!(page, "<p>{line}</p>");
             continue;
         }
-        // Depths grow one by one; a list inside another one belongs to the item above it.
+        // Levels increase one by one. A nested list belongs to the item before it.
         if depth > open {
             page.push_str("<ul>\n");
         } else {
@@ -454,7 +455,8 @@ fn reasons(page: &mut String, program: &ProgramDiff, lang: Lang) {
     _ = writeln!(page, "{}", "</li></ul>".repeat(open));
 }
 
-/// Shows the pictures in three ways, and the stock if the change concerns it. Without scripts, only the changes are visible.
+/// Adds the pictures of a change: the changes, the old and the new moves, and the stock if it changes. Without scripts, only the changes
+/// are visible.
 fn show(page: &mut String, PictureSet { changes, old, new, stock }: &PictureSet, lang: Lang) {
     let button = |way: &str, en, de| format!("<button data-way=\"{way}\">{}</button>", lang.choose(en, de));
     let label = lang.choose("old to new", "alt bis neu");

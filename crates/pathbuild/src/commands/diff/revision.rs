@@ -15,9 +15,9 @@ use crate::context::Context;
 
 /// A checked-out revision; its files are removed when it is dropped.
 pub(super) struct Revision {
-    /// Name as given.
+    /// Name of the revision as given.
     pub(super) name: String,
-    /// Counterpart of the working directory in the revision.
+    /// Directory that corresponds to the working directory in the revision.
     pub(super) root: Utf8PathBuf,
     _files: TempDir,
 }
@@ -41,9 +41,9 @@ pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, Strin
     let files = tempfile::Builder::new().prefix("pathbuild-").tempdir().map_err(|error| error.to_string())?;
     let place = place_of(context, &files)?;
     let whole = place.join("tree");
-    // Mark it as a repository like the original, so that ignore files apply and no link leads out of it.
+    // Mark the directory as a repository, like the original, so that ignore files apply and no link leads out of it.
     fs::create_dir_all(whole.join(".git")).map_err(|error| error.to_string())?;
-    // An empty configuration here ends the search for one: the directories above are unrelated.
+    // An empty configuration ends the search for one, because the directories above are unrelated.
     File::create_new(place.join(FILE_NAME)).map_err(|error| error.to_string())?;
     let largest = context.settings.limits.file_size.value.max(MIN_SIZE_LIMIT);
     let mut checkout = Checkout { repository: &repository, whole: &whole, largest, left_out: Vec::new() };
@@ -77,22 +77,22 @@ fn report_left_out(context: &Context, left_out: &[String]) {
     }
 }
 
-/// Files up to this size in bytes are written even if the current limit is lower: the revision's configuration may allow more.
+/// Size in bytes up to which files are written even if the current limit is lower, because the revision's configuration may permit more.
 const MIN_SIZE_LIMIT: u64 = 1 << 30;
 
-/// Writes the files of a tree.
+/// Writes the files of a tree into a directory.
 struct Checkout<'a> {
     repository: &'a Repository<'a>,
     whole: &'a Utf8Path,
-    /// Upper bound on a file's size in bytes. A larger file is written with its length but without its content, so that reading it reports
-    /// the limit.
+    /// Maximum size of a file in bytes. A larger file is created with its length but without its content, so that reading it reports the
+    /// limit.
     largest: u64,
-    /// Drawings that could not be written.
+    /// Names of drawings that could not be written.
     left_out: Vec<String>,
 }
 
 impl Checkout<'_> {
-    /// Writes everything. Links come last, so that no file is written through one.
+    /// Writes all needed files. Links are written last, so that no file is written through a link.
     fn all(&mut self, entries: &[Entry]) -> Result<(), String> {
         let (plain, hostile): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| entry.is_plain());
         for entry in hostile {
@@ -103,7 +103,7 @@ impl Checkout<'_> {
         let links: Vec<&Entry> = of_kind(EntryKind::Link).collect();
         let targets = self.repository.targets(&ids(&links))?;
         let links: Vec<(&Entry, Option<String>)> = links.into_iter().zip(targets).collect();
-        // If a drawing is a link to another kind of file, its target is needed as well.
+        // If a drawing is a link to a file of another kind, the target is needed as well.
         let leads_elsewhere = |(entry, target): &(&Entry, Option<String>)| {
             is_drawing(Utf8Path::new(&entry.name)) && !target.as_deref().is_some_and(is_needed)
         };
@@ -117,7 +117,7 @@ impl Checkout<'_> {
         Ok(())
     }
 
-    /// Creates all directories, even those without needed files: a configuration may name them.
+    /// Creates all directories, even those without needed files, because a configuration may refer to them.
     fn directories(&self, entries: &[&Entry]) -> io::Result<()> {
         let directory = |entry: &&Entry| match entry.kind {
             EntryKind::Submodule => Some(Utf8PathBuf::from(&entry.name)),
@@ -138,7 +138,7 @@ impl Checkout<'_> {
                 Ok(bytes) => io::copy(bytes, &mut file).map(|_| ()),
                 Err(size) => file.set_len(size),
             },
-            // Two names may be the same where case is ignored.
+            // On systems that ignore case, two names may refer to the same file.
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
                 self.leave_out(entry);
                 Ok(())
@@ -176,7 +176,8 @@ fn link_to(_: &str, _: &Utf8Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// Whether the file is a drawing or affects how drawings are read. A large repository may contain many other files.
+/// Whether a file is a drawing or affects how drawings are read. Other files, of which a large repository may contain many, are not
+/// checked out.
 fn is_needed(name: &str) -> bool {
     let name = Utf8Path::new(name);
     let is_text =
@@ -186,8 +187,8 @@ fn is_needed(name: &str) -> bool {
         || matches!(name.file_name(), Some(".gitignore" | ".ignore"))
 }
 
-/// Whether a link leads to something below the root, even through other links: it must go up first, through real directories, and then only
-/// down.
+/// Whether a link leads to something below the root, even if it passes through other links. Its target must first go up, through real
+/// directories, and then only down.
 fn stays_inside(link: &str, target: &str) -> bool {
     let depth = Utf8Path::new(link).components().count() - 1;
     let mut parts =
