@@ -1,4 +1,4 @@
-//! What the configuration makes of a diagnostic: its severity, or a waiver. (book: reference/diagnostics)
+//! Applies the configuration to diagnostics: it sets their severities, ignores some, and waives others. (book: reference/diagnostics)
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::outputs;
@@ -9,35 +9,36 @@ use crate::config::{Settings, clean};
 use crate::waivers::Waiver;
 use crate::workspace::Workspace;
 
-/// The severities of a run. Unlike a workspace, it can be shared between threads.
+/// The configured severities of a run. Unlike a workspace, they can be shared between threads.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Severities<'a> {
     settings: &'a Settings,
     working_directory: &'a Utf8Path,
 }
 
-/// A diagnostic after applying the configured severities and waivers.
+/// The outcome of applying the configured severities and waivers to a diagnostic.
 pub(crate) enum Verdict {
-    /// It is reported, with the severity that it has now.
+    /// The diagnostic is reported, with its configured severity.
     Reported(Diagnostic),
-    /// It is dropped.
+    /// The diagnostic is dropped.
     Ignored,
-    /// It is accepted for a stated reason.
+    /// The diagnostic is accepted for a stated reason.
     Waived(Diagnostic, Waiver),
 }
 
 impl Workspace {
-    /// The configured severities.
+    /// Returns the configured severities.
     pub(crate) fn severities(&self) -> Severities<'_> {
         Severities { settings: &self.settings, working_directory: &self.working_directory }
     }
 
-    /// Whether any of these counts as an error. A program with errors is not written.
+    /// Whether any of these diagnostics counts as an error under the configuration. A program with errors is not written.
     pub fn has_error<'d>(&self, diagnostics: impl IntoIterator<Item = &'d Diagnostic>) -> bool {
         self.severities().has_error(diagnostics)
     }
 
-    /// PB524: of these problems of a program that was not written, the configuration lowers all errors, so that none of them says why.
+    /// Returns PB524 if the configuration lowers all errors among these problems of a program that was not written: then none of the problems
+    /// explains why.
     pub fn lowered_error<'d>(
         &self,
         problems: impl IntoIterator<Item = &'d Diagnostic> + Clone,
@@ -52,7 +53,7 @@ impl Workspace {
 }
 
 impl Severities<'_> {
-    /// Whether any of these counts as an error.
+    /// Whether any of these diagnostics counts as an error under the configuration.
     pub(crate) fn has_error<'d>(&self, diagnostics: impl IntoIterator<Item = &'d Diagnostic>) -> bool {
         let is_error = |diagnostic: &Diagnostic| match self.judge(diagnostic.clone()) {
             Verdict::Reported(diagnostic) => diagnostic.is_error(),
@@ -94,15 +95,15 @@ impl Severities<'_> {
         }
     }
 
-    /// Name of a file as patterns in the configuration see it: relative to the configuration's directory, with slashes.
+    /// Returns the name of a file as patterns in the configuration see it: relative to the configuration's directory, with slashes.
     pub(crate) fn configured(&self, file: &Utf8Path) -> String {
         let file = clean(&self.working_directory.join(file));
         let below = self.settings.directory().and_then(|directory| file.strip_prefix(directory).ok());
         below.unwrap_or(&file).as_str().replace('\\', "/")
     }
 
-    /// The entries that set the level of a code in a file, the one that counts first. If several apply, the last one of the configuration
-    /// counts.
+    /// Iterates over the entries that set the level of a code in a file. If several apply, the last one of the configuration takes precedence, so
+    /// it comes first.
     fn levels_in(&self, code: Code, file: &str) -> impl Iterator<Item = (&FileSeverities, Level)> {
         let entries = self.settings.tables.severity_in.value.iter().rev();
         let entries = entries.filter(move |entry| entry.concerns(file));

@@ -1,5 +1,5 @@
-//! Waivers: findings that are accepted for a stated reason, until a date if one is given. Baselines and `severity-in` contain them.
-//! (book: howto/ci)
+//! Waivers: findings that are accepted for a stated reason, some of them only until a date. Baselines and `severity-in` contain them. (book:
+//! howto/ci)
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,19 +9,19 @@ use chrono::{DateTime, Datelike, NaiveDate};
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Lang, Message, Text, Value};
 
-/// A day of the Gregorian calendar. Days change at midnight UTC, so that a run has the same result everywhere.
+/// A day of the Gregorian calendar. Days begin at midnight UTC, so that a run has the same result everywhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Date(NaiveDate);
 
 impl Date {
-    /// The day of a time in seconds since 1970-01-01; `None` after the year 9999.
+    /// Returns the day of a time in seconds since 1970-01-01; `None` after the year 9999.
     pub fn of_unix_time(seconds: u64) -> Option<Self> {
         let date = DateTime::from_timestamp(seconds.try_into().ok()?, 0)?.date_naive();
         (date.year() <= 9999).then_some(Self(date))
     }
 }
 
-/// Parses `2026-12-31`, in this form only: `chrono` also accepts spaces, signs and single digits.
+/// Parses `2026-12-31`, and no other form: `chrono` would also accept spaces, signs and single digits.
 impl FromStr for Date {
     type Err = ();
 
@@ -37,19 +37,19 @@ impl fmt::Display for Date {
     }
 }
 
-/// The date that a run compares waivers with.
+/// The date that waivers are compared with, and its source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunDate {
-    /// The date.
+    /// The day on which waivers must still hold.
     pub date: Date,
-    /// Where it comes from.
+    /// Source of the date.
     pub source: DateSource,
 }
 
-/// Where the date of a run comes from.
+/// Source of the date of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DateSource {
-    /// `--date`, or a caller of the library.
+    /// The option `--date`, or a caller of the library.
     Given,
     /// The variable `SOURCE_DATE_EPOCH`.
     Epoch,
@@ -58,7 +58,7 @@ pub enum DateSource {
 }
 
 impl RunDate {
-    /// The date with its source, for users: `2026-11-25 (today, UTC)`.
+    /// Returns the date with its source, for users: `2026-11-25 (today, UTC)`.
     pub fn text(self, lang: Lang) -> String {
         format!("{} ({})", self.date, self.source.text().in_lang(lang))
     }
@@ -74,39 +74,39 @@ impl DateSource {
     }
 }
 
-/// Why a finding is accepted, and for how long.
+/// The reason why a finding is accepted, and the end of its acceptance.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Waiver {
     /// The reason; `None` if the entry states none.
     pub reason: Option<Box<str>>,
-    /// The last day on which it holds; `None` for always.
+    /// The last day on which the waiver holds; `None` if it has no end.
     pub until: Option<Date>,
     /// Line of the entry in its file, from 1.
     pub line: u32,
 }
 
 impl Waiver {
-    /// Whether it states a reason or a date. Other entries are plain settings.
+    /// Whether the waiver states a reason or a date. An entry without them is a plain setting.
     pub fn is_stated(&self) -> bool {
         self.reason.is_some() || self.until.is_some()
     }
 
-    /// Whether it holds. Without a known date, a waiver that ends does not hold.
+    /// Whether the waiver holds. If the date of the run is unknown, a waiver with an end does not hold.
     pub fn holds(&self, run: Option<RunDate>) -> bool {
         self.until.is_none_or(|until| run.is_some_and(|run| run.date <= until))
     }
 
-    /// Notes on a finding that the waiver, which is in `file`, no longer covers.
+    /// Adds a note to a finding that the waiver, which is in `file`, no longer covers.
     pub fn note_end(&self, diagnostic: Diagnostic, file: &str, run: Option<RunDate>) -> Diagnostic {
         self.noted(&messages::WAIVER_ENDED, diagnostic, file, run)
     }
 
-    /// Notes on a finding whose severity the waiver sets.
+    /// Adds a note to a finding whose severity the waiver, which is in `file`, sets.
     pub fn note_severity(&self, diagnostic: Diagnostic, file: &str, run: Option<RunDate>) -> Diagnostic {
         self.noted(&messages::SEVERITY_UNTIL, diagnostic, file, run)
     }
 
-    /// Adds the date and the reason to the notes of a finding.
+    /// Adds a note with the date and the reason of the waiver to a finding.
     fn noted(
         &self,
         message: &'static Message,
@@ -133,7 +133,7 @@ impl Waiver {
         }
     }
 
-    /// The warning that the waiver, which is in `file`, matches no finding. (PB610)
+    /// Returns PB610, the warning that the waiver, which is in `file`, matches no finding.
     pub fn unused(&self, file: &Utf8Path) -> Diagnostic {
         let unused = Diagnostic::new(&messages::UNUSED_WAIVER).in_file(file).at_line(self.line, Some(1));
         match &self.reason {
@@ -152,7 +152,7 @@ pub struct WaivedFinding {
     pub waiver: Waiver,
 }
 
-/// The files that a run covered. Only waivers for these files can be reported as matching nothing.
+/// The files that a run covered. Only a waiver for these files can be reported as matching nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Coverage {
     /// The files that were checked completely.

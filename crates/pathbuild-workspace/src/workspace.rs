@@ -1,4 +1,4 @@
-//! The environment of a run, and the messages about its progress. Results are returned; these messages are for the waiting user.
+//! The environment of a run, and the messages about its progress, which are for the waiting user. Results are returned and not reported.
 
 use std::fmt::Debug;
 use std::rc::Rc;
@@ -19,17 +19,17 @@ pub struct Workspace {
     pub settings: Settings,
     /// The file system.
     pub system: Arc<dyn System>,
-    /// Language of all output, if the user has chosen one for all trees.
+    /// Language of all output, if the user has configured one for all trees.
     pub own_lang: Option<Lang>,
     /// Language of the system's locale, used for messages if neither the user nor the configuration chooses one.
     pub system_lang: Option<Lang>,
-    /// Directory that relative paths are relative to.
+    /// Directory against which relative paths are resolved.
     pub working_directory: Utf8PathBuf,
     /// Number of worker threads; `None` means one per core.
     pub jobs: Option<u16>,
-    /// Where results are cached; `None` disables the cache.
+    /// Place where results are cached; `None` disables the cache.
     pub cache: Option<Home>,
-    /// Receives progress of the run.
+    /// Receives messages about the progress of the run.
     pub reporter: Rc<dyn Reporter>,
 }
 
@@ -44,44 +44,44 @@ impl Workspace {
         self.cache_place().is_some()
     }
 
-    /// The cache of this tree.
+    /// Returns the cache of this tree; `None` without a configuration, or if caching is disabled.
     pub fn cache_place(&self) -> Option<TreeStore> {
         Some(TreeStore::of_tree(self.cache.as_ref()?, self.settings.directory()?))
     }
 
-    /// Path of the working directory's configuration if it does not apply to this run, because the inputs lie outside its tree. Relative to
-    /// the working directory.
+    /// Returns the path of the working directory's configuration, relative to the working directory, if it does not apply to this run because the
+    /// inputs lie outside its tree.
     pub fn unused_configuration(&self) -> Option<Utf8PathBuf> {
         let file = self.settings.not_used.as_deref()?;
         Some(relative(file, &self.working_directory))
     }
 
-    /// Path of the configuration relative to the working directory, if it is not obvious that it applies to a program.
+    /// Returns the path of the configuration, relative to the working directory, if it applies to a program unexpectedly.
     pub fn unexpected_configuration(&self) -> Option<Utf8PathBuf> {
         let file = self.settings.file.as_deref().filter(|_| self.settings.is_unexpected)?;
         Some(relative(file, &self.working_directory))
     }
 
-    /// A copy with `compatible` switched on or off. It caches nothing and reports nothing.
+    /// Returns a copy with `compatible` switched on or off, which caches nothing and reports nothing.
     pub fn in_mode(&self, is_compatible: bool) -> Self {
         let mut settings = self.settings.clone();
         settings.general.compatible.value = is_compatible;
         Self { settings, cache: None, reporter: Rc::new(SilentReporter), ..self.clone() }
     }
 
-    /// Language of messages. Comments in programs use [`Settings::comment_lang`].
+    /// Returns the language of messages. Comments in programs use [`Settings::comment_lang`].
     pub fn lang(&self) -> Lang {
         let configured = &self.settings.general.lang;
         let fallback = self.system_lang.filter(|_| configured.origin == Origin::Default);
         self.own_lang.or(fallback).unwrap_or(configured.value)
     }
 
-    /// Picks the phrase in the language of messages.
+    /// Returns the phrase in the language of messages.
     pub fn choose<'a>(&self, en: &'a str, de: &'a str) -> &'a str {
         self.lang().choose(en, de)
     }
 
-    /// Picks a phrase and inserts a value in place of `{}`.
+    /// Returns the phrase in the language of messages, with `value` in place of `{}`.
     pub fn phrase(&self, en: &str, de: &str, value: &str) -> String {
         self.choose(en, de).replace("{}", value)
     }
@@ -89,21 +89,21 @@ impl Workspace {
 
 /// Receives progress messages of a run.
 pub trait Reporter: Debug {
-    /// A line about the run.
+    /// Reports a line about the run.
     fn status(&self, line: &str);
-    /// A line of detail, shown only on request.
+    /// Reports a line of detail, which is shown only on request.
     fn detail(&self, line: &str);
     /// Starts a progress display of `total` items; it ends when the returned value is dropped.
     fn progress(&self, total: usize) -> Box<dyn ProgressCounter>;
 }
 
-/// Counts finished items.
+/// Counts the finished items of a progress display.
 pub trait ProgressCounter: Debug + Send + Sync {
     /// Counts one more finished item. May be called from any thread.
     fn advance(&self);
 }
 
-/// Discards all messages.
+/// A reporter that discards all messages.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SilentReporter;
 
@@ -121,7 +121,8 @@ impl ProgressCounter for SilentReporter {
     fn advance(&self) {}
 }
 
-/// Path to a directory relative to another, both absolute. Returns the directory itself if there is no relative path, as between drives.
+/// Returns the path to a directory relative to another, both absolute. Returns the directory itself if there is no relative path, as between
+/// drives.
 pub(crate) fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
     let (target, start): (Vec<_>, Vec<_>) = (directory.components().collect(), base.components().collect());
     let common = target.iter().zip(&start).take_while(|(a, b)| a == b).count();
@@ -133,13 +134,13 @@ pub(crate) fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
     if relative.as_str().is_empty() { Utf8PathBuf::from(".") } else { spelt(relative) }
 }
 
-/// Why a request has no outcome.
+/// The reason why a request has no outcome.
 #[derive(Debug)]
 pub enum Failure {
     /// The request is invalid, for this reason in the language of messages.
     Usage(String),
     /// The post-processor does not exist, or is broken.
     Post(Vec<Diagnostic>),
-    /// What the request is about has these errors, or is unknown.
+    /// The subject of the request is unknown or has these errors.
     Found(Vec<Diagnostic>),
 }

@@ -25,34 +25,34 @@ use crate::program::Program;
 use crate::session::{NamedPaths, NotOnePath, OutputKind, Session, several_paths};
 use crate::workspace::Failure;
 
-/// The program of a path, as its drawing defines it.
+/// The program of a path according to its drawing, with which other programs are compared.
 #[derive(Debug)]
 pub(super) struct ReferenceProgram {
     drawn: Arc<pathbuild_toolpath::Program>,
-    /// The drawing.
+    /// Path of the drawing's file.
     file: Utf8PathBuf,
-    /// The clamps around it, if its drawings have any.
+    /// The clamps around the program, if its drawings contain any.
     clamps: Option<Clamps>,
-    /// The inputs that it depends on, if the session traces them.
+    /// The inputs that the program depends on; `None` unless the session traces them.
     trace: Option<Trace>,
 }
 
-/// The program that a definition writes for a path.
+/// The program that a post-processor with a definition writes for a path now.
 pub(super) struct RewrittenProgram {
-    /// The first line of the program that differs, and the expected line.
+    /// Number of the first line in which the verified program differs, and the expected line.
     other_line: Option<(u32, String)>,
-    /// The first position that it states in all axes.
+    /// The first position that is stated in all axes.
     start: Option<Position>,
-    /// The moves from there on.
+    /// The moves after that position, with their lines.
     moves: Vec<(u32, Move)>,
-    /// Tool and spindle of its cuts.
+    /// Tool and spindle of the cuts.
     tool: ToolUse,
-    /// Whether its moves were compared with the drawing when it was written.
+    /// Whether the post-processor compares its output with the drawing.
     is_read_back: bool,
 }
 
 impl RewrittenProgram {
-    /// Whether the program has the same lines.
+    /// Whether the verified program has the same lines.
     pub(super) fn is_same(&self) -> bool {
         self.other_line.is_none()
     }
@@ -81,27 +81,27 @@ impl ReferenceProgram {
         Ok(Self { drawn, file, clamps, trace: checked.trace.clone() })
     }
 
-    /// The drawing.
+    /// Returns the path of the drawing's file.
     pub(super) fn file(&self) -> &Utf8Path {
         &self.file
     }
 
-    /// The inputs that it depends on, if the session traces them.
+    /// Returns the inputs that the program depends on, if the session traces them.
     pub(super) fn trace(&self) -> Option<&Trace> {
         self.trace.as_ref()
     }
 
-    /// O in mm, if all cuts use the same tool.
+    /// Returns the diameter O in mm, if all cuts use the same tool.
     pub(super) fn cutter(&self) -> Option<f64> {
         self.drawn.cutter()
     }
 
-    /// T in mm, if all cuts have the same.
+    /// Returns the thickness T in mm, if it is the same for all cuts.
     pub(super) fn surface(&self) -> Option<f64> {
         self.drawn.surface()
     }
 
-    /// Compares a program in a dialect with the drawing. The steps must have their nominal heights, before correction.
+    /// Starts a comparison of a program in a dialect with the drawing. The program's steps must have their nominal heights, before correction.
     pub(super) fn comparison<'w>(
         &self,
         settings: &Settings,
@@ -128,8 +128,8 @@ impl ReferenceProgram {
         verify::DrawingComparison::new(drawn, dialect, words)
     }
 
-    /// What was compared, and the differences; there are none if the program has exactly the lines that its definition writes. The output
-    /// of an unchecked definition is the reference for its programs, but says nothing about the drawing.
+    /// Returns the extent of the comparison, and the differences; there are none if the program has exactly the lines that its definition writes.
+    /// The output of an unchecked definition serves as the reference for its programs, but does not prove that they match the drawing.
     pub(super) fn conclude(
         &self,
         program: &Program,
@@ -155,7 +155,7 @@ impl ReferenceProgram {
             let unread = Diagnostic::new(&say::MOVES_NOT_COMPARED).quoting("path", &*self.drawn.path);
             differences.push(unread.quoting("post", program.read_as(lang)));
         }
-        // Words that the reader leaves out can be compared only as text.
+        // Words that the translation leaves out can be compared only as text.
         if let Some((line, expected)) = &rewritten.other_line
             && program.words_left_out().next().is_some()
         {
@@ -165,10 +165,10 @@ impl ReferenceProgram {
         (compared, differences)
     }
 
-    /// The program of the path as a definition writes it now.
+    /// Writes the program of the path through a post-processor with a definition.
     ///
     /// # Errors
-    /// If the definition cannot write it.
+    /// If the definition cannot write the program.
     pub(super) fn rewritten(
         &self,
         settings: &Settings,
@@ -198,8 +198,8 @@ impl ReferenceProgram {
         !self.drawn.probes.is_empty()
     }
 
-    /// Compares the text of a native program with what `emit` writes. Differences in formulas and probes, and in the lines of a probing
-    /// run, are errors. If nothing else was found and the options are the same, a different comment is a warning.
+    /// Compares the text of a native program with what `emit` would write. Differences in formulas and probes, and in the lines of a probing run,
+    /// are errors. If nothing else was found and the options are the same, a different comment is a warning.
     ///
     /// # Errors
     /// PB005 if the text that `emit` would write is too large.
@@ -227,7 +227,7 @@ impl ReferenceProgram {
         }
         let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
         let now = Provenances::new(settings, None).of(&[&*self.drawn]);
-        // A program of ours whose first line was removed or damaged still has its title.
+        // A program that pathbuild wrote keeps its title if its first line, with the header, was removed or damaged.
         let has_same_options =
             header.map_or_else(|| native::has_title(&program.text), |header| header.options == now.options);
         if !differences.is_empty() || !is_sound || !has_same_options {
@@ -242,18 +242,18 @@ impl ReferenceProgram {
         Ok(differences)
     }
 
-    /// Checks a program in a dialect against the clamps around it, if there are any.
+    /// Starts a check of a program in a dialect against the clamps around it; `None` if there are no clamps.
     pub(super) fn past_clamps(&self, dialect: Dialect) -> Option<PastClamps<'_>> {
         self.clamps.as_ref().map(|clamps| PastClamps::new(clamps, dialect))
     }
 
-    /// The program number that posts write.
+    /// Returns the program number that posts write.
     fn number(&self, settings: &Settings) -> Option<u32> {
         let configured = settings.general.post.value.program_number;
         configured.or_else(|| program_number(&self.drawn.path))
     }
 
-    /// The configured tool.
+    /// Returns the configured tool for the path.
     fn tool(&self, table: &ToolTable) -> ToolUse {
         let Some(entry) = table.find(&self.drawn.path, self.drawn.tool) else { return ToolUse::default() };
         ToolUse { number: entry.index, turning: entry.spindle, speed: entry.speed, coolant: entry.coolant }

@@ -1,4 +1,4 @@
-//! The checks that `verify` made of a program, with their values, and those that it could not make. (book: program/reading)
+//! The checks of a program by `verify`: those that were made, with their values, and those that could not be made. (book: program/reading)
 
 use std::fmt::Write;
 
@@ -9,32 +9,32 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::types::Requirement;
 
-/// A check of a program.
+/// A check of a program, with its outcome.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CheckRecord {
-    /// The check.
+    /// The kind of check.
     pub requirement: Requirement,
-    /// Whether it was made.
+    /// Whether the check was made, and with which values.
     pub outcome: Outcome,
 }
 
-/// Whether a check was made.
+/// The outcome of a check.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
-    /// It was made. The check of rapid moves states the values that it was made with.
+    /// The check was made. The check of rapid moves states the values that it was made with.
     Made(Option<RapidValues>),
-    /// It was made with values that may be wrong.
+    /// The check was made with values that may be wrong.
     Assumed(RapidValues, Assumption),
-    /// It was made with these values, except for rapid moves whose way is unknown.
+    /// The check was made with these values, except for rapid moves that start at an unknown position.
     Incomplete(RapidValues, BlindRapids),
-    /// It was not made.
+    /// The check was not made, for this reason.
     NotMade(Reason),
 }
 
-/// Why the values of a check may be wrong.
+/// The reason why the values of a check may be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Assumption {
-    /// Only the program itself states the cutter or the material.
+    /// The cutter or the material is stated by the program only.
     Stock,
     /// The program moves by values that only the machine knows, such as those of a probe.
     MachineValues,
@@ -45,37 +45,37 @@ pub enum Assumption {
 pub struct RapidValues {
     /// Diameters of the cutters in mm, in the order of use.
     pub cutters: Vec<f64>,
-    /// Where they come from.
+    /// Source of the cutters.
     pub cutter_origin: Origin,
-    /// Height of the upper face of the material, where it is highest.
+    /// Height in mm of the upper face of the material, where it is highest.
     pub surface: f64,
-    /// Whether it has the same height everywhere.
+    /// Whether the upper face has the same height everywhere.
     pub is_level: bool,
-    /// Where it comes from.
+    /// Source of the height.
     pub surface_origin: Origin,
 }
 
-/// Where a value comes from; the program's own statements come last.
+/// Source of a value; the program's own statements come last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Origin {
     /// The command line.
     Option,
     /// The drawing that the program is compared with.
     Drawing,
-    /// `[tool]`.
+    /// A table `[tool]` of the configuration.
     Table,
     /// Comments of the program, or the heights at which its plunges begin to cut.
     Program,
 }
 
-/// Why a check was not made.
+/// The reason why a check was not made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Reason {
     /// The configuration does not limit the machine.
     NoLimit,
-    /// There is no drawing.
+    /// There is no drawing to compare with.
     NoDrawing,
-    /// The comparison with the drawing ended at the first other move.
+    /// The comparison with the drawing ended at the first move that differs.
     OtherMoves,
     /// The configuration names no layers of clamps.
     NoKeepOut,
@@ -89,18 +89,18 @@ pub enum Reason {
     TooLarge,
 }
 
-/// What a program can be compared with.
+/// The references that a program can be compared with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct References {
-    /// Whether there is a drawing.
+    /// Whether a drawing was named.
     pub(super) has_drawing: bool,
-    /// Whether no move of the drawing was left out of the comparison.
+    /// Whether the comparison reached the last move of the drawing.
     pub(super) is_compared_to_its_end: bool,
     /// Whether the configuration names layers of clamps.
     pub(super) has_keep_out: bool,
 }
 
-/// The checks of a program. `rapids`: the outcome of that of rapid moves.
+/// Returns the checks of a program. `rapids` is the outcome of the check of rapid moves.
 pub(super) fn records(
     rapids: Outcome,
     machine: Option<&Machine>,
@@ -130,7 +130,7 @@ pub(super) fn records(
     all.map(|(requirement, outcome)| CheckRecord { requirement, outcome }).into()
 }
 
-/// The checks of a program in a line.
+/// Describes the checks of a program in one line.
 pub fn summary(records: &[CheckRecord], lang: Lang) -> String {
     let mut made = vec![lang.choose("words", "Wörter").to_owned()];
     let mut unmade = Vec::new();
@@ -159,7 +159,7 @@ pub fn summary(records: &[CheckRecord], lang: Lang) -> String {
 }
 
 impl CheckRecord {
-    /// The values that rapid moves were checked with.
+    /// Returns the values with which rapid moves were checked, if they were.
     pub fn values(&self) -> Option<&RapidValues> {
         match &self.outcome {
             Outcome::Made(values) => values.as_ref(),
@@ -168,7 +168,7 @@ impl CheckRecord {
         }
     }
 
-    /// The check with the values that it was made with, or why it was not made.
+    /// Describes the check, with the values that it was made with, or the reason why it was not made.
     pub fn text(&self, lang: Lang) -> String {
         let name = shown(self.requirement).in_lang(lang);
         match (&self.outcome, self.values()) {
@@ -185,7 +185,7 @@ impl CheckRecord {
         }
     }
 
-    /// The option that would make the check possible.
+    /// Returns the option that would make the check possible.
     pub fn option(&self, reason: Reason) -> &'static Text {
         match (reason, self.requirement) {
             (Reason::NoDrawing, _) => &AGAINST,
@@ -201,7 +201,7 @@ impl CheckRecord {
         }
     }
 
-    /// The error if the check is required and was not made.
+    /// Returns the error for a check that is required but was not made.
     pub(super) fn unmade(&self, required: &[Requirement]) -> Option<Diagnostic> {
         let may_be_assumed = required.contains(&Requirement::AssumedRapids);
         let is_rapids = self.requirement == Requirement::Rapids;
@@ -228,7 +228,7 @@ impl CheckRecord {
 }
 
 impl RapidValues {
-    /// The values with their origins, such as `3 mm (--cutter) and material up to Z 0 (--surface)`.
+    /// Describes the values with their origins, such as `3 mm (--cutter) and material up to Z 0 (--surface)`.
     pub fn in_lang(&self, lang: Lang) -> String {
         let mut diameters: Vec<String> = Vec::new();
         for cutter in &self.cutters {
@@ -251,7 +251,7 @@ impl RapidValues {
 }
 
 impl Reason {
-    /// The reason in a phrase.
+    /// Returns the reason as a phrase.
     pub fn text(self) -> &'static Text {
         match self {
             Self::NoLimit => &NO_LIMIT,
@@ -271,7 +271,7 @@ fn with_cutter(values: &RapidValues, lang: Lang) -> String {
     format!("{against} {}", values.in_lang(lang))
 }
 
-/// The rapid moves whose way is not known, as in `2 rapid moves from unknown positions to below the surface, from line 7 on`.
+/// Describes the rapid moves that start at an unknown position, as in `2 rapid moves from unknown positions to below the surface, from line 7 on`.
 pub fn blind_text(blind: BlindRapids, lang: Lang) -> String {
     let BlindRapids { count, line } = blind;
     match (lang, count) {
@@ -292,13 +292,13 @@ pub fn blind_text(blind: BlindRapids, lang: Lang) -> String {
     }
 }
 
-/// What makes the way of a rapid move known.
+/// Advice for a rapid move that starts at an unknown position.
 pub static ABOVE_FIRST: Text = Text {
     en: "go to X and Y above the material first, then down",
     de: "zuerst über dem Material nach X und Y fahren, dann hinunter",
 };
 
-/// The name of a check for readers.
+/// Returns the displayed name of a check.
 fn shown(requirement: Requirement) -> Text {
     match requirement {
         Requirement::Rapids | Requirement::AssumedRapids => Text { en: "rapid moves", de: "Eilgänge" },

@@ -39,28 +39,28 @@ pub use checks::{
 pub use run::{Request, Verification};
 use stock::Sources;
 
-/// How programs are verified.
+/// Options for verifying programs.
 #[derive(Clone, Debug, Default)]
 pub struct VerifyOptions {
-    /// How programs are read.
+    /// Options for reading the programs.
     pub reading: ReadingOptions,
-    /// The path whose drawing the programs are compared with.
+    /// Name of the path whose drawing the programs are compared with.
     pub against: Option<String>,
     /// Diameter of the cutter in mm.
     pub cutter: Option<f64>,
     /// Height of the material's upper face in mm.
     pub surface: Option<f64>,
-    /// The checks that must be made, besides those of the configuration.
+    /// The checks that the run requires, besides those that the configuration requires.
     pub required: Vec<Requirement>,
-    /// The post-processor that wrote the programs.
+    /// Name or file of the post-processor that wrote the programs.
     pub post: Option<String>,
 }
 
 impl VerifyOptions {
-    /// Sets the diameter of the cutter and the height of the material's upper face, as far as they are stated.
+    /// Sets the diameter of the cutter and the height of the material's upper face, if they are given.
     ///
     /// # Errors
-    /// The first text that is not such a number.
+    /// The diagnostic of the first text that is not such a number.
     pub fn with_stock(
         mut self,
         cutter: Option<&str>,
@@ -75,7 +75,7 @@ impl VerifyOptions {
 /// The findings about a program, and the checks that were made.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct VerifiedProgram {
-    /// The findings.
+    /// All findings about the program.
     pub diagnostics: Vec<Diagnostic>,
     /// The checks; empty if the program could not be checked at all.
     pub checks: Vec<CheckRecord>,
@@ -86,21 +86,21 @@ pub struct VerifiedProgram {
 /// A comparison of a program's moves with a drawing.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MoveComparison {
-    /// The path.
+    /// Name of the path.
     pub path: String,
-    /// Its drawing.
+    /// Path of the drawing's file.
     pub drawing: Utf8PathBuf,
-    /// The dialect or the definition by which the program was read.
+    /// Name of the dialect, or of the definition, by means of which the program was read.
     pub dialect: String,
-    /// The dialect or the definition with the evidence for it, in the language of messages.
+    /// The same name with the evidence for it, in the language of messages.
     pub read_as: String,
     /// Number of moves in the drawing.
     pub moves: usize,
-    /// Number of moves that are equal.
+    /// Number of moves that are equal in the program and the drawing.
     pub equal: usize,
 }
 
-/// Verifies programs; holds what all programs of a run share.
+/// Verifies programs; holds the data that all programs of a run share.
 #[derive(Debug)]
 pub struct Verifier<'w> {
     settings: &'w Settings,
@@ -111,15 +111,15 @@ pub struct Verifier<'w> {
     against: Option<ReferenceProgram>,
     table: ToolTable,
     machine: Option<Machine>,
-    /// The known words by dialect, and by whether a post-processor wrote the program.
+    /// The known words of each dialect, for programs written by a post-processor and for others.
     words: Mutex<Vec<(Dialect, bool, Arc<PostWords>)>>,
 }
 
 impl<'w> Verifier<'w> {
-    /// Takes the settings of the session's workspace, and the path that programs are compared with.
+    /// Prepares a verification with the settings of the session's workspace.
     ///
     /// # Errors
-    /// Why programs cannot be verified.
+    /// If the post-processor, or the path to compare with, cannot be used.
     pub fn new(session: &mut Session<'w>, options: VerifyOptions) -> Result<Self, Failure> {
         let workspace = session.workspace();
         let writers = Writers::new(workspace, &options).map_err(Failure::Post)?;
@@ -139,8 +139,8 @@ impl<'w> Verifier<'w> {
         })
     }
 
-    /// Verifies a program. If its heights are corrected, the material is assumed where it was drawn: rapid moves that follow an uneven
-    /// plate do not mill it. The machine's limits apply to the actual moves.
+    /// Verifies a program. If its heights are corrected, the check of rapid moves uses the nominal heights and the material as drawn: rapid moves
+    /// that follow an uneven plate do not mill it. The machine's limits apply to the actual moves.
     ///
     /// The text is interpreted twice instead of keeping its steps, because the rules need to know the material first.
     pub fn verify(&self, file: &Utf8Path, text: Vec<u8>) -> VerifiedProgram {
@@ -158,7 +158,7 @@ impl<'w> Verifier<'w> {
         verified
     }
 
-    /// The findings about a program that was read with its steps. Checks that are required need not be made.
+    /// Returns the findings about a program whose steps are stored. Required checks that could not be made are not among them.
     pub fn findings(&self, program: &Program) -> Vec<Diagnostic> {
         let mut as_written = WrittenSteps::new(self.machine.as_ref());
         program.read.steps.iter().for_each(|step| as_written.step(step));
@@ -172,7 +172,7 @@ impl<'w> Verifier<'w> {
         verified.unwrap_or_else(|diagnostics| VerifiedProgram { diagnostics, ..VerifiedProgram::default() })
     }
 
-    /// The material that a program cuts, as far as its cutters and its surface are known.
+    /// Returns the material that a program cuts, if its cutters and its surface are known.
     pub fn stock(&self, program: &Program) -> Option<Stock> {
         let mut header = HeaderReader::default();
         program.read.steps.iter().for_each(|step| header.step(step));
@@ -180,7 +180,7 @@ impl<'w> Verifier<'w> {
         Sources::new(self, program, &header).stock().cloned()
     }
 
-    /// The words that programs of this dialect may have.
+    /// Returns the words that programs of this dialect may contain.
     fn known_words(&self, writer: Option<&PostProcessor>, dialect: Dialect) -> Arc<PostWords> {
         let is_posted = writer.is_some();
         let mut all = self.words.lock().unwrap_or_else(PoisonError::into_inner);
@@ -192,8 +192,8 @@ impl<'w> Verifier<'w> {
         words
     }
 
-    /// The checks that the configuration or the run demands. Assumed values do not satisfy the one if the other demands a check of rapid
-    /// moves without them.
+    /// Returns the checks that the configuration or the run requires. If one of them requires a check of rapid moves without assumed values,
+    /// assumed values do not suffice, even if the other accepts them.
     fn required(&self) -> Vec<Requirement> {
         let sources = [&self.settings.verify.require.value, &self.options.required];
         let is_strict = |source: &&Vec<Requirement>| {
@@ -207,7 +207,7 @@ impl<'w> Verifier<'w> {
     }
 }
 
-/// Follows the steps of a program as they are written, with corrected heights.
+/// Collects facts about the steps of a program as they are written, with corrected heights.
 struct WrittenSteps<'m> {
     header: HeaderReader,
     stated: StatedStatistics,
@@ -245,7 +245,7 @@ impl<'m> WrittenSteps<'m> {
         if program.by_definition.is_some() {
             self.header.head_of(&program.text);
         }
-        // PathDxf2GCode states planned lengths, and it is unknown what other programs count.
+        // PathDxf2GCode states planned lengths, and other programs may count differently.
         let has_own_statistics = program.dialect == Dialect::Native
             && Provenance::of_head(&program.text).is_some()
             && !native::is_compatible(&program.text);
@@ -255,7 +255,7 @@ impl<'m> WrittenSteps<'m> {
     }
 }
 
-/// Follows the steps of a program at their nominal heights.
+/// Applies the rules for which the steps of a program need their nominal heights.
 struct NominalSteps<'w, I: Iterator<Item = (u32, Move)>> {
     comparison: Option<DrawingComparison<'w, I>>,
     words: Option<WordRules<'w>>,
@@ -275,7 +275,7 @@ impl<I: Iterator<Item = (u32, Move)>> NominalSteps<'_, I> {
         }
     }
 
-    /// A word that the reader of the program's definition leaves out.
+    /// Handles a word that the translation by means of a definition leaves out.
     fn left_out(&mut self, line: u32, word: &str) {
         if let Some(words) = &mut self.words {
             words.left_out(line, word);
@@ -286,7 +286,7 @@ impl<I: Iterator<Item = (u32, Move)>> NominalSteps<'_, I> {
     }
 }
 
-/// Whether a program cuts, and whether it starts the spindle with a speed.
+/// Whether a program cuts so far, and whether it has started the spindle with a speed.
 #[derive(Clone, Copy, Debug, Default)]
 struct SeenSpeeds {
     has_cut: bool,
@@ -305,7 +305,7 @@ impl SeenSpeeds {
     }
 }
 
-/// A program under examination.
+/// A program that is being verified, with everything that the rules need.
 struct Examination<'v> {
     verifier: &'v Verifier<'v>,
     program: &'v Program,
@@ -314,9 +314,9 @@ struct Examination<'v> {
     /// The post-processor that wrote the program, if known.
     writer: Option<&'v PostProcessor>,
     words: Arc<PostWords>,
-    /// Whether it may be the probing run of a drawing, which is a separate program.
+    /// Whether the program may be the probing run of a drawing, which is a separate program.
     is_probing: bool,
-    /// The drawing's program, unless this is its probing run.
+    /// The drawing's program, unless the verified program is its probing run.
     milled: Option<&'v ReferenceProgram>,
 }
 
@@ -338,7 +338,7 @@ impl<'v> Examination<'v> {
         }
     }
 
-    /// Completes the findings about the program.
+    /// Applies all rules and returns the findings with the checks.
     ///
     /// # Errors
     /// The problem that prevents the verification.
@@ -364,7 +364,7 @@ impl<'v> Examination<'v> {
         Ok(VerifiedProgram { diagnostics, checks, comparison })
     }
 
-    /// The drawing's program as the post-processor's definition writes it.
+    /// Returns the drawing's program as the post-processor's definition writes it.
     fn rewritten(&self) -> Result<Option<RewrittenProgram>, Vec<Diagnostic>> {
         let definition = self.writer.filter(|writer| writer.file().is_some());
         let rewritten = self
@@ -374,7 +374,7 @@ impl<'v> Examination<'v> {
         rewritten.transpose()
     }
 
-    /// The findings of the rules.
+    /// Applies the rules and returns their findings, with the comparison if a drawing was named.
     fn findings(
         &self,
         written: WrittenFindings,
@@ -394,7 +394,7 @@ impl<'v> Examination<'v> {
             clamps: against.and_then(|against| against.past_clamps(program.dialect)),
         };
         let mut chip_loads = ChipLoadRules::new(self.sources.chip_loads());
-        // The comparison with a drawing reports a wrong direction and a wrong tool length.
+        // The comparison with a drawing reports wrong directions and wrong tool lengths itself.
         let mut directions = self.milled.is_none().then(|| DirectionRules::new(self.sources.directions()));
         let mut lengths =
             self.milled.is_none().then(|| LengthRules::new(program.dialect, self.sources.stock()));
@@ -442,7 +442,7 @@ impl<'v> Examination<'v> {
         (found, comparison)
     }
 
-    /// The checks.
+    /// Returns the checks with their outcomes.
     fn checks(
         &self,
         found: &mut [Diagnostic],
@@ -453,7 +453,7 @@ impl<'v> Examination<'v> {
         let mut is_limit_reached = false;
         for problem in found.iter_mut().filter(|problem| problem.code() == Code::LimitReached) {
             is_limit_reached = true;
-            // A check that is not made is an error only if it is required.
+            // A check that was not made is an error only if it is required.
             problem.severity = Severity::Warning;
         }
         let verifier = self.verifier;
@@ -462,7 +462,7 @@ impl<'v> Examination<'v> {
             is_compared_to_its_end: comparison.is_none_or(|comparison| comparison.equal == comparison.moves),
             has_keep_out: verifier.settings.general.keep_out.value.is_some(),
         };
-        // The speeds of XpertMILL belong to its layers.
+        // XpertMILL sets the speeds by layer, and not in the program.
         let states_speed =
             !speeds.has_cut || speeds.has_started || self.program.dialect == Dialect::Xpertmill;
         let machine = verifier.machine.as_ref();
@@ -470,12 +470,12 @@ impl<'v> Examination<'v> {
         checks::records(rapids, machine, references, states_speed)
     }
 
-    /// Doubts about the program's words. With a drawing to compare with, doubts about something that the drawing does not contain are
-    /// errors.
+    /// Returns doubts about the program's words. If there is a drawing to compare with, doubts about words that the drawing's program does not
+    /// contain are errors.
     fn doubts(&self, rewritten: Option<&RewrittenProgram>, found: &mut [Diagnostic]) -> Vec<Diagnostic> {
         let mut doubts = self.program.read.problems.clone();
         if rewritten.is_some_and(RewrittenProgram::is_same) {
-            // Doubts about the definition's words are reported when it writes them.
+            // Doubts about the words of a definition are reported when it writes them.
             let is_own = self.program.by_definition.is_none();
             doubts.retain(|doubt| doubt.is_error() && is_own || is_of_modes(doubt));
         } else if self.verifier.against.is_some() {
@@ -487,13 +487,13 @@ impl<'v> Examination<'v> {
     }
 }
 
-/// Whether the program does not state its unit, its distance mode or its plane.
+/// Whether a doubt is that the program does not state its unit, its distance mode or its plane.
 fn is_of_modes(doubt: &Diagnostic) -> bool {
     matches!(doubt.code(), Code::UnitsNotStated | Code::ModesNotStated)
 }
 
-/// Whether a warning is about something that the drawing's program does not contain. Two kinds do not count: the drawing determines how
-/// fine arcs are, and the user asked to ignore feeds.
+/// Whether a doubt is about words that the drawing's program does not contain. Two kinds are not: the drawing does not determine how fine arcs are,
+/// and the user asked to ignore feeds.
 fn is_unsaid(doubt: &Diagnostic) -> bool {
     doubt.code() != Code::DoubtfulArc && doubt.message.key != FEED_IGNORED.key
 }
@@ -501,18 +501,18 @@ fn is_unsaid(doubt: &Diagnostic) -> bool {
 /// The posts that may have written the programs of a run.
 #[derive(Debug)]
 struct Writers {
-    /// `--post`.
+    /// The post named by `--post`.
     named: Option<PostProcessor>,
-    /// The one of the configuration.
+    /// The configured post, unless `--post` is given.
     configured: Option<PostProcessor>,
     dialect: Option<Dialect>,
 }
 
 impl Writers {
-    /// Those of the command line and the configuration.
+    /// Opens the posts of the command line and the configuration.
     ///
     /// # Errors
-    /// The named post does not exist, or is broken.
+    /// If the post named by `--post` does not exist, or is broken.
     fn new(workspace: &Workspace, options: &VerifyOptions) -> Result<Self, Vec<Diagnostic>> {
         let dialect = options.reading.dialect;
         let post = |name| {
@@ -520,24 +520,24 @@ impl Writers {
             PostProcessor::for_run(workspace, name, PostArguments { dialect, ..PostArguments::default() })
         };
         let named = options.post.as_deref().map(|name| post(Some(name))).transpose()?.flatten();
-        // `emit` reports a broken one.
+        // Ignore a configured post that is broken: `emit` reports that.
         let configured = if named.is_some() { None } else { post(None).ok().flatten() };
         Ok(Self { named, configured, dialect })
     }
 
-    /// The definitions and everything else that their words depend on.
+    /// Returns the file and the identity of each post, which determine the words in its programs.
     fn identities(&self) -> Vec<(Option<&Utf8Path>, String)> {
         let posts = self.named.iter().chain(&self.configured);
         posts.map(|post| (post.file(), blake3::hash(&post.identity()).to_string())).collect()
     }
 
-    /// The dialect that the command line names, directly or through the post.
+    /// Returns the dialect that the command line names, directly or through the post.
     fn dialect(&self) -> Option<Dialect> {
         self.dialect.or(self.named.as_ref().and_then(PostProcessor::reader))
     }
 
-    /// The post that wrote a program of this dialect, as far as it is known. A program whose header shows no dialect is attributed to a
-    /// configured definition that names none.
+    /// Returns the post that wrote a program of this dialect, if known. A program whose header shows no dialect is attributed to a configured
+    /// definition that names none.
     fn of(&self, dialect: Dialect, evidence: Option<EvidenceKind>) -> Option<&PostProcessor> {
         let is_without_header = evidence.is_some_and(|kind| kind != EvidenceKind::Header);
         let may_have_written = |post: &&PostProcessor| match post.reader() {
@@ -547,7 +547,7 @@ impl Writers {
         self.named.as_ref().or(self.configured.as_ref().filter(may_have_written))
     }
 
-    /// Translates a text by the definition that wrote it, if that names no dialect.
+    /// Translates a text by means of the definition that wrote it, if the definition names no dialect.
     fn translate(&self, text: &[u8], guess: Option<&Guess>) -> Option<ByDefinition> {
         let dialect = guess.map(|guess| guess.dialect).or(self.dialect)?;
         let writer = self.of(dialect, guess.map(|guess| guess.evidence.kind))?;

@@ -15,33 +15,33 @@ use crate::workspace::Workspace;
 /// A request to verify programs.
 #[derive(Debug)]
 pub struct Request<'a> {
-    /// The files and directories.
+    /// The files and directories to verify.
     pub places: &'a [Utf8PathBuf],
-    /// A program that is in no file, such as standard input, and its name in messages. Its result is not cached.
+    /// A program that is in no file, such as one from standard input, after its name in messages. Its result is not cached.
     pub text: Option<(&'a Utf8Path, Vec<u8>)>,
-    /// How the programs are verified.
+    /// Options for the verification.
     pub options: VerifyOptions,
 }
 
 /// The outcome of a verification.
 #[derive(Debug, Default)]
 pub struct Verification {
-    /// The programs, in the order in which they were named.
+    /// The programs with their results, in the order in which they were named.
     pub programs: Vec<(Utf8PathBuf, VerifiedProgram)>,
-    /// Findings about directories.
+    /// Diagnostics of directories.
     pub problems: Vec<Diagnostic>,
 }
 
 impl Request<'_> {
-    /// Opens a session that suits this request.
+    /// Opens a session that suits this request: it traces inputs if results are cached.
     pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
         if workspace.keeps_results() { Session::traced(workspace) } else { Session::new(workspace) }
     }
 
-    /// Verifies the programs without a cached result.
+    /// Verifies the programs that have no cached result.
     ///
     /// # Errors
-    /// Why programs cannot be verified.
+    /// If programs cannot be verified at all, with the reason.
     pub fn run(self, session: &mut Session<'_>) -> Result<Verification, Failure> {
         let verifier = Verifier::new(session, self.options)?;
         let matches = session.match_programs(self.places);
@@ -80,7 +80,7 @@ impl Verifier<'_> {
         files.iter().cloned().zip(answers.into_iter().map(|answer| answer.value)).collect()
     }
 
-    /// Verifies a file. Also returns the hash of its bytes.
+    /// Verifies a file. Also returns the hash of its bytes; `None` if it could not be read.
     fn verify_file(&self, file: &Utf8Path) -> (VerifiedProgram, Option<[u8; 32]>) {
         let failed = |problem: Box<Diagnostic>| VerifiedProgram {
             diagnostics: vec![problem.in_file(file)],
@@ -95,7 +95,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// Everything that a result depends on besides the program and the settings of `emit`.
+    /// Returns the part of the cache key besides the program and the settings of `emit`.
     fn query(&self, session: &Session<'_>) -> String {
         let limits = &self.settings.limits;
         let limits = (limits.verify_cells.value, limits.verify_pieces.value);
@@ -106,7 +106,7 @@ impl Verifier<'_> {
     }
 }
 
-/// Reports, as a detail, how many programs have cached results that still hold.
+/// Reports, at the level of details, how many programs have cached results that still hold.
 fn report_known(workspace: &Workspace, known: usize, all: usize) {
     let [en, de] = ["programs whose results still hold", "Programme, deren Ergebnisse noch gelten"];
     workspace.reporter.detail(&format!("{}: {known} / {all}", workspace.choose(en, de)));

@@ -1,4 +1,4 @@
-//! Determines cutter and material. (book: program/reading: the stock's extent is in no drawing)
+//! Determines the cutter and the material of a program. (book: program/reading: the stock's extent is in no drawing)
 
 use pathbuild_diagnostic::messages::{gcode as say, posts};
 use pathbuild_diagnostic::{Code, Diagnostic, Severity, Text};
@@ -13,7 +13,7 @@ use super::{Verifier, VerifyOptions};
 use crate::config::types::Tool;
 use crate::program::Program;
 
-/// All sources for the cutter of a program and the height of its material, and the values concluded from them.
+/// Combines all sources for the cutters of a program and for the height of its material.
 pub(super) struct Sources<'s> {
     verifier: &'s Verifier<'s>,
     program: &'s Program,
@@ -26,9 +26,10 @@ pub(super) struct Sources<'s> {
 struct ToolDiameters {
     given: Option<f64>,
     drawn: Option<f64>,
-    /// Its widths by the configuration.
+    /// Widths of the cutter according to the configuration.
     table: Option<Cutter>,
-    /// Whether the number in the program is that of the tool in the spindle. A native program always selects T1, so its header decides.
+    /// Whether the number in the program is that of the tool in the spindle. It is not in a native program, which always selects T1, so there the
+    /// header takes precedence over the configuration.
     is_numbered: bool,
     header: Option<StatedCutter>,
 }
@@ -42,8 +43,8 @@ impl ToolDiameters {
         first.or(self.header.map(|_| Origin::Program))
     }
 
-    /// The widths by the first source; where another one disagrees, the smaller diameter removes material and the larger one hits it. Only
-    /// the configuration and the header know the shape.
+    /// Returns the widths according to the first source. Where another source disagrees, the smaller diameter removes material and the larger one
+    /// hits it. Only the configuration and the header know the shape.
     fn cutter(&self) -> Option<Cutter> {
         let table = self.table.filter(|_| self.is_numbered);
         let known = [self.given, self.drawn, table.map(|table| table.diameter)];
@@ -66,18 +67,18 @@ impl<'s> Sources<'s> {
         sources
     }
 
-    /// The material that the program cuts, as far as cutters and surface are known.
+    /// Returns the material that the program cuts, if its cutters and surface are known.
     pub(super) fn stock(&self) -> Option<&Stock> {
         self.stock.as_ref()
     }
 
-    /// The cutters, each with the line from which it applies; `None` if that of any cut is unknown, or if there are no cuts.
+    /// Returns the cutters, each with the line from which it applies; `None` if there are no cuts, or if the cutter of any cut is unknown.
     pub(super) fn cutters(&self) -> Option<&[(u32, Cutter)]> {
         self.cutters.as_deref()
     }
 
-    /// The surface is taken from the command line, else from the drawing if it has only one, else from the program itself. Where the
-    /// command line and the program disagree, the higher one counts.
+    /// Determines the material. Its surface is taken from the command line, else from the drawing if it has only one, else from the program itself.
+    /// Where the command line and the program disagree, the higher surface counts.
     fn known_stock(&self) -> Option<Stock> {
         let stock = match (self.options().surface, self.drawn_surface()) {
             (Some(given), Some(_)) => self.uniform(given),
@@ -91,7 +92,8 @@ impl<'s> Sources<'s> {
         stock.map(|stock| self.limited(stock))
     }
 
-    /// The material up to the heights at which a native program's plunges begin to cut, else up to the surface in the header.
+    /// Returns the material that the program states: up to the heights at which a native program's plunges begin to cut, else up to the surface in
+    /// the header.
     fn stated_stock(&self) -> Option<Stock> {
         let cutters = self.cutters()?;
         let native = (self.program.dialect == Dialect::Native)
@@ -104,13 +106,13 @@ impl<'s> Sources<'s> {
         Some(Stock::of_pieces(self.cutters()?.iter().map(span).collect()))
     }
 
-    /// Where the cutters come from: the last of these places, if the program has several tools.
+    /// Returns the source of the cutters. If the program has several tools, this is the least reliable of their sources.
     pub(super) fn cutter_origin(&self) -> Option<Origin> {
         let given = self.options().cutter.map(|_| Origin::Option).or(self.drawn().map(|_| Origin::Drawing));
         self.header.tools.iter().filter_map(|tool| self.diameters(tool).origin()).max().or(given)
     }
 
-    /// Where the surface comes from, with its height where it is highest.
+    /// Returns the source of the surface, and the surface's greatest height in mm.
     pub(super) fn surface(&self) -> Option<(Origin, f64)> {
         let highest = self.stock().and_then(Stock::highest);
         match (self.options().surface, self.drawn_surface()) {
@@ -133,7 +135,7 @@ impl<'s> Sources<'s> {
         !is_surface_known || self.cutter_origin() == Some(Origin::Program)
     }
 
-    /// The outcome of the check of rapid moves. `blind`: those whose way is unknown.
+    /// Returns the outcome of the check of rapid moves. `blind` counts those that start at an unknown position.
     pub(super) fn rapids(&self, is_limit_reached: bool, blind: Option<BlindRapids>) -> Outcome {
         if is_limit_reached {
             return Outcome::NotMade(Reason::TooLarge);
@@ -157,8 +159,8 @@ impl<'s> Sources<'s> {
         }
     }
 
-    /// Reports rapid moves at cutting depth, unless the surface is known by more than the comments of another CAM, or the line has an
-    /// error already. A cutter that is not known may be as wide as [`WIDEST`].
+    /// Reports rapid moves at cutting depth. Does not if the surface is known from more than the comments of another CAM program, or for lines that
+    /// have an error already. A cutter that is not known may be as wide as [`WIDEST`].
     pub(super) fn doubtful_rapids(&self, rules: DepthRules, found: &[Diagnostic]) -> Vec<Diagnostic> {
         let is_known = self.options().surface.is_some()
             || self.verifier.against.is_some()
@@ -175,7 +177,7 @@ impl<'s> Sources<'s> {
             Code::LimitReached => found.iter().all(|problem| problem.code() != Code::LimitReached),
             _ => !found.iter().any(|error| error.is_error() && is_same_line(error, doubt)),
         });
-        // A limit that stops this check makes no program wrong, because the check only raises doubts.
+        // If a limit stops this check, the program is not wrong, because the check only raises doubts.
         for doubt in &mut doubts {
             doubt.severity = Severity::Warning;
             if self.cutters().is_none() && doubt.code() == Code::RapidAtDepth {
@@ -195,13 +197,13 @@ impl<'s> Sources<'s> {
         let given = self.options().cutter.or(self.drawn());
         let widths = |tool: &CuttingTool| Some((tool.line, self.diameters(tool).cutter()?));
         let mut cutters: Vec<(u32, Cutter)> = self.header.tools.iter().map(widths).collect::<Option<_>>()?;
-        // The tool of a subprogram's lines depends on the caller.
+        // In a subprogram, the tool depends on the caller.
         let is_one = cutters.iter().all(|(_, cutter)| *cutter == cutters[0].1);
         match given.map(Cutter::flat) {
             Some(given) if cutters.is_empty() || (self.header.has_calls && !is_one) => Some(vec![(0, given)]),
             None if cutters.is_empty() || (self.header.has_calls && !is_one) => None,
             given => {
-                // The given cutter is in the spindle from the beginning.
+                // The cutter from the command line or the drawing is in the spindle from the beginning.
                 cutters[0].0 = if given.is_some() { 0 } else { cutters[0].0 };
                 Some(cutters)
             }
@@ -243,7 +245,7 @@ impl<'s> Sources<'s> {
         found
     }
 
-    /// Compares the command line with the highest surface that the program states, unless there is a drawing.
+    /// Compares the surface of the command line with the highest one that the program states, unless there is a drawing.
     fn other_surface_given(&self) -> Option<Diagnostic> {
         let given = self.options().surface.filter(|_| self.verifier.against.is_none());
         let stated = self.header.surface.or_else(|| self.stated_stock()?.highest());
@@ -253,7 +255,7 @@ impl<'s> Sources<'s> {
         Some(Diagnostic::new(message).with("found", stated).with("given", given))
     }
 
-    /// Warns about tools that are not in the table, unless the table has no numbers at all.
+    /// Warns about tools that are not in the table, unless no tool in the table has a number.
     pub(super) fn unknown_tools(&self) -> Vec<Diagnostic> {
         let table_numbers: Vec<u32> = self.tools().iter().filter_map(|tool| tool.number).collect();
         let mut unknown: Vec<(u32, u32)> = Vec::new();
@@ -269,13 +271,13 @@ impl<'s> Sources<'s> {
         unknown.into_iter().map(warning).collect()
     }
 
-    /// The configured tool of this number.
+    /// Returns the configured tool with the number of this tool.
     fn entry(&self, tool: &CuttingTool) -> Option<&'s Tool> {
         self.tools().iter().find(|entry| entry.number.is_some() && entry.number == tool.number)
     }
 
-    /// The chip loads allowed for the tools, each with the line from which it cuts. In a program with subprograms, the tool of a line
-    /// depends on the caller.
+    /// Returns the chip loads allowed for the tools, each with the line from which the tool cuts; nothing for a program with subprograms and
+    /// several tools, in which the tool of a line depends on the caller.
     pub(super) fn chip_loads(&self) -> Vec<(u32, Option<ChipLoad>)> {
         if !self.is_numbered() || self.header.has_calls && self.header.tools.len() > 1 {
             return Vec::new();
@@ -284,8 +286,8 @@ impl<'s> Sources<'s> {
         self.header.tools.iter().map(load).collect()
     }
 
-    /// The directions of the tools, each with the line from which it cuts. Where the tool is not known, as in programs without T, the
-    /// direction common to all configured tools.
+    /// Returns the directions of rotation of the tools, each with the line from which the tool cuts. Where the tool is not known, as in programs
+    /// without T, this is the direction that all configured tools have in common.
     pub(super) fn directions(&self) -> Vec<(u32, Option<Turning>)> {
         let all: Vec<Option<Turning>> = self.tools().iter().map(Tool::turning).collect();
         let common =
@@ -299,12 +301,12 @@ impl<'s> Sources<'s> {
         self.header.tools.iter().map(direction).collect()
     }
 
-    /// Whether T is the number of a tool: layers are not tools, and native programs always say T1.
+    /// Whether T is the number of a tool: XpertMILL's layers are not tools, and native programs always contain T1.
     fn is_numbered(&self) -> bool {
         !matches!(self.program.dialect, Dialect::Xpertmill | Dialect::Native)
     }
 
-    /// The configured tools.
+    /// Returns the configured tools.
     fn tools(&self) -> &'s [Tool] {
         &self.verifier.settings.tables.tools.value
     }
@@ -324,7 +326,7 @@ impl<'s> Sources<'s> {
     fn diameters(&self, tool: &CuttingTool) -> ToolDiameters {
         let entry = self.entry(tool);
         let (given, drawn, header) = (self.options().cutter, self.drawn(), tool.cutter);
-        // Layers are not tools, but may be numbered like them.
+        // XpertMILL's layers are not tools, but may be numbered like them.
         let is_only_source = given.or(drawn).is_none() && header.is_none();
         let may_be_tool = |_: &f64| self.program.dialect != Dialect::Xpertmill || is_only_source;
         let table = entry.map(Tool::cutter).filter(|cutter| may_be_tool(&cutter.diameter));
@@ -347,7 +349,7 @@ fn disagreements_of(tool: &CuttingTool, diameters: &ToolDiameters) -> Vec<Diagno
     let mut found = Vec::new();
     found.extend(other_than_header(given).map(|values| given_other(&HEADER, values)));
     found.extend(different(table.filter(|_| is_numbered), given).map(|values| given_other(&TABLE, values)));
-    // The operator reads the header, and inserts the tool that it names.
+    // This is an error, because the operator reads the header and inserts the tool that it names.
     found.extend(other_than_header(drawn).map(|(header, drawn)| {
         let problem = Diagnostic::new(&say::OTHER_CUTTER_DRAWN).with("place", &HEADER);
         let problem = problem.with("found", header).with("drawn", drawn);
@@ -360,7 +362,7 @@ fn disagreements_of(tool: &CuttingTool, diameters: &ToolDiameters) -> Vec<Diagno
     found
 }
 
-/// Both values, if they differ.
+/// Returns both values, if they differ.
 fn different(one: Option<f64>, other: Option<f64>) -> Option<(f64, f64)> {
     one.zip(other).filter(|(one, other)| (one - other).abs() > TOLERANCE)
 }
@@ -368,7 +370,7 @@ fn different(one: Option<f64>, other: Option<f64>) -> Option<(f64, f64)> {
 /// Tolerance in mm within which diameters and heights are equal.
 const TOLERANCE: f64 = 1e-6;
 
-/// Diameter in mm of the widest cutter that is assumed where none is known. A wider one may have cleared whatever lies between two cuts.
+/// Diameter in mm of the widest cutter that is assumed if none is known. A wider one may have cleared everything between two cuts.
 const WIDEST: f64 = 50.0;
 
 static HEADER: Text = Text { en: "the header", de: "der Kopf" };

@@ -1,4 +1,4 @@
-//! Collects changes on disk in batches: events are debounced, and files that a CAD program is still writing are waited for.
+//! Collects changes on disk in batches. Events are debounced, and a batch waits for files that a CAD program is still writing.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -22,23 +22,23 @@ pub(super) struct Watcher {
     bell: Bell,
     source: Box<dyn notify::Watcher>,
     debounce: Duration,
-    /// The configuration and the files of the post-processor, as named in events.
+    /// The configuration and the files of the post-processor, with the paths that events report.
     configuration: BTreeSet<Utf8PathBuf>,
     directories: WatchedDirectories,
     /// Path of the working directory at the start; `None` if no watched path is relative.
     working_directory: Option<Utf8PathBuf>,
-    /// When to check next that the working directory still has this path.
+    /// Time at which to check again that the working directory still has this path.
     next_directory_check: Instant,
     system: Arc<dyn System>,
     /// Changes that arrived while a batch was processed.
     pending: Changes,
-    /// When these changes are due, if no more arrive.
+    /// Time at which these changes are due, if no more arrive.
     due: Instant,
     /// Whether a wake-up was requested and not yet handled.
     is_rung: bool,
-    /// Whether watching is to end.
+    /// Whether watching must end.
     is_over: bool,
-    /// Drawings that are incomplete, each with the time after which it is read as it is.
+    /// Incomplete drawings, each with the time after which it is read although it is incomplete.
     unfinished: BTreeMap<Utf8PathBuf, Instant>,
 }
 
@@ -46,11 +46,11 @@ pub(super) struct Watcher {
 pub(super) enum Batch {
     /// Files have changed.
     Changes(Changes),
-    /// Everything must be restarted.
+    /// Watching must start again, for this reason.
     Restart(Restart),
     /// A wake-up was requested through the `Bell`.
     Rung,
-    /// Watching is to end.
+    /// Watching must end.
     Over,
 }
 
@@ -60,14 +60,14 @@ const POLL_INTERVAL: Duration = Duration::from_secs(1);
 /// Interval at which the path of the working directory is checked.
 const DIRECTORY_CHECK_INTERVAL: Duration = Duration::from_secs(1);
 
-/// How long to wait for an incomplete drawing after its last change. Some programs never write the end marker.
+/// Time to wait for an incomplete drawing after its last change. Some programs never write the end marker.
 const INCOMPLETE_DRAWING_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// Interval at which incomplete drawings are checked.
 const INCOMPLETE_DRAWING_INTERVAL: Duration = Duration::from_millis(50);
 
 impl Watcher {
-    /// Starts watching. `post` lists the files that the post-processor is read from.
+    /// Starts watching. `post` lists the files that make up the post-processor.
     pub(super) fn new(
         session: &Session<'_>,
         request: &Request<'_>,
@@ -88,7 +88,7 @@ impl Watcher {
         directories.watch(&mut *watcher, &*workspace.system)?;
         let configuration = settings.file.iter().chain(post).map(|file| event_path(session, file));
         let configuration: BTreeSet<Utf8PathBuf> = configuration.collect();
-        // As with drawings, a link may be dangling by now.
+        // Best effort: a link among these files may be dangling, as for drawings.
         _ = directories.follow(&mut *watcher, session, configuration.iter().cloned());
         Ok(Self {
             signals,
@@ -120,7 +120,7 @@ impl Watcher {
         refused.into_iter().map(|(file, error)| (file, error.to_string())).collect()
     }
 
-    /// A handle that wakes this watcher.
+    /// Returns a handle that wakes this watcher.
     pub(super) fn bell(&self) -> Bell {
         self.bell.clone()
     }
@@ -152,7 +152,7 @@ impl Watcher {
         }
     }
 
-    /// Time until something is due, if no more events arrive.
+    /// Returns the time until the next deadline, if no more events arrive.
     fn patience(&self, library: &Library<'_>) -> Duration {
         if self.pending.is_empty() && self.unfinished.is_empty() && !library.has_backlog() {
             return Duration::MAX;
@@ -171,7 +171,7 @@ impl Watcher {
         (!changes.is_empty() || library.has_backlog()).then_some(Batch::Changes(changes))
     }
 
-    /// Whether drawings have changed since the last batch, or watching is to end.
+    /// Whether drawings have changed since the last batch, or watching must end.
     pub(super) fn has_news(&mut self, session: &Session<'_>) -> bool {
         self.poll_signals(session);
         let pending = &self.pending;
@@ -179,7 +179,7 @@ impl Watcher {
         self.is_over || pending.is_incomplete || pending.restart.is_some() || has_drawings
     }
 
-    /// Whether watching is to end.
+    /// Whether watching must end.
     pub(super) fn is_over(&mut self, session: &Session<'_>) -> bool {
         self.poll_signals(session);
         self.is_over
@@ -197,8 +197,8 @@ impl Watcher {
         }
     }
 
-    /// Whether the working directory was moved or removed. The process keeps the old directory, in which its relative paths are resolved.
-    /// This is polled because events report it only if every directory above can be watched.
+    /// Whether the working directory was moved or removed. The process keeps the old directory, in which its relative paths are resolved. The path
+    /// is polled because events report its change only if every directory above can be watched.
     fn has_moved(&mut self) -> bool {
         let now = Instant::now();
         let Some(before) = self.working_directory.as_ref().filter(|_| now >= self.next_directory_check)
@@ -224,7 +224,7 @@ impl Watcher {
             Signal::Rung => self.is_rung = true,
             Signal::Over => self.is_over = true,
             Signal::Changed(Ok(event)) if !event.need_rescan() => self.add_event(event, session),
-            // Events were lost.
+            // The system reports that events were lost.
             Signal::Changed(_) => {
                 self.pending.is_incomplete = true;
                 self.restart_debounce();
@@ -288,12 +288,12 @@ impl Watcher {
     }
 }
 
-/// The path of the working directory as it is now; `.` if it was removed.
+/// Returns the current path of the working directory; `.` if it was removed.
 fn current_directory(system: &dyn System) -> Utf8PathBuf {
     system.canonical(Utf8Path::new("."))
 }
 
-/// Whether a change of this path can affect results: drawings, configurations, ignore files, and possible directories of drawings.
+/// Whether a change at this path can affect results: it is a drawing, a configuration, an ignore file, or possibly a directory with drawings.
 fn may_affect_results(path: &Utf8Path) -> bool {
     let name = path.file_name().unwrap_or_default();
     match path.extension() {
@@ -303,7 +303,7 @@ fn may_affect_results(path: &Utf8Path) -> bool {
     }
 }
 
-/// Number of bytes at the end of a drawing that contain its end marker.
+/// Length in bytes of the end of a drawing in which the end marker is searched for.
 const TAIL: usize = 256;
 
 /// Whether a drawing exists but lacks the end marker.

@@ -1,5 +1,5 @@
-//! The watched directories, and the directories on the way to them. The system watches a directory itself, not its name: only events in the
-//! parent directory tell that it appeared, disappeared or was replaced.
+//! The watched directories and their parents. The system watches a directory itself, not its name: only events in the parent directory report that
+//! a directory appeared, disappeared or was replaced.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::io;
@@ -15,31 +15,31 @@ use crate::Input;
 use crate::config::clean;
 use crate::session::Session;
 
-/// Directories, as named in events.
+/// Directories to watch, with the paths that events report.
 pub(super) struct WatchedDirectories {
-    /// Watched directories, with or without everything below them.
+    /// Watched directories, and whether everything below them is watched as well.
     watched: BTreeMap<Utf8PathBuf, RecursiveMode>,
-    /// The watched directories as named in events, each with its canonical path, and its name in the session, which may begin with `..`.
+    /// For each watched directory: the path that events report, its canonical path, and its path in the session, which may begin with `..`.
     roots: BTreeSet<[Utf8PathBuf; 3]>,
-    /// Directories whose replacement matters: the watched ones, and those on the way to them.
+    /// Directories whose replacement matters: the watched ones and their parents.
     names: BTreeSet<Utf8PathBuf>,
     /// Directories that the system refuses to watch because they cannot be listed.
     refused: BTreeSet<Utf8PathBuf>,
     /// Symbolic and hard links among the drawings.
     links: Links,
-    /// Directories and files that are watched because links lead there.
+    /// Directories and files that are watched because links lead to them.
     linked: BTreeSet<Utf8PathBuf>,
 }
 
-/// The path of an event, as reported and with its directory's links resolved. A directory with two names has one watch, which reports only one
-/// of them.
+/// The path of an event, as reported and with the links of its directory resolved. A directory that is reached by two paths has one watch, which
+/// reports only one of them.
 pub(super) struct EventPath {
     pub(super) reported: Utf8PathBuf,
     resolved: Utf8PathBuf,
 }
 
 impl EventPath {
-    /// Normalises the absolute path of an event.
+    /// Normalises the absolute path that an event reports.
     pub(super) fn new(session: &Session<'_>, path: &Utf8Path) -> Self {
         let reported = event_path(session, path);
         let resolved = match reported.parent().zip(reported.file_name()) {
@@ -51,7 +51,7 @@ impl EventPath {
 }
 
 impl WatchedDirectories {
-    /// Collects the directories of a request. `post` lists the files that the post-processor is read from.
+    /// Collects the directories of a request. `post` lists the files that make up the post-processor.
     pub(super) fn new(session: &Session<'_>, request: &Request<'_>, post: &[Utf8PathBuf]) -> Self {
         let (mut watched, mut roots, mut names) = (BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
         let workspace = session.workspace();
@@ -79,9 +79,9 @@ impl WatchedDirectories {
     /// Starts watching the directories.
     ///
     /// # Errors
-    /// Why the system refuses. Directories that cannot be listed are no error.
+    /// If the system refuses, with its reason. Directories that cannot be listed are not an error.
     pub(super) fn watch(&mut self, source: &mut dyn Watcher, system: &dyn System) -> notify::Result<()> {
-        // Watch the parents first, so that no new directory is missed. Some of them may not be listable.
+        // Watch the parents first, so that no new directory is missed. Best effort: some of them may not be listable.
         for way in self.names.iter().filter_map(|name| name.parent()).filter(|way| !is_root(way)) {
             _ = source.watch(readable(way).as_std_path(), RecursiveMode::NonRecursive);
         }
@@ -108,7 +108,7 @@ impl WatchedDirectories {
         for file in files {
             let places = self.links.follow(system, &file, &workspace.working_directory, as_event);
             let outcomes = places.into_iter().map(|place| self.watch_link(source, place));
-            // Drawings behind a directory that cannot be listed are tried again after the next change.
+            // A drawing behind a directory that cannot be listed is followed again after the next change.
             let errors = outcomes.filter_map(Result::err).filter(|error| !is_refusal(error));
             refused.extend(errors.last().map(|error| (file, error)));
         }
@@ -124,7 +124,7 @@ impl WatchedDirectories {
         for name in directory_and_parents(&directory) {
             let above = name.parent().filter(|above| !is_root(above) && !self.is_covered(above));
             if let Some(above) = above {
-                // Some of these may not be listable.
+                // Best effort: some of these directories may not be listable.
                 _ = self.watch_linked(source, above);
             }
             self.names.insert(name);
@@ -140,7 +140,7 @@ impl WatchedDirectories {
         Ok(())
     }
 
-    /// Whether a directory is among the watched ones. Watching it again without its subdirectories would end the recursive watch.
+    /// Whether a directory is watched already. Watching it again without its subdirectories would end the recursive watch.
     fn is_covered(&self, directory: &Utf8Path) -> bool {
         let is_covered_by = |event_name: &Utf8PathBuf, root: &Utf8PathBuf| {
             root == directory
@@ -157,7 +157,7 @@ impl WatchedDirectories {
         self.watched.keys().any(|directory| directory.is_relative())
     }
 
-    /// Whether a change of this path matters; directories on the way contain unrelated names as well.
+    /// Whether a change at this path matters. Parents of watched directories also report names that do not.
     pub(super) fn is_relevant(&self, path: &EventPath) -> bool {
         self.names.contains(&path.reported)
             || self.roots.iter().any(|[event_name, real, _]| {
@@ -166,7 +166,8 @@ impl WatchedDirectories {
             })
     }
 
-    /// Whether the path is in the directory that is watched as `event_name`, or below it if it is watched recursively. `root` is one of its names.
+    /// Whether the path is in the directory that is watched as `event_name`, or below it if it is watched recursively. `root` is one of the
+    /// directory's paths.
     fn holds(&self, event_name: &Utf8Path, root: &Utf8Path, path: &Utf8Path) -> bool {
         match self.watched.get(event_name) {
             Some(RecursiveMode::Recursive) => path != root && path.starts_with(root),
@@ -175,7 +176,7 @@ impl WatchedDirectories {
         }
     }
 
-    /// Names that the session uses for the path of an event. A drawing may have two names: as an argument, and in a search directory.
+    /// Returns the names that the session uses for the path of an event. A drawing may have two: one as an argument, and one in a search directory.
     pub(super) fn own_names(&self, path: &EventPath) -> Vec<Utf8PathBuf> {
         let below =
             |own: &Utf8Path, root: &Utf8Path, path: &Utf8Path| Some(join(own, path.strip_prefix(root).ok()?));
@@ -193,14 +194,14 @@ impl WatchedDirectories {
         if own.is_empty() { vec![path.reported.clone()] } else { own.into_iter().collect() }
     }
 
-    /// Names of linked drawings that may differ after a change of this path.
+    /// Returns the names of linked drawings whose content a change at this path may affect.
     pub(super) fn linked_drawings(&self, path: &EventPath, system: &dyn System) -> BTreeSet<Utf8PathBuf> {
         let mut drawings = self.links.drawings_at(system, &path.reported);
         drawings.extend(self.links.drawings_at(system, &path.resolved));
         drawings
     }
 
-    /// Whether the set of directories to watch differs after this event. Ordinary files do not matter, nor do changes inside a directory:
+    /// Whether the set of directories to watch changes with this event. Ordinary files have no effect on it, nor have changes inside a directory:
     /// programs may be written into it.
     pub(super) fn are_changed(&self, kind: EventKind, path: &EventPath, system: &dyn System) -> bool {
         if comes_or_goes(kind) {
@@ -209,13 +210,13 @@ impl WatchedDirectories {
         self.refused.contains(&path.reported) && system.list(&path.reported).is_ok()
     }
 
-    /// Whether a directory above is watched recursively.
+    /// Whether a parent of this path is watched recursively.
     fn is_below(&self, path: &Utf8Path) -> bool {
         let is_whole = |above: &Utf8Path| self.watched.get(above) == Some(&RecursiveMode::Recursive);
         path.ancestors().skip(1).any(is_whole)
     }
 
-    /// Watches a directory. If a subdirectory cannot be listed, watches the others one by one; the check reports the unreadable one.
+    /// Watches a directory. If a subdirectory cannot be listed, watches the other ones individually; the check reports the unreadable one.
     fn watch_one(
         &mut self,
         source: &mut dyn Watcher,
@@ -232,10 +233,10 @@ impl WatchedDirectories {
             self.refused.insert(directory.to_owned());
             return Ok(());
         };
-        // The directory itself is watched already, since the system added it before its subdirectories.
+        // The directory itself is watched already, because the system adds it before its subdirectories.
         for name in listing.directories.iter().filter(|_| mode == RecursiveMode::Recursive) {
             let below = join(directory, name);
-            // A symbolic link may lead back.
+            // A symbolic link may lead back to a directory that has been seen.
             if seen.insert(system.canonical(&below)) {
                 self.watch_one(source, system, &below, mode, seen)?;
             }
@@ -244,12 +245,12 @@ impl WatchedDirectories {
     }
 }
 
-/// A directory and those on the way to it, except the root and the working directory.
+/// Returns a directory and its parents, except the root and the working directory.
 fn directory_and_parents(directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> {
     directory.ancestors().filter(|name| name.parent().is_some()).map(Utf8Path::to_owned)
 }
 
-/// Canonical path of a directory, as named in events.
+/// Returns the canonical path of a directory, as events report it.
 fn real_directory(session: &Session<'_>, directory: &Utf8Path) -> Utf8PathBuf {
     event_path(session, &session.workspace().system.canonical(readable(directory)))
 }
@@ -273,7 +274,7 @@ fn is_refusal(error: &notify::Error) -> bool {
     }
 }
 
-/// The directories to watch: those of drawings, the search directories, and those of the configuration and the post-processor. Missing
+/// Returns the directories to watch: those of drawings, the search directories, and those of the configuration and the post-processor. Missing
 /// directories are included because they may appear later.
 fn directories(
     session: &Session<'_>,
@@ -296,7 +297,7 @@ fn directories(
             alone.extend(place.parent());
         }
     }
-    // A name may be that of a path in the working directory.
+    // A name may refer to a path in the working directory.
     if request.inputs.iter().any(|input| matches!(input, Input::Name(_))) {
         alone.push(Utf8Path::new(""));
     }
@@ -305,40 +306,40 @@ fn directories(
     whole.chain(alone.into_iter().map(with(RecursiveMode::NonRecursive))).collect()
 }
 
-/// The path as events name it.
+/// Returns a path as events report it.
 pub(super) fn event_path(session: &Session<'_>, path: &Utf8Path) -> Utf8PathBuf {
     session.normal(&clean(&session.workspace().working_directory.join(path)))
 }
 
-/// Links among the dependencies of the results. Paths are spelt as in events.
+/// Links among the dependencies of results. All paths are as events report them.
 #[derive(Default)]
 pub(super) struct Links {
-    /// Linked drawings by each path that determines their content.
+    /// For each path that determines the content of linked drawings, these drawings.
     by_place: BTreeMap<Utf8PathBuf, BTreeSet<Utf8PathBuf>>,
     /// The reverse of `by_place`, for removing a drawing.
     places: HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>,
     /// Hard links by device and inode number.
     by_file: HashMap<[u64; 2], BTreeSet<Utf8PathBuf>>,
-    /// The reverse of `by_file`.
+    /// The reverse of `by_file`, for removing a drawing.
     files: HashMap<Utf8PathBuf, [u64; 2]>,
 }
 
 /// A path to watch for a linked drawing.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum LinkPlace {
-    /// A symbolic link on the way, or the file at the end.
+    /// A symbolic link that is followed, or the file to which the last one leads.
     Name(Utf8PathBuf),
-    /// A symbolic link to a directory on the way.
+    /// A symbolic link to a directory that is followed.
     Directory(Utf8PathBuf),
     /// A file with hard links, through any of which it may be written.
     File(Utf8PathBuf),
 }
 
-/// Upper bound for the number of links on the way to a file, as on Linux.
+/// Upper bound on the number of links that are followed to a file, as on Linux.
 const MAX_LINKS: usize = 40;
 
 impl Links {
-    /// Resolves a drawing's links anew and returns the paths to watch. `as_event` spells an absolute path as in events.
+    /// Resolves a drawing's links again and returns the paths to watch. `as_event` converts an absolute path to the form in events.
     pub(super) fn follow(
         &mut self,
         system: &dyn System,
@@ -371,7 +372,7 @@ impl Links {
         to_watch
     }
 
-    /// Linked drawings that may differ after a change at this path.
+    /// Returns the linked drawings whose content a change at this path may affect.
     pub(super) fn drawings_at(&self, system: &dyn System, place: &Utf8Path) -> BTreeSet<Utf8PathBuf> {
         let mut drawings = self.by_place.get(place).cloned().unwrap_or_default();
         if !drawings.is_empty()
@@ -400,7 +401,7 @@ impl Links {
     }
 }
 
-/// The symbolic links on the way of an absolute path, and last the path with all of them resolved.
+/// Returns the symbolic links that are followed on an absolute path, and last the path with all of them resolved.
 pub(super) fn trail(system: &dyn System, path: &Utf8Path) -> Vec<Utf8PathBuf> {
     let parts = |path: &Utf8Path| -> Vec<Utf8PathBuf> {
         path.components().rev().map(|part| part.as_str().into()).collect()

@@ -17,35 +17,35 @@ use crate::session::Session;
 /// A request to watch drawings.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
-    /// The drawings, paths and directories; if empty, the library.
+    /// The drawings, paths and directories to watch; if empty, the library.
     pub inputs: &'a Inputs,
     /// Whether to write the programs of `[emit] targets`.
     pub emits: bool,
-    /// Whether the listener lists paths, for which it needs the post-processor.
+    /// Whether the listener lists paths and therefore needs the post-processor.
     pub lists: bool,
     /// Whether to poll for changes, on systems that send no events.
     pub polls: bool,
 }
 
-/// Receives events from the watcher. Callbacks get the session so that they can query more than the findings.
+/// Receives reports from the watch loop. Callbacks get the session, so that they can query more than the findings.
 pub trait Listener {
-    /// Hands over the handle that wakes the watcher from other threads.
+    /// Receives the handle that wakes the watcher from other threads.
     fn set_bell(&self, _: Bell) {}
-    /// Drawings were found and read, and will be checked. The diagnostics are those of arguments and directories.
+    /// Called when drawings were found and read, before they are checked. The diagnostics are those of arguments and directories.
     fn drawings_found(&self, _: &mut Session<'_>, _: &[SourceFile], _: &[Diagnostic]) {}
-    /// Drawings were checked, and on request their programs were written through this post-processor.
+    /// Called when drawings were checked and, if requested, their programs were written through this post-processor.
     fn drawings_checked(&self, _: &mut Session<'_>, _: &[SourceFile], _: Option<&PostProcessor>) {}
-    /// A wake-up was requested through the [`Bell`].
+    /// Called when a wake-up was requested through the [`Bell`].
     fn woken(&self, _: &mut Session<'_>) {}
-    /// All drawings were checked for the first time.
+    /// Called when all drawings were checked for the first time.
     fn first_check_done(&self, _: &FirstCheck) {}
-    /// A batch of changes was processed.
+    /// Called when a batch of changes was processed.
     fn batch_done(&self, _: &Update) {}
-    /// The targets of these links cannot be watched, for the reason that the system gives.
+    /// Called for links whose targets cannot be watched, with the system's reason.
     fn not_watched(&self, _: &[(Utf8PathBuf, String)]) {}
-    /// Programs were written.
+    /// Called when programs were written.
     fn programs_written(&self, _: &[ProgramOutcome]) {}
-    /// Programs cannot be written because options are missing; the text says which.
+    /// Called when programs cannot be written because options are missing; the text names them.
     fn options_missing(&self, _: &str) {}
 }
 
@@ -54,7 +54,7 @@ pub trait Listener {
 pub struct FirstCheck {
     /// Number of drawings.
     pub drawings: usize,
-    /// Number of their paths.
+    /// Number of paths in these drawings.
     pub paths: usize,
     /// All diagnostics.
     pub diagnostics: Vec<Diagnostic>,
@@ -69,7 +69,7 @@ pub struct Update {
     pub revision: u64,
     /// Files that changed.
     pub changed: BTreeSet<Utf8PathBuf>,
-    /// Those of them that no longer exist.
+    /// The changed files that no longer exist.
     pub removed: BTreeSet<Utf8PathBuf>,
     /// Diagnostics of arguments and directories, if they have changed; they are part of `now` as well.
     pub problems: Option<Vec<Diagnostic>>,
@@ -79,26 +79,26 @@ pub struct Update {
     pub checked: usize,
     /// Number of drawings still to be checked, because more changes arrived.
     pub open: usize,
-    /// Previous diagnostics of these drawings.
+    /// Previous diagnostics of the checked drawings.
     pub before: Vec<Diagnostic>,
-    /// Current diagnostics of these drawings.
+    /// Current diagnostics of the checked drawings.
     pub now: Vec<Diagnostic>,
-    /// Current diagnostics that no drawing had before.
+    /// Those current diagnostics that no drawing had before.
     pub new: Vec<Diagnostic>,
-    /// Previous diagnostics that no drawing has any more, not even an unchanged one.
+    /// Those previous diagnostics that no drawing has any more, not even an unchanged one.
     pub fixed: Vec<Diagnostic>,
     /// Duration of the batch.
     pub time: Duration,
 }
 
-/// Why watching ended.
+/// The reason why watching ended.
 #[derive(Debug)]
 pub enum WatchEnd {
-    /// No more changes will arrive, or the end was requested.
+    /// The end was requested, or no more changes can arrive.
     Over,
-    /// The configuration, or a file of the configured post-processor, changed: everything must be restarted.
+    /// The configuration, or a file of the configured post-processor, has changed: watching must start again.
     ConfigurationChanged,
-    /// A watched directory, or one on the way to it, appeared, disappeared or was replaced: the system still watches the old one.
+    /// A watched directory, or a parent of one, appeared, disappeared or was replaced: the system still watches the old one.
     DirectoriesChanged,
     /// There are no arguments, and the configuration names no library.
     NothingNamed,
@@ -106,11 +106,11 @@ pub enum WatchEnd {
     NoTargets,
     /// The post-processor has errors.
     BadPost(Vec<Diagnostic>),
-    /// The system does not report changes; the text says why.
+    /// The system cannot report changes, for this reason.
     CannotWatch(String),
 }
 
-/// Messages from other threads.
+/// Messages to the watching thread.
 pub(super) enum Signal {
     Changed(notify::Result<Event>),
     Rung,
@@ -133,10 +133,10 @@ impl Bell {
     }
 }
 
-/// Why everything must be restarted.
+/// The reason why watching must start again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Restart {
-    /// A watched directory, or one on the way to it, appeared, disappeared or was replaced.
+    /// A watched directory, or a parent of one, appeared, disappeared or was replaced.
     Directories,
     /// The configuration or a file of the post-processor changed.
     Configuration,
@@ -148,7 +148,7 @@ pub(super) struct Changes {
     pub(super) paths: BTreeSet<Utf8PathBuf>,
     /// Whether events were lost, so that more may have changed.
     pub(super) is_incomplete: bool,
-    /// Why everything must be restarted, if it must.
+    /// The reason why watching must start again; `None` if it can go on.
     pub(super) restart: Option<Restart>,
 }
 

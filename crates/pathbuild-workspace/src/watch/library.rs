@@ -1,4 +1,4 @@
-//! The watched drawings with their results, and which of them a change affects: by the files that their results depend on, and by the names
+//! The watched drawings with their results. Determines which drawings a change affects: by the files that their results depend on, and by the names
 //! that they look up in directories.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
@@ -30,7 +30,7 @@ pub(super) struct Library<'a> {
     names: NameSnapshots,
     /// Drawings that are still to be checked, sorted by path.
     open: BTreeMap<Utf8PathBuf, SourceFile>,
-    /// The changed files that caused this backlog.
+    /// The changed files because of which these drawings are still to be checked.
     backlog_cause: BTreeSet<Utf8PathBuf>,
     /// Dependencies that have not yet been checked for links.
     unfollowed: BTreeSet<Utf8PathBuf>,
@@ -65,7 +65,7 @@ impl Batch {
 }
 
 impl<'a> Library<'a> {
-    /// Starts without any drawing.
+    /// Creates a library without drawings; [`find`](Self::find) adds them.
     pub(super) fn new(session: Session<'a>, inputs: &'a Inputs) -> Self {
         Self {
             coverage: Coverage::new(session.workspace()),
@@ -83,17 +83,17 @@ impl<'a> Library<'a> {
         }
     }
 
-    /// The session.
+    /// The session that the library uses.
     pub(super) fn session(&self) -> &Session<'a> {
         &self.session
     }
 
-    /// The session, mutably, for writing programs.
+    /// Mutable access to the session, for writing programs.
     pub(super) fn session_mut(&mut self) -> &mut Session<'a> {
         &mut self.session
     }
 
-    /// Numbers of drawings and paths.
+    /// Returns the numbers of drawings and of paths.
     pub(super) fn counts(&self) -> (usize, usize) {
         (self.drawings.len(), self.drawings.values().map(|result| result.names.len()).sum())
     }
@@ -138,8 +138,8 @@ impl<'a> Library<'a> {
         update
     }
 
-    /// Marks drawings with transient diagnostics to be checked again, except those just checked, and lists unreadable directories again.
-    /// `further` names drawings whose programs could not be written.
+    /// Marks drawings with transient diagnostics to be checked again, except those just checked, and lists unreadable directories again. `further`
+    /// names drawings whose programs could not be written.
     pub(super) fn try_again(
         &mut self,
         further: &BTreeSet<Utf8PathBuf>,
@@ -150,7 +150,7 @@ impl<'a> Library<'a> {
         let system = &*self.session.workspace().system;
         let is_missing = |path: &Utf8PathBuf| system.kind(path) == FileKind::Missing;
         let has_missing = self.drawings.iter().any(|(path, result)| is_passed(result) && is_missing(path));
-        // No event tells about a drawing that was removed before its directory was watched.
+        // No event reports a drawing that was removed before its directory was watched.
         if has_missing || self.problems.iter().any(is_transient) {
             self.find_drawings(&mut concerned, &mut update);
         }
@@ -163,7 +163,7 @@ impl<'a> Library<'a> {
         concerned.extend(files.iter().flat_map(|path| self.reverse.of_file(db.file(path))).chain(unsure));
         concerned.retain(|drawing| !checked_files.contains(drawing));
         if !concerned.is_empty() {
-            // A diagnostic about a directory says that it could not be listed.
+            // A diagnostic about a directory means that the directory could not be listed.
             for path in &files {
                 self.session.touch_file(path);
                 let directory = as_listed(path);
@@ -192,12 +192,12 @@ impl<'a> Library<'a> {
         !self.open.is_empty()
     }
 
-    /// The drawings still to be checked.
+    /// Iterates over the drawings still to be checked.
     pub(super) fn open(&self) -> impl Iterator<Item = SourceFile> {
         self.open.values().copied()
     }
 
-    /// Checks up to `most` of the drawings to be checked, and returns them.
+    /// Checks up to `most` of the drawings still to be checked, and returns them.
     pub(super) fn check_portion(&mut self, most: usize, update: &mut Batch) -> Vec<SourceFile> {
         let portion: Vec<SourceFile> =
             std::iter::from_fn(|| self.open.pop_first()).map(|(_, file)| file).take(most).collect();
@@ -218,7 +218,7 @@ impl<'a> Library<'a> {
         self.drawings.contains_key(drawing) || self.open.contains_key(drawing)
     }
 
-    /// The files affected by the changes: changed files, and the files in changed directories.
+    /// Returns the files that the changes affect: changed files, and the files in changed directories.
     fn changed_files(&self, changes: &Changes) -> BTreeSet<Utf8PathBuf> {
         let db = self.session.db();
         let mut files: BTreeSet<Utf8PathBuf> = BTreeSet::new();
@@ -241,8 +241,8 @@ impl<'a> Library<'a> {
         files
     }
 
-    /// Updates the names of directories in which files were added or removed, and collects the drawings whose lookups that may affect.
-    /// Returns whether any names changed.
+    /// Updates the names of directories in which files were added or removed, and collects the drawings whose lookups this may affect. Returns
+    /// whether any names changed.
     fn apply_names(
         &mut self,
         changes: &Changes,
@@ -278,7 +278,7 @@ impl<'a> Library<'a> {
         !changed.is_empty()
     }
 
-    /// Searches for drawings again: new ones are to be checked, missing ones are dropped.
+    /// Searches for drawings again: marks new ones to be checked, and drops missing ones.
     fn find_drawings(&mut self, concerned: &mut HashSet<SourceFile>, update: &mut Batch) {
         let selection = self.session.select(self.inputs);
         self.unfollowed.extend(ignore_files(&selection));
@@ -302,7 +302,7 @@ impl<'a> Library<'a> {
         let is_unsure =
             |drawing: &Utf8PathBuf| unlisted.iter().any(|place| drawing.starts_with(as_listed(place)));
         let is_gone = |drawing: &Utf8PathBuf| !existing.contains(drawing) && !is_unsure(drawing);
-        // Some may have been removed before they were checked for the first time.
+        // Drawings may have been removed before they were checked for the first time.
         let unchecked = self.open.extract_if(.., |drawing, _| is_gone(drawing));
         update.removed.extend(unchecked.map(|(drawing, _)| drawing));
         update.changed.extend(update.removed.iter().cloned());
@@ -347,7 +347,7 @@ impl<'a> Library<'a> {
         update.checked_files.extend(checked_files);
     }
 
-    /// Compares the Q-projects and drawings of which either was checked.
+    /// Compares drawings with their Q-projects, if either was checked.
     fn compare_q_projects(&mut self, checked_files: &[SourceFile], update: &mut Batch) {
         if self.pairs.is_none() {
             self.find_pairs(update);
@@ -375,39 +375,39 @@ impl<'a> Library<'a> {
     }
 }
 
-/// Directory of a diagnostic: the working directory is displayed as `.`.
+/// Returns the directory that a diagnostic is about, in which `.` stands for the working directory.
 fn as_listed(directory: &Utf8Path) -> &Utf8Path {
     if directory == "." { Utf8Path::new("") } else { directory }
 }
 
-/// The directories in which lookups were made.
+/// Returns the directories in which lookups were made.
 fn searched(traces: &[Trace]) -> impl Iterator<Item = &Utf8PathBuf> {
     traces.iter().flat_map(|trace| &trace.lookups).flat_map(|lookup| &lookup.directories)
 }
 
-/// Directory of a file; the working directory is the empty path.
+/// Returns the directory of a file; the working directory is the empty path.
 fn parent(path: &Utf8Path) -> &Utf8Path {
     path.parent().unwrap_or(Utf8Path::new(""))
 }
 
-/// The ignore files that the searched directories may contain: they may be links.
+/// Returns the possible ignore files of the searched directories, which may be links.
 fn ignore_files(selection: &Selection) -> impl Iterator<Item = Utf8PathBuf> {
     selection.below.iter().flat_map(|directory| IGNORE_FILES.map(|name| join(directory, name)))
 }
 
-/// The reverse index of all traces.
+/// For each input, the drawings whose results depend on it.
 #[derive(Default)]
 pub(super) struct ReverseIndex {
     by_file: HashMap<SourceFile, HashSet<SourceFile>>,
     by_lookup: HashMap<Utf8PathBuf, BTreeMap<PathName, HashSet<SourceFile>>>,
-    /// The traces of each drawing, needed to remove it.
+    /// The inputs of each drawing's results, needed to remove the drawing.
     traces: HashMap<SourceFile, Vec<Trace>>,
 }
 
 impl ReverseIndex {
-    /// Records the inputs of a drawing's results, replacing earlier ones.
+    /// Records the inputs of a drawing's results, and replaces earlier ones.
     pub(super) fn set(&mut self, drawing: SourceFile, traces: Vec<Trace>) {
-        // Most edits change geometry but not what is embedded.
+        // Fast path: most edits change geometry but not the embedded paths.
         if self.traces.get(&drawing) == Some(&traces) {
             return;
         }
@@ -424,7 +424,7 @@ impl ReverseIndex {
         self.traces.insert(drawing, traces);
     }
 
-    /// Removes a drawing.
+    /// Removes a drawing and its inputs.
     pub(super) fn remove(&mut self, drawing: SourceFile) {
         for trace in self.traces.remove(&drawing).unwrap_or_default() {
             for file in &trace.files {
@@ -442,12 +442,12 @@ impl ReverseIndex {
         }
     }
 
-    /// The drawings that depend on the contents of a file.
+    /// Returns the drawings that depend on the contents of a file.
     pub(super) fn of_file(&self, file: SourceFile) -> impl Iterator<Item = SourceFile> {
         self.by_file.get(&file).into_iter().flatten().copied()
     }
 
-    /// The drawings with lookups in a directory that files of these names may answer.
+    /// Returns the drawings with lookups in a directory whose results may change if files of these names appear or disappear.
     pub(super) fn of_names<'n>(
         &self,
         directory: &Utf8Path,
@@ -460,12 +460,12 @@ impl ReverseIndex {
         concerned.flat_map(|(_, drawings)| drawings).copied().collect()
     }
 
-    /// Whether the file is known as a dependency.
+    /// Whether any drawing's result depends on the file.
     pub(super) fn knows(&self, file: SourceFile) -> bool {
         self.by_file.contains_key(&file)
     }
 
-    /// All files that any drawing depends on.
+    /// Iterates over all files that any drawing's result depends on.
     pub(super) fn files(&self) -> impl Iterator<Item = SourceFile> {
         self.by_file.keys().copied()
     }
@@ -483,24 +483,24 @@ fn lookups(trace: &Trace) -> impl Iterator<Item = (&Utf8PathBuf, &PathName)> {
 pub(super) struct NameSnapshots(BTreeMap<Utf8PathBuf, BTreeSet<Box<str>>>);
 
 impl NameSnapshots {
-    /// Takes the snapshot of a directory if there is none. Must be called in the revision of the results that depend on the directory.
+    /// Stores the names in a directory, unless they are stored already. Must be called in the revision of the results that depend on the directory.
     pub(super) fn take(&mut self, session: &Session<'_>, directory: &Utf8Path) {
         if !self.0.contains_key(directory) {
             self.0.insert(directory.to_owned(), names_of(session, directory));
         }
     }
 
-    /// Whether there is a snapshot of a directory.
+    /// Whether the names in a directory are stored.
     pub(super) fn has(&self, directory: &Utf8Path) -> bool {
         self.0.contains_key(directory)
     }
 
-    /// The directories that have a snapshot.
+    /// Iterates over the directories whose names are stored.
     pub(super) fn directories(&self) -> impl Iterator<Item = &Utf8PathBuf> {
         self.0.keys()
     }
 
-    /// Whether the snapshot of a directory contains a name.
+    /// Whether the stored names of a directory contain a name.
     pub(super) fn holds(&self, directory: &Utf8Path, name: &str) -> bool {
         self.0.get(directory).is_some_and(|names| names.contains(name))
     }

@@ -28,7 +28,7 @@ use tally::FindingTally;
 use writing::Writer;
 
 impl Request<'_> {
-    /// Watches until it is told to end, or until everything must be restarted.
+    /// Watches until the end is requested, or until watching must start again.
     pub fn run(&self, workspace: &Workspace, listener: &dyn Listener) -> WatchEnd {
         let session = Session::traced(workspace);
         if self.inputs.inputs.is_empty() && !session.has_library() {
@@ -41,7 +41,7 @@ impl Request<'_> {
         if self.emits && workspace.settings.emit.targets.value.is_empty() {
             return WatchEnd::NoTargets;
         }
-        // Start before anything is read, so that no change is missed.
+        // Start watching before anything is read, so that no change is missed.
         match Watcher::new(&session, self, &writer.sources()) {
             Ok(watcher) => {
                 let library = Library::new(session, self.inputs);
@@ -114,7 +114,7 @@ impl WatchLoop<'_> {
         }
         self.revision += 1;
         let checked_files = self.work_on(affected);
-        // This may take as long as the time limit allows, so it must not delay the results of the change itself.
+        // Checking drawings again may take as long as the time limit allows, so it must not delay the results of the change itself.
         if !self.library.has_backlog() && !self.watcher.has_news(self.library.session()) {
             let again = self.library.try_again(&self.writer.with_transient_problems(), &checked_files);
             if self.library.has_backlog() || again.has_news() {
@@ -165,7 +165,7 @@ impl WatchLoop<'_> {
         checked_files
     }
 
-    /// Watches the targets of links, before they are read if possible.
+    /// Watches the targets of links, if possible before they are read.
     fn follow_links(&mut self) {
         let files = self.library.take_unfollowed();
         let refused = self.watcher.follow(self.library.session(), files);

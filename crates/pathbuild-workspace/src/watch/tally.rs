@@ -1,4 +1,4 @@
-//! How often a session's checks report each finding. (book: reference/commands, `watch`)
+//! Counts how often the checks of a session report each finding. (book: reference/commands, `watch`)
 
 use std::collections::HashMap;
 use std::hash::{Hash, Hasher};
@@ -7,12 +7,12 @@ use pathbuild_diagnostic::Diagnostic;
 
 use crate::findings::identity;
 
-/// Number of reports of each finding: the checks of several drawings may report the same one.
+/// For each finding, the number of checks that report it: several drawings may have the same one.
 #[derive(Debug, Default)]
 pub(super) struct FindingTally(HashMap<Counted, usize>);
 
 impl FindingTally {
-    /// Replaces findings. Returns those that were not known, and those that no check reports any more.
+    /// Replaces previous findings by current ones. Returns those that are new, and those that no check reports any more.
     pub(super) fn replace(
         &mut self,
         before: &[Diagnostic],
@@ -34,7 +34,7 @@ impl FindingTally {
     }
 }
 
-/// A finding, compared by its identity.
+/// A finding that is compared by its identity, without trace and notes.
 #[derive(Debug)]
 struct Counted(Diagnostic);
 

@@ -1,4 +1,4 @@
-//! Drawings that are removed between two steps of a session. The watcher's events and their timing play no part.
+//! Tests with drawings that are removed between two steps of a session. They do not depend on events of the watcher and their timing.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use crate::{Inputs, SilentReporter, Workspace};
 
 const DRAWING: &str = "layer 1001.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0";
 
-/// A library in memory.
+/// A library in memory, with its workspace.
 struct Place {
     system: Arc<MemorySystem>,
     inputs: Inputs,
@@ -57,7 +57,7 @@ impl Place {
         self.system.remove(Utf8Path::new(file)).unwrap();
     }
 
-    /// The watched library, after its first check.
+    /// Returns the watched library, after its first check.
     fn watched(&self) -> Library<'_> {
         let mut library = Library::new(Session::traced(&self.workspace), &self.inputs);
         let mut found = library.find();
@@ -116,7 +116,7 @@ fn a_new_drawing_may_be_removed_before_it_is_checked() {
     removed_before_the_check(&[], &both);
 }
 
-/// The system cannot tell about drawings in a directory that it does not watch yet.
+/// The system cannot report changes in a directory that it does not watch yet.
 #[test]
 fn a_drawing_whose_removal_was_not_told_is_dropped_after_the_next_change() {
     let place = Place::new();

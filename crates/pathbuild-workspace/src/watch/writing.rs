@@ -20,24 +20,24 @@ pub(super) struct Writer<'a> {
     is_on: bool,
     post_processor: Option<PostProcessor>,
     owners: FileOwners,
-    /// Diagnostics of writing the programs of each drawing, if there are any.
+    /// For each drawing, the diagnostics of writing its programs, if there are any.
     found: BTreeMap<Utf8PathBuf, Vec<Diagnostic>>,
 }
 
 /// The outcome of writing the programs of some drawings.
 #[derive(Default)]
 pub(super) struct WriteOutcome {
-    /// Diagnostics of the previous time.
+    /// Diagnostics of these drawings' programs from the previous time.
     pub(super) before: Vec<Diagnostic>,
     /// Current diagnostics.
     pub(super) now: Vec<Diagnostic>,
 }
 
 impl<'a> Writer<'a> {
-    /// Creates a writer, which is idle unless the request emits.
+    /// Creates a writer, which does nothing unless the request emits.
     ///
     /// # Errors
-    /// Errors of the configured post-processor.
+    /// The errors of the configured post-processor.
     pub(super) fn new(
         workspace: &'a Workspace,
         listener: &'a dyn Listener,
@@ -50,12 +50,12 @@ impl<'a> Writer<'a> {
         Ok(Self { workspace, listener, is_on: request.emits, post_processor, owners, found })
     }
 
-    /// The post-processor to write programs through; `None` for native programs, or if it is not needed.
+    /// The post-processor for the programs; `None` for native programs, or if the request needs none.
     pub(super) fn post_processor(&self) -> Option<&PostProcessor> {
         self.post_processor.as_ref()
     }
 
-    /// The drawings with paths that are targets.
+    /// Returns the drawings with paths that are targets.
     pub(super) fn written(&self, session: &Session<'_>, files: &[SourceFile]) -> Vec<SourceFile> {
         let mut configured = TargetPatterns::new(&self.workspace.settings);
         let mut is_written = |file: &&SourceFile| {
@@ -65,13 +65,13 @@ impl<'a> Writer<'a> {
         if self.is_on { files.iter().filter(|file| is_written(file)).copied().collect() } else { Vec::new() }
     }
 
-    /// The files that the post-processor is read from.
+    /// Returns the files that make up the post-processor.
     pub(super) fn sources(&self) -> Vec<Utf8PathBuf> {
         self.post_processor.as_ref().map(PostProcessor::sources).unwrap_or_default()
     }
 
-    /// Drawings whose programs have transient diagnostics or could not be written. No event tells when that changes, so they are tried
-    /// again.
+    /// Returns the drawings whose programs have transient diagnostics or could not be written. No event reports when that changes, so they are
+    /// tried again.
     pub(super) fn with_transient_problems(&self) -> BTreeSet<Utf8PathBuf> {
         let may_pass = |found: &Diagnostic| is_transient(found) || found.code() == Code::CannotWrite;
         let with_transient_problems = self.found.iter().filter(|(_, found)| found.iter().any(may_pass));
@@ -144,7 +144,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// The drawing that a diagnostic belongs to. Diagnostics about an output file name that file instead.
+    /// Returns the drawing that a diagnostic belongs to. Diagnostics about an output file name that file instead.
     fn drawing_of(&self, session: &Session<'_>, problem: &Diagnostic) -> Option<Utf8PathBuf> {
         let file = problem.file.as_ref().map(|file| file.as_str()).or(problem.quoted("name"))?;
         match self.owners.get(&file.to_lowercase()) {
