@@ -1,5 +1,6 @@
 //! `view`: scenes, and pictures of them. (docs: "Pictures")
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -7,11 +8,13 @@ use insta::assert_snapshot;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Heights, Options, interpret};
 use pathbuild_gcode::statistics::Summary;
+use pathbuild_motion::Move;
 use pathbuild_testkit::sheet;
 use rayon::prelude::*;
 use serde_json::Value;
 
 use crate::conformance::recorded::{self, Form, What};
+use crate::growth::drawings;
 use crate::support::{self, Place, Run};
 
 /// Statistics in a program's text are rounded to three decimals; here nothing is rounded.
@@ -234,16 +237,34 @@ fn the_text_is_the_file_that_emit_writes_and_each_cut_has_its_line() {
     }
 }
 
+/// Lines are looked up while the text is read, in a window of some thousand moves.
+#[test]
+fn the_cuts_of_a_long_program_have_their_lines() {
+    for post in ["native", "grbl"] {
+        let configuration =
+            format!("post = \"{post}\"\nspindle = \"manual\"\nfeed = 150\nrapid = 900\nsweep-height = 9\n");
+        let place =
+            Place::new().file("pathbuild.toml", configuration).file("1202.1P.dxf", drawings::chain(9000));
+        let file = place.path().join("x.json").to_str().unwrap().to_owned();
+        let path = &scene(&place.run_with(&["view", "1202.1P", "-o", &file]))["paths"][0];
+        assert!(path["moves"].as_array().unwrap().len() > 9000, "{post}");
+        lines_lead_to_moves(path, path["gcode"].as_str().unwrap(), post.parse().unwrap());
+    }
+}
+
 /// Checks that the line of each milling move starts where the move does, in a text read in this dialect; plunges have a line, too.
 fn lines_lead_to_moves(path: &Value, text: &str, dialect: Dialect) {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
-    let read = interpret(text.as_bytes(), dialect, &options).moves();
+    let mut read: BTreeMap<u64, Vec<Move>> = BTreeMap::new();
+    for (line, way) in interpret(text.as_bytes(), dialect, &options).moves() {
+        read.entry(line.into()).or_default().push(way);
+    }
     for it in path["moves"].as_array().unwrap() {
         let line = it["line"].as_u64().unwrap_or_else(|| panic!("{dialect}: no line for {it}"));
         if it["kind"] == "mill" || it["kind"] == "mark" {
             let begins =
                 |at: [f64; 3]| (0..3).all(|axis| (at[axis] - number(it, "from", axis)).abs() < 0.006);
-            let is_there = read.iter().any(|(found, way)| u64::from(*found) == line && begins(way.from.at));
+            let is_there = read.get(&line).is_some_and(|ways| ways.iter().any(|way| begins(way.from.at)));
             assert!(is_there, "{dialect}: line {line} does not begin {it}");
         }
     }
@@ -545,6 +566,21 @@ fn swept(svg: &str, color: &str) -> Vec<[f64; 3]> {
         })
     });
     lines.collect()
+}
+
+/// The time for the pixels of a path grows with the square of its strokes.
+#[test]
+fn strokes_of_the_stock_are_painted_in_groups() {
+    // One stroke is that of the plunge.
+    for (lines, paths) in [(511, 1), (512, 2)] {
+        let configuration = "feed = 150\nrapid = 900\nsweep-height = 9\n";
+        let place =
+            Place::new().file("pathbuild.toml", configuration).file("1202.1P.dxf", drawings::chain(lines));
+        let run = place.run("view 1202.1P --stock -o a.svg");
+        assert_eq!(run.status, Some(0), "{run}");
+        let is_through = |line: &&str| line.contains("stroke=\"#ccd6e0\"");
+        assert_eq!(place.read("a.svg").lines().filter(is_through).count(), paths, "{lines}");
+    }
 }
 
 /// The cutter stays above a bar for P and O together, so that P is left of it.

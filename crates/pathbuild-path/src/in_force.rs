@@ -1,6 +1,8 @@
 //! Lists the effective parameters of each element, and what provides them. (book: language/letters)
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use pathbuild_diagnostic::{Number, Text, words};
 use smol_str::{SmolStr, ToSmolStr};
@@ -24,8 +26,8 @@ pub struct ElementParameters {
     pub origin: Origin,
     /// Its name in messages.
     pub what: &'static Text,
-    /// The parameters in alphabetical order of their letters.
-    pub parameters: Vec<Parameter>,
+    /// The parameters in alphabetical order of their letters. Consecutive elements with the same ones share them.
+    pub parameters: Arc<[Parameter]>,
 }
 
 /// A letter with its effective value and the provider of that value.
@@ -51,7 +53,7 @@ pub fn parameters_in_force(
         Interpolation { bindings, limit: language.text_limit, unknown: &raw.faults.variables };
     let values = Values::of(raw.parameters(), ElementClass::PathStart, &interpolation);
     let chains = chains(raw, bindings, language);
-    let table = Table { raw, interpolation, options, role, values, chains };
+    let table = Table { raw, interpolation, options, role, values, chains, last: RefCell::default() };
     let start =
         raw.start.iter().map(|start| table.row(start.origin.clone(), ElementClass::PathStart, None, None));
     let elements = (0_u32..).zip(&raw.drawn.elements).map(|(number, element)| table.element(number, element));
@@ -70,6 +72,8 @@ struct Table<'a> {
     values: Values<'a>,
     /// For each element of a chain except the first: the first element of that chain.
     chains: BTreeMap<u32, u32>,
+    /// The parameters of the previous row.
+    last: RefCell<Arc<[Parameter]>>,
 }
 
 impl Table<'_> {
@@ -96,7 +100,16 @@ impl Table<'_> {
         };
         // Elements that accept no parameter text are traversed as sweeps.
         let what = if class == ElementClass::Unread { &words::SWEEP } else { class.word() };
-        ElementParameters { origin, what, parameters: letters.filter_map(parameter).collect() }
+        ElementParameters { origin, what, parameters: self.shared(letters.filter_map(parameter).collect()) }
+    }
+
+    /// The parameters of the previous row if they are the same: those of a row take more memory than its element.
+    fn shared(&self, parameters: Vec<Parameter>) -> Arc<[Parameter]> {
+        let mut last = self.last.borrow_mut();
+        if **last != *parameters {
+            *last = parameters.into();
+        }
+        Arc::clone(&last)
     }
 
     fn values_of(&self, text: Option<TextId>, class: ElementClass) -> Values<'_> {

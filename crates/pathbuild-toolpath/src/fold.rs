@@ -88,6 +88,8 @@ fn folded<P: Parts>(
     };
     fold.path(root, Placement::from_origin(path.start), 0.0, sweep_height);
     program.steps = fold.steps;
+    // Steps beyond those foreseen may have taken twice their memory.
+    program.steps.shrink_to_fit();
     program.names = fold.names;
     program.left_out = fold.left_out.into_values().collect();
     let order = in_order(&fold.probes);

@@ -3,6 +3,8 @@
 //! Lengths are in mm. Each path has its own coordinates, which are those of its program; [`ScenePath::zero`] is their origin in the
 //! drawing. Everything outside of paths is in the coordinates of the drawing.
 
+use std::sync::Arc;
+
 use pathbuild_diagnostic::shown;
 use pathbuild_motion as motion;
 use pathbuild_motion::{Axes, MoveShape, Pace};
@@ -168,9 +170,9 @@ pub struct Element {
     pub shape: Shape,
     /// Position in cutting order, counted from 1.
     pub order: Option<u32>,
-    /// Effective parameters of the element.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub parameters: Vec<Parameter>,
+    /// Effective parameters of the element. Consecutive elements with the same ones share them.
+    #[serde(skip_serializing_if = "has_none", serialize_with = "shared")]
+    pub parameters: Arc<[Parameter]>,
 }
 
 /// An effective parameter of an element.
@@ -676,4 +678,14 @@ pub(super) fn point<S: Serializer>(value: &[f64; 2], serializer: S) -> Result<S:
 
 pub(super) fn points<S: Serializer>(values: &[[f64; 2]; 2], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(values.iter().map(|value| value.map(rounded)))
+}
+
+// Parameters that several elements share.
+
+fn has_none(parameters: &Arc<[Parameter]>) -> bool {
+    parameters.is_empty()
+}
+
+fn shared<S: Serializer>(parameters: &Arc<[Parameter]>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(parameters.iter())
 }

@@ -1,6 +1,7 @@
 //! Builds scenes from the elements drawn on the layers of a path.
 
 use std::collections::BTreeMap;
+use std::{ptr, sync};
 
 use pathbuild_diagnostic::{ElementId, EntityKind};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
@@ -63,7 +64,8 @@ impl ScenePath {
             .iter()
             .map(|parameters| (parameters.origin.id, &*parameters.parameters))
             .collect();
-        let drawn = ElementBuilder { source, placement, path, in_force };
+        let mut drawn =
+            ElementBuilder { source, placement, path, in_force, last: (&[], sync::Arc::default()) };
         let shapes = drawn.add_elements(&mut self.elements);
         let own = |text: &&AssignedText| text.path == *source.raw.name;
         let texts = source.texts.iter().filter(own);
@@ -81,10 +83,12 @@ struct ElementBuilder<'a> {
     path: u32,
     /// Effective parameters of each element.
     in_force: BTreeMap<ElementId, &'a [InForceParameter]>,
+    /// The parameters of the previous element, and their form in the scene.
+    last: (&'a [InForceParameter], sync::Arc<[Parameter]>),
 }
 
 impl ElementBuilder<'_> {
-    fn add_elements(&self, elements: &mut Vec<Element>) -> Vec<LocatedShape> {
+    fn add_elements(&mut self, elements: &mut Vec<Element>) -> Vec<LocatedShape> {
         let raw = self.source.raw;
         let mut known = Vec::new();
         for element in &raw.drawn.elements {
@@ -111,7 +115,7 @@ impl ElementBuilder<'_> {
     }
 
     fn add(
-        &self,
+        &mut self,
         elements: &mut Vec<Element>,
         kind: ElementKind,
         origin: &pathbuild_path::Origin,
@@ -127,9 +131,18 @@ impl ElementBuilder<'_> {
             line: position.map(|position| position.line),
             shape: placed(&shape, self.placement),
             order: None,
-            parameters: self.in_force.get(&origin.id).into_iter().copied().flatten().map(parameter).collect(),
+            parameters: self.parameters(origin.id),
         });
         (position, shape)
+    }
+
+    /// The parameters of an element. Elements that share them in the path share them in the scene.
+    fn parameters(&mut self, id: ElementId) -> sync::Arc<[Parameter]> {
+        let own = self.in_force.get(&id).copied().unwrap_or_default();
+        if !ptr::eq(self.last.0, own) {
+            self.last = (own, own.iter().map(parameter).collect());
+        }
+        sync::Arc::clone(&self.last.1)
     }
 
     fn position(&self, id: ElementId) -> Option<Position> {

@@ -22,8 +22,8 @@ pub struct ProgramSource<'a> {
     pub trace: &'a Trace<usize>,
     /// The path and the paths that it embeds, as drawn and with all parameters bound.
     pub parts: &'a [(DrawnSource<'a>, &'a Path)],
-    /// Native text of the program, written without splitting moves.
-    pub text: &'a str,
+    /// Native text of the program, written without splitting moves; `None` if only the text as written is shown.
+    pub native: Option<&'a str>,
     /// Text of the program as written by `emit`; `None` to show only the native text.
     pub emitted: Option<EmittedText<'a>>,
     /// Speed of rapid moves in mm/min (the value of `--rapid`).
@@ -43,25 +43,27 @@ pub struct EmittedText<'a> {
     pub is_posted: bool,
 }
 
+/// A text of a program, and how to read it.
+#[derive(Clone, Copy)]
+struct ShownText<'a> {
+    bytes: &'a [u8],
+    dialect: Dialect,
+}
+
 /// Returns the scene of a path with its program.
 pub fn program_path(source: &ProgramSource<'_>) -> ScenePath {
-    let ProgramSource { program, trace, parts, text, emitted, rapid } = source;
+    let ProgramSource { program, trace, parts, native, emitted, rapid } = source;
     let mut builder = Builder { scene: ScenePath::default(), first_elements: Vec::new() };
     for occurrence in &trace.occurrences {
         builder.occurrence(occurrence, &parts[occurrence.id]);
     }
-    let (bytes, dialect) =
-        emitted.map_or((text.as_bytes(), Dialect::Native), |emitted| (emitted.bytes, emitted.dialect));
-    let ways: Vec<_> = program.moves().collect();
-    let of_text = |bytes, dialect| {
-        let moves: Vec<_> = ways.iter().map(|(_, way)| *way).collect();
-        lines_of_moves(&moves, bytes, dialect)
-    };
-    builder.moves(&ways, trace, &of_text(bytes, dialect));
-    let native = emitted.filter(|emitted| emitted.is_posted).map(|_| NativeText {
-        gcode: plain_lines(text.as_bytes()),
-        lines: of_text(text.as_bytes(), Dialect::Native),
-    });
+    let native_text = native.map(|text| ShownText { bytes: text.as_bytes(), dialect: Dialect::Native });
+    let emitted_text = emitted.map(|emitted| ShownText { bytes: emitted.bytes, dialect: emitted.dialect });
+    let shown = emitted_text.or(native_text);
+    let lines = |text: ShownText<'_>| lines_of_moves(program, text.bytes, text.dialect);
+    builder.moves(program, trace, &shown.map(lines).unwrap_or_default());
+    let native = native_text.filter(|_| emitted.is_some());
+    let native = native.map(|text| NativeText { gcode: plain_lines(text.bytes), lines: lines(text) });
     builder.number_elements();
     let root = parts[trace.occurrences[0].id];
     let totals = totals(program, *rapid);
@@ -83,7 +85,7 @@ pub fn program_path(source: &ProgramSource<'_>) -> ScenePath {
         probes: program.probes.iter().enumerate().map(probe).collect(),
         rapid: *rapid,
         totals: Some(totals),
-        gcode: Some(plain_lines(bytes)),
+        gcode: shown.map(|text| plain_lines(text.bytes)),
         written: emitted.and_then(|emitted| emitted.file).map(str::to_owned),
         native,
         ..builder.scene
@@ -156,10 +158,11 @@ impl Builder {
         }
     }
 
-    fn moves(&mut self, ways: &[(u32, Move)], trace: &Trace<usize>, lines: &[Option<u32>]) {
-        for ((step, way), line) in ways.iter().zip(lines) {
-            let mut movement = SceneMove::new(*way, *line);
-            let step = *step as usize - 1;
+    fn moves(&mut self, program: &Program, trace: &Trace<usize>, lines: &[Option<u32>]) {
+        self.scene.moves.reserve_exact(program.moves().count());
+        for (index, (step, way)) in program.moves().enumerate() {
+            let mut movement = SceneMove::new(way, lines.get(index).copied().flatten());
+            let step = step as usize - 1;
             movement.element = trace.steps.get(step).and_then(|drawn| self.element(*drawn));
             let kind = movement.element.map(|element| self.scene.elements[element as usize].kind);
             if movement.kind == MoveKind::Mill && kind == Some(ElementKind::Mark) {
@@ -244,29 +247,48 @@ const SAME_PLACE: f64 = 0.006;
 const MAX_SEARCHED_MOVES: usize = 4096;
 
 /// Returns for each move of a program its line in the text that was written from the program; `None` if it has no line.
-fn lines_of_moves(moves: &[Move], text: &[u8], dialect: Dialect) -> Vec<Option<u32>> {
+fn lines_of_moves(program: &Program, text: &[u8], dialect: Dialect) -> Vec<Option<u32>> {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
-    let mut written: Vec<(u32, Move)> = Vec::new();
+    let mut moves = program.moves().map(|(_, way)| way);
+    let mut lines = Vec::new();
+    let mut finder = Finder { written: Vec::new(), next: 0, last: None };
+    let mut is_placed = false;
     interpret_each(text, dialect, &options, &mut |step| {
+        let Some((line, movement)) = step.as_move() else { return };
         // Moves before the first fully known position depend on the machine and have no counterpart in the program.
-        if let Some((line, movement)) = step.as_move()
-            && (!written.is_empty() || movement.from.known == Axes::ALL)
-        {
-            written.push((line, movement));
+        is_placed |= movement.from.known == Axes::ALL;
+        if is_placed {
+            finder.written.push((line, movement));
+            while finder.written.len() >= finder.next + 2 * MAX_SEARCHED_MOVES
+                && let Some(movement) = moves.next()
+            {
+                lines.push(finder.line(&movement));
+            }
+            finder.forget();
         }
     });
-    let mut finder = Finder { written: &written, next: 0, last: None };
-    moves.iter().map(|movement| finder.line(movement)).collect()
+    lines.extend(moves.map(|movement| finder.line(&movement)));
+    lines
 }
 
-struct Finder<'a> {
-    written: &'a [(u32, Move)],
+struct Finder {
+    /// The written moves that may still be matched. They are read ahead as far as they are searched, because all of a long program would
+    /// take more memory than its scene.
+    written: Vec<(u32, Move)>,
     /// Index of the first written move that is not matched yet.
     next: usize,
     last: Option<u32>,
 }
 
-impl Finder<'_> {
+impl Finder {
+    /// Drops the matched moves once there are many of them.
+    fn forget(&mut self) {
+        if self.next >= MAX_SEARCHED_MOVES {
+            self.written.drain(..self.next);
+            self.next = 0;
+        }
+    }
+
     fn line(&mut self, movement: &Move) -> Option<u32> {
         match movement.pace {
             Pace::Rapid => self.rapid(movement),

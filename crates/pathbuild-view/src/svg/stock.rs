@@ -42,6 +42,10 @@ const SEARCH_PIECE: f64 = 0.25;
 /// Maximum number of pieces of a rapid move.
 const MOST_PIECES: f64 = 400.0;
 
+/// Maximum number of strokes that are painted at once. The time for the pixels of a path grows with the square of its strokes, and the memory
+/// with their number.
+const MOST_AT_ONCE: usize = 512;
+
 /// The cuts of a scene, and the stock that surrounds them.
 pub(super) struct MilledStock<'s> {
     pub(super) scene: &'s Scene,
@@ -259,20 +263,23 @@ impl<'s> MilledStock<'s> {
         canvas.path(&all, &format!("fill=\"{UNTOUCHED_COLOUR}\""));
     }
 
-    /// Draws strokes, combining consecutive ones that look alike to a single path.
+    /// Paints strokes that look alike at once, up to [`MOST_AT_ONCE`].
     fn strokes(&self, canvas: &mut Canvas, place: &PageTransform, strokes: &[Stroke]) {
         let mut all = String::new();
+        let mut count = 0;
         for (index, next) in strokes.iter().enumerate() {
             all.push_str(&data(&next.swept.way, place));
+            count += 1;
             let is_alike = |other: &Stroke| {
                 other.kind == next.kind
                     && other.z == next.z
                     && other.mark == next.mark
                     && other.swept.diameter == next.swept.diameter
             };
-            if strokes.get(index + 1).is_some_and(is_alike) {
+            if count < MOST_AT_ONCE && strokes.get(index + 1).is_some_and(is_alike) {
                 continue;
             }
+            count = 0;
             let width = next.swept.diameter * place.scale();
             let data = std::mem::take(&mut all);
             match next.kind {

@@ -275,7 +275,7 @@ impl<'db> DrawnInstance<'db> {
 
     /// Returns the options from which the elements take values.
     fn options(&self) -> impl Iterator<Item = &'static str> {
-        let parameters = self.in_force.iter().flat_map(|row| &row.parameters);
+        let parameters = self.in_force.iter().flat_map(|row| &*row.parameters);
         parameters.filter_map(|parameter| match parameter.from {
             Provider::Option(name) => Some(name),
             _ => None,

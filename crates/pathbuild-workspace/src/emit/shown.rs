@@ -1,6 +1,7 @@
 //! Views of a path for other commands: its scene, the text of its program, and its setup sheet.
 
 use std::slice;
+use std::sync::Arc;
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::{
@@ -10,7 +11,7 @@ use pathbuild_db::{
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_path::{KeepOut, PathName};
-use pathbuild_view::{self as view, BilingualText, EmittedText, Scene, ScenePath, Sheet};
+use pathbuild_view::{self as view, BilingualText, EmittedText, Parameter, Scene, ScenePath, Sheet};
 
 use super::build::{Built, build};
 use super::options::{self, OutputSettings, writing};
@@ -129,11 +130,20 @@ impl Session<'_> {
 
     /// Adds the line in pathbuild.toml to each parameter whose value is a default from the configuration.
     fn add_origins(&self, scene: &mut Scene) {
-        let elements = scene.paths.iter_mut().flat_map(|path| &mut path.elements);
-        for parameter in elements.flat_map(|element| &mut element.parameters) {
+        let with_origin = |parameter: &Parameter| {
             let option = parameter.which.as_deref().filter(|_| parameter.from == "option");
             let origin = option.map(|option| self.workspace().settings.origin_of_option(option));
-            parameter.line = origin.and_then(Origin::line);
+            Parameter { line: origin.and_then(Origin::line), ..parameter.clone() }
+        };
+        // Consecutive elements often share their parameters, and still do afterwards.
+        let mut last: Option<[Arc<[Parameter]>; 2]> = None;
+        for element in scene.paths.iter_mut().flat_map(|path| &mut path.elements) {
+            let known = last.take().filter(|[without, _]| Arc::ptr_eq(without, &element.parameters));
+            let [without, with] = known.unwrap_or_else(|| {
+                [Arc::clone(&element.parameters), element.parameters.iter().map(with_origin).collect()]
+            });
+            element.parameters = Arc::clone(&with);
+            last = Some([without, with]);
         }
     }
 

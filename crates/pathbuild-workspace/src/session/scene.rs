@@ -138,13 +138,15 @@ pub(crate) fn program_scene(
     // Do not split moves for height correction: each line of the text must correspond to one move.
     let correction = Correction { longest: 0.0, ..writing.options.correction };
     let options = WriteOptions { correction, ..writing.options };
-    let text = WriteSettings { options, ..*writing }.text(program, &Header::default())?;
+    let is_shown = emitted.is_none_or(|emitted| emitted.is_posted);
+    let native = is_shown.then(|| WriteSettings { options, ..*writing }.text(program, &Header::default()));
+    let native = native.transpose()?;
     let rapid = (options.rapid > 0.0).then_some(options.rapid);
     Ok(Some(view::program_path(&ProgramSource {
         program,
         trace,
         parts: &sources,
-        text: &text,
+        native: native.as_deref(),
         emitted,
         rapid,
     })))

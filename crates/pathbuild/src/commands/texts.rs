@@ -218,7 +218,7 @@ fn table<'a>(
         let at = context.choose("at", "bei");
         let Point { x, y } = origin.point;
         _ = writeln!(text, "  {element} {at} ({x}, {y}): {}", what.in_lang(context.lang()));
-        for Parameter { letter, value, from } in parameters {
+        for Parameter { letter, value, from } in parameters.iter() {
             let value = shown::line(value);
             _ = writeln!(text, "    {} {value:<12} {}", letter.as_char(), source(context, from));
         }
