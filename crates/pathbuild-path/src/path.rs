@@ -5,6 +5,7 @@ use std::sync::Arc;
 use pathbuild_diagnostic::{EntityKind, Point, Text, TextFault, words};
 use smol_str::SmolStr;
 
+use crate::approx::near;
 use crate::effective::{PathNumbers, PathOptions, PathRole};
 use crate::element::{Cut, Element, Origin, Shape};
 use crate::geometry::{Curve, Xy};
@@ -377,8 +378,11 @@ impl Helix {
 }
 
 impl Bars {
-    /// The number of bars on a segment of this length.
+    /// The number of bars on a segment of this length: as many as fit. A length that is a multiple of U + P except for rounding counts as
+    /// one, so that the number does not depend on the direction of the segment.
     pub fn count(&self, length: f64) -> f64 {
-        (length / (self.distance + self.length)).floor()
+        let spacing = self.distance + self.length;
+        let nearest = (length / spacing).round();
+        if near(length, nearest * spacing) { nearest } else { (length / spacing).floor() }
     }
 }

@@ -75,7 +75,8 @@ impl BarPlan {
         }
         let pitch = length / count;
         // The slopes have 45 degrees if there is room for that, otherwise they are steeper.
-        let slope = (bars.top - bottom).min(bars.length / 2.0).min((pitch - bars.length - tool) / 2.0);
+        let room = ((pitch - bars.length - tool) / 2.0).max(0.0);
+        let slope = (bars.top - bottom).min(bars.length / 2.0).min(room);
         let edge = bars.length / 2.0 + tool / 2.0;
         let between = (pitch - bars.length - 2.0 * slope - tool).max(0.0);
         #[expect(

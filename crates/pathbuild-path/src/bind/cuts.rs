@@ -63,11 +63,11 @@ impl Binder<'_> {
         let bars = Bars { top: top?, length: bar?, distance: distance? };
         self.note_thin_bars(scope, bars.top);
         let (tool, count) = (tool?, bars.count(length));
-        let gap = length / count - bars.length;
-        if count > 0.0 && !at_least(gap, tool) {
+        let pitch = length / count;
+        if count > 0.0 && !at_least(pitch, bars.length + tool) {
             let problem = Diagnostic::new(&paths::NO_ROOM_BETWEEN_BARS)
                 .with("count", count)
-                .with("gap", gap)
+                .with("gap", pitch - bars.length)
                 .with("tool", tool);
             self.report(scope.at, problem);
         }

@@ -62,9 +62,27 @@ fn the_number_of_bars_is_what_has_room() {
         moves(&drawing).iter().filter(|step| step.ends_with(" 0")).count() / 2
     };
     assert_eq!(gaps("40", "P2 U8"), 4);
-    assert_eq!(gaps("39.999", "P2 U8"), 3);
+    assert_eq!(gaps("39.99997", "P2 U8"), 4, "rounded");
+    assert_eq!(gaps("39.9999", "P2 U8"), 3);
     assert_eq!(gaps("40", "P2 U38"), 1);
     assert_eq!(gaps("40", "P2 U38.001"), 0);
+}
+
+/// The length of a line that is not parallel to an axis is a multiple of U + P only up to rounding. With U = O, bars leave exactly room for the
+/// cutter.
+#[test]
+fn the_number_of_bars_does_not_depend_on_the_direction() {
+    for (length, parameters, expected) in [(30.0, "P2 U8", 3), (10.0, "P2 U8", 1), (25.0, "P2 U3", 5)] {
+        for step in 0..200 {
+            let (sin, cos) = libm::sincos(f64::from(step) * 0.0314);
+            let end = format!("{},{}", length * cos, length * sin);
+            let drawing =
+                path(&format!("T5 O3 D2 B0 I5 {parameters}"), &format!("bars 0,0 {end}\nend {end}"));
+            let milled = moves(&drawing);
+            let downs = milled.windows(2).filter(|pair| pair[0].ends_with(" 2") && pair[1].ends_with(" 0"));
+            assert_eq!(downs.count(), expected, "{length} mm, step {step}: {milled:?}");
+        }
+    }
 }
 
 /// Without gaps, the segment remains at the height of the bars.
