@@ -21,8 +21,9 @@ pub use queries::{
     Closure, Collision, Destination, DrawnPath, Edge, Embedding, FileIndex, Instance, MissingOption, NameKey,
     NameLookup, Outcome, Part, PathIndex, PathPlace, PathSummary, PlacedKeepOut, PlacedPart, ReachedPath,
     ResolvedPath, Trace, TracedProgram, assigned_texts, chains, check_file, check_target, closure,
-    combinations, content, content_hash, drawing_names, drawn_path, embeds, embeds_others, file_index,
-    holders, in_force, keep_outs, likely_file, locate, may_hold, name_table, other_layers, path, path_index,
-    path_names, path_place, placed_keep_outs, placed_parts, prefetch, program, q_project, q_project_findings,
-    raw_file, resolve_path, search_path, summary, trace, traced_program, uncut_rings, unlistable, unlisted,
+    combinations, content, content_hash, definitions_trace, drawing_names, drawn_path, embeds, embeds_others,
+    file_index, holders, in_force, keep_outs, likely_file, locate, may_hold, name_table, other_layers, path,
+    path_index, path_names, path_place, placed_keep_outs, placed_parts, prefetch, program, q_project,
+    q_project_findings, raw_file, resolve_path, search_path, second_definitions, summary, trace,
+    traced_program, uncut_rings, unlistable, unlisted,
 };
