@@ -26,7 +26,7 @@ pub struct Directory {
     /// The normalised path.
     #[returns(ref)]
     pub path: Utf8PathBuf,
-    /// Incremented whenever a file in it was created, removed or renamed.
+    /// Incremented whenever a file in the directory was created, removed or renamed.
     #[returns(copy)]
     pub revision: u64,
 }
@@ -34,7 +34,7 @@ pub struct Directory {
 /// A path that a client asks for.
 #[salsa::input(debug)]
 pub struct Target {
-    /// The drawing that defines it.
+    /// The drawing that defines the path.
     #[returns(copy)]
     pub file: SourceFile,
     /// The path's name.
@@ -48,11 +48,11 @@ pub struct Target {
 /// The purpose for which a path is queried.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Role {
-    /// To emit its program: it must not have variables, and `--sweep-height` applies if it has no S of its own.
+    /// The program of the path is to be emitted: the path must not have variables, and `--sweep-height` applies if it has no S of its own.
     Emitted,
-    /// To check it, with example values for its variables and S as if it were embedded.
+    /// The path is to be checked, with example values for its variables and S as if it were embedded.
     Checked,
-    /// To check it with these values.
+    /// The path is to be checked with these values of its variables.
     CheckedWith(pathbuild_path::Bindings),
 }
 

@@ -80,7 +80,7 @@ impl Drawing {
 pub struct Layer {
     /// The name as first spelt by an entity: trimmed, decoded, without xref prefix.
     pub name: Box<str>,
-    /// Whether it is frozen or off (PB112 when a path is on it).
+    /// Whether the layer is frozen or off (PB112 when a path is on it).
     pub hidden: bool,
 }
 
@@ -109,7 +109,7 @@ pub struct OmittedCurve {
     pub layer: u32,
     /// Type of the entity that was left out.
     pub kind: EntityKind,
-    /// Its first point, if known.
+    /// First point of the entity, if known.
     pub point: Option<Point>,
     /// For a block that draws on layers that were not wanted, and on no others: the names of those layers. If one of them is read for
     /// another purpose, nothing is missing.
@@ -130,7 +130,7 @@ pub struct Entity {
     pub kind: EntityKind,
     /// Number shared by all parts of one polyline or approximated curve: a text that overlaps one part belongs to all of them.
     pub group: Option<u32>,
-    /// Whether it is in a block that is inserted mirrored.
+    /// Whether the entity is in a block that is inserted mirrored.
     pub is_mirrored: bool,
     /// The shape, in world coordinates.
     pub geometry: Geometry,
@@ -202,9 +202,9 @@ pub struct Text {
     pub horizontal: HorizontalAlign,
     /// Vertical alignment from 73.
     pub vertical: VerticalAlign,
-    /// Mirrored in x, so that letters run from right to left (71 bit 2, or extrusion 0,0,-1; both together cancel out).
+    /// Whether the text is mirrored in x, so that letters run from right to left (71 bit 2, or extrusion 0,0,-1; both together cancel out).
     pub backwards: bool,
-    /// Mirrored in y, upside down (71 bit 4).
+    /// Whether the text is mirrored in y, so that it is upside down (71 bit 4).
     pub upside_down: bool,
 }
 

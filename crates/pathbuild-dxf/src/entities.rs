@@ -405,17 +405,17 @@ impl RecordKind {
         })
     }
 
-    /// Whether it belongs to a POLYLINE.
+    /// Whether such a record belongs to a POLYLINE.
     fn is_part(self) -> bool {
         matches!(self, Self::Vertex | Self::SequenceEnd)
     }
 
-    /// Whether it draws more than texts and annotations.
+    /// Whether such a record draws more than texts and annotations.
     fn is_element(self) -> bool {
         !(self.is_part() || self.is_template() || matches!(self, Self::Text | Self::MText | Self::Hatch))
     }
 
-    /// Whether it draws nothing where its block is inserted: each insertion has an ATTRIB of its own instead.
+    /// Whether such a record draws nothing where its block is inserted: each insertion has an ATTRIB of its own instead.
     fn is_template(self) -> bool {
         self == Self::Foreign(EntityKind::AttDef)
     }
@@ -478,7 +478,7 @@ pub(crate) struct Traits {
     pub(crate) line_type: LineType,
     pub(crate) kind: EntityKind,
     pub(crate) origin: Origin,
-    /// Whether group 60 hides it.
+    /// Whether group 60 hides the entity.
     pub(crate) is_invisible: bool,
 }
 

@@ -79,11 +79,11 @@ pub(crate) enum EntityError<'a> {
     LeftOut {
         /// The message, which gives the reason.
         message: &'static Message,
-        /// Its first point, if known.
+        /// First point of the entity, if known.
         point: Option<Point>,
         /// The name of the block, for an insertion.
         block: Option<Box<str>>,
-        /// The layers that its block draws on, for [`OmittedCurve::layers`](crate::OmittedCurve::layers).
+        /// The layers that the block draws on, for [`OmittedCurve::layers`](crate::OmittedCurve::layers).
         layers: Arc<[SmolStr]>,
     },
     /// The insertion of this block, which contains itself or is nested too deep: PB002.

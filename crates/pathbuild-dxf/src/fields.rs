@@ -15,9 +15,9 @@ use crate::pairs::{Pair, Stop, without_cr};
 pub(crate) struct Value<'a> {
     /// The bytes, not trimmed.
     pub(crate) bytes: &'a [u8],
-    /// The line of its group code.
+    /// The line of the group code.
     pub(crate) line: u32,
-    /// The number of its entity; slots of earlier entities count as empty.
+    /// The number of the entity; slots of earlier entities count as empty.
     entity: u32,
 }
 
@@ -53,7 +53,7 @@ pub(crate) struct Fields<'a> {
     slots: [Value<'a>; SLOTS],
     /// Groups with codes that this kind of entity repeats, in order.
     pub(crate) repeated: Vec<Pair<'a>>,
-    /// Largest number of them to keep.
+    /// Largest number of repeated groups to keep.
     most_repeated: usize,
 }
 

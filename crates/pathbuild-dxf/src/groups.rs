@@ -219,7 +219,7 @@ impl<'a> Stretch<'a> {
         self.at
     }
 
-    /// Whether it is [`Self::EMPTY`].
+    /// Whether this is [`Self::EMPTY`].
     pub(crate) fn is_empty(&self) -> bool {
         self.at == 0 && self.ends == 0
     }

@@ -35,7 +35,7 @@ struct FoundLayer<'a> {
     /// The decoded spelling.
     full_name: Cow<'a, str>,
     is_kept: bool,
-    /// Whether it is layer `0`, which stands for the layer of the insertion inside a block.
+    /// Whether the layer is layer `0`, which inside a block stands for the layer of the insertion.
     is_inheriting: bool,
     used: Option<Box<UsedLayer>>,
 }
@@ -51,7 +51,7 @@ pub(crate) struct UsedLayer {
     pub(crate) line_type: SmolStr,
     /// Whether the layer is frozen or off.
     pub(crate) hidden: bool,
-    /// Whether it is frozen: then blocks inserted on it are invisible as a whole.
+    /// Whether the layer is frozen: then blocks inserted on it are invisible as a whole.
     pub(crate) is_frozen: bool,
 }
 
@@ -119,7 +119,7 @@ impl<'a, 'o> Layers<'a, 'o> {
         if self.is_inheriting(layer) { of_insert } else { layer }
     }
 
-    /// Whether it is layer `0`.
+    /// Whether a layer is layer `0`.
     #[inline]
     pub(crate) fn is_inheriting(&self, layer: LayerId) -> bool {
         self.found(layer).is_inheriting
@@ -353,9 +353,9 @@ pub(crate) const CONTINUOUS: SmolStr = SmolStr::new_static("CONTINUOUS");
 /// The line type of an entity as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LineType {
-    /// The line type of its layer, which also applies if the entity names none.
+    /// The line type of the entity's layer, which also applies if the entity names none.
     ByLayer,
-    /// The line type of the INSERT that places its block.
+    /// The line type of the INSERT that places the entity's block.
     ByBlock,
     /// Index of a name in [`LineTypes`].
     Named(u32),

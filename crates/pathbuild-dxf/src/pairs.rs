@@ -32,7 +32,7 @@ pub(crate) enum Stop<'a> {
     BadCode {
         /// The line in question.
         line: u32,
-        /// Its content, shortened.
+        /// Content of the line, shortened.
         found: &'a [u8],
     },
 }

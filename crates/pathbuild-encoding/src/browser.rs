@@ -7,7 +7,7 @@ use crate::big5;
 /// A text encoding that the browser decodes.
 #[derive(Debug)]
 pub struct Encoding {
-    /// Its name in the encoding standard.
+    /// Name of the encoding in the encoding standard.
     label: &'static str,
     kind: Kind,
 }

@@ -50,7 +50,7 @@ pub struct Chain {
     pub infeed: f64,
     /// W in mm: the depth from which on milling is sweepless.
     pub first_depth: Option<f64>,
-    /// Range of its members in [`WalkedPath::members`]; never empty.
+    /// Range of the chain's members in [`WalkedPath::members`]; never empty.
     pub(crate) members: Range<usize>,
 }
 
@@ -59,7 +59,7 @@ pub struct Chain {
 pub struct ChainSegment {
     segment: u32,
     cut: u32,
-    /// Whether it leads back out of a dead end.
+    /// Whether the segment leads back out of a dead end.
     pub is_return: bool,
     is_turned: bool,
     moved: Option<Box<Curve>>,
@@ -220,22 +220,22 @@ impl Item {
 }
 
 impl ChainSegment {
-    /// The location of its element.
+    /// Returns the location of the segment's element.
     pub fn origin(&self, path: &Path) -> Origin {
         path.origin(&path.segments[self.segment as usize])
     }
 
-    /// Its element, as an index into [`DrawnElements::elements`](crate::DrawnElements::elements).
+    /// Returns the segment's element, as an index into [`DrawnElements::elements`](crate::DrawnElements::elements).
     pub fn element(&self, path: &Path) -> u32 {
         path.segments[self.segment as usize].element
     }
 
-    /// The parameters for milling it.
+    /// Returns the parameters for milling the segment.
     pub fn cut<'p>(&self, path: &'p Path) -> &'p CutParameters {
         &path.cuts[self.cut as usize]
     }
 
-    /// Its curve in walking direction. The path must be the one that was walked.
+    /// Returns the segment's curve in walking direction. The path must be the one that was walked.
     pub fn curve(&self, path: &Path) -> Curve {
         let segment = &path.segments[self.segment as usize];
         curve(path, segment, self.is_turned, self.moved.as_deref()).expect("what is in a chain is a curve")
@@ -266,7 +266,7 @@ impl ChainSegment {
 pub(crate) struct Passage {
     pub(crate) start: Xy,
     pub(crate) end: Xy,
-    /// Whether it runs against the drawn direction.
+    /// Whether the passage runs against the drawn direction.
     pub(crate) is_turned: bool,
     /// The milled curve if it differs from the drawn one, because the start was moved to close a gap.
     pub(crate) moved: Option<Box<Curve>>,

@@ -23,9 +23,9 @@ pub struct PathOptions {
 /// The use of a path, which determines its sweep height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathRole {
-    /// A program is written for it.
+    /// A program is written for the path.
     Emitted,
-    /// It is embedded, or checked on its own.
+    /// The path is embedded, or checked on its own.
     Embedded,
 }
 
@@ -45,7 +45,7 @@ pub struct PathNumbers {
 pub enum Provider {
     /// The element's own text.
     Own,
-    /// The text of the first segment of its chain.
+    /// The text of the first segment of the element's chain.
     Chain,
     /// The text of the path's start.
     Path,
@@ -63,9 +63,9 @@ pub(crate) struct Texts<'v, 't> {
     pub(crate) class: ElementClass,
     /// The element's own text.
     pub(crate) own: &'v Values<'t>,
-    /// The text of the first segment of its chain, if that is another element.
+    /// The text of the first segment of the element's chain, if that is another element.
     pub(crate) chain: Option<&'v Values<'t>>,
-    /// The text of its path.
+    /// The text of the element's path.
     pub(crate) path: &'v Values<'t>,
 }
 

@@ -12,24 +12,24 @@ use crate::text::TextId;
 /// A line, arc or circle on a path's layer that represents a part of the path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element {
-    /// Its entity in the file.
+    /// The entity in the file that draws the element.
     pub source: Source,
     /// The shape as drawn.
     pub shape: Shape,
-    /// Its meaning in the drawing language.
+    /// The element's meaning in the drawing language.
     pub role: Role,
-    /// Its parameter text, see [`DrawnElements::texts`](crate::DrawnElements::texts).
+    /// The element's parameter text, see [`DrawnElements::texts`](crate::DrawnElements::texts).
     pub text: Option<TextId>,
 }
 
 /// Identifies an entity of the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Source {
-    /// Its number in the path's source map.
+    /// Number of the entity in the path's source map.
     pub id: ElementId,
-    /// Its entity type.
+    /// Type of the entity.
     pub entity: EntityKind,
-    /// Its layer, as an index into [`DrawnElements::layers`](crate::DrawnElements::layers).
+    /// Layer of the entity, as an index into [`DrawnElements::layers`](crate::DrawnElements::layers).
     pub layer: u32,
 }
 
@@ -45,9 +45,9 @@ pub struct Marker {
 /// The location of an element, for diagnostics.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
-    /// Its number in the path's source map.
+    /// Number of the element in the path's source map.
     pub id: ElementId,
-    /// Its type in the file.
+    /// Type of its entity in the file.
     pub entity: EntityKind,
     /// Name of its layer.
     pub layer: SmolStr,
@@ -140,7 +140,7 @@ impl Shape {
         }
     }
 
-    /// Its name in messages.
+    /// Returns the name of the shape in messages.
     pub fn word(&self) -> &'static Text {
         match self {
             Self::Curve(Curve::Line(_)) => &words::LINE,
@@ -151,7 +151,7 @@ impl Shape {
 }
 
 impl Element {
-    /// Its class for the table of letters, with a cutter of diameter `tool`.
+    /// Returns the element's class for the table of letters, with a cutter of diameter `tool`.
     pub fn class(&self, tool: Option<f64>) -> ElementClass {
         match (self.role, self.shape) {
             (Role::Cut(cut), Shape::Circle { radius, .. }) => circle_class(cut, radius, tool),
@@ -166,7 +166,7 @@ impl Element {
 }
 
 impl Cut {
-    /// The letter for its depth.
+    /// Returns the letter that gives the cut's depth.
     pub(crate) fn depth(self) -> Letter {
         match self {
             Self::Mill | Self::Support => Letter::B,
@@ -176,7 +176,7 @@ impl Cut {
 }
 
 impl ElementClass {
-    /// Its name in messages.
+    /// Returns the name of the cut in messages.
     pub fn word(self) -> &'static Text {
         match self {
             Self::PathStart => &words::PATH_START,

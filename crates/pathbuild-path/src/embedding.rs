@@ -26,7 +26,7 @@ pub struct PathHeader {
     pub name: SpeltName,
     /// Whether the drawing of the path has no errors, apart from its values.
     pub is_sound: bool,
-    /// The definitions of its variables, in the order written.
+    /// The definitions of the path's variables, in the order written.
     pub definitions: Vec<Definition>,
 }
 
@@ -49,17 +49,17 @@ pub struct PathSignature {
     pub output_suffix: SmolStr,
     /// E: the regular expression for names of embedded paths.
     pub embeds_only: Option<SmolStr>,
-    /// The distance from its start to its end.
+    /// The distance from the path's start to its end.
     pub size: f64,
     /// Whether any milling uses the feed of the options.
     pub needs_feed: bool,
-    /// Whether it has Z-probes of its own.
+    /// Whether the path has Z-probes of its own.
     pub has_probes: bool,
     /// The probes raised by H.
     pub raised_probes: Vec<ProbeTop>,
     /// Letters with values that are hidden by errors.
     pub(crate) unknown: Letters,
-    /// Its subpath segments in order.
+    /// The path's subpath segments in order.
     pub subpaths: Box<[SubpathCall]>,
 }
 
@@ -68,11 +68,11 @@ pub struct PathSignature {
 pub struct SubpathCall {
     /// Index into [`Path::segments`].
     pub segment: usize,
-    /// The location of its element.
+    /// The location of the segment's element.
     pub origin: Origin,
     /// The parameters of the segment.
     pub subpath: Subpath,
-    /// Its own text with a letter underlined, for each compared letter that it gives.
+    /// The segment's own text with a letter underlined, for each compared letter that the text gives.
     faults: Box<[(Letter, TextFault)]>,
 }
 
@@ -129,7 +129,7 @@ impl SubpathCall {
         }
     }
 
-    /// The values that it gives the variables of the embedded path.
+    /// Returns the values that the segment gives to the variables of the embedded path.
     pub fn bindings(&self) -> Bindings {
         let values = self.subpath.values.iter();
         Bindings::new(values.filter_map(|given| Some((given.variable?, given.value.clone()))))
@@ -161,12 +161,12 @@ impl ProbeTop {
 }
 
 impl PathSignature {
-    /// Height in mm of the highest point of its own material and probes, above its plane.
+    /// Returns the height in mm of the highest point of the path's own material and probes, above its plane.
     pub fn own_top(&self) -> f64 {
         self.raised_probes.iter().map(|probe| probe.height).fold(self.thickness, f64::max)
     }
 
-    /// Returns PB203 for each of its own probes that reaches the sweep height, in mm.
+    /// Returns PB203 for each of the path's own probes that reaches the sweep height, in mm.
     pub fn raised_probe_problems(&self, sweep_height: f64) -> Vec<Diagnostic> {
         let too_high = self.raised_probes.iter().filter(|probe| !above(sweep_height, probe.height));
         let problem =

@@ -24,7 +24,7 @@ use crate::walk::walk;
 pub struct ElementParameters {
     /// The location of the element.
     pub origin: Origin,
-    /// Its name in messages.
+    /// The element's name in messages.
     pub what: &'static Text,
     /// The parameters in alphabetical order of their letters. Consecutive elements with the same ones share them.
     pub parameters: Arc<[Parameter]>,

@@ -11,13 +11,13 @@ use crate::geometry::{Arc, Curve, Line, Placement, Xy};
 /// A clamp: an area that the tool must not enter below a given height.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeepOut {
-    /// Name of its layer.
+    /// Name of the clamp's layer.
     pub layer: SmolStr,
-    /// The start of its outline; for a circle, the centre.
+    /// The start of the clamp's outline; for a circle, the centre.
     pub at: Xy,
-    /// Its height in mm, above the plate or above the level that its drawing is raised to.
+    /// The clamp's height in mm, above the plate or above the level that its drawing is raised to.
     pub height: f64,
-    /// Its outline: a closed sequence of curves. A circle is a single arc.
+    /// The clamp's outline: a closed sequence of curves. A circle is a single arc.
     pub outline: Vec<Curve>,
 }
 
@@ -129,7 +129,7 @@ type IndexedPiece = GeomWithData<Rectangle<[f64; 2]>, OutlinePiece>;
 #[derive(Clone, Copy, Debug)]
 struct OutlinePiece {
     curve: Curve,
-    /// The range of Y in which it counts as a side of the outline. Consecutive pieces adjoin exactly, without the gap that rounding would
+    /// The range of Y in which the piece counts as a side of the outline. Consecutive pieces adjoin exactly, without the gap that rounding would
     /// leave.
     from: f64,
     to: f64,
@@ -151,7 +151,7 @@ impl Outline {
         Self { pieces: RTree::bulk_load(pieces.collect()) }
     }
 
-    /// Its bounding box.
+    /// Returns the bounding box of the outline.
     pub(crate) fn extent(&self) -> AABB<[f64; 2]> {
         self.pieces.root().envelope()
     }
@@ -174,7 +174,7 @@ impl Outline {
 }
 
 impl OutlinePiece {
-    /// 1 if it crosses the ray to the right of a point upwards, -1 if downwards, 0 if not at all.
+    /// Returns 1 if the piece crosses the ray to the right of a point upwards, -1 if downwards, 0 if not at all.
     fn crossing(&self, point: Xy) -> i32 {
         let up = self.from <= point.y && point.y < self.to;
         let down = self.to <= point.y && point.y < self.from;

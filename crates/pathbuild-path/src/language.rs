@@ -40,7 +40,7 @@ pub struct Language {
 pub struct PathTool {
     /// Name of the tool: NAME in `[tool.NAME]`.
     pub name: SmolStr,
-    /// Whether the configuration assigns it by the path's name and not only by its diameter.
+    /// Whether the configuration assigns the tool by the path's name and not only by its diameter.
     pub is_named: bool,
     /// The chip load that the user allows.
     pub chip_load: Option<ChipLoad>,

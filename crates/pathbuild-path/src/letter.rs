@@ -76,12 +76,12 @@ impl Letter {
         Self::ALL[self as usize].0
     }
 
-    /// Whether its value must not contain variables.
+    /// Whether the value of the letter must not contain variables.
     pub fn is_literal(self) -> bool {
         matches!(self, Self::N | Self::O | Self::At)
     }
 
-    /// Whether its value is a text rather than a number.
+    /// Whether the value of the letter is a text rather than a number.
     pub fn is_text(self) -> bool {
         use Letter::{At, E, Embed, L, M, Q, R, Variable};
         matches!(self, E | L | M | Q | R | Embed | At | Variable)
@@ -238,7 +238,7 @@ impl ElementClass {
         CELLS.get(self as usize).map_or(LetterUse::Allowed, |cells| cells[letter as usize])
     }
 
-    /// The letters with an effect in its text, for help.
+    /// Returns the letters that have an effect in the text of such an element, for help.
     pub fn known_letters(self) -> impl Iterator<Item = char> {
         Letter::ALL
             .into_iter()
@@ -254,7 +254,7 @@ impl ElementClass {
             .filter(move |letter| self.use_of(*letter) == LetterUse::Needed)
     }
 
-    /// Whether it has support bars, or gives the parameters for the support bars of others.
+    /// Whether such elements have support bars, or give the parameters for the support bars of others.
     pub(crate) fn has_bars(self) -> bool {
         matches!(self, Self::PathStart | Self::Support | Self::HelicalSupport)
     }

@@ -40,7 +40,7 @@ impl LineType {
         Self::NAMES.iter().find(|(_, known)| *known == self).map_or("", |(name, _)| name)
     }
 
-    /// Its names in other programs and languages.
+    /// Returns the names of the line type in other programs and languages.
     pub fn other_names(self) -> impl Iterator<Item = &'static str> {
         names_in(ALIASES).filter(move |(_, known)| *known == self).map(|(name, _)| name)
     }

@@ -43,11 +43,11 @@ pub struct Path {
     pub drawn: Arc<DrawnElements>,
     /// Segments in order: circles, lines, arcs.
     pub segments: Vec<Segment>,
-    /// Parameters of its milling, marking and support segments.
+    /// Parameters of the milling, marking and support segments.
     pub cuts: Vec<CutParameters>,
-    /// Parameters of its drilled holes and drilled marks.
+    /// Parameters of the drilled holes and drilled marks.
     pub holes: Vec<Hole>,
-    /// Its helical circles.
+    /// Parameters of the helical circles.
     pub helices: Vec<Helix>,
     /// Z-probes in file order.
     pub probes: Vec<Probe>,
@@ -59,7 +59,7 @@ pub struct Path {
     pub start_origin: Origin,
     /// Location of the end marker.
     pub end_origin: Origin,
-    /// Curves on its layers that do not belong to it, with their start points if known.
+    /// Curves on the path's layers that do not belong to it, with their start points if known.
     pub left_out: Vec<(EntityKind, Option<Point>)>,
     /// Properties that errors leave unknown; `None` for a path without errors.
     pub(crate) faults: Option<Box<Faults>>,
@@ -97,18 +97,18 @@ pub struct Probe {
     pub feed: Option<f64>,
     /// Label (L).
     pub label: Option<Box<str>>,
-    /// Its own text, see [`DrawnElements::texts`].
+    /// The probe's own text, see [`DrawnElements::texts`].
     pub(crate) text: Option<TextId>,
 }
 
 /// A segment of the walk.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
-    /// Its element, as an index into [`DrawnElements::elements`].
+    /// The segment's element, as an index into [`DrawnElements::elements`].
     pub element: u32,
     /// Order at a star: N, or the default for its kind.
     pub order: f64,
-    /// Its kind, with its parameters or their index.
+    /// The kind of segment, with its parameters or their index.
     pub kind: SegmentKind,
 }
 
@@ -142,7 +142,7 @@ pub struct CutParameters {
     pub bars: Option<Bars>,
     /// I, C and W, which apply if it is the first segment of its chain.
     pub chain: ChainParameters,
-    /// Its own text, if that gives I, C or W; see [`DrawnElements::texts`].
+    /// The segment's own text, if that gives I, C or W; see [`DrawnElements::texts`].
     pub chain_letters: Option<TextId>,
     /// Comment for the program (Q).
     pub comment: Option<SmolStr>,
@@ -220,7 +220,7 @@ pub struct Subpath {
     pub height: f64,
     /// Values for the variables of the embedded path, in the order written.
     pub values: Vec<SubpathValue>,
-    /// Its own text, see [`DrawnElements::texts`] and [`Path::fault`].
+    /// The segment's own text, see [`DrawnElements::texts`] and [`Path::fault`].
     pub text: Option<TextId>,
 }
 
@@ -251,12 +251,12 @@ pub struct SubpathValue {
 }
 
 impl Path {
-    /// Whether it has errors: it is checked further, but gives no program.
+    /// Whether the path has errors. Such a path is checked further, but gives no program.
     pub fn has_faults(&self) -> bool {
         self.faults.is_some()
     }
 
-    /// Whether its errors, if it has any, leave no doubt about where and how deep it cuts.
+    /// Whether it is known where and how deep the path cuts, despite any errors.
     pub fn are_cuts_known(&self) -> bool {
         self.faults.as_ref().is_none_or(|faults| faults.are_cuts_known)
     }

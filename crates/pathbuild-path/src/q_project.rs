@@ -79,16 +79,16 @@ fn values(raw: &RawPath, proxy: Option<&ProxyLine>) -> Bindings {
 pub struct QProject {
     /// T, O and M of the path: T is the maximum of the embedded paths.
     pub parameters: String,
-    /// Its segments, in the order of the drawing's paths.
+    /// The segments of the path, in the order of the drawing's paths.
     pub lines: Vec<QProjectLine>,
 }
 
 /// A planned subpath segment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QProjectLine {
-    /// Its length in mm.
+    /// The length of the segment in mm.
     pub length: f64,
-    /// Its parameter text.
+    /// The parameter text of the segment.
     pub text: String,
 }
 

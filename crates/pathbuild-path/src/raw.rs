@@ -17,7 +17,7 @@ use crate::variables::{Bindings, Definition};
 /// A path as drawn. It contains no lines and handles of the file, see [`SourceMap`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawPath {
-    /// Its name as spelt by its first layer in the file.
+    /// The path's name as spelt by its first layer in the file.
     pub name: SpeltName,
     /// The start marker. Its text is the path's own, even if @ refers to the text of another path.
     pub start: Option<Marker>,
@@ -27,7 +27,7 @@ pub struct RawPath {
     pub turns: Vec<Marker>,
     /// Z-probes, in file order.
     pub probes: Vec<Marker>,
-    /// Its elements with their texts.
+    /// The path's elements with their texts.
     pub drawn: Arc<DrawnElements>,
     /// The path's own parameters among the texts: the text of its start, or a copy of that of the path named by @.
     pub(crate) parameters: Option<TextId>,
@@ -35,9 +35,9 @@ pub struct RawPath {
     pub(crate) borrowed_from: Option<Box<(PathName, Origin)>>,
     /// Properties that errors leave unknown.
     pub(crate) faults: DrawingFaults,
-    /// Its variables in the order written.
+    /// The definitions of the path's variables, in the order written.
     pub definitions: Vec<Definition>,
-    /// Curves on its layers that do not belong to it, with their start points if known.
+    /// Curves on the path's layers that do not belong to it, with their start points if known.
     pub left_out: Vec<(EntityKind, Option<Point>)>,
     /// Findings about the drawing alone. An error ends the compilation of the path.
     pub diagnostics: Vec<Diagnostic>,

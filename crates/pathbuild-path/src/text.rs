@@ -39,9 +39,9 @@ struct Text {
 pub struct ParameterText<'t> {
     string: &'t str,
     pieces: &'t [LetterValue],
-    /// The letters in it.
+    /// The letters in the text.
     pub(crate) letters: Letters,
-    /// Whether all its pieces have different letters and valid values without references to variables.
+    /// Whether all pieces of the text have different letters and valid values without references to variables.
     pub(crate) is_plain: bool,
 }
 
@@ -433,7 +433,7 @@ pub(crate) fn without_percent_codes(text: &str) -> Cow<'_, str> {
 pub(crate) struct Misreading {
     /// The single error to report, without a place.
     pub(crate) problem: Diagnostic,
-    /// The letters that it may have been meant to give.
+    /// The letters that the text may have been meant to give.
     pub(crate) unread: Letters,
 }
 

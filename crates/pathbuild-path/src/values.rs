@@ -33,7 +33,7 @@ pub(crate) enum GivenNumber {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Values<'t> {
     text: ParameterText<'t>,
-    /// The values of its pieces with variables substituted; empty if all values are literal.
+    /// The values of the text's pieces with variables substituted; empty if all values are literal.
     filled: Vec<FilledValue<'t>>,
     /// Letters that the text lacks, but that an unreadable piece of it may have been meant to give.
     pub(crate) unread: Letters,

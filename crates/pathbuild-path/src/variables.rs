@@ -139,9 +139,9 @@ impl Interpolation<'_> {
 /// A variable defined at the start of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Definition {
-    /// Its name, one character.
+    /// The variable's name, one character.
     pub name: char,
-    /// Its permitted values.
+    /// The permitted values.
     pub values: AllowedValues,
     written: SmolStr,
 }

@@ -304,7 +304,7 @@ pub(super) struct Plan {
 pub(super) struct PathPlan {
     pub(super) name: String,
     pub(super) signature: Signature,
-    /// The range of its variable B, if it has one.
+    /// The range of the path's variable B, if it has one.
     pub(super) variable: Option<(f64, f64)>,
 }
 

@@ -60,7 +60,7 @@ impl MissingOption {
 pub struct ReachedPath<'db> {
     /// The path with its values.
     pub instance: Instance<'db>,
-    /// The smallest depth below the target at which it is reached.
+    /// The smallest depth below the target at which the path is reached.
     pub depth: u32,
 }
 
@@ -531,7 +531,7 @@ fn hash(value: &impl Hash) -> u64 {
 pub struct Edge<'db> {
     /// The path that contains the segment.
     pub from: Instance<'db>,
-    /// The start of its subpath segment, in its drawing.
+    /// The start of the segment, in the drawing of the path that contains it.
     pub point: Point,
     /// The path that the segment embeds.
     pub to: Destination<'db>,
@@ -544,7 +544,7 @@ pub enum Destination<'db> {
     Path(Instance<'db>),
     /// No path. If there are several reasons, only the first one is kept.
     Nowhere {
-        /// The name it refers to, if any.
+        /// The name that the segment gives, if any.
         name: Option<PathName>,
         /// The code of the finding that gives the reason.
         code: Code,
@@ -587,7 +587,7 @@ pub struct Trace {
 pub struct NameLookup {
     /// Name of the path.
     pub name: PathName,
-    /// The directories that were searched for it, in order.
+    /// The directories that were searched for the path, in order.
     pub directories: Vec<Utf8PathBuf>,
 }
 

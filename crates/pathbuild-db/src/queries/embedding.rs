@@ -24,7 +24,7 @@ pub struct Embedding<'db> {
     pub origin: Origin,
     /// The name of the embedded path, if the segment has one.
     pub name: Option<SpeltName>,
-    /// The result of resolving it.
+    /// The result of resolving the segment.
     pub outcome: Outcome<'db>,
     /// Warnings about the segment.
     pub warnings: Vec<Diagnostic>,
@@ -39,7 +39,7 @@ pub enum Outcome<'db> {
     Unread(Vec<Diagnostic>),
     /// The path was found nowhere, or in several files: PB503, PB504.
     NotFound(Diagnostic),
-    /// The values do not fit its variables: PB302 to PB304.
+    /// The values do not fit the variables of the path: PB302 to PB304.
     Unbound(Vec<Diagnostic>),
     /// The path was found; the problems are PB201, PB505, PB506 and PB510.
     Found {
@@ -160,7 +160,7 @@ fn shown(directory: &str) -> &str {
 /// A path of a file with values for its variables. Created inside queries only.
 #[salsa::interned(debug)]
 pub struct Instance<'db> {
-    /// The drawing that defines it.
+    /// The drawing that defines the path.
     #[returns(copy)]
     pub file: SourceFile,
     /// The name of the path, folded for comparison.

@@ -50,7 +50,7 @@ struct Content {
 pub struct PathIndex {
     /// The path before its variables are bound.
     pub header: PathHeader,
-    /// Example values for its variables.
+    /// Example values for the path's variables.
     pub examples: Bindings,
     /// The path's summary for the example values.
     pub summary: PathSummary,
@@ -251,18 +251,18 @@ impl FileIndex {
         Self { diagnostics: vec![problem], content, ..Self::default() }
     }
 
-    /// The names of its paths, in order of first appearance.
+    /// Returns the names of the drawing's paths, in order of first appearance.
     pub fn names(&self) -> &[PathName] {
         &self.names
     }
 
-    /// The index of one of its paths.
+    /// Returns the index of one of the drawing's paths.
     pub fn path(&self, name: &PathName) -> Option<&Arc<PathIndex>> {
         let place = self.paths.binary_search_by(|path| path.header.name.cmp(name)).ok()?;
         Some(&self.paths[place])
     }
 
-    /// The indexes of its paths, in order of name.
+    /// Returns the indexes of the drawing's paths, in order of name.
     pub fn paths(&self) -> impl Iterator<Item = &PathIndex> {
         self.paths.iter().map(|path| &**path)
     }
@@ -337,7 +337,7 @@ pub struct PathSummary {
     pub signature: Option<PathSignature>,
     /// The known part of the signature of a path with errors, used to judge what it embeds. `None` if nothing is drawn.
     pub faulty_signature: Option<Box<PathSignature>>,
-    /// Findings about the sweep height it gets when embedded or checked. Empty if the path has errors.
+    /// Findings about the sweep height that the path gets when embedded or checked. Empty if the path has errors.
     pub sweep_problems: Vec<Diagnostic>,
     /// Findings about the walk.
     pub walk_problems: Vec<Diagnostic>,
@@ -469,7 +469,7 @@ pub(super) struct FileParts {
     /// The cuts of the paths with example values, as far as they are known, in order of name. Without parts, only those of paths that embed
     /// others.
     pub(super) cuts: Vec<PathCuts>,
-    /// Whether the cuts of all its paths are known.
+    /// Whether the cuts of all the drawing's paths are known.
     pub(super) is_complete: bool,
 }
 

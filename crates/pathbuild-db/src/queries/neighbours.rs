@@ -221,9 +221,9 @@ impl<'db> PlacedProgram<'db> {
 pub struct PlacedPart<'db> {
     /// The part as drawn.
     pub drawn: &'db Part,
-    /// The material that is left at its outline, as drawn.
+    /// The material that is left at the part's outline, as drawn.
     pub left: &'db [LeftMaterial],
-    /// The middle lines of the support bars that the cuts of its own path remove, as drawn.
+    /// The middle lines of the support bars that the cuts of the part's own path remove, as drawn.
     pub lost_bars: &'db [Curve],
     /// The middle lines of the support bars that the paths of a project cut away from each other, in the program's coordinates. The program's
     /// first part lists all of them.
@@ -234,9 +234,9 @@ pub struct PlacedPart<'db> {
     pub is_loose: bool,
     /// Half the diameter of the cutter in mm.
     pub radius: f64,
-    /// Its place in the program.
+    /// The part's placement in the program.
     pub placement: Placement,
-    /// Z of its upper face in mm.
+    /// Z of the part's upper face in mm.
     pub top: f64,
     /// Distance in mm by which a cut may miss the part's outline.
     pub tolerance: f64,

@@ -34,11 +34,11 @@ pub struct TracedProgram {
 /// A path with values for its variables.
 #[derive(Debug)]
 pub struct Part {
-    /// The drawing that defines it.
+    /// The drawing that defines the path.
     pub file: SourceFile,
     /// The path with all parameters bound.
     pub path: Path,
-    /// The values of its variables.
+    /// The values of the path's variables.
     pub bindings: Bindings,
 }
 
@@ -47,7 +47,7 @@ pub struct Part {
 pub struct DrawnPath<'db> {
     /// The drawn elements.
     pub raw: &'db RawPath,
-    /// Their positions in the file.
+    /// The positions of the elements in the file.
     pub positions: &'db SourceMap,
 }
 

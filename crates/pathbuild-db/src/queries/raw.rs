@@ -66,9 +66,9 @@ pub(super) struct PathEntry {
 pub struct PathPlace {
     /// The name as spelt by its layer.
     pub name: SpeltName,
-    /// The first of its layers.
+    /// The first of the path's layers.
     pub layer: Box<str>,
-    /// Its start marker, or its first element if it has none.
+    /// The path's start marker, or its first element if it has none.
     pub point: Option<Point>,
     /// The position of that point in the file.
     pub position: Option<Position>,

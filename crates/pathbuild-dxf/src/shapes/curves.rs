@@ -211,9 +211,9 @@ pub(crate) struct Tolerance {
 
 /// The reason why a curve cannot be approximated.
 pub(crate) enum ApproximationFailure {
-    /// It would take more pieces than the limit allows.
+    /// The curve would take more pieces than the limit allows.
     TooMany,
-    /// It reaches beyond the largest coordinate of a drawing.
+    /// The curve reaches beyond the largest coordinate of a drawing.
     TooFar,
 }
 
@@ -396,7 +396,7 @@ struct ControlPoint {
 /// The smooth part of a spline between two neighbouring knots.
 struct Span<'s> {
     spline: &'s Spline,
-    /// Index of the knot at its start.
+    /// Index of the knot at the start of the span.
     knot: usize,
 }
 

@@ -18,7 +18,7 @@ use crate::shapes::is_mirrored;
 pub(crate) struct Insert<'a> {
     /// The block's name as spelt in this INSERT.
     pub(crate) block: SmolStr,
-    /// Its placement. A fault in it matters only if the block holds something wanted.
+    /// The placement of the copies. A fault in it matters only if the block holds something wanted.
     pub(crate) array: Result<Array, EntityError<'a>>,
 }
 

@@ -33,7 +33,7 @@ use crate::variables::{Bindings, Interpolation};
 pub struct ExaminedPath {
     /// The path; one with [faults](Path::has_faults) serves only to find further problems. `None` if nothing is drawn.
     pub path: Option<Path>,
-    /// Problems with its values, unless they merely follow from errors in the drawing.
+    /// Problems with the path's values, unless they merely follow from errors in the drawing.
     pub problems: Vec<Diagnostic>,
 }
 

@@ -19,13 +19,13 @@ use crate::text::{LetterValue, ParameterText};
 pub(super) struct Item<'a> {
     pub(super) kind: ElementKind,
     pub(super) shape: Shape,
-    /// Its meaning; `None` for markers.
+    /// Role of the element; `None` for markers.
     pub(super) role: Option<Role>,
     pub(super) text: ParameterText<'a>,
-    /// Its effective parameters that can change moves.
+    /// Effective parameters that can change moves.
     parameters: Vec<&'a Parameter>,
     pub(super) handle: Option<Handle>,
-    /// Its number among the elements of the path, in the order of the file.
+    /// Number among the elements of the path, in the order of the file.
     pub(super) number: usize,
 }
 
@@ -264,7 +264,7 @@ fn ends_moved(first: Vector2<f64>, second: Vector2<f64>) -> Option<ShapeChange> 
     }
 }
 
-/// The change of an arc to one in the same direction, whose centre and ends determine it.
+/// Returns the change between two arcs that turn the same way; their centres and ends determine it.
 fn arc_change(
     old: &Arc,
     new: &Arc,

@@ -24,7 +24,7 @@ use pairing::{Frame, pair};
 pub struct DrawnSide<'a> {
     /// The path as drawn.
     pub raw: &'a RawPath,
-    /// The positions of its elements in the file.
+    /// The positions of the path's elements in the file.
     pub positions: &'a SourceMap,
     /// The effective parameters of the path: [`parameters_in_force`](crate::parameters_in_force).
     pub in_force: &'a [ElementParameters],

@@ -33,7 +33,7 @@ pub struct PathPattern(Pattern);
 pub struct PathLayer {
     /// Name of the path.
     pub path: PathName,
-    /// Whether it is a tilde layer (`2916.1P~A`), whose texts and elements only match each other.
+    /// Whether the layer is a tilde layer (`2916.1P~A`), whose texts and elements only match each other.
     pub tilde: bool,
 }
 

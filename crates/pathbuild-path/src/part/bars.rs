@@ -29,7 +29,7 @@ pub struct LostBar {
     pub length: f64,
     /// The midpoint of the bar.
     pub at: Xy,
-    /// Its middle line.
+    /// The middle line of the bar.
     pub middle: Curve,
 }
 

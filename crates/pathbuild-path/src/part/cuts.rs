@@ -1,4 +1,4 @@
-//! The cuts of paths as the part check sees them. (book: language/part)
+//! The cuts of paths, in the form that the part check needs. (book: language/part)
 
 use pathbuild_diagnostic::Diagnostic;
 use rstar::AABB;
@@ -17,17 +17,17 @@ pub struct PathCuts {
     pub name: SpeltName,
     /// Half of O in mm.
     pub radius: f64,
-    /// Whether a slot cutter mills it.
+    /// Whether the path is milled with a slot cutter.
     pub is_slot: bool,
     /// The elements that cut.
     pub elements: Vec<CutElement>,
     /// The moves in the material, as if each element were milled in a single pass.
     pub cuts: Vec<PartCut>,
-    /// The support bars that it leaves.
+    /// The support bars that the path leaves.
     pub bars: Vec<StandingBar>,
-    /// Its start and its end.
+    /// The start and the end of the path.
     pub ends: (Xy, Xy),
-    /// The paths that it embeds: their cuts count as well.
+    /// The paths that the path embeds. Their cuts count as well.
     pub embedded: Vec<EmbeddedPlace>,
 }
 
@@ -47,11 +47,11 @@ pub struct EmbeddedPlace {
 pub struct CutElement {
     /// Location of the drawn element.
     pub origin: Origin,
-    /// Whether it only marks the plate.
+    /// Whether the element only marks the plate.
     pub is_mark: bool,
-    /// Z of its lowest cut.
+    /// Z of the element's lowest cut in mm.
     pub lowest: f64,
-    /// If it has support bars, its whole segment: its cuts, and the sections where its bars stand.
+    /// For an element with support bars, its whole segment: the cuts, and the sections where bars stand.
     pub supported: Option<Curve>,
 }
 
@@ -67,11 +67,11 @@ pub struct PartCut {
 /// A support bar that a path leaves standing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StandingBar {
-    /// The section of its middle line that the cuts beside it leave; `None` if they leave nothing of it.
+    /// The section of the bar's middle line that the cuts beside the bar leave; `None` if they leave nothing.
     pub middle: Option<Curve>,
     /// The section of the segment along which the bar and its slopes keep the tool above B.
     pub foot: Curve,
-    /// Z of its top.
+    /// Z of the bar's top in mm.
     pub top: f64,
 }
 
@@ -84,7 +84,7 @@ impl PathCuts {
         self.elements[element as usize].origin.at(problem).in_path(self.name.as_str())
     }
 
-    /// Whether it cuts parts out: one of its cuts goes through the plate, and it is not milled with a slot cutter.
+    /// Whether the path cuts parts out: one of its cuts goes through the plate, and it is not milled with a slot cutter.
     fn is_contour(&self) -> bool {
         !self.is_slot && self.elements.iter().any(|element| element.lowest <= THROUGH)
     }
@@ -93,7 +93,7 @@ impl PathCuts {
 /// A cut of one of several paths.
 #[derive(Clone, Copy)]
 pub(super) struct IndexedCut<'c> {
-    /// Index of its path.
+    /// Index of the cut's path.
     pub(super) path: usize,
     pub(super) cut: &'c PartCut,
     pub(super) radius: f64,

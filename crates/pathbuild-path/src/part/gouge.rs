@@ -18,14 +18,14 @@ pub(super) struct JudgedCut<'c> {
     pub(super) curve: Curve,
     /// The side of the part on which the middle of the curve lies.
     pub(super) side: Side,
-    /// The stretches of the curve on which it goes into the part.
+    /// The stretches of the curve on which the cutter goes into the part.
     pub(super) entered: Vec<Stretch>,
 }
 
 /// A cut into a part by an element.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Gouge {
-    /// The centre of the cutter where it goes deepest into the part.
+    /// The centre of the cutter at the place where it goes deepest into the part.
     pub(super) at: Xy,
     /// The depth at that place, in mm.
     pub(super) depth: f64,

@@ -26,13 +26,13 @@ pub(super) struct Leftover {
     pub(super) element: u32,
     pub(super) from: Xy,
     pub(super) to: Xy,
-    /// Its length in mm along the outline.
+    /// The length of the stretch in mm, along the outline.
     pub(super) length: f64,
     /// The largest distance in mm between the outline and the cut.
     pub(super) thickness: f64,
-    /// If the cut beside it does not go through the plate, its lowest height in mm.
+    /// If the cut beside the stretch does not go through the plate, the cut's lowest height in mm.
     pub(super) height: Option<f64>,
-    /// The outline and the material at it.
+    /// The outline along the stretch, and the material there.
     pub(super) material: LeftMaterial,
 }
 

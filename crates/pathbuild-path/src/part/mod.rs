@@ -78,9 +78,9 @@ impl fmt::Debug for SlotPaths {
 /// A finished part: its outermost ring and the openings inside it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// The layer of its outermost ring.
+    /// The layer of the outermost ring.
     pub layer: SmolStr,
-    /// The paths that may cut it: the name captured by the pattern, in upper case and with points. `None` if the pattern captures nothing.
+    /// The paths that may cut the part: the name captured by the pattern, in upper case and with points. `None` if the pattern captures nothing.
     pub paths: Option<SmolStr>,
     /// The outermost ring, counterclockwise, then the openings, clockwise: the material is on the left.
     pub rings: Vec<PartRing>,

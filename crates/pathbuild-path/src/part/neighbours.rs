@@ -17,9 +17,9 @@ pub struct PlacedCuts<'c> {
     pub cuts: &'c PathCuts,
     /// The parts that are placed with the path, as drawn.
     pub parts: Vec<&'c Part>,
-    /// Its placement in the program.
+    /// The path's placement in the program.
     pub placement: Placement,
-    /// The height in mm by which it is raised.
+    /// The height in mm by which the path is raised.
     pub raised: f64,
     /// The bounding box of the area that the cutter covers, as placed; `None` if the path cuts nothing.
     swept: Option<AABB<[f64; 2]>>,
@@ -34,7 +34,7 @@ pub struct NeighbourGouge {
     pub part: usize,
     /// Index into [`PathCuts::elements`] of the path that cuts.
     pub element: u32,
-    /// The centre of the cutter where it goes deepest into the part, as placed.
+    /// The centre of the cutter at the place where it goes deepest into the part, as placed.
     pub at: Xy,
     /// The depth at that place, in mm.
     pub depth: f64,

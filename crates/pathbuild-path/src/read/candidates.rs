@@ -13,15 +13,15 @@ use crate::read::entities::TextCircle;
 
 /// An element that a text may belong to.
 pub(crate) struct Candidate {
-    /// Its number in the source map.
+    /// The element's number in the source map.
     pub(crate) id: ElementId,
     /// The drawn shape.
     pub(crate) shape: Shape,
-    /// Number of the polyline that it is part of. The parts of a polyline share a text.
+    /// Number of the polyline that the element is part of. The parts of a polyline share a text.
     pub(crate) group: Option<u32>,
-    /// The owner of its text.
+    /// The owner of the element's text.
     pub(crate) owner: Owner,
-    /// Whether an earlier text belongs to it.
+    /// Whether an earlier text belongs to the element.
     pub(crate) is_taken: bool,
 }
 

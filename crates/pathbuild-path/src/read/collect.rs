@@ -55,7 +55,7 @@ pub(crate) struct PathCollector<'d> {
 pub(crate) struct UnclearCircle {
     pub(super) marker: Marker,
     pub(super) shape: Shape,
-    /// The marker that it was probably meant to be.
+    /// The marker that the circle was probably meant to be.
     pub(super) meant: MeantMarker,
 }
 
@@ -296,11 +296,11 @@ pub(super) struct PathLayers {
 
 /// A path layer.
 pub(super) struct FoundLayer {
-    /// The name of its path, as spelt by the layer.
+    /// The name of the layer's path, as spelt by the layer.
     pub(super) path: PathName,
-    /// Its number among the layers of the drawing.
+    /// Number of the layer among the layers of the drawing.
     pub(super) number: usize,
-    /// The number of the first layer of its path.
+    /// Number of the first layer of the same path.
     first: usize,
 }
 

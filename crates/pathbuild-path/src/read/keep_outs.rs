@@ -151,7 +151,7 @@ const LOWEST: f64 = 1.0;
 /// An outline without its height.
 struct ClosedOutline {
     outline: Vec<Curve>,
-    /// The index of its first entity.
+    /// The index of the outline's first entity.
     entity: usize,
     at: Xy,
 }
@@ -198,7 +198,7 @@ impl Reading<'_> {
                 _ if left_out.diagnostic.message == &messages::BLOCK_ELSEWHERE => &messages::CLAMP_ELSEWHERE,
                 _ => &messages::NO_OUTLINE,
             };
-            // The arguments are those of the reader: the kind of entity and the name of a block.
+            // The arguments come from the reader's diagnostic: the kind of entity and the name of a block.
             let Diagnostic { arguments, place, .. } = left_out.diagnostic.clone();
             problems.push(Diagnostic { arguments, place, ..Diagnostic::new(message) });
         }
@@ -390,9 +390,9 @@ fn on_layer(layer: &str, mut problem: Diagnostic) -> Diagnostic {
 #[derive(Clone, Copy)]
 pub(crate) struct Part {
     pub(crate) curve: Curve,
-    /// Number of its polyline; the parts of a polyline are consecutive.
+    /// Number of the curve's polyline; the parts of a polyline are consecutive.
     pub(crate) group: Option<u32>,
-    /// The index of its entity.
+    /// The index of the curve's entity.
     pub(crate) entity: usize,
 }
 
@@ -493,7 +493,7 @@ impl<'p> RingBuilder<'p> {
         if several.is_some() {
             return Ring::Branch { part, at: at(self.parts, end) };
         }
-        // Both begin with the first curve.
+        // Both sequences begin with the first curve.
         let back = back.iter().skip(1).rev().map(|part| part.curve.reversed());
         Ring::Open { part, curves: back.chain(ring.iter().map(|part| part.curve)).collect() }
     }

@@ -30,9 +30,9 @@ pub struct AssignedText {
     pub path: PathName,
     /// Name of the text's layer.
     pub layer: Box<str>,
-    /// Its position in the file.
+    /// Position of the text in the file.
     pub position: Position,
-    /// The circle by which it is matched with an element.
+    /// The circle by which the text is matched with an element.
     pub circle: TextCircle,
     /// The elements: several for a polyline, none if the text belongs to nothing (PB107).
     pub elements: Vec<AssignedElement>,
@@ -41,11 +41,11 @@ pub struct AssignedText {
 /// An element with a text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssignedElement {
-    /// Its type in the file.
+    /// Type of the entity in the file.
     pub entity: EntityKind,
-    /// The name of its line type.
+    /// Name of the element's line type.
     pub line_type: Box<str>,
-    /// Its position in the file.
+    /// Position of the element in the file.
     pub position: Position,
     /// The drawn shape.
     pub shape: Shape,
@@ -109,7 +109,7 @@ fn entities_by_path<'d>(drawing: &'d Drawing, language: &Language) -> BTreeMap<P
 pub struct ProxyLine {
     /// The line or arc. Its number belongs to no path; use `position`.
     pub origin: Origin,
-    /// Its position in the file.
+    /// Position of the line or arc in the file.
     pub position: Position,
     /// The drawn curve.
     pub curve: Curve,
@@ -123,7 +123,7 @@ impl ProxyLine {
         self.text.first().unwrap_or_default()
     }
 
-    /// The path that it represents; `None` if `>` is not followed by a path name.
+    /// Returns the path that the line represents; `None` if `>` is not followed by a path name.
     pub fn name(&self, language: &Language) -> Option<PathName> {
         let (value, _) = self.value(Letter::Embed)?;
         language

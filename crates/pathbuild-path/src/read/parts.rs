@@ -58,7 +58,7 @@ pub fn has_text_on_part(drawing: &Drawing, language: &Language) -> bool {
 /// A curve on a layer with parts.
 struct OutlineCurve {
     curve: Curve,
-    /// The index of its entity.
+    /// The index of the curve's entity.
     entity: usize,
 }
 

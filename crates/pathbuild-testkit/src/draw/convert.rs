@@ -20,7 +20,7 @@ use super::model::{
 };
 use super::place::text_circle;
 
-/// Added to the index of an entity to form its tag, which stands in for the handle.
+/// The tag of an entity, which stands in for its handle, is this number plus the index of the entity.
 pub(crate) const TAG: u64 = 1 << 60;
 
 /// The usual line types with their patterns in mm: dashes positive, gaps negative, dots 0.
