@@ -27,16 +27,41 @@ const MOST_EXAMINED: usize = 1_000_000;
 /// Maximum number of characters after a path name that count as a typing error.
 const LONGEST_SLIP: usize = 2;
 
+/// Words that follow the name of a path on the layer of another version of it, in English and German.
+const VERSIONS: [&str; 6] = ["old", "new", "copy", "alt", "neu", "Kopie"];
+
 /// Whether the undecoded bytes of a text may be a parameter text that [`stray_findings`] reports. `false` is definitive.
 pub fn may_be_stray_text(text: &[u8]) -> bool {
-    let is_weighty = |byte: u8| matches!(byte, b'B' | b'D' | b'F' | b'I' | b'W' | b'Z');
+    let is_weighty =
+        |byte: u8| byte == b'Z' || matches!(byte.to_ascii_uppercase(), b'B' | b'D' | b'F' | b'I' | b'W');
     let is_value = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b',' | b'=');
     // A colon begins a variable, as in `:D0.5`, which is never reported; a backslash begins a format code of MTEXT, as in `\\W0.8;`, or a
-    // line break: `\\P`.
-    let is_inside = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'\\' | b':');
+    // line break: `\\P`. A bar separates the properties of a font: `\\fArial|b0|i0;`.
+    let is_inside = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'\\' | b':' | b'|');
     let is_begin = |before: &[u8]| !before.last().is_some_and(is_inside) || before.ends_with(b"\\P");
-    let mut pairs = text.windows(2).enumerate();
-    pairs.any(|(at, pair)| is_weighty(pair[0]) && is_value(pair[1]) && is_begin(&text[..at]))
+    let has_value =
+        |after: &[u8]| after.iter().find(|byte| **byte != b' ').is_some_and(|byte| is_value(*byte));
+    let mut letters = text.iter().enumerate().filter(|(_, byte)| is_weighty(**byte));
+    letters.any(|(at, _)| is_begin(&text[..at]) && has_value(&text[at + 1..]))
+}
+
+/// A text without the mistakes that would be errors on the layer of a path, but do not hide its meaning: lower-case letters, spaces before
+/// values, and commas between parameters.
+fn as_meant(text: &str) -> String {
+    let mut meant = String::with_capacity(text.len());
+    let mut rest = text.chars().peekable();
+    let mut is_begin = true;
+    while let Some(character) = rest.next() {
+        let is_lone_letter = is_begin && character.is_ascii_alphabetic();
+        let is_separator = matches!(character, ',' | ';')
+            && rest.clone().find(|next| *next != ' ').is_some_and(char::is_alphabetic);
+        is_begin = is_separator || character.is_whitespace();
+        meant.push(if is_separator { ' ' } else { character.to_ascii_uppercase() });
+        if is_lone_letter {
+            while rest.next_if_eq(&' ').is_some() {}
+        }
+    }
+    meant
 }
 
 /// Path names, for comparison with the names of other layers.
@@ -50,14 +75,19 @@ impl NearNames {
         Self { by_folded: paths.map(|path| (folded(path.as_str()), path.clone())).collect() }
     }
 
-    /// Returns the path whose name resembles that of another layer: the layer has the path's name, followed by a tilde and any text, or by at most
-    /// two more characters. Spaces, points and other separators, and case are ignored; letters that look like digits count as those digits.
+    /// Returns the path whose name resembles that of another layer: the layer has the path's name, followed by a tilde and any text, by at most
+    /// two more characters, or by a word for another version. Spaces, points and other separators, and case are ignored; letters that look like
+    /// digits count as those digits.
     pub fn path(&self, layer: &str) -> Option<&PathName> {
         let layer = folded(layer);
         let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));
         let ends = layer.char_indices().rev().map(|(at, _)| at);
         let mut ends = std::iter::once(layer.len()).chain(ends).take(LONGEST_SLIP + 1);
-        before_tilde.or_else(|| ends.find_map(|end| self.by_folded.get(&layer[..end])))
+        let version = || {
+            let before = |word: &&str| self.by_folded.get(layer.strip_suffix(&folded(word))?);
+            VERSIONS.iter().find_map(before)
+        };
+        before_tilde.or_else(|| ends.find_map(|end| self.by_folded.get(&layer[..end]))).or_else(version)
     }
 }
 
@@ -170,20 +200,21 @@ fn stray_text(
     budget: &SearchBudget,
 ) -> Option<Diagnostic> {
     let mut texts = ParameterTexts::default();
-    let id = texts.push_drawn(text.string());
-    let read = texts.get(id).filter(|read| is_weighty(*read))?;
+    let [drawn, meant] = [texts.push_drawn(text.string()), texts.push_drawn(&as_meant(text.string()))];
+    let (drawn, meant) = (texts.get(drawn)?, texts.get(meant)?);
+    let read = [drawn, meant].into_iter().find(|read| is_weighty(*read))?;
     let circle = text.circle();
     let (path, (layer, candidate)) = paths.iter().find_map(|path| {
         let taker = path.texts.takers(&circle, budget).find(|(_, taker)| path.would_heed(read, taker))?;
         Some((path, taker))
     })?;
     let problem = Diagnostic::new(&messages::TEXT_ON_OTHER_LAYER)
-        .quoting("text", read.as_str().replace('\n', " "))
+        .quoting("text", drawn.as_str().replace('\n', " "))
         .quoting("layer", &*drawing.layers[drawing.entities[entity].layer as usize].name)
         .quoting("path_layer", layer)
         .with("element", candidate.word())
         .with("point", shown(candidate.shape.point()))
-        .with_text(read.whole());
+        .with_text(drawn.whole());
     Some(at_entity(drawing, entity, text.anchor(), problem.in_path(path.name.as_str())))
 }
 

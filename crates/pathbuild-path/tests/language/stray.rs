@@ -40,9 +40,12 @@ fn a_parameter_text_over_an_element_on_another_layer_has_no_effect() {
     for string in ["B2", "F120 B-0.3", "B2,5", "I0.5", "W4", "N1 B2", "B=D", " B2 ", "B2 Qgroove"] {
         assert_eq!(strays(&text("Notes", string, "20,0")), ["PB119"], "{string}");
     }
+    for mistyped in ["b2", "B 2", "B 0,5", "b  0.5", "B1,F100", "b1, f 100", "B1;F100", "n1 b2"] {
+        assert_eq!(strays(&text("Notes", mistyped, "20,0")), ["PB119"], "{mistyped}");
+    }
     for string in [
-        "R5", "M6", "Maßstab", "B", "Bohrung", "b2", "N1", "B2 x", "B2 >1", "D1", "P3", "B2x4", "B 2", "T5",
-        "Qgroove", "S20",
+        "R5", "M6", "Maßstab", "B", "Bohrung", "N1", "B2 x", "B2 >1", "D1", "P3", "B2x4", "T5", "Qgroove",
+        "S20", "b", "B 2 mm", "B, 2", "ab 2", "b2 tief", "F", "n 3", "d 5",
     ] {
         assert_eq!(strays(&text("Notes", string, "20,0")), [""; 0], "{string}");
     }
@@ -100,10 +103,26 @@ fn a_layer_that_is_nearly_a_path_s_is_named() {
         "1234.lP",
         "1234.1_P",
         "1234.1P_~A",
+        "1234.1P alt",
+        "1234.1P_neu",
+        "1234.1P old",
+        "1234.1P copy",
+        "1234.1\u{420}",
     ] {
         assert_eq!(circle(layer), ["PB120"], "{layer}");
     }
-    for layer in ["1234.1", "1234.1P alt", "1234.1PXYZ", "Kontur", "1235.1Q~A", "0", "1234.1P~A"] {
+    for layer in [
+        "1234.1",
+        "1234.1P Text",
+        "1234.1P alter",
+        "1235.1P alt",
+        "alt",
+        "1234.1PXYZ",
+        "Kontur",
+        "1235.1Q~A",
+        "0",
+        "1234.1P~A",
+    ] {
         assert_eq!(circle(layer), [""; 0], "{layer}");
     }
 }
@@ -127,10 +146,27 @@ fn the_first_look_at_bytes_is_certain() {
         "N1\\PB2",
         "Z25",
         "{\\fArial;Z2.5}",
+        "b2",
+        "B 2",
+        "b  0,5",
+        "x,F100",
     ] {
         assert!(may_be_stray_text(text.as_bytes()), "{text}");
     }
-    for text in ["R5", "M6", "Maßstab 1:1", "AB2", ">1234.1P :D0.5", "\\W0.8;Text", "Bohrung", ""] {
+    for text in [
+        "R5",
+        "M6",
+        "Maßstab 1:1",
+        "AB2",
+        ">1234.1P :D0.5",
+        "\\W0.8;Text",
+        "{\\fArial|b0|i0|c0;Text}",
+        "Bohrung",
+        "Tief 2",
+        "b ",
+        "z25",
+        "",
+    ] {
         assert!(!may_be_stray_text(text.as_bytes()), "{text}");
     }
 }
