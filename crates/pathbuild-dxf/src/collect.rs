@@ -52,7 +52,7 @@ const MAX_CHEAP_FAULTS: usize = 10_000;
 /// Weight of each fault beyond [`MAX_CHEAP_FAULTS`]: about that many entities take the same memory.
 const FAULT_WEIGHT: usize = 20;
 
-/// The configured limits.
+/// Limits from the options.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
     pub(crate) entities: usize,
@@ -283,7 +283,7 @@ impl<'d> Collector<'d> {
         diagnostic
     }
 
-    /// The index in the drawing of an entity's layer.
+    /// Returns the index of the entity's layer in [`Drawing::layers`].
     #[inline]
     fn layer(&mut self, placed: &PlacedEntity<'_>) -> u32 {
         if let Some((id, layer)) = self.last

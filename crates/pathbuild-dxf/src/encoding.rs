@@ -239,7 +239,7 @@ fn escape(text: &str) -> Option<(Option<char>, usize)> {
     unicode(text).or_else(|| multibyte(text))
 }
 
-/// `\U+XXXX`, or two of them that form a surrogate pair.
+/// Decodes `\U+XXXX`, or two of them that form a surrogate pair.
 fn unicode(text: &str) -> Option<(Option<char>, usize)> {
     const LENGTH: usize = 7;
     let unit = utf16_unit(text)?;
@@ -257,7 +257,7 @@ fn utf16_unit(text: &str) -> Option<u16> {
     hexadecimal(text.strip_prefix("\\U+")?.get(..4)?)
 }
 
-/// `\M+nXXXX`: two bytes in the code page n.
+/// Decodes `\M+nXXXX`: two bytes in the code page n.
 fn multibyte(text: &str) -> Option<(Option<char>, usize)> {
     let rest = text.strip_prefix("\\M+")?;
     let page = rest.bytes().next().filter(|digit| (b'1'..=b'5').contains(digit))?;

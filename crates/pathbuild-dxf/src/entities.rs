@@ -52,7 +52,7 @@ pub(crate) fn most_repeated(options: &Options<'_>) -> usize {
 const GROUPS_AN_ENTITY: usize = 5;
 
 impl<'a, 'o> EntityReader<'a, 'o> {
-    /// Starts without cached names. `blocks` is the BLOCKS section.
+    /// Creates a reader without cached names. `blocks` is the BLOCKS section.
     pub(crate) fn new(
         options: &'o Options<'o>,
         decoder: Decoder<'a>,

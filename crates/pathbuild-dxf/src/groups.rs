@@ -140,7 +140,7 @@ pub(crate) struct Records<'a> {
 }
 
 impl<'a> Records<'a> {
-    /// Starts at the next pair with code 0.
+    /// Creates the records and moves to the first pair with code 0.
     pub(crate) fn new(pairs: Pairs<'a>) -> Result<Self, Stop<'a>> {
         let mut groups = Groups::new(pairs);
         let head = groups.next_zero()?;
@@ -299,7 +299,7 @@ impl Role {
     const WITHOUT_ROLE: Self = Self(83);
     /// Code 0, which starts an entity.
     pub(crate) const BEGIN: Self = Self(84);
-    /// The entity's layer: 8.
+    /// Code 8, the entity's layer.
     pub(crate) const LAYER: Self = Self(85);
     /// Code 101, which starts an embedded object.
     pub(crate) const EMBEDDED: Self = Self(86);

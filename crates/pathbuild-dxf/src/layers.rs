@@ -59,7 +59,7 @@ pub(crate) struct UsedLayer {
 const RESERVED_LAYERS: usize = 16;
 
 impl<'a, 'o> Layers<'a, 'o> {
-    /// Starts without layers.
+    /// Creates an empty collection of layers.
     pub(crate) fn new(keep: &'o dyn Fn(&str) -> bool, table: LayerTable<'a>) -> Self {
         let by_spelling = Spellings::default();
         Self { table, keep, by_spelling, found: Vec::with_capacity(RESERVED_LAYERS), last: None }

@@ -55,7 +55,7 @@ struct Insertion {
 const MAX_BLOCK_DEPTH: usize = 64;
 
 impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
-    /// Starts without entities.
+    /// Creates a model without entities.
     pub(crate) fn new(
         reader: &'r mut EntityReader<'a, 'o>,
         collector: Collector<'r>,
@@ -200,7 +200,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         self.refuse(traits, &[layer], &trouble, around)
     }
 
-    /// Reports a missing block on a layer that is not read, unless it is frozen.
+    /// Reports a missing block that is inserted on a layer that is not read, unless that layer is frozen.
     fn note_missing(
         &mut self,
         traits: &Traits,

@@ -128,7 +128,7 @@ impl<'a> ChainBuilder<'a> {
         self.walked.items.extend(self.single(segment, &passage, is_return));
     }
 
-    /// The items of the whole walk, and the diagnostics.
+    /// Returns the items of the whole walk, and the diagnostics.
     pub(crate) fn finish(mut self) -> WalkedPath {
         self.finish_chain();
         self.walked

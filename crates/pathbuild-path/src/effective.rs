@@ -1,5 +1,5 @@
-//! Effective parameters: the value of a letter on an element, and what provides it. Binding, the fold, closures and the lists of parameters
-//! all use this module, so that each rule has a single implementation. (book: language/letters)
+//! Effective parameters: the value of a letter on an element, and its provider. Binding, the fold, closures and the lists of parameters all use
+//! this module, so that each rule has a single implementation. (book: language/letters)
 
 use pathbuild_diagnostic::{Text, words};
 
@@ -10,11 +10,11 @@ use crate::values::{GivenNumber, Values};
 /// Option values that apply if a drawing gives none. Feeds are in mm/min, lengths in mm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PathOptions {
-    /// --feed: F. Paths that need it must not be folded without it.
+    /// `--feed`: F in mm/min. Paths that need it must not be folded without it.
     pub feed: Option<f64>,
-    /// --sweep-height: S of the emitted path, with the same requirement.
+    /// `--sweep-height`: S of the emitted path in mm. Paths that need it must not be folded without it.
     pub sweep_height: Option<f64>,
-    /// --probe-feed: Z. Probes without it fall back on feeds.
+    /// `--probe-feed`: Z in mm/min. Probes without it fall back on feeds.
     pub probe_feed: Option<f64>,
     /// Whether to follow `PathDxf2GCode` even where it deviates from its manuals. (book: program/compatible)
     pub compatible: bool,

@@ -176,7 +176,7 @@ impl Cut {
 }
 
 impl ElementClass {
-    /// Returns the name of the cut in messages.
+    /// Returns the name of such elements in messages.
     pub fn word(self) -> &'static Text {
         match self {
             Self::PathStart => &words::PATH_START,
@@ -272,7 +272,7 @@ impl MeantMarker {
         }
     }
 
-    /// The marker that a circle of unknown line type would be with a suitable one.
+    /// Returns the marker that a circle of unknown line type would be if it had a marker's line type.
     pub(crate) fn of(line_type: LineType, radius: f64) -> Self {
         match circle_meaning(line_type, radius) {
             CircleMeaning::Start => Self::Start,

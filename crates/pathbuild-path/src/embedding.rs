@@ -66,7 +66,7 @@ pub struct PathSignature {
 /// A subpath segment, with details for messages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SubpathCall {
-    /// Index into [`Path::segments`].
+    /// Index of the segment in [`Path::segments`].
     pub segment: usize,
     /// The location of the segment's element.
     pub origin: Origin,

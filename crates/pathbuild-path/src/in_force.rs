@@ -1,4 +1,4 @@
-//! Lists the effective parameters of each element, and what provides them. (book: language/letters)
+//! Lists the effective parameters of each element and their providers. (book: language/letters)
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -26,7 +26,7 @@ pub struct ElementParameters {
     pub origin: Origin,
     /// The element's name in messages.
     pub what: &'static Text,
-    /// The parameters in alphabetical order of their letters. Consecutive elements with the same ones share them.
+    /// The parameters in alphabetical order of their letters. Consecutive elements with the same parameters share one list.
     pub parameters: Arc<[Parameter]>,
 }
 

@@ -183,7 +183,7 @@ pub struct Hole {
 /// A helical circle, possibly a mark or with bars.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Helix {
-    /// Centre.
+    /// Centre of the circle.
     pub centre: Xy,
     /// Radius of the drawn circle, which is the outer one.
     pub radius: f64,

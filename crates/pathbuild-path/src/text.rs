@@ -507,7 +507,7 @@ fn run_together(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnost
     Some(problem.with_text(text.fault(piece)))
 }
 
-/// The parameters in a word that consists of several: letters that have an effect, each with a number.
+/// Returns the parameters in a word that consists of several parameters: letters that have an effect, each with a number.
 fn parameters_in(word: &str, class: ElementClass) -> Option<Vec<&str>> {
     let counts = |character| {
         Letter::new(character).is_some_and(|letter| !letter.is_text() && class.use_of(letter).counts())

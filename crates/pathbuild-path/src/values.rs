@@ -58,7 +58,7 @@ impl GivenNumber {
         }
     }
 
-    /// This value, or another one if this is absent.
+    /// Returns this value, or `other` if this one is absent.
     pub(crate) fn or(self, other: Self) -> Self {
         if self == Self::Absent { other } else { self }
     }

@@ -44,8 +44,8 @@ pub fn shared(name: &str) -> Option<PathBuf> {
     None
 }
 
-/// Reports that a test is skipped, and why: on standard error, and in the file named by `PATHBUILD_SKIPPED`, since test runners hide the
-/// output of passing tests.
+/// Reports that a test is skipped because an oracle (a program or data set to compare with) is missing, and why: on standard error, and in the
+/// file named by `PATHBUILD_SKIPPED`, since test runners hide the output of passing tests.
 ///
 /// # Panics
 /// If `PATHBUILD_REQUIRE` names the oracle.

@@ -359,7 +359,7 @@ fn project(number: u32, random: &mut Random) -> Vec<u8> {
     dxf(&text)
 }
 
-/// Paths of which each embeds the next.
+/// Returns a drawing with paths that each embed the next.
 fn chain() -> Vec<u8> {
     let mut text = String::new();
     for path in 1..=CHAIN {

@@ -537,7 +537,7 @@ pub struct Edge<'db> {
     pub to: Destination<'db>,
 }
 
-/// The target of a subpath segment.
+/// The path that a subpath segment leads to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Destination<'db> {
     /// A path with the values of its variables.

@@ -25,7 +25,7 @@ pub(super) fn harmed_neighbours(db: &dyn Db, target: Target) -> &[Diagnostic] {
     if has_neighbours(db, target) { cuts_into_neighbours(db, target) } else { &[] }
 }
 
-/// The middle lines of the support bars that cuts of other paths take away, in the program.
+/// The middle lines of the support bars that cuts of other paths remove, in the program's coordinates.
 fn bars_lost_to_neighbours(db: &dyn Db, target: Target) -> Vec<Curve> {
     let program = has_neighbours(db, target).then(|| placed_program(db, target)).flatten();
     program.map(|program| program.lost_bars()).unwrap_or_default()

@@ -1,5 +1,5 @@
-//! Queries for displays: programs with the origins of their moves, the places in them where findings about two of their paths are reported,
-//! the drawn paths, and the layers of a drawing without paths or clamps.
+//! Queries for displays: programs with the origins of their moves, the places in a program at which findings about two of its paths are
+//! reported, the drawn paths, and the layers of a drawing without paths or clamps.
 
 use std::sync::Arc;
 

@@ -135,7 +135,7 @@ impl Binder<'_> {
                         .with("tool", tool);
                     self.report(scope.at, problem);
                 }
-                // Continue as if it were a hole: its depth is still checked, and the walk passes through it.
+                // Continue as if the circle were a hole: its depth is still checked, and the walk passes through it.
                 let class =
                     if cut == Cut::Mark { ElementClass::DrilledMark } else { ElementClass::DrilledHole };
                 let hole = self.hole(&Scope { class, ..scope }, cut);

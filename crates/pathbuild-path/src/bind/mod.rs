@@ -457,7 +457,7 @@ impl Binder<'_> {
         Some((order, SegmentKind::Subpath(Box::new(subpath))))
     }
 
-    /// N of an element, or the default order.
+    /// Returns N of an element, or else the default order.
     fn order(&mut self, scope: &Scope<'_>) -> f64 {
         self.unknown.order |=
             scope.values.number(Letter::N) == GivenNumber::Faulty && scope.values.has(Letter::N);

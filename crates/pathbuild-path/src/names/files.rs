@@ -61,7 +61,7 @@ impl FilePattern {
         self.0.each(stem, |name| take(NameRange { from: name, to: None }));
     }
 
-    /// The positions of ranges in a stem.
+    /// Returns the byte ranges of the name ranges in a stem.
     pub(crate) fn range_spans(&self, stem: &str) -> Vec<Range<usize>> {
         if stem.contains(DASHES) { self.0.range_spans(stem) } else { Vec::new() }
     }
@@ -219,7 +219,7 @@ impl RangeTable {
         let group = path.0.first();
         match group.and_then(|group| FirstGroup::new(group)).zip(group) {
             Some((first, group)) => {
-                // A text is compared with integers as texts, and they are not sorted as texts: scan all of them.
+                // A text is compared with integers as texts, and the integers are not in the order of texts: scan all of them.
                 if !first.is_integer() {
                     self.integers().iter().for_each(|entry| take(&entry.range, entry.file));
                 }

@@ -21,7 +21,7 @@ pub struct LostBar {
     pub of: usize,
     /// Index of the path that cuts the bar away.
     pub by: usize,
-    /// Index into [`PathCuts::elements`] of the latter path.
+    /// Index into [`PathCuts::elements`] of the path that cuts the bar away.
     pub element: u32,
     /// The length in mm that is cut away.
     pub lost: f64,
@@ -33,7 +33,7 @@ pub struct LostBar {
     pub middle: Curve,
 }
 
-/// Returns the bars of all paths that are cut away, once for each element that does so.
+/// Returns the bars of all paths that are cut away, once for each element that cuts one away.
 pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
     let mut found = Vec::new();
     for (of, path) in cuts.paths.iter().enumerate() {

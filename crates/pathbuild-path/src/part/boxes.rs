@@ -8,7 +8,7 @@ use crate::keep_out::around;
 
 type IndexedBox = GeomWithData<Rectangle<[f64; 2]>, usize>;
 
-/// Boxes, which are numbered from 0.
+/// A spatial index of boxes, which are numbered from 0.
 pub(crate) enum BoxIndex {
     /// The boxes themselves, if they are so few that comparing all of them takes less time than building and searching a tree.
     Few(Vec<AABB<[f64; 2]>>),

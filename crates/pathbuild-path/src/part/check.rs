@@ -21,7 +21,7 @@ use crate::keep_out::around;
 pub struct PartFindings {
     /// The outlines that no path comes near: indices of their part, and of the ring in it.
     pub uncut: Vec<(usize, usize)>,
-    /// Findings about each path.
+    /// The findings about each path, by the index of the path.
     pub of_paths: Vec<Vec<Diagnostic>>,
     /// The indices of the parts that each path cuts, by path.
     pub parts: Vec<Vec<usize>>,

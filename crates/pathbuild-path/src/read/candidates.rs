@@ -67,7 +67,7 @@ pub(crate) struct AssignedCandidate {
     pub(crate) candidate: usize,
     /// The second best candidate of the same kind, and how much farther away it is in mm.
     pub(crate) rival: Option<(usize, f64)>,
-    /// A candidate of another kind that is nearer, and by how much in mm.
+    /// A candidate of another kind that is nearer, and how much nearer it is in mm.
     pub(crate) nearer: Option<(usize, f64)>,
 }
 

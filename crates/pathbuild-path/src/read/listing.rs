@@ -24,7 +24,7 @@ use crate::text::{LetterValue, ParameterText, ParameterTexts};
 pub struct AssignedText {
     /// The text with `%%` codes replaced and line ends kept.
     pub text: Box<str>,
-    /// TEXT or MTEXT.
+    /// Type of the entity: TEXT or MTEXT.
     pub entity: EntityKind,
     /// Name of the path to which the text belongs.
     pub path: PathName,

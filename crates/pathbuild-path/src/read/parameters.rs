@@ -217,7 +217,7 @@ impl PathCheck<'_> {
         self.raw.diagnostics.push(if is_placed { diagnostic } else { diagnostic.in_path(name) });
     }
 
-    /// PB121: lines without length, milled lines and arcs of almost no length, and circles that lie on others of their kind.
+    /// Reports PB121 for lines without length, milled lines and arcs of almost no length, and circles that lie on others of their kind.
     pub(super) fn check_leftovers(&mut self) {
         let drawn = &self.raw.drawn;
         let at = |element: &Element, problem: Diagnostic| drawn.origin(element).at(problem);

@@ -27,7 +27,7 @@ fn area(ring: &[Curve]) -> f64 {
     ring.iter().map(|curve| curve.area_from(origin)).sum::<f64>().abs()
 }
 
-/// For each ring inside others: the outermost of them, and the second outermost, or itself if there is no other.
+/// Returns for each ring inside others the outermost ring around it, and the second outermost, or the ring itself if there is no second.
 pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
     if rings.len() == 1 {
         return vec![None];

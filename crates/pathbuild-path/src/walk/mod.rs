@@ -67,7 +67,7 @@ struct Walker<'a> {
     joined: Vec<Diagnostic>,
     /// See [`WalkedPath::open_end`].
     open_end: Option<Xy>,
-    /// PB401 for each small gap that was skipped to find more.
+    /// PB401 for each small gap that was skipped in order to find further problems.
     gaps: Vec<Diagnostic>,
 }
 

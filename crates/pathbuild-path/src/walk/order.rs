@@ -203,7 +203,7 @@ pub(super) struct Crowd {
     pub(super) segments: Vec<usize>,
 }
 
-/// Marks the last end in a bucket.
+/// Value that marks the last end in a bucket.
 const NONE: u32 = u32::MAX;
 /// Number of buckets per segment. With half as many, more than a few buckets would contain ends from elsewhere.
 const BUCKETS: usize = 4;
@@ -336,7 +336,7 @@ fn bucket_of(Square(column, row): Square, count: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    //! The number of ends examined, and the search distance.
+    //! Tests of the number of ends examined, and of the search distance.
 
     use nalgebra::Vector2;
     use proptest::prelude::*;

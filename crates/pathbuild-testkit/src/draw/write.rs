@@ -555,7 +555,7 @@ impl Tables<'_> {
         }
     }
 
-    /// Adds layer flags, which the crate does not know, and removes its pointer to a plot style that does not exist.
+    /// Adds layer flags, which the crate does not know, and removes the crate's pointer to a plot style that does not exist.
     fn mend_layer(&self, record: &mut Record<'_>) {
         let Some(layer) = self.layer(record) else { return };
         let flags = i64::from(layer.is(LayerState::Frozen)) + 4 * i64::from(layer.is(LayerState::Locked));

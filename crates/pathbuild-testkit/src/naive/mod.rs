@@ -66,7 +66,7 @@ pub fn language() -> Language {
 }
 
 impl Model {
-    /// Reads every drawing.
+    /// Reads all drawings of a library.
     pub fn new(files: &Files, rules: &Rules) -> Self {
         let language = Arc::new(language());
         let drawings = files.iter().filter(|(path, _)| is_drawing(path));
@@ -348,7 +348,7 @@ fn may_hold(stem: &str, path: &str) -> bool {
 fn compare(file: &[String], path: &[&str]) -> Ordering {
     for (file, path) in file.iter().zip(path) {
         if file.is_empty() {
-            // The rest of the path is covered by a file name that does not specify it.
+            // A file name that gives only the first parts of a path's name covers every path whose name continues them.
             return Ordering::Equal;
         }
         let order = match (file.parse::<u64>(), path.parse::<u64>()) {
