@@ -150,7 +150,7 @@ fn write(program: &Program) {
         rapid: 1000.0,
         correction: Correction::default(),
     };
-    let text = native::program(program, &Header::default(), &options);
+    let text = native::write_program(program, &Header::default(), &options);
     if let Err(problem) = native::read_back(&text, program) {
         judge(&[*problem]);
     }

@@ -110,7 +110,7 @@ fn options() -> WriteOptions {
 }
 
 fn text_of(program: &Program) -> String {
-    native::program(program, &Header { provenance: "pathbuild 0.1.0".to_owned() }, &options())
+    native::write_program(program, &Header { provenance: "pathbuild 0.1.0".to_owned() }, &options())
 }
 
 proptest! {
@@ -180,7 +180,7 @@ fn no_text_of_others_leaves_its_comment() {
             let (at, label) = (Xy::new(3.0, 4.0), Some(text.into()));
             program.probes = vec![ProbePoint { at, drawn_at: at, height: 5.0, feed: 40.0, label }];
             let (header, options) = (Header { provenance: format!("pathbuild {text}") }, options());
-            let milling = native::program(&program, &header, &options);
+            let milling = native::write_program(&program, &header, &options);
             milling + &native::probing_program(&program, &header, &options)
         };
         let expected = code_of(&all_of("x"), compatible);

@@ -170,7 +170,7 @@ fn a_programs_comments_are_what_its_text_comes_to() {
         rapid: 1000.0,
         correction: Correction::default(),
     };
-    let text = native::program(&program, &Header::default(), &options);
+    let text = native::write_program(&program, &Header::default(), &options);
     let (own, read) = (statistics(&program, 1000.0), tally(&text, Native));
     for (own, read) in [(own.milling, read.milling), (own.drilling, read.drilling)] {
         assert!((own.length - read.total.length).abs() < 0.01 && (own.time - read.total.time).abs() < 1e-4);

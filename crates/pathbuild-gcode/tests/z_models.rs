@@ -199,7 +199,7 @@ fn program(points: &[(f64, f64)], steps: Vec<ProgramStep>) -> Program {
 
 fn written(program: &Program, correction: Correction) -> String {
     let options = WriteOptions { lang: Lang::En, charset: Charset::Ascii, rapid: 1000.0, correction };
-    native::program(program, &Header::default(), &options)
+    native::write_program(program, &Header::default(), &options)
 }
 
 /// The lines of moves after those of the frame.

@@ -234,7 +234,11 @@ impl Program {
         let mut text = self.manner().to_owned();
         if let Some(evidence) = self.evidence.filter(|_| self.by_definition.is_none()) {
             let reason = evidence.reason.in_lang(lang);
-            _ = write!(text, " ({}: {reason}", lang.choose("guessed", "vermutet"));
+            text.push_str(" (");
+            if evidence.kind != EvidenceKind::Header {
+                text.push_str(lang.choose("guessed: ", "vermutet: "));
+            }
+            text.push_str(reason);
             if let Some(line) = evidence.line {
                 _ = write!(text, ", {} {line}", lang.choose("line", "Zeile"));
             }

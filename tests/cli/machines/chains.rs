@@ -82,7 +82,7 @@ fn of_chain(chain: &Chain, it: &Named) -> Option<String> {
         charset: Charset::Ascii,
         rapid: 1000.0,
     };
-    let text = native::program(&it.program, &Header::default(), &options);
+    let text = native::write_program(&it.program, &Header::default(), &options);
     if let Err(problem) = native::read_back(&text, &it.program) {
         return Some(format!("{}: {problem:?}", it.name));
     }

@@ -95,7 +95,7 @@ fn written(post: &str, language: Language, it: &Named) -> Result<Written, Vec<Di
             charset: Charset::Ascii,
             rapid: 1000.0,
         };
-        native::program(&it.program, &Header::default(), &options)
+        native::write_program(&it.program, &Header::default(), &options)
     } else {
         let tools = ToolTable { entries: vec![entry(it.program.tool)] };
         let (job, _) =

@@ -80,8 +80,8 @@ messages! {
     NOT_G_CODE: NotGCode {
         en: "this is not G-code: {found}",
         de: "das ist kein G-Code: {found}",
-        help_en: "name a program for the machine, a text file with words such as G01 X10",
-        help_de: "ein Programm für die Maschine nennen, eine Textdatei mit Wörtern wie G01 X10",
+        help_en: "give the name of a program for the machine, a text file with words such as G01 X10",
+        help_de: "den Namen eines Programms für die Maschine angeben, einer Textdatei mit Wörtern wie G01 X10",
     }
     /// A program without any text.
     EMPTY_PROGRAM: NotGCode {
@@ -634,8 +634,8 @@ messages! {
     ARC_WITH_CENTRE_AND_RADIUS: InvalidArc {
         en: "the arc has both R and {centre}, which contradict each other",
         de: "der Bogen hat R und {centre}, die einander widersprechen",
-        help_en: "keep I and J: they are more exact",
-        help_de: "I und J behalten: sie sind genauer",
+        help_en: "remove R: {centre} are more accurate",
+        help_de: "R entfernen: {centre} sind genauer",
     }
     /// An arc without a required axis word.
     ARC_WITHOUT_END: InvalidArc {

@@ -33,8 +33,8 @@ messages! {
     TURN_FOUND_NOTHING: NothingContinues {
         en: "no segment branches off on the way back from this turn marker; segments not reached: {left}",
         de: "auf dem Rückweg von dieser Wendemarke zweigt kein Segment ab; nicht erreichte Segmente: {left}",
-        help_en: "connect a segment that was not reached with the way back to the start, or remove the turn marker",
-        help_de: "ein nicht erreichtes Segment mit dem Rückweg zum Anfang verbinden oder die Wendemarke entfernen",
+        help_en: "let one of these segments branch off the way back to the start, or remove the turn marker",
+        help_de: "eines dieser Segmente vom Rückweg zum Anfang abzweigen lassen oder die Wendemarke entfernen",
     }
     /// Note: the nearest open end.
     NEAREST_END: NothingContinues {

@@ -105,6 +105,8 @@ messages! {
     MACRO_DEPTH: EndlessMacro {
         en: "{section} contains itself, or macros are nested more than {limit} deep",
         de: "{section} enthält sich selbst, oder Makros sind tiefer als {limit} verschachtelt",
+        help_en: "remove the macro that leads back to {section}, or nest macros less deeply",
+        help_de: "das Makro entfernen, das zu {section} zurückführt, oder Makros weniger tief verschachteln",
     }
     /// A section that contains itself, such as `{$mops}` in MOP.
     BLOCK_WITHIN_ITSELF: EndlessMacro {
@@ -197,13 +199,15 @@ messages! {
     }
     /// A program without operations.
     JOB_EMPTY: NothingToPost {
-        en: "the program has no operations",
-        de: "das Programm hat keine Operationen",
+        en: "the program mills nothing: there is nothing to write",
+        de: "das Programm fräst nichts: es gibt nichts zu schreiben",
     }
     /// A coordinate or feed that is NaN or infinite.
     JOB_NOT_FINITE: NothingToPost {
         en: "{operation} has a coordinate or feed that is not a number",
         de: "{operation} hat eine Koordinate oder einen Vorschub, der keine Zahl ist",
+        help_en: "look for values in the program that are far too large, or divided by 0",
+        help_de: "im Programm nach viel zu großen Werten oder nach Divisionen durch 0 suchen",
     }
     /// Unknown post, without a suggestion.
     POST_UNKNOWN: UnknownPost {
@@ -226,8 +230,10 @@ messages! {
     }
     /// Note: the output was not verified.
     POST_UNCHECKED: DoubtfulPost {
-        en: "unchecked = true: the output was not compared with the program",
-        de: "unchecked = true: die Ausgabe wurde nicht mit dem Programm verglichen",
+        en: "the output was not compared with the program, because unchecked = true is set",
+        de: "die Ausgabe wurde nicht mit dem Programm verglichen, weil unchecked = true gesetzt ist",
+        help_en: "check the output on the control before milling, or remove unchecked from the post",
+        help_de: "die Ausgabe vor dem Fräsen an der Steuerung prüfen oder unchecked aus dem Postprozessor entfernen",
     }
     /// A name that the controller would execute.
     TEXT_AMONG_WORDS: RejectedWord {
@@ -299,18 +305,24 @@ messages! {
     }
     /// Note: the coolant of the tool table is not written.
     COOLANT_NOT_WRITTEN: DoubtfulPost {
-        en: "the program or the tool table says what the coolant does, but the post has no {macro} and does not write it",
-        de: "das Programm oder die Werkzeugtabelle bestimmt die Kühlung, aber der Postprozessor hat kein {macro} und schreibt sie nicht",
+        en: "the output does not switch the coolant, which the program or the tool table sets: the post has no {macro}",
+        de: "die Ausgabe schaltet die Kühlung nicht, die das Programm oder die Werkzeugtabelle bestimmt: der Postprozessor hat kein {macro}",
+        help_en: "add {macro} to the post, or switch the coolant by hand",
+        help_de: "{macro} in den Postprozessor aufnehmen oder die Kühlung von Hand schalten",
     }
     /// Note: the spindle is not switched.
     SPINDLE_NOT_WRITTEN: DoubtfulPost {
-        en: "the program or the tool table says which way the spindle turns, but the post has no {macro} and does not switch it",
-        de: "das Programm oder die Werkzeugtabelle bestimmt die Drehrichtung der Spindel, aber der Postprozessor hat kein {macro} und schaltet sie nicht",
+        en: "the output does not start the spindle, whose direction the program or the tool table sets: the post has no {macro}",
+        de: "die Ausgabe schaltet die Spindel nicht ein, deren Drehrichtung das Programm oder die Werkzeugtabelle bestimmt: der Postprozessor hat kein {macro}",
+        help_en: "add {macro} to the post, or start the spindle by hand",
+        help_de: "{macro} in den Postprozessor aufnehmen oder die Spindel von Hand einschalten",
     }
     /// Note: the spin-up time is not written.
     SPIN_UP_NOT_WRITTEN: DoubtfulPost {
-        en: "[machine] spin-up is set, but the post has no {macro} and does not wait for the spindle",
-        de: "[machine] spin-up ist gesetzt, aber der Postprozessor hat kein {macro} und wartet nicht auf die Spindel",
+        en: "the output does not wait for the spindle: [machine] spin-up is set, but the post has no {macro}",
+        de: "die Ausgabe wartet nicht auf die Spindel: [machine] spin-up ist gesetzt, aber der Postprozessor hat kein {macro}",
+        help_en: "add {macro} to the post after it starts the spindle",
+        help_de: "{macro} im Postprozessor nach dem Einschalten der Spindel aufnehmen",
     }
     /// Unknown key of a TOML definition, without a suggestion.
     POST_UNKNOWN_KEY: InvalidPost {
@@ -464,8 +476,8 @@ messages! {
     }
     /// Bit operations and comparisons of unknown precedence, as in `1 & 2 == 2`.
     TERM_MIXED_BITS: DoubtfulControlText {
-        en: "{text}, line {line}, column {column}: which of & | ^ and the comparison comes first is not known for certain",
-        de: "{text}, Zeile {line}, Spalte {column}: ob & | ^ oder der Vergleich zuerst kommt, ist nicht sicher bekannt",
+        en: "{text}, line {line}, column {column}: it is not documented whether & | ^ or the comparison is evaluated first",
+        de: "{text}, Zeile {line}, Spalte {column}: ob zuerst & | ^ oder der Vergleich berechnet wird, ist nicht dokumentiert",
         help_en: "use parentheses",
         help_de: "Klammern setzen",
     }
@@ -602,12 +614,12 @@ messages! {
     }
     /// Note: a dwell of another length.
     DWELL_DIFFERS: PostDiffers {
-        en: "the program dwells {seconds} s, but the output {found} s",
+        en: "the program dwells for {seconds} s, but the output for {found} s",
         de: "das Programm verweilt {seconds} s, die Ausgabe aber {found} s",
     }
     /// Note: a dwell that is not in the output.
     DWELL_LOST: PostDiffers {
-        en: "the program dwells {seconds} s, but this dwell is missing in the rest of the output",
+        en: "the program dwells for {seconds} s here, but the rest of the output has no such dwell",
         de: "das Programm verweilt {seconds} s, diese Verweilzeit fehlt aber im Rest der Ausgabe",
     }
     /// Note: the spindle is not started before the first cut.
@@ -642,8 +654,8 @@ messages! {
     }
     /// Note: a laser beam that is on during a rapid move.
     BEAM_ON: PostDiffers {
-        en: "the post does not move Z, and its beam is still on during this rapid move",
-        de: "der Postprozessor bewegt Z nicht, und der Strahl ist während dieses Eilgangs noch an",
+        en: "the beam is still on during this rapid move, and the post does not raise it: it writes no Z",
+        de: "der Strahl ist während dieses Eilgangs noch an, und der Postprozessor hebt ihn nicht ab: er schreibt kein Z",
     }
     /// Note: a move to another point.
     GOES_ELSEWHERE: PostDiffers {
@@ -755,6 +767,8 @@ messages! {
     JOB_MOVE: NothingToPost {
         en: "a move of this kind (an arc of several turns, probing away from the material) cannot be written through a post",
         de: "eine Bewegung dieser Art (ein Bogen mit mehreren Umläufen, Antasten vom Material weg) kann kein Postprozessor schreiben",
+        help_en: "write an arc of several turns as single turns; leave probing to a program of the machine's own",
+        help_de: "einen Bogen mit mehreren Umläufen als einzelne Umläufe schreiben; das Antasten einem Programm der Maschine überlassen",
     }
     /// A failed command after writing.
     POST_BUILD_FAILED: PostBuildFailed {

@@ -45,7 +45,7 @@ impl Interpreter<'_> {
             self.words.values.take(self.rules.repeats);
             return self.remember(block, coordinates[axis]);
         }
-        let repeats = self.repeats(block);
+        let repeats = self.take_repeat_count(block);
         self.remember(block, coordinates[axis]);
         let Some(hole) = self.hole(block, cycle) else { return };
         let mut old = self.old_height();
@@ -84,7 +84,7 @@ impl Interpreter<'_> {
         self.rules.stores_cycles && stays && repeats.is_some_and(|slot| slot.value == 0.0)
     }
 
-    fn repeats(&mut self, block: &Block<'_>) -> u32 {
+    fn take_repeat_count(&mut self, block: &Block<'_>) -> u32 {
         let letter = self.rules.repeats;
         let Some(slot) = self.words.values.take_slot(letter) else { return 1 };
         match whole(slot.value) {

@@ -163,7 +163,7 @@ impl<'i> Interpreter<'i> {
             self.program_number(block);
         }
         let pause = self.dwell_time(block);
-        self.feed_mode(block);
+        self.set_feed_mode(block);
         self.set_feed(block);
         self.set_speed(block);
         self.tool(block);

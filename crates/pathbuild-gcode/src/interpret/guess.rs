@@ -55,7 +55,7 @@ pub fn guess(text: &[u8]) -> Guess {
 /// Returns the dialect that the header of a program written by pathbuild names.
 fn by_header(head: &[u8]) -> Option<Guess> {
     let (provenance, _) = Provenance::of_head(head)?;
-    let reason = &Text { en: "its header names it", de: "sein Kopf nennt es" };
+    let reason = &Text { en: "named in its header", de: "im Programmkopf genannt" };
     Some(Guess {
         dialect: provenance.dialect?,
         evidence: Evidence { reason, line: None, kind: EvidenceKind::Header },

@@ -353,7 +353,7 @@ const MILLIMETRES: Text = Text { en: "millimetres", de: "Millimeter" };
 const INCHES: Text = Text { en: "inches", de: "Zoll" };
 
 impl Interpreter<'_> {
-    pub(super) fn feed_mode(&mut self, block: &Block<'_>) {
+    pub(super) fn set_feed_mode(&mut self, block: &Block<'_>) {
         let Some((Command::FeedMode(unit), code, _)) = self.words.of_group(Group::FeedMode) else { return };
         if self.rules.feed_mode == FeedMode::ClearsFeed || unit != self.state.feed_unit {
             self.state.feed = 0.0;

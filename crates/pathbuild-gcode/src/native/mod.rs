@@ -8,8 +8,8 @@ pub(crate) use number::push_exact;
 pub use number::{FIRST_PARAMETER, f3, unused_probes};
 pub use program::{
     Header, WriteOptions, drawing_of_title, has_title, is_compatible, is_title, is_title_of, left_out_lines,
-    path_of_title, plain_title, probe_name, probing_program, program, program_within, title, too_large,
-    values_file,
+    path_of_title, plain_title, probe_name, probing_program, title, too_large, values_file, write_program,
+    write_program_within,
 };
 pub(crate) use program::{kind_of_label, stated_length};
 pub use read_back::{

@@ -124,15 +124,15 @@ pub fn is_compatible(text: &[u8]) -> bool {
 
 /// Writes a program with LF as line ends. Statistics are those of the program before splitting: a move that is split for its correction
 /// counts as one.
-pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> String {
-    program_within(program, header, options, usize::MAX).unwrap_or_default()
+pub fn write_program(program: &Program, header: &Header, options: &WriteOptions) -> String {
+    write_program_within(program, header, options, usize::MAX).unwrap_or_default()
 }
 
-/// Like [`program`], with a limit on the size.
+/// Like [`write_program`], with a limit on the size.
 ///
 /// # Errors
 /// PB005 if the text exceeds `most` bytes.
-pub fn program_within(
+pub fn write_program_within(
     program: &Program,
     header: &Header,
     options: &WriteOptions,

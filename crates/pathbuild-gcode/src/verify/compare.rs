@@ -132,7 +132,7 @@ impl Difference {
 
 impl Difference {
     /// The same for a comparison with a drawing, which has no lines.
-    pub(super) fn against_drawing(&self) -> Diagnostic {
+    pub(super) fn diagnostic_against_drawing(&self) -> Diagnostic {
         let drawn = |message: &'static Message| Diagnostic::new(message);
         let diagnostic = match (&self.found, &self.expected) {
             (Some((_, found)), Some((_, expected))) => match self.kind {

@@ -62,7 +62,9 @@ fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
         found.extend(ended.into_iter().flat_map(|excursion| excursion.moves));
         if movement.pace == Pace::Rapid {
             let has_room = || {
-                let Some((piece, surface)) = low_at(line, &movement, stock, &tops) else { return true };
+                let Some((piece, surface)) = stock_below_surface(line, &movement, stock, &tops) else {
+                    return true;
+                };
                 is_in_circle(&movement, piece.cutter.diameter, &recent)
                     || material::has_room(line, &movement, surface, &recent, stock, MOST_CELLS)
             };
@@ -83,7 +85,7 @@ fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
 }
 
 /// The stock for a rapid move that goes below a surface nearby, with the highest of these surfaces.
-fn low_at<'s>(
+fn stock_below_surface<'s>(
     line: u32,
     movement: &Move,
     stock: &'s Stock,

@@ -139,7 +139,7 @@ impl<'s> PartCheck<'s> {
     /// The findings about the owners, each with the index of its path. Whether material is left depends on the cuts of all owners together.
     fn problems(&self, is_complete: bool, leftovers: &Leftovers) -> Vec<(usize, Diagnostic)> {
         let mut found: Vec<_> = self.gouged().collect();
-        found.extend(self.left_over(leftovers));
+        found.extend(self.leftover_findings(leftovers));
         if is_complete {
             found.extend(self.loose());
         }
@@ -161,7 +161,10 @@ impl<'s> PartCheck<'s> {
     }
 
     /// Returns PB215 for each element beside which material is left, and PB216 for outlines that the cutter cannot reach.
-    fn left_over(&self, Leftovers { stretches, unreachable }: &Leftovers) -> Vec<(usize, Diagnostic)> {
+    fn leftover_findings(
+        &self,
+        Leftovers { stretches, unreachable }: &Leftovers,
+    ) -> Vec<(usize, Diagnostic)> {
         let mut of_elements: BTreeMap<(usize, u32, bool), Vec<&Leftover>> = BTreeMap::new();
         for left in stretches {
             of_elements.entry((left.path, left.element, left.height.is_some())).or_default().push(left);

@@ -70,19 +70,19 @@ impl Machine {
         let mut moves = Moves::default();
         let tenths =
             |letter: char| line.words.iter().filter(move |word| word.letter == letter).filter_map(tenths);
-        tenths('G').for_each(|code| self.general(code, &mut moves));
+        tenths('G').for_each(|code| self.apply_g_code(code, &mut moves));
         if let Some(speed) = line.words.iter().find(|word| word.letter == 'S') {
             self.speed = Some(speed.number);
         }
         if let Some(tool) = tenths('T').next() {
             self.selected = Some(tool / 10);
         }
-        tenths('M').for_each(|code| self.miscellaneous(code));
+        tenths('M').for_each(|code| self.apply_m_code(code));
         moves.displaced |= self.incremental;
         self.move_registers(&line.words, &moves, format);
     }
 
-    fn general(&mut self, code: u32, moves: &mut Moves) {
+    fn apply_g_code(&mut self, code: u32, moves: &mut Moves) {
         match code {
             170 => self.plane = Some(Plane::Xy),
             180 => self.plane = Some(Plane::Zx),
@@ -100,7 +100,7 @@ impl Machine {
         }
     }
 
-    fn miscellaneous(&mut self, code: u32) {
+    fn apply_m_code(&mut self, code: u32) {
         match code {
             30 => self.spindle = Some(Turning::Clockwise),
             40 => self.spindle = Some(Turning::CounterClockwise),

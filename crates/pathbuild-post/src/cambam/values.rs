@@ -69,7 +69,7 @@ impl Writer<'_> {
 
     /// Handles a macro whose value is missing. A date may be omitted; any other missing value is an error, because it would leave a gap in
     /// the program.
-    pub(super) fn without_value(&mut self, value: Value, section: Section, line: u32) -> WriteResult {
+    pub(super) fn handle_missing_value(&mut self, value: Value, section: Section, line: u32) -> WriteResult {
         if value == Value::Date {
             self.line.leave_out();
             return Ok(());

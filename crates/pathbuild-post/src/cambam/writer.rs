@@ -193,7 +193,7 @@ impl<'a> Writer<'a> {
             Macro::Value(value) => match self.value(*value) {
                 Some(text) if value.is_text() => self.foreign(&text, value.name(), section, line),
                 Some(text) => self.text(&text),
-                None => self.without_value(*value, section, line),
+                None => self.handle_missing_value(*value, section, line),
             },
             Macro::Register(register, form) => self.register(*register, *form),
             Macro::Speed => self.speed(),

@@ -429,7 +429,7 @@ fn doubtful_terms_are_warnings() {
         warnings("{-~Q1~}")
             .starts_with("5: PB760 program-start, line 1, column 2: CAD6 accepts only one sign")
     );
-    assert!(warnings("{3&1==1}").contains("which of & | ^ and the comparison comes first"));
+    assert!(warnings("{3&1==1}").contains("whether & | ^ or the comparison is evaluated first"));
     assert!(warnings("{sin(90)}").contains("functions are an extension"));
     assert!(warnings("~ZClearance~").contains("ZClearance is written with all its decimals"));
     assert_eq!(warnings("{.~ZClearance~} ~PrgName~ {5-~Q1~}"), "");

@@ -186,7 +186,8 @@ fn chain(length: usize) -> String {
 #[test]
 fn macros_may_contain_each_other_sixteen_deep() {
     assert_eq!(lines(&chain(16), &job(vec![])), ["M0"]);
-    let expected = "PB753 PostProcessorMacros contains itself, or macros are nested more than 16 deep";
+    let expected = "PB753 PostProcessorMacros contains itself, or macros are nested more than 16 deep \
+             (remove the macro that leads back to PostProcessorMacros, or nest macros less deeply)";
     assert_eq!(errors(&chain(17), &job(vec![])), [expected]);
 }
 
@@ -233,7 +234,8 @@ fn sections_that_contain_themselves_are_an_error() {
     let text = definition("<PostFile>{$header}</PostFile><Header>{$header}</Header>");
     assert_eq!(
         errors(&text, &job(vec![])),
-        ["PB753 Header contains itself, or macros are nested more than 16 deep"]
+        ["PB753 Header contains itself, or macros are nested more than 16 deep \
+             (remove the macro that leads back to Header, or nest macros less deeply)"]
     );
 }
 
@@ -276,7 +278,7 @@ fn the_command_of_a_post_is_handed_out_only_when_it_will_be_run() {
 #[test]
 fn an_empty_program_is_refused() {
     let empty = pathbuild_post::Job::default();
-    assert_eq!(errors(&bare(""), &empty), ["PB765 the program has no operations"]);
+    assert_eq!(errors(&bare(""), &empty), ["PB765 the program mills nothing: there is nothing to write"]);
     let at = |x| [x, 0.0, 0.0];
     let arc = |from, centre, to, feed| arc(false, [from, 0.0, 0.0], [centre; 2], [0.0, to, 0.0], feed);
     let nan = f64::NAN;
@@ -291,7 +293,12 @@ fn an_empty_program_is_refused() {
         arc(1.0, 0.0, 1.0, Some(nan)),
     ] {
         let found = errors(&bare(""), &job(vec![broken]));
-        assert_eq!(found, ["PB765 mill has a coordinate or feed that is not a number"]);
+        assert_eq!(
+            found,
+            [
+                "PB765 mill has a coordinate or feed that is not a number (look for values in the program that are far too large, or divided by 0)"
+            ]
+        );
     }
 }
 

@@ -170,7 +170,7 @@ fn what_somebody_answers_for_is_not_read_back_and_a_note_says_so() {
         assert!(post.write(&program, &options).is_err(), "the moves are lost");
         let notes = post.write(&program, &PostOptions { unchecked: true, ..options }).unwrap().notes;
         let notes: Vec<String> = notes.iter().map(|note| note.text(Lang::En)).collect();
-        assert_eq!(notes, ["unchecked = true: the output was not compared with the program"]);
+        assert_eq!(notes, ["the output was not compared with the program, because unchecked = true is set"]);
     }
 }
 

@@ -323,7 +323,7 @@ impl Template {
     pub fn new(sheet: &Sheet, early: usize) -> Self {
         with_written(sheet, |written| {
             let is_block = |record: &&Record<'_>| kind(record) == "BLOCK_RECORD" && !is_space(record);
-            let tables = written.tables.iter().filter(is_block).map(owned).collect();
+            let tables = written.tables.iter().filter(is_block).map(owned_without_handle).collect();
             let mut space = false;
             let is_inside = |record: &&Record<'_>| {
                 if kind(record) == "BLOCK" {
@@ -331,8 +331,8 @@ impl Template {
                 }
                 !space
             };
-            let blocks = written.blocks.iter().filter(is_inside).map(owned).collect();
-            let mut entities: Vec<_> = written.entities.iter().map(owned).collect();
+            let blocks = written.blocks.iter().filter(is_inside).map(owned_without_handle).collect();
+            let mut entities: Vec<_> = written.entities.iter().map(owned_without_handle).collect();
             let is_entity = |record: &Record<'_>| !matches!(kind(record), "VERTEX" | "SEQEND");
             let mut starts = (0..entities.len()).filter(|at| is_entity(&entities[*at]));
             let begin = starts.nth(early).unwrap_or(entities.len());
@@ -358,7 +358,7 @@ fn is_space(record: &Record<'_>) -> bool {
     matches!(value(record, 2), Some("*Model_Space" | "*Paper_Space"))
 }
 
-fn owned(record: &Record<'_>) -> Record<'static> {
+fn owned_without_handle(record: &Record<'_>) -> Record<'static> {
     let mut record: Record<'static> = record.iter().map(Pair::owned).collect();
     drop_codes(&mut record, &[5]);
     record

@@ -132,7 +132,7 @@ impl WriteSettings {
     /// # Errors
     /// PB005 if it is too large.
     pub fn text(&self, program: &Program, header: &Header) -> Result<String, Box<Diagnostic>> {
-        let mut text = native::program_within(program, header, &self.options, self.most_bytes)?;
+        let mut text = native::write_program_within(program, header, &self.options, self.most_bytes)?;
         text.shrink_to_fit();
         Ok(text)
     }

@@ -329,8 +329,8 @@ static NO_SURFACE: Text = Text {
 };
 static TOO_LARGE: Text = Text { en: "the program is too large", de: "das Programm ist zu groß" };
 static NO_SPEED: Text = Text {
-    en: "the program cuts without starting the spindle with a speed",
-    de: "das Programm fräst, ohne die Spindel mit einer Drehzahl einzuschalten",
+    en: "the program cuts before it has set a spindle speed",
+    de: "das Programm fräst, bevor es eine Drehzahl gesetzt hat",
 };
 static START: Text = Text { en: "M3 and S in the program", de: "M3 und S im Programm" };
 static ONLY_COMMENTS: Text = Text {

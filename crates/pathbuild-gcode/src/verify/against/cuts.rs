@@ -94,7 +94,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
                 expected: Some(expected),
             })
         });
-        (difference.map(|difference| difference.against_drawing()), self.equal)
+        (difference.map(|difference| difference.diagnostic_against_drawing()), self.equal)
     }
 
     /// Compares the rapid moves before this cut, or at the end, with the expected ones.
