@@ -35,7 +35,7 @@ impl LineType {
         ("PHANTOM", Self::Phantom),
     ];
 
-    /// The usual name.
+    /// Returns the usual name.
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(_, known)| *known == self).map_or("", |(name, _)| name)
     }

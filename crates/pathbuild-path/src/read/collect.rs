@@ -560,7 +560,7 @@ impl PathCollector<'_> {
         Some(marker)
     }
 
-    /// A circle that is not a start marker but has the text of one. PB101 is reported there.
+    /// Returns a circle that is not a start marker but has the text of one. Reports PB101 at the circle.
     fn circle_with_path_text(&mut self, texts: &Texts<'_>) -> Option<Marker> {
         let unclear = self.unclear.iter();
         let unclear = unclear.map(|circle| (&circle.marker, circle.shape.radius().unwrap_or_default()));
@@ -582,7 +582,7 @@ impl PathCollector<'_> {
         Some(marker)
     }
 
-    /// A circle to mill or drill that has the text of a start: its line type was lost. PB101 is reported there.
+    /// Removes and returns a circle to mill or drill that has the text of a start, because its line type was lost. Reports PB101 at the circle.
     fn element_with_path_text(&mut self, texts: &mut Texts<'_>) -> Option<Marker> {
         let circles = self.elements.iter().enumerate();
         let mut circles = circles.filter_map(|(index, element)| Some((index, element.shape.radius()?)));
@@ -597,8 +597,8 @@ impl PathCollector<'_> {
         Some(marker)
     }
 
-    /// The only circle to mill that has the diameter of an end marker, in a path whose start has lost its line type. PB102 is reported
-    /// there.
+    /// Removes and returns the only circle to mill that has the diameter of an end marker, in a path whose start has lost its line type. Reports
+    /// PB102 at the circle.
     fn element_like_end(&mut self, texts: &mut Texts<'_>) -> Option<Marker> {
         let is_like_end = |element: &Element| {
             element.role == Role::Cut(Cut::Mill)

@@ -91,7 +91,7 @@ impl Model {
         each_once(found)
     }
 
-    /// PB504 if a project beside a drawing finds two definitions of a path of it; at the first of them.
+    /// Returns PB504, at the first definition, if a project beside a drawing finds two definitions of a path of that drawing.
     fn second_definition(&self, from: usize, path: usize) -> Option<Finding> {
         let name = &self.drawings[from].content.paths[path].0.name;
         let mut defining = self.searched(from, name);
