@@ -11,8 +11,8 @@ use crate::queries::index::{NameKey, path_names};
 use crate::queries::lookup::{may_hold, own_directory, resolve_path, search_path};
 use crate::queries::raw::raw_path;
 
-/// Returns PB504 for each path of a drawing that two drawings define, if a project beside the drawing would find both by their file names. Drawings
-/// for which it would find the same two give the same finding.
+/// Returns PB504 for each path of a drawing that two drawings define, if a project beside the drawing would find both by their file names.
+/// Drawings for which it would find the same two give the same finding.
 #[salsa::tracked]
 pub fn second_definitions(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
     let names = path_names(db, file).iter();
