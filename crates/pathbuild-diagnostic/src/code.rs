@@ -8,14 +8,14 @@ use crate::words::Lang;
 /// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 pub enum Severity {
-    /// The path gets no program, and the exit status is 1.
+    /// An error: the path gets no program, and the exit status is 1.
     Error,
     /// A warning, which does not prevent anything.
     Warning,
 }
 
 impl Severity {
-    /// Its name in machine-readable formats.
+    /// Returns the name in machine-readable formats.
     pub fn name(self) -> &'static str {
         match self {
             Self::Error => "error",
@@ -24,7 +24,7 @@ impl Severity {
     }
 }
 
-/// A file of `pages`.
+/// Includes a file of the directory `pages` as text: the page or the example of a code.
 macro_rules! page {
     ($number:literal $extension:literal) => {
         include_str!(concat!("pages/PB", stringify!($number), $extension))
@@ -40,7 +40,7 @@ macro_rules! example {
     };
 }
 
-/// Declares the codes, each with its number, name, severity and meaning.
+/// Declares the codes, each with its number, variant, name, default severity and meaning, and whether it has an example.
 macro_rules! codes {
     ($($number:literal $variant:ident $name:literal $severity:ident $when:literal $(no $example:ident)?;)*) => {
         /// The code of a diagnostic. Codes are stable: a number is never reused for anything else. (book: reference/diagnostics)
@@ -50,27 +50,27 @@ macro_rules! codes {
         }
 
         impl Code {
-            /// All codes in order of their numbers.
+            /// All codes, in order of their numbers.
             pub const ALL: &[Self] = &[$(Self::$variant),*];
 
-            /// The number in `PB203`.
+            /// Returns the number of the code: 203 for `PB203`.
             #[expect(clippy::zero_prefixed_literal, reason = "the number as it stands in file names")]
             pub fn number(self) -> u16 {
                 match self { $(Self::$variant => $number,)* }
             }
 
-            /// The readable name, for example `parameter-out-of-range`.
+            /// Returns the readable name, for example `parameter-out-of-range`.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$variant => $name,)* }
             }
 
-            /// The default severity.
+            /// Returns the default severity.
             pub fn severity(self) -> Severity {
                 match self { $(Self::$variant => Severity::$severity,)* }
             }
 
-            /// The page that `pathbuild explain` prints, as Markdown: meaning, usual causes, remedy, example. The example is rendered at the end
-            /// of both (tests/cli/book/examples.rs).
+            /// Returns the page that `pathbuild explain` prints, as Markdown: meaning, usual causes, remedy, example. The page of either
+            /// language ends with the example (tests/cli/book/examples.rs).
             pub fn page(self, lang: Lang) -> &'static str {
                 match (self, lang) {
                     $((Self::$variant, Lang::En) => page!($number ".en.md"),
@@ -78,8 +78,8 @@ macro_rules! codes {
                 }
             }
 
-            /// The example on the page: a fixture (crates/pathbuild-testkit) whose commands give exactly the noted diagnostics. `None` if the
-            /// problem cannot be shown in a few lines.
+            /// Returns the example on the page: a drawing for the test kit (crates/pathbuild-testkit), and commands that give exactly the
+            /// noted diagnostics. `None` if the problem cannot be shown in a few lines.
             pub fn example(self) -> Option<&'static str> {
                 match self { $(Self::$variant => example!($number $(no $example)?),)* }
             }
@@ -268,14 +268,14 @@ codes! {
 }
 
 impl Code {
-    /// Whether the configuration may lower its severity. Errors that would make a program wrong cannot be lowered. (book:
+    /// Whether the configuration may lower the severity. This is forbidden for errors that would make a program wrong. (book:
     /// reference/configuration)
     pub fn can_be_lowered(self) -> bool {
         self.severity() == Severity::Warning || self.number() >= 600
     }
 }
 
-/// Displays as `PB203`.
+/// Formats the code as `PB203`.
 impl fmt::Display for Code {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "PB{:03}", self.number())

@@ -10,10 +10,10 @@ use crate::{
     Code, ElementId, EntityKind, Handle, Lang, Message, Place, Point, Severity, TextFault, Value, messages,
 };
 
-/// A finding: its message, the values in it, and its place.
+/// A finding: a message, the values in the message, and the place that it is about.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Diagnostic {
-    /// The message.
+    /// Message, which determines the code, the texts and the help.
     #[serde(deserialize_with = "kept_message")]
     pub message: &'static Message,
     /// The default severity of the code. The configuration may change it when the diagnostic is reported.
@@ -23,37 +23,37 @@ pub struct Diagnostic {
     pub arguments: Arguments,
     /// Further details, for example the nearest open end.
     pub notes: Vec<Note>,
-    /// The file. Stages that know no files leave it empty for their caller to fill in.
+    /// File that the diagnostic is about. Stages that know no files leave it empty, and their callers fill it in.
     pub file: Option<Utf8PathBuf>,
-    /// The path, as spelt in the drawing.
+    /// Name of the path that the diagnostic is about, as written in the drawing.
     pub path: Option<Box<str>>,
-    /// The place in the file.
+    /// Place in the file.
     pub place: Place,
-    /// The faulty text.
+    /// Text that contains the fault, with the faulty range.
     pub text: Option<TextFault>,
-    /// The embeddings that lead here, outermost first.
+    /// The embeddings through which the path is reached, outermost first.
     pub trace: Vec<TraceStep>,
 }
 
 /// An additional sentence about a diagnostic.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Note {
-    /// The message.
+    /// Message of the note.
     #[serde(deserialize_with = "kept_message")]
     pub message: &'static Message,
-    /// The values in it.
+    /// The values in the message, by name.
     #[serde(deserialize_with = "kept_arguments")]
     pub arguments: Arguments,
 }
 
-/// An embedding on the way to an erroneous path.
+/// An embedding through which an erroneous path is reached.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct TraceStep {
-    /// The embedding drawing.
+    /// Drawing that contains the embedding path.
     pub file: Utf8PathBuf,
-    /// The embedding path.
+    /// Name of the embedding path.
     pub path: Box<str>,
-    /// The start of the subpath segment.
+    /// Start of the subpath segment that embeds the next path.
     pub point: Point,
 }
 
@@ -73,28 +73,28 @@ impl Diagnostic {
         }
     }
 
-    /// The code under which it is reported.
+    /// Returns the code of the diagnostic.
     pub fn code(&self) -> Code {
         self.message.code
     }
 
-    /// Whether it is an error, which prevents a program.
+    /// Whether the diagnostic is an error, so that the path gets no program.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
 
-    /// The message as a sentence.
+    /// Returns the message as a sentence, with its values.
     pub fn text(&self, lang: Lang) -> String {
         fill(self.message.text.in_lang(lang), &self.arguments, lang)
     }
 
-    /// Advice on how to solve the problem; `None` if the message says it all.
+    /// Returns advice on how to solve the problem; `None` if the message makes it obvious.
     pub fn help(&self, lang: Lang) -> Option<String> {
         let template = self.message.help.in_lang(lang);
         (!template.is_empty()).then(|| fill(template, &self.arguments, lang))
     }
 
-    /// Sets a value in the message: a number, a place, prose in every language.
+    /// Sets a value of the message: a number, a place, or prose in every language.
     pub fn with(mut self, name: &'static str, value: impl Into<Value>) -> Self {
         self.arguments.push((name, value.into()));
         self
@@ -123,7 +123,7 @@ impl Diagnostic {
         self
     }
 
-    /// Sets the line and the column, both counted from 1, if they are known.
+    /// Sets the line and the column, both counted from 1, as far as they are known.
     pub fn at_line(mut self, line: impl Into<Option<u32>>, column: Option<u32>) -> Self {
         if let Some(line) = line.into() {
             self.place.line = Some(line);
@@ -132,7 +132,8 @@ impl Diagnostic {
         self
     }
 
-    /// Sets the element by its number, with everything that is known without the source map.
+    /// Sets the element by its number, with its type, layer and point. The line and the handle are only known from the source map: see
+    /// [`locate`](Self::locate).
     pub fn at_element(mut self, element: ElementId, entity: EntityKind, layer: &str, point: Point) -> Self {
         self.place.element = Some(element);
         self.place.entity = Some(entity);
@@ -147,25 +148,25 @@ impl Diagnostic {
         self
     }
 
-    /// Sets the faulty text, if there is one.
+    /// Sets the text that contains the fault. If `text` is `None`, the previous one remains.
     pub fn with_text(mut self, text: impl Into<Option<TextFault>>) -> Self {
         self.text = text.into().or(self.text);
         self
     }
 
-    /// Says this instead, with the argument `nearest`, if there is a similar name.
+    /// Replaces the message by another one, with the argument `nearest`, if there is a similar name to suggest.
     pub fn or_nearest(mut self, message: &'static Message, nearest: Option<impl AsRef<str>>) -> Self {
         let Some(nearest) = nearest else { return self };
         self.message = message;
         self.quoting("nearest", nearest)
     }
 
-    /// The value of an argument of the message.
+    /// Returns the value of an argument of the message.
     pub fn argument(&self, name: &str) -> Option<&Value> {
         argument(&self.arguments, name)
     }
 
-    /// The text of an argument that is quoted.
+    /// Returns the text of an argument if it is a quoted one.
     pub fn quoted(&self, name: &str) -> Option<&str> {
         match self.argument(name)? {
             Value::Quoted(text) => Some(text),
@@ -173,13 +174,13 @@ impl Diagnostic {
         }
     }
 
-    /// Fills in the line and handle of the element from the source map.
+    /// Sets the line and the handle of the element, which the source map contains.
     pub fn locate(&mut self, line: u32, handle: Option<Handle>) {
         self.place.line = Some(line);
         self.place.handle = handle;
     }
 
-    /// Renames files wherever the diagnostic names them. `replacement` returns the new name of a file, if it gets one.
+    /// Renames files wherever the diagnostic contains their names. `replacement` returns the new name of a file, or `None` to keep it.
     pub fn rename_files(&mut self, replacement: impl Fn(&str) -> Option<String>) {
         let notes = self.notes.iter_mut().flat_map(|note| &mut note.arguments);
         for (_, value) in self.arguments.iter_mut().chain(notes) {
@@ -192,7 +193,7 @@ impl Diagnostic {
         }
     }
 
-    /// The key for sorting diagnostics wherever several are shown: file, path, place, code.
+    /// Returns the key by which lists of diagnostics are sorted: file, path, place, code.
     pub fn sort_key(&self) -> impl Ord + '_ {
         (
             &self.file,
@@ -205,7 +206,7 @@ impl Diagnostic {
         )
     }
 
-    /// The line named by the message, if that concerns something other than a file.
+    /// Returns the line in the message, if the diagnostic itself has no line.
     fn named_line(&self) -> Option<u64> {
         match self.argument("line") {
             Some(Value::Count(line)) if self.place.line.is_none() => Some(*line),
@@ -219,18 +220,18 @@ fn argument<'a>(arguments: &'a [(&'static str, Value)], name: &str) -> Option<&'
 }
 
 impl Note {
-    /// The value of an argument.
+    /// Returns the value of an argument of the note.
     pub fn argument(&self, name: &str) -> Option<&Value> {
         argument(&self.arguments, name)
     }
 
-    /// The note as a sentence.
+    /// Returns the note as a sentence, with its values.
     pub fn text(&self, lang: Lang) -> String {
         fill(self.message.text.in_lang(lang), &self.arguments, lang)
     }
 }
 
-/// Deserializes a message by its key; an error if this version has no such message.
+/// Deserializes a message by its key. Fails if this version has no message with this key.
 fn kept_message<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Message, D::Error> {
     static BY_KEY: LazyLock<HashMap<&str, &Message>> =
         LazyLock::new(|| messages::all().map(|message| (message.key, message)).collect());

@@ -1,39 +1,39 @@
-//! The words for what was changed in a drawing, and why a path's moves therefore differ. (book: program/comparing)
+//! Texts that describe the changes in a drawing and why they change the moves of a path. (book: program/comparing)
 
 use crate::words::words;
 
 words! {
-    /// A start marker. A path has one.
+    /// Name of a start marker. A path has only one, so it needs no position.
     START: "start marker", "Anfangsmarke";
-    /// An end marker. A path has one.
+    /// Name of an end marker. A path has only one, so it needs no position.
     END: "end marker", "Endmarke";
-    /// A turn marker.
+    /// Name of a turn marker.
     TURN: "turn marker at {point}", "Wendemarke bei {point}";
-    /// Turn markers.
+    /// Name of several turn markers.
     TURNS: "{count} turn markers, the first at {point}", "{count} Wendemarken, die erste bei {point}";
-    /// A Z-probe.
+    /// Name of a Z-probe.
     PROBE: "Z-probe at {point}", "Z-Probe bei {point}";
-    /// Z-probes.
+    /// Name of several Z-probes.
     PROBES: "{count} Z-probes, the first at {point}", "{count} Z-Proben, die erste bei {point}";
-    /// A circle.
+    /// Name of a circle.
     CIRCLE: "circle at {point}", "Kreis bei {point}";
-    /// Circles.
+    /// Name of several circles.
     CIRCLES: "{count} circles, the first at {point}", "{count} Kreise, der erste bei {point}";
-    /// A line.
+    /// Name of a line.
     LINE: "line at {point}", "Linie bei {point}";
-    /// Lines.
+    /// Name of several lines.
     LINES: "{count} lines, the first at {point}", "{count} Linien, die erste bei {point}";
-    /// An arc.
+    /// Name of an arc.
     ARC: "arc at {point}", "Bogen bei {point}";
-    /// Arcs.
+    /// Name of several arcs.
     ARCS: "{count} arcs, the first at {point}", "{count} Bögen, der erste bei {point}";
     /// The element is new.
     ADDED: "{what}: added", "{what}: dazugekommen";
     /// The element is gone.
     REMOVED: "{what}: removed", "{what}: weggefallen";
-    /// The element is elsewhere.
+    /// The element is at another place.
     MOVED: "{what}: moved by {by} mm", "{what}: um {by} mm verschoben";
-    /// An end of the element is elsewhere.
+    /// One end of the element is at another place.
     END_MOVED: "{what}: one end moved by {by} mm", "{what}: ein Ende um {by} mm verschoben";
     /// The element has another shape.
     RESHAPED: "{what}: runs differently", "{what}: anderer Verlauf";
@@ -51,14 +51,14 @@ words! {
     TEXT_REMOVED: "{what}: text {was} removed", "{what}: Text {was} weggefallen";
     /// A variable has another value.
     VARIABLE: "variable {name}: {was} became {now}", "Variable {name}: aus {was} wurde {now}";
-    /// A key of the configuration has another value that the path uses.
+    /// A key of the configuration that the path uses has another value.
     SETTING: "{name} in pathbuild.toml: {was} became {now}", "{name} in pathbuild.toml: aus {was} wurde {now}";
-    /// A variable or a key that has no value.
+    /// The value of a variable or a key that is not set.
     NOT_SET: "not set", "nicht gesetzt";
-    /// An embedded path differs; what was changed in it follows.
+    /// An embedded path has changed. Its own changes are listed below.
     EMBEDDED: "embedded {path} changed", "eingebetteter Pfad {path} geändert";
-    /// An embedded path differs that was mentioned before.
+    /// An embedded path has changed whose changes are already listed above.
     EMBEDDED_AGAIN: "embedded {path} changed, as above", "eingebetteter Pfad {path} geändert, wie oben";
-    /// The same elements come after each other otherwise.
+    /// The elements are the same, but in another order in the file.
     REORDERED: "the same elements, in another order in the file", "dieselben Elemente, in anderer Reihenfolge in der Datei";
 }

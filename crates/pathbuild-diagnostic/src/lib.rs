@@ -1,8 +1,10 @@
 //! Diagnostics as plain values, and the catalogue of their codes, texts and pages in English and German.
 //!
-//! A [`Diagnostic`] is a finding of a stage: a [`Message`], the values in it, and its place. It contains no text of its own, so it is cheap
-//! to compare (query results are compared after every edit) and can be rendered in any language and format. All wording is in [`messages`]
-//! and in the pages of `explain`; presentation (colours, underlining, JSON) is up to the program. This crate prints nothing and does not
+//! A [`Diagnostic`] is a finding of a stage: a [`Message`], the values in it, and its place. It contains no text of its own, so it is
+//! cheap
+//! to compare (query results are compared after every edit) and can be rendered in any language and format. All texts are in [`messages`]
+//! and in the pages of `explain`; the program decides about presentation (colours, underlining, JSON). This crate prints nothing and does
+//! not
 //! depend on miette. (book: reference/diagnostics)
 
 mod code;
@@ -24,7 +26,7 @@ pub use nearest::{is_slip, nearest};
 pub use place::{ElementId, EntityKind, Handle, Number, Place, Point, TextFault, in_prose};
 pub use words::{Lang, Text};
 
-/// All texts of this crate that can be arguments of messages.
+/// Returns all texts of this crate that can be arguments of messages.
 pub fn texts() -> impl Iterator<Item = &'static Text> {
     let texts =
         [words::TEXTS, reasons::TEXTS, limits::TEXTS, messages::configuration::TEXTS, drawn_changes::TEXTS];

@@ -7,7 +7,7 @@ use crate::place::{Number, Point, in_prose};
 use crate::words::{Lang, NONE, Text, kept_name, kept_text};
 use crate::{Code, shown};
 
-/// A [`Text`] with the values of its arguments, to stand in another message: "it has 17219 bytes, the limit is 1000".
+/// A [`Text`] with the values of its arguments, for use in another message: "it has 17219 bytes, the limit is 1000".
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Sentence {
     #[serde(deserialize_with = "kept_text")]
@@ -17,7 +17,7 @@ pub struct Sentence {
 }
 
 impl Sentence {
-    /// A sentence with arguments that have no values yet.
+    /// Creates a sentence whose arguments have no values yet.
     pub fn new(text: &'static Text) -> Self {
         Self { text, arguments: Vec::new() }
     }
@@ -34,21 +34,21 @@ impl Sentence {
     }
 }
 
-/// Values of a message by the names of its arguments.
+/// The values in a message, each with the name of its argument.
 pub(crate) type Arguments = Vec<(&'static str, Value)>;
 
-/// A message of a code. A code has one message for each situation that it covers.
+/// A message that belongs to a code. A code has one message for each situation that it covers.
 ///
 /// Messages are statics declared by the `messages!` macro in [`crate::messages`]; two messages are equal if they are the same static.
 #[derive(Debug)]
 pub struct Message {
-    /// The code under which it is reported. A note has the code of the diagnostics that it usually accompanies.
+    /// Code under which the message is reported. A note has the code of the diagnostics that it usually accompanies.
     pub code: Code,
-    /// A unique name, derived from that of the static and its module. It is stable within a version, for caches and tests.
+    /// Unique name, derived from the names of the static and its module. It is stable within a version, for caches and tests.
     pub key: &'static str,
-    /// The problem.
+    /// Description of the problem.
     pub text: Text,
-    /// Advice for the CAD program or the file. Empty if the message says it all.
+    /// Advice on how to solve the problem; empty if the description makes it obvious.
     pub help: Text,
 }
 
@@ -72,13 +72,13 @@ impl Serialize for Message {
     }
 }
 
-/// A value in a message. Strings do not turn into values by themselves: a name or a piece of source text is [`quoted`](Value::quoted),
-/// prose is a [`Text`] or a [`Sentence`], and the error text of a library is [`foreign`](Value::foreign).
+/// A value in a message. There is no conversion from strings, so that their kind must be stated: a name or a piece of source text is
+/// [`quoted`](Value::quoted), prose is a [`Text`] or a [`Sentence`], and the error text of a library is [`foreign`](Value::foreign).
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Value {
     /// A name or a piece of source text, the same in every language.
     Quoted(Box<str>),
-    /// Millimetres, or mm/min.
+    /// A length in mm, or a feed in mm/min.
     Number(Number),
     /// A count.
     Count(u64),
@@ -86,26 +86,26 @@ pub enum Value {
     Point(Point),
     /// Names, displayed as a comma-separated list.
     List(Box<[Box<str>]>),
-    /// Prose.
+    /// Prose without arguments.
     Prose(#[serde(deserialize_with = "kept_text")] &'static Text),
     /// Prose with arguments of its own.
     Sentence(Box<Sentence>),
-    /// The words of a library or of the operating system, which are English: quoted in other languages.
+    /// The error text of a library or of the operating system. It is English, so it is put in quotes in other languages.
     Foreign(Box<str>),
 }
 
 impl Value {
-    /// A name or a piece of source text.
+    /// Creates a value from a name or a piece of source text.
     pub fn quoted(text: impl AsRef<str>) -> Self {
         Self::Quoted(text.as_ref().into())
     }
 
-    /// The error text of a library or of the operating system.
+    /// Creates a value from the error text of a library or of the operating system.
     pub fn foreign(text: impl fmt::Display) -> Self {
         Self::Foreign(text.to_string().into())
     }
 
-    /// Replaces the texts for which `replacement` returns another one, in lists and sentences as well. Prose is kept.
+    /// Replaces each text for which `replacement` returns another one, including those in lists and sentences. Prose is not replaced.
     pub(crate) fn replace_texts(&mut self, replacement: &dyn Fn(&str) -> Option<String>) {
         let replace = |text: &mut Box<str>| {
             if let Some(new) = replacement(text) {
@@ -203,7 +203,7 @@ impl<S: AsRef<str>> FromIterator<S> for Value {
     }
 }
 
-/// Fills in the placeholders of a template. A `{name}` without an argument is left as it is; tests end there.
+/// Replaces the placeholders of a template by their values. A placeholder without a value is not replaced; tests fail if that happens.
 pub(crate) fn fill(template: &str, arguments: &[(&'static str, Value)], lang: Lang) -> String {
     let mut filled = String::with_capacity(template.len() + 32);
     let mut rest = template;
@@ -234,7 +234,7 @@ pub(crate) fn fill(template: &str, arguments: &[(&'static str, Value)], lang: La
     filled
 }
 
-/// Whether the text between braces names an argument. Messages about control texts quote braces of these.
+/// Whether the text between two braces is the name of an argument. Messages about control texts also contain braces of control texts.
 fn is_placeholder(name: &str) -> bool {
     !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_lowercase() || byte == b'_')
 }

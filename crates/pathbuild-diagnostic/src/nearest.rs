@@ -3,15 +3,16 @@
 
 use strsim::osa_distance;
 
-/// Maximum length in bytes of a name that is compared. Every known name is shorter, and the cost is the product of both lengths.
+/// Maximum length in bytes of a name that is compared. All known names are shorter, and the cost of a comparison is the product of both
+/// lengths.
 const MAX_NAME_BYTES: usize = 200;
 
-/// Minimum number of digits of a number that identifies something, in which a slip is likely. Shorter numbers are mere counters: `3101.2P`
-/// follows `3101.1P` and is not a misspelling of it.
+/// Minimum number of digits of a number in which a typing error is considered. Shorter numbers are mere counters: `3101.2P` follows
+/// `3101.1P` and is not a misspelling of it.
 const LONG_NUMBER: usize = 3;
 
-/// The known name nearest to a misspelt one: at most a third of its letters differ, and its numbers are the same except for a single slip.
-/// Of several equally near names, the first is returned.
+/// Returns the known name most similar to a misspelt one: at most a third of its letters differ, and its numbers are the same except for a
+/// single typing error. Of several equally similar names, the first is returned.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if name.len() > MAX_NAME_BYTES {
         return None;
@@ -21,13 +22,13 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     let length = name.chars().count();
     let (most, own) = (length.div_ceil(3), letters(&name));
     let near = |candidate: &'a str| {
-        // An additional or missing letter counts as a different one.
+        // Each additional or missing letter is at least one difference.
         if candidate.chars().count().abs_diff(length) > most {
             return None;
         }
         let other = candidate.to_lowercase();
         let others = letters(&other);
-        // A letter that only one of the names contains counts as a different one. This cheap test rejects nearly all names.
+        // Each letter that only one of the names contains is at least one difference. This cheap test rejects nearly all names.
         if (own & !others).count_ones().max((others & !own).count_ones()) as usize > most {
             return None;
         }
@@ -50,11 +51,12 @@ pub fn is_slip(name: &str, other: &str) -> bool {
         && Numbers::of(name).may_mean(&Numbers::of(other))
 }
 
-/// The numbers in a name, in order, without leading zeros.
+/// The numbers in a name, in order and without leading zeros.
 struct Numbers(Vec<String>);
 
 impl Numbers {
-    /// Extracts the numbers. A letter that looks like a digit counts as that digit if it is next to a digit: `31O1` is 3101.
+    /// Extracts the numbers from a name. A letter that looks like a digit counts as that digit if it is next to a digit: `31O1` contains
+    /// 3101.
     fn of(name: &str) -> Self {
         let mut numbers = vec![String::new()];
         let mut letters = name.chars().peekable();
@@ -75,7 +77,7 @@ impl Numbers {
         Self(numbers.iter().map(|number| number.trim_start_matches('0').to_owned()).collect())
     }
 
-    /// Whether the numbers are the same, except for a typing error in one of them.
+    /// Whether the numbers are the same, except for a single typing error in one of them.
     fn may_mean(&self, others: &Self) -> bool {
         if self.0.len() != others.0.len() {
             return self.0.concat() == others.0.concat();
@@ -104,7 +106,7 @@ fn is_misspelt(number: &str, other: &str) -> bool {
     }
 }
 
-/// The set of letters of a name as bits. Several letters may share a bit.
+/// Returns the set of letters in a name as bits. Several letters may share a bit.
 fn letters(name: &str) -> u32 {
     name.chars().fold(0, |found, letter| found | 1 << (u32::from(letter) % 32))
 }

@@ -1,4 +1,4 @@
-//! Numbers, points, and places in files.
+//! Numbers, points, and positions in files, as they occur in diagnostics.
 
 use std::fmt;
 use std::hash::{Hash, Hasher};
@@ -8,22 +8,22 @@ use serde::{Deserialize, Serialize};
 
 use crate::words::Lang;
 
-/// A point in the plane of a drawing, in mm and in its own coordinates.
+/// A point in a drawing, in mm and in the drawing's coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Point {
-    /// The X coordinate.
+    /// X in mm.
     pub x: Number,
-    /// The Y coordinate.
+    /// Y in mm.
     pub y: Number,
 }
 
 impl Point {
-    /// The point (x, y) in mm.
+    /// Creates the point (x, y), in mm.
     pub fn new(x: f64, y: f64) -> Self {
         Self { x: Number(x), y: Number(y) }
     }
 
-    /// The point with enough decimals to distinguish it from other points in the same sentence.
+    /// Formats the point with enough decimals to distinguish it from other points in the same sentence.
     pub(crate) fn apart_from(self, others: &[Self]) -> String {
         let shown = |point: Self| (point.x.to_string(), point.y.to_string());
         let alike: Vec<Self> = others.iter().copied().filter(|other| shown(*other) == shown(self)).collect();
@@ -33,7 +33,7 @@ impl Point {
     }
 }
 
-/// A DXF handle: the identity of an entity, displayed in hexadecimal.
+/// A DXF handle, which identifies an entity within its file. It is displayed in hexadecimal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Handle(pub u64);
 
@@ -43,14 +43,15 @@ impl fmt::Display for Handle {
     }
 }
 
-/// The index of an element in the source map of its file, which contains the element's line and handle.
+/// Index of an element in the source map of its file. The source map contains the element's line and handle.
 ///
-/// Elements are counted per path, so that edits elsewhere in the drawing, which shift lines and handles, do not change any value of later
+/// Elements are counted per path. Edits elsewhere in the drawing shift lines and handles, but not these indices, so that they do not
+/// change any value of later
 /// stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ElementId(pub u32);
 
-/// Declares the types of entities, each with its name in DXF files: those that a path consists of, and the others.
+/// Declares the types of entities, each with its name in DXF files: first those that a path consists of, then the others.
 macro_rules! entities {
     ($($own:ident $own_name:literal,)* ; $($foreign:ident $foreign_name:literal,)* ; $other:ident $other_name:literal) => {
         /// The types of DXF entities that pathbuild distinguishes.
@@ -61,13 +62,13 @@ macro_rules! entities {
         }
 
         impl EntityKind {
-            /// The kind of an entity that no path consists of, by its name in upper case.
+            /// Returns the type of an entity that is not part of a path, by its name in upper case.
             pub fn foreign(name: &[u8]) -> Self {
                 let known = [$(Self::$foreign,)*].into_iter().find(|kind| kind.name().as_bytes() == name);
                 known.unwrap_or(Self::$other)
             }
 
-            /// The name in DXF files, known to users of CAD programs.
+            /// Returns the name of the type in DXF files, which users of CAD programs know.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$own => $own_name,)*
@@ -112,32 +113,32 @@ entities! {
     Other "entity"
 }
 
-/// A place in a file. Each part may be unknown.
+/// A position in a file. Each part may be unknown.
 ///
 /// Stages after the reader only know elements by number; `line` and `handle` are filled in when a diagnostic is reported
 /// ([`Diagnostic::locate`](crate::Diagnostic::locate)).
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Place {
-    /// The line in the file, counted from 1. For ASCII DXF, the line of the entity's `0` group code.
+    /// Line in the file, counted from 1. For ASCII DXF, this is the line of the entity's `0` group code.
     pub line: Option<u32>,
-    /// The column in characters, counted from 1, for text files such as the configuration and G-code.
+    /// Column in characters, counted from 1. Only for text files such as the configuration and G-code.
     pub column: Option<u32>,
-    /// The element, for looking it up in the source map of its file.
+    /// Number of the element, by which the source map of its file can be searched.
     pub element: Option<ElementId>,
-    /// The DXF handle.
+    /// DXF handle of the entity.
     pub handle: Option<Handle>,
-    /// The type of the DXF entity.
+    /// Type of the DXF entity.
     pub entity: Option<EntityKind>,
-    /// The layer as spelt in the drawing.
+    /// Name of the layer, as written in the drawing.
     pub layer: Option<Box<str>>,
-    /// The point in the drawing.
+    /// Point in the drawing.
     pub point: Option<Point>,
 }
 
 /// A source text with its faulty part: a parameter text of a drawing, or a line of the configuration or of G-code.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct TextFault {
-    /// The text; for a long one, an excerpt around the fault.
+    /// Text that contains the fault; for a long text, an excerpt around the fault.
     pub text: Box<str>,
     /// Byte offset of the fault in `text`.
     pub start: u32,
@@ -145,15 +146,15 @@ pub struct TextFault {
     pub end: u32,
 }
 
-/// Maximum length in bytes of a text that is kept in full.
+/// Length in bytes up to which a text is stored in full.
 const MAX_FULL_TEXT_BYTES: usize = 4 * EXCERPT_BYTES;
 
-/// Number of bytes of a longer text kept before a fault; twice as many are kept from the start of the fault on.
+/// Number of bytes of a longer text that are stored before a fault. Twice as many are stored from the start of the fault on.
 const EXCERPT_BYTES: usize = 1000;
 
 impl TextFault {
-    /// A text with a faulty byte range, which is clamped to the text and to character boundaries. Only an excerpt of a long text is kept,
-    /// so that a thousand faults do not keep a thousand copies.
+    /// Creates a text with a faulty byte range, which is clamped to the text and to character boundaries. Of a long text, only an excerpt
+    /// is stored, so that a thousand faults do not store a thousand copies.
     pub fn new(text: &str, span: Range<usize>) -> Self {
         if text.len() > MAX_FULL_TEXT_BYTES {
             let from = text.floor_char_boundary(span.start.min(text.len()).saturating_sub(EXCERPT_BYTES));
@@ -169,7 +170,7 @@ impl TextFault {
         Self { text: text.into(), start: index(start), end: index(end) }
     }
 
-    /// The faulty byte range.
+    /// Returns the faulty range in bytes.
     pub fn span(&self) -> Range<usize> {
         self.start as usize..self.end as usize
     }
@@ -187,7 +188,8 @@ impl Number {
         if self.0 == 0.0 { 0 } else { self.0.to_bits() }
     }
 
-    /// The number with enough decimals to distinguish it from the other numbers in a sentence, to avoid "8 mm is greater than 8".
+    /// Formats the number with enough decimals to distinguish it from the other numbers in the same sentence, to avoid "8 mm is greater
+    /// than 8".
     pub(crate) fn apart_from(self, others: impl Iterator<Item = Self>) -> String {
         let shown = self.to_string();
         let equal: Vec<Self> = others.filter(|other| *other != self && other.to_string() == shown).collect();
@@ -198,7 +200,7 @@ impl Number {
         decimals.map_or(shown, |decimals| trimmed(&with(self, decimals)).to_owned())
     }
 
-    /// The number in a sentence: `0.5`, or `0,5` in German.
+    /// Formats the number for a sentence: `0.5`, or `0,5` in German.
     pub fn prose(self, lang: Lang) -> String {
         in_prose(self.to_string(), lang)
     }
@@ -210,15 +212,16 @@ impl From<f64> for Number {
     }
 }
 
-/// Maximum number of decimals; smaller differences have no practical meaning.
+/// Maximum number of decimals. Smaller differences have no practical meaning.
 const MOST_DECIMALS: usize = 9;
 
-/// Decimals without trailing zeros.
+/// Removes trailing zeros from a number with decimals.
 fn trimmed(decimals: &str) -> &str {
     decimals.trim_end_matches('0').trim_end_matches('.')
 }
 
-/// A number in a sentence or table. Coordinates, parameters and G-code keep their decimal point in any language, since they are typed back.
+/// Gives a formatted number the decimal separator of a language, for a sentence or a table. Coordinates, parameters and G-code keep their
+/// decimal point in every language, because users type them.
 pub fn in_prose(number: String, lang: Lang) -> String {
     match lang {
         Lang::En => number,
@@ -252,8 +255,8 @@ impl Ord for Number {
     }
 }
 
-/// Displays at most three decimals without trailing zeros, the precision of a drawing. Very small values that would appear as 0, such as a
-/// gap of 0.0004 mm, are displayed with two significant digits, and rounding errors below a millionth of a micrometre as 0.
+/// Formats at most three decimals without trailing zeros, the precision of a drawing. Very small values that would appear as 0, such as a
+/// gap of 0.0004 mm, are formatted with two significant digits, and rounding errors below a millionth of a micrometre as 0.
 impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let value = self.0;

@@ -1,4 +1,4 @@
-//! Reasons why a file cannot be read or written. The system's wording depends on platform and locale; ours does not.
+//! Reasons why a file cannot be read or written. They replace the system's texts, which depend on platform and locale.
 
 use std::fmt;
 use std::io::{Error, ErrorKind};
@@ -11,91 +11,91 @@ words! {
     NO_FILE: "there is no such file", "es gibt sie nicht";
     /// The directory of the file does not exist.
     NO_DIRECTORY: "there is no such directory", "das Verzeichnis gibt es nicht";
-    /// A file that its owner protects.
+    /// The file is write-protected.
     WRITE_PROTECTED: "it is write-protected", "sie ist schreibgeschützt";
-    /// The file would be overwritten.
+    /// The file exists and must not be overwritten.
     IS_THERE: "it is there already", "sie ist schon da";
-    /// A report or similar output with the name of a drawing.
+    /// A report or similar output would overwrite a drawing.
     NAME_OF_DRAWING: "it has the name of a drawing, which would be lost", "sie heißt wie eine Zeichnung, die verloren ginge";
-    /// A report or similar output with the name of a program.
+    /// A report or similar output would overwrite a program.
     NAME_OF_PROGRAM: "it has the name of a G-code program, which would be lost", "sie heißt wie ein G-Code-Programm, das verloren ginge";
-    /// A report or similar output with the name of the configuration.
+    /// A report or similar output would overwrite the configuration.
     NAME_OF_CONFIGURATION: "it is the configuration, which would be lost", "sie ist die Konfiguration, die verloren ginge";
-    /// A drawing that q-project would overwrite, although it did not write it.
+    /// q-project would overwrite a drawing that it did not write.
     DRAWN_BY_USER: "the drawing there was not written by q-project, or was edited since", "die Zeichnung dort stammt nicht von q-project oder wurde seither bearbeitet";
-    /// A directory instead of a file to read.
+    /// A directory is in the place of a file to read.
     IS_DIRECTORY: "it is a directory", "es ist ein Verzeichnis";
-    /// A directory instead of a file to write.
+    /// A directory is in the place of a file to write.
     DIRECTORY_OF_THAT_NAME: "a directory has that name", "ein Verzeichnis heißt so";
-    /// R makes the name of a program invalid.
+    /// The name of a program contains R, whose value contains an invalid character.
     NO_FILE_NAME: "the name, which includes R, contains a character that file names cannot contain", "der Name, zu dem R gehört, enthält ein Zeichen, das in keinem Dateinamen stehen kann";
-    /// A path name that would become a file name such as `CON.1P_Milling.gcode`.
+    /// The name of a path, such as `CON.1P`, would give a file name that means a device on Windows.
     DEVICE_NAME: "on Windows a file name that begins like this means a device", "unter Windows meint ein Dateiname, der so beginnt, ein Gerät";
-    /// A pipe, a socket or a device.
+    /// The file is a pipe, a socket or a device.
     NOT_REGULAR: "it is not a regular file", "es ist keine gewöhnliche Datei";
-    /// A link out of an untrusted repository.
+    /// The file is reached through a link out of an untrusted repository.
     LEADS_OUT: "it leads out of the repository, which is not trusted", "sie führt aus dem Repository hinaus, dem nicht vertraut wird";
-    /// A file outside of the post's directory that it tries to insert.
+    /// A file that the definition inserts is reached through a link out of the post's directory.
     LEADS_OUT_OF_POST: "it leads out of the post's directory", "sie führt aus dem Verzeichnis des Postprozessors hinaus";
-    /// A file of a control text outside of the post's directory.
+    /// A file that a control text inserts is not below the post's directory.
     NOT_BELOW_POST: "it does not lie below the post's directory", "sie liegt nicht unterhalb des Verzeichnisses des Postprozessors";
-    /// A file of a built-in post, which has no directory.
+    /// A built-in post inserts a file, although it has no directory.
     NO_DIRECTORY_OF_POST: "this post has no directory", "dieser Postprozessor hat kein Verzeichnis";
-    /// A text file that is not UTF-8.
+    /// The file is not UTF-8 text.
     NOT_UTF_8: "it is not UTF-8", "sie ist nicht in UTF-8";
-    /// A cache file of another user.
+    /// A cache file belongs to another user, or is not a regular file.
     NO_OWN_FILE: "it is not a file of this user", "es ist keine Datei dieses Benutzers";
-    /// A cache file that is too large.
+    /// A cache file is larger than any that pathbuild writes.
     NEVER_SO_LARGE: "it is larger than anything that pathbuild keeps", "sie ist größer als alles, was pathbuild aufhebt";
-    /// A cache directory that is a link.
+    /// The cache directory is a link.
     IS_LINK: "it is a link", "es ist eine Verknüpfung";
-    /// A cache directory that is a file.
+    /// The cache directory is a file.
     NO_DIRECTORY_BUT_FILE: "it is not a directory", "es ist kein Verzeichnis";
-    /// A cache directory of another user.
+    /// The cache directory belongs to another user.
     SOMEBODY_ELSES: "it belongs to another user", "es gehört einem anderen Benutzer";
-    /// A cache directory with write access for everyone.
+    /// Every user may write to the cache directory.
     OPEN_TO_ALL: "every user may write to it", "jeder Benutzer darf hineinschreiben";
-    /// A cache directory that cannot be inspected.
+    /// The cache directory cannot be inspected.
     NOT_LOOKED_AT: "it cannot be inspected", "es lässt sich nicht einsehen";
-    /// A cache directory that contains foreign files.
+    /// The cache directory contains files that are not pathbuild's.
     HOLDS_OTHERS: "it contains other files, and no CACHEDIR.TAG of pathbuild", "es enthält andere Dateien und keine CACHEDIR.TAG von pathbuild";
-    /// A cache directory in an untrusted repository.
+    /// The cache directory is in an untrusted repository.
     IN_STRANGERS_TREE: "it lies in a directory tree that is not trusted", "es liegt in einem Verzeichnisbaum, dem nicht vertraut wird";
-    /// A directory that is not a cache.
+    /// A directory that should be a cache is not one of pathbuild.
     NO_CACHE: "it has no CACHEDIR.TAG of pathbuild, so it is not a cache of pathbuild", "es hat keine CACHEDIR.TAG von pathbuild, ist also kein Cache von pathbuild";
-    /// A result that is too large for a cache file.
+    /// A result is too large for a cache file.
     TOO_MUCH_TO_KEEP: "there is more to keep than a file can hold", "es ist mehr aufzuheben, als in eine Datei passt";
-    /// A cache directory with an unreadable tag.
+    /// The tag file of the cache directory cannot be read.
     TAG_UNREADABLE: "its CACHEDIR.TAG cannot be read", "seine CACHEDIR.TAG ist nicht lesbar";
-    /// All names for temporary files are taken.
+    /// No unused name for a temporary file was found.
     TOO_MANY_TEMPORARY: "there are too many temporary files beside it", "daneben liegen zu viele temporäre Dateien";
-    /// A drawing that another program is writing.
+    /// Another program is writing the drawing.
     CHANGES_WHILE_READ: "it changes while it is being read", "sie ändert sich, während sie gelesen wird";
-    /// A picture that is too large for memory.
+    /// A picture is too large for memory.
     PICTURE_TOO_LARGE: "the picture is too large", "das Bild ist zu groß";
-    /// A picture format that requires a feature without which the program was built.
+    /// A picture format requires a feature that this build lacks.
     WITHOUT_PICTURES: "this pathbuild was built without the feature `pictures`: .html and .svg are left", "dieses pathbuild wurde ohne das Feature `pictures` gebaut: es bleiben .html und .svg";
-    /// Error of the operating system.
+    /// Error of the operating system: missing permission.
     PERMISSION_DENIED: "permission denied", "keine Berechtigung";
-    /// Error of the operating system.
+    /// Error of the operating system: the file already exists.
     EXISTS: "file exists", "es gibt sie schon";
-    /// Error of the operating system.
+    /// Error of the operating system: part of the path is not a directory.
     NOT_A_DIRECTORY: "not a directory", "ein Teil des Pfades ist kein Verzeichnis";
-    /// Error of the operating system.
+    /// Error of the operating system: the disk is full.
     DISK_FULL: "no space left on device", "auf dem Datenträger ist kein Platz mehr";
-    /// Error of the operating system.
+    /// Error of the operating system: the disk quota is exceeded.
     QUOTA: "disk quota exceeded", "das Kontingent auf dem Datenträger ist erschöpft";
-    /// Error of the operating system.
+    /// Error of the operating system: the file is too large for the file system.
     TOO_LARGE: "file too large", "sie wird für den Datenträger zu groß";
-    /// Error of the operating system.
+    /// Error of the operating system: the file system is read-only.
     READ_ONLY: "read-only file system", "der Datenträger ist schreibgeschützt";
-    /// Error of the operating system.
+    /// Error of the operating system: another program has opened the file exclusively.
     HELD: "another program has it open", "ein anderes Programm hat sie offen";
-    /// Error of the operating system.
+    /// Error of the operating system: invalid file name.
     BAD_NAME: "the system does not allow this file name", "das System lässt den Dateinamen nicht zu";
 }
 
-/// Creates an error with a text of pathbuild, from which [`reason`] returns the text in every language.
+/// Creates an error with a text in both languages, which [`reason`] retrieves.
 pub fn error(kind: ErrorKind, text: &'static Text) -> Error {
     Error::new(kind, TextError(text))
 }
@@ -111,7 +111,7 @@ impl fmt::Display for TextError {
 
 impl std::error::Error for TextError {}
 
-/// The reason of an IO error: in pathbuild's own words if there are some, otherwise as the system puts it.
+/// Returns the reason of an IO error: a text in both languages if there is one, otherwise the system's text.
 pub fn reason(error: &Error) -> Value {
     match error.get_ref() {
         Some(inner) => match inner.downcast_ref::<TextError>() {
@@ -140,17 +140,17 @@ fn by_kind(kind: ErrorKind) -> Option<&'static Text> {
     })
 }
 
-/// `ERROR_SHARING_VIOLATION` and `ERROR_LOCK_VIOLATION`: another program has opened the file exclusively.
+/// Whether another program has opened the file exclusively (`ERROR_SHARING_VIOLATION` or `ERROR_LOCK_VIOLATION`).
 pub fn is_held(error: &Error) -> bool {
     cfg!(windows) && matches!(error.raw_os_error(), Some(32 | 33))
 }
 
-/// `ERROR_INVALID_NAME`: a name that Windows does not allow, for example that of a pattern without matches.
+/// Whether Windows does not permit the file name (`ERROR_INVALID_NAME`), for example because it is a pattern without matches.
 fn is_no_name(error: &Error) -> bool {
     cfg!(windows) && error.raw_os_error() == Some(123)
 }
 
-/// The system's wording without the number and the full stop at the end.
+/// Returns the system's text without the error number and the full stop at its end.
 fn of_system(error: &Error) -> String {
     let text = error.to_string();
     let end = text.find(" (os error").unwrap_or(text.len());
@@ -172,7 +172,7 @@ mod tests {
         assert_eq!(reason_text(Error::other("By a library."), Lang::De), "„By a library.“");
         assert_eq!(reason_text(ErrorKind::TimedOut.into(), Lang::En), "timed out");
         assert_eq!(reason_text(ErrorKind::TimedOut.into(), Lang::De), "„timed out“");
-        // A number that no system has.
+        // An error number that no system uses.
         let unknown = reason_text(Error::from_raw_os_error(54_321), Lang::En);
         assert!(!unknown.contains("os error") && !unknown.ends_with('.'), "{unknown}");
     }

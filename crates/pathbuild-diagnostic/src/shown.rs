@@ -1,6 +1,6 @@
 //! Escapes untrusted text for display. A file name may contain escape sequences for the terminal, a line feed followed by a command for a
-//! CI runner, or marks that reverse the direction of writing. All such characters are escaped when displayed; this is the only module that
-//! knows them.
+//! CI runner, or marks that reverse the direction of writing. All such characters are escaped when displayed, and only this module
+//! decides which they are.
 //!
 //! | function | for | line feeds | special characters |
 //! | --- | --- | --- | --- |
@@ -13,10 +13,10 @@
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// Whether a character has an effect besides being displayed: control characters, line and paragraph separators, direction marks,
+/// Whether a character has an effect other than being displayed: control characters, line and paragraph separators, direction marks,
 /// zero-width characters, and tags.
 pub fn acts(character: char) -> bool {
-    // Most characters are decided by the first comparison.
+    // The first comparison is fast and decides most characters.
     !matches!(character, ' '..='~')
         && matches!(
             character,
@@ -34,12 +34,12 @@ pub fn line(text: &str) -> Cow<'_, str> {
     escaped(text, acts, escape)
 }
 
-/// Escapes a text of several lines that is displayed in a frame.
+/// Escapes a text of several lines that is displayed within a frame.
 pub fn framed(text: &str) -> Cow<'_, str> {
     escaped(text, |c| c != '\n' && acts(c), escape)
 }
 
-/// Escapes an output of whole lines for humans. No line of the result is a command for a CI runner.
+/// Escapes an output of whole lines for humans. No line of the result is a command to a CI runner.
 pub fn lines(text: &str) -> Cow<'_, str> {
     harmless_lines(framed(text))
 }
@@ -99,7 +99,7 @@ fn escaped(text: &str, acts: impl Fn(char) -> bool, escape: impl Fn(&mut String,
     escaped.into()
 }
 
-/// Defuses commands of CI runners: GitHub's runner obeys lines that begin with `::` or contain `##[`, Azure's those with `##vso[`.
+/// Escapes commands to CI runners: GitHub's runner obeys lines that begin with `::` or contain `##[`, Azure's those with `##vso[`.
 fn harmless_lines(text: Cow<'_, str>) -> Cow<'_, str> {
     let text = without_runner_commands(text, "\\u{23}");
     if !text.contains("::") {
@@ -116,7 +116,7 @@ fn harmless_lines(text: Cow<'_, str>) -> Cow<'_, str> {
     all.into()
 }
 
-/// The start of a line after spaces and colour sequences.
+/// Returns the offset at which the text of a line starts, after spaces and colour sequences.
 fn start(line: &str) -> usize {
     let mut rest = line;
     loop {
@@ -128,7 +128,7 @@ fn start(line: &str) -> usize {
     }
 }
 
-/// Breaks up what CI runners search for anywhere in a line: `##`, optional letters, and `[`.
+/// Breaks up the commands that CI runners find anywhere in a line: `##`, optional letters, and `[`.
 fn without_runner_commands<'a>(text: Cow<'a, str>, hash: &str) -> Cow<'a, str> {
     let is_command =
         |rest: &str| rest[2..].trim_start_matches(|c: char| c.is_ascii_alphabetic()).starts_with('[');
@@ -146,7 +146,7 @@ fn without_runner_commands<'a>(text: Cow<'a, str>, hash: &str) -> Cow<'a, str> {
     all.into()
 }
 
-/// The offsets of `##` followed by another character.
+/// Returns the offsets of `##` followed by another character.
 fn hashes(text: &str) -> impl Iterator<Item = usize> {
     text.match_indices('#').map(|(at, _)| at).filter(|at| {
         let rest = &text.as_bytes()[at + 1..];

@@ -1,4 +1,4 @@
-//! Languages, texts in all of them, and the names of things in messages. (Glossary in book: reference/glossary)
+//! Languages, texts in all of them, and the names of elements and moves in messages. (Glossary in book: reference/glossary)
 
 use std::collections::{HashMap, HashSet};
 use std::sync::{LazyLock, Mutex, PoisonError};
@@ -15,27 +15,27 @@ pub enum Lang {
     De,
 }
 
-/// Prose in every language: a word, a phrase or a sentence, with `{name}` where an argument goes.
+/// A text in every language: a word, a phrase or a sentence, with `{name}` in the place of an argument.
 ///
 /// This is the only type of prose: a message takes prose as a `Text`, never as a string. Strings are for text from drawings
 /// ([`Diagnostic::quoting`](crate::Diagnostic::quoting)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct Text {
-    /// English.
+    /// The text in English.
     pub en: &'static str,
-    /// German.
+    /// The text in German.
     pub de: &'static str,
 }
 
 impl Text {
-    /// The text in one language, with its placeholders unfilled.
+    /// Returns the text in one language, with its placeholders.
     pub fn in_lang(&self, lang: Lang) -> &'static str {
         lang.choose(self.en, self.de)
     }
 }
 
 impl Lang {
-    /// Selects one of two values by language.
+    /// Returns one of two values, depending on the language.
     pub fn choose<T>(self, en: T, de: T) -> T {
         match self {
             Self::En => en,
@@ -44,7 +44,7 @@ impl Lang {
     }
 }
 
-/// Declares texts, each with its documentation, and the list of them.
+/// Declares texts, each with its documentation, and a list of all of them.
 macro_rules! words {
     ($($(#[$doc:meta])* $key:ident: $en:literal, $de:literal;)*) => {
         $($(#[$doc])* pub static $key: crate::Text = crate::Text { en: $en, de: $de };)*
@@ -56,19 +56,19 @@ macro_rules! words {
 pub(crate) use words;
 
 words! {
-    /// An empty list.
+    /// Text for an empty list.
     NONE: "none", "keine";
-    /// The text of a start marker, with the path's own parameters.
+    /// The text of a start marker, which gives the path's own parameters.
     PATH_START: "a path start", "ein Pfadanfang";
-    /// CONTINUOUS line or arc.
+    /// A CONTINUOUS line or arc.
     MILLING_SEGMENT: "a milling segment", "ein Frässegment";
-    /// DIVIDE line or arc.
+    /// A DIVIDE line or arc.
     MARKING_SEGMENT: "a marking segment", "ein Markierungssegment";
-    /// BORDER or CENTER line or arc.
+    /// A BORDER or CENTER line or arc.
     SUPPORT_SEGMENT: "a segment with support bars", "ein Segment mit Stützstegen";
-    /// DASHED line or arc.
+    /// A DASHED line or arc.
     SWEEP: "a sweep", "eine Leerfahrt";
-    /// Circle of the cutter's diameter.
+    /// A circle of the cutter's diameter.
     DRILLED_HOLE: "a drilled hole", "ein Bohrloch";
     /// A hole to marking depth.
     DRILLED_MARK: "a drilled mark", "eine Bohrmarkierung";
@@ -80,39 +80,39 @@ words! {
     HELICAL_SUPPORT: "a helical circle with support bars", "ein Helixkreis mit Stützstegen";
     /// A circle that may be a hole or a helical circle.
     CIRCLE: "a circle", "ein Kreis";
-    /// DASHDOT line or arc.
+    /// A DASHDOT line or arc.
     SUBPATH: "a subpath", "ein Unterpfad";
-    /// Circle of 6 mm.
+    /// A PHANTOM circle of 6 mm.
     PROBE: "a Z-probe", "eine Z-Probe";
-    /// Anything else.
+    /// An element of any kind.
     ELEMENT: "an element", "ein Element";
     /// A line, whatever its meaning.
     LINE: "a line", "eine Linie";
     /// An arc, whatever its meaning.
     ARC: "an arc", "ein Bogen";
-    /// G00.
+    /// A move with G00.
     RAPID_MOVE: "rapid move", "Eilgang";
-    /// G01 straight down.
+    /// A move straight down with G01.
     PLUNGE: "plunge", "Eintauchen";
-    /// G01, G02, G03.
+    /// A move with G01, G02 or G03.
     CUT: "cut", "Schnitt";
-    /// G38.2, G31.
+    /// A move with G38.2 or G31.
     PROBING_MOVE: "probing move", "Antastbewegung";
-    /// The value comes from the element.
+    /// Source of a value: the element's own text.
     OWN_TEXT: "own text", "eigener Text";
-    /// The value comes from the first segment of the chain.
+    /// Source of a value: the text of the chain's first segment.
     CHAIN_TEXT: "first segment of the chain", "erstes Segment der Kette";
-    /// The value comes from the path's start.
+    /// Source of a value: the text of the path's start.
     PATH_TEXT: "text of the path", "Text des Pfads";
-    /// The value comes from the path named by @.
+    /// Source of a value: the text of the path that @ names.
     LENDER_TEXT: "text of the path that @ names", "Text des Pfads, den @ nennt";
-    /// The value comes from an option or the configuration.
+    /// Source of a value: an option or the configuration.
     OPTION: "option", "Option";
-    /// The value is the default.
+    /// Source of a value: the default.
     DEFAULT: "default", "Vorgabe";
 }
 
-/// Deserializes a text as a `&'static Text`: each different text is leaked once. There are only a few dozen.
+/// Deserializes a text as a `&'static Text`. Each distinct text is leaked once; there are only a few dozen.
 pub(crate) fn kept_text<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Text, D::Error> {
     static KEPT: LazyLock<Mutex<HashMap<(&'static str, &'static str), &'static Text>>> =
         LazyLock::new(Mutex::default);
@@ -122,7 +122,7 @@ pub(crate) fn kept_text<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'
     Ok(all.entry((en, de)).or_insert_with(|| Box::leak(Box::new(Text { en, de }))))
 }
 
-/// A single copy of a text that lives until the process ends.
+/// Returns a copy of a text that lives until the process ends. Equal texts share one copy.
 pub(crate) fn kept_name(text: &str) -> &'static str {
     static KEPT: LazyLock<Mutex<HashSet<&'static str>>> = LazyLock::new(Mutex::default);
     let mut all = KEPT.lock().unwrap_or_else(PoisonError::into_inner);

@@ -59,7 +59,7 @@ messages! {
         help_en: "did you mean `{near}`? It belongs at the top of the file, before the first [table]",
         help_de: "ist `{near}` gemeint? Das gehört an den Anfang der Datei, vor die erste [Tabelle]",
     }
-    /// A key of an earlier version.
+    /// A key that an earlier version had.
     REPLACED_KEY: InvalidConfiguration {
         en: "the key `{key}` no longer exists",
         de: "den Schlüssel `{key}` gibt es nicht mehr",
@@ -73,7 +73,7 @@ messages! {
         help_en: "write `keep-out` so that it matches only the whole names of layers with clamps, or rename the layer",
         help_de: "`keep-out` so schreiben, dass es nur auf die ganzen Namen von Layern mit Spannmitteln passt, oder den Layer umbenennen",
     }
-    /// A table for a feature that does not exist.
+    /// A table for a feature that this version does not have.
     NOT_BUILT: InvalidConfiguration {
         en: "`{key}` is not supported",
         de: "`{key}` wird nicht unterstützt",
@@ -104,14 +104,14 @@ messages! {
         help_en: "lower it to {default} or less",
         help_de: "auf höchstens {default} senken",
     }
-    /// A post marked as unchecked by an untrusted repository.
+    /// A post that an untrusted repository marks as unchecked.
     UNCHECKED_BY_STRANGER: InvalidConfiguration {
         en: "`{key}` is only allowed in trusted repositories",
         de: "`{key}` ist nur in vertrauenswürdigen Repositorys erlaubt",
         help_en: "remove it: output that cannot be read back is then an error",
         help_de: "entfernen: eine Ausgabe, die sich nicht zurücklesen lässt, ist dann ein Fehler",
     }
-    /// A number of two different cutters.
+    /// A tool number that another cutter already has.
     NUMBER_SHARED: InvalidConfiguration {
         en: "`{key}` is {number}, but [{other}], a different cutter, already has this number",
         de: "`{key}` ist {number}, aber [{other}], ein anderer Fräser, hat diese Nummer schon",
@@ -139,7 +139,7 @@ messages! {
         help_en: "valid values are {choices}",
         help_de: "möglich sind {choices}",
     }
-    /// A value that is none of the choices, but similar to one.
+    /// A value that is none of the choices, but similar to one of them.
     NEAR_CHOICE: InvalidConfiguration {
         en: "{found} is not a valid value of `{key}`",
         de: "{found} ist kein gültiger Wert von `{key}`",
@@ -153,7 +153,7 @@ messages! {
         help_en: "escape literal characters with a backslash or brackets: [.]",
         help_de: "Zeichen, die wörtlich gemeint sind, mit einem Backslash oder in eckigen Klammern schreiben: [.]",
     }
-    /// Too many patterns, which would use an unlimited amount of memory.
+    /// More patterns than permitted. Their number is limited because they would use an unlimited amount of memory.
     TOO_MANY_PATTERNS: InvalidConfiguration {
         en: "the file has more than {most} {what}",
         de: "die Datei hat mehr als {most} {what}",
@@ -174,35 +174,35 @@ messages! {
         help_en: "paths whose names match PARENT embed only paths whose names match CHILD: \"^8:P$\"",
         help_de: "Pfade, deren Namen AUSSEN entsprechen, betten nur Pfade ein, deren Namen INNEN entsprechen: \"^8:P$\"",
     }
-    /// A severity for an unknown code, with a similar known one.
+    /// A severity for an unknown code that is similar to a known one.
     UNKNOWN_CODE: InvalidConfiguration {
         en: "there is no diagnostic {code}",
         de: "es gibt keine Meldung {code}",
         help_en: "did you mean {near}? `pathbuild explain` lists them",
         help_de: "ist {near} gemeint? `pathbuild explain` führt alle auf",
     }
-    /// A severity for an unknown code.
+    /// A severity for an unknown code that is not similar to any known one.
     STRANGE_CODE: InvalidConfiguration {
         en: "there is no diagnostic {code}",
         de: "es gibt keine Meldung {code}",
         help_en: "`pathbuild explain` lists all of them",
         help_de: "`pathbuild explain` führt alle auf",
     }
-    /// A code with a severity that cannot be lowered.
+    /// A lower severity for a code whose severity cannot be lowered.
     CANNOT_BE_LOWERED: InvalidConfiguration {
         en: "{code} ({name}) cannot be lowered to \"{level}\"",
         de: "{code} ({name}) kann nicht auf \"{level}\" herabgesetzt werden",
         help_en: "otherwise a wrong program could result; correct the drawing, or keep known errors in a file with --baseline",
         help_de: "sonst könnte ein falsches Programm entstehen; die Zeichnung berichtigen oder bekannte Fehler mit --baseline in einer Datei festhalten",
     }
-    /// Arguments that belong to different configurations.
+    /// An argument that belongs to another configuration than the first one.
     OTHER_CONFIGURATION: InvalidConfiguration {
         en: "{argument} belongs to {other}, but this run uses {used}",
         de: "{argument} gehört zu {other}, dieser Lauf verwendet aber {used}",
         help_en: "run once for each configuration, or name the intended one with --config",
         help_de: "für jede Konfiguration einen eigenen Lauf machen oder die gemeinte mit --config nennen",
     }
-    /// An argument with a configuration, although the first argument has none.
+    /// An argument that has a configuration, although the first argument has none.
     UNEXPECTED_CONFIGURATION: InvalidConfiguration {
         en: "{argument} belongs to {other}, but this run has no configuration, because its first argument has none",
         de: "{argument} gehört zu {other}, dieser Lauf hat aber keine Konfiguration, weil sein erstes Argument keine hat",
@@ -251,90 +251,89 @@ messages! {
         help_en: "remove it, so that it does not hide the same finding later",
         help_de: "sie entfernen, damit sie nicht später dieselbe Meldung verdeckt",
     }
-    /// A note: a waiver has ended.
+    /// Note: a waiver would apply, but its last day has passed.
     WAIVER_ENDED: InvalidConfiguration {
         en: "accepted until {until} by {place}; the date of this run is {date} ({source})",
         de: "hingenommen bis {until} durch {place}; das Datum dieses Laufs ist {date} ({source})",
     }
-    /// A note: a finding about a tool in the material reaches deeper than when it was accepted.
+    /// Note: a tool is deeper in the material than when the finding was accepted.
     WAIVER_DEEPER: InvalidConfiguration {
         en: "accepted up to a depth of {accepted} mm by {place}; here it is {depth} mm",
         de: "hingenommen bis zu einer Tiefe von {accepted} mm durch {place}; hier sind es {depth} mm",
     }
-    /// A note: an entry of an older version about a tool in the material.
+    /// Note: a waiver of an older version accepts a tool in the material without stating the depth.
     WAIVER_WITHOUT_DEPTH: InvalidConfiguration {
         en: "accepted by {place}, which does not state the depth: accept the finding again",
         de: "hingenommen durch {place}, aber ohne Tiefe: den Befund noch einmal hinnehmen",
     }
-    /// A note: whether a waiver has ended is unknown.
+    /// Note: a waiver with a last day does not apply because the date of the run is unknown.
     WAIVER_WITHOUT_DATE: InvalidConfiguration {
         en: "accepted until {until} by {place}, which does not hold here because this run has no date",
         de: "hingenommen bis {until} durch {place}; das gilt hier nicht, weil dieser Lauf kein Datum hat",
     }
-    /// A note: a severity holds until a date.
+    /// Note: the configuration sets a severity until a date.
     SEVERITY_UNTIL: InvalidConfiguration {
         en: "{place} sets this severity until {until}; the date of this run is {date} ({source})",
         de: "{place} legt diesen Schweregrad bis {until} fest; das Datum dieses Laufs ist {date} ({source})",
     }
-    /// A note: the reason of a waiver.
+    /// Note: the reason given for a waiver.
     WAIVER_REASON: InvalidConfiguration {
         en: "the reason was: {reason}",
         de: "der Grund war: {reason}",
     }
 }
 
-// What a value must be, and where the date of a run comes from.
 words! {
-    /// A number.
+    /// Permitted values: any number.
     NUMBER: "a number", "eine Zahl";
-    /// A number greater than 0.
+    /// Permitted values of measures that are greater than 0 and not extreme.
     MEASURE: "a number from 0.001 to 1000000", "eine Zahl von 0.001 bis 1000000";
-    /// A number greater than 0.
+    /// Permitted values: numbers greater than 0.
     POSITIVE: "a number greater than 0", "eine Zahl größer als 0";
-    /// A number of at least 0.
+    /// Permitted values: 0 and greater numbers.
     NOT_NEGATIVE: "a number of at least 0", "eine Zahl von mindestens 0";
-    /// 0 or a number of at least 0.1.
+    /// Permitted values of the length in mm of pieces of moves (`z-split`). 0 means that moves are not divided.
     PIECE: "0 or a number of at least 0.1", "0 oder eine Zahl von mindestens 0.1";
-    /// A tolerance of the part check.
+    /// Permitted values of a tolerance of the part check.
     PART_TOLERANCE: "a number of at least 0.005", "eine Zahl von mindestens 0.005";
-    /// A corner radius.
+    /// Permitted values of a tool's corner radius.
     CORNER_RADIUS: "a number of at most half of `diameter`", "eine Zahl von höchstens der Hälfte von `diameter`";
-    /// A whole number from 1 up.
+    /// Permitted values: whole numbers from 1 up.
     COUNT: "a whole number from 1 up", "eine ganze Zahl ab 1";
-    /// Regular expressions.
+    /// Permitted values: a list of regular expressions.
     REGEXES: "regular expressions", "reguläre Ausdrücke";
-    /// Patterns of names.
+    /// Permitted values: a list of patterns of names.
     GLOBS: "patterns of names", "Namensmuster";
-    /// A size greater than 0, such as "256 MiB".
+    /// Permitted values: sizes greater than 0.
     SIZE: "a size greater than 0, such as \"256 MiB\"", "eine Größe über 0 wie \"256 MiB\"";
-    /// A duration such as "50 ms".
+    /// Permitted values: durations.
     DURATION: "a duration such as \"50 ms\"", "eine Dauer wie \"50 ms\"";
-    /// A text.
+    /// Permitted values: any text.
     TEXT: "a text", "ein Text";
-    /// A date.
+    /// Permitted values: dates.
     DATE: "a date such as \"2026-12-31\"", "ein Datum wie \"2026-12-31\"";
-    /// An absolute path.
+    /// Permitted values: an absolute path.
     ABSOLUTE: "an absolute path", "ein absoluter Pfad";
-    /// A list of absolute paths.
+    /// Permitted values: a list of absolute paths.
     ABSOLUTES: "a list of absolute paths", "eine Liste absoluter Pfade";
-    /// A text that is not empty.
+    /// Permitted values: any text that is not empty.
     NOT_EMPTY: "a text that is not empty", "ein nicht leerer Text";
-    /// A list of texts.
+    /// Permitted values: a list of texts.
     LIST_OF_TEXTS: "a list of texts", "eine Liste von Texten";
-    /// True or false.
+    /// Permitted values: true and false.
     SWITCH: "true or false", "true oder false";
-    /// A table.
+    /// Permitted values: a table.
     TABLE: "a table", "eine Tabelle";
-    /// A list of tables.
+    /// Permitted values: a list of tables.
     LIST_OF_TABLES: "a list of tables", "eine Liste von Tabellen";
-    /// A list of three numbers greater than 0.
+    /// Permitted values: a number for each of the three axes.
     AXES: "a list of three numbers greater than 0", "eine Liste von drei Zahlen größer als 0";
-    /// A list of two numbers, the smaller first.
+    /// Permitted values: the lower and the upper end of a range.
     EXTENT: "a list of two numbers, the smaller first", "eine Liste von zwei aufsteigenden Zahlen";
-    /// The date of a run is from an option.
+    /// Source of a run's date: the option.
     DATE_GIVEN: "--date", "--date";
-    /// The date of a run is from a variable.
+    /// Source of a run's date: the environment variable.
     DATE_OF_EPOCH: "SOURCE_DATE_EPOCH", "SOURCE_DATE_EPOCH";
-    /// The date of a run is from the clock.
+    /// Source of a run's date: the system's clock.
     DATE_OF_CLOCK: "today, UTC", "heute, UTC";
 }

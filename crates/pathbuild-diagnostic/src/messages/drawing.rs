@@ -43,22 +43,22 @@ messages! {
         en: "the text \"{text}\" touches this segment, but belongs to a nearer element, or to a circle or an arc: move it closer to the segment",
         de: "der Text \"{text}\" berührt dieses Segment, gehört aber zu einem näheren Element oder zu einem Kreis oder Bogen: näher ans Segment schieben",
     }
-    /// Note: a circle with the text of a start.
+    /// Note: a circle with a start marker's text, but another diameter.
     MEANT_AS_START: MissingStart {
         en: "the circle at {point} has a text with O and T, but its diameter is {diameter} mm; if it is meant as the start marker, draw it with 1 mm",
         de: "der Kreis bei {point} hat einen Text mit O und T, sein Durchmesser ist aber {diameter} mm; ist er als Anfangsmarke gemeint, mit 1 mm zeichnen",
     }
-    /// Note: an end marker with the text of a start, in a path whose start marker has none.
+    /// Note: an end marker with a start marker's text, in a path whose start marker has no text.
     SWAPPED_MARKERS: MissingPathParameters {
         en: "the circle at {point} has a text with O and T, but is an end marker (2 mm): are the two swapped? The start has 1 mm, the end 2 mm",
         de: "der Kreis bei {point} hat einen Text mit O und T, ist aber eine Endmarke (2 mm): sind die beiden vertauscht? Der Anfang hat 1 mm, das Ende 2 mm",
     }
-    /// Note: a circle with the path's text and the line type of an element.
+    /// Note: a circle with a start marker's text, but the line type of an element.
     MEANT_AS_PHANTOM_START: MissingStart {
         en: "the circle at {point} has a text with O and T, but its line type is not PHANTOM; if it is meant as the start marker, draw it as a PHANTOM circle of 1 mm",
         de: "der Kreis bei {point} hat einen Text mit O und T, sein Linientyp ist aber nicht PHANTOM; ist er als Anfangsmarke gemeint, als PHANTOM-Kreis mit 1 mm zeichnen",
     }
-    /// Note: a circle of an end marker's diameter with the line type of an element.
+    /// Note: a circle with an end marker's diameter, but the line type of an element.
     MEANT_AS_PHANTOM_END: MissingEnd {
         en: "the circle at {point} has a diameter of 2 mm, but its line type is not PHANTOM: is it meant as the end marker?",
         de: "der Kreis bei {point} hat 2 mm Durchmesser, sein Linientyp ist aber nicht PHANTOM: ist er als Endmarke gemeint?",
@@ -70,7 +70,7 @@ messages! {
         help_en: "draw a PHANTOM circle of 2 mm diameter on layer {layer} where the path ends (LibreCAD turns PHANTOM into CONTINUOUS when it saves)",
         help_de: "auf Layer {layer} einen PHANTOM-Kreis von 2 mm Durchmesser zeichnen, wo der Pfad endet (LibreCAD macht beim Speichern aus PHANTOM CONTINUOUS)",
     }
-    /// Note: the point where the walk along the path ends.
+    /// Note: the end of the last segment that is reached, where an end marker is missing.
     ENDS_HERE: MissingEnd {
         en: "the segments of the path end at {point}: the end marker belongs there",
         de: "die Segmente des Pfads enden bei {point}: dort gehört die Endmarke hin",
@@ -138,14 +138,15 @@ messages! {
         help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters after the name; `text-margin` under [warnings] sets the limit",
         help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen; `text-margin` unter [warnings] setzt die Grenze",
     }
-    /// A text that belongs to an element because of the order of kinds, although one of another kind is nearer.
+    /// A text that belongs to an element because circles precede arcs and arcs precede lines, although an element of another kind is
+    /// nearer.
     NEARER_OF_OTHER_KIND: DoubtfulText {
         en: "the text \"{text}\" belongs to {element} at {point}, though {other} at {other_point} is {margin} mm nearer: circles come before arcs, arcs before lines",
         de: "zum Text \"{text}\" gehört {element} bei {point}, obwohl {other} bei {other_point} {margin} mm näher ist: Kreise gehen vor Bögen, Bögen vor Linien",
         help_en: "move the text away from the element that it should not belong to, make it smaller, or put text and element on a layer of their own with ~ and letters after the name",
         help_de: "den Text von dem Element wegschieben, zu dem er nicht gehören soll, oder kleiner machen, oder Text und Element auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
     }
-    /// A text that is equally near to two elements.
+    /// A text that is equally near to two elements, and belongs to the one that comes first in the file.
     FIRST_OF_EQUALS: DoubtfulText {
         en: "the text \"{text}\" is as near to {other} at {other_point} as to {element} at {point}, to which it belongs only because that comes first in the file",
         de: "zum Text \"{text}\" gehört {element} bei {point} nur wegen der Reihenfolge in der Datei: {other} bei {other_point} ist genauso nah",
@@ -157,27 +158,27 @@ messages! {
         en: "the nearest element is {element} at {point}, {distance} mm away from the text's circle",
         de: "das nächste Element ist {element} bei {point}, {distance} mm vom Kreis des Textes entfernt",
     }
-    /// Note: an element that has another text.
+    /// Note: a nearby element that already has another text.
     HAS_A_TEXT: TextWithoutElement {
         en: "here {element} at {point} has a text already: write all letters into one text",
         de: "hier hat {element} bei {point} schon einen Text: alle Buchstaben in einen Text schreiben",
     }
-    /// Note: an element that has a text of blanks.
+    /// Note: a nearby element that already has a text of blanks.
     HAS_A_BLANK_TEXT: TextWithoutElement {
         en: "here {element} at {point} already has an invisible text that consists only of blanks: delete it",
         de: "hier hat {element} bei {point} schon einen Text, der nur aus Leerzeichen besteht und unsichtbar ist: diesen Text löschen",
     }
-    /// Note: an entity that was left out (PB111) takes no text.
+    /// Note: a nearby entity that is left out (PB111), so that no text can belong to it.
     TEXT_OF_LEFT_OUT: TextWithoutElement {
         en: "{kind} at {point} is left out (PB111): its text belongs to no element either",
         de: "{kind} bei {point} wird ausgelassen (PB111): auch sein Text gehört dann zu keinem Element",
     }
-    /// Note: an element near the text on another layer.
+    /// Note: an element near the text, but on another layer.
     NEAR_ON_OTHER_LAYER: TextWithoutElement {
         en: "on layer {layer} {element} is {distance} mm away from the text's circle: are the two on different layers by mistake?",
         de: "auf Layer {layer} liegt {element} {distance} mm vom Kreis des Textes entfernt: liegen beide versehentlich auf verschiedenen Layern?",
     }
-    /// Note: the element that the text would belong to on another layer.
+    /// Note: an element on another layer to which the text would belong if it were on that layer.
     ELEMENT_ON_OTHER_LAYER: TextWithoutElement {
         en: "on layer {layer}, the text would belong to {element} at {point}",
         de: "auf Layer {layer} würde {element} bei {point} zum Text gehören",
@@ -203,7 +204,7 @@ messages! {
         help_en: "move it to layer {path_layer}, where it would belong to {element} at {point}; if it is a remark, move it off the element",
         help_de: "auf Layer {path_layer} legen, wo {element} bei {point} zu ihm gehören würde; ist er eine Bemerkung, vom Element wegschieben",
     }
-    /// The height of a clamp in an outline on a layer without clamps.
+    /// A text on a layer without clamps that looks like the height of a clamp.
     HEIGHT_ON_OTHER_LAYER: TextOnOtherLayer {
         en: "the text \"{text}\" looks like the height of a clamp, but `keep-out` does not name layer {layer}: nothing on it is a clamp",
         de: "der Text \"{text}\" sieht aus wie die Höhe eines Spannmittels, `keep-out` nennt aber Layer {layer} nicht: nichts darauf ist ein Spannmittel",
@@ -278,7 +279,7 @@ messages! {
         help_en: "depths are given by texts, never by Z coordinates; flatten the drawing (in many CADs: FLATTEN, or set Z and elevation to 0)",
         help_de: "Tiefen werden mit Texten angegeben, nie mit Z-Koordinaten; die Zeichnung einebnen (in vielen CADs: FLATTEN oder Z und Erhebung auf 0 setzen)",
     }
-    /// A frozen or invisible path layer.
+    /// A path layer that is frozen or off.
     LAYER_NOT_VISIBLE: LayerNotVisible {
         en: "layer {layer} is frozen or off, but its path is still used",
         de: "Layer {layer} ist gefroren oder ausgeschaltet, sein Pfad gilt trotzdem",
@@ -299,7 +300,7 @@ messages! {
         help_en: "snap one end to the other with the CAD's object snap; until then, join-tolerance in pathbuild.toml allows the gap",
         help_de: "das eine Ende mit dem Objektfang des CAD auf das andere setzen; join-tolerance in pathbuild.toml erlaubt die Lücke bis dahin",
     }
-    /// A frozen or invisible layer with clamps.
+    /// A layer with clamps that is frozen or off.
     CLAMPS_NOT_VISIBLE: LayerNotVisible {
         en: "a layer with clamps is frozen or off, but its clamps still apply",
         de: "ein Layer mit Spannmitteln ist gefroren oder ausgeschaltet, die Spannmittel gelten trotzdem",
@@ -313,7 +314,7 @@ messages! {
         help_en: "draw a circle, a closed polyline, or lines and arcs whose ends meet all around; the CAD's object snap joins them",
         help_de: "einen Kreis, eine geschlossene Polylinie oder Linien und Bögen zeichnen, deren Enden sich rundum treffen; der Objektfang im CAD verbindet sie",
     }
-    /// A point where more than two curves of clamps end.
+    /// A point at which more than two curves of outlines of clamps end.
     OUTLINE_BRANCHES: InvalidKeepOut {
         en: "more than two lines or arcs of clamps meet at {point}: it is not clear what is inside",
         de: "bei {point} treffen sich mehr als zwei Linien oder Bögen von Spannmitteln: was innen liegt, ist nicht eindeutig",
@@ -369,21 +370,21 @@ messages! {
         help_en: "move its contents to layer 0 in the block editor, or explode it and move them to this layer; if it is no clamp, insert it on another layer",
         help_de: "seinen Inhalt im Blockeditor auf Layer 0 legen oder den Block auflösen und den Inhalt auf diesen Layer legen; ist er kein Spannmittel, ihn auf einem anderen Layer einfügen",
     }
-    /// An attribute of a block on a layer with clamps.
+    /// An attribute of a block on a layer with clamps, which is not read as a height.
     NO_HEIGHT_TEXT: InvalidKeepOut {
         en: "this {entity} on a layer with clamps is not read, so the height of the clamp may be unknown",
         de: "{entity} auf einem Layer mit Spannmitteln wird nicht gelesen; die Höhe des Spannmittels ist daher vielleicht unbekannt",
         help_en: "write the height as TEXT or MTEXT, in the block or over it, for example Z25; explode the block if its attribute holds it",
         help_de: "die Höhe als TEXT oder MTEXT schreiben, im Block oder darüber, zum Beispiel Z25; steht sie in einem Attribut, den Block auflösen",
     }
-    /// A clamp with more texts than are listed.
+    /// A clamp with several texts, only the first of which are listed.
     CLAMP_WITH_MANY_TEXTS: InvalidKeepOut {
         en: "{count} texts are inside the outline of this clamp or overlap it, the first are {texts}",
         de: "{count} Texte liegen im Umriss dieses Spannmittels oder überlappen ihn, die ersten sind {texts}",
         help_en: "each outline takes one text, its height; make the texts smaller or move them apart, and move mere notes to another layer",
         help_de: "zu jedem Umriss gehört ein Text, seine Höhe; die Texte verkleinern oder auseinanderschieben, bloße Notizen auf einen anderen Layer legen",
     }
-    /// Too many elements around too many texts.
+    /// A search for the elements of texts that was stopped after too many comparisons.
     TEXTS_IN_A_CROWD: LimitReached {
         en: "there are too many elements around the texts of this path: the search for the element of each text was stopped after {limit} comparisons",
         de: "um die Texte dieses Pfads liegen zu viele Elemente: die Suche nach dem Element jedes Textes wurde nach {limit} Vergleichen abgebrochen",
@@ -404,7 +405,7 @@ messages! {
         help_en: "save the drawing again; perhaps the CAD is still writing it, or it was copied only in part",
         help_de: "die Zeichnung noch einmal speichern; vielleicht schreibt das CAD noch, oder sie wurde nur teilweise kopiert",
     }
-    /// A file without an ENTITIES section and without an end.
+    /// A file that ends before its ENTITIES section.
     NO_ENTITIES: InvalidDxf {
         en: "the file ends before the section ENTITIES",
         de: "die Datei endet vor dem Abschnitt ENTITIES",
@@ -439,14 +440,14 @@ messages! {
         help_en: "the program that wrote the file uses the system's number format; set the decimal separator there to a point",
         help_de: "das Programm, das die Datei schrieb, verwendet das Zahlenformat des Systems; dort den Dezimalpunkt einstellen",
     }
-    /// A number that is not finite: nan, inf, 1e400.
+    /// A number that is not finite, such as nan, inf or 1e400.
     NUMBER_NOT_FINITE: InvalidDxf {
         en: "{entity}: \"{value}\" in group {code} is not a finite number",
         de: "{entity}: \"{value}\" in Gruppe {code} ist keine endliche Zahl",
         help_en: "the program that wrote the file wrote a broken entity; draw it anew",
         help_de: "das Programm, das die Datei schrieb, hat ein beschädigtes Element geschrieben; das Element neu zeichnen",
     }
-    /// A missing group.
+    /// An entity that lacks a required group.
     GROUP_MISSING: InvalidDxf {
         en: "{entity}: group {code} is missing",
         de: "{entity}: Gruppe {code} fehlt",
@@ -474,7 +475,7 @@ messages! {
         help_en: "draw it in the plane of the drawing: in the world coordinate system, with an extrusion of 0,0,1",
         help_de: "in der Zeichenebene zeichnen: im Weltkoordinatensystem, mit der Extrusion 0,0,1",
     }
-    /// A file without EOF.
+    /// A file that does not end with EOF.
     NO_END_OF_FILE: NoEndOfFile {
         en: "the file does not end with EOF",
         de: "die Datei endet nicht mit EOF",
@@ -495,7 +496,7 @@ messages! {
         help_en: "special characters of texts and layer names may be wrong; save the drawing as R2007 or later",
         help_de: "Sonderzeichen in Texten und Layernamen können falsch sein; die Zeichnung als R2007 oder neuer speichern",
     }
-    /// An entity of a kind that is not part of the drawing language and no annotation.
+    /// An entity that is neither part of the drawing language nor an annotation.
     FOREIGN: UnsupportedCurve {
         en: "{entity} is left out: a path consists of lines, arcs, circles, polylines and texts",
         de: "{entity} wird ausgelassen: ein Pfad besteht aus Linien, Bögen, Kreisen, Polylinien und Texten",
@@ -509,7 +510,7 @@ messages! {
         help_en: "draw it with arcs, or set `approximate-curves` in pathbuild.toml to the largest deviation in mm that is allowed",
         help_de: "mit Bögen zeichnen oder `approximate-curves` in pathbuild.toml auf die größte erlaubte Abweichung in mm setzen",
     }
-    /// Polylines, blocks and curves with `compatible`, reported once per drawing.
+    /// The first polyline, block or curve that is left out because of `compatible`. Reported once per drawing.
     NOT_COMPATIBLE: UnsupportedCurve {
         en: "polylines, blocks and curves on path layers are left out, as PathDxf2GCode does; the first is {entity}",
         de: "Polylinien, Blöcke und Kurven auf Pfadlayern werden ausgelassen wie von PathDxf2GCode; die erste ist {entity}",
@@ -523,28 +524,28 @@ messages! {
         help_en: "draw it as a 2D polyline, or with lines and arcs",
         help_de: "als 2D-Polylinie zeichnen oder mit Linien und Bögen",
     }
-    /// A spline with fit points only, or with invalid knots.
+    /// A spline without valid control points and knots.
     SPLINE_NOT_UNDERSTOOD: UnsupportedCurve {
         en: "{entity} is left out: its control points and knots do not describe a curve",
         de: "{entity} wird ausgelassen: Kontrollpunkte und Knoten beschreiben keine Kurve",
         help_en: "convert it to lines and arcs in the CAD",
         help_de: "im CAD in Linien und Bögen umwandeln",
     }
-    /// An INSERT with different scales.
+    /// An INSERT with different scales in X and Y.
     INSERT_SCALED: UnsupportedCurve {
         en: "block {block} is left out: it is inserted with different scales in x and y",
         de: "Block {block} wird ausgelassen: er ist in x und y verschieden skaliert eingefügt",
         help_en: "explode it, or insert it with one scale",
         help_de: "auflösen oder mit einem einzigen Maßstab einfügen",
     }
-    /// An INSERT of a missing block.
+    /// An INSERT of a block that the file does not contain.
     BLOCK_MISSING: UnsupportedCurve {
         en: "block {block} is left out: the file does not contain it",
         de: "Block {block} wird ausgelassen: die Datei enthält ihn nicht",
         help_en: "bind external references before saving, or delete the insertion",
         help_de: "externe Referenzen vor dem Speichern binden oder die Einfügung löschen",
     }
-    /// An INSERT on a wanted layer of a block that draws on other layers only.
+    /// An INSERT on a wanted layer, of a block that only draws on other layers.
     BLOCK_ELSEWHERE: UnsupportedCurve {
         en: "block {block} is inserted on this layer, but nothing in it belongs to it: what it contains lies on other layers ({layers}) and is ignored",
         de: "Block {block} ist auf diesem Layer eingefügt, aber nichts darin gehört dazu: sein Inhalt liegt auf anderen Layern ({layers}) und wird nicht beachtet",

@@ -8,7 +8,7 @@ messages! {
         help_en: "check the name, and that the CAD has not locked the file",
         help_de: "den Namen prüfen, und ob das CAD die Datei gesperrt hat",
     }
-    /// An unreadable directory.
+    /// A directory that cannot be listed.
     UNLISTABLE: UnreadableFile {
         en: "cannot list the directory: {reason}",
         de: "das Verzeichnis lässt sich nicht auflisten: {reason}",
@@ -22,7 +22,7 @@ messages! {
         help_en: "rename it",
         help_de: "umbenennen",
     }
-    /// A missing file.
+    /// A file that does not exist.
     MISSING: UnreadableFile {
         en: "there is no such file",
         de: "diese Datei gibt es nicht",
@@ -34,7 +34,7 @@ messages! {
         en: "did you mean {near}?",
         de: "ist {near} gemeint?",
     }
-    /// A link to a file that does not exist.
+    /// A link whose target does not exist.
     DANGLING_LINK: UnreadableFile {
         en: "the file that this link leads to does not exist",
         de: "die Datei, zu der diese Verknüpfung führt, gibt es nicht",
@@ -69,42 +69,42 @@ messages! {
         help_en: "set the drawing's units to millimetres, or `units` in pathbuild.toml: \"drawing\" converts, \"mm\" ignores the header",
         help_de: "die Einheit in der Zeichnung auf Millimeter stellen oder `units` in pathbuild.toml setzen: \"drawing\" rechnet um, \"mm\" beachtet den Kopf nicht",
     }
-    /// A bug.
+    /// A bug in pathbuild.
     INTERNAL: InternalError {
         en: "internal error: {reason}",
         de: "interner Fehler: {reason}",
         help_en: "this is a bug in pathbuild; please report it with this drawing and the version that `pathbuild --version` prints",
         help_de: "das ist ein Fehler in pathbuild; bitte mit dieser Zeichnung und der Ausgabe von `pathbuild --version` melden",
     }
-    /// A configured limit.
+    /// Something that exceeds a configured limit.
     LIMIT: LimitReached {
         en: "{what} exceeds the limit of {limit}",
         de: "{what} überschreitet die Grenze von {limit}",
         help_en: "if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// A program with too many moves.
+    /// A program with more moves than the limit permits.
     TOO_MANY_MOVES: LimitReached {
         en: "this path has {count} moves, which exceeds the limit of {limit}",
         de: "dieser Pfad hat {count} Bewegungen und überschreitet damit die Grenze von {limit}",
         help_en: "embed less in one project; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "weniger in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// A program that would take too much memory.
+    /// A program that would take more memory than the limit permits.
     TOO_MUCH_MEMORY: LimitReached {
         en: "this path has {count} moves, which take about {size} bytes of memory; the limit is {limit}",
         de: "dieser Pfad hat {count} Bewegungen, die etwa {size} Byte Speicher brauchen; die Grenze ist {limit}",
         help_en: "check infeed I and depth B (a wrong I gives thousands of passes); or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "Zustellung I und Tiefe B prüfen (ein falsches I ergibt tausende Durchgänge); oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// Ignore files that are too large in total.
+    /// Ignore files whose total size exceeds the limit, so that their directory is skipped.
     TOO_MANY_RULES: LimitReached {
         en: "the .gitignore and .ignore files below {directory} add up to more than {limit} bytes: the directory is skipped",
         de: "die .gitignore- und .ignore-Dateien unter {directory} haben zusammen mehr als {limit} Byte: das Verzeichnis wird übergangen",
         help_en: "name a deeper directory; or raise `{key}` under [limits] in pathbuild.toml: these files together may have 16 times that size",
         help_de: "ein tieferes Verzeichnis nennen; oder `{key}` unter [limits] in pathbuild.toml erhöhen: diese Dateien dürfen zusammen 16-mal so groß sein",
     }
-    /// A line of output that is longer than any reader accepts, including this program.
+    /// A line of output that is longer than any reader accepts, including pathbuild itself.
     OUTPUT_LINE_TOO_LONG: LimitReached {
         en: "line {line} of {name} has {length} bytes, which exceeds the limit of {limit}; nothing is written",
         de: "Zeile {line} von {name} hat {length} Byte und überschreitet damit die Grenze von {limit}; es wird nichts geschrieben",
@@ -125,14 +125,14 @@ messages! {
         help_en: "if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// A program with too many paths.
+    /// A program with more embedded paths than the limit permits.
     TOO_MANY_PATHS: LimitReached {
         en: "the number of different embedded paths (each with its values) exceeds the limit of {limit}",
         de: "die Zahl verschiedener eingebetteter Pfade (jeder mit seinen Werten) überschreitet die Grenze von {limit}",
         help_en: "embed less in one project; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "weniger in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// A directory tree with too many entries.
+    /// A directory tree with more entries than the limit permits.
     TOO_MANY_ENTRIES: LimitReached {
         en: "there are more than {limit} files and directories below {directory}: the directory is skipped",
         de: "unter {directory} liegen mehr als {limit} Dateien und Verzeichnisse: das Verzeichnis wird übergangen",
@@ -153,7 +153,7 @@ messages! {
         help_en: "rename the file or the directory, or leave out --deps",
         help_de: "die Datei oder das Verzeichnis umbenennen oder --deps weglassen",
     }
-    /// A file that would replace another kind of file.
+    /// An output file in whose place is something that must not be replaced.
     WOULD_REPLACE: CannotWrite {
         en: "cannot write {name}: {reason}",
         de: "{name} kann nicht geschrieben werden: {reason}",
@@ -167,7 +167,7 @@ messages! {
         help_en: "nothing was written under that name; check the directory's permissions and free space, and whether another program has the file open",
         help_de: "unter diesem Namen wurde nichts geschrieben; Rechte und freien Platz des Verzeichnisses prüfen, und ob ein anderes Programm die Datei offen hat",
     }
-    /// A program that is too long to read.
+    /// A G-code program with more steps than the limit permits.
     PROGRAM_TOO_LONG: LimitReached {
         en: "this program has more than {count} steps, which take about {size} bytes of memory; the limit is {limit}",
         de: "dieses Programm hat mehr als {count} Schritte, die etwa {size} Byte Speicher brauchen; die Grenze ist {limit}",

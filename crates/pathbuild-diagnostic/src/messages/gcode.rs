@@ -1,5 +1,5 @@
-//! Messages about G-code: those about reading and interpreting it are here, those about verifying it in `verify`. (PB701 to
-//! PB779; book: program/reading)
+//! Messages about reading and interpreting G-code. Those about verifying it are in the module `verify` and are exported here as well.
+//! (PB701 to PB779; book: program/reading)
 //!
 //! `{dialect}` is the name of the dialect in which the file is read.
 
@@ -27,21 +27,21 @@ messages! {
         help_en: "write all words in upper case",
         help_de: "alle Wörter in Großbuchstaben schreiben",
     }
-    /// A CR inside a line that ends with LF.
+    /// A carriage return within a line that ends with a line feed.
     RETURN_IN_LINE: UnknownCharacter {
         en: "a carriage return (CR) within the line; the line is left out",
         de: "ein Wagenrücklauf (CR) mitten in der Zeile; die Zeile bleibt unbeachtet",
         help_en: "some controls end the line there and obey what follows, even in a comment: end every line with LF or CR LF",
         help_de: "manche Steuerungen beenden die Zeile dort und führen aus, was folgt, auch in einem Kommentar: alle Zeilen mit LF oder CR LF beenden",
     }
-    /// A word that the post does not write and that is not interpreted.
+    /// A word that the post does not write and that is not interpreted, in a program read in the post's dialect.
     FOREIGN_WORD: ForeignWord {
         en: "{word} is not checked: the post for {dialect} does not write it, and what it does is not followed",
         de: "{word} ist nicht geprüft: der Postprozessor für {dialect} schreibt es nicht, und seine Wirkung wird nicht verfolgt",
         help_en: "remove it, or check at the control what it does",
         help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
     }
-    /// The same for a program that is read by a post definition.
+    /// A word that the post does not write and that is not interpreted, in a program read by means of the post's definition.
     FOREIGN_TO_DEFINITION: ForeignWord {
         en: "{word} is not checked: {post} does not write it, and what it does is not followed",
         de: "{word} ist nicht geprüft: {post} schreibt es nicht, und seine Wirkung wird nicht verfolgt",
@@ -118,7 +118,7 @@ messages! {
         help_en: "numbers have a sign, digits and at most one point",
         help_de: "Zahlen bestehen aus Vorzeichen, Ziffern und höchstens einem Punkt",
     }
-    /// A number without a letter.
+    /// A number that no letter precedes.
     NUMBER_WITHOUT_LETTER: InvalidWord {
         en: "the number `{found}` has no letter; the line is left out",
         de: "die Zahl `{found}` hat keinen Buchstaben; die Zeile bleibt unbeachtet",
@@ -146,7 +146,7 @@ messages! {
         help_en: "put `)` at its end; a comment cannot continue on the next line",
         help_de: "`)` ans Ende setzen; ein Kommentar geht nicht über die Zeile hinaus",
     }
-    /// A comment inside a comment.
+    /// A comment that begins within another comment.
     NESTED_COMMENT: InvalidComment {
         en: "this is a comment within a comment; the line is left out",
         de: "das ist ein Kommentar in einem Kommentar; die Zeile bleibt unbeachtet",
@@ -181,21 +181,21 @@ messages! {
         help_en: "write the value after `=`, for example #1=2.5",
         help_de: "den Wert hinter `=` schreiben, zum Beispiel #1=2.5",
     }
-    /// An expression that is nested too deeply.
+    /// Brackets nested more deeply than the limit.
     NESTED_TOO_DEEPLY: InvalidExpression {
         en: "brackets are nested deeper than {most}; the line is left out",
         de: "Klammern sind tiefer als {most} verschachtelt; die Zeile bleibt unbeachtet",
         help_en: "set a parameter to a part of the expression first",
         help_de: "zuerst einen Parameter auf einen Teil des Ausdrucks setzen",
     }
-    /// A line that is too long for the controller.
+    /// A line longer than the control accepts.
     LINE_TOO_LONG: LongLine {
         en: "the line has {length} characters; {dialect} accepts at most {most}",
         de: "die Zeile hat {length} Zeichen; {dialect} nimmt höchstens {most} an",
         help_en: "split the line, or shorten its comments",
         help_de: "die Zeile teilen oder ihre Kommentare kürzen",
     }
-    /// A line that is too long for this program.
+    /// A line longer than pathbuild reads.
     LINE_MUCH_TOO_LONG: LongLine {
         en: "the line has {length} characters, more than {most}; it is left out",
         de: "die Zeile hat {length} Zeichen, mehr als {most}; sie bleibt unbeachtet",
@@ -216,14 +216,14 @@ messages! {
         help_en: "write the number directly after the letter",
         help_de: "die Zahl direkt hinter den Buchstaben schreiben",
     }
-    /// N without the checksum that hosts send with it.
+    /// A block number without the checksum that hosts send with it.
     NUMBER_WITHOUT_CHECKSUM: DoubtfulSpelling {
         en: "N without a checksum: {dialect} takes this line from an SD card, but refuses it from a host",
         de: "N ohne Prüfsumme: {dialect} nimmt diese Zeile von der SD-Karte an, von einem sendenden Programm aber nicht",
         help_en: "leave N out: hosts number the lines themselves",
         help_de: "N weglassen: sendende Programme nummerieren die Zeilen selbst",
     }
-    /// A checksum without N.
+    /// A checksum without the block number that hosts send with it.
     CHECKSUM_WITHOUT_NUMBER: DoubtfulSpelling {
         en: "a checksum without N: {dialect} takes this line from an SD card, but refuses it from a host",
         de: "Prüfsumme ohne N: {dialect} nimmt diese Zeile von der SD-Karte an, von einem sendenden Programm aber nicht",
@@ -244,7 +244,7 @@ messages! {
         help_en: "begin comments with {comment}",
         help_de: "Kommentare mit {comment} beginnen",
     }
-    /// Text after `%`.
+    /// Text after `%`, which is read as a comment.
     TEXT_AFTER_PERCENT: DoubtfulSpelling {
         en: "text after `%` is read as a comment",
         de: "Text hinter `%` wird als Kommentar gelesen",
@@ -265,7 +265,7 @@ messages! {
         help_en: "remove these lines, or the earlier end of the program",
         help_de: "diese Zeilen oder das frühere Programmende entfernen",
     }
-    /// Lines after M2 or M30 that the control runs.
+    /// Lines after M2 or M30 that the control executes nevertheless.
     RUN_AFTER_END: AfterProgramEnd {
         en: "{dialect} also runs this line and those after it, despite the M2 or M30 in line {line}; they are not checked",
         de: "{dialect} führt auch diese und die folgenden Zeilen aus, trotz M2 oder M30 in Zeile {line}; sie werden nicht geprüft",
@@ -279,14 +279,14 @@ messages! {
         help_en: "the file may have been cut off; write M30 in its last line",
         help_de: "die Datei ist vielleicht abgeschnitten; M30 in die letzte Zeile schreiben",
     }
-    /// An optional line, marked by `/`.
+    /// A line marked by `/`, which a switch at the machine can skip.
     OPTIONAL_LINE: OptionalLine {
         en: "a switch at the machine (block delete) can skip this line; it is read as if it were run",
         de: "ein Schalter an der Maschine (Sätze ausblenden) kann diese Zeile überspringen; sie wird gelesen, als würde sie ausgeführt",
         help_en: "remove `/`, or the line",
         help_de: "`/` oder die ganze Zeile entfernen",
     }
-    /// A `/` that has no effect.
+    /// A `/` that the dialect ignores.
     SLASH_DROPPED: OptionalLine {
         en: "{dialect} ignores `/` and runs the line",
         de: "{dialect} beachtet `/` nicht und führt die Zeile aus",
@@ -314,14 +314,14 @@ messages! {
         help_en: "write numbers, or read the file as another dialect with --dialect",
         help_de: "Zahlen schreiben oder die Datei mit --dialect als anderen Dialekt lesen",
     }
-    /// `%` in a dialect that does not know it.
+    /// `%` in a dialect without this sign.
     UNKNOWN_PERCENT: UnknownWord {
         en: "{dialect} does not know `%`",
         de: "{dialect} kennt `%` nicht",
         help_en: "remove the line, unless your sender removes it",
         help_de: "die Zeile entfernen, wenn das Sendeprogramm sie nicht selbst entfernt",
     }
-    /// `%` in mid-program, for XpertMILL.
+    /// A second `%`, which has no known meaning for XpertMILL.
     SECOND_PERCENT: DoubtfulSpelling {
         en: "`%` begins a program; what {dialect} makes of it further down is not known",
         de: "`%` beginnt ein Programm; was {dialect} weiter unten damit macht, ist nicht bekannt",
@@ -335,7 +335,7 @@ messages! {
         help_en: "write the cycle out as moves",
         help_de: "den Zyklus als einzelne Bewegungen schreiben",
     }
-    /// Subroutines and branches.
+    /// An O word (subroutine or branch) that is not followed.
     O_WORD: WordNotFollowed {
         en: "this O word is not followed; the lines below are read once, in the order of the file",
         de: "dieses O-Wort wird nicht verfolgt; die Zeilen darunter werden einmal gelesen, in der Reihenfolge der Datei",
@@ -356,7 +356,7 @@ messages! {
         help_en: "remove one of them, or give it another number",
         help_de: "eines davon entfernen oder anders nummerieren",
     }
-    /// Recursion.
+    /// A subprogram that calls itself.
     CALLED_BY_ITSELF: WordNotFollowed {
         en: "the subprogram {name} calls itself: it is not followed again",
         de: "das Unterprogramm {name} ruft sich selbst auf: es wird nicht noch einmal verfolgt",
@@ -384,49 +384,49 @@ messages! {
         help_en: "in line {earlier}, write an if around the rest of the pass instead of continue",
         help_de: "in Zeile {earlier} statt continue den Rest des Durchgangs in ein if setzen",
     }
-    /// `break` or `continue` outside of its loop.
+    /// `break` or `continue` outside of the loop that it names.
     LEFT_WITHOUT_LOOP: WordNotFollowed {
         en: "this leaves the loop {name}, which is not running here",
         de: "das verlässt die Schleife {name}, die hier nicht läuft",
         help_en: "write the number of the surrounding while or do",
         help_de: "die Nummer der umgebenden Schleife mit while oder do angeben",
     }
-    /// The end of a subprogram in the main program.
+    /// The end of a subprogram that was not called, in the main program.
     END_WITHOUT_CALL: WordNotFollowed {
         en: "a subprogram ends here, but none was called: some controls begin the program again",
         de: "hier endet ein Unterprogramm, es wurde aber keines aufgerufen: manche Steuerungen beginnen das Programm von vorn",
         help_en: "end the main program with M30",
         help_de: "das Hauptprogramm mit M30 beenden",
     }
-    /// Calls within calls.
+    /// Calls and loops that are nested more deeply than the limit.
     CALLS_TOO_DEEP: WordNotFollowed {
         en: "subprograms and loops are nested more than {most} levels deep: this one is not followed",
         de: "Unterprogramme und Schleifen sind mehr als {most}fach geschachtelt: hier wird nicht weiter verfolgt",
         help_en: "write the innermost moves out",
         help_de: "die innersten Bewegungen ausschreiben",
     }
-    /// Too many lines are executed by calls.
+    /// Calls and loops that execute more lines than the limit.
     CALLS_TOO_LONG: WordNotFollowed {
         en: "subprograms and loops execute more than {most} lines: the rest of the program is not read",
         de: "Unterprogramme und Schleifen führen mehr als {most} Zeilen aus: der Rest des Programms wird nicht gelesen",
         help_en: "check how often loops and subprograms are repeated",
         help_de: "prüfen, wie oft Schleifen und Unterprogramme wiederholt werden",
     }
-    /// A command that is not interpreted.
+    /// A command with unknown effects on later moves, which is not interpreted.
     NOT_FOLLOWED: WordNotFollowed {
         en: "{word} is not followed: from here on the machine may move differently",
         de: "{word} wird nicht verfolgt: ab hier kann sich die Maschine anders bewegen",
         help_en: "check the program at the control, or write the moves out",
         help_de: "das Programm an der Steuerung prüfen oder die Bewegungen ausschreiben",
     }
-    /// G28 of Marlin after the first cut.
+    /// G28 of Marlin after the first cut, which changes the zero point.
     REFERENCED: WordNotFollowed {
         en: "{dialect} moves to the reference switches at {word} and counts from them afterwards, no longer from the zero of the part",
         de: "{dialect} fährt bei {word} auf die Referenzschalter und zählt danach von ihnen aus, nicht mehr vom Nullpunkt des Werkstücks",
         help_en: "reference the machine before the program; to park it, raise the cutter and move to a position of the program",
         help_de: "vor dem Programm referenzieren; zum Parken den Fräser anheben und eine Position des Programms anfahren",
     }
-    /// A word that common builds of a control do not know.
+    /// A word that common builds of a control ignore.
     OFF_IN_BUILDS: IgnoredWord {
         en: "common builds of {dialect} ignore {word}",
         de: "übliche Varianten von {dialect} übergehen {word}",
@@ -480,7 +480,7 @@ messages! {
         help_en: "put them into two lines",
         help_de: "auf zwei Zeilen verteilen",
     }
-    /// A word that requires another one.
+    /// A word that requires another word in its line.
     NEEDS: MissingWord {
         en: "{word} needs {missing}",
         de: "{word} braucht {missing}",
@@ -501,21 +501,21 @@ messages! {
         help_en: "the value must be {limits}",
         help_de: "erlaubt: {limits}",
     }
-    /// G53 together with G91.
+    /// G53 while G91 is active, which together give no position.
     MACHINE_COORDINATES_RELATIVE: ConflictingWords {
         en: "G53 counts from the machine's zero, but G91 from where the tool is: together they give no position",
         de: "G53 zählt ab Maschinennull, G91 aber ab der Werkzeugposition: zusammen ergeben sie kein Ziel",
         help_en: "switch to G90 first",
         help_de: "vorher auf G90 schalten",
     }
-    /// G53 with another motion than G0 and G1.
+    /// G53 with a motion other than G0 and G1.
     MACHINE_COORDINATES_MOTION: ConflictingWords {
         en: "G53 works only with G0 and G1",
         de: "G53 wirkt nur zusammen mit G0 und G1",
         help_en: "write G0 or G1 in the same line",
         help_de: "G0 oder G1 in dieselbe Zeile schreiben",
     }
-    /// A word without a use.
+    /// A word that nothing in its line uses.
     UNUSED: UnusedWord {
         en: "nothing in this line uses {word}",
         de: "nichts in dieser Zeile verwendet {word}",
@@ -527,21 +527,21 @@ messages! {
         en: "this has no value: {reason}; the line is left out",
         de: "das hat keinen Wert: {reason}; die Zeile bleibt unbeachtet",
     }
-    /// A parameter that only the machine knows the value of.
+    /// A parameter whose value only the machine knows.
     MACHINE_VALUE: MachineValue {
         en: "only the machine knows {parameter}; {value} is assumed",
         de: "nur die Maschine kennt {parameter}; {value} wird angenommen",
         help_en: "check at the machine everything that depends on this value",
         help_de: "an der Maschine alles prüfen, was von diesem Wert abhängt",
     }
-    /// A work offset, such as G55, with an unknown position.
+    /// A work offset with an unknown position, such as that of G55.
     OFFSET_UNKNOWN: UnknownOffset {
         en: "the position of {system} is unknown; it is assumed to be that of {base}",
         de: "die Lage von {system} ist unbekannt; angenommen wird die von {base}",
         help_en: "lengths and the overall size are valid only within one work offset",
         help_de: "Längen und Abmessungen gelten nur innerhalb einer Nullpunktverschiebung",
     }
-    /// G10 L2 for the active system, whose origin before is unknown.
+    /// G10 L2 for the active work offset, whose position before it is unknown.
     ORIGIN_UNKNOWN: UnknownOffset {
         en: "G10 L2 counts from the machine's zero, and where {system} was before is unknown; it is assumed to have been there",
         de: "G10 L2 zählt vom Maschinennullpunkt aus, und wo {system} vorher lag, ist unbekannt; angenommen wird: dort",
@@ -611,7 +611,7 @@ messages! {
         help_en: "write F in this line, or switch to G94",
         help_de: "F in diese Zeile schreiben oder auf G94 schalten",
     }
-    /// G95 while the spindle speed is unknown.
+    /// A cut with G95 before a spindle speed is set.
     FEED_PER_TURN_WITHOUT_SPEED: MissingFeed {
         en: "with G95 the feed depends on the spindle, and no speed is set",
         de: "mit G95 hängt der Vorschub von der Spindel ab, und es ist keine Drehzahl gesetzt",
@@ -625,7 +625,7 @@ messages! {
         help_en: "write I and J with more decimals, or check the centre",
         help_de: "I und J mit mehr Nachkommastellen schreiben oder den Mittelpunkt prüfen",
     }
-    /// An arc without centre and radius.
+    /// An arc with neither centre nor radius.
     ARC_WITHOUT_CENTRE: InvalidArc {
         en: "an arc needs {centre} or R",
         de: "ein Bogen braucht {centre} oder R",
@@ -679,28 +679,28 @@ messages! {
         help_en: "if a full circle is meant, write equal ends; if not, leave the arc out",
         help_de: "ist ein Vollkreis gemeint, gleiche Enden schreiben; sonst den Bogen weglassen",
     }
-    /// An arc whose neighbours it would continue if it ran the other way round.
+    /// An arc that turns back at both ends, where an arc in the other direction would continue the neighbouring cuts.
     ARC_DOUBLES_BACK: DoubtfulArc {
         en: "the arc turns back at both of its ends: with {word} it would continue the cuts before and after it",
         de: "der Bogen kehrt an beiden Enden um: mit {word} würde er die Schnitte davor und danach fortsetzen",
         help_en: "check the direction of the arc",
         help_de: "die Richtung des Bogens prüfen",
     }
-    /// M5 in a line with a move.
+    /// A stop of the spindle in a line with a move, which the control executes after the stop.
     STOP_BEFORE_MOTION: StopBeforeMotion {
         en: "{word} is obeyed before the move of this line, while the cutter is still in the material",
         de: "{word} wird vor der Bewegung dieser Zeile ausgeführt, während der Fräser noch im Material ist",
         help_en: "put {word} into the next line",
         help_de: "{word} in die nächste Zeile setzen",
     }
-    /// A program that is too large for simulating the material.
+    /// A program whose material would be simulated with more cells than the limit.
     TOO_LARGE_TO_FOLLOW: LimitReached {
         en: "following the material of this program takes more cells than the limit of {limit}; not checked: rapid moves into material",
         de: "um das Material dieses Programms zu verfolgen, sind mehr als die erlaubten {limit} Zellen nötig; nicht geprüft: Eilgang ins Material",
         help_en: "correct numbers that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Zahlen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// Arcs and ramps with too many pieces for simulating the material.
+    /// A program whose arcs and ramps would be divided into more pieces than the limit when its material is simulated.
     TOO_MANY_PIECES: LimitReached {
         en: "to follow the material, the arcs and slopes of this program are cut into {count} pieces, which exceeds the limit of {limit}; not checked: rapid moves into material",
         de: "um das Material zu verfolgen, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, mehr als die Grenze von {limit}; nicht geprüft: Eilgang ins Material",
@@ -728,12 +728,12 @@ messages! {
         help_en: "probe to a height below the material",
         help_de: "bis zu einer Höhe unter dem Material messen",
     }
-    /// Note: one more occurrence is not shown.
+    /// Note: one more finding of this kind is not shown.
     ONE_MORE: DoubtfulSpelling {
         en: "the same applies to one more line, which is not shown",
         de: "das gilt für eine weitere Zeile, die nicht gezeigt wird",
     }
-    /// Note: further occurrences are not shown.
+    /// Note: further findings of this kind are not shown.
     MORE: DoubtfulSpelling {
         en: "the same applies to {count} more lines, which are not shown",
         de: "das gilt für {count} weitere Zeilen, die nicht gezeigt werden",

@@ -1,21 +1,21 @@
-//! Messages about descriptions of machines and tools. (PB612, PB613; book: howto/machine)
+//! Messages about importing descriptions of machines and tools. (PB612, PB613; book: howto/machine)
 
 messages! {
-    /// The format is not recognized.
+    /// A file in an unknown format.
     UNKNOWN_FORMAT: UnreadableDescription {
         en: "the file describes neither a machine nor tools in a known format",
         de: "die Datei beschreibt weder Maschine noch Werkzeuge in einem bekannten Format",
         help_en: "pathbuild reads the answer of GRBL and grblHAL to $$, FluidNC's YAML, LinuxCNC's ini file and tool table, and tools of FreeCAD and Fusion 360 (.json, .tools)",
         help_de: "gelesen werden die Antwort von GRBL und grblHAL auf $$, FluidNCs YAML, ini-Datei und Werkzeugtabelle von LinuxCNC sowie Werkzeuge von FreeCAD und Fusion 360 (.json, .tools)",
     }
-    /// The file cannot be read.
+    /// A file that cannot be read.
     DESCRIPTION_UNREADABLE: UnreadableDescription {
         en: "cannot read the file: {reason}",
         de: "die Datei ist nicht lesbar: {reason}",
         help_en: "export the settings again, as text",
         help_de: "die Einstellungen noch einmal als Text exportieren",
     }
-    /// A syntax error.
+    /// A file with a syntax error.
     BROKEN_DESCRIPTION: UnreadableDescription {
         en: "the file is broken here: {reason}",
         de: "die Datei ist hier fehlerhaft: {reason}",
@@ -29,63 +29,63 @@ messages! {
         help_en: "name the machine's ini file as well, or give --units mm or --units inch",
         help_de: "auch die ini-Datei der Maschine nennen, oder --units mm bzw. --units inch angeben",
     }
-    /// A tool whose tip cannot have its shape.
+    /// A tool whose corner radius is impossible for its diameter.
     CORNER_TOO_ROUND: UnreadableDescription {
         en: "the corner radius of tool {number} ({name}) is {radius} mm, which is more than half of its diameter, {diameter} mm",
         de: "der Eckenradius von Werkzeug {number} ({name}) ist {radius} mm, mehr als die Hälfte seines Durchmessers von {diameter} mm",
         help_en: "correct the tool in the library, and export it again",
         help_de: "das Werkzeug in der Bibliothek berichtigen und sie noch einmal exportieren",
     }
-    /// The configuration cannot take the values.
+    /// A configuration into which values cannot be inserted automatically.
     NOT_EDITABLE: UnreadableDescription {
         en: "the values cannot be inserted into this configuration",
         de: "die Werte lassen sich in diese Konfiguration nicht einsetzen",
         help_en: "write them into it by hand",
         help_de: "sie von Hand hineinschreiben",
     }
-    /// A value that a key cannot take.
+    /// A described value that the key of the configuration does not permit.
     VALUE_NOT_TAKEN: UnusableValue {
         en: "`{name}` is `{value}`, but {expected} is needed; the value is not imported",
         de: "`{name}` ist `{value}`, nötig ist aber {expected}; der Wert wird nicht übernommen",
         help_en: "set the key in pathbuild.toml by hand",
         help_de: "den Schlüssel in pathbuild.toml von Hand setzen",
     }
-    /// A key for three axes, not all of which are described.
+    /// A key that needs a value for each of three axes, not all of which are described.
     AXES_INCOMPLETE: UnusableValue {
         en: "`{key}` needs X, Y and Z, but there is only {given}",
         de: "`{key}` braucht X, Y und Z, vorhanden ist aber nur {given}",
         help_en: "set the key in pathbuild.toml by hand",
         help_de: "den Schlüssel in pathbuild.toml von Hand setzen",
     }
-    /// A spindle without a range of speeds.
+    /// Spindle speeds that form no range, because the lowest is not below the highest.
     EMPTY_SPEEDS: UnusableValue {
         en: "the spindle speeds from {from} to {to} are not a range; they are not imported",
         de: "die Drehzahlen von {from} bis {to} ergeben keinen Bereich; sie werden nicht übernommen",
         help_en: "set `spindle-speeds` in pathbuild.toml by hand",
         help_de: "`spindle-speeds` in pathbuild.toml von Hand setzen",
     }
-    /// A laser.
+    /// A controller in laser mode, which has no spindle speeds.
     LASER: UnusableValue {
         en: "the controller is in laser mode ($32), so $30 and $31 are not spindle speeds",
         de: "die Steuerung ist im Laserbetrieb ($32), daher sind $30 und $31 keine Drehzahlen",
         help_en: "if the machine has a spindle as well, set `spindle-speeds` by hand",
         help_de: "hat die Maschine auch eine Spindel, `spindle-speeds` von Hand setzen",
     }
-    /// Several spindles.
+    /// A machine with several spindles, so that the speeds are ambiguous.
     SEVERAL_SPINDLES: UnusableValue {
         en: "there are several spindles, so no spindle speeds are imported: {names}",
         de: "es gibt mehrere Spindeln, daher werden keine Drehzahlen übernommen: {names}",
         help_en: "set `spindle-speeds` by hand to those of the spindle that mills",
         help_de: "`spindle-speeds` von Hand auf die der Spindel setzen, die fräst",
     }
-    /// An ini file without a unit.
+    /// An ini file that does not state the unit of its lengths.
     UNIT_MISSING: UnusableValue {
         en: "[TRAJ] has no LINEAR_UNITS, so the unit of the lengths is unknown; no length is imported",
         de: "in [TRAJ] fehlt LINEAR_UNITS, daher ist die Einheit der Längen unbekannt; keine wird übernommen",
         help_en: "add LINEAR_UNITS = mm or LINEAR_UNITS = inch",
         help_de: "LINEAR_UNITS = mm oder LINEAR_UNITS = inch ergänzen",
     }
-    /// Axes without limits.
+    /// Axes whose limits give no valid travel.
     NO_TRAVEL: UnusableValue {
         en: "the limits of the axes give no valid travel; they are not imported",
         de: "die Grenzen der Achsen ergeben keinen gültigen Verfahrweg; sie werden nicht übernommen",
@@ -99,21 +99,21 @@ messages! {
         help_en: "set the diameter in the library, and export it again",
         help_de: "den Durchmesser in der Bibliothek setzen und sie noch einmal exportieren",
     }
-    /// Two tools with one number.
+    /// Two different tools with the same number.
     TOOL_TWICE_AT_LINE: UnusableValue {
         en: "tool {number} ({name}) is described differently in line {line} of {file} ({earlier}); neither is imported",
         de: "Werkzeug {number} ({name}) ist in Zeile {line} von {file} ({earlier}) anders beschrieben; keines von beiden wird übernommen",
         help_en: "give each tool a number of its own in the library, and export it again",
         help_de: "jedem Werkzeug in der Bibliothek eine eigene Nummer geben und sie noch einmal exportieren",
     }
-    /// Two tools with one number, in a file whose lines are not known.
+    /// Two different tools with the same number, in a file whose lines are not known.
     TOOL_TWICE: UnusableValue {
         en: "tool {number} ({name}) is described differently in {file} ({earlier}); neither is imported",
         de: "Werkzeug {number} ({name}) ist in {file} ({earlier}) anders beschrieben; keines von beiden wird übernommen",
         help_en: "give each tool a number of its own in the library, and export it again",
         help_de: "jedem Werkzeug in der Bibliothek eine eigene Nummer geben und sie noch einmal exportieren",
     }
-    /// A tool bit that a library names.
+    /// A tool bit that a library names but that cannot be read.
     BIT_UNREADABLE: UnusableValue {
         en: "the tool bit `{name}` cannot be read: {reason}",
         de: "das Werkzeug `{name}` ist nicht lesbar: {reason}",

@@ -1,7 +1,7 @@
-//! The catalogue of messages, by subject. The two languages and the help of a message are next to each other, so that none is changed
-//! without the others.
+//! The catalogue of messages, with a module for each subject. The texts in both languages and the help of a message are next to each
+//! other, so that none is changed without the others.
 
-/// Declares the messages of a subject: a static for each, and a list of all.
+/// Declares the messages of a subject: a static for each, and a list of all of them.
 macro_rules! messages {
     ($($(#[$doc:meta])* $key:ident: $code:ident {
         en: $en:literal, de: $de:literal $(, help_en: $help_en:literal, help_de: $help_de:literal)? $(,)?
@@ -31,7 +31,7 @@ pub mod posts;
 pub mod probes;
 mod verify;
 
-/// All messages, for tests and for deserializing cached results.
+/// Returns all messages, for tests and for deserializing cached results.
 pub fn all() -> impl Iterator<Item = &'static crate::Message> {
     [
         files::ALL,

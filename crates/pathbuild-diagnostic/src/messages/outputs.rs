@@ -8,7 +8,7 @@ messages! {
         help_en: "name the paths to emit: pathbuild emit {first}",
         help_de: "die gewünschten Pfade nennen: pathbuild emit {first}",
     }
-    /// A pattern of several paths where one is meant.
+    /// A pattern that matches several paths, where exactly one is needed.
     SEVERAL_MATCHES: SeveralPaths {
         en: "{pattern} matches several paths: {names}",
         de: "{pattern} entspricht mehreren Pfaden: {names}",
@@ -43,7 +43,7 @@ messages! {
         help_en: "a path's layer has a name that matches {pattern}; `path-pattern` in pathbuild.toml sets another pattern",
         help_de: "der Layer eines Pfads hat einen Namen, der {pattern} entspricht; `path-pattern` in pathbuild.toml setzt ein anderes Muster",
     }
-    /// A path that is only in the file's name.
+    /// A path that the file's name contains, but not the drawing.
     PROMISED_PATH: PromisedPath {
         en: "the file is named after path {name}, but the drawing has nothing on a layer of that name",
         de: "der Dateiname nennt den Pfad {name}, aber auf einem Layer dieses Namens hat die Zeichnung nichts",
@@ -60,7 +60,7 @@ messages! {
         en: "layer {layer} has a similar name: \"{character}\" ({code}) only looks like \"{plain}\"",
         de: "Layer {layer} heißt ähnlich: \"{character}\" ({code}) sieht nur aus wie \"{plain}\"",
     }
-    /// A path that is not covered by the file's name.
+    /// A path that other drawings cannot find, because the file's name does not contain its name.
     STRAY_PATH: StrayPath {
         en: "other drawings cannot embed path {name}: its name is not in the name of this file",
         de: "andere Zeichnungen können Pfad {name} nicht einbetten: sein Name steht nicht im Namen dieser Datei",
@@ -74,7 +74,7 @@ messages! {
         help_en: "targets are patterns of path names: * is any text, ? one character",
         help_de: "Ziele sind Muster von Pfadnamen: * ist beliebiger Text, ? ein Zeichen",
     }
-    /// A name on the command line that does not exist.
+    /// A name on the command line that is neither a path nor a drawing.
     NO_SUCH_PATH: PathNotFound {
         en: "there is no path or drawing {name}",
         de: "es gibt keinen Pfad und keine Zeichnung {name}",
@@ -93,7 +93,7 @@ messages! {
         en: "the library defines it in {near}: name that drawing",
         de: "die Bibliothek enthält ihn in {near}: diese Zeichnung nennen",
     }
-    /// Note: the drawing that defines the path, although its name does not cover it.
+    /// Note: the drawing that defines the path, although the file's name does not contain the path's name.
     NOT_IN_FILE_NAME: PathNotFound {
         en: "{near} defines it, though the file's name does not cover it: name that drawing",
         de: "{near} enthält ihn, obwohl der Dateiname ihn nicht abdeckt: diese Zeichnung nennen",
@@ -110,56 +110,56 @@ messages! {
         help_en: "give one of them an R (a suffix of the output's name), or use --out-dir in separate runs",
         help_de: "einem davon ein R geben (Zusatz zum Namen der Ausgabe) oder --out-dir in getrennten Läufen verwenden",
     }
-    /// An output file that would no longer be written.
+    /// An output file from an earlier run that no path would write now.
     STALE: StaleOutput {
         en: "{name} was written earlier, but no path would write it now",
         de: "{name} wurde früher geschrieben, aber kein Pfad würde es jetzt noch schreiben",
         help_en: "check that it is no longer needed; emit --remove-stale removes such files",
         help_de: "prüfen, ob es noch gebraucht wird; emit --remove-stale entfernt solche Dateien",
     }
-    /// An output file that would no longer be written, unless another library wrote it.
+    /// An output file from an earlier run that no path of this library would write. Another library may have written it.
     STALE_OR_OF_OTHERS: StaleOutput {
         en: "{name} was written earlier from a drawing that this library does not have",
         de: "{name} wurde früher aus einer Zeichnung geschrieben, die diese Bibliothek nicht hat",
         help_en: "the directory lies outside of the library: delete the program only if no other library has written it",
         help_de: "das Verzeichnis liegt außerhalb der Bibliothek: das Programm nur löschen, wenn keine andere Bibliothek es geschrieben hat",
     }
-    /// An output file that is older than the errors in its path.
+    /// An output file that remains from before its path had errors.
     OLDER_OUTPUT: OlderOutput {
         en: "path {path} was not written, so {name} is out of date",
         de: "Pfad {path} wurde nicht geschrieben, {name} ist daher veraltet",
         help_en: "do not mill with {name} before the path's errors are fixed and it is written again",
         help_de: "nicht mit {name} fräsen, bevor die Fehler des Pfads behoben sind und die Datei neu geschrieben ist",
     }
-    /// Errors that stop a program, but are lowered by the configuration.
+    /// An error that prevents a program although the configuration lowers its severity.
     LOWERED_ERROR: LoweredError {
         en: "nothing was written: {code} stops a program, also where pathbuild.toml ignores it or makes it a warning",
         de: "nichts wurde geschrieben: {code} hält ein Programm auf, auch wo pathbuild.toml ihn übergeht oder zur Warnung macht",
         help_en: "remove {code} from `[severity]` or `[[severity-in]]` to see where it is, and correct it",
         help_de: "{code} aus `[severity]` oder `[[severity-in]]` entfernen, um die Stelle zu sehen, und den Fehler beheben",
     }
-    /// A corrected program that was made from an older program.
+    /// An adjusted program that was made from an older version of its program.
     STALE_ADJUSTED: StaleOutput {
         en: "{name} was made from an older version of {clean}",
         de: "{name} wurde aus einer älteren Fassung von {clean} erzeugt",
         help_en: "do not run it: adjust again with the current probe values; emit --remove-stale removes it",
         help_de: "nicht laufen lassen: adjust mit den aktuellen Messwerten noch einmal aufrufen; emit --remove-stale entfernt es",
     }
-    /// A corrected program that was edited, or lacks the measured heights in its header.
+    /// An adjusted program that was edited afterwards, or whose header lacks the measured heights.
     STALE_EDITED: StaleOutput {
         en: "{name} is not what adjust makes of {clean} with the measured heights in its header",
         de: "{name} ist nicht das, was adjust mit den gemessenen Höhen seines Kopfs aus {clean} erzeugt",
         help_en: "it was edited, or an older version adjusted it: do not run it, adjust again",
         help_de: "es wurde bearbeitet, oder eine ältere Version hat es angepasst: nicht laufen lassen, noch einmal adjust aufrufen",
     }
-    /// A corrected program that is older than the measured heights.
+    /// An adjusted program that was made with other heights than those measured now.
     STALE_VALUES: StaleOutput {
         en: "{name} was adjusted with other heights than {values} has now",
         de: "{name} wurde mit anderen Höhen angepasst, als {values} jetzt hat",
         help_en: "do not run it: adjust again",
         help_de: "nicht laufen lassen: noch einmal adjust aufrufen",
     }
-    /// An outdated program written by another post.
+    /// An outdated program that was written by another post-processor.
     STALE_OTHER_MOVES: StaleOutput {
         en: "{name} has other moves than {program}: another post-processor wrote it before the path was changed",
         de: "{name} hat andere Bewegungen als {program}: ein anderer Postprozessor hat es geschrieben, bevor der Pfad geändert wurde",
@@ -187,14 +187,14 @@ messages! {
         help_en: "make both agree, or write the Q-project again: pathbuild q-project {drawing}",
         help_de: "die Werte angleichen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
     }
-    /// A proxy line for a path that does not exist.
+    /// A proxy line that names a path which does not exist in the drawing.
     PROXY_OF_NOTHING: ProxyDiffers {
         en: "the proxy line names {name}, which is not a path of this drawing",
         de: "die Stellvertreterlinie nennt {name}, das kein Pfad dieser Zeichnung ist",
         help_en: "the drawing's paths: {names}",
         help_de: "die Pfade der Zeichnung: {names}",
     }
-    /// A proxy line with the name of another path.
+    /// A proxy line that names another path than the one along which it runs.
     PROXY_OF_OTHER: ProxyDiffers {
         en: "the proxy line names {name}, but runs from the start of path {other} to its end",
         de: "die Stellvertreterlinie nennt {name}, läuft aber vom Anfang von Pfad {other} zu dessen Ende",
@@ -215,14 +215,14 @@ messages! {
         help_en: "draw it from the path's start to its end",
         help_de: "sie vom Anfang des Pfads zu seinem Ende zeichnen",
     }
-    /// A Q-project that needs several paths, with a name that allows no further names.
+    /// A Q-project that needs several paths, although its name permits no further names.
     NO_NAME_FOR_CUTTER: CannotWrite {
         en: "the drawing's paths use several cutters (O), so the Q-project needs a path for each, but no name can be counted up from {name}",
         de: "die Pfade der Zeichnung haben verschiedene O, das Q-Projekt braucht also für jedes einen Pfad, aber {name} lässt sich nicht weiterzählen",
         help_en: "use --path-name to give a name whose last number can be counted up",
         help_de: "mit --path-name einen Namen angeben, dessen letzte Zahl sich hochzählen lässt",
     }
-    /// Note: the moves only differ because of `--compatible`.
+    /// Note: the moves are the same with `--compatible`.
     SAME_IF_COMPATIBLE: MovesDiffer {
         en: "with --compatible the moves are the same: the program is as PathDxf2GCode writes it",
         de: "mit --compatible sind die Bewegungen gleich: das Programm ist so, wie PathDxf2GCode es schreibt",

@@ -8,14 +8,14 @@ messages! {
         help_en: "{element} needs {letter}: write it on the element, or on the path's start marker",
         help_de: "{element} braucht {letter}: ans Element schreiben oder an die Anfangsmarke des Pfads",
     }
-    /// A missing letter, on several elements of one kind.
+    /// A missing letter on several elements of one kind, reported once.
     MISSING_ON_SEVERAL: MissingParameter {
         en: "{letter} is missing here; further elements of this kind without {letter}: {count}",
         de: "{letter} fehlt hier; weitere Elemente dieser Art ohne {letter}: {count}",
         help_en: "{element} needs {letter}: write it on the path's start marker for all of them, or on each element",
         help_de: "{element} braucht {letter}: für alle an die Anfangsmarke des Pfads schreiben oder an jedes Element",
     }
-    /// A path without O or T.
+    /// A start marker's text without O or T.
     MISSING_AT_START: MissingParameter {
         en: "{letter} is missing at the path's start",
         de: "{letter} fehlt am Pfadanfang",
@@ -29,21 +29,21 @@ messages! {
         help_en: "where a path is embedded, both it and the segment (or the embedding path) must name the material",
         help_de: "wo ein Pfad eingebettet wird, müssen er und das Segment (oder der einbettende Pfad) das Material nennen",
     }
-    /// A letter that is unknown to the element.
+    /// A letter that the element does not accept.
     UNKNOWN_LETTER: UnknownParameter {
         en: "{element} does not accept \"{letter}\"",
         de: "{element} kennt \"{letter}\" nicht",
         help_en: "it accepts {known}; values follow their letter without a space",
         help_de: "bekannt sind {known}; Werte folgen ihrem Buchstaben ohne Leerzeichen",
     }
-    /// A known letter in lower case.
+    /// A lower-case letter that the element accepts in upper case.
     LOWER_CASE_LETTER: UnknownParameter {
         en: "{element} does not accept \"{letter}\"",
         de: "{element} kennt \"{letter}\" nicht",
         help_en: "write letters in upper case: \"{upper}\"; {element} accepts {known}",
         help_de: "Buchstaben groß schreiben: \"{upper}\"; bekannt sind {known}",
     }
-    /// A text in lower case, with a correction.
+    /// A text in lower case that is valid in upper case.
     LOWER_CASE_TEXT: UnknownParameter {
         en: "the letters of this text are lower case",
         de: "die Buchstaben dieses Textes sind klein geschrieben",
@@ -71,28 +71,28 @@ messages! {
         help_en: "remove it, or put it on a layer without a path; Q puts a comment into the program, for example Q{word}",
         help_de: "entfernen oder auf einen Layer legen, der kein Pfadlayer ist; mit Q kommt ein Kommentar ins Programm, zum Beispiel Q{word}",
     }
-    /// A letter of another alphabet.
+    /// A letter of another alphabet that looks like a valid one.
     LOOK_ALIKE_LETTER: UnknownParameter {
         en: "\"{character}\" ({code}) only looks like \"{plain}\"",
         de: "\"{character}\" ({code}) sieht nur aus wie \"{plain}\"",
         help_en: "type \"{meant}\"",
         help_de: "\"{meant}\" eintippen",
     }
-    /// A sign that CAD programs write as a code.
+    /// A sign that CAD programs draw in place of a code such as `%%c`.
     DRAWN_CODE: UnknownParameter {
         en: "\"{sign}\" is not a parameter; {code} is shown as {shown} here",
         de: "\"{sign}\" ist kein Parameter; {code} wird hier als {shown} angezeigt",
         help_en: "remove it, or put it on a layer without a path: the diameter of a hole is that of its circle, and O that of the cutter",
         help_de: "entfernen oder auf einen Layer legen, der kein Pfadlayer ist: der Durchmesser eines Lochs ist der seines Kreises, O der des Fräsers",
     }
-    /// A zero instead of O.
+    /// A zero where the letter O is meant.
     ZERO_FOR_O: UnknownParameter {
         en: "{element} does not accept \"0\"",
         de: "{element} kennt \"0\" nicht",
         help_en: "if the zero is meant as the letter O, write \"{meant}\"",
         help_de: "ist die Null als Buchstabe O gemeint, \"{meant}\" schreiben",
     }
-    /// `>` on an element that embeds nothing.
+    /// The name of a path, with `>`, on an element that embeds nothing.
     NAME_ON_OTHER_ELEMENT: UnknownParameter {
         en: "{element} does not accept \"{letter}\": it embeds no path",
         de: "{element} kennt \"{letter}\" nicht: hier wird kein Pfad eingebettet",
@@ -134,14 +134,14 @@ messages! {
         help_en: "heights are measured from the clamping plate: S above T above D above B",
         help_de: "Höhen zählen ab der Aufspannplatte: S über T über D über B",
     }
-    /// A value of a letter without an effect that must be greater than another one.
+    /// A value that must be greater than another one, of a letter without effect.
     UNUSED_NOT_ABOVE: ParameterOutOfRange {
         en: "{letter} is {value}, but must be greater than {limit_letter}, which is {limit}",
         de: "{letter} ist {value}, muss aber größer als {limit_letter} ({limit}) sein",
         help_en: "remove it: {letter} has no effect here",
         help_de: "entfernen: {letter} hat hier keine Wirkung",
     }
-    /// A value of a letter without an effect that must be less than another one.
+    /// A value that must be less than another one, of a letter without effect.
     UNUSED_NOT_BELOW: ParameterOutOfRange {
         en: "{letter} is {value}, but must be less than {limit_letter}, which is {limit}",
         de: "{letter} ist {value}, muss aber kleiner als {limit_letter} ({limit}) sein",
@@ -295,7 +295,7 @@ messages! {
         help_en: "give the path an S",
         help_de: "dem Pfad ein S geben",
     }
-    /// Material or a probe that H raises to the sweep height.
+    /// Material or a probe that H raises to the sweep height or above.
     RAISED_INTO_SWEEPS: ParameterOutOfRange {
         en: "the material here reaches up to {limit}, but this path sweeps at {value}: rapid moves would hit it",
         de: "das Material hier reicht bis {limit}, die Leerfahrten dieses Pfads laufen aber auf {value}: Eilgänge würden damit kollidieren",
@@ -365,7 +365,7 @@ messages! {
         help_en: "N gives the order at a star: N1, N2, N3",
         help_de: "N gibt die Reihenfolge an einem Stern: N1, N2, N3",
     }
-    /// A variable in a letter that must be literal.
+    /// A variable in a value that must be a literal.
     VARIABLE_NOT_ALLOWED: VariableNotAllowed {
         en: "{letter} cannot use a variable",
         de: "{letter} kann keine Variable verwenden",
@@ -428,14 +428,14 @@ messages! {
         help_en: "remove it, or check the line types: only lines and arcs with CONTINUOUS, DIVIDE, BORDER or CENTER form chains",
         help_de: "entfernen oder die Linientypen prüfen: nur Linien und Bögen mit CONTINUOUS, DIVIDE, BORDER oder CENTER bilden Ketten",
     }
-    /// B of a mark.
+    /// B on a marking segment.
     BOTTOM_OF_MARK: ParameterWithoutEffect {
         en: "{letter} has no effect here: a mark (line type DIVIDE) goes down to D",
         de: "{letter} hat hier keine Wirkung: eine Markierung (Linientyp DIVIDE) geht bis D",
         help_en: "write D{value} if the mark ends at that height; only line type CONTINUOUS goes down to B",
         help_de: "D{value} schreiben, wenn die Markierung auf dieser Höhe endet; bis B geht nur der Linientyp CONTINUOUS",
     }
-    /// D of a milling segment.
+    /// D on a milling segment.
     DEPTH_OF_MILLING: ParameterWithoutEffect {
         en: "{letter} has no effect here: milling (line type CONTINUOUS) goes down to B",
         de: "{letter} hat hier keine Wirkung: Fräsen (Linientyp CONTINUOUS) geht bis B",

@@ -1,7 +1,7 @@
-//! Messages about finished parts: their outlines, and the cuts beside and into them. (PB213 to PB220)
+//! Messages about finished parts: their outlines, and the cuts along and into them. (PB213 to PB220)
 
 messages! {
-    /// A cut into the part that its path makes.
+    /// A cut into the part that the path itself makes.
     GOUGE: GougedPart {
         en: "the cutter goes {depth} mm into the part at {point}, over a length of {length} mm",
         de: "der Fräser gerät bei {point} {depth} mm tief in das Teil, auf einer Länge von {length} mm",
@@ -15,7 +15,7 @@ messages! {
         help_en: "move the hole, or draw its circle on the layer of the part as well",
         help_de: "das Bohrloch versetzen oder seinen Kreis auch auf dem Layer des Teils zeichnen",
     }
-    /// A cut into a part that another path brings.
+    /// A cut into a part that another path of the project makes.
     GOUGED_NEIGHBOUR: GougedNeighbour {
         en: "the cutter, O{tool}, goes {depth} mm into the part of path {other} at {point}; that part lies at {place} in the program",
         de: "der Fräser, O{tool}, gerät bei {point} {depth} mm tief in das Teil von Pfad {other}, das im Programm bei {place} liegt",
@@ -85,14 +85,14 @@ messages! {
         help_en: "draw the outline with CONTINUOUS lines, arcs, circles or closed polylines whose ends meet all around; other line types do not count",
         help_de: "den Umriss mit Linien, Bögen, Kreisen oder geschlossenen Polylinien vom Linientyp CONTINUOUS zeichnen, deren Enden sich rundum treffen; andere Linientypen zählen nicht",
     }
-    /// An element on a layer with parts that cannot be read.
+    /// An element on a layer with parts that is not supported.
     OUTLINE_UNREADABLE: DoubtfulOutline {
         en: "this {entity} on a layer with a part could not be read, so the outline may lack something",
         de: "{entity} auf einem Layer mit einem Teil war nicht lesbar; dem Umriss fehlt vielleicht etwas",
         help_en: "draw the outline with lines, arcs, circles or closed polylines; `approximate-curves` in pathbuild.toml reads ellipses and splines",
         help_de: "den Umriss mit Linien, Bögen, Kreisen oder geschlossenen Polylinien zeichnen; mit `approximate-curves` in pathbuild.toml werden Ellipsen und Splines gelesen",
     }
-    /// A ring of a part that no path comes near.
+    /// An outline of a part that no path cuts.
     OUTLINE_NOT_CUT: OutlineNotCut {
         en: "no path of this drawing cuts along this outline",
         de: "kein Pfad dieser Zeichnung fräst an diesem Umriss entlang",

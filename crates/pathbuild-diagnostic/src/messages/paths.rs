@@ -1,4 +1,4 @@
-//! Messages about the walk along a path and the paths that it embeds. (PB401 to PB517)
+//! Messages about the segments of a path in milling order, and about the paths that it embeds. (PB401 to PB517)
 
 messages! {
     /// A dead end without a turn marker.
@@ -8,21 +8,21 @@ messages! {
         help_en: "close the gap, draw the missing segment, or move it to the path's layer",
         help_de: "die Lücke schließen, das fehlende Segment zeichnen oder es auf den Layer des Pfads legen",
     }
-    /// The tip of a dead end; the remaining segments branch off on the way to it.
+    /// The path breaks off at the tip of a dead end; the remaining segments branch off between there and the start.
     DEAD_END: NothingContinues {
         en: "the path breaks off here, at the tip of a dead end; segments not reached: {left}",
         de: "hier bricht der Pfad ab, an der Spitze einer Sackgasse; nicht erreichte Segmente: {left}",
         help_en: "put a turn marker (a PHANTOM circle of 1.5 mm) at this point, from where the tool goes back",
         help_de: "an diesem Punkt eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm), von der der Fräser zurückfährt",
     }
-    /// A remaining segment begins in the middle of a traversed one.
+    /// The path breaks off; a remaining segment begins in the middle of a traversed one.
     BEGINS_ON_OTHER: NothingContinues {
         en: "the path breaks off here: {element} begins at {point}, in the middle of another segment; segments not reached: {left}",
         de: "hier bricht der Pfad ab: bei {point} beginnt {element} mitten auf einem anderen Segment; nicht erreichte Segmente: {left}",
         help_en: "shorten or split the line or arc at {point}, so that the two meet end to end",
         help_de: "die Linie oder den Bogen bei {point} kürzen oder teilen, damit beide sich mit ihren Enden treffen",
     }
-    /// A segment that is drawn twice, so that the walk returns along it.
+    /// The path breaks off because it runs back along a segment that is drawn twice.
     DRAWN_TWICE: NothingContinues {
         en: "{element} at {point} is drawn twice: the path runs back along the second one and breaks off; segments not reached: {left}",
         de: "{element} bei {point} ist doppelt gezeichnet: der Pfad läuft auf dem zweiten Segment zurück und bricht ab; nicht erreichte Segmente: {left}",
@@ -41,12 +41,12 @@ messages! {
         en: "the nearest open end is at {point}, {distance} mm away ({element})",
         de: "das nächste offene Ende ist bei {point}, {distance} mm entfernt ({element})",
     }
-    /// Note: an end on another layer.
+    /// Note: an open end on another layer.
     END_ON_OTHER_LAYER: NothingContinues {
         en: "on layer {layer} {element} ends at {point}, {distance} mm away: is it on the wrong layer?",
         de: "auf Layer {layer} endet {element} bei {point}, {distance} mm entfernt: liegt es auf dem falschen Layer?",
     }
-    /// Note: a duplicate segment.
+    /// Note: a remaining segment that is drawn on top of a traversed one.
     DUPLICATE: NothingContinues {
         en: "{element} at {point} lies on top of one that was already traversed: it is drawn twice",
         de: "{element} bei {point} liegt auf einem schon durchlaufenen: es ist doppelt gezeichnet",
@@ -56,28 +56,28 @@ messages! {
         en: "there is a curve at {point} that does not belong to the path ({kind})",
         de: "bei {point} liegt eine Kurve ({kind}), die nicht zum Pfad gehört",
     }
-    /// Segments left over at the end.
+    /// Segments that are not reached when the path ends.
     UNREACHED: UnreachedSegments {
         en: "the path ends here, but not all of its segments were reached; left: {left}, one of them {element} at {point}",
         de: "der Pfad endet hier, aber nicht alle seine Segmente wurden erreicht; übrig: {left}, darunter {element} bei {point}",
         help_en: "connect them with the path, remove them, or move them to another layer",
         help_de: "mit dem Pfad verbinden, entfernen oder auf einen anderen Layer legen",
     }
-    /// A leftover segment that is drawn twice.
+    /// A segment that is not reached because it is drawn twice.
     UNREACHED_TWICE: UnreachedSegments {
         en: "{element} at {point} is drawn twice, but the path runs along only one of the two; segments not reached: {left}",
         de: "{element} bei {point} ist doppelt gezeichnet, der Pfad läuft aber nur über eines der beiden Segmente; nicht erreichte Segmente: {left}",
         help_en: "delete one of the two",
         help_de: "eines der beiden löschen",
     }
-    /// A leftover segment that touches another segment between its ends.
+    /// A segment that is not reached because it touches another kind of segment between that segment's ends.
     NO_END_THERE: UnreachedSegments {
         en: "not all segments were reached; left: {left}; {element} at {point} lies on {other}, which does not end there",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; bei {point} liegen {element} und {other} übereinander, ohne dass dort ein Segment endet",
         help_en: "split the line or arc at {point}",
         help_de: "die Linie oder den Bogen bei {point} teilen",
     }
-    /// The same for a segment of the same kind.
+    /// A segment that is not reached because it touches a segment of the same kind between that segment's ends.
     NO_END_THERE_ALIKE: UnreachedSegments {
         en: "not all segments were reached; left: {left}; {element} at {point} lies on another one, which does not end there",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; bei {point} trifft {element} auf ein anderes der gleichen Art, das dort nicht endet",
@@ -98,7 +98,7 @@ messages! {
         help_en: "move the end marker there, or draw what is missing between",
         help_de: "die Endmarke dorthin verschieben oder das Fehlende dazwischen zeichnen",
     }
-    /// A path without segments.
+    /// A path that has no segments.
     EMPTY_PATH: EmptyPath {
         en: "the path has no segments",
         de: "der Pfad hat keine Segmente",
@@ -119,7 +119,7 @@ messages! {
         help_en: "raise U, the minimum distance between bars, or shorten P",
         help_de: "U, den Mindestabstand der Stege, erhöhen oder P verkleinern",
     }
-    /// Support bars without any gap.
+    /// Support bars that leave no gap, because the segment is too short.
     NO_GAP_BETWEEN_BARS: NoGapBetweenBars {
         en: "everything is left standing up to D {top}: a length of {length} mm is shorter than P + U, which is {pitch} mm",
         de: "alles bleibt bis D {top} stehen: eine Länge von {length} mm ist kürzer als P + U mit {pitch} mm",
@@ -154,7 +154,7 @@ messages! {
         help_en: "the clamps of all drawings are mounted during the whole program: raise S above them, or write a program for each path",
         help_de: "die Spannmittel aller Zeichnungen stehen während des ganzen Programms: S darüber anheben oder je Pfad ein Programm schreiben",
     }
-    /// A G-code program that moves into a clamp, reported at its line.
+    /// A G-code program that moves into a clamp, reported at the line of the move.
     LINE_INTO_CLAMP: InsideKeepOut {
         en: "here the tool, O{tool}, hits the clamp of layer {layer} at {clamp} of the program, which is {height} mm high: {what}, lowest Z {z}",
         de: "hier trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} bei {clamp} im Programm, das {height} mm hoch ist: {what}, tiefstes Z {z}",
@@ -182,7 +182,7 @@ messages! {
         help_en: "separate parameters from the name by a space",
         help_de: "Parameter durch ein Leerzeichen vom Namen trennen",
     }
-    /// A name that is only part of a word.
+    /// A word after `>` of which only a part is a path name.
     NAME_GOES_ON: InvalidPathName {
         en: "\"{value}\" is not a path name; only the part {name} is one",
         de: "\"{value}\" ist kein Pfadname; nur der Teil {name} ist einer",
@@ -201,12 +201,12 @@ messages! {
         en: "similar names: {names}",
         de: "ähnliche Namen: {names}",
     }
-    /// Note: the paths of the drawings that were searched, none of them with a similar name.
+    /// Note: the names of the paths that the searched drawings contain, none of which is similar.
     NAMES_THERE: PathNotFound {
         en: "paths in drawings that could contain it: {names}",
         de: "Pfade in Zeichnungen, die ihn enthalten könnten: {names}",
     }
-    /// Note: the path is elsewhere in the library.
+    /// Note: a drawing elsewhere in the library that contains the path.
     ELSEWHERE: PathNotFound {
         en: "the library contains it in {file}: add {directory} to `search`",
         de: "die Bibliothek enthält ihn in {file}: {directory} zu `search` hinzufügen",
@@ -232,21 +232,21 @@ messages! {
         help_en: "one cutter mills both paths: give both the same O, or embed a component that is drawn for this cutter",
         help_de: "ein Fräser fräst beide Pfade: beiden dasselbe O geben oder ein Bauteil einbetten, das für diesen Fräser gezeichnet ist",
     }
-    /// An embedding path with another cutter, regardless of its segment.
+    /// An embedding path with another cutter than the embedded one, whatever the segment states.
     CUTTER_OF_PROJECT: SubpathParameterDiffers {
         en: "path {name} is drawn for a cutter of {there} mm, but path {outer} has O{here}",
         de: "Pfad {name} ist für einen Fräser von {there} mm gezeichnet, Pfad {outer} aber hat O{here}",
         help_en: "a program has one cutter: embed the path in a project with its O, and write both programs into one with --join",
         help_de: "ein Programm hat einen Fräser: den Pfad in einem Projekt mit seinem O einbetten und beide Programme mit --join zusammen schreiben",
     }
-    /// An embedding path with another tool of the same diameter.
+    /// An embedding path with another tool than the embedded one, of the same diameter.
     TOOL_OF_PROJECT: SubpathParameterDiffers {
         en: "path {name} is for the tool {there} ([tool] in pathbuild.toml), but path {outer} is milled with the tool {here}, of the same diameter",
         de: "Pfad {name} ist für das Werkzeug {there} ([tool] in pathbuild.toml), Pfad {outer} wird aber mit dem Werkzeug {here} desselben Durchmessers gefräst",
         help_en: "a program has one cutter: embed the path in a project whose name `paths` of {there} matches too, and write both programs into one with --join",
         help_de: "ein Programm hat einen Fräser: den Pfad in einem Projekt einbetten, auf dessen Namen `paths` von {there} auch passt, und beide Programme mit --join zusammen schreiben",
     }
-    /// A subpath segment in a mirrored block.
+    /// A subpath segment in a block that is inserted mirrored.
     MIRRORED_SUBPATH: MirroredSubpath {
         en: "this subpath segment is in a block that is inserted mirrored, but the embedded path is never mirrored",
         de: "dieses Unterpfadsegment gehört zu einem Block, der gespiegelt eingefügt ist; der eingebettete Pfad wird aber nie gespiegelt",
@@ -267,7 +267,7 @@ messages! {
         help_en: "write the path's {letter} on the segment, if it really is milled from that; else use another component",
         help_de: "das {letter} des Pfads an das Segment schreiben, wenn wirklich daraus gefräst wird; sonst ein anderes Bauteil verwenden",
     }
-    /// An embedding that E or --restrict forbids.
+    /// An embedding that the parameter E or the option --restrict forbids.
     FORBIDDEN: SubpathForbidden {
         en: "path {name} may not be embedded here: it does not match {rule}",
         de: "Pfad {name} darf hier nicht eingebettet werden: er entspricht nicht {rule}",
@@ -288,7 +288,7 @@ messages! {
         help_en: "remove one of these embeddings",
         help_de: "eine dieser Einbettungen entfernen",
     }
-    /// A segment with a greater T than the embedding path.
+    /// A subpath segment with a greater T than the path that contains the segment.
     T_BELOW: PathTBelowSubpathT {
         en: "T of this path is {path}, which is less than the subpath's {segment}",
         de: "T dieses Pfads ist {path} und damit kleiner als {segment} beim Unterpfad",

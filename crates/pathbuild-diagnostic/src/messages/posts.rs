@@ -1,4 +1,4 @@
-//! Messages about post-processors: their definitions, and errors while writing a program. (PB750 to PB769)
+//! Messages about post-processors: their definitions, and errors that occur when they write a program. (PB750 to PB769)
 
 messages! {
     /// A definition that is not UTF-8.
@@ -8,14 +8,14 @@ messages! {
         help_en: "open it in an editor and save it as UTF-8 (in Notepad: File, Save as, Encoding)",
         help_de: "sie in einem Editor öffnen und als UTF-8 speichern (im Windows-Editor: Datei, Speichern unter, Codierung)",
     }
-    /// A definition with a byte order mark of UTF-16 and malformed content.
+    /// A definition with a byte order mark of UTF-16 that is not valid UTF-16.
     POST_NOT_UTF16: InvalidPost {
         en: "the definition begins like UTF-16 text, but is not valid UTF-16",
         de: "die Definition beginnt wie UTF-16-Text, ist aber kein gültiges UTF-16",
         help_en: "open it in an editor and save it as UTF-8 (in Notepad: File, Save as, Encoding)",
         help_de: "sie in einem Editor öffnen und als UTF-8 speichern (im Windows-Editor: Datei, Speichern unter, Codierung)",
     }
-    /// Coordinates with few decimals.
+    /// A number format with few decimals, by which coordinates are rounded.
     COARSE_NUMBERS: DoubtfulPost {
         en: "{option} is \"{value}\": coordinates are rounded to {decimals} decimals",
         de: "{option} ist \"{value}\": Koordinaten werden auf {decimals} Nachkommastellen gerundet",
@@ -39,7 +39,7 @@ messages! {
         en: "the definition has {size} bytes; the limit is {limit}",
         de: "die Definition hat {size} Bytes; die Grenze ist {limit}",
     }
-    /// An XML file with another root element.
+    /// An XML file whose root element is not that of a definition.
     POST_WRONG_ROOT: InvalidPost {
         en: "the file contains <{found}>, not <PostProcessor>",
         de: "die Datei enthält <{found}>, nicht <PostProcessor>",
@@ -63,14 +63,14 @@ messages! {
         en: "{macro} in {section} has the wrong arguments; it takes {expected}",
         de: "{macro} in {section} hat falsche Argumente; erlaubt: {expected}",
     }
-    /// Unknown macro, without a suggestion.
+    /// An unknown macro without a similar known one.
     UNKNOWN_MACRO: UnknownMacro {
         en: "unknown macro {macro} in {section}",
         de: "unbekanntes Makro {macro} in {section}",
         help_en: "define it as \"$name=value\" in PostProcessorMacros or in the configuration",
         help_de: "als \"$name=Wert\" in PostProcessorMacros oder in der Konfiguration definieren",
     }
-    /// Unknown macro, with a suggestion.
+    /// An unknown macro with a similar known one.
     UNKNOWN_MACRO_NEAREST: UnknownMacro {
         en: "unknown macro {macro} in {section}",
         de: "unbekanntes Makro {macro} in {section}",
@@ -82,7 +82,7 @@ messages! {
         en: "<{element}> is unknown and ignored",
         de: "<{element}> ist unbekannt und wird übergangen",
     }
-    /// A repeated element.
+    /// An element that occurs more than once.
     POST_REPEATED_ELEMENT: DoubtfulPost {
         en: "<{element}> occurs again; the last one applies",
         de: "<{element}> kommt noch einmal vor; das letzte gilt",
@@ -101,7 +101,7 @@ messages! {
         help_en: "give your macro another name",
         help_de: "dem eigenen Makro einen anderen Namen geben",
     }
-    /// Macros that contain each other.
+    /// Macros that contain each other, or are nested more deeply than the limit.
     MACRO_DEPTH: EndlessMacro {
         en: "{section} contains itself, or macros are nested more than {limit} deep",
         de: "{section} enthält sich selbst, oder Makros sind tiefer als {limit} verschachtelt",
@@ -115,7 +115,7 @@ messages! {
         help_en: "$mops belongs in PostFile, $blocks in MOP, once each",
         help_de: "$mops gehört in PostFile, $blocks in MOP, je einmal",
     }
-    /// Macros that multiply the output.
+    /// Macros that multiply the text that is written.
     MACRO_SIZE: EndlessMacro {
         en: "the post writes far too much text for the number of moves in the program",
         de: "der Postprozessor schreibt viel zu viel Text für die Zahl der Bewegungen im Programm",
@@ -129,7 +129,7 @@ messages! {
         help_en: "check C of the hole",
         help_de: "C der Bohrung prüfen",
     }
-    /// A chord tolerance that is too fine.
+    /// A tolerance for chords that is so small that an arc would become too many lines.
     TOO_MANY_CHORDS: EndlessMacro {
         en: "an arc of radius {radius} requires more than {limit} lines",
         de: "ein Bogen mit Radius {radius} braucht mehr als {limit} Strecken",
@@ -141,7 +141,7 @@ messages! {
         en: "{macro} in {section} has no value in {operation}",
         de: "{macro} in {section} hat in {operation} keinen Wert",
     }
-    /// A value that the configuration or the definition can provide.
+    /// A missing value that only the configuration or the definition can provide.
     VALUE_MISSING_OPEN: MissingPostValue {
         en: "{macro} in {section} has no value in {operation}",
         de: "{macro} in {section} hat in {operation} keinen Wert",
@@ -162,7 +162,7 @@ messages! {
         help_en: "give the post's number format more decimals",
         help_de: "dem Zahlenformat des Postprozessors mehr Nachkommastellen geben",
     }
-    /// An arc that is written as a line because of `MaximumArcRadius`.
+    /// An arc that is written as a line, because its radius exceeds `MaximumArcRadius`.
     ARC_FLATTENED: FlattenedArc {
         en: "the arc to {place} has the radius {radius}; the post writes a line that deviates from it by up to {distance} mm",
         de: "der Bogen nach {place} hat den Radius {radius}; der Postprozessor schreibt eine Gerade, die bis zu {distance} mm davon abweicht",
@@ -209,40 +209,40 @@ messages! {
         help_en: "look for values in the program that are far too large, or divided by 0",
         help_de: "im Programm nach viel zu großen Werten oder nach Divisionen durch 0 suchen",
     }
-    /// Unknown post, without a suggestion.
+    /// An unknown post-processor without a similar known one.
     POST_UNKNOWN: UnknownPost {
         en: "there is no post-processor {name}",
         de: "es gibt keinen Postprozessor {name}",
         help_en: "`pathbuild post list` lists the built-in ones; a file is given with its extension",
         help_de: "`pathbuild post list` führt die eingebauten auf; eine Datei gibt man mit ihrer Endung an",
     }
-    /// Unknown post, with a suggestion.
+    /// An unknown post-processor with a similar known one.
     POST_UNKNOWN_NEAREST: UnknownPost {
         en: "there is no post-processor {name}",
         de: "es gibt keinen Postprozessor {name}",
         help_en: "did you mean {nearest}?",
         help_de: "ist {nearest} gemeint?",
     }
-    /// Note: the command after writing was not run.
+    /// Note: the definition's command for the finished file was not run.
     POST_BUILD_SKIPPED: DoubtfulPost {
         en: "the post's command \"{command}\" was not run; --run-post-build runs it",
         de: "der Befehl \"{command}\" des Postprozessors wurde nicht ausgeführt; --run-post-build führt ihn aus",
     }
-    /// Note: the output was not verified.
+    /// Note: the output was not compared with the program.
     POST_UNCHECKED: DoubtfulPost {
         en: "the output was not compared with the program, because unchecked = true is set",
         de: "die Ausgabe wurde nicht mit dem Programm verglichen, weil unchecked = true gesetzt ist",
         help_en: "check the output on the control before milling, or remove unchecked from the post",
         help_de: "die Ausgabe vor dem Fräsen an der Steuerung prüfen oder unchecked aus dem Postprozessor entfernen",
     }
-    /// A name that the controller would execute.
+    /// A text that the control would execute, because it would be outside a comment.
     TEXT_AMONG_WORDS: RejectedWord {
         en: "{macro} in {section} puts \"{text}\" outside a comment, where the machine would execute it",
         de: "{macro} in {section} setzt \"{text}\" außerhalb eines Kommentars, wo die Maschine es ausführen würde",
         help_en: "write it in a comment in the post, or give the drawing another name",
         help_de: "es im Postprozessor in einen Kommentar schreiben oder die Zeichnung anders nennen",
     }
-    /// A program wrapped around a cylinder without a diameter.
+    /// A program to be wrapped around a cylinder whose radius is not above 0.
     NO_RADIUS: NothingToPost {
         en: "{operation} cannot be wrapped round a cylinder: its surface T, which is the radius, is not above 0",
         de: "{operation} lässt sich nicht um einen Zylinder legen: die Oberfläche T, das ist der Radius, liegt nicht über 0",
@@ -256,7 +256,7 @@ messages! {
         help_en: "keep the width of the drawing within the circumference, 2 x pi x T",
         help_de: "die Breite der Zeichnung innerhalb des Umfangs halten, 2 x Pi x T",
     }
-    /// A word for an axis that another axis replaces.
+    /// A word for an axis whose coordinate is replaced by an angle.
     REPLACED_AXIS_WRITTEN: PostDiffers {
         en: "the post writes \"{line}\", but {angle} stands in place of {axis}: the machine would move both",
         de: "der Postprozessor schreibt \"{line}\", aber {angle} steht anstelle von {axis}: die Maschine würde beide bewegen",
@@ -284,52 +284,52 @@ messages! {
         help_en: "put S and M3, or the tool (T1 M6), into the program; if the spindle is switched by hand: spindle = \"manual\" outside all tables of pathbuild.toml",
         help_de: "S und M3 oder das Werkzeug (T1 M6) in das Programm aufnehmen; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml",
     }
-    /// Different speeds of one tool, in a post that allows only one.
+    /// Different spindle speeds for one tool, with a definition that writes the speed only at tool changes.
     ONE_SPEED_A_TOOL: NothingToPost {
         en: "T{index} runs at {speed} and, in {operation}, at {other} 1/min, but this post writes one speed for each tool",
         de: "T{index} läuft mit {speed} und in {operation} mit {other} 1/min, dieser Postprozessor schreibt aber eine Drehzahl je Werkzeug",
         help_en: "give the second speed a tool number of its own in pathbuild.toml, or write a program for each path",
         help_de: "der zweiten Drehzahl in pathbuild.toml eine eigene Werkzeugnummer geben oder je Pfad ein Programm schreiben",
     }
-    /// A byte that is not two hexadecimal digits.
+    /// Missing hexadecimal digits of a byte in a control text.
     BYTE_EXPECTED: InvalidControlText {
         en: "{text}, line {line}, column {column}: two hexadecimal digits are missing here",
         de: "{text}, Zeile {line}, Spalte {column}: hier fehlen zwei hexadezimale Ziffern",
     }
-    /// A variable used in the text that defines it, although variables are substituted before statements run.
+    /// A variable used in the text that assigns it. Variables are replaced before statements run, so the text cannot see the value.
     VARIABLE_UNDEFINED_YET: UnknownMacro {
         en: "{text}, line {line}, column {column}: {name} is assigned in this text, but only later texts see the value",
         de: "{text}, Zeile {line}, Spalte {column}: {name} wird in diesem Text zugewiesen, den Wert sehen aber erst spätere Texte",
         help_en: "assign it in a text that is called earlier, such as program-start",
         help_de: "in einem Text zuweisen, der vorher aufgerufen wird, etwa program-start",
     }
-    /// Note: the coolant of the tool table is not written.
+    /// Note: the output does not switch the coolant.
     COOLANT_NOT_WRITTEN: DoubtfulPost {
         en: "the output does not switch the coolant, which the program or the tool table sets: the post has no {macro}",
         de: "die Ausgabe schaltet die Kühlung nicht, die das Programm oder die Werkzeugtabelle bestimmt: der Postprozessor hat kein {macro}",
         help_en: "add {macro} to the post, or switch the coolant by hand",
         help_de: "{macro} in den Postprozessor aufnehmen oder die Kühlung von Hand schalten",
     }
-    /// Note: the spindle is not switched.
+    /// Note: the output does not switch the spindle.
     SPINDLE_NOT_WRITTEN: DoubtfulPost {
         en: "the output does not start the spindle, whose direction the program or the tool table sets: the post has no {macro}",
         de: "die Ausgabe schaltet die Spindel nicht ein, deren Drehrichtung das Programm oder die Werkzeugtabelle bestimmt: der Postprozessor hat kein {macro}",
         help_en: "add {macro} to the post, or start the spindle by hand",
         help_de: "{macro} in den Postprozessor aufnehmen oder die Spindel von Hand einschalten",
     }
-    /// Note: the spin-up time is not written.
+    /// Note: the output does not wait until the spindle is up to speed.
     SPIN_UP_NOT_WRITTEN: DoubtfulPost {
         en: "the output does not wait for the spindle: [machine] spin-up is set, but the post has no {macro}",
         de: "die Ausgabe wartet nicht auf die Spindel: [machine] spin-up ist gesetzt, aber der Postprozessor hat kein {macro}",
         help_en: "add {macro} to the post after it starts the spindle",
         help_de: "{macro} im Postprozessor nach dem Einschalten der Spindel aufnehmen",
     }
-    /// Unknown key of a TOML definition, without a suggestion.
+    /// An unknown key in a TOML definition without a similar known one.
     POST_UNKNOWN_KEY: InvalidPost {
         en: "the key {key} is unknown",
         de: "der Schlüssel {key} ist unbekannt",
     }
-    /// Unknown key of a TOML definition, with a suggestion.
+    /// An unknown key in a TOML definition with a similar known one.
     POST_UNKNOWN_KEY_NEAREST: InvalidPost {
         en: "the key {key} is unknown",
         de: "der Schlüssel {key} ist unbekannt",
@@ -343,31 +343,31 @@ messages! {
         help_en: "in [alias], pathbuild's name stands on the left, the texts' own on the right",
         help_de: "in [alias] steht links der Name von pathbuild, rechts der der Steuertexte",
     }
-    /// Unknown variable, without a suggestion.
+    /// An unknown variable without a similar known one.
     VARIABLE_UNDEFINED: UnknownMacro {
         en: "{text}, line {line}, column {column}: there is no variable {name} here",
         de: "{text}, Zeile {line}, Spalte {column}: die Variable {name} gibt es hier nicht",
     }
-    /// A variable without a value in this place.
+    /// A variable that has no value in the text that uses it.
     VARIABLE_WITHOUT_VALUE: UnknownMacro {
         en: "{text}, line {line}, column {column}: {name} has no value here: {reason}",
         de: "{text}, Zeile {line}, Spalte {column}: {name} hat hier keinen Wert: {reason}",
         help_en: "give it a value, or first test whether it exists, with a \"!\" statement",
         help_de: "ihr einen Wert geben oder vorher mit einer Anweisung mit \"!\" prüfen, ob es sie gibt",
     }
-    /// Unknown variable, with a suggestion.
+    /// An unknown variable with a similar known one.
     VARIABLE_UNDEFINED_NEAREST: UnknownMacro {
         en: "{text}, line {line}, column {column}: there is no variable {name} here",
         de: "{text}, Zeile {line}, Spalte {column}: die Variable {name} gibt es hier nicht",
         help_en: "did you mean {nearest}? Another program's names are translated in [alias]",
         help_de: "ist {nearest} gemeint? Namen anderer Programme übersetzt [alias]",
     }
-    /// Variables that contain each other.
+    /// Variables whose texts refer to each other, nested more deeply than the limit.
     VARIABLE_DEPTH: EndlessMacro {
         en: "{text}, line {line}, column {column}: variables in the text of {name} are nested more than {limit} levels deep",
         de: "{text}, Zeile {line}, Spalte {column}: im Text von {name} sind Variablen tiefer als {limit} verschachtelt",
     }
-    /// A text that becomes too long.
+    /// A text that exceeds the limit of its length when variables are replaced.
     TEXT_LENGTH: EndlessMacro {
         en: "{text}, line {line}, column {column}: the text becomes longer than {limit} bytes",
         de: "{text}, Zeile {line}, Spalte {column}: der Text wird länger als {limit} Bytes",
@@ -377,55 +377,55 @@ messages! {
         en: "{text}, line {line}, column {column}: nested more than {limit} deep",
         de: "{text}, Zeile {line}, Spalte {column}: tiefer als {limit} verschachtelt",
     }
-    /// A `~` that begins no variable.
+    /// A `~` that does not begin the name of a variable.
     LONE_TILDE: InvalidControlText {
         en: "{text}, line {line}, column {column}: \"~\" begins no variable",
         de: "{text}, Zeile {line}, Spalte {column}: mit \"~\" beginnt keine Variable",
         help_en: "a variable is written ~Name~, a tilde \\~",
         help_de: "eine Variable schreibt man ~Name~, eine Tilde \\~",
     }
-    /// A superfluous `}`.
+    /// A `}` that closes nothing.
     LONE_BRACE: InvalidControlText {
         en: "{text}, line {line}, column {column}: this brace closes nothing",
         de: "{text}, Zeile {line}, Spalte {column}: diese Klammer schließt nichts",
         help_en: "to write a brace, put a backslash before it",
         help_de: "soll eine Klammer ausgegeben werden, einen Backslash davorsetzen",
     }
-    /// A missing `}`.
+    /// A statement without its closing `}`.
     OPEN_BRACE: InvalidControlText {
         en: "{text}, line {line}, column {column}: a statement is not closed",
         de: "{text}, Zeile {line}, Spalte {column}: eine Anweisung ist nicht geschlossen",
     }
-    /// Unexpected content between a statement and its brace.
+    /// Further content in a statement that is already complete.
     STATEMENT_GOES_ON: InvalidControlText {
         en: "{text}, line {line}, column {column}: the statement should end here",
         de: "{text}, Zeile {line}, Spalte {column}: hier sollte die Anweisung enden",
     }
-    /// A statement with a paragraph sign.
+    /// A statement with the sign `§`, which is not supported.
     STATEMENT_UNKNOWN: InvalidControlText {
         en: "{text}, line {line}, column {column}: statements with \"§\" are not supported",
         de: "{text}, Zeile {line}, Spalte {column}: Anweisungen mit \"§\" werden nicht unterstützt",
         help_en: "no known manual describes them; write the text without them",
         help_de: "kein bekanntes Handbuch beschreibt sie; den Text ohne sie schreiben",
     }
-    /// A missing name after `=` or `!`.
+    /// A missing name of a variable after `=` or `!`.
     NAME_EXPECTED: InvalidControlText {
         en: "{text}, line {line}, column {column}: the name of a variable is expected here",
         de: "{text}, Zeile {line}, Spalte {column}: hier wird der Name einer Variablen erwartet",
         help_en: "it is written without tildes",
         help_de: "er wird ohne Tilden geschrieben",
     }
-    /// A missing statement.
+    /// A condition that lacks the statement of a branch.
     BRANCH_EXPECTED: InvalidControlText {
         en: "{text}, line {line}, column {column}: a statement in braces is expected here",
         de: "{text}, Zeile {line}, Spalte {column}: hier wird eine Anweisung in geschweiften Klammern erwartet",
     }
-    /// An unterminated file name.
+    /// The name of an inserted file that does not end with `*`.
     INSERTION_OPEN: InvalidControlText {
         en: "{text}, line {line}, column {column}: the name of the file to insert does not end with \"*\"",
         de: "{text}, Zeile {line}, Spalte {column}: der Name der einzufügenden Datei endet nicht mit \"*\"",
     }
-    /// A term that ends too early.
+    /// A term that ends where a value or `)` is expected.
     TERM_ENDS: InvalidControlText {
         en: "{text}, line {line}, column {column}: the term ends where a value or \")\" is expected",
         de: "{text}, Zeile {line}, Spalte {column}: der Ausdruck endet, wo ein Wert oder \")\" erwartet wird",
@@ -440,19 +440,19 @@ messages! {
         en: "{text}, line {line}, column {column}: \"{found}\" is not a number",
         de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" ist keine Zahl",
     }
-    /// A text where a number is needed.
+    /// A text in a term, where only numbers are permitted.
     TERM_IS_TEXT: InvalidControlText {
         en: "{text}, line {line}, column {column}: \"{found}\" is a text, not a number",
         de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" ist ein Text, keine Zahl",
         help_en: "write the variable outside of a statement, or in one with s",
         help_de: "die Variable außerhalb einer Anweisung schreiben oder in einer mit s",
     }
-    /// A term without a value, for example because of a division by zero.
+    /// A term whose value is not finite, for example because of a division by zero.
     TERM_NOT_FINITE: InvalidControlText {
         en: "{text}, line {line}, column {column}: the term has no value (a division by zero?)",
         de: "{text}, Zeile {line}, Spalte {column}: der Ausdruck hat keinen Wert (Division durch null?)",
     }
-    /// A bit operation on a fraction.
+    /// A bitwise operator or a binary format for a number that is not an integer.
     TERM_NOT_WHOLE: InvalidControlText {
         en: "{text}, line {line}, column {column}: only whole numbers have bits",
         de: "{text}, Zeile {line}, Spalte {column}: nur ganze Zahlen haben Bits",
@@ -464,7 +464,7 @@ messages! {
         help_en: "known functions: abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, and pi",
         help_de: "bekannte Funktionen: abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, und pi",
     }
-    /// A wrong number of arguments.
+    /// A function with a wrong number of arguments.
     TERM_ARGUMENTS: InvalidControlText {
         en: "{text}, line {line}, column {column}: {name} has the wrong number of arguments",
         de: "{text}, Zeile {line}, Spalte {column}: {name} hat die falsche Zahl von Argumenten",
@@ -474,14 +474,14 @@ messages! {
         en: "{text}, line {line}, column {column}: CAD6 accepts only one sign in front of a term",
         de: "{text}, Zeile {line}, Spalte {column}: CAD6 erlaubt nur ein Vorzeichen vor einem Ausdruck",
     }
-    /// Bit operations and comparisons of unknown precedence, as in `1 & 2 == 2`.
+    /// A bitwise operator beside a comparison, as in `1 & 2 == 2`, whose precedence is not documented.
     TERM_MIXED_BITS: DoubtfulControlText {
         en: "{text}, line {line}, column {column}: it is not documented whether & | ^ or the comparison is evaluated first",
         de: "{text}, Zeile {line}, Spalte {column}: ob zuerst & | ^ oder der Vergleich berechnet wird, ist nicht dokumentiert",
         help_en: "use parentheses",
         help_de: "Klammern setzen",
     }
-    /// A function, which is an extension.
+    /// A function in a term, which CAD6 may not support.
     TERM_EXTENSION: DoubtfulControlText {
         en: "{text}, line {line}, column {column}: functions are an extension of pathbuild; CAD6 may not know them",
         de: "{text}, Zeile {line}, Spalte {column}: Funktionen sind eine Erweiterung von pathbuild; CAD6 kennt sie vielleicht nicht",
@@ -521,35 +521,35 @@ messages! {
         help_en: "add Z with ~Z1~ to the text arc; if the control does not support helices, add it to the text line: the helix is then written as lines",
         help_de: "Z mit ~Z1~ in den Text arc aufnehmen; kennt die Steuerung keine Helix, in den Text line: die Helix wird dann in Strecken geschrieben",
     }
-    /// A text for something that programs do not contain.
+    /// A control text that no program needs.
     TEXT_NEVER_CALLED: InvalidControlText {
         en: "{text} is never called: programs contain nothing that needs it",
         de: "{text} wird nie aufgerufen: Programme enthalten nichts, wofür er da ist",
         help_en: "delete it: nothing that it writes gets into a program",
         help_de: "ihn löschen: was er schreibt, kommt in kein Programm",
     }
-    /// A text that is replaced by another and therefore never called.
+    /// A control text that is never called, because another one is called in its place.
     TEXT_NOT_CALLED: InvalidControlText {
         en: "{text} is never called, because the definition has {other}",
         de: "{text} wird nie aufgerufen, weil die Definition {other} hat",
         help_en: "delete one of the two; move words that switch spindle or coolant into texts that are called, such as tool-change and program-end",
         help_de: "einen der beiden löschen; Wörter, die Spindel oder Kühlung schalten, in Texte verschieben, die aufgerufen werden, etwa tool-change und program-end",
     }
-    /// A missing text.
+    /// A control text that the program needs but the definition lacks.
     NO_TEXT_FOR: InvalidControlText {
         en: "{operation} needs the text {text}, which the post does not have",
         de: "{operation} braucht den Text {text}, den der Postprozessor nicht hat",
         help_en: "add this text to the definition",
         help_de: "diesen Text in die Definition aufnehmen",
     }
-    /// Unknown dialect, without a suggestion.
+    /// An unknown dialect without a similar known one.
     DIALECT_UNKNOWN: InvalidPost {
         en: "there is no dialect {name}",
         de: "es gibt keinen Dialekt {name}",
         help_en: "valid dialects are {known}",
         help_de: "gültig sind {known}",
     }
-    /// Unknown dialect, with a suggestion.
+    /// An unknown dialect with a similar known one.
     DIALECT_UNKNOWN_NEAREST: InvalidPost {
         en: "there is no dialect {name}; valid ones are {known}",
         de: "es gibt keinen Dialekt {name}; gültig sind {known}",
@@ -617,7 +617,7 @@ messages! {
         en: "the program dwells for {seconds} s, but the output for {found} s",
         de: "das Programm verweilt {seconds} s, die Ausgabe aber {found} s",
     }
-    /// Note: a dwell that is not in the output.
+    /// Note: a dwell of the program that the output lacks.
     DWELL_LOST: PostDiffers {
         en: "the program dwells for {seconds} s here, but the rest of the output has no such dwell",
         de: "das Programm verweilt {seconds} s, diese Verweilzeit fehlt aber im Rest der Ausgabe",
@@ -632,7 +632,7 @@ messages! {
         en: "here the spindle turns in the direction opposite to the tool's `direction`",
         de: "hier dreht sich die Spindel entgegen der `direction` des Werkzeugs",
     }
-    /// Note: another spindle speed.
+    /// Note: the spindle turns at another speed.
     SPINDLE_OTHER_SPEED: PostDiffers {
         en: "the spindle speed is {found} here, but {expected} in the program",
         de: "die Drehzahl ist hier {found}, im Programm aber {expected}",
@@ -642,7 +642,7 @@ messages! {
         en: "the output makes this cut with T{found}, but the program with T{expected}",
         de: "die Ausgabe führt diesen Schnitt mit T{found} aus, das Programm aber mit T{expected}",
     }
-    /// Note: a cut before T, or before M6 if the post writes it.
+    /// Note: a cut before T selects a tool, or before M6 inserts it if the post writes M6.
     TOOL_NOT_SELECTED: PostDiffers {
         en: "the output has not changed to T{expected}, with which the program makes this cut",
         de: "die Ausgabe hat nicht auf T{expected} gewechselt, mit dem das Programm diesen Schnitt macht",
@@ -652,7 +652,7 @@ messages! {
         en: "the tool length in effect here is not that of T{expected}",
         de: "hier gilt nicht die Werkzeuglänge von T{expected}",
     }
-    /// Note: a laser beam that is on during a rapid move.
+    /// Note: the beam may be on during a rapid move.
     BEAM_ON: PostDiffers {
         en: "the beam is still on during this rapid move, and the post does not raise it: it writes no Z",
         de: "der Strahl ist während dieses Eilgangs noch an, und der Postprozessor hebt ihn nicht ab: er schreibt kein Z",
@@ -682,53 +682,53 @@ messages! {
         en: "this is {found} to {place} after the program's last cut",
         de: "nach dem letzten Schnitt des Programms folgt hier noch {found} nach {place}",
     }
-    /// Note: a different way between two cuts.
+    /// Note: a move between two cuts that the program does not contain and that may hit material.
     WAY_NOT_FREE: PostDiffers {
         en: "this is {found} from {from} to {to}; between these two cuts the program makes no such move, or only a higher one",
         de: "das ist {found} von {from} nach {to}; zwischen diesen beiden Schnitten macht das Programm keine solche Bewegung oder nur eine weiter oben",
     }
-    /// An M word or axis in a text without a dialect.
+    /// An M word or an axis whose meaning is unknown, because no dialect is named.
     WORD_NOT_FOLLOWED: DoubtfulPost {
         en: "the output contains {word}, whose effect is unknown without a dialect",
         de: "die Ausgabe enthält {word}, dessen Wirkung ohne Dialekt unbekannt ist",
         help_en: "name the dialect of the control in the definition, or with --dialect",
         help_de: "den Dialekt der Steuerung in der Definition oder mit --dialect nennen",
     }
-    /// Codes that are followed as in RS274 or DIN 66025.
+    /// A G or M code on whose meaning controls disagree, because no dialect is named.
     DIALECTS_DISAGREE: DoubtfulPost {
         en: "controls disagree on what {words} does, and no dialect is named",
         de: "was {words} bewirkt, ist von Steuerung zu Steuerung verschieden, und kein Dialekt ist genannt",
         help_en: "name the dialect of the control in the definition, or with --dialect",
         help_de: "den Dialekt der Steuerung in der Definition oder mit --dialect nennen",
     }
-    /// A work offset such as G55.
+    /// A work offset in the output, such as G55.
     OFFSET_CHOSEN: DoubtfulPost {
         en: "the output selects a work offset of the machine ({word}), which determines the position of the drawing's zero",
         de: "die Ausgabe wählt eine Nullpunktverschiebung der Maschine ({word}), die die Lage des Zeichnungsnullpunkts bestimmt",
     }
-    /// Note: the line of the unwritten output that contains the problem.
+    /// Note: the line of the output that contains the problem. The output is not written, so that no file contains it.
     IN_OUTPUT: PostDiffers {
         en: "in line {line} of the output",
         de: "in Zeile {line} der Ausgabe",
     }
-    /// Note: the section of the definition that wrote the line.
+    /// Note: the section and line of the definition that wrote the line of output.
     WRITTEN_BY_LINE: PostDiffers {
         en: "it is written by {section}, line {at} of the definition",
         de: "sie wird von {section} geschrieben, Zeile {at} der Definition",
     }
-    /// Note: the default section that wrote the line.
+    /// Note: the section whose default text wrote the line of output.
     WRITTEN_BY: PostDiffers {
         en: "it is written by the default text of {section}, which the definition does not contain",
         de: "sie wird vom vorgegebenen Text von {section} geschrieben, den die Definition nicht enthält",
     }
-    /// A program in several work offsets.
+    /// A program with several work offsets, to be written through a post.
     JOB_SYSTEM: NothingToPost {
         en: "a program in several coordinate systems cannot be written through a post",
         de: "ein Programm in mehreren Koordinatensystemen kann kein Postprozessor schreiben",
         help_en: "split it into one program for each work offset",
         help_de: "es in ein Programm je Nullpunktverschiebung teilen",
     }
-    /// A cut from an unknown position, for example after G91.
+    /// A cut from or to an unknown position, for example after G91, in a program to be written through a post.
     JOB_PLACE_UNKNOWN: NothingToPost {
         en: "a cut from or to an unknown position cannot be written through a post",
         de: "einen Schnitt von oder zu einer unbekannten Position kann kein Postprozessor schreiben",
@@ -756,21 +756,21 @@ messages! {
         help_en: "put a rapid move to a place above the material between the tool change and the next cut",
         help_de: "zwischen Werkzeugwechsel und nächstem Schnitt einen Eilgang über das Material setzen",
     }
-    /// G28, G30 or G53.
+    /// A move to a machine position (G28, G30 or G53), in a program to be written through a post.
     JOB_NAMED_PLACE: NothingToPost {
         en: "a move to a position that only the machine knows cannot be written through a post",
         de: "eine Bewegung an eine Position, die nur die Maschine kennt, kann kein Postprozessor schreiben",
         help_en: "remove the move, and put it into the texts of the post if the machine needs it",
         help_de: "die Bewegung entfernen und, wenn die Maschine sie braucht, in die Texte des Postprozessors schreiben",
     }
-    /// Arcs of several turns, or probing moves other than G38.2.
+    /// A move that cannot be written through a post: an arc of several turns, or a probing move away from the material.
     JOB_MOVE: NothingToPost {
         en: "a move of this kind (an arc of several turns, probing away from the material) cannot be written through a post",
         de: "eine Bewegung dieser Art (ein Bogen mit mehreren Umläufen, Antasten vom Material weg) kann kein Postprozessor schreiben",
         help_en: "write an arc of several turns as single turns; leave probing to a program of the machine's own",
         help_de: "einen Bogen mit mehreren Umläufen als einzelne Umläufe schreiben; das Antasten einem Programm der Maschine überlassen",
     }
-    /// A failed command after writing.
+    /// A command of a definition that failed, or that could not be run.
     POST_BUILD_FAILED: PostBuildFailed {
         en: "the post's command \"{command}\" failed: {reason}",
         de: "der Befehl \"{command}\" des Postprozessors ist fehlgeschlagen: {reason}",
@@ -791,7 +791,7 @@ messages! {
         help_en: "emit it without a post, measure, run `pathbuild adjust`, then `pathbuild post DRAWING_Milling.gcode --post POST`",
         help_de: "ohne Postprozessor ausgeben, messen, `pathbuild adjust` ausführen, dann `pathbuild post ZEICHNUNG_Milling.gcode --post POST`",
     }
-    /// A program with formulas that were not applied.
+    /// A program with correction formulas that were not applied, to be written through a post.
     POST_UNADJUSTED: UncorrectedHeights {
         en: "the program has correction formulas that have not been worked out: written through a post, its heights would stay uncorrected",
         de: "das Programm hat Korrekturformeln, die noch nicht ausgerechnet sind: über einen Postprozessor geschrieben blieben seine Höhen unkorrigiert",

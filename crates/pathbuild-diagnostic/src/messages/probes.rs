@@ -22,7 +22,7 @@ messages! {
         help_en: "enter the measured height in mm, with a decimal point or comma",
         help_de: "die gemessene Höhe in mm eintragen, mit Punkt oder Komma",
     }
-    /// A probe with two lines.
+    /// A probe for which the file of measured values has two lines.
     PROBE_TWICE: InvalidProbeLine {
         en: "#{probe} already occurs in line {first}",
         de: "#{probe} steht schon in Zeile {first}",
@@ -43,21 +43,21 @@ messages! {
         help_en: "probe again; remove lines of other probes or of earlier runs from the log",
         help_de: "noch einmal messen; aus dem Protokoll Zeilen entfernen, die von anderen Proben oder einem früheren Lauf sind",
     }
-    /// A malformed line of a log.
+    /// A line of a sender's log that is no probe result.
     BROKEN_LOG_LINE: InvalidProbeLine {
         en: "this line is not a probe result",
         de: "diese Zeile ist kein Messergebnis",
         help_en: "a result has the form [PRB:X,Y,Z:1]: measure again if the line was cut off, or remove it",
         help_de: "ein Ergebnis hat die Form [PRB:X,Y,Z:1]: noch einmal messen, wenn die Zeile abgeschnitten ist, oder sie entfernen",
     }
-    /// A log with another number of results.
+    /// A log whose number of results is not the number of probes.
     LOG_COUNT: InvalidProbeLine {
         en: "the log has {found} probe results, but {file} has {expected} probes",
         de: "das Protokoll hat {found} Messergebnisse, {file} aber {expected} Proben",
         help_en: "the log must have one result [PRB:X,Y,Z:1] for each probe, in the order of the probing run, and no other",
         help_de: "das Protokoll muss für jede Probe genau ein Ergebnis [PRB:X,Y,Z:1] enthalten, in der Reihenfolge des Antastprogramms, und kein anderes",
     }
-    /// A result of a log that was not measured at the place of its probe.
+    /// A result in a log that was measured at another position than that of its probe.
     LOG_ELSEWHERE: InvalidProbeLine {
         en: "this result was measured at {found}, but #{probe} is at {expected}, counted from the first probe",
         de: "dieses Ergebnis wurde bei {found} gemessen, #{probe} liegt aber, von der ersten Probe aus gezählt, bei {expected}",
@@ -78,28 +78,28 @@ messages! {
         help_en: "it lies far outside the probes: draw probes there, or allow more with --max-correction",
         help_de: "sie liegt weit außerhalb der Proben: dort Proben zeichnen oder mit --max-correction mehr erlauben",
     }
-    /// A formula with a probe that is missing from the file of measured values.
+    /// A formula that uses a probe which the file of measured values does not contain.
     UNKNOWN_PROBE: UnknownProbe {
         en: "the formula uses #{probe}, which {file} does not have",
         de: "die Formel verwendet #{probe}, das es in {file} nicht gibt",
         help_en: "both files must come from the same run of emit: emit again, and measure with the new program",
         help_de: "beide Dateien müssen vom selben emit stammen: noch einmal ausgeben und mit dem neuen Programm messen",
     }
-    /// A probe that is missing from the program.
+    /// A probe in the file of measured values that its program does not have.
     PROBE_OF_OTHER_PROGRAM: UnknownProbe {
         en: "{file} was written without a probe #{probe}",
         de: "{file} wurde ohne die Probe #{probe} geschrieben",
         help_en: "both files must come from the same run of emit: emit again, and measure with the new program",
         help_de: "beide Dateien müssen vom selben emit stammen: noch einmal ausgeben und mit dem neuen Programm messen",
     }
-    /// A probe at another position.
+    /// A probe in the program at another position than in the file of measured values.
     OTHER_PROBE: UnknownProbe {
         en: "#{probe} is {here} here, but {file} was written with {there}",
         de: "#{probe} ist hier {here}, aber {file} wurde mit {there} geschrieben",
         help_en: "the drawing has changed since; emit again, and measure with the new program",
         help_de: "die Zeichnung hat sich seither geändert; noch einmal ausgeben und mit dem neuen Programm messen",
     }
-    /// A probe with an unknown expected height, because its line has an older form and no formula gives it.
+    /// A probe whose expected height is unknown, because its line has an older form and no formula contains the height.
     NO_EXPECTED_HEIGHT: InvalidProbeLine {
         en: "neither this line nor a formula says how high #{probe} was drawn, so its value cannot be checked",
         de: "weder diese Zeile noch eine Formel sagt, in welcher Höhe #{probe} gezeichnet ist; der Wert lässt sich nicht prüfen",
@@ -148,21 +148,21 @@ messages! {
         help_en: "it was damaged or edited: emit again and use the new program",
         help_de: "sie wurde beschädigt oder bearbeitet: noch einmal ausgeben und das neue Programm verwenden",
     }
-    /// A result that is too large.
+    /// A formula whose value is too large for a number.
     NOT_FINITE: InvalidFormula {
         en: "the formula's value is too large for a number",
         de: "der Wert der Formel ist zu groß für eine Zahl",
         help_en: "it was damaged or edited: emit again and use the new program",
         help_de: "sie wurde beschädigt oder bearbeitet: noch einmal ausgeben und das neue Programm verwenden",
     }
-    /// A program that was adjusted already.
+    /// A program that is already adjusted.
     ADJUSTED_BEFORE: InvalidFormula {
         en: "this program has been adjusted already",
         de: "dieses Programm ist schon angepasst",
         help_en: "adjust starts from _Clean.gcode as emit wrote it: emit again, or fetch the original file",
         help_de: "adjust geht von der _Clean.gcode aus, wie emit sie geschrieben hat: noch einmal ausgeben oder die ursprüngliche Datei holen",
     }
-    /// Measured values that would be overwritten.
+    /// A file with measured values of other probes, which would be overwritten.
     VALUES_PRESENT: ProbeValuesPresent {
         en: "{name} contains measured values that belong to other probes",
         de: "{name} enthält gemessene Werte, die zu anderen Proben gehören",
@@ -183,21 +183,21 @@ messages! {
         help_en: "measure this probe again; if the value is right, nothing needs to be done",
         help_de: "diese Probe noch einmal messen; wenn der Wert stimmt, ist nichts zu tun",
     }
-    /// A measured height without an effect.
+    /// A measured height that no formula uses.
     UNUSED: UnusedProbe {
         en: "no formula in {file} uses #{probe}",
         de: "keine Formel in {file} verwendet #{probe}",
         help_en: "the formulas were removed or changed: emit again and use the new program. If the probe lies too far from everything that is milled, remove it from the drawing",
         help_de: "die Formeln wurden entfernt oder geändert: noch einmal ausgeben und das neue Programm verwenden. Liegt die Probe zu weit von allem, was gefräst wird, sie aus der Zeichnung entfernen",
     }
-    /// A probe without an effect, found while writing the program.
+    /// A probe that corrects no height, reported when the program is written.
     WILL_BE_UNUSED: UnusedProbe {
         en: "the probe {probe} corrects no height of this path",
         de: "die Probe {probe} korrigiert keine Höhe dieses Pfads",
         help_en: "others lie nearer to everything that is milled: remove the probe, or move it nearer",
         help_de: "andere liegen näher an allem, was gefräst wird: die Probe entfernen oder näher heran setzen",
     }
-    /// A program that was edited.
+    /// A program that was edited after `emit` had written it.
     EDITED_PROGRAM: OldProgram {
         en: "{name} is not what emit writes for {drawing}",
         de: "{name} ist nicht das, was emit für {drawing} schreibt",
@@ -227,7 +227,7 @@ messages! {
     }
 }
 
-/// A word for [`ODD`].
+/// Direction in which a probe differs, for [`ODD`].
 pub static HIGHER: crate::Text = crate::Text { en: "higher", de: "höher" };
-/// A word for [`ODD`].
+/// Direction in which a probe differs, for [`ODD`].
 pub static LOWER: crate::Text = crate::Text { en: "lower", de: "niedriger" };

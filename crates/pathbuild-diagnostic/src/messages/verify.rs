@@ -1,14 +1,14 @@
 //! Messages about verifying G-code. (PB739 to PB781; book: program/reading)
 
 messages! {
-    /// `verify --against`: no T word before the first cut.
+    /// `verify --against`: no T word selects the tool before the first cut.
     TOOL_NOT_CHOSEN: MovesDiffer {
         en: "the tool is not chosen before the first cut: the drawing's program says {expected}",
         de: "das Werkzeug ist vor der ersten Fräsbewegung nicht gewählt: das Programm der Zeichnung sagt {expected}",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: a missing mode such as `G54` in the header.
+    /// `verify --against`: a mode such as `G54` that is missing before the first move.
     MODE_MISSING: MovesDiffer {
         en: "{word} is missing before the first move: the control may keep what the previous program set",
         de: "{word} fehlt vor der ersten Bewegung: die Steuerung behält womöglich, was das vorige Programm gesetzt hat",
@@ -85,21 +85,21 @@ messages! {
         help_en: "write the program again with `pathbuild emit`, or correct `number` in [tool.NAME]",
         help_de: "das Programm mit `pathbuild emit` neu schreiben oder `number` in [tool.NAME] berichtigen",
     }
-    /// `verify --against`, of a definition that writes words that are not followed.
+    /// `verify --against`: a line with words of unknown effect, which the post's definition does not write.
     LINE_NOT_WRITTEN: MovesDiffer {
         en: "the definition writes \"{expected}\" here, and this program something else, with words whose effect is unknown",
         de: "die Definition schreibt hier \"{expected}\", dieses Programm aber etwas anderes, mit Wörtern unbekannter Wirkung",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`, with an unchecked definition.
+    /// `verify --against`: moves that were not compared, because the definition is marked as unchecked.
     MOVES_NOT_COMPARED: DoubtfulPost {
         en: "the moves were not compared with path {path}: with unchecked = true, it is unknown whether the output of {post} mills the drawing",
         de: "die Bewegungen wurden nicht mit dem Pfad {path} verglichen: mit unchecked = true ist nicht bekannt, ob die Ausgabe von {post} die Zeichnung fräst",
         help_en: "remove `unchecked` in pathbuild.toml and emit the program again, or check its moves by hand",
         help_de: "`unchecked` in der pathbuild.toml entfernen und das Programm neu ausgeben, oder seine Bewegungen selbst prüfen",
     }
-    /// `verify --against`: O.
+    /// `verify --against`: another program number (O).
     NUMBERS_DIFFER: MovesDiffer {
         en: "the program's number is O{found}, but the drawing's is O{expected}: on the control, O{found} may be another program",
         de: "die Programmnummer ist O{found}, für die Zeichnung ist sie O{expected}: in der Steuerung kann O{found} ein anderes Programm sein",
@@ -120,7 +120,7 @@ messages! {
         help_en: "write the program again with `pathbuild emit`, or correct [tool.NAME]",
         help_de: "das Programm mit `pathbuild emit` neu schreiben oder [tool.NAME] berichtigen",
     }
-    /// `verify --against`: a dwell after M3 that is missing or too short.
+    /// `verify --against`: a cut too soon after the spindle was switched on, because the dwell is missing or too short.
     SPUN_UP_TOO_SHORT: MovesDiffer {
         en: "the tool cuts less than {seconds} s after the spindle was switched on",
         de: "das Werkzeug fräst weniger als {seconds} s, nachdem die Spindel eingeschaltet wurde",
@@ -134,21 +134,21 @@ messages! {
         help_en: "drill and mill with G01 and a feed",
         help_de: "mit G01 und einem Vorschub bohren und fräsen",
     }
-    /// `G28` while the tool is below the surface.
+    /// A move to a machine position, such as `G28`, while the tool is below the surface of the material.
     HOME_FROM_DEPTH: RapidInMaterial {
         en: "a rapid move from Z {z} to a fixed position of the machine: the material reaches up to Z {surface}",
         de: "ein Eilgang ab Z {z} zu einer festen Position der Maschine: das Material reicht bis Z {surface}",
         help_en: "raise the tool above the material first",
         help_de: "das Werkzeug zuerst über das Material heben",
     }
-    /// `M3 S0`.
+    /// A cut with the spindle on at speed 0 (`M3 S0`).
     SPINDLE_AT_ZERO: SpindleOff {
         en: "this is a cutting move with the spindle at speed 0",
         de: "das ist eine Fräsbewegung bei Spindeldrehzahl 0",
         help_en: "write the speed with S: `M3 S12000`",
         help_de: "die Drehzahl mit S angeben: `M3 S12000`",
     }
-    /// A spindle that is switched on by a program without S. Many controls then take the speed of the program before.
+    /// A cut with the spindle on before any S word. Many controls then use the speed of the previous program.
     SPINDLE_WITHOUT_SPEED: SpindleOff {
         en: "this is a cutting move at an unknown spindle speed: the program has no S before it, so the control takes the last one, or 0",
         de: "das ist eine Fräsbewegung mit unbekannter Drehzahl: das Programm nennt vorher kein S, die Steuerung nimmt daher das letzte oder 0",
@@ -162,35 +162,35 @@ messages! {
         help_en: "write G92.1, or G52 X0 Y0 Z0, before the end",
         help_de: "vor dem Ende G92.1 schreiben oder G52 X0 Y0 Z0",
     }
-    /// A number that differs from its formula. The machine uses the number.
+    /// A height that differs from the value of its formula. The machine uses the height.
     FORMULA_DIFFERS: FormulaDiffers {
         en: "the machine goes to {number}, but the formula comes to {value}",
         de: "die Maschine fährt auf {number}, die Formel ergibt aber {value}",
         help_en: "the program was edited: emit again, and adjust it again",
         help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
     }
-    /// A formula that differs from that of the drawing.
+    /// A formula that differs from that in the drawing's program.
     FORMULA_NOT_DRAWN: FormulaDiffers {
         en: "the formula is {found}, the drawing gives {expected}",
         de: "die Formel ist {found}, die Zeichnung ergibt {expected}",
         help_en: "the program was edited, or written with another --z-model: emit and adjust it again",
         help_de: "das Programm wurde bearbeitet oder mit einem anderen --z-model geschrieben: noch einmal ausgeben und anpassen",
     }
-    /// A probe that differs from that of the drawing.
+    /// A probe that differs from that in the drawing's program.
     PROBE_NOT_DRAWN: FormulaDiffers {
         en: "the program states the probe {found}, the drawing gives {expected}",
         de: "das Programm nennt die Probe {found}, die Zeichnung ergibt {expected}",
         help_en: "emit again and measure with the new program",
         help_de: "noch einmal ausgeben und mit dem neuen Programm messen",
     }
-    /// A formula with a probe that the header does not list.
+    /// A formula with a probe that the program's header does not list.
     PROBE_NOT_STATED: UncheckedFormula {
         en: "the formula uses #{probe}, which the program's header does not state",
         de: "die Formel verwendet #{probe}, das der Kopf des Programms nicht nennt",
         help_en: "the program was edited: emit again, and adjust it again",
         help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
     }
-    /// A formula that was applied without a measured height in the header.
+    /// A formula that was applied, although the program's header does not list a measured height for it.
     HEIGHT_NOT_MEASURED: UncheckedFormula {
         en: "the formula has been worked out, but the program's header does not state the measured height of #{probe}",
         de: "die Formel ist ausgerechnet, der Kopf des Programms nennt aber keine gemessene Höhe von #{probe}",
@@ -274,35 +274,35 @@ messages! {
         help_en: "correct the wrong value; until then, the check of rapid moves assumes material up to the higher one",
         help_de: "den falschen Wert berichtigen; bis dahin rechnet die Prüfung der Eilgänge mit Material bis zum höheren",
     }
-    /// Plunges of a native program that begin to cut at another height than that of an option.
+    /// Plunges of a native program that begin to cut at another height than the surface given by an option.
     PLUNGES_ABOVE_SURFACE: Disagreement {
         en: "plunges of this program begin to cut at Z {found}, but according to --surface the material begins at {given}",
         de: "beim Eintauchen beginnt das Fräsen in diesem Programm bei Z {found}, laut --surface liegt die Oberfläche bei {given}",
         help_en: "correct the wrong value; until then, the check of rapid moves assumes material up to the higher one",
         help_de: "den falschen Wert berichtigen; bis dahin rechnet die Prüfung der Eilgänge mit Material bis zum höheren",
     }
-    /// A check that is required and was not made.
+    /// A check that `--require` names but that was not made.
     CHECK_NOT_MADE: UnmadeCheck {
         en: "the required check `{check}` was not made: {reason}",
         de: "die verlangte Prüfung `{check}` fand nicht statt: {reason}",
         help_en: "needed: {option}",
         help_de: "nötig: {option}",
     }
-    /// A required check of rapid moves, some of which cannot be judged.
+    /// A check of rapid moves that `--require` names but that is incomplete.
     CHECK_INCOMPLETE: UnmadeCheck {
         en: "the required check `{check}` is incomplete: rapid moves below the material's surface begin at unknown positions, so their route is unknown; number of moves: {count}, the first in line {line}",
         de: "die verlangte Prüfung `{check}` ist unvollständig: Eilgänge unter die Oberfläche des Materials beginnen an unbekannter Stelle, und ihr Weg ist daher unbekannt; Anzahl: {count}, der erste in Zeile {line}",
         help_en: "go to X and Y above the material first, then down",
         help_de: "zuerst über dem Material nach X und Y fahren, dann hinunter",
     }
-    /// Two comments that describe a tool differently.
+    /// Two comments that describe a numbered tool differently.
     TOOL_STATED_TWICE: HeaderContradiction {
         en: "comments describe T{number} with {one} mm and with {other} mm, or with different tips",
         de: "Kommentare beschreiben T{number} mit {one} mm und mit {other} mm oder mit verschiedenen Spitzen",
         help_en: "find out which tool is meant; until then, the check of rapid moves clears material with the smaller one",
         help_de: "klären, welches Werkzeug gemeint ist; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren",
     }
-    /// The same for a tool without a number.
+    /// Two comments that describe a tool without a number differently.
     CURRENT_TOOL_STATED_TWICE: HeaderContradiction {
         en: "comments describe the tool with {one} mm and with {other} mm, or with different tips",
         de: "Kommentare beschreiben das Werkzeug mit {one} mm und mit {other} mm oder mit verschiedenen Spitzen",
@@ -358,7 +358,7 @@ messages! {
         help_en: "raise the cutter first; if the material does not reach there, `--surface` gives its height, for an exact check",
         help_de: "den Fräser vorher anheben; reicht das Material nicht bis dorthin, gibt `--surface` seine Höhe für eine genaue Prüfung an",
     }
-    /// The same where the cutter is unknown.
+    /// A rapid move in the plane at cutting depth, where neither the surface of the material nor the cutter is known.
     RAPID_FAR_FROM_CUTS: RapidAtDepth {
         en: "a rapid move at Z {z} past {point}, where no cutter of up to {widest} mm can have cut to that depth: the program cuts as deep just before or after it, so there is probably material",
         de: "ein Eilgang auf Z {z} über {point}, wo kein Fräser bis {widest} mm so tief gefräst haben kann: davor oder danach fräst das Programm so tief, also steht dort wahrscheinlich Material",
@@ -372,7 +372,7 @@ messages! {
         help_en: "go to a position in X and Y with G90 first, and check whether G91 is intended",
         help_de: "zuerst mit G90 eine Position in X und Y anfahren und prüfen, ob G91 gemeint ist",
     }
-    /// A cut after G28, G30 or G53 at a height counted from there.
+    /// A cut at a height that is relative to a machine position, because Z was not stated after G28, G30 or G53.
     HEIGHT_OF_MACHINE: UnknownPosition {
         en: "this cut is at a height that is counted from a machine position: since G28, G30 or G53, the program has not stated Z",
         de: "die Höhe dieses Schnitts zählt von einer Maschinenposition aus: seit G28, G30 oder G53 hat das Programm kein Z angegeben",
@@ -386,14 +386,14 @@ messages! {
         help_en: "go down with G1 and a feed (stock known to within {resolution} mm)",
         help_de: "mit G1 und einem Vorschub hinunterfahren (Material auf {resolution} mm genau bekannt)",
     }
-    /// A first move in the plane before retracting.
+    /// A program whose first move is in the plane, before the cutter is raised.
     START_NOT_RAISED: StartNotRaised {
         en: "the program moves in the plane before it raises the cutter",
         de: "das Programm fährt in der Ebene, bevor es den Fräser anhebt",
         help_en: "begin with G0 Z above the material",
         help_de: "mit G0 Z über dem Material beginnen",
     }
-    /// A first move in the plane that raises or lowers the cutter at the same time.
+    /// A program whose first move in the plane also changes the height.
     START_ASLANT: StartNotRaised {
         en: "the first move in the plane also changes the height, which is unknown before it: on its way, the cutter may hit material or clamps",
         de: "die erste Bewegung in der Ebene ändert zugleich die Höhe, die vorher unbekannt ist: unterwegs kann der Fräser Material oder Spannmittel treffen",
@@ -449,14 +449,14 @@ messages! {
         help_en: "set the post-processor to three or more: the ends and centres of rounded arcs do not match",
         help_de: "den Postprozessor auf drei oder mehr einstellen: die Enden und Mittelpunkte gerundeter Bögen passen nicht zusammen",
     }
-    /// A sideways move after probing without retracting.
+    /// A move in the plane straight after probing, before the tool is retracted.
     PROBE_NOT_RAISED: ProbeNotRaised {
         en: "the tool moves sideways while it still touches what it probed",
         de: "das Werkzeug fährt zur Seite, während es noch berührt, was es angetastet hat",
         help_en: "raise it first: G0 Z",
         help_de: "es vorher anheben: G0 Z",
     }
-    /// A rapid move further down after a probe has made contact.
+    /// A rapid move down beyond the point at which a probe made contact.
     RAPID_BELOW_CONTACT: ProbeNotRaised {
         en: "this rapid move ends {below} mm below the end of the probing move before it, in what the tool has touched",
         de: "dieser Eilgang endet {below} mm unter dem Ende der Antastbewegung davor, in dem, was das Werkzeug berührt hat",
@@ -484,7 +484,7 @@ messages! {
         help_en: "the control slows down, and times are longer; change F, or the rate under [machine]",
         help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern oder die Geschwindigkeit unter [machine]",
     }
-    /// A feed that exceeds the limit of the machine.
+    /// A feed that exceeds the maximum feed of the machine.
     FEED_ABOVE_MOST: FeedTooHigh {
         en: "feed {feed} mm/min exceeds the machine's maximum of {most}",
         de: "der Vorschub {feed} mm/min überschreitet das Maximum der Maschine von {most}",
@@ -512,42 +512,42 @@ messages! {
         help_en: "raise the cutter before M6",
         help_de: "den Fräser vor M6 anheben",
     }
-    /// A tool change by hand, with T and M0.
+    /// A manual tool change (M0 after T) while the spindle turns.
     SPINNING_AT_CHANGE: SpinningAtChange {
         en: "the spindle still turns where the program stops for the tool change",
         de: "die Spindel dreht sich noch, wo das Programm zum Werkzeugwechsel anhält",
         help_en: "switch it off with M5 before M0",
         help_de: "sie vor M0 mit M5 ausschalten",
     }
-    /// A cut after M6 without G43.
+    /// A cut after M6 that still uses the length of the previous tool.
     LENGTH_BEFORE_CHANGE: WrongToolLength {
         en: "this cut still has the tool length that line {set} set before {change} changed the tool",
         de: "für diesen Schnitt gilt noch die Werkzeuglänge, die Zeile {set} vor dem Werkzeugwechsel {change} gesetzt hat",
         help_en: "set the length of the new tool after the change, such as `G43 H2` for T2",
         help_de: "nach dem Wechsel die Länge des neuen Werkzeugs setzen, etwa `G43 H2` für T2",
     }
-    /// A cut after G49.
+    /// A cut without a tool length, because G49 switched it off.
     LENGTH_SWITCHED_OFF: WrongToolLength {
         en: "this cut has no tool length: line {set} switched it off, but line {first} had applied one",
         de: "für diesen Schnitt gilt keine Werkzeuglänge: Zeile {set} hat sie ausgeschaltet, Zeile {first} hatte aber eine gesetzt",
         help_en: "leave the length on up to the last cut, or set it again with G43 H",
         help_de: "die Länge bis zum letzten Schnitt gelten lassen oder mit G43 H wieder setzen",
     }
-    /// A cut before the first G43.
+    /// A cut before the first G43, although later cuts use a tool length.
     LENGTH_OF_FIRST_TOOL: WrongToolLength {
         en: "T{tool} cuts without a tool length, but line {first} applies one to a later cut",
         de: "T{tool} schneidet ohne Werkzeuglänge, Zeile {first} setzt aber eine für einen späteren Schnitt",
         help_en: "set the length of T{tool} after M6, such as `G43 H{tool}`; if all lengths are measured from T{tool}, accept this warning with `--accept`",
         help_de: "nach M6 die Länge von T{tool} setzen, etwa `G43 H{tool}`; werden alle Längen von T{tool} aus gemessen, die Warnung mit `--accept` hinnehmen",
     }
-    /// `G43 H2` for T1, where T2 cuts with H2 as well.
+    /// A cut with the length of another tool of the program: `G43 H2` for T1 where T2 exists as well.
     LENGTH_OF_OTHER_TOOL: WrongToolLength {
         en: "T{tool} cuts with the length H{entry}, which is that of T{entry} in this program",
         de: "T{tool} schneidet mit der Länge H{entry}, die in diesem Programm zu T{entry} gehört",
         help_en: "write H{tool}",
         help_de: "H{tool} schreiben",
     }
-    /// `G43 H2` for T1.
+    /// A cut with a length whose number differs from that of the tool: `G43 H2` for T1.
     LENGTH_OF_OTHER_NUMBER: WrongToolLength {
         en: "T{tool} cuts with the length H{entry}: the numbers differ",
         de: "T{tool} schneidet mit der Länge H{entry}: die Nummern sind verschieden",
@@ -564,7 +564,7 @@ messages! {
         en: "the moves differ: this one and the one in line {line} of the other program have the same ends, but different routes between them",
         de: "die Bewegungen unterscheiden sich: diese und die in Zeile {line} des anderen Programms haben dieselben Enden, aber nicht denselben Weg dazwischen",
     }
-    /// `diff`: a rapid move and a cut.
+    /// `diff`: a rapid move in one program and a cut in the other.
     KINDS_DIFFER: MovesDiffer {
         en: "the moves differ: this is {found}, but in line {line} of the other program it is {expected}",
         de: "die Bewegungen unterscheiden sich: das ist {found}, in Zeile {line} des anderen Programms aber {expected}",
