@@ -375,6 +375,39 @@ fn line_numbers_begin_with_no_other_word() {
     }
 }
 
+/// `X10` may be 10 mm or 0.01 mm on these controls.
+#[test]
+fn numbers_have_a_point_where_the_control_may_need_it() {
+    let with_format = |post: &str, format: &str, head: &str| {
+        let text = library("").run(&format!("post show {post}")).stdout;
+        let (before, rest) = text.split_once("<NumberFormat>").unwrap();
+        let (_, after) = rest.split_once("</NumberFormat>").unwrap();
+        let text = format!("{before}<NumberFormat>{format}</NumberFormat>{after}");
+        library(head).file("mine.cbpp", text)
+    };
+    let emit = |post: &str, format: &str| {
+        with_format(post, format, "").run("emit 1234.1P --post mine.cbpp --format concise")
+    };
+    for post in ["fanuc", "haas"] {
+        assert_eq!(emit(post, "0.0##").status, Some(0), "{post}");
+        for format in ["0.###", "#.###"] {
+            let refused = emit(post, format);
+            assert_eq!(refused.status, Some(1), "{refused}");
+            assert_eq!(refused.stderr.matches("error[").count(), 1, "{refused}");
+            assert!(
+                refused.stderr.contains(&format!("mine.cbpp:8: error[PB750] NumberFormat is \"{format}\"")),
+                "{refused}"
+            );
+        }
+    }
+    assert_eq!(emit("linuxcnc", "0.###").status, Some(0));
+    let unchecked = with_format("fanuc", "0.###", "post.unchecked = true");
+    assert_eq!(unchecked.run("emit 1234.1P --post mine.cbpp").status, Some(0));
+    let verified =
+        unchecked.run("verify 1234_Milling.nc --against 1234.1P --post mine.cbpp --format concise");
+    assert!(verified.stderr.contains("warning[PB707]"), "{verified}");
+}
+
 /// If the words of a post are unknown, its programs are compared byte for byte.
 #[test]
 fn a_program_that_cannot_be_read_is_compared_as_it_is() {

@@ -146,6 +146,9 @@ impl PostDefinition {
         job.check().map_err(|error| vec![*error])?;
         self.check_spindle(job, options).map_err(|error| vec![*error])?;
         let target = self.target(options)?;
+        if !options.unchecked {
+            self.check_points(target.as_ref()).map_err(|error| vec![*error])?;
+        }
         let options = &self.within(options, target.as_ref());
         let target = target.as_ref();
         let EngineOutput { text, shadow, origins, warnings, notes, post_build } = match &self.engine {
@@ -247,6 +250,16 @@ impl PostDefinition {
             }
             None => Ok(()),
         }
+    }
+
+    /// Checks that whole numbers get a decimal point if the target may read them as thousandths without one.
+    fn check_points(&self, target: Option<&Target>) -> Result<(), Box<Diagnostic>> {
+        let Some(target) = target.filter(|target| target.needs_points()) else { return Ok(()) };
+        let Engine::CamBam(definition) = &self.engine else { return Ok(()) };
+        let Some((pattern, line)) = definition.format_without_point() else { return Ok(()) };
+        let problem = Diagnostic::new(&posts::PATTERN_WITHOUT_POINT).quoting("value", pattern);
+        let problem = problem.quoting("dialect", target.reader.name());
+        Err(Box::new(problem.in_file(&self.file).at_line(line, None)))
     }
 
     /// Returns the control that the output is for, or `None` if neither the options nor the definition name a dialect.

@@ -30,6 +30,11 @@ impl NumberFormat {
         u8::try_from(self.most).unwrap_or(u8::MAX)
     }
 
+    /// Whether every number gets a decimal point, whole ones too.
+    pub(crate) fn always_has_point(self) -> bool {
+        self.least > 0
+    }
+
     /// Formats a number. Zero never has a minus sign.
     pub(crate) fn format(self, value: f64) -> String {
         let digits = digits(value, self.most);

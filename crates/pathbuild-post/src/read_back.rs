@@ -55,6 +55,12 @@ pub(super) fn check(
     if !problems.is_empty() && target.is_some() {
         return if tolerance.is_some() { Err(problems) } else { Ok(Vec::new()) };
     }
+    if tolerance.is_some() && target.is_some() {
+        problems.extend(without_point(&read.problems));
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+    }
     problems = if tolerance.is_some() { ambiguous::errors(&read.problems, text) } else { Vec::new() };
     let (mut broken, mut doubts) = broken_rules(&read.steps, job, *machine);
     if target.is_none() && (tolerance.is_none() || !is_started(&read.steps)) {
@@ -104,6 +110,11 @@ pub(super) fn check(
     }
     problems.extend(broken);
     if problems.is_empty() { Ok(doubts) } else { Err(problems) }
+}
+
+/// The first length without a decimal point, if the reader may take it for thousandths. One finding stands for all words.
+fn without_point(problems: &[Diagnostic]) -> Option<Diagnostic> {
+    problems.iter().find(|problem| problem.message == &gcode::NO_DECIMAL_POINT).cloned().map(as_post_s)
 }
 
 /// Permitted deviation of dwells in seconds: half a millisecond and a margin for rounding.

@@ -44,6 +44,11 @@ impl Target {
         self.rules.words.has_m(30)
     }
 
+    /// Whether some controls read lengths without a decimal point as thousandths.
+    pub(super) fn needs_points(&self) -> bool {
+        self.rules.least_increments
+    }
+
     /// Returns the length of the mark that opens a comment at the beginning of a text, and the mark that closes the comment; an empty one
     /// if the comment extends to the end of the line. `None` if no comment begins there.
     pub(super) fn comment_marks(&self, text: &str) -> Option<(usize, &'static str)> {

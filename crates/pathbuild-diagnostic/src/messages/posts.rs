@@ -22,6 +22,13 @@ messages! {
         help_en: "write three decimals, such as NumberFormat 0.0## or decimals = 3",
         help_de: "drei Nachkommastellen schreiben, etwa NumberFormat 0.0## oder decimals = 3",
     }
+    /// A number format without a digit after the point, for a target that may read whole numbers as thousandths.
+    PATTERN_WITHOUT_POINT: InvalidPost {
+        en: "NumberFormat is \"{value}\", which writes whole numbers without a decimal point: some {dialect} controllers read them as thousandths",
+        de: "NumberFormat ist \"{value}\" und schreibt ganze Zahlen ohne Dezimalpunkt: manche Steuerungen mit {dialect} lesen sie als Tausendstel",
+        help_en: "put a 0 after the point, such as 0.0##",
+        help_de: "eine 0 hinter den Punkt setzen, etwa 0.0##",
+    }
     /// A macro without `$`, such as `{units}`.
     MACRO_WITHOUT_SIGN: UnknownMacro {
         en: "{macro} in {section} would be written literally",

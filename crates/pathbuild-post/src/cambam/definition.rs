@@ -26,6 +26,8 @@ pub(crate) struct Definition {
     sections: Vec<Option<Template>>,
     defaults: Vec<Template>,
     pub(super) options: Options,
+    /// The text of `NumberFormat` and its line, if the file contains it.
+    number_format: Option<(Box<str>, u32)>,
     /// The user macros in the element `PostProcessorMacros`.
     pub(super) macros: UserMacros,
 }
@@ -141,6 +143,12 @@ impl Definition {
         self.options.number_format.most_decimals()
     }
 
+    /// The text of `NumberFormat` and its line, if numbers may lack a decimal point.
+    pub(crate) fn format_without_point(&self) -> Option<(&str, u32)> {
+        let (text, line) = self.number_format.as_ref()?;
+        (!self.options.number_format.always_has_point()).then_some((text, *line))
+    }
+
     /// Maximum distance in mm between an arc and the lines that replace it.
     pub(crate) fn chord(&self, units: Units) -> f64 {
         self.options.arc_tolerance * units.millimetres()
@@ -201,6 +209,7 @@ impl<'a> CbppReader<'a> {
             sections: vec![None; Section::ALL.len()],
             defaults: Section::ALL.iter().map(default).collect(),
             options: Options::initial(),
+            number_format: None,
             macros: UserMacros::default(),
         };
         Self { file, lines, definition, seen: HashSet::new(), findings: Findings::default() }
@@ -294,6 +303,9 @@ impl<'a> CbppReader<'a> {
     }
 
     fn option(&mut self, name: &str, text: &str, line: u32) {
+        if name == "NumberFormat" {
+            self.definition.number_format = Some((text.trim().into(), line));
+        }
         match self.definition.options.set(name, text) {
             Ok(()) if name == "NumberFormat" && self.definition.decimals() < FEWEST_DECIMALS => {
                 let decimals = u64::from(self.definition.decimals());

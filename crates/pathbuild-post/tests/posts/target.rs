@@ -268,6 +268,24 @@ fn what_moves_otherwise_than_the_program_is_not_written() {
     );
 }
 
+/// A number that the definition itself contains.
+#[test]
+fn literal_lengths_have_a_point_where_the_control_may_need_it() {
+    let written = |target: &str, length: &str| {
+        let text = format!(
+            "<PostFile>{{$mops}}</PostFile><MOP>G0 Z{length}\nG0 Z6.0\n{{$blocks}}</MOP><Dialect>{target}</Dialect>"
+        );
+        let post = read(&definition(&text)).unwrap();
+        let steps = vec![feed(0.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)];
+        post.write(&job(steps), &PostOptions::default()).map(drop).map_err(|errors| errors.len())
+    };
+    for target in ["fanuc", "haas"] {
+        assert_eq!(written(target, "20."), Ok(()));
+        assert_eq!(written(target, "20"), Err(1), "{target}");
+    }
+    assert_eq!(written("linuxcnc", "20"), Ok(()));
+}
+
 /// Writes a cut to X10 at the speed of a tool, with these texts before and after it, for LinuxCNC on a machine.
 fn run_on(machine: Machine, before: &str, behind: &str) -> Result<(), Vec<String>> {
     let text = format!(
@@ -397,7 +415,7 @@ fn dwells_are_compared() {
     };
     let written = |dialect: &str, dwell: &str, seconds| {
         let text = format!(
-            "<PostFile>G21 G90 G17 G94\nG0 Z5\n{{$mops}}\nM30</PostFile><MOP>{{$blocks}}</MOP><Dwell>{dwell}</Dwell>{}",
+            "<PostFile>G21 G90 G17 G94\nG0 Z5.0\n{{$mops}}\nM30</PostFile><MOP>{{$blocks}}</MOP><Dwell>{dwell}</Dwell>{}",
             self::dialect(dialect)
         );
         read(&definition(&text)).unwrap().write(&job(seconds), &PostOptions::default())
@@ -428,7 +446,7 @@ fn dwells_of_texts_without_a_dialect_are_compared() {
     };
     let written = |dwell: &str, seconds| {
         let text = format!(
-            "<PostFile>G21 G90 G17 G94\nG0 Z5\n{{$mops}}\nM30</PostFile><MOP>{{$blocks}}</MOP><Dwell>{dwell}</Dwell>"
+            "<PostFile>G21 G90 G17 G94\nG0 Z5.0\n{{$mops}}\nM30</PostFile><MOP>{{$blocks}}</MOP><Dwell>{dwell}</Dwell>"
         );
         read(&definition(&text)).unwrap().write(&job(steps(seconds)), &PostOptions::default())
     };

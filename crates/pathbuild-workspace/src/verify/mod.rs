@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use against::{ReferenceProgram, RewrittenProgram};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_diagnostic::messages::gcode::FEED_IGNORED;
+use pathbuild_diagnostic::messages::gcode::{FEED_IGNORED, NO_DECIMAL_POINT};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{Header, HeaderReader};
@@ -477,7 +477,7 @@ impl<'v> Examination<'v> {
         if rewritten.is_some_and(RewrittenProgram::is_same) {
             // Doubts about the words of a definition are reported when it writes them.
             let is_own = self.program.by_definition.is_none();
-            doubts.retain(|doubt| doubt.is_error() && is_own || is_of_modes(doubt));
+            doubts.retain(|doubt| doubt.is_error() && is_own || is_of_modes(doubt) || is_of_point(doubt));
         } else if self.verifier.against.is_some() {
             let unsaid = doubts.iter_mut().filter(|doubt| is_unsaid(doubt));
             let unchecked = found.iter_mut().filter(|problem| problem.code() == Code::UncheckedFormula);
@@ -490,6 +490,11 @@ impl<'v> Examination<'v> {
 /// Whether a doubt is that the program does not state its unit, its distance mode or its plane.
 fn is_of_modes(doubt: &Diagnostic) -> bool {
     matches!(doubt.code(), Code::UnitsNotStated | Code::ModesNotStated)
+}
+
+/// Whether a doubt is that the control may read a length as thousandths.
+fn is_of_point(doubt: &Diagnostic) -> bool {
+    doubt.message.key == NO_DECIMAL_POINT.key
 }
 
 /// Whether a doubt is about words that the drawing's program does not contain. Two kinds are not: the drawing does not determine how fine arcs are,
