@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::messages::posts;
-use pathbuild_diagnostic::{Diagnostic, Lang, Note, Value, nearest};
+use pathbuild_diagnostic::{Diagnostic, Lang, Message, Note, Value, nearest};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::too_large;
 use pathbuild_gcode::verify::{Ends, Tolerance};
@@ -49,6 +49,12 @@ pub struct Output {
     /// The command that the definition asks to run on the file: the program and its arguments, to be started without a shell.
     pub post_build: Option<Vec<String>>,
 }
+
+/// Greatest rounding of coordinates in mm without a warning: that of two decimals in mm.
+const FINE_ROUNDING: f64 = 0.005 * (1.0 + 1e-6);
+
+/// Greatest rounding of coordinates in mm: that of one decimal in mm.
+const LARGEST_ROUNDING: f64 = 0.05 * (1.0 + 1e-6);
 
 /// Maximum size in bytes of a definition. Larger ones are refused.
 const MAX_DEFINITION_BYTES: usize = 1 << 20;
@@ -149,6 +155,7 @@ impl PostDefinition {
         if !options.unchecked {
             self.check_points(target.as_ref()).map_err(|error| vec![*error])?;
         }
+        let rounding = self.check_rounding(job, options.unchecked).map_err(|error| vec![*error])?;
         let options = &self.within(options, target.as_ref());
         let target = target.as_ref();
         let EngineOutput { text, shadow, origins, warnings, notes, post_build } = match &self.engine {
@@ -159,7 +166,7 @@ impl PostDefinition {
             text: target::plain(&text, target, options.charset),
             extension: self.extension().into(),
             notes,
-            warnings: [self.warnings.clone(), warnings].concat(),
+            warnings: self.warnings.iter().cloned().chain(rounding).chain(warnings).collect(),
             post_build,
         };
         if output.text.len() > options.most_bytes {
@@ -194,11 +201,11 @@ impl PostDefinition {
         target: Option<&Target>,
         options: &PostOptions<'_>,
     ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-        let (decimals, chord) = match &self.engine {
-            Engine::CamBam(definition) => (definition.decimals(), definition.chord(job.units)),
-            Engine::Cad6(definition) => (definition.decimals(), definition.chord()),
+        let chord = match &self.engine {
+            Engine::CamBam(definition) => definition.chord(job.units),
+            Engine::Cad6(definition) => definition.chord(),
         };
-        let half = 0.5 * libm::pow(10.0, -f64::from(decimals)) * self.unit(job) * (1.0 + 1e-6);
+        let half = self.half_digit(job) * (1.0 + 1e-6);
         // Some definitions round feeds to integers.
         let tolerance = Tolerance { place: half, feed: half.max(0.5), chord, ends: Ends::Cutting };
         let target = target.filter(|_| !self.has_own_axes());
@@ -212,6 +219,15 @@ impl PostDefinition {
         let expected =
             ReadBackOptions { target, tolerance, machine, translated, is_manual, is_flat, milliseconds };
         read_back::check(text, job, &expected)
+    }
+
+    /// Half a unit of the last digit, in mm.
+    fn half_digit(&self, job: &Job) -> f64 {
+        let decimals = match &self.engine {
+            Engine::CamBam(definition) => definition.decimals(),
+            Engine::Cad6(definition) => definition.decimals(),
+        };
+        0.5 * libm::pow(10.0, -f64::from(decimals)) * self.unit(job)
     }
 
     /// The output unit in mm: 1 or 25.4.
@@ -255,11 +271,32 @@ impl PostDefinition {
     /// Checks that whole numbers get a decimal point if the target may read them as thousandths without one.
     fn check_points(&self, target: Option<&Target>) -> Result<(), Box<Diagnostic>> {
         let Some(target) = target.filter(|target| target.needs_points()) else { return Ok(()) };
-        let Engine::CamBam(definition) = &self.engine else { return Ok(()) };
-        let Some((pattern, line)) = definition.format_without_point() else { return Ok(()) };
-        let problem = Diagnostic::new(&posts::PATTERN_WITHOUT_POINT).quoting("value", pattern);
-        let problem = problem.quoting("dialect", target.reader.name());
-        Err(Box::new(problem.in_file(&self.file).at_line(line, None)))
+        match &self.engine {
+            Engine::CamBam(definition) if !definition.always_writes_point() => {
+                let problem = self.about_format(&posts::PATTERN_WITHOUT_POINT);
+                Err(Box::new(problem.quoting("dialect", target.reader.name())))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Checks how far coordinates are rounded. If the user takes responsibility for the moves, even the coarsest rounding is a warning.
+    fn check_rounding(&self, job: &Job, is_unchecked: bool) -> Result<Option<Diagnostic>, Box<Diagnostic>> {
+        let error = self.half_digit(job);
+        if error > LARGEST_ROUNDING && !is_unchecked {
+            return Err(Box::new(self.about_format(&posts::NUMBERS_TOO_COARSE).with("error", error)));
+        }
+        Ok((error > FINE_ROUNDING).then(|| self.about_format(&posts::COARSE_NUMBERS).with("error", error)))
+    }
+
+    /// A finding about the option that determines how numbers are written.
+    fn about_format(&self, message: &'static Message) -> Diagnostic {
+        let option = match &self.engine {
+            Engine::CamBam(definition) => definition.format_option(),
+            Engine::Cad6(definition) => definition.format_option(),
+        };
+        let diagnostic = Diagnostic::new(message).quoting("option", option.name).quoting("value", option.value);
+        diagnostic.in_file(&self.file).at_line(option.line, option.column)
     }
 
     /// Returns the control that the output is for, or `None` if neither the options nor the definition name a dialect.

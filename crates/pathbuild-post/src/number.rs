@@ -13,8 +13,16 @@ pub(crate) struct NumberFormat {
     most: usize,
 }
 
-/// Minimum number of decimals of a definition. With fewer, rounding coordinates would cause errors larger than the accuracy of any cutter.
-pub(crate) const FEWEST_DECIMALS: u8 = 2;
+/// The option of a definition that determines how numbers are written.
+#[derive(Debug)]
+pub(crate) struct FormatOption {
+    pub(crate) name: &'static str,
+    /// Its value, or the default.
+    pub(crate) value: String,
+    /// Line and column in the definition's file, if the option is in it.
+    pub(crate) line: Option<u32>,
+    pub(crate) column: Option<u32>,
+}
 
 /// Maximum number of digits on either side of the decimal point. No control reads more, and an `f64` has no more.
 const MOST_DIGITS: usize = 15;

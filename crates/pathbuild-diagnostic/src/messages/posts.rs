@@ -17,15 +17,22 @@ messages! {
     }
     /// A number format with few decimals, by which coordinates are rounded.
     COARSE_NUMBERS: DoubtfulPost {
-        en: "{option} is \"{value}\": coordinates are rounded to {decimals} decimals",
-        de: "{option} ist \"{value}\": Koordinaten werden auf {decimals} Nachkommastellen gerundet",
-        help_en: "write three decimals, such as NumberFormat 0.0## or decimals = 3",
-        help_de: "drei Nachkommastellen schreiben, etwa NumberFormat 0.0## oder decimals = 3",
+        en: "{option} is \"{value}\", which rounds coordinates by up to {error} mm",
+        de: "{option} ist \"{value}\" und rundet Koordinaten um bis zu {error} mm",
+        help_en: "write three decimals in mm or four in inches, such as NumberFormat 0.0## or decimals = 4",
+        help_de: "drei Nachkommastellen in mm oder vier in Zoll schreiben, etwa NumberFormat 0.0## oder decimals = 4",
+    }
+    /// Coordinates with so few decimals that parts are spoilt.
+    NUMBERS_TOO_COARSE: InvalidPost {
+        en: "{option} is \"{value}\", which rounds coordinates by up to {error} mm; at most 0.05 mm is permitted",
+        de: "{option} ist \"{value}\" und rundet Koordinaten um bis zu {error} mm; erlaubt sind höchstens 0,05 mm",
+        help_en: "write three decimals in mm or four in inches, such as NumberFormat 0.0## or decimals = 4",
+        help_de: "drei Nachkommastellen in mm oder vier in Zoll schreiben, etwa NumberFormat 0.0## oder decimals = 4",
     }
     /// A number format without a digit after the point, for a target that may read whole numbers as thousandths.
     PATTERN_WITHOUT_POINT: InvalidPost {
-        en: "NumberFormat is \"{value}\", which writes whole numbers without a decimal point: some {dialect} controllers read them as thousandths",
-        de: "NumberFormat ist \"{value}\" und schreibt ganze Zahlen ohne Dezimalpunkt: manche Steuerungen mit {dialect} lesen sie als Tausendstel",
+        en: "{option} is \"{value}\", which writes whole numbers without a decimal point: some {dialect} controllers read them as thousandths",
+        de: "{option} ist \"{value}\" und schreibt ganze Zahlen ohne Dezimalpunkt: manche Steuerungen mit {dialect} lesen sie als Tausendstel",
         help_en: "put a 0 after the point, such as 0.0##",
         help_de: "eine 0 hinter den Punkt setzen, etwa 0.0##",
     }

@@ -15,7 +15,7 @@ use super::expand::next_variable;
 use super::variables::{Variable, is_parameter, is_private};
 use crate::Units;
 use crate::findings::{Findings, LineStarts, MOST_FINDINGS};
-use crate::number::FEWEST_DECIMALS;
+use crate::number::FormatOption;
 
 /// A definition as parsed from its file, before any text is expanded.
 #[derive(Clone, Debug)]
@@ -92,6 +92,12 @@ impl Definition {
     /// Number of decimals to which numbers are rounded.
     pub(crate) fn decimals(&self) -> u8 {
         u8::try_from(self.settings.decimals).unwrap_or(u8::MAX)
+    }
+
+    /// The option that determines how numbers are written.
+    pub(crate) fn format_option(&self) -> FormatOption {
+        let (line, column) = self.settings.decimals_place.unzip();
+        FormatOption { name: "decimals", value: self.settings.decimals.to_string(), line, column }
     }
 
     /// Maximum distance in mm between an arc and the lines that replace it.
@@ -227,10 +233,8 @@ impl ControlTextReader<'_> {
             let Some(setting) = SETTINGS.iter().find(|setting| setting.name == key) else { return };
             if (setting.set)(settings, value.get_ref()).is_none() {
                 reader.refuse(key, value, setting.expected);
-            } else if key == "decimals" && settings.decimals < usize::from(FEWEST_DECIMALS) {
-                let diagnostic = Diagnostic::new(&posts::COARSE_NUMBERS).quoting("option", key);
-                let diagnostic = diagnostic.quoting("value", settings.decimals.to_string());
-                reader.report(diagnostic.with("decimals", settings.decimals as u64), value.span());
+            } else if key == "decimals" {
+                settings.decimals_place = Some(reader.place(value.span().start));
             }
         });
     }
@@ -424,6 +428,8 @@ pub(super) struct Settings {
     pub(super) extension: Box<str>,
     pub(super) end_of_line: &'static str,
     pub(super) decimals: usize,
+    /// Line and column of `decimals`, if the file states it.
+    decimals_place: Option<(u32, u32)>,
     /// Unit of the output; `None` means the unit of the job.
     pub(super) units: Option<Units>,
     pub(super) number_lines: bool,
@@ -445,6 +451,7 @@ impl Default for Settings {
             extension: "nc".into(),
             end_of_line: "\n",
             decimals: 3,
+            decimals_place: None,
             units: None,
             number_lines: true,
             trim: true,

@@ -14,7 +14,7 @@ use super::section::Section;
 use super::template::{Fault, Template, TemplateError};
 use crate::findings::{Findings, LineStarts, MOST_FINDINGS};
 use crate::job::{Job, Units};
-use crate::number::FEWEST_DECIMALS;
+use crate::number::FormatOption;
 use crate::shadow::{CommentMarks, words};
 use crate::target::Target;
 use crate::{PostMacro, PostOptions};
@@ -143,10 +143,16 @@ impl Definition {
         self.options.number_format.most_decimals()
     }
 
-    /// The text of `NumberFormat` and its line, if numbers may lack a decimal point.
-    pub(crate) fn format_without_point(&self) -> Option<(&str, u32)> {
-        let (text, line) = self.number_format.as_ref()?;
-        (!self.options.number_format.always_has_point()).then_some((text, *line))
+    /// Whether every number gets a decimal point.
+    pub(crate) fn always_writes_point(&self) -> bool {
+        self.options.number_format.always_has_point()
+    }
+
+    /// The option that determines how numbers are written.
+    pub(crate) fn format_option(&self) -> FormatOption {
+        let stated = self.number_format.as_ref();
+        let value = stated.map_or_else(|| "0.0###".to_owned(), |(text, _)| text.to_string());
+        FormatOption { name: "NumberFormat", value, line: stated.map(|(_, line)| *line), column: None }
     }
 
     /// Maximum distance in mm between an arc and the lines that replace it.
@@ -307,11 +313,6 @@ impl<'a> CbppReader<'a> {
             self.definition.number_format = Some((text.trim().into(), line));
         }
         match self.definition.options.set(name, text) {
-            Ok(()) if name == "NumberFormat" && self.definition.decimals() < FEWEST_DECIMALS => {
-                let decimals = u64::from(self.definition.decimals());
-                let diagnostic = Diagnostic::new(&posts::COARSE_NUMBERS).quoting("option", name);
-                self.report(diagnostic.quoting("value", text.trim()).with("decimals", decimals), line);
-            }
             Ok(()) => {}
             Err(Refusal::Unknown) => {
                 self.report(Diagnostic::new(&posts::POST_UNKNOWN_ELEMENT).quoting("element", name), line);

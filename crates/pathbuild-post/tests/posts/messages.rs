@@ -3,7 +3,7 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_motion::Turning;
-use pathbuild_post::{Job, PostDefinition, PostOptions};
+use pathbuild_post::{Job, PostDefinition, PostOptions, Units};
 
 use crate::support::{DIN, arc, bare, definition, feed, job, rapid, read, read_toml, texts};
 
@@ -137,6 +137,48 @@ fn doubtful_options_and_bare_macros_are_told() {
     );
     let open = warnings("t.cbpp", &definition("<Header>{$tool.length}</Header>"));
     assert!(open[0].contains("PB754") && open[0].contains("under [macros]"), "{open:?}");
+}
+
+/// Two decimals are fine in mm, but 0.127 mm in inches.
+#[test]
+fn rounding_is_judged_in_millimetres() {
+    let found = |post: PostDefinition, job: &Job| match post.write(job, &PostOptions::default()) {
+        Ok(output) => texts(&output.warnings),
+        Err(errors) => texts(&errors),
+    };
+    let codes = |found: &[String]| {
+        assert!(!found.iter().any(|text| text.contains("PB767")), "{found:?}");
+        let codes = found.iter().filter(|text| text.contains("which rounds coordinates"));
+        codes.map(|text| text.split("PB").nth(1).unwrap()[..3].to_owned()).collect::<Vec<_>>().join(" ")
+    };
+    for (unit, decimals, code) in [
+        ("mm", 2, ""),
+        ("mm", 1, "752"),
+        ("mm", 0, "750"),
+        ("inch", 4, ""),
+        ("inch", 3, "752"),
+        ("inch", 2, "750"),
+        ("inch", 1, "750"),
+    ] {
+        let words = if unit == "mm" { "G21" } else { "G20" };
+        let texts = DIN.replace("G21", words).replace("F{#", "F{+");
+        let post =
+            read_toml(&texts.replace("[text]", &format!("decimals = {decimals}\nunits = '{unit}'\n[text]")));
+        let found_in = found(post, &milled());
+        assert_eq!(codes(&found_in), code, "{unit}, {decimals}: {found_in:?}");
+        let format = format!("<NumberFormat>0.{}</NumberFormat>", "0".repeat(decimals));
+        let units = if unit == "mm" { Units::Millimetres } else { Units::Inches };
+        let found_in = found(read(&definition(&format)).unwrap(), &Job { units, ..milled() });
+        assert_eq!(codes(&found_in), code, "{unit}, {format}: {found_in:?}");
+    }
+    let unstated = read_toml(
+        &DIN.replace("G21", "G20").replace("F{#", "F{+").replace("[text]", "units = 'inch'\n[text]"),
+    );
+    let found_in = found(unstated, &milled());
+    assert!(
+        found_in[0].starts_with("PB752 decimals is \"3\", which rounds coordinates by up to 0.013 mm"),
+        "{found_in:?}"
+    );
 }
 
 #[test]

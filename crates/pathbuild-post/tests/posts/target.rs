@@ -260,9 +260,9 @@ fn what_moves_otherwise_than_the_program_is_not_written() {
     assert!(read_back("<FeedMove>{$g1} F99 {$_x} {$_y} {$_z}</FeedMove>", steps()).is_err(), "another feed");
     assert!(read_back("<FeedMove>{$g0} {$_x} {$_y} {$_z}</FeedMove>", steps()).is_err(), "a rapid");
     assert!(read_back("<FeedMove>{$g1} {$_f} {$_x} {$_y}</FeedMove>", steps()).is_err(), "no Z");
-    let between = vec![feed(0.4, 0.0, -1.0), feed(9.4, 0.0, -1.0)];
+    let between = vec![feed(0.04, 0.0, -1.0), feed(9.04, 0.0, -1.0)];
     assert_eq!(
-        read_back("<NumberFormat>0</NumberFormat>", between),
+        read_back("<NumberFormat>0.0</NumberFormat>", between),
         Ok(()),
         "within half a unit of the last digit"
     );
