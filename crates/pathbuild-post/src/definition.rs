@@ -295,7 +295,8 @@ impl PostDefinition {
             Engine::CamBam(definition) => definition.format_option(),
             Engine::Cad6(definition) => definition.format_option(),
         };
-        let diagnostic = Diagnostic::new(message).quoting("option", option.name).quoting("value", option.value);
+        let diagnostic =
+            Diagnostic::new(message).quoting("option", option.name).quoting("value", option.value);
         diagnostic.in_file(&self.file).at_line(option.line, option.column)
     }
 

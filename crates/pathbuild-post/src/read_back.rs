@@ -62,6 +62,9 @@ pub(super) fn check(
         }
     }
     problems = if tolerance.is_some() { ambiguous::errors(&read.problems, text) } else { Vec::new() };
+    if tolerance.is_some() {
+        problems.extend(skippable(text, &read.steps));
+    }
     let (mut broken, mut doubts) = broken_rules(&read.steps, job, *machine);
     if target.is_none() && (tolerance.is_none() || !is_started(&read.steps)) {
         // The words found may not concern the spindle, or the operator switches it and the final M5 is only for safety.
@@ -115,6 +118,37 @@ pub(super) fn check(
 /// The first length without a decimal point, if the reader may take it for thousandths. One finding stands for all words.
 fn without_point(problems: &[Diagnostic]) -> Option<Diagnostic> {
     problems.iter().find(|problem| problem.message == &gcode::NO_DECIMAL_POINT).cloned().map(as_post_s)
+}
+
+/// The first line that a switch at the machine can skip although it moves, changes the tool or its length, or switches the spindle.
+fn skippable(text: &[u8], steps: &[Step]) -> Option<Diagnostic> {
+    let is_needed = |action: &Action| match action {
+        Action::Move(_) | Action::SelectTool(_) | Action::ChangeTool(_) | Action::Spindle(_) => true,
+        Action::Change(change) => matches!(change, Change::ToolLength(_) | Change::Offsets { .. }),
+        _ => false,
+    };
+    let mut needed = steps.iter().filter(|step| is_needed(&step.action)).map(|step| step.line).peekable();
+    for (number, line) in (1_u32..).zip(text.split(|byte| *byte == b'\n')) {
+        let is_optional = begins_with_slash(line);
+        while needed.next_if(|needed| *needed < number).is_some() {}
+        if is_optional && needed.peek() == Some(&number) {
+            return Some(Diagnostic::new(&posts::LINE_SKIPPABLE).at_line(number, None));
+        }
+    }
+    None
+}
+
+/// Whether a line begins with `/`, possibly after its number.
+fn begins_with_slash(line: &[u8]) -> bool {
+    let line = line.trim_ascii_start();
+    let after_number = match line.split_first() {
+        Some((b'N' | b'n', rest)) => {
+            let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+            rest[digits..].trim_ascii_start()
+        }
+        _ => line,
+    };
+    after_number.starts_with(b"/") && !after_number.starts_with(b"//")
 }
 
 /// Permitted deviation of dwells in seconds: half a millisecond and a margin for rounding.

@@ -122,6 +122,11 @@ impl Rs274Translation {
             return self.end_line();
         }
         self.modes.line(self.line, line, motion);
+        if line.is_optional {
+            // The first line begins with the modes of the definition.
+            let begin = if self.line == 1 { 0 } else { self.text.len() };
+            self.text.insert(begin, '/');
+        }
         let codes = |word: &&Word| word.letter == 'G';
         let is_motion = |word: &Word| matches!(tenths(word), 0..=30 | 310 | 382..=385 | 730 | 810..=890);
         // The coordinates of G4 are not positions.
@@ -242,6 +247,8 @@ pub(crate) struct Words {
     pub(crate) words: Vec<Word>,
     /// Whether the line contains something that is neither a word nor a comment.
     pub(crate) has_more: bool,
+    /// Whether a `/` stands before the words, so that a switch at the machine can skip the line.
+    pub(crate) is_optional: bool,
 }
 
 /// The marks that begin and end a comment. If the end mark is empty, comments extend to the end of the line.
@@ -262,6 +269,7 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> Words {
             found.words.push(word);
             after
         } else {
+            found.is_optional |= first == '/' && found.words.iter().all(|word| word.letter == 'N');
             found.has_more |= !matches!(first, '%' | '/' | ':' | ' ' | '\t');
             &rest[first.len_utf8()..]
         };

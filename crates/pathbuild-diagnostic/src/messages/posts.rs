@@ -598,6 +598,13 @@ messages! {
         help_en: "remove P, or name the control in the definition with <Dialect> or dialect = (see program/posts in the book)",
         help_de: "P entfernen oder die Steuerung in der Definition mit <Dialect> oder dialect = nennen (siehe program/posts im Buch)",
     }
+    /// A `/` before a line that must not be skipped.
+    LINE_SKIPPABLE: RejectedWord {
+        en: "`/` begins a line that moves, sets the tool or its length, or switches the spindle: a switch at the machine (block delete) can skip it",
+        de: "`/` beginnt eine Zeile, die fährt, das Werkzeug oder dessen Länge setzt oder die Spindel schaltet: ein Schalter an der Maschine (Sätze ausblenden) kann sie überspringen",
+        help_en: "remove `/` from the text of the definition",
+        help_de: "`/` aus dem Text der Definition entfernen",
+    }
     /// A line of output that is too long.
     LINE_TOO_LONG: LineTooLong {
         en: "line {line} of the output has {length} characters; {dialect} accepts at most {longest}",

@@ -344,10 +344,8 @@ impl<'a> Writer<'a> {
         }
         self.check_replaced(&found, &text);
         self.machine.read(&found, line.code, self.number_format());
-        let meant = Words {
-            words: found.words.iter().map(|word| self.meant(*word, &line)).collect(),
-            has_more: false,
-        };
+        let meant =
+            Words { words: found.words.iter().map(|word| self.meant(*word, &line)).collect(), ..found };
         let has_word = |(_, section): &Code| !self.plan.definition.section(*section).is_blank();
         self.shadow.line(
             &meant,

@@ -286,6 +286,32 @@ fn literal_lengths_have_a_point_where_the_control_may_need_it() {
     assert_eq!(written("linuxcnc", "20"), Ok(()));
 }
 
+/// Block delete: the switch at the machine decides whether such a line is run.
+#[test]
+fn lines_that_a_switch_can_skip_must_not_be_needed() {
+    let written = |dialect: &str, elements: &str| {
+        let text = format!(
+            "<PostFile>G21 G90 G17 G94\n{{$mops}}\nM30</PostFile><MOP>/M1\n{{$blocks}}</MOP>{elements}{dialect}"
+        );
+        let steps = vec![feed(0.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)];
+        read(&definition(&text)).unwrap().write(&job(steps), &PostOptions::default())
+    };
+    for dialect in ["linuxcnc", "fanuc", "haas", ""] {
+        let dialect = if dialect.is_empty() { String::new() } else { self::dialect(dialect) };
+        assert!(written(&dialect, "").is_ok(), "{dialect}: {:?}", written(&dialect, "").err());
+        for elements in [
+            "<Rapid>/{$g0} {$_x} {$_y} {$_z}</Rapid>",
+            "<FeedMove>/{$g1} {$_f} {$_x} {$_y} {$_z}</FeedMove>",
+            "<MOP>/ M3 S100\n{$blocks}</MOP><PostFile>{$mops}\nM5\nM30</PostFile>",
+            "<AddLineNumbers>true</AddLineNumbers><FeedMove>/{$g1} {$_f} {$_x} {$_y} {$_z}</FeedMove>",
+        ] {
+            let errors = texts(&written(&dialect, elements).expect_err(elements));
+            let is_told = |text: &String| text.contains("PB762 `/` begins a line") || text.contains("\"/\"");
+            assert!(errors.iter().any(is_told), "{dialect} {elements}: {errors:?}");
+        }
+    }
+}
+
 /// Writes a cut to X10 at the speed of a tool, with these texts before and after it, for LinuxCNC on a machine.
 fn run_on(machine: Machine, before: &str, behind: &str) -> Result<(), Vec<String>> {
     let text = format!(
