@@ -1,6 +1,6 @@
-//! Randomly edited libraries with all kinds of faults are checked in several ways, all of which must give the same findings: a plain model
-//! that reads every file and caches nothing, a new database, a database that is notified of the edits, path by path, on several threads,
-//! and the program with its cache. ([`pathbuild_testkit::naive`])
+//! Checks randomly edited libraries with all kinds of faults in several ways, all of which must give the same findings: a plain model that reads
+//! every file and caches nothing, a new database, a database that is notified of the edits, path by path, on several threads, and the program with
+//! its cache. ([`pathbuild_testkit::naive`])
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -49,7 +49,7 @@ fn every_way_to_ask_finds_what_a_plain_model_finds() {
     assert!(rare.is_empty(), "in fewer than 5 % of {} states: {rare:?}", seen.len());
 }
 
-/// The findings in each state of a library.
+/// Returns the findings in each state of a library.
 fn states(seed: u64) -> Vec<Vec<Finding>> {
     let mut workshop = Workshop::new(seed);
     let system = Arc::new(MemorySystem::default());
@@ -89,14 +89,15 @@ fn states(seed: u64) -> Vec<Vec<Finding>> {
 
 #[track_caller]
 fn same(model: &[Finding], program: &[Finding], what: &str) {
-    // The model has no probing program; tests/cli/keep_outs.rs is about clamps in its way.
+    // The model has no probing program; tests/cli/keep_outs.rs tests clamps in its way.
     let of_probing = |found: &&Finding| found.words.iter().any(|it| it.starts_with("in the probing program"));
     let program: Vec<Finding> = program.iter().filter(|found| !of_probing(found)).cloned().collect();
     let differences = differences(model, &program);
     assert!(differences.is_empty(), "{what}:\n{}", differences.join("\n"));
 }
 
-/// Ignores differences between cycles: from a single path a cycle may be entered in several ways, of which each path takes only one.
+/// Asserts that findings are the same, apart from cycles: from a single path a cycle may be entered in several ways, of which each path takes only
+/// one.
 #[track_caller]
 fn same_but_cycles(model: &[Finding], program: &[Finding], what: &str) {
     let is_cyclic = |found: &[Finding]| found.iter().any(|it| it.code == "PB509");
@@ -154,7 +155,7 @@ impl Asked {
         Self { db, targets: BTreeMap::new() }
     }
 
-    /// The findings in the library, sorted and without duplicates.
+    /// Returns the findings in the library, sorted and without duplicates.
     fn library(&mut self, workshop: &Workshop) -> Vec<Diagnostic> {
         let files: Vec<&String> = workshop.files().keys().filter(|path| path.starts_with("lib/")).collect();
         let mut found = Vec::new();
@@ -183,7 +184,7 @@ impl Asked {
         found
     }
 
-    /// The findings in a path, and in the drawings that it was made from.
+    /// Returns the findings in a path, and in the drawings that it depends on.
     fn path(&mut self, file: &str, name: &str) -> Vec<Diagnostic> {
         let drawing = self.db.file(Utf8Path::new(file));
         let new = || Target::new(&self.db, drawing, name.into(), Role::Checked);
@@ -196,7 +197,7 @@ impl Asked {
     }
 }
 
-/// The library as the program sees it.
+/// The library on disk, for runs of the program.
 struct OnDisk(Place);
 
 impl OnDisk {
@@ -221,7 +222,7 @@ impl OnDisk {
         }
     }
 
-    /// The findings of `check` with these options.
+    /// Returns the findings of `check` with these options.
     fn check(&self, options: &str) -> Vec<Finding> {
         let run = self.0.run(&format!("check --format=json {options}"));
         assert!(matches!(run.status, Some(0 | 1)), "{run}");

@@ -9,7 +9,7 @@ use serde_json::{Value as Json, json};
 
 use crate::support::{Place, project};
 
-/// A copy of the example library, outside of any repository.
+/// Creates a copy of the example library, outside of any repository.
 fn example() -> Place {
     let library = project().join("fixtures/library");
     let mut place = Place::new().file("pathbuild.toml", fs::read(library.join("pathbuild.toml")).unwrap());
@@ -23,14 +23,14 @@ fn example() -> Place {
     place
 }
 
-/// The lines of this type in the program's output.
+/// Returns the lines of this type in the program's output.
 fn rows(place: &Place, kind: &str, arguments: &str) -> Vec<Json> {
     let run = place.run(&format!("{arguments} --format json"));
     let lines = run.stdout.lines().map(|line| serde_json::from_str::<Json>(line).unwrap());
     lines.filter(|line| line["type"] == kind).collect()
 }
 
-/// The program's line for a finding.
+/// Returns the line that the program prints for a finding.
 fn line(finding: &Finding) -> Json {
     let [x, y] = finding.position().map_or([None; 2], |point| point.map(Some));
     let trace = finding.trace().into_iter().map(
@@ -83,7 +83,8 @@ fn check_and_the_library_have_the_same_findings() {
     assert!(library.check(&["mistakes"]).unwrap().findings.len() > 10);
 }
 
-/// Entries of the baseline count as in the program: until their last day, and the library has no other day than the one it is given.
+/// Entries of the baseline have the same effect as in the program: they hold until their last day. The library knows no date but the one that it is
+/// given.
 #[test]
 fn accepted_findings_are_those_of_the_program() {
     const ACCEPT: &str = "check --accept PB203 --reason known --until 2031-12-31 mistakes";
@@ -166,7 +167,7 @@ fn emit_verify_and_the_library_write_and_check_the_same_programs() {
     }
 }
 
-/// The library's edges are the pairs of paths in the program's graph.
+/// The edges of the library's graph are the pairs of paths in the program's graph.
 #[test]
 fn the_graph_of_the_library_is_that_of_the_program() {
     let place = example();

@@ -1,4 +1,4 @@
-//! Uses the examples in examples/ninja and examples/bazel as described on their page: an edit rebuilds its dependents, and nothing else.
+//! Tests that the examples in examples/ninja and examples/bazel work as their page describes: an edit rebuilds its dependents, and nothing else.
 //! (book: howto/build-systems)
 
 use std::collections::BTreeSet;
@@ -12,8 +12,8 @@ use serde_json::Value;
 
 use crate::support::{Place, project};
 
-/// Two projects, a component that both embed, one that only the first embeds, one that none embeds, a drawing whose name admits an embedded
-/// path that it does not define, and a Q-project, which is only found through its drawing.
+/// A library of two projects, a component that both embed, one that only the first embeds, one that none embeds, a drawing whose name admits an
+/// embedded path that it does not define, and a Q-project, which is found only through its drawing.
 const LIBRARY: &str = r#"
 == pathbuild.toml ==
 library = ["components", "projects"]
@@ -71,7 +71,7 @@ fn ninja_makes_again_what_depends_on_an_edit() {
     tree.holds_programs("gcode");
     assert_eq!(tree.ninja().made(), [""; 0], "nothing changed");
 
-    // A CAD program writes a temporary file and renames it: the directory changes, but not its names.
+    // A CAD program writes a temporary file and renames it: the directory changes, but not the names in it.
     tree.edit("components/1300.dxf", "B4", "B3");
     assert_eq!(tree.ninja().made(), ["CHECKSUMS", "EMIT 1300.0Q", "EMIT 8001.1P", "NAMES"]);
     tree.holds_programs("gcode");
@@ -96,13 +96,13 @@ fn ninja_notices_second_definitions() {
     let Some(tree) = Tree::with("ninja", &["ninja", "python3"]) else { return };
     tree.configure();
     tree.ninja().made();
-    // In a drawing that was searched before without a match.
+    // The path is now also defined in a drawing in which it was searched for before.
     tree.edit("components/1200-1299.dxf", "1299.1P", "1234.1P");
     let failed = tree.ninja();
     assert!(!failed.is_success && failed.text.contains("PB504"), "{}", failed.text);
     tree.edit("components/1200-1299.dxf", "1234.1P", "1299.1P");
     assert_eq!(tree.ninja().made(), ["EMIT 8001.1P", "EMIT 8002.1P", "NAMES"]);
-    // In a new drawing.
+    // The path is now also defined in a new drawing.
     let file = tree.place.path().join("components/1234-1235.dxf");
     fs::copy(tree.place.path().join("components/1234.1P.dxf"), &file).unwrap();
     let failed = tree.ninja();
@@ -156,13 +156,13 @@ fn bazel_makes_again_what_depends_on_an_edit() {
     tree.holds_programs("bazel-bin/gcode");
 }
 
-/// The library with an example next to it.
+/// The library, with an example build next to it.
 struct Tree {
     place: Place,
 }
 
 impl Tree {
-    /// `None`, with a skip, if a program that the example needs is missing.
+    /// Creates the tree; returns `None`, and reports that the test is skipped, if a program that the example needs is missing.
     fn with(example: &str, needed: &[&str]) -> Option<Self> {
         let is_there =
             |name: &&&str| Command::new(name).arg("--version").output().is_ok_and(|it| it.status.success());
@@ -183,7 +183,7 @@ impl Tree {
         Some(Self { place })
     }
 
-    /// Runs another program, with `pathbuild` on its path.
+    /// Runs another program, which finds `pathbuild` in its search path.
     fn run(&self, program: &str, arguments: &[&str]) -> Output {
         let ours = Path::new(env!("CARGO_BIN_EXE_pathbuild")).parent().unwrap().to_owned();
         let path = std::env::var_os("PATH").unwrap_or_default();
@@ -245,14 +245,14 @@ struct Build {
 }
 
 impl Build {
-    /// The rebuilt targets, sorted by name.
+    /// Returns the rebuilt targets, sorted by name.
     fn made(&self) -> Vec<&str> {
         assert!(self.is_success, "{}", self.text);
         self.made.iter().map(String::as_str).collect()
     }
 }
 
-/// Bazel with its own server and disk cache, both of which end with it.
+/// Bazel with its own server and disk cache, both of which are removed when this is dropped.
 struct Bazel<'t> {
     tree: &'t Tree,
     place: tempfile::TempDir,

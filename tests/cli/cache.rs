@@ -1,4 +1,4 @@
-//! The cache: the same results as without it, whatever changed in between, and no trust in damaged files.
+//! The cache gives the same results as a run without it, whatever has changed in between, and damaged files are not trusted.
 
 use std::collections::BTreeMap;
 #[cfg(target_os = "linux")]
@@ -14,7 +14,7 @@ use pathbuild_workspace::session::{by_name, by_place};
 
 const CONFIGURATION: &str = "library = [\"library\"]\nsearch = [\"library/parts\", \"spare\"]\n";
 
-/// Drawings by file: their paths with T and embeddings.
+/// For each drawing, its paths, each with T and the paths that it embeds.
 type Drawings = BTreeMap<&'static str, Vec<(String, u32, Vec<String>)>>;
 
 fn dxf(paths: &[(String, u32, Vec<String>)]) -> Vec<u8> {
@@ -55,7 +55,7 @@ fn library() -> Place {
     drawings().iter().fold(place, |place, (file, paths)| place.file(file, dxf(paths)))
 }
 
-/// The output of a run, without its duration.
+/// Returns the output of a run, without its duration.
 fn said(run: &Run) -> (Option<i32>, String, String) {
     let stderr: Vec<&str> = run.stderr.lines().filter(|line| !line.contains(" paths in ")).collect();
     (run.status, run.stdout.clone(), stderr.join("\n"))
@@ -68,7 +68,7 @@ fn assert_same(place: &Place, what: &str) {
     assert_eq!(said(&place.run("check --format json -j 1")), said(&without), "then after {what}");
 }
 
-/// The number of drawings that were not checked again.
+/// Returns the number of drawings whose cached results still hold, with the number of all drawings.
 fn held(place: &Place) -> String {
     let run = place.run("check -v");
     run.stderr
@@ -78,8 +78,7 @@ fn held(place: &Place) -> String {
         .to_owned()
 }
 
-/// A fault reached through several drawings is shown with the same chain of embeddings in every format, regardless of the order of
-/// checking.
+/// A fault that is reached through several drawings is shown with the same chain of embeddings in every format, whatever the order of checking.
 #[test]
 fn the_way_to_a_finding_is_the_same_with_what_was_kept() {
     for library in ["[\"projects\", \"parts\"]", "[\"parts\", \"projects\"]"] {
@@ -161,7 +160,7 @@ fn edit(place: &Place, chance: &mut Chance) -> String {
     }
 }
 
-/// The findings of `check` after edits are tested in agreement.rs. Here programs are also written, removed and edited by hand.
+/// Findings of `check` after edits are tested in agreement.rs. Here, programs are written, removed and edited by hand as well.
 #[test]
 fn after_any_edits_programs_are_current_or_not_as_without_the_cache() {
     const OPTIONS: &str = "./library --feed 150 --rapid 1000 --sweep-height 20 --format json";
@@ -175,7 +174,7 @@ fn after_any_edits_programs_are_current_or_not_as_without_the_cache() {
                 place.run(&format!("emit {OPTIONS}"));
                 programs = written(&place);
                 let run = place.run(&format!("emit --check --no-cache {OPTIONS}"));
-                // The program of a path with errors is not current either, as PB522 reports.
+                // PB522 reports the program of a path with errors, so it is not current either.
                 let is_known = |file: &str| {
                     let of_file = |line: &&str| line.contains(&format!("\"file\":\"{file}\""));
                     run.stderr.lines().filter(of_file).any(|line| line.contains("PB522"))
@@ -207,7 +206,7 @@ fn after_any_edits_programs_are_current_or_not_as_without_the_cache() {
     assert!(ambiguous >= 4, "a path is defined twice in {ambiguous} of 40 states");
 }
 
-/// The programs on disk.
+/// Returns the programs on disk.
 fn written(place: &Place) -> Vec<PathBuf> {
     let directories = ["library/parts", "library/projects", "library/deep/er"];
     let entries = directories.iter().filter_map(|directory| fs::read_dir(place.path().join(directory)).ok());
@@ -230,9 +229,9 @@ fn only_what_depends_on_a_change_is_checked_again() {
     assert_eq!(held(&place), "0 / 5");
     assert_eq!(held(&place), "5 / 5");
     write(&place.path().join("library/parts/1001.dxf"), &[path("1001.1P", 4, &[])]);
-    // 1001, 1002-1003, and 8001, which embeds it.
+    // The results of 1001, of 1002-1003, and of 8001, which embeds one of them, no longer hold.
     assert_eq!(held(&place), "2 / 5");
-    // A file whose name admits a path that 8002 did not find.
+    // The name of the new file admits a path that 8002 did not find.
     write(&place.path().join("spare/1009.dxf"), &[path("1009.2P", 5, &[])]);
     assert_eq!(held(&place), "4 / 5");
     write(&place.path().join("spare/7000.dxf"), &[path("7000.1P", 5, &[])]);
@@ -250,7 +249,7 @@ fn a_drawing_that_was_touched_is_not_checked_again() {
     assert_eq!(held(&place), "5 / 5");
 }
 
-/// A path 0.5 mm too far outside leaves material, unless its cutter is for slots.
+/// If a path is 0.5 mm too far outside, material is left, unless its cutter is for slots.
 #[test]
 fn the_shape_of_a_cutter_asks_another_question() {
     let drawing = "layer 1234.1S\nstart 0,-0.5 \"T2 O2 I1 B0 S5\"\nmill 0,-0.5 40,-0.5\nend 40,-0.5\n\
@@ -275,7 +274,7 @@ fn settings_that_matter_ask_another_question() {
     let place = place.file("pathbuild.toml", format!("{CONFIGURATION}restrict = [\"8*:9\"]\n"));
     assert_eq!(held(&place), "0 / 5");
     assert_same(&place, "forbidding an embedding");
-    // The severity of findings does not matter.
+    // The results do not depend on the severity of findings.
     let place = place.file("pathbuild.toml", format!("{CONFIGURATION}[severity]\nPB210 = \"ignore\"\n"));
     assert_eq!(held(&place), "5 / 5");
 }
@@ -375,7 +374,7 @@ fn a_named_cache_holds_for_a_copy_of_the_tree() {
     let copy = library();
     assert!(run(&copy).contains("5 / 5"));
     assert!(!copy.cache().exists());
-    // Another drawing in the same place.
+    // The copy contains another drawing of the same name.
     write(&copy.path().join("library/parts/1001.dxf"), &[path("1001.1P", 9, &[])]);
     assert_same(&copy, "a copy that differs");
 }
@@ -390,7 +389,7 @@ fn a_cache_that_is_a_link_is_not_used() {
     assert_eq!(fs::read_dir(place.path().join("other")).unwrap().count(), 1);
 }
 
-/// Otherwise the cache would silently be in another directory.
+/// Such a cache is an error: otherwise the cache would silently be in another directory.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_cache_whose_name_is_no_utf_8_is_refused() {
@@ -446,7 +445,7 @@ fn the_cache_can_be_looked_at_and_removed() {
     assert!(run.stdout.contains(": damaged, ") && run.status == Some(1), "{run}");
     assert_eq!(place.run("cache prune").stderr, "removed: 1\n");
 
-    // Failure to remove a file is reported, and the directory is still a cache.
+    // If a file cannot be removed, this is reported, and the directory remains a cache.
     fs::create_dir(&file).unwrap();
     let run = place.run("cache clean");
     assert!(run.status == Some(1) && !run.stderr.contains("removed"), "{run}");
@@ -514,7 +513,7 @@ fn names_are_ordered_as_texts() {
     }
 }
 
-/// Directories with ignore files are walked in a different way, which must find the same.
+/// Directories with ignore files are walked in a different way, which must find the same drawings.
 #[test]
 fn what_is_hidden_or_linked_is_left_out_with_and_without_rules() {
     let drawing = |name: &str| dxf(&[path(name, 5, &[])]);
@@ -535,13 +534,13 @@ fn what_is_hidden_or_linked_is_left_out_with_and_without_rules() {
     }
     #[cfg(target_os = "linux")]
     {
-        // No argument could name it either.
+        // The name is not UTF-8, so no argument could contain it either.
         let unspeakable: &OsStr = std::os::unix::ffi::OsStrExt::from_bytes(b"library/\xff.dxf");
         fs::write(place.path().join(unspeakable), drawing("1007.1P")).unwrap();
     }
     let summary = |place: &Place| {
         let run = place.run("check --no-cache");
-        // Nothing can be read under such a name.
+        // No drawing can be read under such a name, which is reported.
         assert_eq!(run.stderr.matches("PB001").count(), usize::from(cfg!(target_os = "linux")), "{run}");
         run.stderr.lines().last().unwrap().split(':').next().unwrap().to_owned()
     };
@@ -553,7 +552,7 @@ fn what_is_hidden_or_linked_is_left_out_with_and_without_rules() {
     assert_ne!(summary(&place), without);
 }
 
-/// The numbers of cached and of all drawings in a check.
+/// Returns the number of drawings whose cached results a check uses, and the number of all drawings.
 fn known(place: &Place, arguments: &str) -> String {
     let run = place.run(&format!("check -v {arguments}"));
     let line = run.stderr.lines().find(|line| line.starts_with("drawings whose results still hold"));
@@ -578,9 +577,9 @@ fn paths_and_drawings_that_are_named_are_checked_once() {
         assert_eq!(known(&place, arguments), all, "{arguments}");
         assert_eq!(said(&place.run(&format!("check {arguments}"))), said(&without));
     }
-    // Another path of the same drawing.
+    // The results are for another path of the same drawing.
     assert_eq!(known(&place, "1002.1P"), "0 / 1");
-    // A drawing whose name does not admit the path is irrelevant to it; one whose name does may define it again.
+    // A drawing whose name does not admit the path has no effect on the path; one whose name does may define the path again.
     let place = place.file("library/parts/1004.dxf", dxf(&[path("1001.1P", 5, &[])]));
     assert_eq!(known(&place, "1001.1P 1002.1P 1003.1P"), "2 / 2");
     let place = place.file("library/parts/1000-1001.dxf", dxf(&[path("1001.1P", 5, &[])]));

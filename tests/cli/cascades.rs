@@ -1,4 +1,4 @@
-//! An error that merely follows from another one is not reported. (book: reference/diagnostics)
+//! An error that is only a consequence of another one is not reported. (book: reference/diagnostics)
 
 use crate::support::Place;
 
@@ -10,7 +10,7 @@ fn place(files: &[(&str, &str)]) -> Place {
     files.iter().fold(place, |place, (name, text)| place.file(&format!("{name}.dxf"), dxf(text)))
 }
 
-/// The codes that `check` reports, with the files.
+/// Returns the codes that `check` reports, with the files.
 fn found(place: &Place) -> Vec<String> {
     let run = place.run("check --format concise --no-cache");
     let lines = run.stderr.lines().filter_map(|line| line.split_once("[PB"));
@@ -38,7 +38,7 @@ fn a_letter_that_is_missing_on_all_elements_is_one_error() {
     let run = start("T5 O2 I1 MX", "N1");
     assert_eq!(run.stderr.matches("PB201").count(), 1, "{run}");
     assert!(run.stderr.contains("B is missing here; further elements of this kind without B: 19"), "{run}");
-    // Two letters are two mistakes, and a single element is no group.
+    // Two letters are two mistakes, and a single element is not a group.
     assert_eq!(start("T5 O2 MX", "N1").stderr.matches("PB201").count(), 2);
     let one = place(&[("1001.1P", &path("1001.1P", "T5 O2 I1 MX", "mill 0,0 9,0\nend 9,0"))]);
     assert!(one.run("check --format concise --lang en").stderr.contains("[PB201] B is missing (path"));
@@ -69,7 +69,7 @@ fn a_component_whose_drawing_cannot_be_read_is_not_missing() {
     assert_eq!(found(&broken), ["113 1001", "511 8001"]);
     let run = broken.run("check 8001.1P.dxf --format concise --no-cache");
     assert!(run.stderr.contains("PB113") && run.stderr.contains("PB511"), "{run}");
-    // The path may as well be missing in a drawing that can be read.
+    // The path may be missing although its drawing can be read.
     let other = component.replace("units inch\n", "").replace("1001.1P", "1002.1P");
     assert_eq!(found(&place(&[("1001-1002", &other), ("8001.1P", &project)])), ["503 8001"]);
 }
@@ -97,7 +97,7 @@ fn a_cycle_is_one_error_in_each_of_its_paths() {
         ring.iter().map(|(name, next)| (*name, embedding(name, &format!(">{next}")))).collect();
     let mut drawings: Vec<(&str, &str)> = ring.iter().map(|(name, text)| (*name, &**text)).collect();
     assert_eq!(found(&place(&drawings)), ["509 1001", "509 1002", "509 1003"]);
-    // What embeds a cycle is told where the error is.
+    // The error is reported only where the cycle is, not for a path that embeds it.
     let outside = embedding("8001.1P", ">1001.1P");
     drawings.push(("8001.1P", &outside));
     assert_eq!(found(&place(&drawings)), ["509 1001", "509 1002", "509 1003", "511 8001"]);

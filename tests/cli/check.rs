@@ -1,4 +1,4 @@
-//! The output of `check`: streams, formats, reports, baseline, summary, exit status. The findings themselves are tested elsewhere. (book:
+//! Tests the output of `check`: streams, formats, reports, baseline, summary, exit status. The findings themselves are tested elsewhere. (book:
 //! reference/commands)
 
 use crate::support::{Place, Run};
@@ -13,7 +13,7 @@ fn dxf(text: &str) -> Vec<u8> {
     sheet(text).expect("a drawing").to_dxf()
 }
 
-/// A library of three drawings: one correct, one with a warning, one with an error.
+/// Creates a library of three drawings: one correct, one with a warning, one with an error.
 fn library() -> Place {
     Place::new()
         .file("pathbuild.toml", "library = [\"parts\"]")
@@ -22,7 +22,7 @@ fn library() -> Place {
         .file("parts/1236.1P.dxf", dxf(WRONG))
 }
 
-/// The output without its duration, which varies.
+/// Returns the output without its duration, which varies.
 fn timeless(run: &Run) -> String {
     let lines = run.to_string();
     let line = |line: &str| match line.rsplit_once(" (") {
@@ -38,7 +38,7 @@ fn a_check_ends_with_one_line() {
     assert_snapshot!(timeless(&library().run("check --lang de --format concise")));
 }
 
-/// Directories with ignore files are walked in a different way.
+/// Directories with ignore files are walked in a different way, which must name drawings alike.
 #[test]
 fn drawings_are_named_alike_with_and_without_rules() {
     let (plain, ruled) = (library(), library().file("parts/.ignore", "nothing\n"));

@@ -1,11 +1,11 @@
-//! Chip loads outside the limits of `[tool]` (PB790), in drawings and programs; and the shape of a tool in `verify`.
+//! Tests chip loads outside the limits of `[tool]` (PB790), in drawings and programs, and the shape of a tool in `verify`.
 
 use crate::support::{Place, Run};
 use pathbuild_testkit::sheet;
 
 const TOOL: &str = "[tool.mill]\ndiameter = 2\nnumber = 4\nspindle = 10000\nflutes = 2\n";
 
-/// `check` of a path with F on its start and on a line, with limits of 0.01 to 0.03 mm per tooth: F200 to F600.
+/// Returns the output of `check` for a path with F on its start and on a line, with limits of 0.01 to 0.03 mm per tooth: F200 to F600.
 fn check(start: &str, line: &str, options: &str) -> String {
     let drawing =
         format!("layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 MX {start}\"\nmill 0,0 40,0{line}\nend 40,0\n");
@@ -27,13 +27,13 @@ fn f_of_a_drawing_is_compared_with_the_limits_of_the_tool() {
     assert_eq!(check("", "", "emit --feed 600"), "");
 }
 
-/// The findings about a program in concise form.
+/// Verifies a program, with findings in concise form.
 fn verify(configuration: &str, program: &str, options: &str) -> Run {
     let place = Place::new().file("pathbuild.toml", configuration).file("a.nc", program);
     place.run(&format!("verify a.nc --dialect linuxcnc --format concise {options}"))
 }
 
-/// The lines with a chip load outside the limits.
+/// Returns the lines with a chip load outside the limits.
 fn loads(feed: &str, speed: &str, limits: &str) -> Vec<String> {
     let program = format!(
         "G17 G21 G90 G94\nT4 M6\nM3 {speed}\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F20\nG1 X10 {feed}\nG1 X20\nG0 Z5\nM5\nM30\n"
@@ -58,7 +58,7 @@ fn feeds_of_a_program_are_compared_by_its_own_speed() {
     assert_eq!(loads("F9999", "S20000", ""), [""; 0]);
 }
 
-/// Two parallel cuts, 3 mm apart; then a rapid move in the second one, `offset` mm beside its centre line, at the depth of the cut.
+/// Whether `verify` reports a rapid move back along a cut, at its depth and `offset` mm beside its centre line.
 fn rapid_beside_a_cut(tool: &str, offset: f64) -> bool {
     let program = format!(
         "G17 G21 G90 G94\nT4 M6\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X40\nG1 Y{offset}\nG0 X10\nG0 Z5\nM5\nM30\n"
@@ -77,7 +77,7 @@ fn a_rounded_corner_clears_less() {
     assert!(!rapid_beside_a_cut(&tool("shape = \"other\"\n"), 0.0));
 }
 
-/// Two parallel cuts, then a rapid move from the second one to the first, at their depth.
+/// Whether `verify` reports a rapid move from the second of two parallel cuts to the first, at their depth.
 fn rapid_between_cuts(tool: &str, distance: f64) -> bool {
     let program = format!(
         "G17 G21 G90 G94\nT4 M6\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X40\nG0 Z5\nG0 Y{distance}\n\
@@ -93,7 +93,7 @@ fn a_round_tip_leaves_a_ridge_between_cuts() {
     assert!(rapid_between_cuts(&tool(2), 4.0));
     assert!(!rapid_between_cuts(&tool(2), 2.0));
     assert!(!rapid_between_cuts(&tool(0), 4.0));
-    // A ball-nose cutter.
+    // `tool(3)` is a ball-nose cutter.
     assert!(rapid_between_cuts(&tool(3), 2.0));
     assert!(!rapid_between_cuts(&tool(3), 0.5));
 }

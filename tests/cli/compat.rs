@@ -1,4 +1,4 @@
-//! Command lines of `PathDxf2GCode` and `PathGCodeAdjustZ`. (book: howto/from-pathdxf2gcode)
+//! Tests command lines of `PathDxf2GCode` and `PathGCodeAdjustZ`. (book: howto/from-pathdxf2gcode)
 
 use crate::support::{Place, Run};
 use insta::assert_snapshot;
@@ -7,7 +7,7 @@ fn compat(arguments: &[&str]) -> Run {
     Place::new().run_with(&[&["compat"], arguments].concat())
 }
 
-/// The translation of one of their command lines.
+/// Returns the translation of a command line of one of these programs.
 fn translated(arguments: &[&str]) -> String {
     let run = compat(&[&["--print"], arguments].concat());
     assert_eq!((run.status, run.stderr.as_str()), (Some(0), ""), "{run}");

@@ -1,22 +1,22 @@
-//! The configuration: discovery, strict parsing, precedence of the command line. (book: reference/configuration)
+//! Tests the configuration: discovery, strict parsing, precedence of the command line. (book: reference/configuration)
 
 use crate::support::{Place, Run, runs};
 use insta::assert_snapshot;
 use pathbuild_testkit::sheet;
 
-/// `config show --origin` with this configuration.
+/// Runs `config show --origin` with this configuration.
 fn show(text: &str, arguments: &str) -> Run {
     Place::new().file("pathbuild.toml", text).run(&format!("config show --origin {arguments}"))
 }
 
-/// The findings about this configuration in concise form.
+/// Returns the findings about this configuration in concise form.
 fn complaints(text: &str) -> String {
     let run = Place::new().file("pathbuild.toml", text).run("config show --format concise");
     assert_eq!((run.status, run.stdout.as_str()), (Some(2), ""), "{run}");
     run.stderr
 }
 
-/// The line that `config show` prints for a key.
+/// Returns the line that `config show` prints for a key.
 fn line(run: &Run, key: &str) -> String {
     let lines = run.stdout.lines();
     lines
@@ -129,7 +129,7 @@ fn init_shows_every_key_with_a_right_value() {
     }
 }
 
-/// Each takes far more memory than its text; they are counted, and reported once.
+/// Patterns are limited in number, since each takes far more memory than its text. Exceeding the limit is reported once.
 #[test]
 fn patterns_are_counted() {
     let list = |pattern: &str, count: usize| vec![format!("'{pattern}'"); count].join(", ");
@@ -414,7 +414,7 @@ fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
             "did you mean `library`? It belongs at the top",
             "Das gehört an den Anfang",
         ),
-        // A typing error in a key is matched with its own table first.
+        // A misspelt key is compared with the keys of its own table first.
         ("[emit]\ntarget = []\n", "did you mean `targets`?\n", "ist `targets` gemeint?\n"),
         ("[watch]\nsomething = 1\n", "known here: debounce, poll", "hier bekannt: debounce, poll"),
     ] {
@@ -431,7 +431,7 @@ fn the_option_compatible_wins_over_the_key() {
     );
 }
 
-/// A user who created it expects it to be used.
+/// The configuration is a directory. A user who created it expects it to be used, so this is an error.
 #[test]
 fn a_configuration_that_is_a_directory_cannot_be_read() {
     let drawing =
@@ -474,7 +474,7 @@ fn names_of_paths_that_no_file_may_have_are_refused() {
         let told = said.lines().any(|line| line.contains("error[PB004]") && line.contains(&shown));
         assert!(told, "{name}: {run}");
     }
-    // CADs write a bar between the name of an external reference and that of its layer: it is never part of a name.
+    // CAD programs write a bar between the name of an external reference and that of its layer: it is never part of a name.
     let run = emitted("x|y");
     assert!(
         run.status == Some(0) && run.stdout.contains("y_Milling.gcode: written")
@@ -488,7 +488,7 @@ fn names_of_paths_that_no_file_may_have_are_refused() {
     }
 }
 
-/// A program names its cutter by the number alone.
+/// A program names its cutter by the number alone, so two cutters must not have the same number.
 #[test]
 fn a_number_is_that_of_one_cutter() {
     let tools = |other: &str| {

@@ -1,5 +1,5 @@
-//! Programs of a definition without a dialect: `verify` reads them by the definition, and compares them with what it writes. (book:
-//! program/reading, "Programs of a definition of your own")
+//! Tests programs of a definition without a dialect: `verify` reads them by means of the definition, and compares them with the text that it
+//! writes. (book: program/reading, "Programs of a definition of your own")
 
 use std::fs;
 
@@ -116,7 +116,7 @@ fn a_program_of_an_unchecked_definition_is_not_called_as_drawn() {
     assert_eq!(run.status, Some(1), "it moves elsewhere than the drawing\n{run}");
 }
 
-/// Lines of the program, what becomes of them, and whether that is a finding.
+/// Lines of the program, the texts that replace them, and whether this is a finding.
 const CHANGES: [(&str, &str, bool); 14] = [
     ("G00 Z+5 M03", "G00 Z+5", true),
     ("G17 G71 G90", "G17 G70 G90", true),
@@ -146,7 +146,7 @@ fn a_program_that_differs_from_what_its_definition_writes_has_a_finding() {
     }
 }
 
-/// Tool and speed that only the definition gives: `[tool]` has none.
+/// Tool and speed are given by the definition only, since `[tool]` has none.
 #[test]
 fn what_the_definition_alone_says_about_tool_and_spindle_is_compared() {
     let table = "[tool.2mm]\ndiameter = 2\nnumber = 1\nspindle = 4000\ncoolant = \"flood\"\n";

@@ -1,4 +1,4 @@
-//! What people read about dependencies; `packaging/deny` checks the crates themselves.
+//! Checks the documents about dependencies; `packaging/deny` checks the crates themselves.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -24,7 +24,7 @@ fn every_dependency_says_what_it_is_for() {
     assert_eq!(listed.len(), used.len(), "a crate has two rows");
 }
 
-/// Without `--locked`, cargo may use untested versions of crates.
+/// Documented commands contain `--locked`: without it, cargo may use untested versions of crates.
 #[test]
 fn every_documented_command_is_locked() {
     let project = project();

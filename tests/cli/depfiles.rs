@@ -1,4 +1,4 @@
-//! `emit --deps`: make and Ninja find files with any names. (book: howto/build-systems)
+//! Tests that make and Ninja find files with any names that `emit --deps` writes. (book: howto/build-systems)
 #![cfg(unix)]
 
 use std::fs::{self, File};
@@ -12,13 +12,13 @@ use crate::support::Place;
 const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n";
 const DRAWING: &str = "layer 1301.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0\n";
 
-/// Characters that both support: a space; the beginnings of comments, variables and rules; backslashes, even before a space; and characters
-/// that are escaped for display.
+/// Path with special characters that both make and Ninja support: a space; the beginnings of comments, variables and rules; backslashes, even
+/// before a space; and characters that are escaped for display.
 const FOR_BOTH: &str = "a\\b\\ c\\\\ d\u{85}/1301.1P a  b#c$d$$e:f::g \u{2028}\u{202e}ä";
-/// Characters that only make supports.
+/// Path with special characters that only make supports.
 const FOR_MAKE: &str = "a\\#b\\:c\\;d/1301.1P a;touch$IFS$9b;\"'`&<>";
 
-/// A drawing of that name, with its program and rule.
+/// A place with a drawing of that name, its program and its rule.
 struct Emitted {
     place: Place,
     drawing: String,
@@ -50,7 +50,7 @@ impl Emitted {
     }
 }
 
-/// Another program, if installed.
+/// Returns another program, if it is installed.
 fn command(name: &str) -> Option<Command> {
     let is_there = Command::new(name).arg("--version").output().is_ok_and(|it| it.status.success());
     if !is_there {
@@ -87,12 +87,12 @@ fn ninja_finds_files_of_any_name() {
         assert!(run.status.success(), "{run:?}");
         String::from_utf8_lossy(&run.stdout).contains("no work to do")
     };
-    // The first build knows nothing yet.
+    // The first build has no record of the files yet.
     assert!(!is_up_to_date());
     emitted.is_found_by(is_up_to_date);
 }
 
-/// Otherwise make would read the rule as an assignment and run part of the name.
+/// Names are refused if make would interpret them, for example as an assignment, and run a part of them.
 #[test]
 fn names_that_no_rule_can_have_are_refused() {
     let names = [
@@ -121,7 +121,8 @@ fn names_that_no_rule_can_have_are_refused() {
     }
 }
 
-/// The names of configurations may have any ending; a backslash would join two lines, and a parenthesis would form an archive member.
+/// Endings with `\` or `)` are refused, which the name of a configuration may have: a backslash would join two lines, and a parenthesis would form
+/// an archive member.
 #[test]
 fn ends_that_no_rule_can_have_are_refused() {
     for (name, is_right) in [("c(x)d", true), ("c(x)", false), ("c\\d", true), ("c\\", false)] {
@@ -136,7 +137,7 @@ fn ends_that_no_rule_can_have_are_refused() {
     }
 }
 
-/// Otherwise the rest of a name would become a rule of its own.
+/// Line feeds in a name are escaped: otherwise the rest of the name would become a rule of its own.
 #[test]
 fn no_name_makes_a_line_of_its_own() {
     let emitted = Emitted::new("a\nall: ;@echo\u{7f}\r/1301.1P");

@@ -1,14 +1,14 @@
-//! The output for each mistake, word for word: runs the examples of `explain`.
+//! Tests the output for each mistake, word for word, by running the examples of `explain`.
 
 use crate::support::Place;
 use insta::assert_snapshot;
 use pathbuild_diagnostic::Code;
 use pathbuild_testkit::Fixture;
 
-/// A bug in the program, which no drawing is meant to show.
+/// Codes without an example: it would require a bug, or a block, which examples do not contain.
 const WITHOUT_EXAMPLE: &[&str] = &["PB006", "PB525"];
 
-/// The codes with their examples.
+/// Returns the codes with their examples.
 fn examples() -> impl Iterator<Item = (String, Option<&'static str>)> {
     Code::ALL.iter().map(|code| (code.to_string(), code.example()))
 }
@@ -28,7 +28,7 @@ fn what_is_said_of_each_mistake() {
     }
 }
 
-/// An untranslated text would be the same in both languages.
+/// Messages differ between the languages: an untranslated text would be the same in both.
 #[test]
 fn each_mistake_is_told_in_german_too() {
     let is_told_alike = |text| messages(&said(text, &["--lang=de"])) == messages(&said(text, &[]));
@@ -36,7 +36,7 @@ fn each_mistake_is_told_in_german_too() {
     assert_eq!(told_alike.collect::<Vec<_>>(), Vec::<String>::new());
 }
 
-/// The output of a fixture's commands.
+/// Returns the output of a fixture's commands.
 fn said(text: &str, options: &[&str]) -> String {
     let place = Place::of(text);
     let fixture = Fixture::parse(text).unwrap();
@@ -48,7 +48,7 @@ fn said(text: &str, options: &[&str]) -> String {
     runs.collect::<Vec<_>>().join("\n")
 }
 
-/// The lines with messages.
+/// Returns the lines with messages.
 fn messages(said: &str) -> Vec<String> {
     let is_message = |line: &&str| line.starts_with("  × ") || line.starts_with("  ⚠ ");
     said.lines().filter(is_message).map(str::to_owned).collect()

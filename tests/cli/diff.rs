@@ -1,4 +1,4 @@
-//! `diff`: the effect of changed drawings on the moves.
+//! Tests `diff`, which shows the effect of changed drawings on the moves.
 
 use std::fs;
 use std::process::Command;
@@ -16,7 +16,7 @@ fn dxf(name: &str, depth: &str, elements: &str) -> Vec<u8> {
 
 const LINE: &str = "mill 0,0 40,0";
 
-/// Two directories with one path each.
+/// Creates two directories with one path each.
 fn two(old: Vec<u8>, new: Vec<u8>) -> Place {
     let configuration = "rapid = 1000\nlibrary = [\"parts\"]\n";
     Place::new()
@@ -127,7 +127,7 @@ fn a_program_and_the_path_that_it_was_made_from() {
     assert_eq!(place.run("diff programs/1001.1P_Milling.gcode new").status, Some(2));
 }
 
-/// GRBL's post writes four decimals where the native program has three, which half a micrometre tells apart.
+/// GRBL's post writes four decimals and the native program three, which half a micrometre distinguishes.
 #[test]
 fn what_a_post_rounds_is_no_change() {
     let line = |end: &str| dxf("1001.1P", "1", &format!("mill 0,0 20,{end}\nmill 20,{end} 40,0"));
@@ -196,7 +196,7 @@ fn json_markdown_and_a_page() {
     let markdown = read("d.md");
     assert!(markdown.contains("| ` 1001.1P ` | ` parts/1001.1P.dxf ` | 0.5 mm deeper&#58; "), "{markdown}");
     let page = read("d.html");
-    // Once with the changes, with old and new side by side, overlaid, and what is removed from the stock.
+    // One picture shows the changes, two show old and new side by side, one shows them overlaid, and the others the removed stock.
     assert_eq!(page.matches("<svg").count(), 6);
     assert!(!page.contains("{{") && page.contains("0.5 mm deeper"));
     assert!(
@@ -207,7 +207,7 @@ fn json_markdown_and_a_page() {
     assert_eq!(place.run("diff old new -o d.txt").status, Some(2));
 }
 
-/// Deeper, added, removed, and a hole: changes, then old and new.
+/// A deeper cut, an added cut, a removed cut and a hole: the picture of the changes, then those of the old and the new moves.
 #[test]
 fn changes_are_seen() {
     let [old, new] = [
@@ -222,7 +222,7 @@ fn changes_are_seen() {
     assert_snapshot!(pictures.collect::<Vec<_>>().join("\n\n"));
 }
 
-/// Removed moves are seen beneath those in their place, and the legend has the numbers of its language.
+/// Removed moves are visible beneath those that replace them, and the legend formats numbers as its language does.
 #[test]
 fn removed_moves_are_wider_and_beneath() {
     let drawing = |elements: &str| dxf("1001.1P", "1", elements);
@@ -289,12 +289,12 @@ fn names_are_no_markup() {
     }
     let read = |name: &str| fs::read_to_string(place.path().join(name)).unwrap();
     let markdown = read("d.md");
-    // Code formatting keeps GitHub from turning it into links.
+    // Names are formatted as code, which keeps GitHub from turning them into links.
     assert!(markdown.contains("| `` parts/1001.1P [x](y) @z _b_ `&c.dxf `` |"), "{markdown}");
     assert!(read("d.html").contains("@z _b_ `&amp;c.dxf"));
 }
 
-/// Printed names are not obeyed by CI runners either.
+/// Names that are printed do not act as commands of CI runners either.
 #[test]
 fn names_of_what_cannot_be_compared_are_no_markup() {
     let place = two(dxf("1001.1P", "1", LINE), dxf("1001.1P", "0.5", LINE));
@@ -316,7 +316,7 @@ fn committed(place: Place) -> Place {
     place
 }
 
-/// Runs with another directory for temporary files.
+/// Runs the program with another directory for temporary files.
 fn run_with_temporary(place: &Place, temporary: &std::path::Path, arguments: &[&str]) -> String {
     let mut program = crate::support::program();
     program.env("TMPDIR", temporary).env("TEMP", temporary).env("TMP", temporary);
@@ -327,7 +327,7 @@ fn run_with_temporary(place: &Place, temporary: &std::path::Path, arguments: &[&
 #[test]
 fn what_lies_above_temporary_files_does_not_hold() {
     let temporary = Place::new().file("pathbuild.toml", "path-pattern = 'X'\n");
-    // Without a configuration, and with its own.
+    // Test a tree without a configuration, and one with its own.
     for configuration in [None, Some("rapid = 1000\nlibrary = [\".\"]\n")] {
         let mut place = Place::new().file("1001.1P.dxf", dxf("1001.1P", "1", LINE));
         if let Some(configuration) = configuration {
@@ -355,7 +355,7 @@ fn large_files_of_a_revision_are_not_written_whole() {
     assert!(time < std::time::Duration::from_secs(2), "{time:?}");
 }
 
-/// A limit in today's configuration may have been different then.
+/// A revision is read with the limits of its own configuration, which may differ from today's.
 #[test]
 fn the_limits_of_a_revision_are_its_own() {
     let configuration = "rapid = 1000\nlibrary = [\".\"]\n";
@@ -367,7 +367,7 @@ fn the_limits_of_a_revision_are_its_own() {
     told(&place.run("diff HEAD~1 HEAD"), 0, &["0.5 mm deeper"]);
 }
 
-/// A single empty Git object under so many names that they exceed 4 GiB together.
+/// A tree contains an empty Git object under so many names that these exceed 4 GiB together.
 #[cfg(unix)]
 #[test]
 fn a_revision_has_an_end() {
@@ -390,7 +390,7 @@ fn a_revision_has_an_end() {
     assert!(german.stderr.contains("mehr als 4 GiB") && !german.stderr.contains("git:"), "{german}");
 }
 
-/// As long as the system allows for paths.
+/// A path is as long as the system permits.
 #[cfg(unix)]
 #[test]
 fn names_of_a_revision_have_an_end() {
@@ -418,7 +418,7 @@ fn ignore_files_and_empty_directories_of_a_revision_hold() {
     told(&place.run("diff HEAD HEAD"), 0, &["0 of 1 path changed"]);
 }
 
-/// Drawings that are links: to another file of the tree, and to one outside.
+/// Drawings are links: one to another file of the tree, and one to a file outside.
 #[cfg(unix)]
 #[test]
 fn links_of_a_revision_stay_in_its_tree() {
@@ -445,7 +445,7 @@ fn links_of_a_revision_stay_in_its_tree() {
     }
 }
 
-/// A tree with one drawing, under a name that Git itself may reject.
+/// Creates a tree with one drawing, under a name that Git itself may reject.
 #[cfg(unix)]
 fn hostile_tree(place: &Place, name: &str) -> String {
     use std::io::Write;

@@ -1,4 +1,4 @@
-//! Tests that limits which prevent comparing, listing, finding or reading are reported, without misleading messages.
+//! Exceeded limits that prevent comparing, listing, finding or reading are reported, without misleading messages.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -35,7 +35,7 @@ const OTHERS: &str = "0.9";
 const MANY: &str = "0.005";
 const STILL_MORE: &str = "0.004";
 
-/// An old and a new side, with a limit of 8 KiB for programs.
+/// Creates an old and a new side, with a limit of 8 KiB for programs.
 fn sides(old: &str, new: &str) -> Place {
     let configuration = limits("output-size = \"8 KiB\"");
     Place::new()
@@ -72,7 +72,7 @@ fn a_side_without_a_program_has_no_moves_that_could_be_gone() {
     assert!(run.stdout.contains(": changed\n") && run.stderr.is_empty(), "{run}");
 }
 
-/// Equal moves are recognised without their text.
+/// Equal moves are recognised without writing the program's text.
 #[test]
 fn a_program_that_is_too_large_on_both_sides_is_the_same() {
     let run = sides(MANY, MANY).run("diff old new");
@@ -80,7 +80,7 @@ fn a_program_that_is_too_large_on_both_sides_is_the_same() {
     assert!(run.stdout.starts_with("0 of 1 path changed"), "{run}");
 }
 
-/// Counted before they are generated.
+/// Moves are counted before they are generated.
 #[test]
 fn a_side_with_too_many_moves_says_so() {
     let run = sides(FEW, "0.0000001").run("diff old new");
@@ -229,7 +229,7 @@ fn what_is_beyond_the_limit_of_paths_is_not_too_deep() {
     assert_eq!(inside.status, Some(0), "{inside}");
     assert!(!inside.stdout.contains("PB"), "{inside}");
     assert_exceeds(&run(3), 1, "embedded-paths");
-    // The embeddings of the second path are not examined.
+    // The paths that the second path embeds are not examined.
     let outside = run(1);
     assert_exceeds(&outside, 1, "embedded-paths");
     assert!(outside.stdout.contains("PB005") && !outside.stdout.contains("PB508"), "{outside}");

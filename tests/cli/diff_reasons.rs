@@ -1,4 +1,4 @@
-//! `diff` explains changed moves by what was changed in the drawings. (book: program/comparing)
+//! Tests that `diff` explains changed moves by changes in the drawings. (book: program/comparing)
 
 use std::fs;
 
@@ -18,7 +18,7 @@ fn part(name: &str, parameters: &str, elements: &str) -> Vec<u8> {
 const LINE: &str = "mill 0,0 40,0";
 const CONFIGURATION: &str = "rapid = 1000\nsweep-height = 10\nlibrary = [\"parts\"]\n";
 
-/// Two libraries, each with its drawings by name.
+/// Creates two libraries from their drawings.
 fn two(old: &[(&str, Vec<u8>)], new: &[(&str, Vec<u8>)]) -> Place {
     let mut place = Place::new();
     for (side, files) in [("old", old), ("new", new)] {
@@ -30,7 +30,7 @@ fn two(old: &[(&str, Vec<u8>)], new: &[(&str, Vec<u8>)]) -> Place {
     place
 }
 
-/// The lines that explain the changes of each path.
+/// Returns the lines that explain the changes of each path.
 fn explanations(run: &Run) -> Vec<String> {
     assert_eq!(run.status, Some(0), "{run}");
     let lines = run.stdout.lines().map(str::to_owned);
@@ -72,7 +72,7 @@ fn what_was_drawn_explains_the_moves() {
     assert!(german.stdout.contains("\n  Ursache:\n"), "{german}");
 }
 
-/// A line type that takes no text has lost its text with the change; any other change of the text is still reported.
+/// If the line type changes to one that takes no text, or back, the change of the text is not reported; otherwise it is.
 #[test]
 fn a_line_type_without_texts_is_told_instead_of_the_text() {
     let part = |sweep: &str| part("1001.1P", "B1 F200", &format!("{sweep}\nmill 20,0 40,0"));
@@ -92,12 +92,12 @@ fn a_line_type_without_texts_is_told_instead_of_the_text() {
 
 #[test]
 fn what_changes_no_move_explains_nothing() {
-    // Both have comments and a hidden line's text changed, but only the depth changes moves.
+    // In both cases comments and a hidden line's text have changed, but only the depth changes moves.
     let drawing = |depth: &str, comment: &str| {
         part("1001.1P", &format!("B{depth} F200"), &format!("mill 0,0 40,0 \"Q{comment}\""))
     };
     explained(drawing("1", "one"), drawing("2", "two"), &["    start marker: text B1 became B2"]);
-    // A comment alone is no change of the moves.
+    // A changed comment alone does not change the moves.
     let place = two(&[("1001.1P", drawing("1", "one"))], &[("1001.1P", drawing("1", "two"))]);
     assert_eq!(place.run("diff old new").stdout, "0 of 1 path changed\n");
 }
@@ -161,7 +161,7 @@ fn variables_and_settings_are_named() {
     assert!(run.stdout.contains("1 of 2 paths changed"), "{run}");
 }
 
-/// The configuration decides how a drawing is read: the same file then has other elements, which are no change of the drawing.
+/// The configuration decides how a drawing is read. The same file may then have other elements, which is not a change of the drawing.
 #[test]
 fn a_drawing_that_is_read_otherwise_was_not_changed() {
     let same = [("1001.1P", part("1001.1P", "B1 F200", "line \"EDGE\" 0,0 40,0"))];
@@ -175,7 +175,7 @@ fn a_drawing_that_is_read_otherwise_was_not_changed() {
     assert!(explained.len() == 1 && explained[0].starts_with("    line-types in pathbuild.toml: "), "{run}");
 }
 
-/// Two lines with the same order start at one point: which is milled first is decided by their order in the file.
+/// Two lines of equal rank start at one point: their order in the file decides which is milled first.
 #[test]
 fn the_order_in_the_file_is_named_if_nothing_else_differs() {
     let star = |elements: &str| {
@@ -205,7 +205,7 @@ fn the_page_and_markdown_explain_as_well() {
     assert!(place.read("d.md").contains("explained by"));
 }
 
-/// A program was rounded by its post: what was drawn when it was written is unknown.
+/// The post has rounded the program, and the drawing from which it was written is unknown.
 #[test]
 fn programs_are_not_explained() {
     let place = two(

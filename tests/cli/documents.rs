@@ -1,4 +1,5 @@
-//! Machine-readable output: a single document on stdout and nothing else, for every command; reports; file names. (book: reference/output)
+//! Tests machine-readable output: every command prints a single document on stdout and nothing else. Also tests reports and file names. (book:
+//! reference/output)
 
 use insta::assert_snapshot;
 use serde_json::Value;
@@ -28,7 +29,7 @@ subpath 0,0 40,0 ">1234.1P"
 end 40,0
 "#;
 
-/// A repository that contains pathbuild's directory.
+/// Creates a repository that contains pathbuild's directory.
 fn place() -> Place {
     Place::of(LIBRARY).file(".git/HEAD", "ref: refs/heads/main\n")
 }
@@ -196,7 +197,7 @@ fn emit_check_prints_what_is_not_current() {
     assert_snapshot!(said.join("\n"));
 }
 
-/// A drawing with this number of erroneous paths.
+/// Creates a drawing with this number of erroneous paths.
 fn many(count: usize) -> Place {
     let path = |number: usize| {
         format!(

@@ -1,5 +1,5 @@
-//! The same library in another place, or accessed from another directory: programs are identical, and so are findings except for directory
-//! names; with and without a cache, on one thread and on several.
+//! Compiles the same library in another place, or from another directory: programs are identical, and so are findings except for directory names;
+//! with and without a cache, on one thread and on several.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::support::{Place, Run};
 
-/// Components with and without faults, projects, one with probes, and one whose component is missing.
+/// A library of components with and without faults, and of projects: one with probes, and one whose component is missing.
 const LIBRARY: &str = r#"
 == pathbuild.toml ==
 library = ["components", "projects"]
@@ -59,7 +59,7 @@ end 80,0
 #[derive(Debug, PartialEq)]
 struct Outcome {
     status: [Option<i32>; 2],
-    /// Findings of `check`, then the output of `emit`, without directories.
+    /// Findings of `check`, and the output of `emit`, without directories.
     said: [Vec<String>; 2],
     programs: BTreeMap<PathBuf, Vec<u8>>,
 }
@@ -97,7 +97,7 @@ fn outcome(place: &Place, root: &str, from: &str, options: &str) -> Outcome {
     outcome
 }
 
-/// The files of a library other than drawings.
+/// Returns the files of a library other than drawings.
 fn programs(root: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let listed = fs::read_dir(root.join("projects")).unwrap().map(|entry| entry.unwrap().path());
     let written = listed.filter(|path| path.extension().is_none_or(|extension| extension != "dxf"));
@@ -135,7 +135,7 @@ fn the_place_decides_nothing() {
         ("one", "aside/below"),
         ("one", "another"),
     ] {
-        // With an empty cache, with the cache of that run, and without a cache.
+        // Test with an empty cache, with the cache that this creates, and without a cache.
         for options in ["-j 2", "-j 1", "", "--no-cache -j 2"] {
             assert_eq!(outcome(&place, root, from, options), expected, "{root} from {from} {options}");
         }
@@ -183,13 +183,13 @@ end 40,0
 "#;
 
 impl Place {
-    /// Runs in the library.
+    /// Runs the program in the library's directory.
     fn at_work(&self, line: &str) -> Run {
         self.run_in("lib", &line.split_whitespace().collect::<Vec<_>>())
     }
 }
 
-/// A workshop with a program that was copied elsewhere.
+/// Creates a workshop with a program that was copied elsewhere.
 fn carried() -> Place {
     let place = Place::of(WORKSHOP);
     assert_eq!(place.at_work("emit 1234.1P 1300.1P").status, Some(0));
@@ -217,7 +217,7 @@ fn the_working_directory_s_configuration_holds_for_a_program_from_elsewhere() {
     assert_eq!(adjusted.status, Some(0), "{adjusted}");
     assert!(!adjusted.stderr.contains("not compared"), "{adjusted}");
     assert!(place.path().join("lib/out/1300_Milling.gcode").exists(), "out-dir is the library's: {adjusted}");
-    // The bare name of a program refers to the one in out-dir, or if there is none, to the given path.
+    // The bare name of a program refers to the one in out-dir or, if there is none, to the given path.
     assert_eq!(place.at_work("adjust ../stick/1300 --max-correction 1").status, Some(1), "no values in out");
     fs::remove_file(place.path().join("lib/out/1300_Clean.gcode")).unwrap();
     let adjusted = place.at_work("adjust ../stick/1300 --max-correction 1");
@@ -226,7 +226,7 @@ fn the_working_directory_s_configuration_holds_for_a_program_from_elsewhere() {
     assert!(diff.status == Some(0) && diff.stdout.contains("0 of 1 path changed"), "{diff}");
 }
 
-/// Each command that reads a program uses the limits of the working directory, or of the program's tree if that is another one.
+/// Each command that reads a program uses the limits of the working directory, or those of the program's tree if it is another one.
 #[test]
 fn a_program_in_another_tree_has_the_configuration_of_that() {
     let small = "[limits]\nfile-size = 100\n";
@@ -246,7 +246,7 @@ fn a_program_in_another_tree_has_the_configuration_of_that() {
     }
 }
 
-/// The configuration is that of the path, if neither the program nor the working directory has one.
+/// The configuration of the path applies if neither the program nor the working directory has one.
 #[test]
 fn the_configuration_of_the_path_holds_for_a_program_from_elsewhere() {
     let place = carried();

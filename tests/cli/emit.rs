@@ -1,4 +1,4 @@
-//! The files that `emit` writes, compares and removes. (book: reference/commands, book: program/gcode)
+//! Tests the files that `emit` writes, compares and removes. (book: reference/commands, book: program/gcode)
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,7 +9,7 @@ use crate::support::{self, Place, dxf, runs, shown};
 use insta::assert_snapshot;
 use rayon::prelude::*;
 
-/// Two components, a project of both, a drawing of two paths, and one with a Z-probe.
+/// A library of two components, a project that embeds both, a drawing of two paths, and one with a Z-probe.
 const LIBRARY: &str = r#"
 == pathbuild.toml ==
 library = ["components", "projects"]
@@ -47,13 +47,13 @@ probe 20,20 "LA"
 end 40,0
 "#;
 
-/// The library with a part of it replaced.
+/// Creates the library with a part of it replaced.
 fn library(from: &str, to: &str) -> Place {
     assert!(LIBRARY.contains(from), "{from}");
     Place::of(&LIBRARY.replace(from, to))
 }
 
-/// The names and contents of all files in a place, except for the cache.
+/// Returns the names and contents of all files in a place, except for the cache.
 fn files(place: &Place) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();
     let mut open = vec![place.path().to_owned()];
@@ -72,7 +72,7 @@ fn files(place: &Place) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// The names of all files except drawings and configurations.
+/// Returns the names of all files except drawings and configurations.
 fn written(place: &Place) -> Vec<String> {
     let is_source = |name: &String| has_extension(name, "dxf") || has_extension(name, "toml");
     files(place).into_iter().map(|(name, _)| name).filter(|name| !is_source(name)).collect()
@@ -98,7 +98,7 @@ fn files_are_written_once() {
     assert_snapshot!(place.read(expected[0]));
 }
 
-/// A setup sheet states the sources of a program, regardless of where it was made.
+/// A setup sheet contains the provenance of a program, which does not depend on where the program was written.
 #[test]
 fn provenance_is_that_of_moves_and_options() {
     const PROGRAM: &str = "projects/8001 a b_Milling.gcode";
@@ -113,7 +113,7 @@ fn provenance_is_that_of_moves_and_options() {
     assert!(first.ends_with(" native O2 T5)"), "{first}");
     let moved = Place::of(&LIBRARY.replace("components", "parts").replace("projects/", "x/../projects/"));
     assert_eq!(of(&moved, "-j 1"), first);
-    // Drawings that are not embedded, edits without an effect on moves, and options without an effect on moves do not change it.
+    // Drawings that are not embedded, and edits and options without an effect on moves, do not change the provenance.
     assert_eq!(of(&library("probe 20,20", "probe 20,30"), ""), first);
     assert_eq!(of(&library("mill 0,0 40,0", "mill 0,0 40,0 \"F150\""), ""), first);
     assert_eq!(of(&place, "--probe-feed 7"), first);
@@ -126,7 +126,7 @@ fn provenance_is_that_of_moves_and_options() {
     assert!(faster.starts_with(&program) && !faster.ends_with(&options), "{first} {faster}");
 }
 
-/// A CAD program may write an unchanged drawing differently; and a newer pathbuild keeps what an older one has written.
+/// A CAD program may save an unchanged drawing with other bytes, and a newer pathbuild keeps programs that an older one wrote.
 #[test]
 fn a_program_stays_current_when_only_its_drawing_s_bytes_or_the_version_change() {
     let place = Place::of(LIBRARY);
@@ -233,13 +233,13 @@ fn measured_values_of_other_probes_are_kept_unless_forced() {
     assert_eq!(place.read("projects/8002_Z.txt"), values);
     assert_eq!(place.run("emit 8002.1P --force").status, Some(0));
     assert!(!place.read("projects/8002_Z.txt").contains("5.125"));
-    // Without measured values, nothing is lost.
+    // If nothing was measured, no values are lost.
     let place = Place::of(LIBRARY).file("projects/8002_Z.txt", &nothing_measured);
     assert_eq!(place.run("emit 8002.1P").status, Some(0));
     assert_ne!(place.read("projects/8002_Z.txt"), nothing_measured);
 }
 
-/// G-code of the original tool has other comments, headers and line ends. (issue 4)
+/// G-code of the original program has other comments, headers and line ends. (issue 4)
 #[test]
 fn moves_are_compared_with_a_program_whoever_wrote_it() {
     let place = Place::of(LIBRARY);
@@ -306,7 +306,7 @@ fn comparing_moves_needs_no_rapid_feed() {
     assert_snapshot!(runs(&place, ["emit 1234.1P", "emit --check 1234.1P", "emit --check --moves 1234.1P"]));
 }
 
-/// A library with the G-code that the original tool made of it: all of it is current, and nothing is written.
+/// The library contains the G-code that the original program made of it: all of it is current, and nothing is written.
 #[test]
 fn gcode_of_the_original_tool_is_current() {
     let cases = support::project().join("fixtures/conformance/cases");
@@ -318,7 +318,7 @@ fn gcode_of_the_original_tool_is_current() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// A migrated drawing that is edited later is distinguished from its G-code, starting at the line where the program differs.
+/// A drawing with G-code of the original program is edited: the comparison reports the line at which the program begins to differ.
 #[test]
 fn a_changed_drawing_is_not_current() {
     let cases = support::project().join("fixtures/conformance/cases");
@@ -333,7 +333,7 @@ fn a_changed_drawing_is_not_current() {
     assert_snapshot!(check_moves(&place, arguments));
 }
 
-/// Without `--compatible`, such a program has different moves; this reason is reported, but only if it is the reason.
+/// Without `--compatible`, such a program has different moves. A note gives this reason, but only if it is the reason.
 #[test]
 fn a_program_as_the_original_tool_writes_it_is_named_so() {
     let cases = support::project().join("fixtures/conformance/cases");
@@ -351,7 +351,7 @@ fn a_program_as_the_original_tool_writes_it_is_named_so() {
     assert!(changed.status == Some(1) && !changed.stderr.contains("--compatible"), "{changed}");
 }
 
-/// The files that the original tool wrote in a successful run.
+/// Returns the files that the original program wrote in a successful run.
 fn expected_files(run: &Run) -> Vec<(String, Vec<u8>)> {
     let folder = run.case.join("expected").join(run.number.to_string());
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
@@ -360,7 +360,7 @@ fn expected_files(run: &Run) -> Vec<(String, Vec<u8>)> {
     named.filter(|(name, _)| has_extension(name, "gcode")).collect()
 }
 
-/// The problem with comparing the outputs of a run with the files of the original tool.
+/// Returns the problem with comparing the outputs of a run with the files of the original program.
 fn fault(run: &Run) -> Option<String> {
     let What::Compile(arguments) = &run.what else { return None };
     let place = with_expected_files(run);
@@ -375,7 +375,7 @@ fn check_moves(place: &Place, arguments: &[String]) -> support::Run {
     place.run_with(&[&["emit", "--check", "--moves", "--compatible"], &arguments[1..]].concat())
 }
 
-/// The drawings of a case with the files that the original tool wrote.
+/// Creates a place with the drawings of a case and the files that the original program wrote.
 fn with_expected_files(run: &Run) -> Place {
     let sources = fs::read_dir(&run.case).unwrap().map(|entry| entry.unwrap().path());
     let mut place = Place::new();
@@ -424,7 +424,7 @@ fn deps_are_rules_for_make() {
     assert_snapshot!(place.read("out.d"));
 }
 
-/// A drawing whose name admits an embedded path was read: an edit may turn it into a second definition.
+/// The drawing was searched because its name admits an embedded path; an edit may add a second definition of that path to it.
 #[test]
 fn deps_have_drawings_that_were_searched_in_vain() {
     let other = LIBRARY.split("== components/1300.dxf ==").nth(1).unwrap().split("== ").next().unwrap();
@@ -495,12 +495,12 @@ fn what_nothing_writes_any_more_is_stale() {
     assert_eq!(gone, ["projects/8001 a b_Milling.gcode"]);
 }
 
-/// Each of these files still has an owner, or may have one.
+/// Each of these files belongs to a path or command that may write it again.
 #[test]
 fn what_may_be_written_again_is_not_stale() {
     let place = Place::of(LIBRARY);
     place.run("emit");
-    // A path with errors at the moment, a path that is not a target, a file of adjust, an ignored drawing.
+    // The files belong to a path that has errors at the moment, a path that is not a target, `adjust`, and an ignored drawing.
     place.run("emit 1234.1P");
     let values = place.read("projects/8002_Z.txt").replace("=\n", "=5.125\n");
     let place = place.file("projects/8002_Z.txt", values);
@@ -518,7 +518,7 @@ fn what_may_be_written_again_is_not_stale() {
     assert!(!run.stderr.contains("stale"), "{run}");
 }
 
-/// The paths of a drawing that cannot be read at the moment are unknown.
+/// A drawing that cannot be read at the moment may still contain the paths of these programs.
 #[test]
 fn programs_of_a_drawing_that_cannot_be_read_are_not_stale() {
     for arguments in ["", "projects ", "--out-dir all ", "projects --out-dir all "] {
@@ -548,7 +548,7 @@ fn outputs_of_a_path_that_changed_its_name_are_stale() {
     ));
 }
 
-/// A run only knows the library's own files in an output directory that is shared with other drawings.
+/// In an output directory that is shared with other drawings, a run knows only the library's own files.
 #[test]
 fn other_drawings_of_a_shared_output_directory_are_left_alone() {
     let place = library("library = [\"components\", \"projects\"]", "");
@@ -566,7 +566,7 @@ fn a_missing_subpath_that_the_library_has_says_where() {
     assert!(check.stderr.contains("add components to `search`"), "{check}");
 }
 
-/// Joined ends are milled through without leaving the groove; larger distances are gaps.
+/// Ends that are joined are milled through without leaving the groove; larger distances are gaps.
 #[test]
 fn ends_within_the_tolerance_are_milled_through() {
     let place = |gap: &str| {
@@ -606,7 +606,7 @@ end 40,0.01
     assert_snapshot!("farther apart is a gap", place("20.011").run("emit 1234.1P.dxf"));
 }
 
-/// What trimming leaves of an arc is no full circle. (PB121)
+/// The remnant of a trimmed arc is not a full circle. (PB121)
 #[test]
 fn the_remnant_of_an_arc_is_not_milled_as_a_circle() {
     let drawing = |end: &str| {
@@ -627,7 +627,7 @@ fn the_remnant_of_an_arc_is_not_milled_as_a_circle() {
     }
 }
 
-/// A network drive may be away for a while.
+/// A directory on a network drive may be missing for a while.
 #[test]
 fn nothing_is_stale_while_a_directory_of_the_library_is_missing() {
     let place = Place::of(LIBRARY);

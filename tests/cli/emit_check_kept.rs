@@ -1,12 +1,12 @@
-//! `emit --check` with a cache: the same answers as without, whatever changed in between, and no drawing is read if nothing did. (book:
-//! reference/commands, `emit --check`)
+//! Tests `emit --check` with a cache: the answers are the same as without, whatever has changed in between, and no drawing is read if nothing has.
+//! (book: reference/commands, `emit --check`)
 
 use std::fs;
 use std::time::Duration;
 
 use crate::support::{Place, Run};
 
-/// Two components, and a project of each.
+/// A library of two components, and a project of each.
 const LIBRARY: &str = r#"
 == pathbuild.toml ==
 library = ["components", "projects"]
@@ -43,7 +43,7 @@ end 40,0
 const ALL_CURRENT: &str = "4 current, 0 not current
 ";
 
-/// A library whose programs were just written.
+/// Creates a library whose programs were just written.
 fn emitted() -> Place {
     let place = Place::of(LIBRARY);
     let run = place.run("emit");
@@ -63,7 +63,7 @@ fn said(run: &Run) -> (Option<i32>, &str, &str) {
     (run.status, &run.stdout, &run.stderr)
 }
 
-/// The output of a check: with the current cache, with the cache of that run, and without.
+/// Returns the output of a check, after asserting that it is the same with the current cache, with the cache of that run, and without a cache.
 #[track_caller]
 fn answer(place: &Place, arguments: &str) -> Run {
     let without = place.run(&format!("emit --check --no-cache {arguments}"));
@@ -80,7 +80,7 @@ fn is_known(place: &Place, arguments: &str) -> bool {
     paths.0 == paths.1 && drawings.0 == drawings.1
 }
 
-/// The numbers of cached and of all paths, and of drawings.
+/// Returns the numbers of cached and of all paths, and those of drawings.
 fn known(run: &Run) -> ((u32, u32), (u32, u32)) {
     let count = |phrase: &str| {
         let line =
@@ -120,7 +120,7 @@ fn an_edited_drawing_is_noticed_and_its_mending_too() {
         "layer 8001.1P\nstart 0,0 \"T6",
     );
     assert!(!is_known(&place, ""));
-    // The component is thinner than the plate: an error, and its program is older.
+    // The component is thinner than the plate, which is an error, so its program is now older than the drawing.
     let run = answer(&place, "");
     assert_eq!(run.status, Some(1), "{run}");
     let rows = place.run("emit --check --format json").stdout;
@@ -133,7 +133,7 @@ fn an_edited_drawing_is_noticed_and_its_mending_too() {
         "subpath 0,0 40,0 \">1234.1P\"\nend 40,0",
         "subpath 0,0 40,0 \">1234.1P\"\nend 40,0\nlayer 8001.2P\nstart 0,50 \"T5 O2 MPlate I1 B4\"\nmill 0,50 40,50\nend 40,50",
     );
-    // There are two paths now, so the program has another name.
+    // The drawing now has two paths, so the program has another name.
     let run = answer(&place, "");
     assert!(run.stdout.contains("missing"), "{run}");
 }
@@ -172,7 +172,7 @@ fn a_changed_setting_is_noticed() {
     let place = place.file("pathbuild.toml", configuration.replace("\"8*\"", "\"8*\", \"9*\""));
     let run = answer(&place, "");
     assert!(run.stderr.contains("9*") && run.status == Some(1), "{run}");
-    // Messages name a line of the configuration.
+    // The line numbers in messages about the configuration have changed.
     let moved = format!("\n{}", place.read("pathbuild.toml"));
     let place = place.file("pathbuild.toml", moved);
     answer(&place, "");
@@ -184,7 +184,7 @@ fn a_changed_setting_is_noticed() {
 fn a_program_edited_by_hand_is_noticed_and_one_of_the_same_bytes_is_current() {
     let place = emitted();
     let program = place.read("projects/8001_Milling.gcode");
-    // Of the same size.
+    // The edited program has the same size.
     let place = place.file("projects/8001_Milling.gcode", program.replacen("150", "151", 1));
     assert_outdated(&place, "projects/8001_Milling.gcode");
     let place = place.file("projects/8001_Milling.gcode", program);
@@ -263,7 +263,7 @@ fn an_edited_post_is_noticed() {
     assert!(run.stdout.contains(": not current\n") && run.status == Some(1), "{run}");
 }
 
-/// A file inserted by a post belongs to the programs like the post itself, however the post spells its name, including in a macro.
+/// A file inserted by a post is an input of the programs like the post itself, whatever the post calls it, even if a macro contains the name.
 #[test]
 fn an_edited_file_that_a_post_inserts_is_noticed() {
     let library = LIBRARY.replace("probe 20,20 \"LA\"\n", "");
@@ -286,7 +286,7 @@ fn an_edited_file_that_a_post_inserts_is_noticed() {
     }
 }
 
-/// A fault is cached with its place: an identical post has the fault in its own file.
+/// A fault is cached with its file: an identical post has the fault in its own file.
 #[test]
 fn a_fault_of_a_post_is_in_its_own_file() {
     let post = "<PostProcessor><PostFile>{$mops}{$nothing}</PostFile></PostProcessor>";
@@ -301,8 +301,7 @@ fn a_fault_of_a_post_is_in_its_own_file() {
     }
 }
 
-/// Results name files relative to the working directory: the copy of a drawing in a subdirectory has the same name there, but its program
-/// has another one.
+/// Results name files relative to the working directory. The copy of a drawing in a subdirectory has the same name there, but another program.
 #[test]
 fn results_hold_where_they_were_asked_for() {
     let configuration =
@@ -321,7 +320,7 @@ fn results_hold_where_they_were_asked_for() {
     }
 }
 
-/// The machine may have been busy: with a path of many passes, and with one of many lines, for which even the walk takes time.
+/// A timeout is not cached, because the machine may have been busy. One path has many passes, the other one so many lines that the walk takes time.
 #[test]
 fn what_took_too_long_is_asked_again() {
     let lines: Vec<String> =
@@ -342,7 +341,7 @@ fn what_took_too_long_is_asked_again() {
     }
 }
 
-/// Modification times and contents of the programs.
+/// Returns the modification times and contents of the programs.
 fn programs(place: &Place) -> Vec<(std::path::PathBuf, std::time::SystemTime, Vec<u8>)> {
     let listed = fs::read_dir(place.path().join("projects")).unwrap().map(|entry| entry.unwrap().path());
     let mut programs: Vec<_> = listed
@@ -393,14 +392,14 @@ fn a_program_that_was_changed_or_removed_by_hand_is_made_again() {
     let before: Vec<_> = programs(&place).into_iter().map(|(path, _, bytes)| (path, bytes)).collect();
     for hand in [true, false] {
         for (path, bytes) in &before {
-            // Of the same size.
+            // The edited file has the same size.
             let edited: Vec<u8> = bytes.iter().map(|byte| if *byte == b'1' { b'2' } else { *byte }).collect();
             if hand {
                 fs::write(path, edited).unwrap();
             } else {
                 fs::remove_file(path).unwrap();
             }
-            // With other probes, the user's measured values would be lost.
+            // If the probes differ, the user's measured values would be lost.
             let run = place.run("emit");
             if run.stderr.contains("PB605") {
                 fs::write(path, bytes).unwrap();
@@ -455,7 +454,7 @@ fn the_results_of_some_directories_leave_those_of_others() {
     );
     let run = place.run("emit projects -v");
     assert_eq!(known(&run), ((1, 2), (2, 2)), "{run}");
-    // The component itself is as old as before.
+    // The component itself was not emitted, so its result is still outdated.
     assert_eq!(known(&place.run("emit -v")), ((3, 4), (3, 4)));
 }
 
@@ -480,7 +479,7 @@ fn programs_of_the_same_moves_are_not_taken_for_those_that_would_be_written() {
         let program = place.read("projects/8001_Milling.gcode").replace("M30", "(mine)\nM30");
         place.file("projects/8001_Milling.gcode", program)
     });
-    // Stamps are only cached for files that have not changed for a while.
+    // Stamps are cached only for files that have not changed for a while.
     std::thread::sleep(Duration::from_millis(3_500));
     for (place, (task, said)) in places.iter().zip(tasks) {
         assert_eq!(place.run(&format!("emit --check {task}")).stderr, said);
@@ -527,7 +526,8 @@ fn without_a_configuration_nothing_is_kept() {
     assert!(!place.cache().exists());
 }
 
-/// The output of repeated `emit` runs: the same as without a cache, and from the second run on without reading drawings or writing files.
+/// Returns the output of repeated `emit` runs, after asserting that it is the same as without a cache, and that from the second run on no drawing
+/// is read and no file written.
 #[track_caller]
 fn settles(place: &Place, arguments: &str) -> Run {
     place.run(&format!("emit {arguments}"));
@@ -542,14 +542,14 @@ fn settles(place: &Place, arguments: &str) -> Run {
     without
 }
 
-/// The numbers of cached and of all paths in the next `emit`.
+/// Returns the numbers of cached and of all paths in the next `emit`.
 fn paths_known(place: &Place, arguments: &str) -> (u32, u32) {
     known(&place.run(&format!("emit -v {arguments}"))).0
 }
 
 const POST: &str = "<PostProcessor><PostFile>{$mops}</PostFile></PostProcessor>";
 
-/// A library with two paths that can be joined.
+/// Creates a library with two paths that can be joined.
 fn joinable() -> Place {
     Place::of(&LIBRARY.replace("probe 20,20 \"LA\"\n", "")).file("my.cbpp", POST)
 }
@@ -562,7 +562,7 @@ fn whatever_is_named_is_made_once() {
     for arguments in all {
         settles(&place, arguments);
     }
-    // The results of one run are available to the others, whichever paths they name.
+    // Each run can use the results of the others, whichever paths it names.
     for arguments in all {
         let (known, all) = paths_known(&place, arguments);
         assert_eq!(known, all, "{arguments}");
@@ -586,7 +586,7 @@ fn errors_of_what_is_named_are_known() {
     for arguments in ["8001.1P", "projects/8001.dxf", "projects"] {
         assert_eq!(settles(&place, arguments).status, Some(1));
     }
-    // Programs with probes cannot be posted: the path is correct, but gives no program.
+    // Programs with probes cannot be posted: the path is correct, but yields no program.
     let place = Place::of(LIBRARY).file("my.cbpp", POST);
     for arguments in ["8002.1P --post my.cbpp", "8001 8002 --join both --post my.cbpp"] {
         assert_eq!(settles(&place, arguments).status, Some(1));
@@ -690,7 +690,7 @@ fn paths_that_claim_one_file_are_known_to_do_so_and_made_when_they_no_longer_do(
 fn records_of_drawings_that_were_not_looked_at_stay_unless_they_are_of_other_bytes() {
     let place = emitted();
     settles(&place, "");
-    // Read by a run that names a single project.
+    // The changed component is read by a run that names a single project.
     let drawing = String::from_utf8(fs::read(place.path().join("components/1234.dxf")).unwrap()).unwrap();
     let place = place.file("components/1234.dxf", drawing.replace("I1 B4", "I1 B3"));
     settles(&place, "8001.1P");
@@ -709,7 +709,7 @@ fn a_program_that_may_not_be_written_is_not_made_again() {
     assert_eq!(run.status, Some(1), "{run}");
 }
 
-/// A program of another version that is replaced by an equivalent one of this version stays current, since a colleague may have written it.
+/// A program of another version that is replaced by an equivalent one of this version stays current, because a colleague may have written it.
 #[test]
 fn a_program_of_this_version_takes_the_place_of_another_ones() {
     let place = emitted();
@@ -718,7 +718,7 @@ fn a_program_of_this_version_takes_the_place_of_another_ones() {
     let place = place
         .file(program, own.replacen(concat!("pathbuild ", env!("CARGO_PKG_VERSION")), "pathbuild 0.0.9", 1));
     assert_ne!(place.read(program), own);
-    // It was just written, so it is compared again each time.
+    // The program was just written, so its stamp is not trusted and it is compared again each time.
     assert_eq!(place.run("emit --check").status, Some(0));
     let place = place.file(program, own);
     assert_eq!(place.run("emit --check").status, Some(0));
@@ -726,7 +726,8 @@ fn a_program_of_this_version_takes_the_place_of_another_ones() {
     assert_eq!(place.run("emit --check").status, Some(1));
 }
 
-/// The language of comments is that of messages, unless a key sets another: it matters whether the key is set, not only its value.
+/// The language of comments is that of messages, unless a key sets another. The cache therefore depends on whether the key is set, not only on its
+/// value.
 #[test]
 fn a_language_that_is_no_longer_set_is_noticed() {
     let place = Place::of(&LIBRARY.replace("feed = 150", "feed = 150\nlang = \"de\"\ncomment-lang = \"en\""));
@@ -737,7 +738,7 @@ fn a_language_that_is_no_longer_set_is_noticed() {
     assert_eq!(run.status, Some(1), "{run}");
 }
 
-/// A post that rejects an inserted file, or does not find it, succeeds once the file is corrected.
+/// A post that rejects an inserted file, or does not find it, succeeds as soon as the file is corrected.
 #[test]
 fn a_refusal_for_an_inserted_file_passes_with_it() {
     let texts = "comment = '(~CommentText~)'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\n\
@@ -778,7 +779,7 @@ fn a_value_that_is_missing_is_missing_though_moves_are_known() {
     assert!(run.status == Some(2) && run.stderr.contains("--rapid"), "{run}");
 }
 
-/// The file exists but cannot be read.
+/// The program is a symbolic link to itself: it exists, but cannot be read.
 #[cfg(unix)]
 #[test]
 fn a_program_that_leads_to_itself_is_not_missing() {

@@ -1,4 +1,4 @@
-//! `init --example`: the library for learning, and the hints at its existence.
+//! Tests `init --example`, which creates the library for learning, and the hints at its existence.
 
 use crate::support::Place;
 
@@ -45,7 +45,7 @@ fn without_a_configuration_check_mentions_init() {
     assert!(run.stderr.contains("set `library` in pathbuild.toml") && !run.stderr.contains("init"), "{run}");
 }
 
-/// With a file size limit of 2 kB, as on a full disk: no partial file blocks the next attempt.
+/// The file size limit of 2 kB acts as a full disk. No partial file remains that would block the next attempt.
 #[cfg(unix)]
 #[test]
 fn files_that_cannot_be_written_whole_are_gone() {

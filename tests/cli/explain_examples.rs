@@ -1,4 +1,4 @@
-//! The examples on the pages of `explain` give exactly the noted diagnostics.
+//! Checks that the examples on the pages of `explain` give exactly the noted diagnostics.
 
 use crate::support::fixture;
 use pathbuild_diagnostic::Code;
@@ -10,7 +10,7 @@ fn every_example_gives_what_it_says() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The fault of an example.
+/// Returns the fault of an example, if it has one.
 fn verdict(code: Code, text: &str) -> Option<String> {
     let faults = fixture::faults(text);
     (!faults.is_empty()).then(|| format!("{code}:\n  {}", faults.join("\n  ")))

@@ -1,4 +1,4 @@
-//! Faults of the machine: a full disk, a directory of another user, a clock that goes backwards, a cache that is cleaned during a run.
+//! Simulates faults of the machine: a full disk, a directory of another user, a clock that goes backwards, a cache that is cleaned during a run.
 //! Tests that the machine does not permit are skipped, with a note. (docs/reliability.md)
 #![cfg(target_os = "linux")]
 
@@ -21,7 +21,7 @@ fn place() -> Place {
     Place::new().file("pathbuild.toml", CONFIGURATION).file("1202.1P.dxf", dxf("1"))
 }
 
-/// Names that end in `.tmp`.
+/// Returns the names in a directory that end in `.tmp`.
 fn debris(directory: &Path) -> Vec<String> {
     let names = fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name());
     let names = names.map(|name| name.into_string().unwrap());
@@ -46,7 +46,7 @@ impl Drop for Small<'_> {
     }
 }
 
-/// At any amount of free space, a program is either complete or the previous one; no partial file is left.
+/// Whatever amount of space is free, a program is either complete or the previous one, and no partial file is left.
 #[test]
 fn a_full_disk_leaves_whole_programs() {
     let place = place().file("1202.1P.dxf", dxf("0.02"));
@@ -91,18 +91,18 @@ fn a_full_cache_changes_nothing() {
     };
     let without = place.run("check --no-cache --format json");
     for pages in 0..=16 {
-        // If it does not fit, the disk is full.
+        // Best effort: the disk may be full before the filler is complete.
         _ = fs::write(caches.join("filler"), vec![b'x'; pages * 4096]);
         let kept = place.run("check --cache-dir caches/kept --format json");
         assert_eq!((kept.status, &kept.stdout), (Some(0), &without.stdout), "{kept}");
-        // With enough space something must be cached, or the test is void.
+        // With enough space the cache must contain something; otherwise the test proves nothing.
         assert!(pages > 0 || fs::read_dir(caches.join("kept")).unwrap().count() > 1, "{kept}");
         fs::remove_dir_all(caches.join("kept")).ok();
     }
     drop(small);
 }
 
-/// As a user with read-only access to the tree.
+/// The user has read-only access to the tree.
 #[test]
 fn a_directory_of_somebody_else_is_left_alone() {
     let place = place();
@@ -131,7 +131,7 @@ fn a_directory_of_somebody_else_is_left_alone() {
     assert_eq!(left, ["1202.1P.dxf", "pathbuild.toml"]);
 }
 
-/// Files with modification times in the future, and then in the past: the cache compares file contents, not the clock.
+/// Modification times lie in the future, and then in the past. The cache compares file contents and does not rely on the clock.
 #[test]
 fn a_clock_that_goes_back_hides_no_change() {
     let place = place();
@@ -140,7 +140,7 @@ fn a_clock_that_goes_back_hides_no_change() {
     let now = std::time::SystemTime::now();
     for (round, time) in [now + year, now, now - year, now + year, now].into_iter().enumerate() {
         let is_wrong = round % 2 == 1;
-        // The same length, so that only the content differs.
+        // The new content has the same length as the old one.
         fs::write(&drawing, dxf(if is_wrong { "X" } else { "1" })).unwrap();
         fs::File::options().write(true).open(&drawing).unwrap().set_modified(time).unwrap();
         for _ in 0..2 {
@@ -152,7 +152,7 @@ fn a_clock_that_goes_back_hides_no_change() {
     }
 }
 
-/// The process's clock goes back by a year while there is a cache.
+/// While there is a cache, the clock of the process goes back by a year.
 #[test]
 fn a_run_under_an_older_clock_finds_the_same() {
     let faketime =
@@ -176,7 +176,7 @@ fn a_run_under_an_older_clock_finds_the_same() {
     }
 }
 
-/// `cache clean` during checks that use the cache: both succeed, and findings stay the same.
+/// `cache clean` runs during checks that use the cache: both succeed, and the findings stay the same.
 #[test]
 fn a_cache_may_be_cleaned_beside_checks() {
     let drawings = (0..40).map(|path| {

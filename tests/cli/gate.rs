@@ -1,4 +1,4 @@
-//! Runs the scripts of examples/gate as CAM systems do: a program with errors is kept out of the way. (book: howto/any-program)
+//! Runs the scripts of examples/gate as CAM programs do: a program with errors is moved away. (book: howto/any-program)
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -15,11 +15,11 @@ fn wrong() -> String {
 
 fn example(name: &str) -> PathBuf {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/gate").join(name);
-    // The shell of Windows takes a slash for the beginning of an option.
+    // The shell of Windows takes a slash for the beginning of an option, so its own separator is used.
     file.components().collect()
 }
 
-/// A command that finds pathbuild, in the place.
+/// Returns a command that runs in the place and finds pathbuild.
 fn command(place: &Place, name: &str) -> Command {
     let program = Path::new(env!("CARGO_BIN_EXE_pathbuild")).parent().unwrap();
     let others = std::env::var_os("PATH").unwrap_or_default();
@@ -59,7 +59,7 @@ fn a_program_passes_or_is_kept_out_of_the_way() {
     assert!(!has(&place, "a wrong & (2).nc"));
     assert_eq!(place.read("a wrong & (2).nc.rejected"), wrong());
     assert!(place.read("a wrong & (2).nc.rejected.txt").contains("PB"), "{run:?}");
-    // The CAM writes it once more, without the mistake.
+    // The CAM program writes the file again, without the mistake.
     let place = place.file("a wrong & (2).nc", SOUND);
     let run = gate(&place, &["a wrong & (2).nc"], "");
     assert_eq!(run.status.code(), Some(0), "{run:?}");
@@ -74,7 +74,7 @@ fn options_reach_verify_and_what_was_not_checked_is_kept_out_of_the_way() {
     assert!(place.read("a.nc.rejected.txt").contains("PB523"));
 }
 
-/// A rapid move that begins where only the machine knows, and goes down to below the surface.
+/// A rapid move begins at a position that only the machine knows, and goes down below the surface.
 #[test]
 fn a_rapid_move_on_an_unknown_way_does_not_count_as_checked() {
     let program = |start: &str| {
@@ -121,7 +121,7 @@ fn a_program_that_nothing_checks_does_not_pass() {
     assert!(!has(&place, "a.nc") && has(&place, "a.nc.rejected"));
 }
 
-/// The post for FreeCAD, with a stand-in for FreeCAD's own post.
+/// The post for FreeCAD is tested with a stand-in for FreeCAD's own post.
 #[test]
 fn the_post_for_freecad_writes_only_what_passes() {
     let name = if cfg!(windows) { "python" } else { "python3" };
@@ -149,7 +149,7 @@ fn the_post_for_freecad_writes_only_what_passes() {
     assert_eq!(place.read("out.nc"), SOUND);
 }
 
-/// A check with a probed height that pathbuild assumes has not examined the moves of the machine.
+/// If pathbuild had to assume a probed height, it has not checked the moves that the machine makes.
 #[test]
 fn rapid_moves_by_values_of_the_machine_are_checked_by_assumption() {
     let program = |height: &str| {
@@ -175,7 +175,7 @@ fn rapid_moves_by_values_of_the_machine_are_checked_by_assumption() {
     assert!(run.stderr.contains("(Werte, die nur die Maschine kennt, sind angenommen)"), "{run}");
 }
 
-/// Programs are generated, and generated files stand in .gitignore.
+/// Programs are generated files, which .gitignore often excludes.
 #[test]
 fn programs_that_git_ignores_are_verified() {
     let place = Place::new()
@@ -191,7 +191,7 @@ fn programs_that_git_ignores_are_verified() {
     assert!(!run.stderr.contains("left.nc"), "{run}");
 }
 
-/// Where the tool table says how a tool turns, or the program says how fast, the program must start the spindle.
+/// If the tool table has the direction of a tool, or the program a spindle speed, the program must start the spindle.
 #[test]
 fn a_spindle_that_is_never_started_is_found() {
     let program = |speed: &str| {

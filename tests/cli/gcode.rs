@@ -1,9 +1,9 @@
-//! `import`, `verify` and `post` for programs of any origin. (book: program/posts, book: program/reading)
+//! Tests `import`, `verify` and `post` for programs of any origin. (book: program/posts, book: program/reading)
 
 use crate::support::{Place, runs, shared};
 use insta::assert_snapshot;
 
-/// A program of other software: two tools, a circle, a dwell, and no word for the plane.
+/// A program of other software, with two tools, a circle and a dwell, that does not select a plane.
 const FOREIGN: &str = "\
 %
 G21 G90 G94
@@ -122,7 +122,7 @@ fn tools_are_those_of_the_table_where_there_is_one() {
     assert!(!elsewhere.run("verify foreign.nc --format concise").stderr.contains("PB764"));
 }
 
-/// The nearest configuration above the program, else that of the working directory; the one used is reported if it is not obvious.
+/// The configuration is the nearest one above the program, or else that of the working directory. The output names it if it is not obvious.
 #[test]
 fn the_configuration_of_a_program_is_told() {
     let configuration = |most: u32| format!("[machine]\nmaximum-feed = {most}\n");
@@ -202,7 +202,7 @@ fn what_was_emitted_is_what_the_drawing_says() {
     assert_snapshot!(cut_off);
 }
 
-/// A drawing with several paths does not say which of them is meant.
+/// A program cannot be compared with a drawing of several paths, of which none is named.
 #[test]
 fn a_program_is_compared_with_one_path() {
     let path = |name: &str, y: u32| {
@@ -217,7 +217,7 @@ fn a_program_is_compared_with_one_path() {
     assert!(!said(&[path("1234.1P", 0)]));
 }
 
-/// Comments are compared if the program was written with the present options.
+/// Comments are compared if the program was written with the current options.
 #[test]
 fn a_comment_that_emit_does_not_write_is_found() {
     let place = Place::of(LIBRARY);
@@ -234,7 +234,7 @@ fn a_comment_that_emit_does_not_write_is_found() {
     assert!(!is_found(&place.file("pathbuild.toml", configuration)));
 }
 
-/// The cut is within rounding, but the number is different.
+/// The cut differs by less than the rounding, but the number does not.
 #[test]
 fn an_arc_that_goes_on_into_the_next_line_is_another() {
     let round = "layer 1235.1P\nstart 0,0 \"T5 O2 I1 B4 MPlate\"\nmill 0,0 30,0\nmill arc centre 30,10 r 10 from 270 to 0\nmill 40,10 40,40\nend 40,40\n";
@@ -259,7 +259,7 @@ fn an_arc_that_goes_on_into_the_next_line_is_another() {
     }
 }
 
-/// M30 does not reset a tool length; it is overridden by a following G43.
+/// M30 does not reset a tool length; a following G43 overrides it.
 #[test]
 fn a_tool_length_of_the_program_before_is_switched_off() {
     let place = Place::of(LIBRARY);
@@ -277,8 +277,8 @@ fn a_tool_length_of_the_program_before_is_switched_off() {
     }
 }
 
-/// Fanuc and Haas keep the H of the program before where G43 has none; LinuxCNC takes that of the tool. What the post of DIN 66025 never
-/// switches on does not begin between two cuts either.
+/// Without H at G43, Fanuc and Haas keep the H of the previous program, and LinuxCNC takes that of the tool. A tool length that the post for DIN
+/// 66025 never switches on must not begin between two cuts either.
 #[test]
 fn a_tool_length_is_that_of_the_tool() {
     let place = Place::of(LIBRARY);
@@ -303,7 +303,7 @@ fn a_tool_length_is_that_of_the_tool() {
     assert_eq!(verified("din", midway), Some(1));
 }
 
-/// Programs of other software that have been milled successfully have no faults.
+/// Programs of other software that have been milled successfully yield no findings.
 #[test]
 fn programs_of_cambam_have_no_finding() {
     let Some(folder) = shared("cambam-output") else { return };
@@ -407,7 +407,7 @@ fn built_in_posts_are_listed_and_shown() {
     assert_eq!((own.status, own.stdout), (Some(0), copy.stdout));
 }
 
-/// Every built-in post.
+/// The names of all built-in posts.
 const POSTS: [&str; 10] =
     ["native", "grbl", "linuxcnc", "mach3", "fanuc", "haas", "marlin", "estlcam", "din", "xpertmill"];
 
@@ -464,7 +464,7 @@ fn a_header_weakens_no_check() {
     let place = Place::of(LIBRARY);
     assert_eq!(place.run("emit 1234.1P --post grbl --out-dir out").status, Some(0));
     let good = place.read("out/1234_Milling.gcode");
-    // A narrow cutter in thin material hits nothing, but the one of the drawing does.
+    // A narrow cutter in thin material, as the header claims, hits nothing, but the cutter of the drawing does.
     let claims = "(pathbuild 0.1.0 3f2a-09c1 grbl O0.5 T-9)\n";
     let plunge = good.replace("G1 F150.0 Z4.0", "G0 Z4.0\nG1 F150.0 Z4.0");
     assert_ne!(plunge, good);
@@ -472,7 +472,7 @@ fn a_header_weakens_no_check() {
     let verified = place.run("verify --against 1234.1P claims.nc --format concise");
     assert_eq!(verified.status, Some(1), "{verified}");
     assert!(verified.stderr.contains("PB741"), "{verified}");
-    // Without a drawing, the header gives dialect, cutter and material.
+    // Without a drawing, the header determines dialect, cutter and material.
     let honest = format!("(pathbuild 0.1.0 3f2a-09c1 grbl O2 T5)\n{plunge}");
     let verified = place.file("honest.nc", honest).run("verify honest.nc --format concise");
     assert!(verified.stderr.contains("PB741"), "{verified}");
@@ -490,7 +490,7 @@ fn verify_finds_what_breaks_cutters() {
         .file("g28.nc", format!("{head}M3 S12000\n{cut}G1 X30\nG28\n{foot}"))
         .file("g92.nc", format!("{head}M3 S12000\n{cut}G1 X30\nG0 Z15\nG92 X0 Y0 Z0\n{foot}"))
         .file("good.nc", format!("{head}M3 S12000\n{cut}G1 X30\nG0 Z15\n{foot}"));
-    // Without any S the control may know a speed.
+    // In a program without S, the control may have a speed.
     let verified = place.run("verify --dialect linuxcnc --cutter 2 --surface 2 no_s.nc");
     assert!(verified.status == Some(0) && verified.stderr.contains("warning[PB745]"), "{verified}");
     for (name, code) in [("s0", "PB745"), ("drill", "PB741"), ("g28", "PB740"), ("g92", "PB774")] {

@@ -1,4 +1,4 @@
-//! The command line in German, and in English, word for word. (book: reference/commands)
+//! Tests the command line in German, and in English, word for word. (book: reference/commands)
 
 use std::collections::HashSet;
 use std::ffi::OsString;
@@ -10,7 +10,7 @@ use pathbuild::args::Cli;
 use pathbuild::german::{self, catalogue};
 use pathbuild_diagnostic::Lang;
 
-/// Texts of the catalogue outside of the definition: reasons for rejecting a value.
+/// Texts of the catalogue that are not part of the command line's definition: reasons for rejecting a value.
 const REFUSALS: [&str; 8] = [
     "expected a number from 1 to 1024",
     "expected a date such as 2026-12-31",
@@ -60,7 +60,7 @@ fn every_text_of_the_command_line_has_its_german_and_no_other_has() {
     assert_eq!(once.len(), catalogue().count());
 }
 
-/// The names of all commands: `post list`.
+/// Collects the full names of all commands, such as `post list`.
 fn commands(command: &Command, before: &str, names: &mut Vec<String>) {
     for inner in command.get_subcommands().filter(|inner| inner.get_name() != "help") {
         let name = format!("{before}{}", inner.get_name());

@@ -1,4 +1,4 @@
-//! No English sentence stands in a German message. (book: reference/diagnostics)
+//! Checks that no German message contains an English sentence. (book: reference/diagnostics)
 
 use std::sync::LazyLock;
 
@@ -9,19 +9,19 @@ use regex::Regex;
 use crate::support::Place;
 use crate::support::fixture::findings;
 
-/// Words that English sentences are full of and German ones never hold.
+/// Words that are common in English sentences and do not exist in German ones.
 const ENGLISH: &[&str] = &[
     "and", "are", "be", "been", "but", "by", "can", "cannot", "does", "each", "for", "from", "has", "have",
     "is", "it", "its", "longer", "no", "not", "of", "or", "than", "that", "the", "there", "these", "this",
     "to", "which", "with", "without", "expected", "invalid", "missing",
 ];
 
-/// What is typed, quoted, or named by a file: no prose.
+/// Parts of a text that are not prose: input, quotations, and names of files.
 static TYPED: LazyLock<Regex> = LazyLock::new(|| {
     Regex::new(r#"`[^`]*`|"[^"]*"|„[^“]*“|«[^»]*»|\{[^}]*\}|--?[-a-z]+|\S*[./\\]\S+"#).unwrap()
 });
 
-/// The first English word of a German text.
+/// Returns the first English word of a German text.
 fn english(text: &str) -> Option<String> {
     let prose = TYPED.replace_all(text, " ").into_owned();
     let mut words = prose.split(|c: char| !c.is_alphanumeric());
@@ -38,7 +38,7 @@ fn assert_german<S: AsRef<str>>(texts: impl IntoIterator<Item = S>) -> usize {
     count
 }
 
-/// What commands of a fixture find, and their help, in German.
+/// Returns the German findings of a fixture's commands, with their help.
 fn told(text: &str) -> Vec<String> {
     let place = Place::of(text);
     let run = |arguments: Vec<&str>| {
@@ -71,7 +71,7 @@ fn the_examples_of_all_codes_are_told_in_german() {
     assert!(assert_german(told) > 300);
 }
 
-/// Each is a sentence that stands within another, or the words of a library.
+/// Each message is a sentence within another one, or contains words of a library.
 #[test]
 fn configurations_that_are_wrong_are_told_in_german() {
     let drawing =

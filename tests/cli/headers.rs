@@ -1,11 +1,11 @@
-//! What `verify` takes from the comments of programs that other CAMs wrote. (book: program/reading)
+//! Tests what `verify` reads from the comments of programs that other CAM programs wrote. (book: program/reading)
 //!
-//! All programs here are written to the form of the CAM that is named, not copied.
+//! All programs here follow the format of the CAM program that is named, but are not copied from it.
 
 use crate::support::{Place, Run, runs};
 use insta::assert_snapshot;
 
-/// Two slots, 20 mm apart, with the given move between them.
+/// Returns a program with two slots, 20 mm apart, and the given move between them.
 fn slots(head: &str, between: &str) -> String {
     format!(
         "{head}S12000 M3\nG54\nG0 Z15\nG0 X0 Y0\nG0 Z5\nG1 Z-2 F200\nG1 X20 F600\n{between}\nG1 Z-2 F200\nG1 X0 F600\nG0 Z5\nM5\nM30\n"
@@ -23,7 +23,7 @@ const CARBIDE_CREATE: &str = "(stockMin:0.00mm, 0.00mm, -6.00mm)\n(stockMax:100.
 
 const FREECAD: &str = "(Exported by FreeCAD)\n(Post Processor: grbl_post)\nG17 G90\nG21\n(TC: 6mm Endmill)\n( M6 T3.0 )\n(Compensated Tool Path. Diameter: 6.0)\n";
 
-/// The codes that a program of this text has, in the order of lines.
+/// Returns the codes of the findings that `verify` reports for a program with this text, in line order.
 fn codes(text: &str, options: &str) -> Vec<String> {
     let place = Place::new().file("a.nc", text);
     codes_of(&place.run(&format!("verify a.nc --dialect linuxcnc --format concise {options}")))
@@ -65,7 +65,7 @@ fn without_a_surface_a_rapid_move_at_cutting_depth_is_doubtful() {
         let expected = if head == CARBIDE_CREATE { "PB740" } else { "PB781" };
         assert_eq!(codes(&slots(&head, THROUGH), ""), [expected], "{head}");
     }
-    // A surface below the cuts, which a comment claims, does not hide it.
+    // A comment that claims a surface below the cuts does not hide the error.
     let low = CARBIDE_CREATE
         .replace("0.00, 6.00)", "0.00, 16.00)")
         .replace("-6.00mm", "-16.00mm")
@@ -80,7 +80,7 @@ fn an_error_on_another_line_hides_no_doubtful_move() {
     assert_eq!(codes(&stopped, ""), ["PB781", "PB745"]);
 }
 
-/// Where no cutter is known, one of 50 mm may have cleared the material between two slots.
+/// If no cutter is known, one of 50 mm may have cleared the material between two slots.
 #[test]
 fn without_a_cutter_only_what_no_cutter_can_have_cleared_is_doubtful() {
     let head = "G90 G21\nT1 M6\n";
@@ -91,7 +91,7 @@ fn without_a_cutter_only_what_no_cutter_can_have_cleared_is_doubtful() {
     assert_eq!(codes(&slots(head, "G0 Y35"), "--cutter 70"), [""; 0]);
 }
 
-/// The higher of both surfaces counts.
+/// The higher of the two surfaces counts.
 #[test]
 fn a_surface_that_the_program_contradicts_is_told() {
     let plunge = |z: &str| format!("G0 Z5\nG0 Y20\nG0 Z{z}");
@@ -102,7 +102,7 @@ fn a_surface_that_the_program_contradicts_is_told() {
     assert_eq!(codes(&slots(CARBIDE_CREATE, &plunge("0.5")), "--surface 0.5"), ["PB777"]);
 }
 
-/// A native program whose header names no T, because it mills parts of T 2 and T 4: the latter decides.
+/// The header of this native program names no T, because it mills parts of T 2 and T 4; the value of 4 counts.
 #[test]
 fn a_surface_below_the_plunges_of_a_native_program_is_told() {
     let slot = |t: &str, y: &str| {
@@ -126,13 +126,13 @@ fn a_surface_below_the_plunges_of_a_native_program_is_told() {
 fn a_stock_block_gives_the_surface() {
     assert_eq!(codes(&slots(CARBIDE_CREATE, OVER), ""), [""; 0]);
     assert_eq!(codes(&slots(CARBIDE_CREATE, THROUGH), ""), ["PB740"]);
-    // A rapid move down into the stock, which begins at Z 0.
+    // The rapid move goes down into the stock, which begins at Z 0.
     assert_eq!(codes(&slots(CARBIDE_CREATE, "G0 Z5\nG0 Y20\nG0 Z0"), ""), [""; 0]);
     assert_eq!(codes(&slots(CARBIDE_CREATE, "G0 Z5\nG0 Y20\nG0 Z-0.1"), ""), ["PB741"]);
 }
 
-/// A program that is too large for the map was not examined at cutting depth, which is reported; without such a rapid move there is nothing
-/// to examine.
+/// Rapid moves at cutting depth could not be checked because the program is too large for the map, which is reported. If there is no such move,
+/// nothing needs to be checked.
 #[test]
 fn what_is_too_large_to_doubt_is_told() {
     let head = fusion("flat end mill");
@@ -145,7 +145,7 @@ fn what_is_too_large_to_doubt_is_told() {
     }
 }
 
-/// Carbide Create states the width of the point of a V-bit.
+/// Carbide Create states the width of the point as the diameter of a V-bit.
 #[test]
 fn a_tiny_point_exceeds_no_limit() {
     let engraved = |diameter: &str, angle: &str| {
@@ -154,7 +154,7 @@ fn a_tiny_point_exceeds_no_limit() {
         slots(&head, "G0 Z5\nG0 Y20\nG0 Z1\nG1 Z-2\nG1 X-900\nG1 Y900\nG1 X0 Y0\nG0 Z5\nG0 Z1")
     };
     assert_eq!(codes(&engraved("0.03", "45.00"), ""), [""; 0]);
-    // Too small for the map: the check is not made, which is an error only if it is required.
+    // The point is too small for the map, so the check is not made, which is an error only if it is required.
     let place = Place::new().file("a.nc", engraved("0.03", "0.00"));
     let run = place.run("verify a.nc --dialect linuxcnc --format concise");
     assert!(run.status == Some(0) && codes_of(&run) == ["PB005"], "{run}");
@@ -173,12 +173,12 @@ fn a_drill_fits_into_its_own_hole() {
 
 #[test]
 fn where_sources_disagree_the_smaller_removes_and_the_larger_collides() {
-    // A second slot beside the first one, and a rapid move back into the first one.
+    // The program mills a second slot beside the first one, then makes a rapid move back into the first one.
     let beside = |y: &str| {
         let moves = format!("G0 Z5\nG0 Y{y}\nG0 Z-2\nG0 X0\nG0 Z5\nG0 Y0\nG0 X20\nG0 Z0");
         slots(&fusion("flat end mill"), &moves)
     };
-    // As wide as the header says, and as `--cutter` says.
+    // The cutter is as wide as the header and `--cutter` say.
     assert_eq!(codes(&beside("0"), "--surface 0 --cutter 6"), [""; 0]);
     assert_eq!(codes(&beside("0"), "--surface 0 --cutter 6.01"), [""; 0]);
     assert_eq!(codes(&beside("0"), "--surface 0 --cutter 6.02"), ["PB777"]);
@@ -218,7 +218,7 @@ fn a_required_check_that_was_not_made_is_an_error() {
     assert_eq!(required(&plain, "rapids"), ["PB523"]);
     assert_eq!(required(&plain, "rapids --cutter 6"), ["PB523"]);
     assert_eq!(required(&plain, "rapids --cutter 6 --surface 0"), [""; 0]);
-    // Comments do not suffice, unless the option allows them.
+    // Values from comments do not suffice, unless the option permits them.
     assert_eq!(required(&carbide_create, "rapids"), ["PB523"]);
     assert_eq!(required(&carbide_create, "rapids=assumed"), [""; 0]);
     assert_eq!(required(&plain, "rapids=assumed"), ["PB523"]);
@@ -255,11 +255,11 @@ fn the_configuration_may_require_checks() {
     let required = "[verify]\nrequire = [\"envelope\", \"feeds\"]\n";
     assert_eq!(codes(required, ""), ["PB523", "PB523"]);
     assert_eq!(codes(&format!("{limits}{required}"), ""), [""; 0]);
-    // The command line adds to the list.
+    // The command line adds to the list of the configuration.
     assert_eq!(codes(&format!("{limits}{required}"), "--require spindle"), ["PB523"]);
     assert_eq!(codes(required, "--require spindle"), ["PB523", "PB523", "PB523"]);
     assert_eq!(codes(required, "--require envelope"), ["PB523", "PB523"]);
-    // Values of comments satisfy neither source if one of them demands better ones.
+    // Values from comments do not suffice if either source requires better ones.
     let cam = |configuration: &str, options: &str| {
         let place = Place::new().file("a.nc", slots(CARBIDE_CREATE, OVER));
         let place = place.file("pathbuild.toml", format!("[verify]\nrequire = [{configuration}]\n"));

@@ -1,4 +1,4 @@
-//! Built-in documentation: pages on codes, completions, the manual. (book: reference/commands)
+//! Tests the built-in documentation: pages on codes, completions, the manual. (book: reference/commands)
 
 use crate::support::{Place, runs};
 use clap::CommandFactory;
@@ -55,7 +55,7 @@ fn without_a_code_all_are_listed() {
     assert_eq!(run.stdout.lines().next(), Some("PB001  unreadable-file              error"));
 }
 
-/// Their output is tested where there are commands to run.
+/// The output of examples is tested for those that contain commands.
 #[test]
 fn every_example_is_a_fixture_that_can_be_drawn() {
     for code in Code::ALL {

@@ -1,4 +1,4 @@
-//! Files that are not drawings: each gives a clear error, and nothing is written. (book: reference/diagnostics) benches/README.md has the
+//! Tests files that are not drawings: each gives a clear error, and nothing is written. (book: reference/diagnostics) benches/README.md states the
 //! time that a release build takes for 200 MB of each kind of noise.
 
 use std::fs;
@@ -10,16 +10,16 @@ use pathbuild_testkit::sheet;
 const NAME: &str = "1234.1P.dxf";
 const OPTIONS: &[&str] = &["--feed=150", "--rapid=1000", "--sweep-height=20", "--format=concise"];
 
-/// The size of the noise in bytes. Debug builds of the reader take about a second for it.
+/// Size of the noise in bytes, for which a debug build of the reader takes about a second.
 const NOISE: usize = 8_000_000;
 
-/// A complete drawing of one path.
+/// Returns a complete drawing of one path.
 fn drawing() -> Vec<u8> {
     let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0";
     sheet(drawn).unwrap().to_dxf()
 }
 
-/// Deterministic pseudo-random bytes (xorshift).
+/// Returns deterministic pseudo-random bytes (xorshift).
 fn noise(alphabet: &[u8]) -> Vec<u8> {
     let mut state = 0x2545_f491_4f6c_dd1d_u64;
     let mut next = || {
@@ -31,7 +31,7 @@ fn noise(alphabet: &[u8]) -> Vec<u8> {
     (0..NOISE).map(|_| alphabet[next() % alphabet.len()]).collect()
 }
 
-/// The error of `emit` and `check` for these bytes, after checking that it is the only one and nothing is written.
+/// Returns the error of `emit` and `check` for these bytes, after checking that it is the only one and nothing is written.
 #[track_caller]
 fn error(bytes: &[u8]) -> String {
     let place = Place::new().file(NAME, bytes);
@@ -81,11 +81,11 @@ fn an_empty_file_is_no_drawing() {
 #[test]
 fn a_text_is_no_drawing() {
     assert_says(&error(b"This is a letter.\n"), "PB002", "not a DXF file");
-    // Not even a file that looks like one for a few lines.
+    // A file is not accepted even if its first lines are those of a drawing.
     assert_says(&error(b"  0\nSECTION\n  2\nENTITIES\nDear Sir,\n"), "PB002", "Dear Sir,");
 }
 
-/// Cut off at every tenth of the file, and one byte before the entities end.
+/// The file is cut off at every tenth of its length, and one byte before the entities end.
 #[test]
 fn a_file_that_is_cut_off_has_no_paths() {
     let whole = drawing();
@@ -111,7 +111,7 @@ fn noise_is_no_drawing() {
     assert_says(&error(&noise(b"\n")), "PB002", "nothing but blanks");
 }
 
-/// Noise after the beginning of a drawing.
+/// Noise follows the beginning of a drawing.
 #[test]
 fn noise_within_a_drawing_is_found() {
     let start = find(&drawing(), b"ENTITIES") + 10;
@@ -137,7 +137,7 @@ fn a_file_that_is_not_there_is_named() {
     assert_says(&one_error(&Place::new(), NAME), "PB001", NAME);
 }
 
-/// Tests may run as a user who may read every file, but the beginning of a process's memory is unreadable for all users.
+/// The file is the beginning of a process's memory, which nobody can read. An ordinary file would be readable for tests that run as root.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_file_that_cannot_be_read_is_an_error_of_its_own() {
@@ -146,7 +146,7 @@ fn a_file_that_cannot_be_read_is_an_error_of_its_own() {
     assert_says(&one_error(&place, NAME), "PB001", "cannot read");
 }
 
-/// Five million passes, started and cancelled.
+/// The path has five million passes, so the work is started and cancelled.
 #[test]
 fn what_takes_too_long_is_given_up() {
     let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I0.000001 B0\"\nmill 0,0 40,0\nend 40,0";
@@ -171,11 +171,11 @@ fn twenty_thousand_paths_in_one_drawing_take_no_square_of_them() {
     let start = Instant::now();
     let run = place.run_with(&["check", NAME, "--format=concise"]);
     assert!(start.elapsed() < Duration::from_mins(1), "{:?}", start.elapsed());
-    // Each has neither start nor end.
+    // Each of the paths has neither start nor end.
     assert_eq!(errors(&run).len(), 40_000);
 }
 
-/// In a library with all of them, each is reported, and correct drawings are checked.
+/// In a library with all of these files, each is reported, and the correct drawings are checked.
 #[test]
 fn bad_files_hide_nothing() {
     let place = Place::new()

@@ -1,5 +1,5 @@
-//! Projects with excessive embedding: a clear limit or the correct result, in bounded time and memory. (book: language/embedding; book:
-//! reference/configuration, [limits])
+//! Tests projects with excessive embedding: they give the correct result or exceed a limit that is reported, in bounded time and memory. (book:
+//! language/embedding; book: reference/configuration, [limits])
 
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -12,7 +12,7 @@ const LONGEST: Duration = Duration::from_mins(1);
 
 const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
 
-/// The name of the path of a level.
+/// Returns the name of the path at a level.
 fn name(level: usize) -> String {
     format!("{}.{}P", 1000 + level / 1000, level % 1000)
 }
@@ -21,12 +21,12 @@ fn file(level: usize) -> String {
     format!("{}.{}.dxf", 1000 + level / 1000, level % 1000)
 }
 
-/// A path that mills 10 mm at depth B in five passes; `start` adds to the text of its start.
+/// Returns a path that mills 10 mm at depth B in five passes; `start` is appended to the text of its start.
 fn component(level: usize, start: &str) -> String {
     format!("layer {}\nstart 0,0 \"T5 O2 I1 B0 MX {start}\"\nmill 0,0 10,0\nend 10,0\n", name(level))
 }
 
-/// A path from (0, 0) to (10, 0) that embeds others, one above the other.
+/// Returns a path from (0, 0) to (10, 0) that embeds others, one above the other.
 fn project(level: usize, start: &str, texts: &[String]) -> String {
     let mut text = format!("layer {}\nstart 0,0 \"T5 O2 MX {start}\"\nsweep 0,0 0,5\n", name(level));
     for (embedded, y) in texts.iter().zip((5..).step_by(5)) {
@@ -67,7 +67,7 @@ fn cuts(program: &str) -> usize {
     program.lines().filter(|line| line.starts_with("G01 F") && line.contains(" X")).count()
 }
 
-/// Ten levels of ten embeddings: a thousand million components.
+/// Ten embeddings at each of ten levels give a thousand million components.
 #[test]
 fn ten_levels_of_ten_embeddings_exceed_the_limit_of_moves() {
     let levels = (1..=10).map(|it| (it, project(it, "", &times(10, &embedded(it - 1)))));
@@ -101,7 +101,7 @@ fn a_thousand_embeddings_of_one_component_are_compiled() {
     assert_eq!(program.matches("START Subpath 1000.0P").count(), 1000);
 }
 
-/// Each level passes its value on twice: the tenth has 2^9 copies.
+/// Each level passes its value on twice, so that the tenth has 2^9 copies.
 #[test]
 fn values_that_double_nine_times_are_handed_down() {
     let lengths = (0..=9).map(|power| "x".repeat(1 << power)).collect::<Vec<_>>().join(",");
@@ -117,7 +117,7 @@ fn values_that_double_nine_times_are_handed_down() {
     assert_eq!(written(&place, 10).matches(&comment).count(), 5, "one a pass");
 }
 
-/// Values of one path that refer to each other: the text doubles with each variable.
+/// The values of one path refer to each other, so that the text doubles with each variable.
 #[test]
 fn a_text_that_doubles_with_every_variable_ends_at_the_limit() {
     let path = |doublings: usize| {
@@ -134,7 +134,7 @@ fn a_text_that_doubles_with_every_variable_ends_at_the_limit() {
     assert!(run.stderr.contains("PB005") && run.stderr.contains("65536"), "{run}");
 }
 
-/// Four values at each of ten levels: a million different paths.
+/// Four values at each of ten levels give a million different paths.
 #[test]
 fn paths_with_very_many_values_exceed_the_limit_of_paths() {
     let names: Vec<char> = ('A'..='J').collect();
@@ -158,7 +158,7 @@ fn paths_with_very_many_values_exceed_the_limit_of_paths() {
     assert_eq!(few.status, Some(0), "85 are not too many: {few}");
 }
 
-/// A chain of four hundred embeddings: everything below ten levels is rejected, and nothing overflows.
+/// In a chain of four hundred embeddings, everything below ten levels is rejected, and nothing overflows.
 #[test]
 fn a_chain_of_very_many_levels_ends_at_the_tenth() {
     let levels = (1..400).map(|it| (it, project(it, "", &[embedded(it - 1)])));
@@ -173,7 +173,7 @@ fn a_chain_of_very_many_levels_ends_at_the_tenth() {
     assert!(run.status == Some(1) && run.stderr.contains("PB508"), "{run}");
 }
 
-/// The graph of embeddings exceeds the ten levels that are compiled.
+/// Unlike a program, the graph of embeddings is not limited to ten levels.
 #[test]
 fn a_graph_shows_chains_of_any_depth_whole() {
     let levels = (1..100).map(|it| (it, project(it, "", &[embedded(it - 1)])));
@@ -193,7 +193,7 @@ fn a_cycle_through_ten_files_is_said_with_its_names() {
     assert!(run.stderr.contains(&format!("path 1000.3P embeds itself: {}", chain.join(" > "))), "{run}");
 }
 
-/// A cycle that is longer than the maximum depth is too deep before it is a cycle.
+/// A cycle that is longer than the maximum depth is reported as too deep.
 #[test]
 fn a_cycle_through_a_hundred_files_ends() {
     let levels = (0..100).map(|it| (it, project(it, "", &[embedded((it + 1) % 100)])));
@@ -226,7 +226,7 @@ fn each_of_very_many_wrong_embeddings_is_reported() {
 fn a_directory_with_too_much_below_it_is_not_walked_through() {
     let files = (0..40).map(|it| (it, component(it, "")));
     let place = place(files, "library-entries = 40");
-    // There are forty drawings, and pathbuild.toml.
+    // The directory contains forty drawings and pathbuild.toml.
     for command in ["check .", "emit .", "graph .", "rdeps 1000.0P", "check 1000.99P"] {
         let run = timed(&place, command);
         assert_eq!(run.status, Some(1), "{run}");

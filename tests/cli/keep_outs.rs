@@ -1,4 +1,4 @@
-//! Clamps on the table: hitting one is an error in each command that examines moves. (book: language/keep-outs)
+//! Tests clamps on the table: hitting one is an error in each command that examines moves. (book: language/keep-outs)
 
 use std::fs;
 
@@ -7,10 +7,10 @@ use crate::support::{Place, Run, dxf};
 const OPTIONS: &str =
     "feed = 150\nrapid = 1000\nsweep-height = 20\nkeep-out = 'clamps?'\nspindle = \"manual\"\n";
 
-/// A clamp of 20 mm from (20, 10) to (30, 20).
+/// A clamp with the corners (20, 10) and (30, 20) and a height of 20 mm.
 const CLAMP: &str = "layer clamps\npolyline 20,10 30,10 30,20 20,20 closed\ntext 21,14 \"Z20\"\n";
 
-/// A path with these statements, starting at (0, 0) with O2 and S `sweep`, and a clamp.
+/// Returns a path with these statements, which starts at (0, 0) with O2 and S `sweep`, and a clamp.
 fn path(sweep: &str, statements: &str) -> String {
     format!("layer 1234.1P\nstart 0,0 \"T5 O2 I5 B0 S{sweep} MAl\"\n{statements}\n{CLAMP}")
 }
@@ -69,7 +69,7 @@ fn rapids_are_above_or_beside() {
 
 #[test]
 fn arcs_are_arcs() {
-    // A half circle to the right, whose chord is far from the clamp.
+    // A half circle bulges to the right; its chord is far from the clamp.
     let arc = |radius: f64| {
         let (left, right) = (25.0 - radius, 25.0 + radius);
         path(
@@ -108,7 +108,7 @@ fn probes_and_the_ways_between_them_count() {
             assert!(run.stderr.contains("in the probing program") && run.stderr.contains(what), "{run}");
         }
     };
-    // (0, 0) to the probe is a rapid at S, which is above the clamp.
+    // The rapid move from (0, 0) to the probe is at S, which is above the clamp.
     for beside in ["probe 19,15", "probe 25,9"] {
         let place = place(&probes("21", beside));
         assert_eq!(codes(&place.run("check . --format concise")), Vec::<String>::new(), "{beside}");
@@ -119,7 +119,7 @@ fn probes_and_the_ways_between_them_count() {
             &["probing move, lowest Z 0, moves: 1", "rapid move, lowest Z 0, moves: 2"],
         );
     }
-    // From probe to probe, and back.
+    // The tool moves from probe to probe, and back.
     let across = "probe 0,15\nprobe 40,15";
     let place = place(&probes("20", across));
     assert_eq!(codes(&place.run("check . --format concise")), Vec::<String>::new());
@@ -149,7 +149,7 @@ fn without_the_setting_nothing_is_looked_at() {
     }
 }
 
-/// An edit of the clamp alone is detected, in both directions.
+/// An edit of the clamp alone is detected, both when it adds an error and when it removes one.
 #[test]
 fn an_edited_clamp_is_a_change() {
     let drawing = path("21", "mill 0,0 0,8\nmill 0,8 50,8\nend 50,8");
@@ -172,7 +172,7 @@ fn a_clamp_that_is_not_clear_stops_its_paths() {
     assert_found(&place(&drawing.replace("Z20", "20")), &["117"]);
     assert_found(&place(&drawing.replace(" closed", "")), &["117"]);
     assert_found(&place(&drawing.replace("layer clamps", "layer clamp")), &[]);
-    // Neither the drawing nor what embeds it is written.
+    // Neither the drawing nor a project that embeds it is written.
     let project = "layer 8001.1P\nstart 0,0 \"T5 O2 S21 MAl\"\nsubpath 0,0 9,0 \">1234.1P\"\nend 9,0\n";
     let place = place(&drawing.replace("Z20", "20")).file("8001.1P.dxf", dxf(project));
     assert_eq!(codes(&place.run("emit 8001.1P.dxf --search . --format concise")), ["117", "511"]);
@@ -188,7 +188,7 @@ fn a_layer_that_is_both_is_a_wrong_configuration() {
     assert!(place.run("check .").stderr.contains("PB003"));
 }
 
-/// A component of 9 mm with a clamp beside it, from (2, 3) to (7, 8).
+/// A component that mills 9 mm, with a clamp beside it from (2, 3) to (7, 8).
 const COMPONENT: &str = "layer 1234.1P\nstart 0,0 \"T5 O2 I5 B0 S21 MAl\"\nmill 0,0 9,0\nend 9,0\nlayer clamps\n\
     polyline 2,3 7,3 7,8 2,8 closed\ntext 2.5,4 \"Z20\" height 2\n";
 
@@ -202,7 +202,7 @@ fn embedding(project: &str) -> Place {
 /// The clamps of a component are moved, rotated and raised with it, and affect the whole program.
 #[test]
 fn clamps_of_components_lie_where_they_are_embedded() {
-    // Embedded upwards from (20, 0), its clamp is from (12, 2) to (17, 7).
+    // The component is embedded upwards from (20, 0), so its clamp is from (12, 2) to (17, 7).
     let project = |y: &str, more: &str| {
         format!(
             "sweep 0,0 20,0\nsubpath 20,0 20,9 \">1234.1P{more}\"\nsweep 20,9 30,9\nsweep 30,9 30,{y}\n\
@@ -220,7 +220,7 @@ fn clamps_of_components_lie_where_they_are_embedded() {
             assert!(expected == 0 || format!("{run}").contains("8001.1P.dxf"), "{run}");
         }
     }
-    // Raised by 2 mm, it is higher than S.
+    // Raised by 2 mm, the clamp is higher than S.
     let over = |height: &str| {
         project("8", height)
             .replace("mill 30,8 0,8", "sweep 30,8 30,5\nsweep 30,5 0,5")
@@ -240,7 +240,7 @@ fn a_fault_within_a_component_is_said_once() {
     assert!(run.stderr.contains("1234.1P.dxf:"), "{run}");
 }
 
-/// Heights refer to the drawing of the finding, regardless of H.
+/// Heights refer to the drawing that the finding names, regardless of H.
 #[test]
 fn a_fault_within_a_component_has_the_components_heights() {
     let place = embedding("sweep 0,0 20,0\nsubpath 20,0 20,9 \">1234.1P H1\"\nend 20,9\n")
@@ -250,13 +250,13 @@ fn a_fault_within_a_component_has_the_components_heights() {
     assert_eq!(codes(&run), ["407"], "{run}");
 }
 
-/// The emitted path may have a greater O than the paths it embeds.
+/// The emitted path may have a greater O than the paths that it embeds.
 #[test]
 fn the_largest_cutter_of_a_program_keeps_away() {
     let component = "layer 1235.1P\nstart 0,0 \"T5 O6 I5 B0 S21 MAl\"\nmill 0,0 40,0\nend 40,0\n";
     let found = |y: &str| {
         let project = format!("sweep 0,0 0,{y}\nsubpath 0,{y} 40,{y} \">1235.1P O6\"\nend 40,{y}\n{CLAMP}");
-        // Only a compatible program may have two cutters.
+        // Only a program in compatible mode may have two cutters.
         let place = embedding(&project)
             .file("1235.1P.dxf", dxf(component))
             .file("pathbuild.toml", format!("compatible = true\n{OPTIONS}"));
@@ -269,7 +269,7 @@ fn the_largest_cutter_of_a_program_keeps_away() {
     assert!(found("7.01"));
 }
 
-/// Polylines, which PathDxf2GCode ignores in paths, are outlines of clamps nevertheless.
+/// Polylines, which PathDxf2GCode ignores in paths, are nevertheless outlines of clamps.
 #[test]
 fn clamps_are_of_all_curves_in_compatible_mode_too() {
     let place = place(&path("21", "mill 0,0 0,15\nmill 0,15 50,15\nend 50,15"));
@@ -277,7 +277,7 @@ fn clamps_are_of_all_curves_in_compatible_mode_too() {
     assert_found(&place, &["407"]);
 }
 
-/// Also through a post; and the program of a post is checked for clamps like the native one.
+/// A program that is written through a post is checked for clamps like the native one, by `emit` and by `verify`.
 #[test]
 fn posts_and_verify_know_clamps() {
     let drawing = path("21", "mill 0,0 0,8\nmill 0,8 50,8\nend 50,8");
@@ -288,7 +288,7 @@ fn posts_and_verify_know_clamps() {
         assert_eq!(emitted.status, Some(0), "{emitted}");
         let verified = place.run(&format!("verify {program} --against 1234.1P.dxf --format concise"));
         assert_eq!(verified.status, Some(0), "{verified}");
-        // One line of the program goes through the clamp.
+        // One line of the program now goes through the clamp.
         let moved = place.read(program).replace("Y8.0", "Y12.0");
         fs::write(place.path().join("moved.nc"), moved).unwrap();
         let verified = place.run("verify moved.nc --against 1234.1P.dxf --format concise");
@@ -301,7 +301,7 @@ fn posts_and_verify_know_clamps() {
     }
 }
 
-/// Joined paths are milled in one set-up.
+/// Joined paths are milled in one set-up, so all clamps are on the table.
 #[test]
 fn clamps_of_one_drawing_hold_for_joined_paths_of_others() {
     let cut = |y: &str, sweep: &str, thickness: &str| {
@@ -320,7 +320,7 @@ fn clamps_of_one_drawing_hold_for_joined_paths_of_others() {
     assert_eq!(codes(&hit), ["407"], "{hit}");
     assert!(hit.stderr.contains("in 1234.1P.dxf, which is 20 mm high: cut, lowest Z 0, moves: 1"), "{hit}");
     assert_eq!(codes(&emit("9", "21", "5")), [""; 0]);
-    // All rapids between the paths are at the greater S.
+    // All rapid moves between the paths are at the greater S.
     assert_eq!(codes(&emit("9", "10", "5")), [""; 0]);
     let thicker = emit("9", "21", "6");
     assert_eq!(codes(&thicker), ["211"]);
@@ -360,7 +360,7 @@ fn rapids_between_joined_paths_avoid_clamps() {
     assert_eq!(codes(&emit("20")), [""; 0]);
 }
 
-/// Without `keep-out`, nobody looks for clamps, so a script that demands this check must not pass.
+/// Without `keep-out`, clamps are not searched for, so a script that requires this check must not pass.
 #[test]
 fn clamps_are_checked_only_if_their_layers_are_configured() {
     let drawing = path("20", "mill 0,0 10,0\nend 10,0");
@@ -376,7 +376,7 @@ fn clamps_are_checked_only_if_their_layers_are_configured() {
     assert!(without.stderr.contains("clamps (keep-out in pathbuild.toml)"), "{without}");
 }
 
-/// A comparison that stopped at a move that is accepted has not compared the rest.
+/// The comparison stopped at a move whose difference is accepted, so the remaining moves were not compared.
 #[test]
 fn a_comparison_that_stopped_does_not_count_as_made() {
     let options = format!("{OPTIONS}[severity]\nPB739 = \"ignore\"\n");

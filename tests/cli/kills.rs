@@ -1,5 +1,5 @@
-//! Runs that are killed at any moment: every file equals that of some complete run, and the next run leaves nothing behind.
-//! `PATHBUILD_KILLS` sets how often each command is killed (default 20). (docs/reliability.md)
+//! Kills runs at random moments: every file then equals that of some complete run, and the next run leaves nothing behind. `PATHBUILD_KILLS` sets
+//! how often each command is killed (default 20). (docs/reliability.md)
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -18,7 +18,7 @@ fn kills() -> u64 {
 struct Chance(u64);
 
 impl Chance {
-    /// A random number from 0 to 1.
+    /// Returns a random number from 0 to 1.
     fn part(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -31,7 +31,7 @@ fn configuration(feed: u32) -> String {
     format!("feed = {feed}\nrapid = 1000\nsweep-height = 20\nlibrary = [\".\"]\n[emit]\ntargets = [\"*\"]\n")
 }
 
-/// Drawings of many programs, so that many kills hit one being written.
+/// Creates a library with many programs, so that many kills occur while a program is being written.
 fn library() -> Place {
     let mut place = Place::new();
     for path in 10..40 {
@@ -43,7 +43,7 @@ fn library() -> Place {
     place
 }
 
-/// The files in the directory besides drawings and configuration: temporary files by name, others with their bytes.
+/// Returns the names of temporary files in the directory, and the other files besides drawings and configuration with their bytes.
 fn files(place: &Place) -> (Vec<String>, BTreeMap<String, Vec<u8>>) {
     let (mut debris, mut outputs) = (Vec::new(), BTreeMap::new());
     for entry in fs::read_dir(place.path()).unwrap() {
@@ -99,7 +99,7 @@ fn kill_at_any_moment(place: &Place, arguments: &[&str], last: &[&str], change: 
     }
     for state in 0..2 {
         change(place, state);
-        // A run that finds everything current writes nothing, and removes nothing.
+        // A run for which everything is current writes and removes nothing.
         fs::remove_file(place.path().join(states[0].keys().next().unwrap())).unwrap();
         assert_eq!(start(place, last).wait().unwrap().code(), Some(0));
         let (debris, outputs) = files(place);
@@ -171,7 +171,7 @@ fn a_check_that_is_killed_keeps_nothing_wrong() {
     }
 }
 
-/// Two to four simultaneous runs in the same directory, while the cache is being cleaned during most of them.
+/// Two to four runs use the same directory at the same time. During most of them, the cache is cleaned as well.
 #[test]
 fn runs_beside_each_other_write_whole_programs() {
     let place = library().file("pathbuild.toml", configuration(150));

@@ -1,4 +1,4 @@
-//! The language of messages, which does not affect programs. (book: reference/configuration)
+//! Tests the language of messages, which does not affect programs. (book: reference/configuration)
 
 use crate::support::{Place, program};
 

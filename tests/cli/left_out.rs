@@ -1,9 +1,9 @@
-//! Entities on a path's layer that are left out (PB111): programs, sheets and the last line of `emit` say so. (book:
+//! Tests entities on a path's layer that are left out (PB111): programs, sheets and the last line of `emit` mention them. (book:
 //! language/layers-and-names)
 
 use crate::support::{Place, Run};
 
-/// Each kind that is left out, and how it is called.
+/// For each kind of entity that is left out: a block definition if one is needed, a statement that draws the entity, and its name in messages.
 const KINDS: [(&str, &str, &str); 6] = [
     ("", "spline CONTINUOUS control 10,10 15,20 25,10 30,20", "SPLINE"),
     ("", "ellipse CONTINUOUS centre 20,30 major 5,0 ratio 0.5", "ELLIPSE"),
@@ -31,7 +31,7 @@ fn last_line(run: &Run) -> &str {
     run.stderr.trim_end().lines().last().unwrap_or_default()
 }
 
-/// The lines of a program before its first move.
+/// Returns the first lines of a program, in lower case.
 fn header(program: &str) -> String {
     program.lines().take(12).collect::<Vec<_>>().join("\n").to_lowercase()
 }
@@ -46,7 +46,7 @@ fn each_kind_is_told_by_program_sheet_and_last_line() {
         let program = place.read("1234.1P_Milling.gcode");
         let line = program.lines().nth(3).unwrap_or_default();
         assert_eq!(line, format!("(Not milled: 1 {kind} of path 1234.1P)"), "{program}");
-        // An unchanged program is still one that lacks something.
+        // An unchanged program still lacks the entity, so the message is repeated.
         assert_eq!(last_line(&place.run("emit 1234.1P")), last_line(&run));
         assert!(last_line(&place.run("emit 1234.1P --lang de")).starts_with("nicht gefräst: 1 "));
         for (lang, text) in [("en", "Not milled: 1 "), ("de", "Nicht gefräst: 1 ")] {
@@ -86,7 +86,7 @@ fn the_programs_of_all_posts_say_it() {
     assert!(seen >= 9, "{listed}");
 }
 
-/// A program that goes through a post afterwards keeps the line.
+/// A program that is translated by a post later keeps the line.
 #[test]
 fn a_program_that_is_written_for_another_machine_says_it_as_well() {
     let place = place("", KINDS[0].1);

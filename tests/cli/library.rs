@@ -1,5 +1,5 @@
-//! The example library: its drawings, including all furniture, are generated from their text form, and the README's first command works on
-//! them. `PATHBUILD_UPDATE=1 cargo test --locked --test library` regenerates them.
+//! Tests the example library: its drawings, including frames and title blocks, are generated from their text form, and the README's first command
+//! works on them. `PATHBUILD_UPDATE=1 cargo test --locked --test library` regenerates them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ fn library() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/library")
 }
 
-/// The text forms of a folder, in order of name.
+/// Returns the files in text form of a folder, sorted by name.
 fn sources(folder: &str) -> Vec<PathBuf> {
     let listed = fs::read_dir(library().join("sources").join(folder)).expect("the library has its sources");
     let mut files: Vec<PathBuf> = listed.map(|entry| entry.expect("it can be listed").path()).collect();
@@ -89,7 +89,7 @@ fn its_projects_are_emitted() {
     assert_eq!(written, 9, "six programs, and three files of the one with probes: {said}");
 }
 
-/// The expected findings for each faulty drawing are next to it.
+/// The expected findings for each faulty drawing are in a file next to it.
 #[test]
 fn mistakes_are_named() {
     let (status, said) = pathbuild(&["check", "mistakes", "--format", "concise"]);
@@ -103,8 +103,8 @@ fn mistakes_are_named() {
     assert_eq!(findings, fs::read_to_string(&file).expect("it is there").replace("\r\n", "\n"));
 }
 
-/// Drawings are checked as a whole, or path by path if the duration of each is requested; on one thread or several, one by one or all at
-/// once. The findings are the same.
+/// Drawings are checked as a whole, or path by path if the time of each is measured; on one thread or several; one by one or all at once. The
+/// findings are the same.
 #[test]
 fn what_is_found_does_not_depend_on_how_drawings_are_gone_through() {
     let check = |arguments: &[&str]| {
@@ -131,7 +131,7 @@ fn what_is_found_does_not_depend_on_how_drawings_are_gone_through() {
     assert_eq!(found, mistakes);
 }
 
-/// A finding without the embeddings that led to it, since only the first of several is shown.
+/// Returns a finding without the chain of embeddings that led to it, of which only one of several is shown.
 fn without_trace(line: &str) -> String {
     let mut finding: serde_json::Value = serde_json::from_str(line).expect("each line is a finding");
     finding["trace"].take();

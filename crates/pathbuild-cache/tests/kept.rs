@@ -28,7 +28,7 @@ fn place() -> (TempDir, Utf8PathBuf) {
     (directory, path)
 }
 
-/// A catalogue with one result, which depends on one drawing and on a lookup of 1234.1P.
+/// Returns a catalogue with one result, which depends on one drawing and on a lookup of 1234.1P.
 fn catalogue(base: &Utf8Path, stamp: Stamp, bytes: &[u8]) -> Catalogue {
     let record = Record {
         subject: "a.dxf".into(),
@@ -64,7 +64,7 @@ fn covers(file: &str, path: &str) -> bool {
     file.get(..4).is_some_and(|begin| path.starts_with(begin))
 }
 
-/// A context that verifies everything and hashes whole output files.
+/// Returns a context in which everything is verified and output files are hashed as a whole.
 fn context<'a>(base: &'a Utf8Path, covers: pathbuild_cache::CoversFn<'a>) -> VerifyContext<'a> {
     let hash_output = &|_: &Utf8Path, bytes: &[u8]| *blake3::hash(bytes).as_bytes();
     VerifyContext { base, covers, is_requested: &|_| true, is_allowed: &|_| true, read: &read, hash_output }
@@ -118,7 +118,7 @@ fn a_catalogue_is_found_under_its_key_and_build_only() {
     assert_eq!(place.load(&Key::new("other", "question")), Err(CacheFault::Foreign));
 }
 
-/// Writes a file, and returns it with the time at which a run begins after a pause.
+/// Writes a file and waits. Returns the file with the time at which a run begins afterwards.
 fn written(base: &Utf8Path, rest: Duration) -> (Utf8PathBuf, Clock) {
     let file = base.join("a.dxf");
     fs::write(&file, "one").unwrap();
@@ -140,7 +140,7 @@ fn a_file_that_has_not_rested_is_compared_by_its_bytes() {
     let verdict = verify(&snapshot, &base, &covers);
     let expected = (FileState::Touched(Stamp::of(&file)), true, false);
     assert_eq!((verdict.files[0], verdict.holds[0], verdict.is_current), expected);
-    // Of the same size, and perhaps within the same tick of the clock.
+    // The new content has the same size, and is perhaps written within the same tick of the clock.
     fs::write(&file, "two").unwrap();
     assert_eq!(verify(&snapshot, &base, &covers).holds, [false]);
 }
@@ -148,7 +148,7 @@ fn a_file_that_has_not_rested_is_compared_by_its_bytes() {
 #[test]
 fn a_file_that_has_rested_is_known_by_its_stamp() {
     let (_directory, base) = place();
-    // Longer than a tick of the coarsest clock plus a second.
+    // The pause is longer than a tick of the coarsest clock plus a second.
     let (file, begun) = written(&base, Duration::from_millis(3200));
     let stamp = Stamp::of(&file).settled(begun);
     assert_ne!(stamp, Stamp::UNKNOWN);
@@ -172,10 +172,10 @@ fn the_stamp_that_bytes_were_read_under_is_what_they_rest_under() {
         fs::File::options().write(true).open(&file).unwrap().set_modified(time).unwrap();
         Stamp::of(&file).settled(begun)
     };
-    // On Unix, the time of the last change of the file's metadata reveals this.
+    // On Unix, the time of the last change of the file's metadata reveals that the time was set back.
     assert_eq!(set(10) == Stamp::UNKNOWN, cfg!(unix));
     assert_eq!(set(2), Stamp::UNKNOWN);
-    // Windows does not replace an open file.
+    // An open file and its name have the same stamp. Windows does not replace an open file.
     let of_open = Stamp::of_open(&fs::File::open(&file).unwrap());
     assert_eq!(of_open, Stamp::of(&file));
     fs::write(base.join("b"), "one").unwrap();
@@ -243,7 +243,7 @@ fn outputs_are_looked_at_with_the_records_that_are_asked_for() {
     assert_eq!(pathbuild_cache::verify(&snapshot, people, Listings::new()).files[1], restored("a.gcode"));
 }
 
-/// A larger catalogue: unsorted, several results per file, and texts that have common prefixes and are not ASCII.
+/// Returns a larger catalogue: unsorted, several results per file, and texts that have common prefixes and are not ASCII.
 fn larger(base: &Utf8Path) -> Catalogue {
     let names = ["b.dxf", "a.dxf", "ä.dxf", "a.dxf.dxf", "c/a.dxf"];
     let file = |(index, name): (u8, &&str)| FileFact {
@@ -291,7 +291,7 @@ fn what_is_kept_is_found_by_its_name() {
     assert_eq!(Catalogue::default().find("a.dxf", 0), None);
 }
 
-/// Files with a flipped bit, a missing part, or additional bytes.
+/// Tests files with a flipped bit, a missing part, or additional bytes.
 #[test]
 fn a_file_that_is_not_whole_is_not_used() {
     let (_directory, base) = place();
@@ -314,7 +314,7 @@ fn a_file_that_is_not_whole_is_not_used() {
     assert!(load(&whole).is_ok());
 }
 
-/// The magic, the key, the checksum.
+/// Size in bytes of the beginning of a file: the magic, the key and the checksum.
 const HEAD: usize = 16 + 64 + 32;
 
 /// Numbers out of bounds are refused even if the checksum is correct.
@@ -335,7 +335,7 @@ fn numbers_out_of_bounds_are_refused() {
             forged[HEAD - 32..HEAD].copy_from_slice(&checksum);
             fs::write(&file, forged).unwrap();
             match place.load(&key) {
-                // Its facts may be wrong, but verifying them must not panic.
+                // The facts of the catalogue may be wrong, but verifying them must not panic.
                 Ok(catalogue) => {
                     let catalogue = catalogue.unwrap();
                     let verdict =

@@ -1,4 +1,4 @@
-//! The directory of cached results: only the user's own files, never through links.
+//! The directory of cached results contains only the user's own files, and is never accessed through links.
 #![cfg(unix)]
 #![expect(
     clippy::unwrap_used,
@@ -13,7 +13,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Catalogue, Home, Key, TreeStore};
 use tempfile::TempDir;
 
-/// A directory for caches and two trees.
+/// Creates a directory for caches, and two trees.
 fn world() -> (TempDir, Utf8PathBuf) {
     let directory = TempDir::new().unwrap();
     let base = Utf8PathBuf::from_path_buf(directory.path().canonicalize().unwrap()).unwrap();
@@ -77,7 +77,7 @@ fn files_that_are_too_large_are_not_read() {
     let place = TreeStore::of_tree(&Home::Named(base.join("named")), &base);
     store(&place);
     let key = Key::new("build", "question");
-    // Empty files take no space on disk.
+    // The files are sparse and take no space on disk.
     for name in [key.file_name(), "CACHEDIR.TAG".to_owned()] {
         fs::File::create(place.directory().join(name)).unwrap().set_len(1 << 42).unwrap();
     }
@@ -116,13 +116,13 @@ fn nothing_is_pruned_through_a_link_or_among_other_things() {
     let place = TreeStore::of_tree(&Home::Named(base.join("one")), &base);
     fs::write(base.join("one/.bashrc"), "precious").unwrap();
     assert!(place.prune(&build).is_err() && old.exists());
-    // Without other files, a killed run may have left this.
+    // Without other files in it, the directory may have been left by a killed run.
     fs::remove_file(base.join("one/.bashrc")).unwrap();
     assert!(place.prune(&build).unwrap() == 1 && !old.exists());
     assert_eq!(TreeStore::of_tree(&Home::Named(base.join("none")), &base).prune(&build).unwrap(), 0);
 }
 
-/// Other programs mark their caches with the same signature, and may use any file names.
+/// Other programs mark their caches with the same signature and may use any file names, so such a mark does not suffice.
 #[test]
 fn only_what_pathbuild_makes_is_removed() {
     let (_directory, base) = world();
@@ -172,7 +172,7 @@ fn a_directory_without_a_mark_may_be_anybodys() {
         assert!(place.refusal().is_some() && place.clean().is_err() && file.exists(), "{name}");
         fs::remove_file(&file).unwrap();
     }
-    // A run that was killed, or another that is about to write the mark.
+    // A run may have been killed, or may be about to write the mark.
     let tree = base.canonicalize_utf8().unwrap();
     let made = [
         ("tree", tree.as_str()),

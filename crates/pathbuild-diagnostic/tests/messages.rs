@@ -34,7 +34,7 @@ fn numbers_of_one_message_are_told_apart() {
     assert!(said(8.0, 8.0).contains("diameter 8 mm"));
 }
 
-/// A library speaks English only: another language quotes it.
+/// A library's messages exist in English only, so German messages quote them.
 #[test]
 fn words_of_a_library_are_quoted_in_german() {
     let problem =
@@ -53,7 +53,7 @@ fn a_sentence_within_a_message_is_in_its_language() {
     );
 }
 
-/// Small numbers are written as people write them, with two digits that count.
+/// Small numbers are written without powers of ten, with two significant digits.
 #[test]
 fn small_numbers_are_no_powers_of_ten() {
     let shown = |number: f64| Number(number).to_string();

@@ -1,8 +1,8 @@
-//! The pages of `explain`: there is one for every code in both languages, with a uniform structure.
+//! The pages of `explain`: every code has one in both languages, and all have the same structure.
 
 use pathbuild_diagnostic::{Code, Lang};
 
-/// Codes whose example would require a bug, or a block, which the tables of examples do not show.
+/// Codes without an example: it would require a bug, or a block, which the tables of examples do not show.
 const WITHOUT_EXAMPLE: [Code; 2] = [Code::InternalError, Code::MirroredSubpath];
 
 fn codes() -> impl Iterator<Item = Code> {

@@ -1,8 +1,8 @@
-//! Displayed text contains nothing that affects the display.
+//! Displayed text contains no characters that affect the display.
 
 use pathbuild_diagnostic::{Lang, Value, shown};
 
-/// All special characters, and the neighbours of each of their ranges.
+/// Tests all special characters, and the neighbours of each of their ranges.
 #[test]
 fn what_acts_is_known() {
     for acting in

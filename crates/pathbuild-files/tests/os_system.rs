@@ -1,4 +1,4 @@
-//! Files of the operating system.
+//! Tests of the files of the operating system.
 
 #[cfg(target_os = "linux")]
 use std::io::{Read, Write};
@@ -16,7 +16,7 @@ use pathbuild_files::{Entry, EntryKind};
 use pathbuild_files::{OsSystem, ReadError, System};
 use tempfile::TempDir;
 
-/// A directory with a file of this size in bytes.
+/// Creates a directory with a file of this size in bytes.
 fn file(size: usize) -> (TempDir, Utf8PathBuf) {
     let directory = tempfile::tempdir().expect("there is room for a directory");
     let path = Utf8Path::from_path(directory.path()).expect("it is UTF-8").join("drawing.dxf");
@@ -31,7 +31,8 @@ fn a_file_may_have_as_many_bytes_as_the_limit() {
     assert_eq!(OsSystem.read(&path, 999), Err(ReadError::TooLarge { size: 1000 }));
 }
 
-/// Files of the kernel report no size. This one is the environment of a process, which is readable once it runs.
+/// Files of the kernel report no size, but are read nevertheless. This one contains the environment of a process, and can be read once the process
+/// runs.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_file_that_is_longer_than_it_says_is_read_up_to_the_limit() {
@@ -50,7 +51,7 @@ fn a_file_that_is_longer_than_it_says_is_read_up_to_the_limit() {
     assert!(read[1..].iter().all(|read| matches!(read, Err(ReadError::TooLarge { .. }))), "{read:?}");
 }
 
-/// Old content does not show up again, whether it was longer or shorter.
+/// The buffer contains nothing of its old content, whether that was longer or shorter than the new one.
 #[test]
 fn drawings_are_read_into_the_same_memory() {
     let mut room = b"x".repeat(50);
@@ -61,7 +62,7 @@ fn drawings_are_read_into_the_same_memory() {
     }
 }
 
-/// A file is not considered complete because its first part ends as a drawing does.
+/// A file is read to its end, even if its first part ends as a drawing does.
 #[test]
 fn what_follows_the_end_of_a_drawing_is_read() {
     let (_directory, path) = file(0);
@@ -72,7 +73,7 @@ fn what_follows_the_end_of_a_drawing_is_read() {
     }
 }
 
-/// Reading from a pipe would wait for a writer, perhaps for ever.
+/// A pipe is refused: reading it would wait for a writer, perhaps for ever.
 #[cfg(target_os = "linux")]
 #[test]
 fn what_is_no_regular_file_is_refused() {
@@ -90,7 +91,7 @@ fn what_is_no_regular_file_is_refused() {
     assert_eq!(pipe, refused);
 }
 
-/// The entries of a directory, in order of name.
+/// Returns the entries of a directory, sorted by name.
 #[cfg(unix)]
 fn entries(directory: &Utf8Path) -> Vec<(String, bool, EntryKind)> {
     let mut entries = Vec::new();
@@ -123,7 +124,7 @@ fn a_directory_says_what_is_a_file_a_directory_or_a_link() {
     assert!(OsSystem.each_entry(&file, &mut |_| ControlFlow::Continue(())).is_err(), "a file has no entries");
 }
 
-/// No file can be opened by a lossy spelling, except one that really has that name.
+/// A lossy name opens no file, unless a file really has that name.
 #[cfg(target_os = "linux")]
 #[test]
 #[expect(clippy::disallowed_methods, reason = "System has no names that are no UTF-8")]

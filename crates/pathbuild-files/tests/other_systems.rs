@@ -1,4 +1,4 @@
-//! Systems that replace the operating system: files in memory, an overlay, and relative paths from a directory.
+//! Tests of systems that replace the operating system: files in memory, an overlay, and relative paths from a directory.
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up its files has failed")]
 
 use std::ops::ControlFlow;
@@ -13,7 +13,7 @@ use pathbuild_files::{FileLink, OsSystem};
 
 const NEW: &str = "parts/1002.dxf";
 
-/// A drawing that is not written yet, over a directory with `1001.dxf`.
+/// Returns an overlay with a drawing that is not written yet, over a directory with `1001.dxf`.
 fn overlay(new: &str) -> OverlaySystem {
     let below = MemorySystem::default();
     below.put("parts/1001.dxf", "old");
@@ -59,7 +59,7 @@ fn there_are_systems_without_a_clock() {
     assert!(MemorySystem::default().now().is_some());
 }
 
-/// Each function takes a relative path from the directory, and an absolute one as it is.
+/// Each function resolves a relative path against the directory, and leaves an absolute one as it is.
 #[test]
 fn relative_paths_begin_at_a_directory() {
     let below = Arc::new(MemorySystem::without_clock());

@@ -1,4 +1,4 @@
-//! Runs each target on its corpus, which contains seeds and earlier discoveries. `PATHBUILD_FUZZ_INPUTS` sets the number of further inputs,
+//! Runs each target on its corpus, which contains seeds and earlier discoveries. `PATHBUILD_FUZZ_INPUTS` sets the number of additional inputs,
 //! which are deterministic mutations of the corpus.
 #![allow(
     clippy::unwrap_used,
@@ -11,7 +11,7 @@ use std::path::Path;
 
 use pathbuild_fuzz::TARGETS;
 
-/// The inputs of a target, in order of name.
+/// Returns the inputs of a target, sorted by file name.
 fn corpus(target: &str) -> Vec<Vec<u8>> {
     let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/corpus").join(target);
     let mut files: Vec<_> = fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -31,7 +31,7 @@ impl Chance {
     }
 }
 
-/// An input with bytes changed, inserted, removed, repeated, or taken from another input.
+/// Returns an input of the corpus with bytes changed, inserted, removed, repeated, or taken from another input.
 fn changed(corpus: &[Vec<u8>], chance: &mut Chance) -> Vec<u8> {
     let mut input = corpus[chance.below(corpus.len())].clone();
     for _ in 0..=chance.below(6) {

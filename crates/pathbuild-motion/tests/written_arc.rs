@@ -2,7 +2,7 @@
 
 use pathbuild_motion::WrittenArc;
 
-/// Start, end and centre relative to the start, of arcs whose rounded radii differ by more than 0.002 mm.
+/// Arcs, each with start, end, and centre relative to the start, whose rounded radii differ by more than 0.002 mm.
 const UNLUCKY: [[[f64; 2]; 3]; 3] = [
     [
         [17.795_257_996_527_887, -5.848_451_641_270_525],
@@ -25,7 +25,7 @@ fn thousandths(length: f64) -> f64 {
     libm::round(length * 1000.0) / 1000.0
 }
 
-/// Difference of the radii at both ends with all numbers rounded and the centre moved.
+/// Returns the difference between the radii at both ends, with all numbers rounded and the centre moved by `by`.
 fn difference(arc: &WrittenArc<'_>, by: [f64; 2]) -> f64 {
     let round = arc.length;
     let origin = if arc.is_absolute { [0.0; 2] } else { arc.from.map(round) };

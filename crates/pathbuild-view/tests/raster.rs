@@ -1,4 +1,4 @@
-//! PNG and PDF contain letters: with an empty font database, rendering silently omits them. Pages request nothing and do not interpret
+//! PNG and PDF files contain letters, which rendering silently omits if the font database is empty. Pages request nothing and do not interpret
 //! texts as markup.
 #![cfg(feature = "pictures")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up has failed")]
@@ -32,13 +32,13 @@ fn a_page_is_whole_and_takes_no_name_for_markup() {
     let made = page(&Scene::new(title), Lang::De);
     assert!(made.starts_with("<!doctype html>\n<html lang=\"de\">"));
     assert!(!made.contains("alert(1)</script>"));
-    // One script element for the scene, and one with the code.
+    // A page has one script element for the scene, and one for the code.
     assert_eq!((made.matches("<script").count(), made.matches("</script").count()), (2, 2));
     assert!(made.contains("default-src 'none'") && made.contains("data-word=\"rapids\""));
     assert_eq!(made, page(&Scene::new(title), Lang::De));
 }
 
-/// The picture of a drawing with many mistakes would otherwise take a megabyte of memory for each of them.
+/// The size of a picture must not depend on the number of findings: that of a drawing with many mistakes would take a megabyte of memory for each.
 #[test]
 fn a_picture_does_not_grow_with_the_number_of_findings() {
     let text = |text: &str| BilingualText { en: text.to_owned(), de: text.to_owned() };
@@ -55,7 +55,7 @@ fn a_picture_does_not_grow_with_the_number_of_findings() {
         at: Some([(number % 50) as f64, (number / 50) as f64]),
     };
     let picture = |count: usize| {
-        // The last one is at the same place in all of them.
+        // The last finding is at the same position in all scenes.
         let findings = (1..count).chain([1999]).map(finding).collect();
         let scene = Scene { findings, ..Scene::new("x") };
         svg(&scene, VisibleParts::all(Lang::En))

@@ -11,7 +11,7 @@ fn the_page_escapes_what_the_program_escapes() {
     let class = SCRIPT.split_once("/[").unwrap().1.split_once("]/gu").unwrap().0;
     let escaped = Regex::new(&format!("^[{class}]$")).unwrap();
     for character in (0..=0x10_ffff).filter_map(char::from_u32) {
-        // Line breaks are kept there.
+        // The script leaves line breaks as they are.
         let is_meant = character != '\n' && shown::acts(character);
         assert_eq!(escaped.is_match(character.encode_utf8(&mut [0; 4])), is_meant, "{character:?}");
     }

@@ -1,4 +1,4 @@
-//! The answers to a page, tested outside of a browser. The page itself is tested by crates/pathbuild-view/page/web-test.mjs.
+//! Tests the answers to a page outside of a browser. The page itself is tested by crates/pathbuild-view/page/web-test.mjs.
 
 #![allow(
     clippy::unwrap_used,
@@ -22,7 +22,7 @@ use pathbuild_workspace::session::{SelectedPath, Session};
 use pathbuild_workspace::{Inputs, SilentReporter, Workspace};
 use serde_json::{Value, json};
 
-/// The page's side of the interface.
+/// The page that sends messages to the compiler.
 #[derive(Default)]
 struct Page(Compiler);
 
@@ -52,7 +52,7 @@ impl Page {
         self.head(&json!({ "ask": "open", "options": options }))
     }
 
-    /// Each path with its row.
+    /// Returns the row of each path, by file and name.
     fn rows(&mut self, drawings: &Value) -> BTreeMap<(String, String), Value> {
         let mut rows = BTreeMap::new();
         for file in drawings.as_array().unwrap() {
@@ -66,7 +66,7 @@ impl Page {
         rows
     }
 
-    /// The programs by name, and the codes of the problems.
+    /// Returns the programs by file name, and the codes of the problems.
     fn emit(&mut self, places: &[(&str, &str)]) -> (BTreeMap<String, Vec<u8>>, Vec<String>) {
         let places: Vec<Value> =
             places.iter().map(|(file, path)| json!({ "file": file, "path": path })).collect();
@@ -88,11 +88,11 @@ fn library() -> Utf8PathBuf {
     Utf8PathBuf::from_path_buf(folder.canonicalize().unwrap()).unwrap()
 }
 
-/// Adds all files below a folder, by their relative paths.
+/// Adds all files below a folder, with their relative paths.
 fn put_all(page: &mut Page, root: &Utf8Path, folder: &Utf8Path) {
     for entry in folder.read_dir_utf8().unwrap() {
         let path = entry.unwrap().into_path();
-        // Programs left by a user's own run do not belong to the library.
+        // Programs that a user has emitted into the library do not belong to it.
         if path.is_dir() && path.file_name() != Some("gcode") {
             put_all(page, root, &path);
         } else if path.is_file() {
@@ -191,7 +191,7 @@ fn every_post_can_be_chosen() {
     assert_eq!(texts.len(), count, "two posts write the same");
 }
 
-/// A path with errors reports them and gives no program; the others do.
+/// A path with errors reports them and yields no program; the other paths yield theirs.
 #[test]
 fn drawings_without_a_configuration_ask_for_values() {
     let mut page = Page::default();
@@ -234,7 +234,7 @@ fn drawings_without_a_configuration_ask_for_values() {
     assert_eq!(page.head(&json!({ "ask": "scene", "file": "1000.1P.dxf", "path": "1.1P" }))["seen"], false);
 }
 
-/// A page has no date, so a waiver with an end does not hold there, which the finding states; one without an end holds.
+/// A page has no date, so a waiver with an end does not hold there, and the finding says so; a waiver without an end holds.
 #[test]
 fn a_waiver_that_ends_does_not_hold_without_a_date() {
     let drawing = "layer 1000.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 20,0 40,0\nturn 20,0\nend 40,0\n";
@@ -283,7 +283,7 @@ fn what_was_lost_is_told() {
     assert_eq!(page.emit(&[(&place(1002).0, &place(1002).1)]).0.len(), 1);
 }
 
-/// Two paths with the same output file give no program, as with `emit`.
+/// Two paths with the same output file yield no program, as with `emit`.
 #[test]
 fn two_paths_never_become_one_file() {
     let mut page = Page::default();
@@ -323,7 +323,7 @@ fn what_cannot_be_understood_is_said() {
     }
 }
 
-/// The scene of a program with these assumptions.
+/// Returns the scene of a program that is read with these assumptions.
 fn program(page: &mut Page, text: &str, assumptions: &Value) -> Value {
     let mut question = json!({ "ask": "program", "name": "dir/a.nc" });
     question.as_object_mut().unwrap().extend(assumptions.as_object().unwrap().clone());
@@ -369,7 +369,7 @@ fn a_program_is_verified_with_what_is_assumed() {
     assert_eq!(known["surface"], Value::Null);
     assert_eq!(known["checks"][0]["outcome"], "not-made");
     assert!(known["dialects"].as_array().unwrap().contains(&json!("grbl")));
-    // Each cutter is shown from its line on.
+    // Each cutter is shown from the line on in which it is selected.
     assert_eq!(scene["paths"][0]["tools"][1]["diameter"], 3.0);
     assert_eq!(scene["paths"][0]["tool"], Value::Null);
 
@@ -381,7 +381,7 @@ fn a_program_is_verified_with_what_is_assumed() {
     assert!(!codes(&scene).contains(&"PB740"), "{:?}", codes(&scene));
     let scene = program(&mut page, TWO_TOOLS, &json!({ "dialect": "grbl" }));
     assert_eq!(scene["program"]["dialect"], "grbl");
-    // What is typed in wrongly is a finding, and an unknown dialect is guessed.
+    // A wrong value of an assumption is a finding, and an unknown dialect is guessed.
     let scene = program(&mut page, TWO_TOOLS, &json!({ "cutter": "wide", "dialect": "none" }));
     assert!(codes(&scene).contains(&"PB003"), "{:?}", codes(&scene));
 }

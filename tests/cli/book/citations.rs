@@ -11,7 +11,7 @@ use crate::support::project;
 #[test]
 fn comments_cite_pages_that_are_there() {
     let cited = Regex::new("book: ([a-z0-9-]+/[a-z0-9-]+)").unwrap();
-    // Written so that this file itself contains no citation.
+    // Split, so that this file itself contains no citation.
     let elsewhere = Regex::new(&["spe", "c/[0-9]|[Pp]age", " [0-9]{2}[^0-9]"].concat()).unwrap();
     let (mut wrong, mut count) = (Vec::new(), 0);
     for folder in ["crates", "tests", "benches", "fuzz"] {

@@ -1,5 +1,5 @@
-//! Console blocks. The blocks of a page run one after the other in one directory: a copy of the folder of docs/drawings that has the page's
-//! name (its last part), or else an empty directory. Comments in the page, which readers do not see, give instructions:
+//! Reproduces console blocks. The blocks of a page run one after the other in one directory: a copy of the folder of docs/drawings that has the
+//! page's name (its last part), or else an empty directory. Comments in the page, which readers do not see, give instructions:
 //!
 //! - `<!-- place: FOLDER -->`: switch to a new copy of this folder. `empty`, `example` (created by `init --example`),
 //!   `fixtures` (fixtures/library) and `recorded` (a drawing with the program that PathDxf2GCode made of it) also work;
@@ -15,7 +15,7 @@ use std::fs;
 use super::{Page, scratch};
 use crate::support::Place;
 
-/// The page with the current output of its commands.
+/// Returns the page with the current output of its commands.
 pub(super) fn replayed(page: &Page, text: &str) -> String {
     let mut session = Session { page, place: None, directory: String::new(), file: None };
     let mut now = String::new();
@@ -43,7 +43,7 @@ struct Session<'p> {
     page: &'p Page,
     place: Option<Place>,
     directory: String,
-    /// The file that the next block is written to.
+    /// File into which the next block is written, if any.
     file: Option<String>,
 }
 
@@ -80,7 +80,7 @@ impl Session<'_> {
         fs::write(file, content).unwrap();
     }
 
-    /// The current output of a block.
+    /// Returns a block with the current output of its commands.
     fn block(&mut self, language: &str, lines: &[&str]) -> String {
         let text = lines.join("\n");
         if let Some(file) = self.file.take() {
@@ -100,7 +100,7 @@ impl Session<'_> {
         now
     }
 
-    /// The output of a command.
+    /// Returns the output of a command.
     fn typed(&mut self, line: &str) -> String {
         let page = self.page.file.display().to_string();
         let command = line.strip_prefix("$ ").unwrap_or_else(|| panic!("{page}: a block begins with {line}"));
@@ -145,7 +145,7 @@ fn commands(mut found: Vec<String>, line: &str) -> Vec<String> {
     found
 }
 
-/// Whether the shown output, with `...` for any lines, matches the printed output.
+/// Whether the shown output, in which `...` stands for any number of lines, matches the printed output.
 fn stands_for(shown: &str, printed: &str) -> bool {
     let shown: Vec<&str> = shown.lines().collect();
     let parts: Vec<&[&str]> = shown.split(|line| *line == "...").collect();
@@ -170,7 +170,7 @@ fn three_points_stand_for_any_lines() {
     assert!(!stands_for("a", "a\nb"));
 }
 
-/// The words of a command; those with spaces are in double quotes.
+/// Splits a command into words; those with spaces are in double quotes.
 fn words(command: &str) -> Vec<&str> {
     let parts = command.split('"').enumerate();
     let words = parts.flat_map(|(index, part)| {

@@ -1,11 +1,11 @@
-//! Each drawing of the books exists twice: as text, which we edit, and as DXF, which any CAD program can open.
+//! Each drawing of the books exists twice: as text, which is edited, and as DXF, which any CAD program can open.
 
 use std::path::PathBuf;
 
 use super::{assert_none, files_below, kept, scratch};
 use crate::support::project;
 
-/// The folders of drawings in text form.
+/// Returns the folders with drawings in text form.
 fn folders() -> [PathBuf; 2] {
     [scratch::drawings(), project().join("crates/pathbuild/example")]
 }

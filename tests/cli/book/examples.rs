@@ -1,5 +1,5 @@
-//! The last part of each page of `explain`: its example as a draughtsman reads it. Drawings are shown as tables of their elements with the
-//! faults marked, followed by pathbuild's output. Generated from PBnnn.draw next to the page.
+//! Generates the last part of each page of `explain`: its example, described for a draughtsman. Drawings are shown as tables of their elements with
+//! the faults marked, followed by pathbuild's output. The source is PBnnn.draw next to the page.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -21,7 +21,7 @@ fn say<'t>(lang: Lang, en: &'t str, de: &'t str) -> &'t str {
     }
 }
 
-/// The widest line of a page.
+/// Width of a page in characters.
 const WIDTH: usize = 100;
 
 #[test]
@@ -40,7 +40,7 @@ fn fault(of: Code, lang: Lang) -> Option<String> {
     kept(&file, format!("{written}{heading}{}", shown(of, example, lang)).as_bytes())
 }
 
-/// An example in words: its files and the output of its commands.
+/// Describes an example: its files and the output of its commands.
 fn shown(of: Code, example: &str, lang: Lang) -> String {
     let fixture = Fixture::parse(example).unwrap_or_else(|errors| panic!("{of}: {errors:?}"));
     let place = Place::of(example);
@@ -67,7 +67,8 @@ fn shown(of: Code, example: &str, lang: Lang) -> String {
     format!("{files}{}{said}{picture}", if files.contains('«') { means } else { String::new() })
 }
 
-/// The command that shows what the part check has found, filled, in a picture of the stock; a page in the terminal has no pictures.
+/// Returns the command that shows the findings of the part check, filled, in a picture of the stock, because a page in the terminal has no
+/// pictures; empty for other codes.
 fn picture(of: Code, command: &str, lang: Lang) -> String {
     let is_of_part = (Code::GougedPart..=Code::OutlineNotCut).contains(&of);
     let Some(drawing) = command.strip_prefix("check ").filter(|_| is_of_part) else { return String::new() };
@@ -75,7 +76,7 @@ fn picture(of: Code, command: &str, lang: Lang) -> String {
     format!("\n`pathbuild view {drawing} --stock -o stock.png` {shows}\n")
 }
 
-/// The output of a command under a code, without duplicates.
+/// Returns the output of a command that belongs to a code, without duplicates.
 fn said(of: Code, command: &str, findings: &[Value], lang: Lang) -> String {
     let own = findings.iter().filter(|finding| finding["code"] == of.to_string());
     let items = own.map(|finding| {
@@ -91,7 +92,7 @@ fn said(of: Code, command: &str, findings: &[Value], lang: Lang) -> String {
     if said.is_empty() { String::new() } else { head + &said.concat() }
 }
 
-/// The place of a finding, in a drawing or in a text.
+/// Describes the position of a finding, in a drawing or in a text.
 fn place_of(finding: &Value, lang: Lang) -> String {
     let is_drawing = finding["file"].as_str().is_some_and(|file| file.ends_with(".dxf"));
     match (finding["x"].as_f64(), finding["y"].as_f64(), finding["line"].as_u64()) {
@@ -103,7 +104,7 @@ fn place_of(finding: &Value, lang: Lang) -> String {
     }
 }
 
-/// A drawing: its unusual properties, and a table for each layer.
+/// Describes a drawing by its unusual properties and a table for each layer.
 fn drawing(name: &str, sheet: &Sheet, findings: &[&Value], lang: Lang) -> String {
     let own: Vec<&Value> = findings.iter().copied().filter(|finding| finding["file"] == name).collect();
     let mut text = String::new();
@@ -132,7 +133,7 @@ fn states(layer: &Layer, lang: Lang) -> String {
     states.flat_map(|state| [" (", state, ")"]).collect()
 }
 
-/// The properties that differ from a usual file.
+/// Lists the properties in which the drawing differs from a usual file.
 fn unusual(sheet: &Sheet, lang: Lang) -> Vec<String> {
     let options = sheet.options();
     let units =
@@ -143,7 +144,7 @@ fn unusual(sheet: &Sheet, lang: Lang) -> Vec<String> {
     units.into_iter().chain(header).chain(ends).collect()
 }
 
-/// The elements of a layer, one per row; a parameter text is in the row of its element.
+/// Returns a table of the elements of a layer, one per row; a parameter text is in the row of its element.
 fn table<'e>(entities: impl Iterator<Item = &'e Entity>, findings: &[&Value], lang: Lang) -> String {
     let head = [
         ("", ""),
@@ -173,7 +174,7 @@ struct Row<'e, 'f> {
 }
 
 impl<'e, 'f> Row<'e, 'f> {
-    /// Parameter texts follow their elements and come from the same line of the text form.
+    /// Combines elements with their parameter texts, which follow them and come from the same line of the text form.
     fn all(entities: impl Iterator<Item = &'e Entity>, findings: &[&'f Value]) -> Vec<Self> {
         let mut rows: Vec<Self> = Vec::new();
         for entity in entities {
@@ -195,7 +196,7 @@ fn is_about(finding: &Value, handle: Handle) -> bool {
     finding["handle"].as_str() == Some(&handle.to_string())
 }
 
-/// A text with the faulty part in « ».
+/// Returns a text with its faulty part in « ».
 fn marked(text: &str, finding: &Value) -> String {
     let span = finding["span"].as_array().filter(|_| finding["text"].as_str() == Some(text));
     let Some(span) = span else { return text.to_owned() };
@@ -204,7 +205,7 @@ fn marked(text: &str, finding: &Value) -> String {
     format!("{}«{}»{}", part(0, start), part(start, end - start), part(end, usize::MAX))
 }
 
-/// What it is, its start or position, its end, and its text.
+/// Returns the type of an entity, its start or position, its end, and its text.
 fn described(entity: &Entity, lang: Lang) -> (String, String, String, String) {
     let at = point;
     let name = |en: &str, de: &str| say(lang, en, de).to_owned();
@@ -240,7 +241,7 @@ fn circle_name(entity: &Entity, diameter: f64, lang: Lang) -> String {
     meaning.map_or(circle.clone(), |(_, en, de)| format!("{}: {circle}", say(lang, en, de)))
 }
 
-/// A point as in messages, in the same form in both languages.
+/// Formats a point as in messages, in the same form in both languages.
 fn point(point: Point) -> String {
     let parts = [point.x, point.y, point.z].map(number);
     format!("({})", if point.z == 0.0 { &parts[..2] } else { &parts }.join(", "))
@@ -254,7 +255,7 @@ fn decimal(value: f64, lang: Lang) -> String {
     if lang == Lang::De { number(value).replace('.', ",") } else { number(value) }
 }
 
-/// Rows as an aligned Markdown table, which is readable as plain text.
+/// Formats rows as an aligned Markdown table, which is readable as plain text.
 fn aligned(rows: &[[String; 6]]) -> String {
     let used: Vec<usize> =
         (0..6).filter(|column| rows[1..].iter().any(|row| !row[*column].is_empty())).collect();
@@ -268,7 +269,7 @@ fn aligned(rows: &[[String; 6]]) -> String {
     format!("{}|{rule}|\n{}", line(&rows[0]), rows[1..].iter().map(line).collect::<String>())
 }
 
-/// A list item, wrapped.
+/// Formats a list item, with wrapped lines.
 fn wrapped(text: &str) -> String {
     let mut lines = vec!["-".to_owned()];
     for word in text.split_whitespace() {

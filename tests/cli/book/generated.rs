@@ -1,4 +1,4 @@
-//! Tables generated from the code, between `<!-- generated: NAME -->` and `<!-- end -->`.
+//! Generates tables from the code, between `<!-- generated: NAME -->` and `<!-- end -->`.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -13,7 +13,7 @@ use super::{Page, code, pages};
 const BEGIN: &str = "<!-- generated: ";
 const END: &str = "<!-- end -->";
 
-/// A page with regenerated tables.
+/// Returns a page with regenerated tables.
 pub(super) fn filled(page: &Page, text: &str) -> String {
     let mut now = String::new();
     let mut rest = text;
@@ -37,7 +37,7 @@ fn table(name: &str, lang: Lang) -> String {
     }
 }
 
-/// A table about the languages of post-processor definitions. The page has its header.
+/// Returns a table about the languages of post-processor definitions, without the header, which is in the page.
 fn posts(name: &str, lang: Lang) -> String {
     let rows = pathbuild_post::reference_table(name, lang);
     let rows = rows.unwrap_or_else(|| panic!("no table is called {name}"));
@@ -67,7 +67,7 @@ const POST_HEADS: [(&str, &str, &str); 10] = [
     ("cambam-calls", "macro | takes", "Makro | nimmt"),
 ];
 
-/// The columns of the table of letters, in the order familiar to machinists.
+/// Letters in the order of the columns of their table, which is familiar to machinists.
 const COLUMNS: &str = "OTSIFBDPUWCNQAHMZL>:ER@";
 
 const ROWS: [ElementClass; 12] = [
@@ -113,7 +113,7 @@ fn mark(usage: LetterUse) -> &'static str {
     }
 }
 
-/// Alternative names of the line types, by line type.
+/// Returns a table of the alternative names of each line type.
 fn line_type_names() -> String {
     let mut table = String::from("| | |\n| --- | --- |\n");
     for (name, line_type) in LineType::NAMES {
@@ -187,7 +187,7 @@ fn diagnostics(lang: Lang) -> String {
     table
 }
 
-/// The first sentence below a page's heading.
+/// Returns the first sentence below a page's heading.
 fn first_sentence(page: &str) -> String {
     let paragraph = page.split("\n\n").nth(1).unwrap_or_default().replace('\n', " ");
     let is_end = |(at, _): &(usize, &str)| {
@@ -198,12 +198,12 @@ fn first_sentence(page: &str) -> String {
     paragraph[..end].to_owned()
 }
 
-/// The configuration keys as written by `init`.
+/// Returns the configuration that `init` writes, which contains every key.
 fn configuration() -> String {
     format!("```toml\n{}```", pathbuild_workspace::config::template())
 }
 
-/// Every word in backticks in the first column of a page's tables.
+/// Returns every word in backticks in the first column of a page's tables.
 fn first_column(text: &str) -> BTreeSet<String> {
     let rows = text.lines().filter_map(|line| line.strip_prefix("| ")?.split(" | ").next());
     rows.flat_map(|cell| cell.split('`').skip(1).step_by(2)).map(str::to_owned).collect()
@@ -221,7 +221,7 @@ fn the_letters_of_the_book_are_those_of_the_code() {
     }
 }
 
-/// The descriptions of the keys in the code are in English; the German page has its own table.
+/// The code describes the keys in English only, so the German page has its own table, which must be complete.
 #[test]
 fn the_german_page_explains_every_key_of_the_configuration() {
     let template = pathbuild_workspace::config::template();

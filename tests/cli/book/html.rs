@@ -6,7 +6,7 @@ use pathbuild_testkit::skip;
 
 use crate::support::project;
 
-/// The version that the books are built with.
+/// The version of mdBook with which the books are built.
 const VERSION: &str = "mdbook v0.4.52";
 
 #[test]

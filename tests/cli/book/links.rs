@@ -1,4 +1,4 @@
-//! Pages, links and anchors: both books have the same pages, and every link is valid.
+//! Checks pages, links and anchors: both books have the same pages, and every link is valid.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Code, Lang};
 use super::{Page, all_pages, assert_none, pages};
 use crate::support::project;
 
-/// The parts of a text outside of code blocks.
+/// Returns the parts of a text outside of code blocks.
 fn prose(text: &str) -> Vec<&str> {
     let mut is_code = false;
     let is_prose = |line: &&str| {
@@ -19,7 +19,7 @@ fn prose(text: &str) -> Vec<&str> {
     text.lines().filter(is_prose).collect()
 }
 
-/// The targets of `[text](target)`, `![text](target)` and `[text]: target`.
+/// Returns the targets of `[text](target)`, `![text](target)` and `[text]: target`.
 fn links(text: &str) -> Vec<&str> {
     let mut links = Vec::new();
     for line in prose(text) {
@@ -29,13 +29,13 @@ fn links(text: &str) -> Vec<&str> {
     links
 }
 
-/// The targets of `![text](target)`.
+/// Returns the targets of `![text](target)`.
 pub(super) fn images(text: &str) -> Vec<&str> {
     let images = prose(text).into_iter().flat_map(|line| line.split("![").skip(1));
     images.filter_map(|rest| rest.split_once("](")?.1.split(')').next()).collect()
 }
 
-/// The file that a link of a page refers to, relative to the project's directory.
+/// Returns the file to which a link of a page leads, relative to the project's directory.
 pub(super) fn target(page: &Page, link: &str) -> String {
     let folder = page.file.parent().unwrap().to_string_lossy().replace('\\', "/");
     let mut parts: Vec<&str> = folder.split('/').filter(|part| !part.is_empty()).collect();
@@ -49,7 +49,7 @@ pub(super) fn target(page: &Page, link: &str) -> String {
     parts.join("/")
 }
 
-/// A heading as an anchor: lower case, spaces as hyphens, other characters dropped.
+/// Converts a heading to an anchor: lower case, spaces as hyphens, other characters dropped.
 fn anchor(heading: &str) -> String {
     let kept = heading.trim_start_matches('#').trim().to_lowercase();
     let kept = kept.chars().filter(|sign| sign.is_alphanumeric() || matches!(sign, ' ' | '-' | '_'));
@@ -110,7 +110,7 @@ fn both_languages_name_the_same_codes_and_all_exist() {
     }
 }
 
-/// Both languages show the same pictures and drawings: links to files other than pages.
+/// Both languages show the same pictures and drawings, so links to files other than pages are equal.
 #[test]
 fn both_languages_show_the_same() {
     for (english, german) in pages(Lang::En).iter().zip(pages(Lang::De)) {
@@ -124,7 +124,7 @@ fn both_languages_show_the_same() {
     }
 }
 
-/// Every `PBnnn` in a text.
+/// Returns every `PBnnn` in a text.
 fn codes(text: &str) -> BTreeSet<String> {
     let places = text.match_indices("PB").map(|(place, _)| &text[place..]);
     let codes = places.filter_map(|rest| rest.get(..5));

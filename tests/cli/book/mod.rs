@@ -1,6 +1,6 @@
-//! The books in docs/en and docs/de, and the README: their output is reproduced and compared. Commands run in a copy of the book's
-//! drawings, pictures are drawn by `view`, tables are generated from the code, and links are checked. `PATHBUILD_UPDATE=1` rewrites
-//! everything that differs. (CONTRIBUTING.md, "The books")
+//! Tests of the books in docs/en and docs/de, and of the README: their output is reproduced and compared. Commands run in a copy of the book's
+//! drawings, pictures are drawn by `view`, tables are generated from the code, and links are checked. `PATHBUILD_UPDATE=1` rewrites everything that
+//! differs. (CONTRIBUTING.md, "The books")
 #![allow(clippy::case_sensitive_file_extension_comparisons, reason = "the files are ours")]
 
 mod citations;
@@ -41,7 +41,7 @@ impl Page {
     }
 }
 
-/// The code of a language in configurations and file names.
+/// Returns the code of a language in configurations and file names.
 fn code(lang: Lang) -> &'static str {
     match lang {
         Lang::En => "en",
@@ -53,7 +53,7 @@ fn source(lang: Lang) -> PathBuf {
     PathBuf::from("docs").join(code(lang)).join("src")
 }
 
-/// The pages of a book, including its summary.
+/// Returns the pages of a book, including its summary.
 fn pages(lang: Lang) -> Vec<Page> {
     let mut pages: Vec<Page> = files_below(&project().join(source(lang)))
         .into_iter()
@@ -71,7 +71,7 @@ fn all_pages() -> Vec<Page> {
     pages(Lang::En).into_iter().chain(pages(Lang::De)).chain([readme]).collect()
 }
 
-/// The names of the files below a directory, with `/` as the separator.
+/// Returns the names of the files below a directory, with `/` as the separator.
 pub(crate) fn files_below(directory: &Path) -> BTreeSet<String> {
     let mut files = BTreeSet::new();
     for entry in fs::read_dir(directory).into_iter().flatten() {
@@ -104,7 +104,7 @@ fn assert_none(wrong: &[String]) {
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 
-/// Tables first, then commands, so that both end up in a single write.
+/// Tables are regenerated before commands are run, so that both changes are written together.
 #[test]
 fn pages_show_what_is_printed_and_what_the_code_says() {
     let wrong: Vec<String> = all_pages()

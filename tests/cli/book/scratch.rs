@@ -9,12 +9,12 @@ use pathbuild_testkit::sheet;
 use super::{code, files_below};
 use crate::support::{Place, project};
 
-/// The book's drawings: a folder for each page that shows some.
+/// Returns the directory of the book's drawings, with a folder for each page that shows some.
 pub(super) fn drawings() -> PathBuf {
     project().join("docs/drawings")
 }
 
-/// A copy of the named folder; messages are in the language of the page.
+/// Creates a copy of the named folder; messages are in the language of the page.
 pub(super) fn place(name: &str, lang: Lang) -> Place {
     let place = Place::new().users(&format!("lang = \"{}\"\n", code(lang)));
     match name {
@@ -47,7 +47,7 @@ fn copied(place: Place, folder: &Path, prefix: &str) -> Place {
     })
 }
 
-/// A drawing in text form as DXF.
+/// Returns a drawing in text form as DXF.
 pub(super) fn drawn(file: &Path) -> Vec<u8> {
     let text = fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
     sheet(&text).unwrap_or_else(|errors| panic!("{}: {}", file.display(), errors[0])).to_dxf()

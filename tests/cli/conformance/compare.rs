@@ -13,7 +13,7 @@ use super::reduced::{is_same_line, of_default, reduced};
 use super::travelled::statistics_difference;
 use crate::support::program;
 
-/// The differences; empty if the run is equal.
+/// Runs pathbuild and returns the differences from the recorded results; none if they are equal.
 pub(crate) fn differences(run: &Run) -> Vec<String> {
     match &run.what {
         What::Compile(arguments) => compile_differences(run, arguments),
@@ -53,7 +53,7 @@ fn compile_differences(run: &Run, arguments: &[String]) -> Vec<String> {
     differences
 }
 
-/// Messages with this code, of any severity, when the run is checked without `--compatible`; `None` for runs that do not compile.
+/// Returns the messages with this code, of any severity, if the run is checked without `--compatible`; `None` for runs that do not compile.
 pub(crate) fn messages(run: &Run, code: &str) -> Option<Vec<String>> {
     let What::Compile(arguments) = &run.what else { return None };
     let place = copy_of(&run.case);
@@ -65,7 +65,7 @@ pub(crate) fn messages(run: &Run, code: &str) -> Option<Vec<String>> {
     Some(found.map(|finding| finding["message"].as_str().unwrap().to_owned()).collect())
 }
 
-/// The corrected program is compared byte for byte, except for line ends.
+/// Compares the adjusted program byte for byte, except for line ends.
 fn adjust_differences(run: &Run, max_correction: f64) -> Vec<String> {
     let expected = run.case.join("expected");
     let place = copy_of(&run.case);
@@ -93,7 +93,7 @@ fn adjust_differences(run: &Run, max_correction: f64) -> Vec<String> {
     differences
 }
 
-/// A copy of a case's drawings in a directory of their own.
+/// Copies a case's drawings to a temporary directory.
 fn copy_of(case: &Path) -> TempDir {
     let place = TempDir::new().unwrap();
     for name in files_below(case) {
@@ -118,7 +118,7 @@ fn odd_end(output: &Output) -> Option<String> {
     (is_panic || is_odd).then(|| format!("a panic, or an odd end: {}", output.status))
 }
 
-/// The reference does not distinguish what pathbuild separates as 1 and 2.
+/// Compares the exit status. Unlike pathbuild, the reference does not distinguish between 1 and 2.
 fn exit_difference(output: &Output, fails: bool) -> Option<String> {
     let expected = if fails { "failure" } else { "success" };
     (output.status.success() == fails).then(|| format!("{}, expected {expected}", output.status))
@@ -136,13 +136,13 @@ fn code_difference(output: &Output, expected: &str) -> Option<String> {
     (!is_same).then(|| format!("codes {found:?}, expected {expected:?}"))
 }
 
-/// The code of an error in a line of JSON.
+/// Returns the code of an error in a line of JSON.
 fn error_code(line: &str) -> Option<String> {
     let diagnostic: serde_json::Value = serde_json::from_str(line).unwrap();
     (diagnostic["severity"] == "error").then(|| diagnostic["code"].as_str().unwrap().to_owned())
 }
 
-/// The first line in which a file differs.
+/// Returns the first line in which a file differs.
 fn file_difference(name: &str, form: Form, expected: &Path, written: &Path) -> Option<String> {
     let text = |directory: &Path| fs::read_to_string(directory.join(name)).unwrap();
     let lines = |directory: &Path| {

@@ -1,4 +1,4 @@
-//! Recorded runs of `PathDxf2GCode` and `PathGCodeAdjustZ`, compared move by move: pathbuild must do the same with the same drawings.
+//! Compares pathbuild with recorded runs of `PathDxf2GCode` and `PathGCodeAdjustZ`, move by move: it must do the same with the same drawings.
 //! fixtures/conformance/README.md describes the recordings and what counts as equal.
 
 mod compare;
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use self::recorded::{Form, Run};
 use crate::support;
 
-/// Runs with known differences, and the reasons. A run without differences must not be listed.
+/// Runs with known differences, each with the reason. A run without differences must not be listed.
 const DIFFERENT: [(&str, &str); 2] = [
     ("reference-drawings/3", "PB202 beside PB101, PB102 and PB105: a milling segment has a T"),
     ("reference-drawings/35", "PB201 beside PB202: B is missing as well, on other segments"),
@@ -36,7 +36,7 @@ fn recorded_runs_are_equal() {
     say("recorded, of a single path", &chosen.map(|(_, differences)| differences).collect::<Vec<_>>());
 }
 
-/// The reference's own test drawings are not ours to publish; they are read where they are.
+/// The reference's own test drawings may not be published here, so they are read from its directory, if it exists.
 #[test]
 fn foreign_runs_are_equal() {
     let Some(foreign) = support::shared("conformance/foreign") else { return };
@@ -46,7 +46,7 @@ fn foreign_runs_are_equal() {
 }
 
 /// PB506 also compares the cutter of an embedded path with that of the path that embeds it, whatever the segment says. PathDxf2GCode does not, so
-/// this must not concern any recorded run.
+/// no recorded run may cause this message.
 #[test]
 fn no_recorded_run_embeds_a_path_for_another_cutter() {
     let fixtures = support::project().join("fixtures/conformance");
@@ -64,13 +64,13 @@ fn no_recorded_run_embeds_a_path_for_another_cutter() {
     for (run, messages) in &findings {
         assert!(!messages.iter().any(is_cutter), "{run}: {messages:#?}");
     }
-    // The others compare the segment with the path that it embeds.
+    // The other messages compare the segment with the path that it embeds.
     let others = findings.iter().filter(|(_, messages)| !messages.is_empty());
     let cases: BTreeSet<&str> = others.map(|(run, _)| run.split('/').next().unwrap()).collect();
     assert_eq!(cases, BTreeSet::from(["subpath_wrong_m", "subpath_wrong_o", "subpath_wrong_t"]));
 }
 
-/// The differences of each run. Fails if any is unknown.
+/// Returns the differences of each run. Fails if any of them is not a known one.
 fn compare_all(what: &str, runs: &[Run]) -> Vec<Vec<String>> {
     let mut differences: Vec<Vec<String>> = runs.par_iter().map(compare::differences).collect();
     if cfg!(windows) {
@@ -105,7 +105,7 @@ fn say(what: &str, differences: &[&Vec<String>]) {
     writeln!(std::io::stderr(), "{what}: {equal} of {} runs equal", differences.len()).unwrap();
 }
 
-/// The problem with the outcome of a run: it differs unexpectedly, or is equal although listed as different.
+/// Returns the problem with the outcome of a run: it differs unexpectedly, or is equal although it is listed as different.
 fn fault(run: &Run, differences: &[String]) -> Option<String> {
     let known = DIFFERENT.iter().find(|(name, _)| *name == run.name());
     match (known, differences) {
@@ -115,7 +115,7 @@ fn fault(run: &Run, differences: &[String]) -> Option<String> {
     }
 }
 
-/// The files below a directory, as names relative to it.
+/// Returns the files below a directory, as names relative to it.
 fn files_below(directory: &Path) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     let mut open = vec![directory.to_owned()];

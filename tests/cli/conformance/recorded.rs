@@ -7,31 +7,31 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-/// A recorded run.
+/// A recorded run of `PathDxf2GCode` or `PathGCodeAdjustZ`.
 pub(crate) struct Run {
     /// The folder of the case, with its drawings, `case.json` and the expected files.
     pub(crate) case: PathBuf,
-    /// Its number within the case.
+    /// Number of the run within the case.
     pub(crate) number: usize,
-    /// The action.
+    /// The action that was recorded.
     pub(crate) what: What,
-    /// Which results are expected.
+    /// The kind of results that are expected.
     pub(crate) form: Form,
-    /// Why the expected result differs from the recorded one.
+    /// The reason why the expected result differs from the recorded one.
     by_specification: Option<String>,
 }
 
-/// The kinds of expected results.
+/// The kind of expected results.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Form {
-    /// The results of the original tool: `--compatible`.
+    /// The results of the original program, which `--compatible` reproduces.
     Recorded,
-    /// The results by the specification, without that option.
+    /// The results that pathbuild specifies, without that option.
     Default,
 }
 
 impl Form {
-    /// The folder of a case's expected results.
+    /// Returns the folder of a case's expected results.
     pub(crate) fn folder(self) -> &'static str {
         match self {
             Self::Recorded => "expected",
@@ -44,7 +44,7 @@ impl Form {
 pub(crate) enum What {
     /// Arguments of `check` or `emit`.
     Compile(Vec<String>),
-    /// `adjust` with this --max-correction.
+    /// `adjust` with this value of --max-correction.
     Adjust(f64),
 }
 
@@ -56,7 +56,7 @@ struct CaseFile {
 }
 
 impl Run {
-    /// The name of the case and the number of the run.
+    /// Returns the name of the case and the number of the run.
     pub(crate) fn name(&self) -> String {
         format!("{}/{}", self.case.file_name().unwrap().to_str().unwrap(), self.number)
     }
@@ -79,7 +79,7 @@ impl fmt::Display for Run {
     }
 }
 
-/// The translatable runs in some folders of cases, by case and number.
+/// Returns the translatable runs in some folders of cases, by case and number.
 pub(crate) fn runs(folders: &[PathBuf]) -> Vec<Run> {
     folders.iter().flat_map(|folder| runs_in(folder)).collect()
 }

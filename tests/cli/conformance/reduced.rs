@@ -1,10 +1,10 @@
-//! Reduces written files to what is compared: moves, formulas, Q comments, subpath marks and statistics.
+//! Reduces written files to the parts that are compared: moves, formulas, Q comments, subpath marks and statistics.
 
 use std::sync::LazyLock;
 
 use regex::Regex;
 
-/// The relevant lines of a written file; for a file of measured values, all of them.
+/// Returns the relevant lines of a written file; for a file of measured values, all of them.
 pub(crate) fn reduced(name: &str, text: &str) -> Vec<String> {
     if name.ends_with("_Z.txt") {
         return text.lines().map(str::to_owned).collect();
@@ -46,7 +46,7 @@ pub(crate) fn is_same_line(expected: &str, written: &str) -> bool {
     }
 }
 
-/// What remains to be compared without `--compatible`: no statistics, which are compared with the program's own moves instead; either code
+/// Returns the parts that are compared without `--compatible`: no statistics, which are compared with the program's own moves instead; either code
 /// for a probing move; lines of a file of measured values without the position of the probe, ` @ [x|y]`.
 pub(crate) fn of_default(lines: Vec<String>) -> Vec<String> {
     static PROBING: LazyLock<Regex> = LazyLock::new(|| Regex::new(r"^G38\.[23]").unwrap());
@@ -56,7 +56,7 @@ pub(crate) fn of_default(lines: Vec<String>) -> Vec<String> {
     lines.into_iter().filter(is_kept).map(plain).collect()
 }
 
-/// Label, millimetres and minutes in a line of the statistics.
+/// Returns label, millimetres and minutes in a line of the statistics.
 pub(crate) fn length(line: &str) -> Option<(String, i64, i64)> {
     static LENGTH: LazyLock<Regex> =
         LazyLock::new(|| Regex::new(r"^(\([A-Z][a-z ]+): +([0-9]+) mm   ca\. *([0-9]+) min\)$").unwrap());
@@ -69,7 +69,7 @@ fn is_same_move(expected: &str, written: &str) -> bool {
     words == other_words && numbers.iter().zip(&other_numbers).all(|(a, b)| (a - b).abs() <= 0.001 + 1e-7)
 }
 
-/// A line without its numbers of three decimals, and these numbers.
+/// Returns a line without its numbers of three decimals, and these numbers.
 fn parts(line: &str) -> (String, Vec<f64>) {
     static NUMBER: LazyLock<Regex> = LazyLock::new(|| Regex::new(r"-?[0-9]+\.([0-9]+)").unwrap());
     let mut numbers = Vec::new();

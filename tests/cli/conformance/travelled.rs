@@ -1,5 +1,5 @@
-//! Compares the statistics of a program written without `--compatible` with the program's own moves. The recorded statistics are those of
-//! the reference, which counts planned lengths.
+//! Compares the statistics of a program written without `--compatible` with the program's own moves. The recorded statistics are those of the
+//! reference, which counts planned lengths.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -11,7 +11,7 @@ use super::reduced::length;
 
 const LABELS: [&str; 3] = ["(Milling length", "(Drill length", "(Sweeps"];
 
-/// A length of milling, drilling or sweeps that differs from the moves by more than 1 mm and 1 %.
+/// Returns a length of milling, drilling or sweeps that differs from the moves by more than 1 mm and 1 %.
 pub(crate) fn statistics_difference(name: &str, text: &str) -> Option<String> {
     let travelled = travelled(text);
     text.lines().find_map(|line| {
@@ -22,7 +22,7 @@ pub(crate) fn statistics_difference(name: &str, text: &str) -> Option<String> {
     })
 }
 
-/// Lengths in mm of milling, drilling and sweeps in a native program, from the first fully known position.
+/// Returns the lengths in mm of milling, drilling and sweeps in a native program, from the first fully known position.
 fn travelled(text: &str) -> [f64; 3] {
     static MOVE: LazyLock<Regex> = LazyLock::new(|| Regex::new(r"^G0?([0-3])([^0-9.]|$)").unwrap());
     static WORD: LazyLock<Regex> = LazyLock::new(|| Regex::new(r"([XYZIJ])(-?[0-9.]+)").unwrap());
@@ -53,7 +53,7 @@ fn travelled(text: &str) -> [f64; 3] {
     lengths
 }
 
-/// The length in the plane of an arc with this offset from start to end.
+/// Returns the length in the plane of an arc, given by the offset from its start to its end.
 fn arc_length(words: &BTreeMap<char, f64>, clockwise: bool, [x, y]: [f64; 2]) -> f64 {
     let [i, j] = ['I', 'J'].map(|letter| words.get(&letter).copied().unwrap_or_default());
     let turned = (y - j).atan2(x - i) - (-j).atan2(-i);

@@ -1,4 +1,4 @@
-//! Drawings with a given number of some feature.
+//! Drawings in which some feature occurs a given number of times.
 #![allow(unreachable_pub, reason = "one binary's own module")]
 
 pub fn entities(drawn: &str, end: (f64, f64)) -> String {
@@ -22,12 +22,12 @@ fn at(index: usize) -> (f64, f64) {
     (f64::from(index) * 0.25, f64::from(index % 2) * 3.0)
 }
 
-/// Lines with common ends.
+/// Returns lines that all have the same ends.
 pub fn fan(count: usize) -> String {
     entities(&line((0.0, 0.0), (10.0, 0.0)).repeat(count + 1), (10.0, 0.0))
 }
 
-/// Lines from a common point, with a turn marker at each tip.
+/// Returns lines from a common point, with a turn marker at each tip.
 pub fn star(count: usize) -> String {
     let spoke = |index: usize| {
         let angle = 6.0 * f64::from(u32::try_from(index).unwrap()) / f64::from(u32::try_from(count).unwrap());
@@ -42,7 +42,7 @@ pub fn chain(count: usize) -> String {
     entities(&(0..count).map(|index| line(at(index), at(index + 1))).collect::<String>(), at(count))
 }
 
-/// A chain of lines, half of them among as many probes, in rows of 20.
+/// Returns a chain of lines, half of them among as many probes, in rows of 20.
 pub fn probed(count: usize) -> String {
     let place = |index: usize| {
         let [row, place] = [index / 20, index % 20].map(|it| 8.0 * f64::from(u32::try_from(it).unwrap()));
@@ -53,7 +53,7 @@ pub fn probed(count: usize) -> String {
     entities(&(probes + &lines), at(count))
 }
 
-/// Ends that nearly meet.
+/// Returns lines whose ends nearly meet.
 pub fn gaps(count: usize) -> String {
     let with_gap = |index: usize| {
         let ((x, y), to) = (at(index), at(index + 1));
@@ -62,7 +62,7 @@ pub fn gaps(count: usize) -> String {
     entities(&(0..count).map(with_gap).collect::<String>(), at(count))
 }
 
-/// Ends within a hundredth of a mm, none of which meet.
+/// Returns ends within a hundredth of a mm, none of which meet.
 pub fn spots(count: usize) -> String {
     const IN_A_ROW: usize = 30;
     let spot = |index: usize| {
@@ -88,7 +88,7 @@ pub fn polyline(count: usize) -> String {
     entities(&drawn, at(count))
 }
 
-/// A number in letters, since names of layers have no digits after the tilde.
+/// Writes a number in letters, because names of layers have no digits after the tilde.
 fn letters(number: usize) -> String {
     [number / 676, number / 26 % 26, number % 26]
         .map(|digit| (b'A'..=b'Z').nth(digit).map_or('A', char::from))
@@ -109,13 +109,13 @@ fn with_line(drawn: &str) -> String {
     entities(&(line((0.0, 0.0), (9.0, 0.0)) + drawn), (9.0, 0.0))
 }
 
-/// Layers with a line each, and as many texts near each line.
+/// Returns layers with a line each, and as many texts near each line.
 pub fn lost_texts(count: usize) -> String {
     let lines: String = (0..count).map(|layer| on_layer(layer, &line((20.0, 0.0), (30.0, 0.0)))).collect();
     with_line(&(lines + &on_layer(count, &text((25.0, 0.0), "B1")).repeat(count)))
 }
 
-/// Layers with a line each, and a text for each on a separate layer.
+/// Returns layers with a line each, and a text for each on a separate layer.
 pub fn lost_texts_apart(count: usize) -> String {
     let height = |layer: usize| 9.0 * f64::from(u32::try_from(layer).unwrap());
     let drawn = |layer: usize| {
@@ -125,7 +125,7 @@ pub fn lost_texts_apart(count: usize) -> String {
     with_line(&(0..count).map(drawn).collect::<String>())
 }
 
-/// Insertions without a valid position, of a block with a line on each of 50 layers.
+/// Returns insertions without a valid position, of a block with a line on each of 50 layers.
 pub fn broken_insertions(count: usize) -> String {
     let insert = "0\nINSERT\n8\n1202.1P\n2\nX\n10\na\n20\n0\n".repeat(count);
     let lines: String = (0..50).map(|layer| on_layer(layer, &line((0.0, 0.0), (1.0, 0.0)))).collect();
@@ -133,7 +133,7 @@ pub fn broken_insertions(count: usize) -> String {
     format!("0\nSECTION\n2\nBLOCKS\n{block}0\nENDSEC\n{}", with_line(&insert))
 }
 
-/// Each variable refers to itself, and a text refers to the last one often.
+/// Returns variables that each refer to themselves, and a text that refers to the last one often.
 pub fn circular_variables(count: usize) -> String {
     let names: Vec<char> = (0x4e00..).map_while(char::from_u32).take(count).collect();
     let defined = names.iter().map(|name| format!(" :{name}={name},={name}")).collect::<Vec<_>>().concat();

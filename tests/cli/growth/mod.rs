@@ -1,4 +1,4 @@
-//! The work grows linearly with the input: four times as much takes at most six times as long, plus a little. (docs/reliability.md)
+//! Checks that the work grows linearly with the input: four times as much takes at most six times as long, plus a little. (docs/reliability.md)
 
 pub mod drawings;
 
@@ -34,7 +34,7 @@ fn work_grows_with_what_is_drawn() {
     }
 }
 
-/// With a problem in each thing, so that the output grows as well.
+/// Each element has a problem, so that the output grows as well.
 #[test]
 fn work_grows_with_what_is_wrong() {
     for (name, drawing, count) in [
@@ -54,7 +54,7 @@ fn work_grows_with_what_is_wrong() {
     }
 }
 
-/// For programs: tools and feeds are recorded once each.
+/// Programs record each tool and each feed once.
 #[test]
 fn work_grows_with_what_a_program_uses() {
     let tool = |number: usize| format!("T{0} M6\nG0 X{0}\nG1 Z9 F100\nG0 Z10\n", number + 1);
@@ -71,7 +71,7 @@ fn work_grows_with_what_a_program_uses() {
     }
 }
 
-/// For probes: each move searches its neighbourhood.
+/// Each move searches for probes in its neighbourhood.
 #[test]
 fn work_grows_with_the_probes() {
     for model in ["idw4", "tin"] {
@@ -82,7 +82,7 @@ fn work_grows_with_the_probes() {
     }
 }
 
-/// Through a post: the output is read back and compared with the program.
+/// The output of a post is read back and compared with the program.
 #[test]
 fn work_grows_with_what_a_post_writes() {
     let way = |index: usize| format!("G0 X{} Y{}\nG0 Z1\n", index % 1000, index / 1000);
@@ -108,7 +108,7 @@ fn work_grows_with_what_a_post_writes() {
     }
 }
 
-/// For definitions: macros, elements and mistakes. At most 100 mistakes are reported.
+/// Definitions contain many macros, elements and mistakes. At most 100 mistakes are reported.
 #[test]
 fn work_grows_with_what_a_definition_holds() {
     type Definition<'d> = &'d dyn Fn(usize) -> String;
@@ -149,7 +149,7 @@ fn work_grows_with_what_a_definition_holds() {
     }
 }
 
-/// The indentation of a chain is limited.
+/// The output indents a chain of embeddings only up to a limit.
 #[test]
 fn what_is_said_grows_with_how_deep_paths_are_embedded() {
     let size = |count: usize| {
@@ -174,10 +174,10 @@ fn drawn(settings: &str, drawing: &str) -> Place {
     Place::new().file("pathbuild.toml", format!("{CONFIGURATION}{settings}")).file("1202.1P.dxf", drawing)
 }
 
-/// A run with one amount and one with four times as much, which must not take too long in comparison.
+/// Runs a command on one amount and on four times as much, and asserts that the second run does not take too long in comparison.
 #[track_caller]
 fn of_one_and_four(name: &str, count: usize, place: impl Fn(usize) -> Place, arguments: &str) -> [Run; 2] {
-    // The better of two runs, since other processes slow the machine down.
+    // The faster of two runs counts, because other processes slow the machine down.
     let better = |count: usize| {
         let [one, other] = [(); 2].map(|()| place(count).run_timed(arguments));
         if one.1 < other.1 { one } else { other }

@@ -1,4 +1,4 @@
-//! The programs in `examples/`, run on the library of the fixtures.
+//! Runs the programs in `examples/` on the library of the fixtures.
 
 use std::process::{Command, Output};
 
@@ -34,7 +34,7 @@ fn moves_are_printed_as_csv() {
     assert!(!run("moves_csv", &["library", "9999.1P"]).status.success());
 }
 
-/// A feed of 200 mm/min is allowed in aluminium; a higher one only in wood.
+/// In aluminium, a feed of 200 mm/min is allowed; a higher one is only allowed in wood.
 #[test]
 fn a_check_of_ones_own_finds_feeds() {
     assert!(lines(&run("custom_check", &["library"])).is_empty());

@@ -1,4 +1,4 @@
-//! Requests, on the library of the fixtures and on drawings that change.
+//! Tests requests on the library of the fixtures, and on drawings that change.
 
 use std::fs;
 
@@ -16,14 +16,14 @@ fn fixtures() -> Library {
 
 const CONFIGURATION: &str = "library = [\"lib\"]\nfeed = 100\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n[emit]\ntargets = [\"8*\"]\n";
 
-/// A path that mills from (0, 0) to (length, 0).
+/// Returns the drawing of a path that mills from (0, 0) to (length, 0).
 fn drawn(name: &str, length: u32) -> Vec<u8> {
     let text =
         format!("layer {name}\nstart 0,0 \"T5 O2 I1 B0 MAl\"\nmill 0,0 {length},0 \"F80\"\nend {length},0");
     sheet(&text).unwrap().to_dxf()
 }
 
-/// A library on disk with one path, 8001.1P.
+/// Creates a library on disk with one path, 8001.1P.
 fn on_disk() -> TempDir {
     let directory = TempDir::new().unwrap();
     fs::write(directory.path().join("pathbuild.toml"), CONFIGURATION).unwrap();
@@ -32,7 +32,7 @@ fn on_disk() -> TempDir {
     directory
 }
 
-/// The codes of an error's findings.
+/// Returns the codes of the findings in an error.
 fn codes<T: std::fmt::Debug>(result: Result<T, Error>) -> Vec<String> {
     match result.unwrap_err() {
         Error::Findings(found) => found.iter().map(pathbuild_api::Finding::code).collect(),
@@ -40,7 +40,7 @@ fn codes<T: std::fmt::Debug>(result: Result<T, Error>) -> Vec<String> {
     }
 }
 
-/// The reason of a refusal.
+/// Returns the reason of a refused request.
 fn refusal<T: std::fmt::Debug>(result: Result<T, Error>) -> String {
     match result.unwrap_err() {
         Error::Refused(reason) => reason,
@@ -61,7 +61,7 @@ fn a_library_is_checked_and_listed() {
     assert_eq!(named[0].program, ProgramState::None);
 }
 
-/// The mistakes of the fixtures are found, in both languages and with their places.
+/// The mistakes in the fixtures are found, in both languages and with their positions.
 #[test]
 fn findings_have_code_place_and_both_languages() {
     let checked = fixtures().check(&["mistakes"]).unwrap();
@@ -74,7 +74,7 @@ fn findings_have_code_place_and_both_languages() {
     assert_eq!(found.to_string(), format!("{}: {}", found.code(), found.message(Lang::En)));
 }
 
-/// The moves are those of the statistics, and each names its line of the program.
+/// The moves add up to the statistics, and each move names its line of the program.
 #[test]
 fn a_path_has_elements_and_moves() {
     let library = fixtures();
@@ -143,7 +143,7 @@ fn programs_are_verified_and_compared_with_their_drawing() {
     assert!(library.verify(&["other.nc"], &VerifyOptions::new().against("9999.1P")).is_err());
 }
 
-/// Results are kept until an edit is reported.
+/// Results stay the same until an edit is reported.
 #[test]
 fn an_edit_is_seen_after_it_is_told_of() {
     let directory = on_disk();
@@ -169,8 +169,8 @@ fn unknown_edits_are_seen_after_a_refresh() {
     assert!(library.check(&[]).unwrap().findings.iter().any(pathbuild_api::Finding::is_error));
 }
 
-/// The first report is about everything; the second about what an edit changes, after which watching is stopped. Without a configuration,
-/// the library is the directory.
+/// The first report covers everything, the second one the results of an edit; then watching is stopped. Without a configuration, the library is the
+/// directory.
 #[test]
 fn a_library_is_watched() {
     for is_configured in [true, false] {
@@ -195,7 +195,7 @@ fn a_library_is_watched() {
         assert_eq!((&*first.changed, &*first.now), (&[][..], &[][..]));
         assert_eq!(second.changed, ["lib/8001.1P.dxf"]);
         assert!(second.before.is_empty() && second.now.iter().any(pathbuild_api::Finding::is_error));
-        // Earlier results are dropped.
+        // After watching, earlier results are not reused.
         assert_eq!(library.check(&["lib/8001.1P.dxf"]).unwrap().findings, second.now);
     }
 }
@@ -235,7 +235,7 @@ fn settings_override_the_configuration() {
     assert!(refusal(open("compatible", "1")).contains("compatible"));
     open("compatible", "true").unwrap();
     assert_eq!(codes(open("rapid", "fast")), ["PB003"]);
-    // Projects embed what is in the first directory; the second alone has none of it.
+    // Projects embed paths from the first directory, and none from the second one.
     let both = LibraryOptions::new().setting("search", "components").setting("search", "mistakes");
     let both = both.open(project().join("fixtures/library")).unwrap();
     assert_eq!(both.check(&["projects"]).unwrap(), fixtures().check(&["projects"]).unwrap());
@@ -262,7 +262,7 @@ fn a_faulty_configuration_opens_nothing() {
     assert_eq!(codes(LibraryOptions::new().config("none.toml").open(on_disk().path())), ["PB003"]);
 }
 
-/// Results of an earlier process are kept in the cache, and are the same.
+/// The cache keeps the results of an earlier process.
 #[test]
 fn results_are_kept_in_the_cache() {
     let (directory, caches) = (on_disk(), TempDir::new().unwrap());
@@ -316,7 +316,7 @@ fn a_missing_directory_is_no_library() {
 fn without_a_configuration_the_directory_is_the_library() {
     let directory = on_disk();
     let library = || Library::open(directory.path().join("lib")).unwrap();
-    // The configuration above applies, with its library.
+    // The configuration in the directory above applies, with its library.
     assert_eq!(library().paths(&[]).unwrap().paths[0].file, "8001.1P.dxf");
     fs::remove_file(directory.path().join("pathbuild.toml")).unwrap();
     assert_eq!(library().check(&[]).unwrap().paths, 1);

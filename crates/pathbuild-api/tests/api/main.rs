@@ -1,4 +1,4 @@
-//! The library as another program uses it.
+//! Tests the library as another program uses it.
 #![expect(
     clippy::unwrap_used,
     clippy::disallowed_methods,

@@ -1,11 +1,12 @@
-//! The public items are those of `public-items.txt`. `PATHBUILD_UPDATE=1 cargo test -p pathbuild-api` writes it: read what changed.
+//! Checks that the public items are those of `public-items.txt`. `PATHBUILD_UPDATE=1 cargo test -p pathbuild-api` writes that file: read what
+//! changed.
 
 use std::fmt::Write;
 use std::fs;
 
 use pathbuild_testkit::project;
 
-/// The public declarations of a file as rustfmt lays it out, one on a line, with the variants of public enums.
+/// Returns the public declarations of a file as rustfmt formats it, one on each line, with the variants of public enums.
 fn public_items(source: &str) -> String {
     // Lines that precede a declaration are listed with it: attributes, and the type whose functions follow.
     let (mut items, mut before, mut is_enum) = (String::new(), Vec::new(), false);
@@ -29,7 +30,7 @@ fn public_items(source: &str) -> String {
     items
 }
 
-/// A declaration up to its body, with its further lines.
+/// Returns a declaration up to its body, with its further lines.
 fn whole<'a>(first: &str, lines: &mut impl Iterator<Item = &'a str>) -> String {
     let ends: &[char] = match first {
         _ if first.starts_with("pub use ") => &[';'],
