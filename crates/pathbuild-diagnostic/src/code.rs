@@ -10,7 +10,7 @@ use crate::words::Lang;
 pub enum Severity {
     /// An error: the path gets no program, and the exit status is 1.
     Error,
-    /// A warning, which does not prevent anything.
+    /// A warning: the program is written nevertheless.
     Warning,
 }
 
@@ -78,8 +78,8 @@ macro_rules! codes {
                 }
             }
 
-            /// Returns the example on the page: a drawing for the test kit (crates/pathbuild-testkit), and commands that give exactly the
-            /// noted diagnostics. `None` if the problem cannot be shown in a few lines.
+            /// Returns the example on the page: a fixture for the test kit (crates/pathbuild-testkit) whose commands give exactly the noted
+            /// diagnostics. `None` if the problem cannot be shown in a few lines.
             pub fn example(self) -> Option<&'static str> {
                 match self { $(Self::$variant => example!($number $(no $example)?),)* }
             }

@@ -1,11 +1,9 @@
 //! Diagnostics as plain values, and the catalogue of their codes, texts and pages in English and German.
 //!
 //! A [`Diagnostic`] is a finding of a stage: a [`Message`], the values in it, and its place. It contains no text of its own, so it is
-//! cheap
-//! to compare (query results are compared after every edit) and can be rendered in any language and format. All texts are in [`messages`]
-//! and in the pages of `explain`; the program decides about presentation (colours, underlining, JSON). This crate prints nothing and does
-//! not
-//! depend on miette. (book: reference/diagnostics)
+//! cheap to compare (query results are compared after every edit) and can be rendered in any language and format. All texts are in
+//! [`messages`] and in the pages of `explain`; the program decides about presentation (colours, underlining, JSON). This crate prints
+//! nothing and does not depend on miette. (book: reference/diagnostics)
 
 mod code;
 mod diagnostic;

@@ -43,11 +43,10 @@ impl fmt::Display for Handle {
     }
 }
 
-/// Index of an element in the source map of its file. The source map contains the element's line and handle.
+/// Index of an element in the source map of its file, which contains the element's line and handle.
 ///
 /// Elements are counted per path. Edits elsewhere in the drawing shift lines and handles, but not these indices, so that they do not
-/// change any value of later
-/// stages.
+/// change any value of later stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ElementId(pub u32);
 

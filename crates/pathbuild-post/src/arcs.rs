@@ -9,21 +9,21 @@ use pathbuild_motion::{Course, Move, MoveShape, WrittenArc, widest_chord};
 /// Maximum number of chords per arc.
 pub(crate) const MOST_CHORDS: u32 = 100_000;
 
-/// Number of chords needed to stay within `tolerance` mm of the arc, or `None` if that would be too many.
+/// Returns the number of chords needed to stay within `tolerance` mm of the arc, or `None` if that would be too many.
 pub(crate) fn chords(course: &Course, tolerance: f64) -> Option<u32> {
     let count = (course.sweep() / widest_chord(course.radius(), tolerance)).ceil().max(1.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
     (count <= f64::from(MOST_CHORDS)).then_some(count as u32)
 }
 
-/// Number of equal parts needed so that none sweeps more than `widest` (in radians, not too small).
+/// Returns the number of equal parts into which an arc must be split so that none sweeps more than `widest` radians. It is at most 255.
 pub(crate) fn pieces_of(course: &Course, widest: f64) -> u32 {
     (1..u32::from(u8::MAX))
         .find(|count| f64::from(*count) * widest >= course.sweep())
         .unwrap_or(u8::MAX.into())
 }
 
-/// If the centre of an arc is almost equidistant from start and end, moves it so that it is.
+/// Moves the centre of an arc so that it is equidistant from start and end, if it almost is.
 pub(crate) fn centre(movement: &mut Move) {
     let MoveShape::Arc(arc) = &mut movement.shape else { return };
     let difference = (arc.radius(&movement.from) - arc.radius(&movement.to)).abs();
@@ -45,7 +45,7 @@ const WIDEST_OF_MM: f64 = 0.002;
 /// Greatest permitted difference of an arc's radii in mm, for programs in inches.
 const WIDEST_OF_INCHES: f64 = 0.005_08;
 
-/// How the numbers of an arc are rounded.
+/// The rules by which a post rounds the numbers of an arc.
 pub(crate) struct Rounding<'r> {
     /// Converts a length in mm to the number that is written, in the output unit.
     pub(crate) length: &'r dyn Fn(f64) -> f64,

@@ -10,7 +10,7 @@ use super::job::{Job, Operation, Tool};
 use crate::Language;
 use crate::job::{Hole, HoleKind, JobStep};
 
-/// A post included in pathbuild.
+/// A post-processor included in pathbuild.
 #[derive(Clone, Copy, Debug)]
 pub struct BuiltIn {
     /// Name of the post on the command line.
@@ -119,7 +119,7 @@ fn job(operations: Vec<Operation>) -> Job {
     Job { name: "1.1P".into(), drawing: "1.dxf".into(), operations, ..Job::default() }
 }
 
-/// A rapid move up to the clearance plane, or along it to X.
+/// Creates a rapid move: up to the clearance plane, or along it to X.
 fn rapid(x: Option<f64>) -> JobStep {
     JobStep::rapid([x, x, Some(5.0)])
 }

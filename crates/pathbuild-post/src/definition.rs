@@ -375,7 +375,7 @@ pub fn reference_table(name: &str, lang: Lang) -> Option<Vec<Row>> {
     cad6::reference::table(name, lang).or_else(|| cambam::reference::table(name, lang))
 }
 
-/// The language in which a post is defined.
+/// The language in which a post-processor is defined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Language {
     /// A CamBam definition (.cbpp).

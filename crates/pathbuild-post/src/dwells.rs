@@ -1,4 +1,4 @@
-//! Compares the dwells of a text with those of the job: a time in the wrong unit is a thousand times too short or too long.
+//! Compares the dwells of a text with those of the job, because a time in the wrong unit would be a thousand times too short or too long.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
@@ -41,7 +41,7 @@ pub(super) fn check(
     None
 }
 
-/// Time in seconds that a step waits; `None` if it does not wait.
+/// Returns the time in seconds that a step waits; `None` if it does not wait.
 fn duration(step: &JobStep) -> Option<f64> {
     match step {
         JobStep::Dwell { seconds } => Some(*seconds),

@@ -51,12 +51,12 @@ impl LineStarts {
         Self(std::iter::once(0).chain(text.match_indices('\n').map(|(end, _)| end + 1)).collect())
     }
 
-    /// The line of a byte, counted from 1.
+    /// Returns the line of the byte at an offset, counted from 1.
     pub(crate) fn line(&self, byte: usize) -> u32 {
         u32::try_from(self.index(byte)).unwrap_or(u32::MAX)
     }
 
-    /// Offset at which the line of a byte begins.
+    /// Returns the offset at which the line of a byte begins.
     pub(crate) fn start(&self, byte: usize) -> usize {
         self.index(byte).checked_sub(1).map_or(0, |index| self.0[index])
     }

@@ -272,7 +272,7 @@ pub(super) struct ToolAssignment {
 /// Assigns a cutter to each path, and numbers to cutters that have none.
 pub(super) struct Fitter<'a> {
     table: &'a ToolTable,
-    /// The number of each entry of the table.
+    /// Tool number of each entry of the table.
     numbers: Vec<u32>,
     fitted: Vec<(Key, Tool)>,
     pub(super) warnings: Vec<Diagnostic>,

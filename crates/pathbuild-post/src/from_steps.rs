@@ -24,7 +24,7 @@ pub enum Remark<'a> {
     End,
 }
 
-/// The meaning of comments in programs of the native dialect.
+/// Returns the meaning of a comment in a program of the native dialect.
 pub fn native_remark(text: &str) -> Remark<'_> {
     let text = text.trim();
     match text.strip_prefix("START Subpath ") {
@@ -43,9 +43,9 @@ pub fn is_of_head(text: &str) -> bool {
 
 impl Job {
     /// Converts the steps of a program in any dialect. A new operation begins where the tool, the spindle or the coolant changes, and
-    /// where
-    /// `remark` returns one. Several moves in one line are combined to a drilled hole if they form one. The upper face of the material is
-    /// assumed to be at Z 0, because programs do not contain it: see [`set_surface`](Self::set_surface).
+    /// where `remark` returns one. Several moves in one line are combined to a drilled hole if they form one. The upper face of the
+    /// material is assumed to be at Z 0, because programs do not contain it: see [`set_surface`](Self::set_surface).
+    ///
     /// # Errors
     /// Things that a job cannot express: other coordinate systems, positions known only to the machine, cuts from or to an unknown
     /// position, arcs of several turns.

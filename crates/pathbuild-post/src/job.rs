@@ -85,7 +85,7 @@ impl Job {
         self.operations.iter().map(feeds).collect()
     }
 
-    /// The lowest upper face of the material in mm, if it is known.
+    /// Returns the height in mm of the lowest upper face of the material; `None` if it is unknown.
     pub(super) fn lowest_surface(&self) -> Option<f64> {
         let surfaces = self.operations.iter().map(|operation| operation.surface);
         surfaces.reduce(f64::min).filter(|_| !self.has_no_surface)
@@ -114,7 +114,7 @@ impl Job {
         }
     }
 
-    /// The distinct tools in order of first use.
+    /// Returns the distinct tools, in order of first use.
     pub fn tools(&self) -> Vec<&Tool> {
         let mut seen = HashSet::new();
         let tools = self.operations.iter().map(|operation| &operation.tool);
@@ -384,17 +384,17 @@ pub enum HoleKind {
 }
 
 impl JobStep {
-    /// A straight move at full speed.
+    /// Creates a rapid straight move.
     pub fn rapid(to: impl Into<Position>) -> Self {
         Self::straight(to, Pace::Rapid)
     }
 
-    /// A straight cut. `feed` is `None` if the parsed program does not specify it.
+    /// Creates a straight cut. `feed` is in mm/min; `None` if the parsed program does not specify it.
     pub fn feed(to: impl Into<Position>, feed: Option<f64>) -> Self {
         Self::straight(to, Pace::Feed(feed.unwrap_or_default()))
     }
 
-    /// A straight move until the probe makes contact.
+    /// Creates a straight move that ends when the probe makes contact. `feed` is in mm/min.
     pub fn probe(to: impl Into<Position>, feed: Option<f64>) -> Self {
         Self::straight(to, Pace::Probe { feed: feed.unwrap_or_default(), toward: true, must_answer: true })
     }

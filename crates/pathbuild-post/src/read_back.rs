@@ -280,7 +280,7 @@ fn as_post_s(found: Diagnostic) -> Diagnostic {
     diagnostic
 }
 
-/// The moves of a job, each with the number of its step.
+/// Returns the moves of a job, each with the number of its step (from 1).
 fn moves(job: &Job) -> Result<Vec<(u32, Move)>, Box<Diagnostic>> {
     let mut mover = Mover { at: Position::default(), moves: Vec::new(), number: 0 };
     for operation in &job.operations {

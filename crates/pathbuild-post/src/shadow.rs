@@ -221,7 +221,7 @@ impl Rs274Translation {
     }
 }
 
-/// Name of a code, given as ten times its number.
+/// Returns the name of a code, such as `G38.2`, from ten times its number.
 fn name(letter: char, tenths: i64) -> String {
     u16::try_from(tenths).map_or_else(|_| letter.to_string(), |code| code_name(letter, code))
 }

@@ -59,7 +59,7 @@ impl Target {
         found.map(|(_, open, close)| (open.len(), close))
     }
 
-    /// Length of the comment at the beginning of a text; `None` if no comment begins there.
+    /// Returns the length in bytes of the comment at the beginning of a text; `None` if no comment begins there.
     fn comment_length(&self, text: &str) -> Option<usize> {
         let (open, close) = self.comment_marks(text)?;
         let end = text[open..].find(close).filter(|_| !close.is_empty());

@@ -1,10 +1,8 @@
 //! Checks that a parsed text makes exactly the cuts of a job, and between them only moves that cannot touch material.
 //!
 //! The rapids of a post need not equal those of the job, although they must when a program is compared with its drawing (`verify
-//! --against`). A
-//! post may retract the tool higher, or omit moves in the air. A position is free of material if it is above all positions where the job
-//! itself
-//! moves by rapid, or above the clearance plane.
+//! --against`). A post may retract the tool higher, or omit moves in the air. A position is free of material if it is above all positions
+//! where the job itself moves by rapid, or above the clearance plane.
 
 use std::collections::HashSet;
 
@@ -176,7 +174,7 @@ fn too_far(cut: (u32, Move)) -> Box<Diagnostic> {
     Box::new(describe(&Difference { kind: DifferenceKind::Place, found, expected: None }))
 }
 
-/// The end of a move, without its unknown axes, for a message.
+/// Returns the end of a move for a message, without its unknown axes.
 fn place(movement: &Move) -> Value {
     place_of(&movement.to)
 }

@@ -41,7 +41,6 @@ const GLYPH_NUMBERS: SystemInfo<'static> =
 ///
 /// # Errors
 /// Only if the font cannot be parsed, which is a bug, since it is part of the program.
-/// Only if there is a bug: the font is one of ours.
 pub(crate) fn document(trees: &[Tree], font: &[u8], metadata: Option<&str>) -> Result<Vec<u8>, String> {
     let face = FontRef::new(font).map_err(|error| error.to_string())?;
     let mut resources = Resources::default();

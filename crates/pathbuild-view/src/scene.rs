@@ -86,7 +86,7 @@ pub struct ScenePath {
     pub moves: Vec<SceneMove>,
     /// Lengths and times of the program; `None` if the path has no program.
     pub totals: Option<Totals>,
-    /// The G-code as written by `emit`, with LF as line ends. Lines are counted from 1.
+    /// The G-code as written by `emit`, with LF as line ends.
     pub gcode: Option<String>,
     /// Path of the file that `emit` writes; `None` if it writes none.
     pub written: Option<String>,

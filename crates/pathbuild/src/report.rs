@@ -117,7 +117,7 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
     format!("{paths} in {drawings}: {errors}, {warnings}{known} ({seconds} s)")
 }
 
-/// Number of drawings with errors.
+/// Returns the number of drawings with errors.
 fn erroneous(findings: &Findings) -> usize {
     let errors = findings.diagnostics.iter().filter(|diagnostic| diagnostic.is_error());
     errors.filter_map(|diagnostic| diagnostic.file.as_deref()).collect::<BTreeSet<_>>().len()

@@ -480,7 +480,7 @@ messages! {
         help_en: "put them into two lines",
         help_de: "auf zwei Zeilen verteilen",
     }
-    /// A word that requires another word in its line.
+    /// A word that requires another word.
     NEEDS: MissingWord {
         en: "{word} needs {missing}",
         de: "{word} braucht {missing}",

@@ -2,8 +2,7 @@
 //!
 //! A CAD6 program consists of contours: move above a point at safety height, descend to working height, plunge, cut the elements, and
 //! retract to safety height. The rapids of a job are combined into such moves. Rapids that cannot be expressed in this way are an error;
-//! they
-//! are never dropped.
+//! they are never dropped.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
@@ -122,7 +121,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Position of the tool after the pending rapids.
+    /// Returns the position of the tool after the pending rapids.
     fn end(&self) -> Point {
         self.ways.last().copied().unwrap_or(self.at)
     }
@@ -322,7 +321,7 @@ impl<'a> Builder<'a> {
         ways.into_iter().try_for_each(|way| self.line(way, self.feed))
     }
 
-    /// Number of pending rapids, from the first, up to the last one that moves sideways within the material.
+    /// Returns the number of pending rapids up to and including the last one that moves sideways within the material.
     fn sideways(&self) -> usize {
         let surface = self.present().surface;
         let (mut before, mut count) = (self.at, 0);
@@ -335,7 +334,7 @@ impl<'a> Builder<'a> {
         count
     }
 
-    /// Highest point of the pending rapids.
+    /// Returns the greatest height in mm that the pending rapids reach.
     fn highest(&self) -> f64 {
         let start = if self.is_open { f64::NEG_INFINITY } else { self.at[2] };
         self.ways.iter().map(|way| way[2]).fold(start, f64::max)
@@ -422,7 +421,7 @@ fn same_plane(a: Point, b: Point) -> bool {
 /// X, Y, Z in mm.
 pub(super) type Point = [f64; 3];
 
-/// A call of a control text before its variables are set, and the operation it belongs to.
+/// A call of a control text before its variables are set, and the index of the operation that it belongs to.
 #[derive(Debug)]
 pub(super) struct Call<'a> {
     pub(super) operation: usize,

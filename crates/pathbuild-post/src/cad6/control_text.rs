@@ -16,7 +16,7 @@ macro_rules! kinds {
         impl ControlTextKind {
             pub(super) const ALL: &[Self] = &[$(Self::$variant,)*];
 
-            /// Key of the text in a definition.
+            /// Key of the text in the table `[text]` of a definition.
             pub(super) fn name(self) -> &'static str {
                 match self {
                     $(Self::$variant => $name,)*
@@ -81,7 +81,7 @@ impl ControlText {
         Some((first_line + line - 1, column))
     }
 
-    /// The line that contains a byte, and the offset at which the line begins.
+    /// Returns the offset at which the line of a byte begins, and the line.
     pub(super) fn line_around(&self, byte: usize) -> (usize, &str) {
         let byte = self.text.floor_char_boundary(byte);
         let start = self.text[..byte].rfind('\n').map_or(0, |end| end + 1);

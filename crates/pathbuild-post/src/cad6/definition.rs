@@ -266,7 +266,7 @@ impl ControlTextReader<'_> {
         ControlText { begins: Some(self.place(span.start + self.opening_length(&span))), text }
     }
 
-    /// Length of the opening quotes of a text, including the line break that belongs to them.
+    /// Returns the length of the opening quotes of a text in bytes, including the line break that TOML skips after them.
     fn opening_length(&self, span: &Range<usize>) -> usize {
         let quoted = self.source.get(span.clone()).unwrap_or("");
         let quotes = if quoted.starts_with("'''") || quoted.starts_with("\"\"\"") { 3 } else { 1 };

@@ -13,7 +13,7 @@ pub(super) enum Form {
     Shortest,
     /// `'`: two decimals and a thousands separator.
     Currency,
-    /// `%`, `.`: rounded.
+    /// `%`, `.`: rounded to the definition's decimals.
     Rounded,
     /// `,`: rounded, with a decimal comma.
     Comma,
@@ -60,7 +60,7 @@ forms! {
 const MAX_WIDTH: usize = 64;
 
 impl Form {
-    /// The format selected by a character.
+    /// Returns the format that a character selects.
     pub(super) fn of(character: char) -> Option<Self> {
         FORMS.iter().find(|(sign, ..)| *sign == character).map(|(_, form, _)| *form)
     }

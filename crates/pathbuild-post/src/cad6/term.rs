@@ -1,8 +1,8 @@
 //! Mathematical terms: numbers, operators and functions. (book: reference/post-definitions)
 //!
 //! All operators are left-associative. From lowest to highest precedence: `||`, `&&`, comparisons together with the bitwise `&`, `|` and
-//! `^`, then `+ -`, `* /`, `^^` (power), signs and `!`. The order of some of these, and all functions, are
-//! defined by pathbuild, because the manual does not specify them.
+//! `^`, then `+ -`, `* /`, `^^` (power), signs and `!`. The order of some of these, and all functions, are defined by pathbuild, because
+//! the manual does not specify them.
 
 use std::ops::Range;
 
@@ -253,7 +253,7 @@ impl FunctionError {
     }
 }
 
-/// The arguments a function takes.
+/// The number of arguments that a function takes, and its implementation.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Rule {
     /// One argument.

@@ -49,17 +49,17 @@ impl UserMacros {
         }
     }
 
-    /// The text of a macro.
+    /// Returns the text of a macro, or `None` if it is not defined.
     pub(super) fn get(&self, name: &str) -> Option<&Template> {
         self.by_name.get(name).map(|&index| &self.macros[index].1)
     }
 
-    /// The names, in order of definition.
+    /// Returns the names of the macros, in order of definition.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.macros.iter().map(|(name, _)| &**name)
     }
 
-    /// The texts, in order of definition.
+    /// Returns the texts of the macros, in order of definition.
     pub(super) fn texts(&self) -> impl Iterator<Item = &Template> {
         self.macros.iter().map(|(_, text)| text)
     }
@@ -418,13 +418,13 @@ impl<'a> Plan<'a> {
         self.definition.options.arc_tolerance * self.unit()
     }
 
-    /// The text of a user macro.
+    /// Returns the text of a user macro, which the configuration or the definition provides.
     pub(super) fn user_macro(&self, name: &str) -> Option<&Template> {
         let own = self.macros.iter().find(|(known, _)| **known == *name).map(|(_, text)| text);
         own.or_else(|| self.definition.macros.get(name))
     }
 
-    /// All templates that may be expanded.
+    /// Returns all templates that may be expanded: those of the definition and those of the configuration.
     pub(super) fn templates(&self) -> impl Iterator<Item = &Template> {
         self.definition.templates().chain(self.macros.iter().map(|(_, text)| text))
     }

@@ -28,12 +28,12 @@ pub(super) struct Machine {
 }
 
 impl Machine {
-    /// The text last written for a register.
+    /// Returns the text last written for a register; `None` if it is unknown.
     pub(super) fn written(&self, register: Register) -> Option<&str> {
         self.registers[register as usize].as_deref()
     }
 
-    /// The number last written for a register.
+    /// Returns the number last written for a register, in the output unit; `None` if it is unknown.
     pub(super) fn number(&self, register: Register) -> Option<f64> {
         self.written(register)?.parse().ok()
     }
@@ -195,12 +195,12 @@ impl Register {
     /// The registers of the three linear axes.
     pub(super) const AXES: [Self; 3] = [Self::X, Self::Y, Self::Z];
 
-    /// The register of a letter in either case.
+    /// Returns the register of a letter, which may be in lower case.
     pub(super) fn of(letter: char) -> Option<Self> {
         Self::ALL.into_iter().find(|register| register.letter() == letter.to_ascii_uppercase())
     }
 
-    /// The letter in upper case.
+    /// Returns the register's letter in upper case.
     pub(super) fn letter(self) -> char {
         char::from(b"XYZABCFIJKPQR"[self as usize])
     }

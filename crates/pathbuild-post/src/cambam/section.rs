@@ -130,7 +130,7 @@ impl Section {
     }
 }
 
-/// The section with the words for a spindle state.
+/// Returns the section with the words for a spindle state.
 pub(super) fn spindle_section(spindle: Turning) -> Section {
     match spindle {
         Turning::Clockwise => Section::SpindleCw,
@@ -139,7 +139,7 @@ pub(super) fn spindle_section(spindle: Turning) -> Section {
     }
 }
 
-/// The section with the words for a coolant state.
+/// Returns the section with the words for a coolant state.
 pub(super) fn coolant_section(coolant: Coolant) -> Section {
     match coolant {
         Coolant { flood: true, .. } => Section::CoolantFlood,

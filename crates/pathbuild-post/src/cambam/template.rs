@@ -85,7 +85,7 @@ impl Template {
         })
     }
 
-    /// The macros of the template, with their lines.
+    /// Returns the macros of the template, with their lines in the definition's file.
     pub(super) fn macros(&self) -> impl Iterator<Item = (&Macro, u32)> {
         self.pieces.iter().filter_map(|piece| match piece {
             TemplatePart::Macro { what, line } => Some((what, *line)),

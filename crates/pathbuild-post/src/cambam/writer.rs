@@ -420,9 +420,9 @@ pub(super) struct Line {
     pub(super) rest: String,
     /// Whether the text being added comes from a macro of a motion code.
     pub(super) is_in_code: bool,
-    /// Whether a register macro was expanded.
+    /// Whether a register macro was expanded in the line, even to nothing.
     pub(super) asked: bool,
-    /// Whether a register was written.
+    /// Whether a register macro wrote a word. If none did although one was expanded, the line moves nothing.
     pub(super) answered: bool,
     /// Registers written with reversed sign.
     pub(super) turned: Vec<Register>,
@@ -506,7 +506,7 @@ impl<'a> Lines<'a> {
         self.next_number += u64::from(numbering.increment);
     }
 
-    /// Length in bytes.
+    /// Returns the length of the text written so far in bytes.
     pub(super) fn length(&self) -> usize {
         self.text.len()
     }
@@ -517,7 +517,7 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// Limit on the number of bytes written, by the number of moves. Expanding a macro costs an additional byte.
+/// Returns the limit on the number of bytes written, which depends on the number of moves. Expanding a macro costs an additional byte.
 fn fuel(plan: &Plan<'_>) -> Fuel {
     let moves = |operation: &Operation| -> usize {
         let of_steps: usize = operation.steps.iter().map(|step| moves_of(step, plan)).sum();
@@ -526,7 +526,7 @@ fn fuel(plan: &Plan<'_>) -> Fuel {
     Fuel::new(plan.job.operations.iter().map(moves).sum())
 }
 
-/// Maximum number of moves that a step of the job can be written as.
+/// Returns the maximum number of moves that a step of the job can become.
 fn moves_of(step: &JobStep, plan: &Plan<'_>) -> usize {
     match step {
         JobStep::Move(movement) => {

@@ -136,7 +136,7 @@ impl ElementBuilder<'_> {
         (position, shape)
     }
 
-    /// The parameters of an element. Elements that share them in the path share them in the scene.
+    /// Returns the parameters of an element. Elements that share them in the path also share them in the scene.
     fn parameters(&mut self, id: ElementId) -> sync::Arc<[Parameter]> {
         let own = self.in_force.get(&id).copied().unwrap_or_default();
         if !ptr::eq(self.last.0, own) {

@@ -1,8 +1,7 @@
 //! The stock as it is when all moves are done, seen from above. (book: program/pictures)
 //!
 //! The area that a cutter sweeps is drawn as a stroke as wide as the cutter. Strokes are painted from high to low, so that each place
-//! shows its
-//! lowest cut. All sizes are exact at any scale.
+//! shows its lowest cut. All sizes are exact at any scale.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;

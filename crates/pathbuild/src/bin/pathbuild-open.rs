@@ -1,6 +1,5 @@
 //! Opens the page of `pathbuild watch --serve` without a console: for files dropped on this program, or for the folder that contains it.
-//! The
-//! program `pathbuild` beside it does all the work, and therefore never has to guess how it was started. (book: program/live)
+//! The program `pathbuild` beside it does all the work, and therefore never has to guess how it was started. (book: program/live)
 #![windows_subsystem = "windows"]
 #![expect(clippy::disallowed_methods, reason = "no result depends on its own location and arguments")]
 

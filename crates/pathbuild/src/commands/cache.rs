@@ -13,7 +13,7 @@ use crate::exit::ExitStatus;
 use crate::render::Format;
 use pathbuild_workspace::memo::BUILD;
 
-/// Runs the command.
+/// Runs one of the subcommands.
 pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
     if context.settings.directory().is_none() {
         return context.usage(context.choose(

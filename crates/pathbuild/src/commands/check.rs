@@ -16,7 +16,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::report::conclude;
 
-/// Runs the command.
+/// Runs the command: checks the drawings and reports findings. With `--changed-since`, checks only what depends on changed files.
 pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     let begun = Instant::now();
     if args.inputs.inputs.is_empty() && !context.has_library() {

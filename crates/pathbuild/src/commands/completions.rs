@@ -7,7 +7,7 @@ use crate::args::completions::VARIABLE;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 
-/// Prints the script.
+/// Prints the completion script for the given shell.
 pub fn run(context: &Context, args: &CompletionsArgs) -> ExitStatus {
     let mut script = Vec::new();
     let shell = Shells::builtins();

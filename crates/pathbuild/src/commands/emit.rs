@@ -14,7 +14,7 @@ use crate::render::Format;
 use crate::text::count;
 use serde_json::{Value, json};
 
-/// Runs the command.
+/// Runs the command: writes the files, or with `--check` compares them, and reports findings and outcomes.
 pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
     let request = Request {
         inputs: &args.inputs,

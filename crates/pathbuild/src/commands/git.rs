@@ -125,6 +125,9 @@ impl<'a> Repository<'a> {
     }
 
     /// Returns the object id of a revision's tree.
+    ///
+    /// # Errors
+    /// Git's message if there is no such revision.
     pub(super) fn tree(&self, revision: &str) -> Result<String, String> {
         let id = self.run(&["rev-parse", "--verify", "--end-of-options", &format!("{revision}^{{tree}}")])?;
         Ok(String::from_utf8_lossy(&id).trim().to_owned())

@@ -25,7 +25,7 @@ use pathbuild_workspace::verify::{Verifier, VerifyOptions};
 
 use super::output_state;
 
-/// Runs the command.
+/// Runs the command: rewrites a program, or shows the built-in posts.
 pub fn run(context: &Context, args: &PostArgs) -> ExitStatus {
     match (&args.command, &args.file) {
         (Some(PostCommand::List), _) => list(context),

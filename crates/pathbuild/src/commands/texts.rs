@@ -21,7 +21,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::render::Format;
 
-/// Runs the command.
+/// Runs the command: prints the texts, and reports errors of their drawings.
 pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
     let pattern = args.pattern.as_deref().map(|pattern| config::regex("match", pattern)).transpose();
     let pattern = match pattern {

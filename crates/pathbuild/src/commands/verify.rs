@@ -20,7 +20,7 @@ use crate::exit::ExitStatus;
 use crate::text::count;
 use crate::waivers;
 
-/// Runs the command.
+/// Runs the command: checks each program, and reports findings and the checks made.
 pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
     let options = match options(args) {
         Ok(options) => options,

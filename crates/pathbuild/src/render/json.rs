@@ -2,8 +2,7 @@
 //! every language.
 //!
 //! `span` is the faulty part of `text`: the position of its first character, and the position after its last one, counted in characters
-//! from 0.
-//! `x` and `y` are in mm, in the drawing. `trace` lists the embeddings that led to the path, outermost first.
+//! from 0. `x` and `y` are in mm, in the drawing. `trace` lists the embeddings that led to the path, outermost first.
 
 use pathbuild_diagnostic::{Diagnostic, EntityKind, TextFault, TraceStep, shown};
 use serde::Serialize;

@@ -22,7 +22,7 @@ pub(super) struct Hub {
 pub(super) struct State {
     /// Number of the last change.
     revision: u64,
-    /// Clients whose last revision is older than this must reload everything.
+    /// Revision before which changes are unknown: clients whose last revision is older must reload everything.
     base: u64,
     drawings: BTreeMap<Utf8PathBuf, PublishedDrawing>,
     /// Totals of all paths, as JSON.

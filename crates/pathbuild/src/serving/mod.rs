@@ -1,10 +1,8 @@
 //! `watch --serve`: the library as a live page. (book: program/live)
 //!
 //! The watching thread owns the session. It publishes the list of paths and answers questions through a [`Hub`]. The server runs in its
-//! own
-//! thread and knows only the hub. Every change has a number. Pages are notified of new numbers by events, and request all changes since
-//! the
-//! last one that they know.
+//! own thread and knows only the hub. Every change has a number. Pages are notified of new numbers by events, and request all changes
+//! since the last one that they know.
 
 mod endpoint;
 mod hub;

@@ -1,4 +1,4 @@
-//! Routes of the server.
+//! The routes of the server: the page, its data and its events.
 
 use std::convert::Infallible;
 use std::io;

@@ -34,8 +34,8 @@ pub(super) enum Block {
     Check(String),
     /// A name and a value.
     Fact(String, String),
-    /// A row of a table. `shares` are the fractions of the width for its cells. On each new page, the table
-    /// begins with the title `continued` and the row `head`.
+    /// A row of a table. `shares` are the fractions of the width for its cells. On each new page, the table begins with the title
+    /// `continued` and the row `head`.
     Row { cells: Vec<String>, shares: &'static [f64], head: Vec<String>, continued: String },
 }
 
