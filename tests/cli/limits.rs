@@ -1,5 +1,5 @@
-//! `[limits]` of programs: each with an input just inside and one just outside, and inputs that would otherwise expand to gigabytes.
-//! (docs/reliability.md)
+//! Tests the limits of programs in `[limits]`: each has an input just inside and one just outside. Other inputs would expand to gigabytes without
+//! limits. (docs/reliability.md)
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -10,7 +10,7 @@ use pathbuild_testkit::sheet;
 
 const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n";
 
-/// A control text, and a definition in CamBam's language: each writes the native moves in its own way.
+/// File of a definition in CamBam's language, which writes the native moves in its own way.
 const CAMBAM: &str = "m.cbpp";
 
 fn place(limits: &str, parameters: &str) -> Place {
@@ -35,7 +35,7 @@ fn assert_exceeds(run: &Run, key: &str) {
     assert!(run.stderr.contains("PB005") && run.stderr.contains(&format!("`{key}`")), "{run}");
 }
 
-/// Checks that an input passes with this limit and exceeds it if it is one less, in which case nothing is written.
+/// Checks that an input passes with this limit, and that with a limit that is one less it fails and nothing is written.
 #[track_caller]
 fn assert_limited(key: &str, most: u64, parameters: &str, commands: &[&str]) {
     for command in commands {
@@ -79,7 +79,7 @@ fn what_is_written_is_limited() {
     }
 }
 
-/// Counted before they are generated.
+/// Moves are counted before they are generated.
 #[test]
 fn the_moves_of_a_program_are_limited() {
     let parameters = "T5 O2 I1 B0 MX";
@@ -90,7 +90,7 @@ fn the_moves_of_a_program_are_limited() {
     assert_limited("embedding-moves", count, parameters, &["check 1202.1P.dxf", "emit 1202.1P.dxf"]);
 }
 
-/// A few hundred bytes of drawing each: checking or emitting them fails immediately.
+/// Each drawing has a few hundred bytes; checking or emitting it fails immediately.
 #[test]
 fn few_bytes_do_not_become_gigabytes() {
     for parameters in ["T5 O2 I1 B-10000000 MX", "T5 O2 I0.0000001 B0 MX", "T5 O2 I0.0000001 B0 W4 MX"] {
@@ -113,7 +113,7 @@ fn few_bytes_do_not_become_gigabytes() {
     }
 }
 
-/// A comment that is repeated in every pass.
+/// A comment is repeated in every pass.
 #[test]
 fn a_comment_does_not_fill_the_disk() {
     let drawn = format!(
@@ -131,7 +131,7 @@ fn a_comment_does_not_fill_the_disk() {
 /// A line that could not be read back is not written.
 #[test]
 fn the_lines_of_a_program_are_limited() {
-    // Two brackets, and the words before the comment.
+    // `rest` is the two brackets, and the word before the comment's text.
     let rest = "(Q:)".len();
     for (length, is_right) in [(65_536 - rest, true), (65_537 - rest, false)] {
         let drawn = format!(
@@ -152,7 +152,7 @@ fn the_lines_of_a_program_are_limited() {
     }
 }
 
-/// Ignore rules take much memory: all files together have 16 times the limit of a single one.
+/// Ignore rules take much memory, so all files together are limited to 16 times the limit of a single file.
 #[test]
 fn ignore_files_are_limited_together() {
     let rules = "*a*b*c*d\n".repeat(100);
@@ -170,7 +170,7 @@ fn ignore_files_are_limited_together() {
     }
 }
 
-/// A thousand faults in one text do not keep a thousand copies of it.
+/// For a thousand faults in one text, the text is not stored a thousand times.
 #[test]
 fn faults_of_a_long_text_take_no_square_of_it() {
     let words = "X ".repeat(20_000);
@@ -186,8 +186,8 @@ fn faults_of_a_long_text_take_no_square_of_it() {
     assert!(run.stdout.lines().all(|line| line.len() < 20_000));
 }
 
-/// `entities`: entities visited in blocks, 16 for each entity of the limit. Here 40 blocks are each inserted in the next and, outermost
-/// first, on their own: finding their content and then placing it visits 40 + 39 + ... + 1 insertions, twice.
+/// `entities` also limits the entities visited in blocks, to 16 for each entity of the limit. Here, each of 40 blocks is inserted in the next one
+/// and, from the outermost on, also directly: finding their content and then placing it visits 40 + 39 + ... + 1 insertions, twice.
 #[test]
 fn what_is_looked_at_in_blocks_is_limited() {
     const DEPTH: usize = 40;
@@ -209,7 +209,7 @@ fn what_is_looked_at_in_blocks_is_limited() {
     assert_exceeds(&check(most - 1), "entities");
 }
 
-/// `verify-pieces`: the pieces of arcs and ramps.
+/// `verify-pieces` limits the number of pieces into which arcs and ramps are divided.
 #[test]
 fn arcs_that_are_followed_are_limited() {
     let circles = "G2 X0 Y0 I50 J0\n".repeat(4);

@@ -1,4 +1,4 @@
-//! `list` and `stats`, shell completion, and similar names. (book: reference/commands)
+//! Tests `list`, `stats`, shell completion, and suggestions of similar names. (book: reference/commands)
 
 use std::fs;
 
@@ -51,7 +51,7 @@ fn paths_are_listed_with_what_a_workshop_asks_of_them() {
     assert_snapshot!(runs(&place, ["stats", "stats --lang de", "stats 1234.* --format json"]));
 }
 
-/// A pattern next to a directory selects paths in that directory; for a path that is elsewhere in the library, its drawing is named.
+/// A pattern after a directory selects paths in that directory. If the path is elsewhere in the library, the message names its drawing.
 #[test]
 fn a_path_of_another_directory_is_told_with_its_drawing() {
     let place = Place::of(LIBRARY);
@@ -161,7 +161,7 @@ fn help_of_a_command_is_shown_by_the_command_help() {
     assert_eq!(place.run("help check").stdout, place.run("check --help").stdout);
 }
 
-/// The completions for the last word.
+/// Returns the completions for the last word.
 fn completed(place: &Place, words: &[&str]) -> Vec<String> {
     let mut program = program();
     program.env("PATHBUILD_COMPLETE", "bash").env("_CLAP_COMPLETE_INDEX", words.len().to_string());

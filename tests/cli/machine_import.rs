@@ -1,4 +1,4 @@
-//! `machine import`: descriptions of machines in every known form, all written to the forms that their documentation describes. (book:
+//! Tests `machine import` with descriptions of machines in every known format, all written according to the formats' documentation. (book:
 //! howto/machine)
 
 use std::io::Write;
@@ -32,7 +32,7 @@ accelerations = [200, 200.0, 50]
 PB210 = \"ignore\" # as agreed
 ";
 
-/// The concise findings about a description.
+/// Imports a description, with findings in concise form.
 fn findings(content: impl AsRef<[u8]>) -> Run {
     Place::new().file("machine.txt", content).run("machine import machine.txt --format concise")
 }
@@ -160,7 +160,7 @@ fn hostile_descriptions_are_refused_with_a_reason() {
     assert_eq!(run.status, Some(0), "{run}");
 }
 
-/// A configuration with tools, one of which a library knows under another name.
+/// A configuration with tools, one of which has another name in a library.
 const TOOLS: &str = "[tool.\"my 6\"]
 diameter = 6.0 # worn to 5.9
 number = 3
@@ -197,7 +197,7 @@ fn tool_libraries_become_tools() {
     assert_eq!(place.run("config show").status, Some(0));
 }
 
-/// A tool whose tip no tool has is an error that names it, and nothing is written.
+/// A corner radius that no tool can have is an error that names the tool, and nothing is written.
 #[test]
 fn a_corner_radius_above_half_of_the_diameter_is_refused() {
     let library =
@@ -210,7 +210,7 @@ fn a_corner_radius_above_half_of_the_diameter_is_refused() {
     assert!(run.stdout.is_empty() || !run.stdout.contains("corner-radius"), "{run}");
 }
 
-/// An archive of these files, compressed or not.
+/// Returns an archive of these files, compressed or not.
 fn archive(files: &[(&str, &[u8])], method: CompressionMethod) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut archive = ZipArchiveWriter::new(&mut bytes);
@@ -244,7 +244,7 @@ fn the_archive_of_fusion_is_read_like_its_library() {
         let run = import("fusion.tools", &archive(&[("tools.json", FUSION.as_bytes())], method));
         assert!(same(&run) && run.status == expected.status, "{run}");
     }
-    // A library of 4 MB is read, whatever its compressed size; a larger one is not.
+    // A library of 4 MB is read, whatever its compressed size; a larger one is refused.
     let padded = |length: usize| format!("{FUSION}{}", " ".repeat(length - FUSION.len())).into_bytes();
     let packed = |length| archive(&[("tools.json", &padded(length))], CompressionMethod::DEFLATE);
     let run = import("fusion.tools", &packed(4 << 20));
@@ -267,7 +267,7 @@ fn the_archive_of_fusion_is_read_like_its_library() {
     }
 }
 
-/// A library whose tools 3 and 4 get other numbers and descriptions.
+/// Returns a library whose tools 3 and 4 have other numbers and descriptions.
 fn numbered(third: (u32, &str), fourth: (u32, &str)) -> String {
     let tool = |(number, keys): (u32, &str)| {
         format!(
@@ -293,7 +293,7 @@ fn tools_with_one_number_are_not_mixed() {
         run.stdout.contains("[tool.\"6 mm flat\"]") && run.stdout.contains("[tool.\"6 mm flat (T4)\"]"),
         "{run}"
     );
-    // The same tool twice says nothing new.
+    // Repeating the same tool has no effect.
     let run = import(&numbered((3, "\"DC\": 6"), (3, "\"DC\": 6")));
     assert!(!run.stderr.contains("PB613") && run.stdout.matches("diameter").count() == 1, "{run}");
 }

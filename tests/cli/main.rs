@@ -1,4 +1,4 @@
-//! The program as run by users. A single binary, since linking several takes long; each module is a subject.
+//! Runs the program as users do. All modules are in one binary, since linking several takes long; each module tests one subject.
 #![allow(
     clippy::unwrap_used,
     clippy::disallowed_methods,

@@ -1,4 +1,4 @@
-//! `verify` over many programs: arguments, standard input, and results kept between runs. (book: program/reading)
+//! Tests `verify` with many programs: arguments, standard input, and results cached between runs. (book: program/reading)
 
 use std::fs;
 use std::io::Write;
@@ -17,7 +17,7 @@ fn place() -> Place {
     place.file("nc/notes.txt", "G0 Z-1").file("nc/.hidden.nc", BAD).file("empty/notes.txt", "")
 }
 
-/// The programs with a rapid move into the material, in the order of the output.
+/// Returns the programs with a rapid move into the material, in the order of the output.
 fn plunging(run: &Run) -> Vec<&str> {
     let lines = run.stderr.lines().filter(|line| line.contains("[PB741]"));
     lines.filter_map(|line| line.split(':').next()).collect()
@@ -90,7 +90,7 @@ fn results_are_kept_as_long_as_nothing_they_depend_on_changes() {
     }
 }
 
-/// A baseline applies to kept results: of a directory, of a program in it, and after its end.
+/// A baseline applies to cached results: to those of a directory, to those of a program in it, and no longer after its end.
 #[test]
 fn accepted_findings_hold_for_kept_results_and_directories() {
     let place = place();
@@ -107,13 +107,13 @@ fn accepted_findings_hold_for_kept_results_and_directories() {
     }
     let after = run("nc --date 2032-01-01");
     assert_eq!(plunging(&after), ["nc/a.nc", "nc/deep/c.tap"], "{after}");
-    // The entry of a mended program matches nothing where that program is covered.
+    // The finding of an accepted entry is fixed: the entry is reported as unused if the run covers the program.
     fs::write(place.path().join("nc/a.nc"), GOOD).unwrap();
     assert!(!run("nc/deep --date 2031-12-31").stderr.contains("PB610"));
     assert!(run("nc --date 2031-12-31").stderr.contains("PB610"));
 }
 
-/// With a drawing, the result depends on it as well.
+/// If a drawing is given, the result depends on the drawing as well.
 #[test]
 fn a_result_depends_on_the_drawing() {
     let drawn = |depth: &str| {

@@ -1,4 +1,4 @@
-//! A drawing that changes during a command is read again: no command panics, and none combines the elements of one version with the
+//! Tests drawings that change during a command. They are read again: no command panics, and none combines the elements of one version with the
 //! positions of another. (ARCHITECTURE.md, "Invariants")
 
 use std::fs;
@@ -33,7 +33,7 @@ mill 0,0 40,0
 end 40,0
 "#;
 
-/// Files of the operating system, where a drawing is replaced after it was read for the n-th time.
+/// Files of the operating system, of which one drawing is replaced after it was read for the n-th time.
 #[derive(Debug)]
 struct Changing {
     left: AtomicU32,
@@ -88,11 +88,11 @@ impl System for Changing {
     }
 }
 
-/// Runs a command while a drawing changes after its n-th read. Returns whether it was read that often.
+/// Runs a command while a drawing changes after its n-th read. Returns the status, and whether the drawing was read that often.
 fn run(line: &str, victim: &str, reads: u32) -> (ExitStatus, bool) {
     let place = Place::of(BEFORE);
     let root = Utf8Path::from_path(place.path()).unwrap();
-    // One more element before all others changes every number and line.
+    // An additional element before all others changes every number and line.
     let changed = Place::of(&BEFORE.replace("layer ", "layer REMARKS\nmill 90,90 91,91\nlayer "));
     let bytes = fs::read(changed.path().join(victim)).unwrap();
     let system = Arc::new(Changing { left: AtomicU32::new(reads), victim: root.join(victim), bytes });

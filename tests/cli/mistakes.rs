@@ -1,4 +1,4 @@
-//! Mistakes of a draughtsman, each with its messages, word for word and in both languages.
+//! Tests the messages about mistakes of draughtsmen, word for word and in both languages.
 
 use insta::assert_snapshot;
 use pathbuild_testkit::sheet;
@@ -7,19 +7,19 @@ use crate::support::Place;
 
 const CONFIGURATION: &str = "sweep-height = 20\nfeed = 100\npart = 'Part'\nkeep-out = 'Clamp'\n";
 
-/// What `check` says about a drawing, in both languages.
+/// Returns the output of `check` for a drawing, in both languages.
 fn said(drawing: &str) -> String {
     let drawing = sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
     let place = Place::new().file("pathbuild.toml", CONFIGURATION).file("1234.1P.dxf", drawing.to_dxf());
     ["en", "de"].map(|lang| place.run(&format!("check . --lang {lang}")).to_string()).join("\n")
 }
 
-/// A path along a groove with this text.
+/// Returns the drawing of a path that mills a groove with this text.
 fn groove(text: &str) -> String {
     format!("version R2010\nlayer 1234.1P\nstart 0,0 \"T4 O2 I1 B0\"\nmill 0,0 40,0 \"{text}\"\nend 40,0\n")
 }
 
-/// A path without a text at its start, and something else.
+/// Returns the drawing of a path without a text at its start, followed by further statements.
 fn without_start_text(other: &str) -> String {
     format!("layer 1234.1P\nstart 0,0\nmill 0,0 40,0\nend 40,0\n{other}\n")
 }

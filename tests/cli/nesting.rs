@@ -1,11 +1,11 @@
-//! Nested embedding, rotated and raised at every level. (book: language/embedding)
+//! Tests nested embedding, rotated and raised at every level. (book: language/embedding)
 
 use std::fmt::Write;
 
 use crate::support::Place;
 use pathbuild_testkit::{Point, sheet};
 
-/// A ring of two half circles and a bar, from (0, 0) to (10, 0).
+/// A component from (0, 0) to (10, 0): a ring of two half circles, and a bar.
 const COMPONENT: &str = "layer 1000.1P
 start 0,0 \"T5 O2 I1 B3 MX\"
 sweep 0,0 20,0
@@ -15,7 +15,7 @@ sweep 20,0 10,0
 end 10,0
 ";
 
-/// A path of 10 mm that embeds the previous one, rotated by an angle and raised by a millimetre, still below S.
+/// Returns a path of 10 mm that embeds the previous one, rotated by an angle and raised by a millimetre, still below S.
 fn level(level: usize, degrees: f64) -> String {
     let (from, to) = (Point::new(100.0, 50.0), Point::new(100.0, 50.0).polar(10.0, degrees));
     let mut text = format!("layer {}.1P\nstart 0,0 \"T5 O2 S20 MX\"\n", 1000 + level);
@@ -25,7 +25,7 @@ fn level(level: usize, degrees: f64) -> String {
     text
 }
 
-/// Angles at which rounding may make half circles slightly larger or smaller than half.
+/// At these angles, rounding may make half circles slightly larger or smaller than half.
 #[test]
 fn half_circles_are_milled_however_they_are_turned() {
     let place = Place::new().file("pathbuild.toml", "feed = 150\nrapid = 1000\nsweep-height = 20\n");

@@ -16,7 +16,7 @@ fn place(files: &[(&str, &str)]) -> Place {
     })
 }
 
-/// The status, and the codes on stderr.
+/// Returns the exit status, and the codes on stderr.
 fn found(run: &Run) -> (Option<i32>, Vec<&str>) {
     let codes = run.stderr.split("[PB").skip(1).map(|rest| &rest[..3]);
     (run.status, codes.collect())
@@ -24,7 +24,7 @@ fn found(run: &Run) -> (Option<i32>, Vec<&str>) {
 
 #[track_caller]
 fn assert_found(place: &Place, arguments: &str, status: i32, codes: &[&str]) {
-    // With and without a cache.
+    // Test with and without a cache.
     for cache in ["", "--no-cache", ""] {
         let run = place.run(&format!("{arguments} {cache} --format concise"));
         assert_eq!(found(&run), (Some(status), codes.to_vec()), "{run}");
@@ -54,7 +54,7 @@ fn a_searched_directory_of_the_command_line_that_is_missing_is_an_error() {
     assert_found(&place, "check 1234.1P.dxf --search 1234.1P.dxf", 1, &["003"]);
 }
 
-/// The place of a missing directory is that of the source that names it.
+/// The diagnostic of a missing directory is located at the source that names it.
 #[test]
 fn a_missing_directory_is_reported_where_it_is_named() {
     let place = place(&[("pathbuild.toml", "\nsearch = [\"gone\"]"), ("1234.1P.dxf", PATH)]);
@@ -64,7 +64,7 @@ fn a_missing_directory_is_reported_where_it_is_named() {
     assert!(lines.iter().any(|line| line.starts_with("error[PB003]") && line.contains("lost")), "{run}");
 }
 
-/// Every command that takes one path tells by the pattern itself what a path's layer is called.
+/// Every command that takes one path explains, by the pattern, how a path's layer must be named.
 #[test]
 fn every_command_names_the_pattern_of_paths() {
     let place = place(&[("remarks.dxf", REMARKS), ("pathbuild.toml", "path-pattern = 'X[0-9]+'\n")])
@@ -92,7 +92,7 @@ fn a_drawing_that_was_named_holds_a_path() {
     assert_found(&place, "check remarks.dxf 1234.1P.dxf", 1, &["513"]);
     assert_found(&place, "check 1234.1P.dxf", 0, &[]);
     assert_found(&place, "check remarks.dxf --compatible", 0, &[]);
-    // Drawings without paths are common in a directory.
+    // In a directory, drawings without paths are common.
     assert_found(&place, "check .", 0, &[]);
 }
 
@@ -148,7 +148,7 @@ fn a_path_that_became_wrong_leaves_an_older_program() {
     }
     let compared = emit(". --check").stdout;
     assert_eq!(compared, "1234.1P_Milling.gcode: not current\n");
-    // Printing does not concern files.
+    // Printing neither writes nor examines files.
     assert!(!emit("1234.1P -o -").stderr.contains("PB522"));
     fs::remove_file(place.path().join("1234.1P_Milling.gcode")).unwrap();
     assert!(!emit(".").stderr.contains("PB522"));

@@ -1,4 +1,4 @@
-//! Pictures of findings: `--report html=FILE` and `check --pictures DIR`. (book: reference/output)
+//! Tests pictures of findings: `--report html=FILE` and `check --pictures DIR`. (book: reference/output)
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::support::{self, Place, dxf};
 
-/// A gap of 1 mm.
+/// The drawing of a path with a gap of 1 mm.
 const GAP: &str = "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 F150\"\nmill 0,0 20,0\nmill 21,0 40,0\nend 40,0\n";
 
 fn findings(place: &Place, inputs: &str) -> Vec<Value> {
@@ -26,7 +26,7 @@ fn pictures(place: &Place, directory: &str) -> BTreeMap<String, String> {
     entries.map(|entry| read(entry.unwrap())).collect()
 }
 
-/// All drawings with mistakes.
+/// Creates a place with all drawings of the folder of mistakes.
 fn mistakes() -> Place {
     let folder = support::project().join("fixtures/library/mistakes");
     let mut place = Place::new().file("pathbuild.toml", "feed = 150\nsweep-height = 20\n");
@@ -53,10 +53,10 @@ fn every_finding_with_a_place_has_a_picture() {
     for it in &found {
         assert!(page.contains(it["code"].as_str().unwrap()), "{it}");
     }
-    // Another run with another order of threads gives the same names and bytes.
+    // Another run, with another order of threads, gives the same names and bytes.
     place.run("check . --pictures again -j 1 --no-cache");
     assert_eq!(pictures(&place, "again"), seen);
-    // They do not depend on the directory.
+    // Pictures do not depend on the directory.
     for (name, text) in seen {
         assert!(text.starts_with("<svg ") && name.contains("-PB"), "{name}");
     }
@@ -69,7 +69,7 @@ fn a_gap_is_circled_with_the_nearest_open_end() {
     let seen = pictures(&place, "seen");
     let gap = seen.iter().find(|(name, _)| name.contains("PB401")).unwrap_or_else(|| panic!("{seen:?}"));
     let finding = gap.1.split_once("id=\"finding\"").unwrap().1.split_once("</g>").unwrap().0;
-    // The place, its centre, and the nearby end.
+    // The circles mark the finding, its centre, and the nearby end.
     assert_eq!((finding.matches("<circle").count(), finding.matches("<line").count()), (3, 1), "{finding}");
     assert_snapshot!(gap.1);
 }
@@ -85,7 +85,7 @@ fn a_text_that_is_nobodys_has_its_circle() {
     assert_snapshot!(text);
 }
 
-/// The circle encloses the wrong text: a long text beside it makes room.
+/// The circle encloses the wrong text, even if there is a long text beside it.
 #[test]
 fn a_wrong_text_stands_in_its_circle() {
     let place = mistakes();
@@ -136,7 +136,7 @@ fn cuts_into_a_part_are_shown_with_it() {
 #[test]
 fn what_a_drawing_says_is_no_markup_in_pages() {
     let hostile = format!("{GAP}text 20,12 \"Q<script>alert(1)</script>&\"\n");
-    // Such names do not exist on Windows.
+    // Names with `<` do not exist on Windows.
     let (name, shown) =
         if cfg!(windows) { ("x&b.dxf", "x&amp;b.dxf") } else { ("x&<b>.dxf", "x&amp;&lt;b&gt;.dxf") };
     let place = Place::new().file("1234.1P.dxf", dxf(&hostile)).file(name, dxf(GAP));
@@ -180,7 +180,7 @@ fn pages_are_files_for_people_in_their_language() {
     assert!(place.read("emitted.html").contains("PB401"));
 }
 
-/// A finding about a part shows the stock, with the region that is wrong filled; one just inside of the tolerance is no finding.
+/// A finding about a part shows the stock, with the wrong region filled. A deviation just inside of the tolerance is not a finding.
 #[test]
 fn regions_of_findings_about_a_part_are_filled() {
     let drawn = |name: &str, elements: &str, outline: &str| {
@@ -206,7 +206,7 @@ fn regions_of_findings_about_a_part_are_filled() {
     assert_eq!(seen.keys().filter(|name| name.contains("-PB21")).count(), 2, "{:?}", seen.keys());
 }
 
-/// Corners that the cutter does not reach, an outline without a path, and a support bar that another path of a project cuts away.
+/// The regions are corners that the cutter does not reach, an outline without a path, and a support bar that another path of a project cuts away.
 #[test]
 fn regions_that_no_cut_or_another_path_makes_are_filled() {
     let folder = support::project().join("docs/drawings/part");

@@ -1,4 +1,4 @@
-//! `emit` through a post: names, tools, joined programs, rejections. (book: program/posts)
+//! Tests `emit` through a post: names, tools, joined programs, rejections. (book: program/posts)
 
 use crate::support::{Place, runs};
 use insta::assert_snapshot;
@@ -53,7 +53,7 @@ probe 20,20 "LA"
 end 40,0
 "#;
 
-/// The library with other lines at the top of its configuration.
+/// Creates the library with further lines at the top of its configuration.
 fn library(head: &str) -> Place {
     Place::of(&LIBRARY.replace("library = [\".\"]", &format!("library = [\".\"]\n{head}")))
 }
@@ -92,7 +92,7 @@ fn the_configurations_post_is_the_default_and_native_can_be_asked_for() {
     assert!(run.stdout.starts_with("(mine)"), "a post's file is relative to the configuration: {run}");
 }
 
-/// Native programs always say T1; their head names O.
+/// Native programs always contain T1; their header names O.
 #[test]
 fn a_native_program_gets_the_cutter_of_its_path() {
     let tools = "[tool.fine]\ndiameter = 2\nSPINDLE = 12000\n[tool.coarse]\ndiameter = 6\nnumber = 1\nspindle = 3000\n";
@@ -196,7 +196,7 @@ fn the_feed_of_paths_without_f_is_held_against_the_machine_s() {
     ));
 }
 
-/// Windows takes such a name for a device, whatever follows its first point.
+/// Windows takes such a name for a device, whatever follows its first dot.
 #[test]
 fn a_joined_program_is_not_named_like_a_device() {
     let is_device = |name: &str| {
@@ -335,7 +335,7 @@ fn current_and_stale_programs_of_posts_are_known() {
     assert!(stale.stderr.contains("1300X_Milling.nc: warning[PB520]"), "{stale}");
 }
 
-/// Head and foot depend on the machine, and tool and spindle are no moves; all that changes how the cuts are read is.
+/// Header and footer depend on the machine, and tool and spindle are not moves. All modes that change how the cuts are read belong to the moves.
 #[test]
 fn modes_of_a_posts_program_belong_to_its_moves() {
     let place = library("");
@@ -423,7 +423,7 @@ fn a_program_that_cannot_be_read_is_compared_as_it_is() {
     assert_eq!((check(&place, ""), check(&place, " --dialect linuxcnc")), (Some(1), Some(0)));
 }
 
-/// A program for another machine is harmless while the path has the same moves, and dangerous once it has others.
+/// A program for another machine is harmless while the path has the same moves, and dangerous as soon as it has others.
 #[test]
 fn the_leftover_of_another_post_counts_once_the_path_has_other_moves() {
     let before = "layer 1234.1P\nstart 0,0 \"T5 O2 I5 B0 MPlate\"\nmill 0,0 40,0\nend 40,0\n";
@@ -459,7 +459,7 @@ fn the_leftover_of_another_post_counts_once_the_path_has_other_moves() {
     }
 }
 
-/// The extension of a definition that is not in use is unknown, unless it is a usual one.
+/// The extension that a definition chooses is not recognised if the definition is not in use, unless it is a usual one.
 #[test]
 fn leftovers_of_a_former_definition_are_found_by_the_usual_extensions() {
     let drawn = |end: &str| {
@@ -496,7 +496,7 @@ fn copies_that_are_no_programs_by_name_are_left_alone() {
     assert_eq!(["gcode", "nc", "bak", "txt"].map(named), [true, true, false, false], "{stale}");
 }
 
-/// Even with another post than the one that wrote it, by the extension.
+/// Programs are recognised by their extension, even if another post than the one that wrote them is in use.
 #[test]
 fn programs_of_every_built_in_post_are_known_when_their_drawing_is_gone() {
     for post in pathbuild_post::BUILT_IN.iter().map(|post| post.name) {
@@ -571,7 +571,7 @@ fn a_program_that_the_posts_command_edited_has_its_moves() {
         let check = |option: &str| place.run(&format!("emit {arguments} --check{option}")).status;
         assert_eq!(check(""), Some(1), "{edit}");
         assert_eq!(check(" --moves"), Some(i32::from(!is_same_way)), "{edit}");
-        // The command works on what was written, not on what it made before.
+        // The command works on what the post has written, not on its own earlier result.
         assert_eq!(emitted(), first, "{edit}");
     }
 }
@@ -592,12 +592,12 @@ fn the_posts_command_runs_on_what_was_written_only() {
 
 #[test]
 fn the_native_program_is_read_back_whatever_the_drawing_holds() {
-    // A difference cannot be produced; the conformance cases run through the same check.
+    // A difference cannot be provoked here; the conformance cases go through the same check.
     let place = library("z-model = \"tin\"\nz-split = 3");
     assert_eq!(place.run("emit .").status, Some(0));
 }
 
-/// The control would keep the unit and the distance mode of the program before.
+/// The control would keep the unit and the distance mode of the previous program.
 #[test]
 fn a_post_that_does_not_state_its_modes_is_a_warning() {
     let codes = |dialect: &str, header: &str| {
@@ -619,7 +619,7 @@ fn a_post_that_does_not_state_its_modes_is_a_warning() {
     }
 }
 
-/// The table's speed is for cutting: a tool that only touches the material must not turn.
+/// The table's speed is for cutting: a tool that only probes must not turn.
 #[test]
 fn a_tool_that_only_probes_gets_no_speed_from_the_table() {
     let tools = |name: &str, number: u32| {
@@ -643,7 +643,7 @@ fn a_tool_that_only_probes_gets_no_speed_from_the_table() {
     assert_eq!([speeds("cuts.nc"), speeds("probes.nc")], [[1, 1], [1, 0]]);
 }
 
-/// A post writes numbers, so it cannot write "2 mm above the place that the probe touched".
+/// A post writes numbers, so it cannot express "2 mm above the position that the probe touched".
 #[test]
 fn values_that_only_the_machine_knows_are_refused() {
     let program = |z: &str| {
@@ -673,7 +673,7 @@ fn values_that_only_the_machine_knows_are_refused() {
     }
 }
 
-/// Where the program stops, the operator may change the tool and set zero, so that the tip is on the plate.
+/// When the program stops, the operator may change the tool and set zero, so that the tip is on the plate.
 #[test]
 fn a_stop_of_the_program_is_followed_by_the_lift_of_the_program() {
     let program = |height: &str| {
@@ -690,7 +690,7 @@ fn a_stop_of_the_program_is_followed_by_the_lift_of_the_program() {
     for post in ["grbl", "linuxcnc", "mach3", "estlcam"] {
         assert_eq!(behind_stop("G0 Z20", post).as_deref(), Some("G0 Z20.0"), "{post}");
     }
-    // A pause in the middle of a cut goes on from where it was.
+    // A pause in the middle of a cut resumes at the same position.
     let goes_on = "G0 Z20\nG0 X1\nG0 Z1\nG1 Z-1";
     assert_eq!(behind_stop(goes_on, "grbl").as_deref(), Some("G0 X0.0 Y30.0 Z-1.0"));
 }
@@ -707,7 +707,7 @@ fn post_writes_to_standard_output_as_emit_does() {
     assert_eq!(run("-o - --run-post-build").status, Some(2));
 }
 
-/// T and H are the control's entries for a cutter: it must not depend on what else is in a program.
+/// T and H refer to the control's entries for a cutter, so they must not depend on the other paths of a program.
 #[test]
 fn a_cutter_without_a_number_has_the_same_one_in_each_program() {
     let tools = "spindle = \"manual\"\nfeed = 150\nrapid = 1000\nsweep-height = 20\n[tool.a]\ndiameter = 2\n[tool.b]\ndiameter = 3\n[tool.c]\ndiameter = 4\nnumber = 1\n";

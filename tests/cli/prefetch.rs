@@ -1,5 +1,5 @@
-//! The drawings that a single drawing or path most likely needs are read while directories are listed. The results must not depend on the
-//! number of threads or on how the project is named.
+//! Tests prefetching: the drawings that a single drawing or path most likely needs are read while directories are listed. The results must not
+//! depend on the number of threads or on how the project is named.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -41,7 +41,7 @@ mill 0,0 40,0
 end 40,0
 "#;
 
-/// The output and the files of a run.
+/// The exit status, the output on both streams, and the files of a run.
 type Outcome = (Option<i32>, String, String, BTreeMap<String, String>);
 
 fn outcome(library: &str, command: &str, threads: u32, input: &str) -> Outcome {
@@ -53,7 +53,7 @@ fn outcome(library: &str, command: &str, threads: u32, input: &str) -> Outcome {
     (status, stdout, stderr, names.map(|name| (name.clone(), place.read(&name))).collect())
 }
 
-/// The outcome of `emit` and `check`, which must not depend on the name of the project and the number of threads.
+/// Returns the outcomes of `emit` and `check`, after asserting that they do not depend on the number of threads or on how the project is named.
 #[track_caller]
 fn only_outcome(library: &str, input: &str) -> (Outcome, Outcome) {
     let both = |command: &str| {

@@ -1,4 +1,4 @@
-//! The progress bar: appears after half a second, and disappears when the work is done. (book: reference/commands)
+//! Tests the progress bar, which appears after half a second and disappears when the work is done. (book: reference/commands)
 
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex};

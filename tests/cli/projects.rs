@@ -1,11 +1,11 @@
-//! Commands about embeddings and the locations of paths. (book: reference/commands, book: language/layers-and-names)
+//! Tests commands about embeddings and the locations of paths. (book: reference/commands, book: language/layers-and-names)
 
 use std::fs;
 
 use crate::support::{Place, runs};
 use insta::assert_snapshot;
 
-/// Components, a project, a fixture project with names as variables, a variable project, and a project with a missing component.
+/// A library of components, a project, a fixture project with names as variables, a variable project, and a project with a missing component.
 const LIBRARY: &str = r#"
 == pathbuild.toml ==
 library = ["components", "projects"]
@@ -58,7 +58,7 @@ fn graph_lists_every_embedding_with_its_values() {
     assert_snapshot!(Place::of(LIBRARY).run("graph"));
 }
 
-/// Codes that `check projects/8001.dxf` reports with these options.
+/// Returns the codes that `check projects/8001.dxf` reports with these options.
 fn codes(place: &Place, options: &str) -> Vec<String> {
     let run = place.run(&format!("check projects/8001.dxf --format concise {options}"));
     run.stderr.split("[PB").skip(1).map(|rest| rest[..3].to_owned()).collect()
@@ -192,7 +192,7 @@ fn without_a_library_rdeps_looks_below_the_working_directory() {
     assert_snapshot!(runs(&place, ["rdeps 2051.1P", "graph"]));
 }
 
-/// A cycle ends where it began, and repeated embeddings are not expanded again.
+/// The output of a cycle ends where it began, and repeated embeddings are not expanded again.
 #[test]
 fn cycles_and_repetitions_end() {
     let place = Place::of(
@@ -224,7 +224,7 @@ fn where_says_file_line_layer_and_start() {
     assert_snapshot!(runs(&place, lines));
 }
 
-/// A copy in the project's own drawing would be milled whatever becomes of the component.
+/// A copy in the project's own drawing would be milled even after the component changes.
 #[test]
 fn a_second_definition_is_noticed_even_in_the_drawing_that_embeds_it() {
     let component =
@@ -238,14 +238,14 @@ fn a_second_definition_is_noticed_even_in_the_drawing_that_embeds_it() {
     let run = check("1234.dxf", "1234.1P");
     let expected = "path 1234.1P is defined twice: in 8001.dxf and in 1234.dxf";
     assert!(run.status == Some(1) && run.stderr.contains(expected), "{run}");
-    // Another path in a drawing of that name, and a drawing whose name does not promise the path.
+    // Neither another path in a drawing of that name counts, nor a drawing whose name does not admit the path.
     for (beside, layer) in [("1234.dxf", "1234.2P"), ("1300.dxf", "1234.1P")] {
         let run = check(beside, layer);
         assert_eq!(run.status, Some(0), "{run}");
     }
 }
 
-/// This command helps with PB504.
+/// The command helps to resolve PB504.
 #[test]
 fn where_lists_every_definition_of_a_path_that_has_two() {
     let second = "== projects/1234.1.dxf ==\nlayer 1234_1P\nstart 0,0 \"T5 O2\"\nend 0,0\n";
@@ -285,7 +285,7 @@ fn texts_need_a_drawing_and_a_regular_expression() {
     assert_snapshot!(runs(&Place::of(TEXTS), ["texts", "texts 1234.dxf --match (", "texts broken.dxf"]));
 }
 
-/// A fault with a single value that is not among the examples, one with some combinations, and one with all.
+/// Faults that occur with a single value that is not among the examples, with some combinations, and with all.
 const VALUES: &str = r#"
 == 2051.dxf ==
 layer 2051.1P
@@ -310,7 +310,7 @@ fn all_values_of_variables_are_checked() {
     assert_snapshot!(without_times(&runs(&Place::of(VALUES), lines)));
 }
 
-/// Ten digits for each of three variables give as many combinations as are checked; one more is too many.
+/// Ten digits for each of three variables give as many combinations as are checked at most.
 #[test]
 fn combinations_beyond_a_thousand_are_cut_with_a_warning() {
     let place = |definitions: &str| {
@@ -321,13 +321,13 @@ fn combinations_beyond_a_thousand_are_cut_with_a_warning() {
     };
     let all = place(":A?0123456789 :B?0123456789 :C?0123456789").run("check --all-bindings 2051.dxf");
     assert!(!all.stderr.contains("PB005"), "{all}");
-    // The faulty value comes last, but is checked nevertheless.
+    // The faulty value comes last, but is among those that are checked.
     let cut = place(":A?0123456789 :B?0123456789 :C0,1,2,3,4,5,6,7,8,9,21")
         .run("check --all-bindings 2051.dxf --lang de");
     assert_snapshot!(without_times(&cut.to_string()));
 }
 
-/// The duration varies between runs.
+/// Removes the durations, which vary between runs.
 fn without_times(text: &str) -> String {
     let lines = text.lines().map(|line| match line.rfind(" (") {
         Some(at) if line.ends_with(" s)") => &line[..at],
@@ -336,7 +336,7 @@ fn without_times(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// The intended path is often in the searched drawing. A misspelling is suggested; for another number, the note lists what there is.
+/// The searched drawing often contains the intended path. A misspelling is suggested; for another number, the note lists the existing paths.
 #[test]
 fn names_like_one_that_is_not_found_are_named() {
     let place = Place::of(LIBRARY).file("projects/8009.dxf", {
@@ -348,7 +348,7 @@ fn names_like_one_that_is_not_found_are_named() {
     for note in ["paths in drawings that could contain it: 1234.1P, 1234.2P", "similar names: 1234.1P"] {
         assert!(run.stderr.lines().any(|line| line.ends_with(note)), "{note} in {run}");
     }
-    // Every command that looks for a path says the same.
+    // Every command that looks for a path gives the same message.
     for command in ["view", "texts", "sheet", "where", "emit", "check", "deps"] {
         let run = place.run(&format!("{command} 1234.1Q"));
         assert!(

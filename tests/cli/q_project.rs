@@ -1,4 +1,4 @@
-//! Q-projects: `pathbuild q-project`, and the findings of `check`. (book: language/q-projects)
+//! Tests Q-projects: `pathbuild q-project`, and the findings of `check`. (book: language/q-projects)
 
 use crate::support::{Place, fixture};
 
@@ -74,7 +74,7 @@ fn it_has_a_path_for_each_cutter() {
     let written = |path| place.run_with(&["emit", path, "-o", "-"]).stdout;
     assert!(written("1234.0Q").contains("START Subpath 1234.2P") && !written("1234.0Q").contains("1234.3P"));
     assert!(written("1234.1Q").contains("START Subpath 1234.3P") && !written("1234.1Q").contains("1234.2P"));
-    // A name that the drawing itself uses is skipped.
+    // A name that the drawing itself contains is skipped.
     let place = Place::of(&DRAWING.replace("1234.2P", "1234.1Q"));
     assert_eq!(place.run_with(&["q-project", "gear 1234.dxf"]).status, Some(0));
     assert_eq!(place.run_with(&["emit", "1234.2Q"]).status, Some(0));
@@ -119,7 +119,7 @@ fn a_name_that_is_none_or_is_taken_is_wrong_usage() {
     assert!(run.stderr.contains("PB503"), "{run}");
 }
 
-/// A path is found by the name of its file: a range of paths does not admit that of the Q-project. (PB503)
+/// A path is found by its drawing's file name: a range of paths in that name does not admit the path of the Q-project. (PB503)
 #[test]
 fn a_q_project_that_its_file_name_does_not_cover_is_named_with_its_drawing() {
     let place = written();
@@ -142,7 +142,7 @@ fn a_q_project_that_its_file_name_does_not_cover_is_named_with_its_drawing() {
     assert_eq!(place.run("emit 1234.1-1234.3P_Q.dxf").status, Some(0));
 }
 
-/// Nothing is written for a drawing that projects could not embed.
+/// Asserts that nothing is written for a drawing that projects could not embed.
 fn is_refused(drawing: &str, code: &str) {
     let place = Place::of(drawing);
     let run = place.run_with(&["--format", "concise", "q-project", "gear 1234.dxf"]);
@@ -168,7 +168,7 @@ fn a_wrong_proxy_line_is_not_copied() {
     is_refused(&DRAWING.replace(">1234.1P O2 H2", ">1234.1P O3 H2"), "PB517");
 }
 
-/// A drawing and its Q-project, whose path, proxy line and subpath agree.
+/// A drawing and its Q-project that agree in path, proxy line and subpath.
 const PAIR: &str = r#"
 $ check .
 #! exit 0
@@ -224,7 +224,7 @@ fn a_value_other_than_the_proxy_lines_is_a_warning() {
     expect(&[(EMBEDDING, &format!("{other} #! PB516 :B"))], 0);
 }
 
-/// A difference from the path itself is an error of the embedding.
+/// A difference from the path itself is an error of the embedding instead.
 #[test]
 fn a_text_or_length_other_than_the_proxy_lines_is_a_warning() {
     for (letter, other) in [("T5", "T4"), ("O2", "O3"), ("MPlate", "MPlate2")] {
@@ -286,13 +286,13 @@ fn nothing_is_said_against_a_q_project_with_errors() {
     expect(&[(EMBEDDING, &format!("{wrong} #! PB205"))], 1);
 }
 
-/// Users draw Q-projects by hand, too.
+/// Users also draw Q-projects by hand.
 #[test]
 fn a_drawing_of_the_user_is_not_overwritten() {
     let place = written();
     let name = "gear 1234_Q.dxf";
     let ours = std::fs::read(place.path().join(name)).unwrap();
-    // A CAD program drops the comment at the beginning when it saves.
+    // A CAD program drops the comment at the beginning of the file when it saves.
     let saved = String::from_utf8(ours).unwrap().split_once("q-project\r\n").unwrap().1.to_owned();
     let place = place.file(name, &saved);
     assert_eq!(

@@ -1,4 +1,4 @@
-//! Diagnostics in every format, rendered by the library. (book: reference/commands)
+//! Tests diagnostics in every format, rendered by the library. (book: reference/commands)
 
 use camino::Utf8Path;
 use insta::assert_snapshot;
@@ -12,7 +12,7 @@ use pathbuild_path::PathName;
 use pathbuild_workspace::check::CheckedFile;
 use pathbuild_workspace::findings::Findings;
 
-/// One with everything that a diagnostic can have, and one with as little as possible.
+/// Returns one diagnostic with all parts that are possible, and one with as few as possible.
 fn findings() -> Findings {
     let mut rich = Diagnostic::new(&files::LIMIT)
         .quoting("what", "the text")
@@ -117,7 +117,7 @@ fn json_spans_count_characters() {
     assert_eq!(object["span"], serde_json::json!([9, 11]));
 }
 
-/// A number of errors in different places.
+/// Returns a number of errors in different places.
 fn many(count: u32) -> Findings {
     let error =
         |line| Diagnostic::new(&files::EMPTY_FILE).in_file(Utf8Path::new("/work/a.dxf")).at_line(line, None);
@@ -152,7 +152,7 @@ fn sarif_is_what_its_schema_says() {
 #[test]
 fn sarif_has_no_more_results_than_github_takes_and_says_so() {
     let view = View { lang: Lang::En, color: false, width: None, base: "/work".into(), root: None };
-    // Counted in the text, since parsing it takes a debug build many seconds.
+    // The findings are counted in the text, since parsing it takes a debug build many seconds.
     let shown = |count| render(Format::Sarif, &many(count), &view);
     let count = |text: &str, part| text.matches(part).count();
     let inside = shown(25_000);
@@ -183,8 +183,7 @@ fn github_gets_ten_annotations_of_a_severity_and_the_rest_as_lines() {
     );
 }
 
-/// The requirements of GitLab's page on code quality: these keys, severities out of five, distinct fingerprints, relative names, lines from
-/// 1.
+/// Tests the requirements of GitLab's page on code quality: these keys, five severities, distinct fingerprints, relative names, lines from 1.
 #[test]
 fn gitlab_issues_have_what_gitlab_wants() {
     let text = shown(Format::Gitlab, Lang::En);
@@ -208,7 +207,7 @@ fn gitlab_issues_have_what_gitlab_wants() {
     assert_eq!(issues.len(), findings().diagnostics.len());
 }
 
-/// The common subset of the schemas in use (Jenkins, Maven Surefire).
+/// Tests against the common subset of the schemas in use (Jenkins, Maven Surefire).
 #[test]
 fn junit_is_xml_with_counts_that_are_right() {
     let text = shown(Format::Junit, Lang::En);

@@ -1,5 +1,5 @@
-//! Processing of findings before display: deduplication, sorting, severities, baseline, counting. (book: reference/commands, book:
-//! reference/diagnostics)
+//! Tests how findings are processed before they are displayed: deduplication, sorting, severities, baseline, counting. (book: reference/commands,
+//! book: reference/diagnostics)
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! `watch --serve`: authorization and answers.
+//! Tests `watch --serve`: authorization and answers.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -22,7 +22,7 @@ fn dxf(name: &str, thickness: u32) -> Vec<u8> {
     sheet(&text).unwrap().to_dxf()
 }
 
-/// A path with errors, because its start has no text.
+/// Returns the drawing of a path with an error: its start has no text.
 fn wrong(name: &str) -> Vec<u8> {
     sheet(&format!("layer {name}\nstart 0,0\nmill 0,0 40,0\nend 40,0\n")).unwrap().to_dxf()
 }
@@ -40,13 +40,13 @@ struct Served<'a> {
     place: &'a Place,
     child: Child,
     lines: Said,
-    /// The output until everything was checked.
+    /// The output up to the end of the first check.
     said: Vec<String>,
     link: String,
     port: u16,
 }
 
-/// An answer: its status, header and body.
+/// An answer of the server: its status, header and body.
 struct Answer {
     status: u16,
     head: String,
@@ -80,7 +80,7 @@ impl<'a> Served<'a> {
         served
     }
 
-    /// The lines up to one that contains a text.
+    /// Reads lines up to one that contains a text, and returns them.
     #[track_caller]
     fn until(&self, text: &str) -> Vec<String> {
         self.lines.until(text)
@@ -116,13 +116,13 @@ impl<'a> Served<'a> {
         self.send(&[&format!("GET {what} HTTP/1.1"), "Host: localhost:PORT"])
     }
 
-    /// The status of a request with these headers.
+    /// Returns the status of a request with these headers.
     fn status(&self, what: &str, headers: &[&str]) -> u16 {
         let first = format!("GET {what} HTTP/1.1");
         self.send(&[&[first.as_str()], headers].concat()).status
     }
 
-    /// The stream of revisions.
+    /// Opens the stream of revisions.
     fn events(&self) -> Events {
         let mut stream = self.connect();
         write!(stream, "GET /api/events HTTP/1.1\r\nHost: localhost:{}\r\n\r\n", self.port).unwrap();
@@ -140,7 +140,7 @@ impl<'a> Served<'a> {
 struct Events(BufReader<TcpStream>);
 
 impl Events {
-    /// The next event.
+    /// Waits for the next event.
     fn next(&mut self) -> (String, u64) {
         loop {
             let mut line = String::new();
@@ -153,7 +153,7 @@ impl Events {
         }
     }
 
-    /// The next event after a revision.
+    /// Waits for the next event after a revision.
     fn after(&mut self, revision: u64) -> u64 {
         loop {
             let (_, next) = self.next();
@@ -171,7 +171,7 @@ impl Drop for Served<'_> {
     }
 }
 
-/// Only names that cannot be redirected to this machine are answered (DNS rebinding).
+/// Requests are only answered under names that cannot be redirected to this machine (DNS rebinding).
 #[test]
 fn only_own_names_are_answered() {
     let place = library();
@@ -243,7 +243,7 @@ fn only_get_is_answered() {
     assert_eq!(served.get("/nothing").status, 404);
 }
 
-/// The text of a program is posted; nothing of it is kept.
+/// A page posts the text of a program, of which nothing is stored.
 #[test]
 fn a_program_is_taken_from_own_pages() {
     let place = library();
@@ -300,7 +300,7 @@ fn from_elsewhere_a_token_is_needed() {
     let page = served.send(&["GET / HTTP/1.1", &host]);
     assert_eq!(page.status, 200);
     assert!(!page.body.contains(token) && !page.head.contains(token));
-    // IP addresses are answered, but names are not, since others control their resolution.
+    // Requests to IP addresses are answered, but those to names are not, because others control how names are resolved.
     let right = format!("Authorization: Bearer {token}");
     assert_eq!(served.status("/api/library", &["Host: 10.1.2.3:PORT", &right]), 200);
     assert_eq!(served.status("/api/library", &["Host: [fe80::1]:PORT", &right]), 200);
@@ -435,7 +435,7 @@ fn saved_drawings_are_told() {
     let drawings = changed(first);
     assert_eq!(drawings.as_array().unwrap().len(), 1, "{drawings}");
     assert_eq!(drawings[0]["rows"][0]["state"], "ok", "{drawings}");
-    // The others did not change.
+    // The other rows did not change.
     fs::remove_file(place.path().join("library/1002.dxf")).unwrap();
     events.after(second);
     served.until("1002.dxf: removed");
@@ -444,7 +444,7 @@ fn saved_drawings_are_told() {
     assert_eq!(drawings[0]["rows"], Value::Null);
     assert_eq!(served.get("/api/library").json()["statistics"]["paths"], 2);
     assert_eq!(served.get("/api/scene?file=library/1002.dxf").status, 404);
-    // A page of another run, or one that was suspended, gets everything.
+    // A page of another run, or one that was suspended, gets all rows.
     assert_eq!(served.get("/api/library?since=1000000").json()["all"], true);
 }
 
@@ -501,11 +501,11 @@ fn so_many_connections_are_answered_at_a_time() {
     for events in &mut open {
         events.next();
     }
-    // The last connection that is answered.
+    // This is the last connection that is answered.
     assert_eq!(served.get("/api/library").status, 200);
     let mut last = served.events();
     last.next();
-    // One more has to wait until another one ends.
+    // A further connection has to wait until another one ends.
     let Events(mut waiting) = served.events();
     waiting.get_ref().set_read_timeout(Some(Duration::from_secs(2))).unwrap();
     assert!(waiting.fill_buf().is_err(), "it is answered");
@@ -526,7 +526,7 @@ fn connections_that_say_nothing_are_closed() {
     let (mut silent, mut late) = ([served.connect(), served.connect()], served.connect());
     silent[1].write_all(half.as_bytes()).unwrap();
     std::thread::sleep(Duration::from_secs(7));
-    // In time, and then no longer than the others.
+    // This request arrives in time and is answered, but then its connection is closed like the others.
     write!(late, "{half}\r\n").unwrap();
     let mut answered = BufReader::new(late);
     assert!(answered.fill_buf().unwrap().starts_with(b"HTTP/1.1 200"));
@@ -582,7 +582,7 @@ fn ctrl_c_ends_it_without_an_error() {
     let _open = served.events();
     served.interrupt();
     assert_eq!(served.child.wait().unwrap().code(), Some(0));
-    // Also while nothing can be checked.
+    // This also works while nothing can be checked.
     let mut served = Served::begin(&place, "watch --serve 127.0.0.1:0");
     served.write("pathbuild.toml", "feed = \n");
     served.until("until this is fixed");
@@ -597,7 +597,7 @@ fn it_ends_once_the_page_is_closed_if_that_is_wanted() {
     let mut events = served.events();
     events.next();
     drop(events);
-    // Loaded again.
+    // The page is loaded again.
     let mut events = served.events();
     events.next();
     std::thread::sleep(Duration::from_secs(6));
@@ -606,7 +606,7 @@ fn it_ends_once_the_page_is_closed_if_that_is_wanted() {
     assert_eq!(served.child.wait().unwrap().code(), Some(0));
 }
 
-/// The output of such a run is invisible, so its page shows the problem.
+/// The output of such a run is invisible, so the page shows the problem.
 #[test]
 fn until_closed_even_a_wrong_beginning_is_shown() {
     let place = library().file("pathbuild.toml", "feed = \n");
@@ -648,7 +648,7 @@ fn what_is_no_address_is_wrong_usage() {
     assert!(run.stderr.contains("--serve"), "{run}");
 }
 
-/// A simulated browser that records what it is told to open.
+/// A simulated browser that records the addresses it opens.
 #[cfg(target_os = "linux")]
 struct Browser(tempfile::TempDir);
 
@@ -683,7 +683,7 @@ impl Browser {
         command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
     }
 
-    /// The address it was told to open.
+    /// Returns the address that the browser was told to open.
     fn opened(&self) -> String {
         for _ in 0..200 {
             if let Ok(opened) = fs::read_to_string(self.0.path().join("opened")) {
@@ -700,7 +700,7 @@ fn extension(file: &str) -> &str {
     file.rsplit('.').next().unwrap()
 }
 
-/// The drawings that a page lists once everything is checked; then it is closed.
+/// Returns the drawings that a page lists when everything is checked; then closes the page.
 #[cfg(target_os = "linux")]
 fn listed_and_closed(address: &str) -> Vec<String> {
     let authority = address.strip_prefix("http://").unwrap().trim_end_matches('/');
@@ -738,7 +738,7 @@ fn what_is_dropped_on_pathbuild_open_is_shown_until_it_is_closed() {
         assert_eq!(listed_and_closed(&browser.opened()), *expected, "{dropped:?}");
         assert_eq!(child.wait().unwrap().code(), Some(0), "{dropped:?}");
     };
-    // Each waits for its page to be opened again.
+    // Each case waits for its page to be opened again, so all run at the same time.
     std::thread::scope(|scope| cases.iter().for_each(|case| _ = scope.spawn(move || run(case))));
 }
 
@@ -750,7 +750,7 @@ fn pathbuild_open_shows_programs_and_what_went_wrong() {
     let mut child = browser.open(place.path(), &["a.gcode"]);
     assert_eq!(extension(&browser.opened()), "html");
     child.wait().unwrap();
-    // Alone it can do nothing, and reports that.
+    // Without the program beside it, `pathbuild-open` can do nothing, and reports that.
     let browser = Browser::new();
     let alone = place.path().join("alone");
     fs::copy(env!("CARGO_BIN_EXE_pathbuild-open"), &alone).unwrap();
@@ -762,7 +762,7 @@ fn pathbuild_open_shows_programs_and_what_went_wrong() {
     fs::remove_file(opened).unwrap();
 }
 
-/// As with `list`.
+/// All drawings below the directory are shown, as by `list`.
 #[test]
 fn without_a_library_all_that_lies_there_is_shown() {
     let place = library();

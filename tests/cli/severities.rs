@@ -3,7 +3,7 @@
 
 use crate::support::{Place, Run};
 
-/// A component whose text has a letter without effect (PB210), and a project of it.
+/// A component with a letter that has no effect (PB210), and a project that embeds it.
 const LIBRARY: &str = r#"
 == pathbuild.toml ==
 library = ["."]
@@ -23,10 +23,10 @@ subpath 0,0 40,0 ">1234.1P"
 end 40,0
 "#;
 
-/// Writes a program without lengths of tools, which the definition asks for (PB754).
+/// A post definition that writes the length of each tool, which is not configured (PB754).
 const POST: &str = "<PostProcessor><PostFile>({$tool.length})\n{$mops}</PostFile></PostProcessor>";
 
-/// The library with another table at the end of its configuration.
+/// Adds a table at the end of the library's configuration.
 fn with(place: Place, table: &str) -> Place {
     let configuration = place.read("pathbuild.toml");
     let own = configuration.split("\n[").next().unwrap_or_default().trim_end();

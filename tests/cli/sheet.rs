@@ -1,4 +1,4 @@
-//! Setup sheets for the machine operator. (book: program/sheet)
+//! Tests setup sheets for the machine operator. (book: program/sheet)
 
 use std::fs;
 
@@ -9,7 +9,7 @@ use crate::support::{self, Place, dxf};
 
 const OPTIONS: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
 
-/// Four lines around a rectangle of 40 by 20, and a hole.
+/// Drawing of a path with four lines around a rectangle of 40 by 20 mm.
 const DRAWING: &str = "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B-0.2 MAl<3>&\"\nmill 0,0 40,0\nmill 40,0 40,20\n\
     mill 40,20 0,20\nmill 0,20 0,0\nend 0,0\n";
 
@@ -27,13 +27,13 @@ fn library() -> Place {
     })
 }
 
-/// The texts of a page in order.
+/// Returns the texts of a page in order.
 fn texts(svg: &str) -> Vec<&str> {
     let parts = svg.split("<text ").skip(1);
     parts.map(|part| part.split_once('>').unwrap().1.split_once("</text>").unwrap().0).collect()
 }
 
-/// The value after a name in the column of facts.
+/// Returns the value after a name in the column of facts.
 fn fact<'s>(texts: &[&'s str], name: &str) -> &'s str {
     let is_axis = ["X", "Y", "Z"].contains(&name);
     let mut found = texts.iter().zip(&texts[1..]).filter(|(it, _)| **it == name);
@@ -122,7 +122,7 @@ fn operations_are_listed_and_no_number_is_lost() {
     assert_eq!(fact(&all, "rapid across"), "Z 4 / 15");
 }
 
-/// One that is rotated on a page of its own, and one that is enlarged next to its true size.
+/// A long path is rotated on a separate page; a small one is enlarged beside its picture at full size.
 #[test]
 fn long_and_small_ones_are_seen() {
     for (name, drawing) in [
@@ -169,7 +169,7 @@ fn a_pdf_has_all_pages_with_letters_and_the_same_bytes_each_time() {
     assert!(text.contains("\nPath 8003.1P, drawing 8003.1P.dxf\n"));
 }
 
-/// The circle that the axis of the cutter describes inside a drawn circle of 52 mm, and the ruler at the foot of the page.
+/// A drawn circle of 52 mm: the PDF contains the circle that the axis of the cutter describes inside it, and the ruler at the foot of the page.
 #[test]
 #[cfg(feature = "pictures")]
 fn a_pdf_is_true_to_scale() {
@@ -186,7 +186,7 @@ fn a_pdf_is_true_to_scale() {
     assert!(has([50.0, 8.0 / 3.0]), "no ruler in {extents:?}");
 }
 
-/// Width and height in mm of every path that the first page of a PDF draws, by the ends of its segments.
+/// Returns width and height in mm of every path that the first page of a PDF draws, by the ends of its segments.
 #[cfg(feature = "pictures")]
 fn drawn_extents(pdf: &[u8]) -> Vec<[f64; 2]> {
     const MM_PER_POINT: f64 = 25.4 / 72.0;
@@ -220,7 +220,7 @@ fn drawn_extents(pdf: &[u8]) -> Vec<[f64; 2]> {
     extents
 }
 
-/// The drawing instructions of the first page: the first stream that begins with a transform.
+/// Returns the drawing instructions of the first page, which are the first stream that begins with a transform.
 #[cfg(feature = "pictures")]
 fn first_content(pdf: &[u8]) -> String {
     use std::io::Read;
@@ -237,7 +237,7 @@ fn first_content(pdf: &[u8]) -> String {
         .unwrap()
 }
 
-/// The transform that applies `first` and then `second`.
+/// Returns the transform that applies `first` and then `second`.
 #[cfg(feature = "pictures")]
 fn product(first: [f64; 6], second: [f64; 6]) -> [f64; 6] {
     let ([a, b, c, d, e, f], [g, h, i, j, k, l]) = (first, second);
@@ -256,7 +256,7 @@ fn the_scale_is_true_where_the_paper_holds_it_and_else_round() {
         let scales = texts(&svg).into_iter().filter_map(|it| it.strip_prefix("scale "));
         scales.map(str::to_owned).collect::<Vec<_>>()
     };
-    // The first page holds 150 mm; a rotated page holds 223 mm.
+    // A length of 150 mm fits on the first page, and one of 223 mm on a rotated page.
     assert_eq!(scale(40), ["2:1"]);
     assert_eq!(scale(100), ["1:1"]);
     assert_eq!(scale(148), ["1:1"]);
@@ -266,8 +266,7 @@ fn the_scale_is_true_where_the_paper_holds_it_and_else_round() {
     assert_eq!(scale(700), ["1:5", "1:5"][..1]);
 }
 
-/// `output-size` applies to everything that belongs to a program: written files are current, and nothing is written if the program cannot
-/// be compared.
+/// `output-size` limits all files of a program: written files are current, and nothing is written if the program cannot be compared.
 #[test]
 fn what_belongs_to_a_program_is_limited_too() {
     let probes = (0..100).map(|index| format!("probe {index},30\n")).collect::<Vec<_>>().concat();
@@ -404,7 +403,7 @@ fn clamps_are_listed_from_the_start() {
     assert!(row, "{texts:?} {run}");
 }
 
-/// The tool rises onto a bar by a rapid move like any other.
+/// The rapid move that raises the tool onto a bar counts as well.
 #[test]
 fn the_lowest_rapid_may_be_one_that_rises() {
     let drawing = "layer 1234.1P\nstart 0,20 \"T5 O3 I2 B0.5 D2 P6 U30\"\nmill 0,20 300,20\n\

@@ -1,4 +1,4 @@
-//! Untrusted names, layers and texts in every command and format: no output controls a terminal or begins a command of a CI runner. (book:
+//! Tests untrusted names, layers and texts in every command and format: no output controls a terminal or begins a command of a CI runner. (book:
 //! reference/commands)
 #![cfg(unix)]
 
@@ -12,7 +12,7 @@ const FORMATS: [&str; 9] =
 const HOSTILE: &str =
     "\u{1b}[31m\u{1b}]0;x\u{7}\u{9b}2J\u{202e}\u{2066}\r\u{2028}\u{85}##[add-mask]b\n::add-mask::e";
 
-/// A drawing with such names on layers and line types and in texts: one without an element, faulty parameters and values, and names of
+/// Returns a drawing with such names on layers and line types and in texts: one without an element, faulty parameters and values, and names of
 /// missing paths.
 fn drawing(path: &str) -> String {
     let hostile = HOSTILE.replace('\n', "\\P").replace('\r', "^M");
@@ -91,7 +91,7 @@ fn assert_harmless(run: &Run, is_github: bool) {
     assert!(matches!(run.status, Some(0..=2)), "{run}");
 }
 
-/// Every command that reads drawings or programs, with names as arguments and found in directories.
+/// Returns every command that reads drawings or programs, with names as arguments and with names found in directories.
 fn commands() -> Vec<Vec<String>> {
     let drawings = [
         format!("a{HOSTILE}/1301.1P.dxf"),
@@ -169,7 +169,7 @@ fn json_of_hostile_names_is_whole() {
     roxmltree::Document::parse(&run.stdout).unwrap();
 }
 
-/// Reports in files are harmless too, since other programs display them.
+/// Reports in files contain no such characters either, because other programs display them.
 #[test]
 fn reports_of_hostile_names_act_on_nobody() {
     for format in ["full", "concise", "json", "sarif", "gitlab", "junit", "html"] {
@@ -183,7 +183,7 @@ fn reports_of_hostile_names_act_on_nobody() {
     assert_harmless(&Run { stdout: place.read("known"), ..run }, false);
 }
 
-/// Pictures, pages and scenes.
+/// Pictures, pages and scenes contain no such characters either.
 #[test]
 fn what_is_seen_of_hostile_names_acts_on_nobody() {
     let place = place();
@@ -191,7 +191,7 @@ fn what_is_seen_of_hostile_names_acts_on_nobody() {
     for output in ["seen.json", "seen.svg", "seen.html"] {
         let run = place.run_with(&["view", &drawing, "-o", output]);
         assert_harmless(&run, false);
-        // The script is ours.
+        // The page's own script is left out of the comparison.
         let text = place.read(output).replace(pathbuild_view::SCRIPT, "");
         let acting: Vec<char> =
             text.chars().filter(|it| !matches!(it, '\n' | '\t') && shown::acts(*it)).collect();

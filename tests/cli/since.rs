@@ -1,4 +1,4 @@
-//! `check --changed-since REV` and `--timings`.
+//! Tests `check --changed-since REV` and `--timings`.
 
 use std::fs;
 use std::process::Command;
@@ -19,7 +19,7 @@ fn git(place: &Place, arguments: &[&str]) {
     assert!(run.status.success(), "git {arguments:?}: {}", String::from_utf8_lossy(&run.stderr));
 }
 
-/// A library under Git with everything committed. The project 8003 embeds a missing path.
+/// Creates a library under Git with everything committed. The project 8003 embeds a missing path.
 fn library() -> Place {
     let place = Place::new()
         .file("pathbuild.toml", "library = [\"parts\", \"projects\"]\nsearch = [\"parts\"]\n")
@@ -34,7 +34,7 @@ fn library() -> Place {
     place
 }
 
-/// The numbers in the summary.
+/// Returns the numbers in the summary.
 fn checked(place: &Place, arguments: &str) -> String {
     let run = place.run(arguments);
     let summary = run.stderr.lines().last().unwrap_or_default().to_owned();
@@ -56,7 +56,7 @@ fn what_depends_on_a_change_is_checked_and_nothing_else() {
     }
 }
 
-/// A hook also runs before the first commit.
+/// A Git hook also runs before the first commit.
 #[test]
 fn before_the_first_commit_everything_has_changed() {
     let place = library();
@@ -120,7 +120,7 @@ fn the_files_of_a_revision_are_counted() {
     }
 }
 
-/// Git would read it to the end, which may take hours.
+/// The file has 64 GiB, which Git would read to the end for hours.
 #[cfg(unix)]
 #[test]
 fn a_drawing_that_is_too_large_has_changed() {
@@ -167,7 +167,7 @@ fn a_clone_that_does_not_reach_the_revision_is_called_shallow() {
     assert!(!run.stderr.contains("shallow"), "a whole clone is not: {run}");
 }
 
-/// The extent of a change: nothing, one drawing, or everything.
+/// Summaries of `check` for each extent of a change: nothing, one drawing, or everything.
 const NOTHING: &str = "0 paths in 0 drawings";
 const ONE: &str = "1 path in 1 drawing";
 const ALL: &str = "5 paths in 5 drawings";
@@ -200,7 +200,7 @@ fn drawings_that_git_passes_over_are_checked() {
     commit(&place);
     since(&place, NOTHING);
     since(&place.file("parts/2001.dxf", dxf("2001.1P", 5, None)), ONE);
-    // Files that pathbuild ignores are not checked.
+    // Files that pathbuild ignores are not checked, even if Git lists them.
     let place = library().file("parts/.gitignore", "2*\n");
     commit(&place);
     since(&place.file("parts/2001.dxf", dxf("2001.1P", 5, None)), NOTHING);
@@ -221,7 +221,7 @@ fn what_is_checked_and_how_concerns_everything() {
     let configuration = "library = [\"parts\", \"projects\"]\nsearch = [\"parts\"]\n";
     since(&library().file("pathbuild.toml", configuration), NOTHING);
     since(&library().file("pathbuild.toml", format!("{configuration}[limits]\nentities = 10\n")), ALL);
-    // A new ignore file, one that is changed, and one that is removed.
+    // An ignore file is added, changed, and removed.
     for name in ["parts/.gitignore", "parts/.ignore"] {
         let place = library().file(name, "# nothing\n");
         since(&place, ALL);
@@ -244,7 +244,7 @@ mod links {
 
     use super::*;
 
-    /// The library with a link among its drawings, or next to them.
+    /// Creates the library with a link among its drawings, or next to them.
     fn linked(target: &str, link: &str) -> Place {
         let place = library()
             .file("store/a.bin", dxf("2001.1P", 5, None))
@@ -261,7 +261,7 @@ mod links {
         since(&place.file("store/b.bin", dxf("2001.1P", 4, None)), NOTHING);
         let place = linked("../store/a.bin", "parts/2001.dxf");
         since(&place.file("store/a.bin", dxf("2001.1P", 4, None)), ONE);
-        // A new link to an old file.
+        // The link is new, but leads to an old file.
         let place = linked("../store/a.bin", "parts/2001.dxf");
         symlink("../store/b.bin", place.path().join("parts/2002.dxf")).unwrap();
         since(&place, ONE);
@@ -313,7 +313,7 @@ mod links {
         fs::set_permissions(&file, fs::Permissions::from_mode(0o755)).unwrap();
     }
 
-    /// Runs everything that calls Git.
+    /// Runs all commands that call Git.
     fn ask(place: &Place, directory: &str, revision: &str, mark: &Path) {
         for option in [&[][..], &["--untrusted"]] {
             for command in [&["check", ".", "--changed-since", revision][..], &["diff", revision, "."]] {
@@ -344,12 +344,12 @@ mod links {
         let place = place.file("parts/1001.dxf", dxf("1001.1P", 4, None));
         ask(&place, ".", "HEAD", &mark);
         since(&place, "3 paths in 3 drawings");
-        // Git itself would run it.
+        // Unlike pathbuild, Git itself would run the script.
         _ = Command::new("git").args(["diff", "HEAD"]).current_dir(place.path()).output().unwrap();
         assert!(mark.exists());
     }
 
-    /// A partial clone fetches missing objects with commands from its configuration.
+    /// Nothing is fetched for a partial clone: Git would fetch missing objects with commands from the clone's configuration.
     #[test]
     fn nothing_is_fetched() {
         let place = library();
@@ -372,7 +372,7 @@ mod links {
         assert!(mark.exists());
     }
 
-    /// A pull request can contain the layout of a bare repository, which Git would recognise as one.
+    /// A pull request can contain files in the layout of a bare repository, which Git would recognise as one.
     #[test]
     fn files_of_a_tree_are_no_repository() {
         let place = library().file("cnc/3001.dxf", dxf("3001.1P", 5, None));
@@ -398,7 +398,7 @@ mod links {
         assert!(run.stderr.contains(ONE), "{run}");
     }
 
-    /// A `.git` that leads out of an untrusted tree is only followed if `git worktree` created it.
+    /// A `.git` that leads out of an untrusted tree is followed only if `git worktree` created it.
     #[test]
     fn a_strangers_repository_lies_in_its_tree() {
         let place = library();
@@ -430,7 +430,7 @@ mod links {
     }
 }
 
-/// The index is unchanged: Git would record that files only look newer.
+/// The index is not modified: Git would record in it that files only look newer.
 #[test]
 fn the_index_is_not_touched() {
     let place = library();

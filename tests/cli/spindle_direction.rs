@@ -1,8 +1,8 @@
-//! The direction of the spindle against those of the tools in the table (PB783).
+//! Tests the direction of the spindle against those of the tools in the table (PB783).
 
 use crate::support::Place;
 
-/// The lines with a wrong direction, and the exit status.
+/// Returns the lines with a wrong direction, and the exit status.
 fn verify(tools: &str, program: &str, options: &str) -> (Vec<String>, Option<i32>) {
     let place = Place::new().file("pathbuild.toml", tools).file("a.nc", program);
     let run = place.run(&format!("verify a.nc --format concise {options}"));
@@ -14,7 +14,7 @@ fn tool(name: &str, keys: &str) -> String {
     format!("[tool.{name}]\ndiameter = {}\n{keys}\n", name.len())
 }
 
-/// A program that changes to T1, cuts, and does the same with T2.
+/// Returns a program that changes to T1, cuts, and does the same with T2.
 fn program(first: &str, second: &str) -> String {
     let cuts = |tool: u32, word: &str| {
         format!("T{tool} M6\n{word} S1000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X9\nG1 X18\nG0 Z5\nM5\n")

@@ -1,6 +1,5 @@
-//! Random chains: lines, arcs with any pair of angles, and polylines with arcs, some in blocks that are inserted rotated, mirrored and
+//! Tests random chains: lines, arcs with any pair of angles, and polylines with arcs, some in blocks that are inserted rotated, mirrored and
 //! scaled. Each is milled at its drawn length, and every post gives the moves of the native program. (book: language/chains-and-passes)
-//!
 //! `PATHBUILD_CHAINS=1000` sets the number of chains.
 
 use std::fmt::Write;
@@ -20,11 +19,11 @@ use super::programs::{Named, of_inputs};
 use super::{fault, say, shown, texts};
 use crate::support::Place;
 
-/// T5 I1 B2: passes at 4, 3 and 2.
+/// Text of the start marker. With T5 I1 B2 the passes are at 4, 3 and 2.
 const PARAMETERS: &str = "T5 O2 S9 I1 B2 MPlate";
 const PASSES: f64 = 3.0;
 
-/// Default number of chains.
+/// Number of chains in a run, unless `PATHBUILD_CHAINS` is set.
 const CHAINS: usize = 60;
 
 /// Number of chains in a drawing.
@@ -40,7 +39,7 @@ fn random_chains_are_milled_as_drawn_by_every_post() {
     assert!(faults.is_empty(), "{} faults\n{}", faults.len(), shown(&faults));
 }
 
-/// The faults of the chains in a drawing.
+/// Returns the faults of the chains in a drawing.
 fn of_drawing(number: usize) -> Vec<String> {
     let chains: Vec<Chain> =
         (0..IN_DRAWING).map(|index| Chain::random((number * IN_DRAWING + index) as u64)).collect();
@@ -106,13 +105,13 @@ fn milled(program: &Program) -> f64 {
 struct Chain {
     lines: Vec<String>,
     end: [f64; 2],
-    /// Length in mm.
+    /// Length of the chain in mm.
     length: f64,
-    /// The insertion, if its elements are in a block.
+    /// The insertion of the block, if the chain's elements are in one.
     insertion: Option<Insertion>,
 }
 
-/// The insertion of a block such that its origin coincides with that of the drawing.
+/// An insertion of a block that makes the block's origin coincide with that of the drawing.
 struct Insertion {
     scale: [f64; 2],
     degrees: f64,
@@ -143,7 +142,7 @@ impl Chain {
         self.end = to;
     }
 
-    /// An arc with random angles, up to a full turn.
+    /// Adds an arc with random angles, up to a full turn.
     fn arc(&mut self, dice: &mut Dice) {
         let radius = dice.between(1.0, 25.0);
         let from = dice.between(0.0, 360.0);
@@ -164,7 +163,7 @@ impl Chain {
         }
     }
 
-    /// Two segments, one of which is an arc.
+    /// Adds two segments, one of which is an arc.
     fn polyline(&mut self, dice: &mut Dice) {
         let [x, y] = self.end;
         let chord = [dice.between(2.0, 20.0), dice.between(-20.0, 20.0)];

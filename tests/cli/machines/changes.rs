@@ -1,8 +1,8 @@
-//! `verify --against` finds every dangerous change of a program, and nothing in an unchanged one. (book: program/reading)
+//! Checks that `verify --against` finds every dangerous change of a program, and nothing in an unchanged one. (book: program/reading)
 //!
-//! The programs of all cases are written by every post and then changed: words are inserted before the first move and between moves,
-//! numbers are changed by 0.1 and more, lines are removed and swapped. A change is dangerous if the tool cuts elsewhere, deeper, faster or
-//! at another spindle speed, or makes a different move below S.
+//! The programs of all cases are written by every post and then changed: words are inserted before the first move and between moves, numbers are
+//! changed by 0.1 and more, lines are removed and swapped. A change is dangerous if the tool cuts elsewhere, deeper, faster or at another spindle
+//! speed, or makes a different move below S.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -21,7 +21,7 @@ use rayon::prelude::*;
 use super::programs::{Named, programs};
 use super::{say, shown, texts};
 
-/// A program as written.
+/// A program that a post has written.
 struct Written {
     name: String,
     dialect: Dialect,
@@ -30,7 +30,7 @@ struct Written {
 
 const SPEED: f64 = 12_000.0;
 
-/// Number of changes per program and post; `PATHBUILD_CHANGES` sets a higher one.
+/// Number of changes per program and post. `PATHBUILD_CHANGES` sets a greater one.
 const CHANGES: usize = 4;
 
 fn changes() -> usize {
@@ -60,7 +60,7 @@ fn no_dangerous_change_passes_and_no_program_has_a_finding() {
     assert!(tried.values().all(|count| *count >= 300), "{tried:?}");
 }
 
-/// The number of dangerous changes, and the failures.
+/// Returns the number of dangerous changes, and the failures.
 fn of_program(post: &str, language: Language, it: &Named, seed: usize) -> (usize, Vec<String>) {
     let written = match written(post, language, it) {
         Ok(written) => written,
@@ -119,10 +119,10 @@ fn entry(diameter: f64) -> ToolEntry {
     }
 }
 
-/// All findings of `verify --against`.
+/// Returns all findings of `verify --against`.
 fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
-    // As in the command, a doubt about something that the drawing's program does not contain is an error.
+    // As in the command, doubts about words that the drawing's program does not contain are errors.
     let mut found = Vec::new();
     let stock = Stock::uniform(program.thickness, program.tool);
     let mut rules = Rules::new(Some(&stock));
@@ -154,7 +154,7 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
     found
 }
 
-/// The words that the post of each dialect writes.
+/// Returns the words that the post of each dialect writes.
 fn known_words() -> &'static BTreeMap<Dialect, PostWords> {
     static WORDS: OnceLock<BTreeMap<Dialect, PostWords>> = OnceLock::new();
     WORDS.get_or_init(|| Dialect::ALL.iter().map(|dialect| (*dialect, words_of(*dialect))).collect())
@@ -166,10 +166,10 @@ fn words_of(dialect: Dialect) -> PostWords {
     PostWords::of_programs(written.map(|output| output.text), dialect)
 }
 
-/// A cut with the spindle's state, or a rapid move below S.
+/// An effect in which a change may be dangerous: a cut with the spindle's state, or a rapid move below S.
 type Effect = (Move, Option<Spindle>);
 
-/// The relevant parts of a program: each cut with the spindle's state, and rapid moves below S.
+/// Returns the effects of a program: each cut with the spindle's state, and rapid moves below S.
 fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
     let mut spindle = Spindle::UNSTATED;
@@ -177,7 +177,7 @@ fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
     let mut effects = Vec::new();
     let mut has_length = false;
     for Step { action, .. } in interpret(text.as_bytes(), dialect, &options).steps {
-        // A tool length takes effect with the next move; of several before it, the last one counts.
+        // A tool length takes effect with the next move. If there are several before the move, the last one counts.
         if matches!(&action, Action::Move(it) if !it.is_nothing()) && std::mem::take(&mut has_length) {
             effects.push((nothing(), None));
         }
@@ -214,7 +214,7 @@ fn is_alike(one: &[Effect], other: &[Effect]) -> bool {
     one.len() == other.len() && one.iter().zip(&other).all(is_same)
 }
 
-/// Tolerance in mm: several units of the last digit.
+/// Tolerance in mm, which is several units of the last digit.
 const ROUNDING: f64 = 0.006;
 
 fn nothing() -> Move {
@@ -303,8 +303,7 @@ fn change(written: &Written, dice: &mut Dice) -> Option<(String, String)> {
             format!("`{was}` became `{}`", lines[at])
         }
         4 => {
-            // After the last cut the tool is only retracted further. For a helix written as chords, removing one chord is within the
-            // tolerance.
+            // After the last cut the tool is only retracted. In a helix that is written as chords, removing one chord is within the tolerance.
             let at = dice.below(last + 1);
             if is_cut(&lines[at]) && !written.dialect.rules().arcs.helix {
                 return None;
@@ -320,7 +319,7 @@ fn change(written: &Written, dice: &mut Dice) -> Option<(String, String)> {
     Some((what, lines.join("\n") + "\n"))
 }
 
-/// The byte ranges of words outside of comments.
+/// Returns the byte ranges of words outside of comments.
 pub(super) fn words(line: &str) -> Vec<(usize, usize)> {
     let bytes = line.as_bytes();
     let (mut found, mut at) = (Vec::new(), 0);
@@ -352,7 +351,7 @@ impl Dice {
         Self(seed * 7919 + 1)
     }
 
-    /// A multiple of a hundredth.
+    /// Returns a random multiple of a hundredth between two bounds.
     pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
         let hundredths = self.below(10_000);
         ((low + (high - low) * hundredths as f64 / 10_000.0) * 100.0).round() / 100.0
@@ -450,7 +449,7 @@ fn words_are_known_just_inside_and_not_just_outside() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// A lone carriage return hides the rest of a line from us, but not from every controller.
+/// After a lone carriage return, pathbuild ignores the rest of the line, but some controllers do not.
 #[test]
 fn a_carriage_return_within_a_line_is_found_in_every_dialect() {
     let is_found = |text: &str, dialect| {

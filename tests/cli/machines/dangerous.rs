@@ -1,11 +1,12 @@
-//! Random dangerous changes to programs of the example library: `verify --against`, run as by users, reports each. (book: program/reading)
+//! Makes random dangerous changes to programs of the example library, and checks that `verify --against`, run as by users, reports each. (book:
+//! program/reading)
 //!
-//! Programs are emitted natively and through every built-in post. Bytes, words, lines and comments are changed at random. Whether a change
-//! is dangerous is decided by independent readers if available: LinuxCNC's interpreter for linuxcnc, mach3, fanuc, haas, estlcam and din, and
-//! the same with GRBL's line parsing for grbl and the native program. Marlin and XpertMILL are read by our own interpreter: gcode-toolpath
-//! follows the moves of Marlin, but neither its spindle nor its offsets. A change is dangerous if a cut goes elsewhere or deeper, or is made
-//! under another offset, tool, length or spindle state, or if a rapid move below S0 goes elsewhere. If the reader rejects the program,
-//! nothing is cut, so the change does not count.
+//! Programs are emitted natively and through every built-in post. Bytes, words, lines and comments are changed at random. Whether a change is
+//! dangerous is decided by independent readers if available: LinuxCNC's interpreter for linuxcnc, mach3, fanuc, haas, estlcam and din, and the same
+//! with GRBL's line parsing for grbl and the native program. Marlin and XpertMILL are read by our own interpreter: gcode-toolpath follows the moves
+//! of Marlin, but neither its spindle nor its offsets. A change is dangerous if a cut goes elsewhere or deeper, or is made under another offset,
+//! tool, length or spindle state, or if a rapid move below S0 goes elsewhere. If the reader rejects the program, nothing is cut, so the change does
+//! not count.
 //!
 //! `PATHBUILD_DANGEROUS=10000` sets the number of changes, `PATHBUILD_DANGEROUS_SEED` the seed; undetected changes are listed by dialect.
 
@@ -27,20 +28,20 @@ use super::independent::oracle;
 use super::say;
 use crate::support::{self, Place};
 
-/// Default number of changes.
+/// Number of changes, unless `PATHBUILD_DANGEROUS` is set.
 const CHANGES: usize = 600;
 
 /// Number of programs verified by one process.
 const AT_ONCE: usize = 100;
 
-/// One reported change in this many is judged.
+/// Of the reported changes, one in this many is also read by an independent reader.
 const SAMPLED: usize = 10;
 
-/// Distance in mm: more than the tolerance of any dialect that is written with arcs.
+/// Distance in mm from which a move goes elsewhere. It exceeds the tolerance of any dialect that is written with arcs.
 const ELSEWHERE: f64 = 0.01;
 
-/// Tolerance in mm of chords that replace a helix: what the post itself permits, 0.01 mm, and the rounding of their ends. Leaving one chord of
-/// two out may stay within that.
+/// Tolerance in mm of chords that replace a helix: the post permits 0.01 mm, and the ends are rounded. A program may stay within that even without
+/// one of two chords.
 const CHORDS: f64 = 0.0125;
 
 /// Short paths of the library with lines, arcs, bars, helices, holes, sweeps and subpaths.
@@ -52,16 +53,16 @@ const PROBED: &str = "8003.1P";
 const TOOLS: &str = "\n[tool.2mm]\ndiameter = 2\nnumber = 1\nspindle = 12000\n\
                      [tool.3mm]\ndiameter = 3\nnumber = 2\nspindle = 9400\n";
 
-/// A program as written.
+/// A program that a post has written.
 struct Good {
     post: &'static str,
-    /// The path that it is verified against.
+    /// Name of the path that the program is verified against.
     path: String,
     file: String,
     text: Vec<u8>,
 }
 
-/// A changed program.
+/// A program after a random change.
 struct Changed {
     good: usize,
     what: String,
@@ -148,8 +149,8 @@ fn no_dangerous_change_passes_and_no_good_program_has_a_finding() {
     assert!(10 * dangerous >= sampled.len(), "nearly nothing that was tried is dangerous");
 }
 
-/// Changes to a program whose helices are chords, and whether they are found. A chord may leave its helix as far as the post permits, 0.01 mm,
-/// and its ends may be rounded.
+/// Changes to a program whose helices are chords, and whether they are found. A chord may deviate from its helix as far as the post permits, by
+/// 0.01 mm, and its ends may be rounded.
 const OF_CHORDS: [(&str, &str, bool); 6] = [
     // The chord that remains is 0.0109 mm away from the arc.
     ("G01 X16.918 Y13.29 Z0.75\r\n", "", true),
@@ -157,7 +158,7 @@ const OF_CHORDS: [(&str, &str, bool); 6] = [
     ("G01 X16.918 Y13.29 Z0.75", "G01 X16.919 Y13.29 Z0.75", false),
     ("G01 X16.918 Y13.29 Z0.75", "G01 X16.918 Y13.286 Z0.75", true),
     ("G01 X7.503 Y40.274", "G01!X7.503 Y40.274", true),
-    // The first layer, too, is chosen by its number.
+    // The first layer is selected by its number as well.
     ("M06 01\r\n", "", true),
 ];
 
@@ -175,11 +176,11 @@ fn chords_are_as_fine_as_the_post_writes_them() {
     }
 }
 
-/// A line before which another one is put, and the posts in whose programs that is found.
+/// Each entry has a line, another line to put before it, the replacement of the first line, and the posts in whose programs the change is found.
 const PUT_IN: [(&str, &str, &str, &[&str]); 5] = [
     ("G1 X13.7", "M0", "G1 X13.7", &["grbl", "linuxcnc", "haas", "estlcam"]),
     ("G0 X10.0 Y18.0", "M0", "G0 X10.0 Y18.0", &["haas"]),
-    // The tool is selected, but not inserted; GRBL has no M6.
+    // Without M6 the tool is selected, but not inserted; GRBL has no M6.
     ("T1 M6", "", "T1", &["linuxcnc", "estlcam"]),
     ("G1 X13.7", "", "G0.9999 X13.7", &["grbl", "linuxcnc", "haas", "estlcam"]),
     ("G1 X13.7", "G21", "G1 X13.7", &[]),
@@ -207,7 +208,7 @@ fn stops_and_tools_that_are_not_inserted_are_found() {
     }
 }
 
-/// The example library with numbered tools and spindle speeds.
+/// Creates the example library, with numbered tools and spindle speeds.
 fn library() -> Place {
     let place = Place::new();
     copy(&support::project().join("fixtures/library"), place.path());
@@ -250,7 +251,7 @@ fn goods(place: &Place) -> Vec<Good> {
     goods
 }
 
-/// The native programs of a path with probes, measured and adjusted.
+/// Returns the native programs of a path with probes, measured and adjusted.
 fn probed(place: &Place) -> Vec<Good> {
     let directory = "native-probed";
     let run = place.run(&format!("emit {PROBED} --out-dir {directory} --no-cache"));
@@ -281,7 +282,7 @@ fn good(place: &Place, post: &'static str, path: &str, file: &str) -> Good {
     Good { post, path: path.to_owned(), file: file.to_owned(), text }
 }
 
-/// The indices of the programs in which `verify --against` finds an error, or anything at all.
+/// Returns the indices of the programs in which `verify --against` finds an error or, if `is_strict`, anything at all.
 fn verify(place: &Place, goods: &[Good], programs: &[(usize, Vec<u8>)], is_strict: bool) -> BTreeSet<usize> {
     let mut jobs: BTreeMap<(&str, &str), Vec<usize>> = BTreeMap::new();
     for (index, (good, text)) in programs.iter().enumerate() {
@@ -312,7 +313,7 @@ fn verify(place: &Place, goods: &[Good], programs: &[(usize, Vec<u8>)], is_stric
     reported.collect()
 }
 
-/// Changes of a program, without duplicates.
+/// Returns random changes of a program, without duplicates.
 fn changes_of(good: &Good, index: usize, seed: usize, count: usize) -> Vec<Changed> {
     let mut dice = Dice::new((seed * 1_000_003 + index) as u64);
     let (mut found, mut tries, mut known) = (Vec::new(), 0, BTreeSet::from([good.text.clone()]));
@@ -347,7 +348,8 @@ fn is_same(a: &Effect, b: &Effect, slack: f64) -> bool {
     (a.kind, &a.state) == (b.kind, &b.state) && a.numbers.iter().zip(&b.numbers).all(is_near)
 }
 
-/// The same where chords stand for helices: each run of straight cuts keeps near the other's line, wherever its chords end.
+/// Whether the effects are alike in a program with chords instead of helices: each run of straight cuts stays near the line of the other one,
+/// wherever the chords end.
 fn are_alike_in_runs(before: &[Effect], after: &[Effect]) -> bool {
     let is_chord = |a: &Effect, b: &Effect| (a.kind, b.kind) == (1, 1) && a.state == b.state;
     let runs =
@@ -366,7 +368,7 @@ fn are_alike_in_runs(before: &[Effect], after: &[Effect]) -> bool {
     before.len() == after.len() && before.iter().zip(&after).all(is_same_run)
 }
 
-/// The distance of an effect's end from a line.
+/// Returns the distance of an effect's end from a line.
 fn distance(effect: &Effect, from: &[f64], to: &[f64]) -> f64 {
     let part = |a: &[f64], axis: usize| a[axis] - from[axis];
     let dot = |a: &[f64], b: &[f64]| (0..3).map(|axis| part(a, axis) * part(b, axis)).sum::<f64>();
@@ -375,7 +377,7 @@ fn distance(effect: &Effect, from: &[f64], to: &[f64]) -> f64 {
     (0..3).map(|axis| (part(&effect.numbers, axis) - share * part(to, axis)).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The effects of a program, read by the reader for its dialect; `None` if the reader rejects it.
+/// Returns the effects of a program according to the reader for its dialect; `None` if the reader rejects the program.
 fn read(reader: &Rs274, dialect: Dialect, text: &[u8]) -> Option<Vec<Effect>> {
     let text = match dialect {
         Dialect::Native | Dialect::Grbl => lines_of_grbl(text),
@@ -388,8 +390,8 @@ fn read(reader: &Rs274, dialect: Dialect, text: &[u8]) -> Option<Vec<Effect>> {
     effects_of(&oracle::output(&reader.program, reader.tools.path(), &text)?)
 }
 
-/// GRBL's preprocessing of received bytes: lines end at CR or LF, a comment in brackets at the first `)`, one after `;` at the end of the
-/// line; spaces, `/` and real-time characters are dropped, and letters are converted to upper case.
+/// Preprocesses received bytes as GRBL does: lines end at CR or LF, a comment in brackets at the first `)`, one after `;` at the end of the line;
+/// spaces, `/` and real-time characters are dropped, and letters are converted to upper case.
 fn lines_of_grbl(text: &[u8]) -> Vec<u8> {
     let (mut lines, mut comment) = (Vec::with_capacity(text.len()), 0_u8);
     for &byte in text {
@@ -408,7 +410,7 @@ fn lines_of_grbl(text: &[u8]) -> Vec<u8> {
     lines
 }
 
-/// Calls for settings that affect cuts. Overrides and coolant do not count.
+/// Canonical calls of rs274 that change settings which affect cuts. Overrides and coolant are not among them.
 const SETTINGS: [&str; 12] = [
     "SET_G5X_OFFSET",
     "SET_G92_OFFSET",
@@ -424,7 +426,7 @@ const SETTINGS: [&str; 12] = [
     "SET_SPINDLE_MODE",
 ];
 
-/// The effects in rs274's canonical calls.
+/// Returns the effects of the canonical calls in rs274's output.
 fn effects_of(output: &str) -> Option<Vec<Effect>> {
     let (mut unit, mut at) = (1.0, [0.0; 3]);
     let mut settings: BTreeMap<&str, &str> = BTreeMap::new();
@@ -448,7 +450,7 @@ fn effects_of(output: &str) -> Option<Vec<Effect>> {
             {
                 settings.remove(name);
             }
-            // A program without a setting has exact corners.
+            // Exact corners are the default, so they are not recorded.
             "SET_MOTION_CONTROL_MODE" if is_exact(arguments) => {
                 settings.remove(name);
             }
@@ -496,14 +498,14 @@ fn is_exact(arguments: &str) -> bool {
     arguments.starts_with("CANON_EXACT") || is_near
 }
 
-/// Height in mm: below every S0 of the library, where rapid moves may hit material.
+/// Height in mm below which rapid moves may hit material; it is below every S0 of the library.
 const LOW: f64 = 10.0;
 
 fn is_still(from: &[f64; 3], to: &[f64; 3]) -> bool {
     from.iter().zip(to).all(|(a, b)| (a - b).abs() < ELSEWHERE / 2.0)
 }
 
-/// The effects according to our own interpreter.
+/// Returns the effects according to our own interpreter.
 fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
     let mut settings: BTreeMap<&str, String> = BTreeMap::new();
     let mut effects = Vec::new();
@@ -547,13 +549,13 @@ fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
 /// Replacements for a byte.
 const BYTES: &[u8] = b"0123456789.-+GMXYZIJKFSTRHPLNO()[];/%#=*!:,\"' \t\r\n<>\x00\xff";
 
-/// Code that a comment may hide or expose.
+/// Text that a changed comment may hide or expose.
 const HIDDEN: [&str; 4] = ["G0 Z-5", "G1 X-7 F100", "M5", "G91"];
 
 /// Offsets by which numbers are changed.
 const STEPS: [f64; 8] = [0.1, 0.25, 1.0, 7.5, -0.1, -0.3, -2.0, -12.0];
 
-/// A random change, with its description.
+/// Returns a text with a random change, and the description of the change.
 fn change(text: &[u8], dice: &mut Dice) -> Option<(String, Vec<u8>)> {
     match dice.below(8) {
         0 | 1 => Some(changed_byte(text, dice)),
@@ -561,7 +563,7 @@ fn change(text: &[u8], dice: &mut Dice) -> Option<(String, Vec<u8>)> {
         4 | 5 => Some(changed_line(text, dice)),
         6 => Some(changed_comment(text, dice)),
         _ => {
-            // Two changes at once, which may hide each other.
+            // Make two changes at once, which may hide each other.
             let (first, text) = changed_word(text, dice)?;
             let (second, text) = changed_line(&text, dice);
             Some((format!("{first}; {second}"), text))
@@ -593,7 +595,7 @@ fn changed_byte(text: &[u8], dice: &mut Dice) -> (String, Vec<u8>) {
     (format!("byte {at} {what}: {}", around(&changed, at)), changed)
 }
 
-/// The line around a byte.
+/// Returns the line around a byte.
 fn around(text: &[u8], at: usize) -> String {
     let at = at.min(text.len().saturating_sub(1));
     let begin = text[..at].iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);

@@ -1,7 +1,7 @@
-//! Independent readers: LinuxCNC's interpreter and gcode-toolpath.
+//! Compares our reader with independent ones: LinuxCNC's interpreter and gcode-toolpath.
 //!
-//! There is no known reader for XpertMILL, for DIN 66025 or for Estlcam's controller. All words that our posts write for the latter two are
-//! words of RS274, except for the units and the title of DIN: rs274 reads their programs with these replaced.
+//! There is no known reader for XpertMILL, for DIN 66025 or for Estlcam's controller. All words that our posts write for the latter two are words
+//! of RS274, except for the units and the title of DIN: rs274 reads their programs with these replaced.
 
 #[path = "../../../crates/pathbuild-gcode/tests/common/oracle.rs"]
 pub(super) mod oracle;
@@ -20,7 +20,8 @@ use super::changes::words;
 use super::programs::{Named, programs};
 use super::{say, shown, texts, written};
 
-/// Posts that rs274 can read. The program number and the return to home are removed, since it does not know them.
+/// Posts whose programs rs274 can read, with their dialects. The program number and the return to home are removed, because rs274 does not know
+/// them.
 const OF_RS274: [(&str, Dialect); 7] = [
     ("linuxcnc", Dialect::LinuxCnc),
     ("grbl", Dialect::Grbl),
@@ -76,8 +77,8 @@ fn text_of(post: &str, it: &Named) -> String {
     String::from_utf8(text).unwrap()
 }
 
-/// A program as rs274 can read it: without its number or title, and without the way up to the machine's zero, whose place rs274 does not
-/// know.
+/// Returns a program as rs274 can read it: without its number or title, and without the retract to the machine's zero, whose position rs274 does
+/// not know.
 pub(super) fn common_words(text: &str, dialect: Dialect) -> String {
     let text = without_way_up(text);
     if dialect != Dialect::Din {
@@ -95,7 +96,7 @@ fn without_way_up(text: &str) -> String {
     text.lines().filter(|line| !is_own(line)).flat_map(|line| [line, "\n"]).collect()
 }
 
-/// Whether a line does nothing but go straight up to a place of the machine. Stopping there changes nothing.
+/// Whether a line only retracts the tool to a position of the machine. Stopping there changes nothing.
 fn is_way_up(line: &str) -> bool {
     let mut found: Vec<(u8, f64)> = words(line)
         .into_iter()
@@ -112,7 +113,7 @@ fn is_way_up(line: &str) -> bool {
     ways.contains(&found.as_slice())
 }
 
-/// The installation of gcode-toolpath.
+/// Returns the directory in which gcode-toolpath is installed.
 #[expect(clippy::disallowed_methods, reason = "tests ask the environment where their oracles are")]
 fn toolpath() -> Option<PathBuf> {
     let Ok(directory) = std::env::var("PATHBUILD_TOOLPATH") else {
@@ -124,7 +125,7 @@ fn toolpath() -> Option<PathBuf> {
     Some(modules)
 }
 
-/// The moves of each program: 0, 1 or 2, the end point, and for arcs the centre.
+/// Returns the moves of each program according to gcode-toolpath: the motion code 0, 1 or 2, the end point, and for arcs the centre.
 fn ask(modules: &Path, files: &[PathBuf]) -> Vec<Vec<Vec<f64>>> {
     let script = crate::support::project().join("tests/tools/toolpath.js");
     let output =
@@ -154,7 +155,7 @@ fn arc_of(it: &Move, arc: motion::Arc) -> Vec<f64> {
     [vec![code], it.to.at.to_vec(), arc.centre.to_vec()].concat()
 }
 
-/// The first move in which two programs differ by more than accumulated rounding.
+/// Returns the first move in which two programs differ by more than accumulated rounding.
 fn differ(theirs: &[Vec<f64>], ours: &[Vec<f64>]) -> Option<String> {
     let is_same =
         |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);

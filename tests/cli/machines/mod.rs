@@ -1,4 +1,4 @@
-//! Every program of the conformance cases through every built-in post: the reader for its dialect sees the native program's moves,
+//! Writes every program of the conformance cases through every built-in post: the reader for its dialect sees the native program's moves,
 //! independent readers see the same, and no rule of `verify` finds an error. (book: program/posts)
 
 mod chains;
@@ -51,7 +51,7 @@ fn no_rule_finds_an_error() {
     assert!(faults.is_empty(), "{} of {}\n{}", faults.len(), programs.len(), shown(&faults));
 }
 
-/// The fault in a post's output.
+/// Returns the fault in a post's output, if there is one.
 fn fault(post: &str, definition: &PostDefinition, it: &Named) -> Option<String> {
     let at = |reason: String| Some(format!("{}: {reason}", it.name));
     let text = match written(definition, &it.program) {
@@ -71,12 +71,13 @@ fn fault(post: &str, definition: &PostDefinition, it: &Named) -> Option<String> 
 fn written(definition: &PostDefinition, program: &Program) -> Result<Vec<u8>, Vec<Diagnostic>> {
     let programs = std::slice::from_ref(program);
     let (job, _) = Job::from_programs(&program.path, programs, &ToolTable::default(), false);
-    // No spindle speeds are given.
+    // The programs have no spindle speeds.
     let options = PostOptions { manual_spindle: true, ..PostOptions::default() };
     definition.write(&job, &options).map(|output| output.text)
 }
 
-/// Half a unit of the last digit. `XpertMILL` has no helices, so they become lines. Header and footer are up to the post.
+/// Returns the tolerance for a post's output: half a unit of the last digit. `XpertMILL` has no helices, so they become lines. Header and footer
+/// are up to the post.
 fn tolerance(post: &str) -> Tolerance {
     let (decimals, chord) = match post {
         "xpertmill" => (3, 0.01),
@@ -98,7 +99,7 @@ fn shown(faults: &[String]) -> String {
     faults.iter().take(10).map(String::as_str).collect::<Vec<_>>().join("\n")
 }
 
-/// Bypasses println!, which the test harness hides for passing tests.
+/// Prints a line. Bypasses println!, which the test harness hides for passing tests.
 #[allow(clippy::explicit_write, reason = "likewise eprintln!")]
 fn say(text: &str) {
     writeln!(std::io::stderr(), "{text}").unwrap();

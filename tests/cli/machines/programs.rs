@@ -26,7 +26,7 @@ pub(crate) struct Named {
     pub(crate) program: Arc<Program>,
 }
 
-/// All programs of the cases; the first one of each group of equal ones.
+/// Returns all programs of the cases; of equal ones, only the first.
 pub(crate) fn programs() -> &'static [Named] {
     static PROGRAMS: OnceLock<Vec<Named>> = OnceLock::new();
     PROGRAMS.get_or_init(|| {
@@ -45,7 +45,7 @@ pub(crate) fn programs() -> &'static [Named] {
     })
 }
 
-/// The programs of a run, without those of erroneous paths.
+/// Returns the programs of a run, without those of erroneous paths.
 fn of_run(run: &Run) -> Vec<Named> {
     let What::Compile(arguments) = &run.what else { return Vec::new() };
     let case = Utf8PathBuf::from_path_buf(run.case.clone()).unwrap();
@@ -64,7 +64,7 @@ fn of_run(run: &Run) -> Vec<Named> {
     of_inputs(settings, inputs, &run.name())
 }
 
-/// The programs of drawings and paths, without erroneous ones.
+/// Returns the programs of drawings and paths, without erroneous ones.
 pub(crate) fn of_inputs(settings: Settings, inputs: Vec<String>, name: &str) -> Vec<Named> {
     let workspace = Workspace {
         settings,
@@ -91,13 +91,13 @@ pub(crate) fn of_inputs(settings: Settings, inputs: Vec<String>, name: &str) -> 
     named.collect()
 }
 
-/// Cases are read where they are.
+/// Returns an input as a file in the directory of its case, if there is such a file.
 fn absolute(case: &Utf8Path, input: String) -> String {
     let file = case.join(&input);
     if file.as_std_path().exists() { file.into_string() } else { input }
 }
 
-/// The moves of a program as steps: what its native text does, with step numbers in place of lines.
+/// Returns the moves of a program as steps, as its native text would give, with step numbers in place of lines.
 pub(crate) fn steps_of(program: &Program) -> Vec<Step> {
     program.moves().map(|(line, it)| Step::of_move(line, it)).collect()
 }

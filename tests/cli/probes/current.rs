@@ -1,4 +1,4 @@
-//! Programs that are older than their drawing, detected by their provenance. (book: program/gcode, book: language/probes)
+//! Tests programs that are older than their drawing, which their provenance reveals. (book: program/gcode, book: language/probes)
 
 use super::{OPTIONS, drawing, emit, measure, plate, succeed, write};
 use crate::support::Place;
@@ -18,7 +18,7 @@ fn save(place: &Place, text: &str) {
     std::fs::write(place.path().join("a.dxf"), drawing(text)).unwrap();
 }
 
-/// A program with probes that has been emitted, measured and adjusted.
+/// Creates a place with a program with probes that has been emitted, measured and adjusted.
 fn adjusted() -> Place {
     let place = Place::new().file("a.dxf", drawing(&with_probes(WITHOUT)));
     succeed(&emit(&place, "a.dxf"));
@@ -63,7 +63,7 @@ fn an_adjusted_program_is_stale_once_its_drawing_gives_other_moves() {
     }
 }
 
-/// Also through cached results.
+/// Stale programs are detected from cached results as well.
 #[test]
 fn what_is_known_of_a_program_tells_stale_ones_as_well() {
     let place = adjusted().file("pathbuild.toml", "rapid = 1000\nfeed = 150\nsweep-height = 20\n");
@@ -134,7 +134,7 @@ fn adjust_says_where_it_cannot_compare() {
     assert!(run.status == Some(1) && run.stderr.contains("PB608"), "{run}");
 }
 
-/// The drawing is found by the path's name if its programs are elsewhere.
+/// If the programs are not beside the drawing, it is found by the path's name.
 #[test]
 fn adjust_finds_the_drawing_in_the_library() {
     let settings = "library = [\"drawings\"]\nout-dir = \"out\"\n";
@@ -153,7 +153,7 @@ fn adjust_finds_the_drawing_in_the_library() {
     assert!(run.status == Some(1) && run.stderr.contains("PB608"), "{run}");
 }
 
-/// All options but one are those that the program was written with. (PB608)
+/// All options but one are those with which the program was written. (PB608)
 #[test]
 fn a_program_of_the_other_mode_says_so() {
     let options = "--feed 150 --rapid 1000 --sweep-height 20";

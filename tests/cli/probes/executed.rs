@@ -1,11 +1,11 @@
-//! The executed number counts, and its formula must agree with it. (book: language/probes, program/reading)
+//! The machine executes the number before a formula, and both must agree. (book: language/probes, program/reading)
 
 use super::{PLATE, PROBES, drawing, measure, succeed, write};
 use crate::support::{Place, Run};
 
 const VALUES: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
 
-/// Emitted with probes, measured and adjusted.
+/// Creates a place with a program with probes that has been emitted, measured and adjusted.
 fn adjusted(configuration: &str) -> Place {
     let place = Place::new()
         .file("a.dxf", drawing(&format!("{PLATE}{PROBES}")))
@@ -20,7 +20,7 @@ fn verify(place: &Place, program: &str) -> [Run; 2] {
     [place.run(&format!("verify {program}")), place.run(&format!("verify {program} --against a.dxf"))]
 }
 
-/// The index of the first line with a text.
+/// Returns the index of the first line that contains a text.
 fn line_of(text: &str, part: &str) -> usize {
     text.lines().position(|line| line.contains(part)).unwrap_or_else(|| panic!("no {part}"))
 }
@@ -30,7 +30,7 @@ fn with_line(text: &str, number: usize, change: impl Fn(&str) -> String) -> Stri
     text.lines().enumerate().map(line).collect::<Vec<_>>().join("\n") + "\n"
 }
 
-/// Changes the number before a formula.
+/// Changes the number before the formula of a line.
 fn number_changed(line: &str, by: f64) -> String {
     let (before, formula) = line.split_once("(=").unwrap();
     let (words, number) = before.rsplit_once('Z').unwrap();
@@ -105,7 +105,7 @@ fn every_changed_height_or_formula_of_an_adjusted_program_is_an_error() {
         let run = place.run("emit a.dxf --check");
         assert!(run.status == Some(1) && run.stderr.contains("PB520"), "{what}: {run}");
     }
-    // One unit of the last digit is rounding.
+    // A difference of less than one unit of the last digit is rounding.
     write(&place, "a_Milling.gcode", &with_line(&good, cut, |line| number_changed(line, 0.0004)));
     succeed(&place.run("verify a_Milling.gcode"));
 }
@@ -114,7 +114,7 @@ fn every_changed_height_or_formula_of_an_adjusted_program_is_an_error() {
 fn consistent_changes_are_found_with_the_drawing() {
     let place = adjusted("");
     let good = place.read("a_Milling.gcode");
-    // Another formula with the matching number.
+    // The line has another formula, with the number that it gives.
     let constant = with_line(&good, line_of(&good, "G01 F"), |line| {
         let (before, _) = line.split_once("(==").unwrap();
         let number = before.rsplit_once('Z').unwrap().1;
@@ -123,7 +123,7 @@ fn consistent_changes_are_found_with_the_drawing() {
     write(&place, "a_Milling.gcode", &constant);
     let run = place.run("verify a_Milling.gcode --against a.dxf");
     assert!(run.status == Some(1) && run.stderr.contains("error[PB775]"), "{run}");
-    // Comments are not moves: a warning.
+    // A changed comment does not change moves, so it is a warning.
     for (from, to) in [
         ("native O3 T5)", "native O3 T5x)"),
         ("(Milling chain", "(Chain"),
@@ -178,7 +178,7 @@ fn probes_without_formulas_are_an_error_without_the_drawing_too() {
     assert!(run.status == Some(1) && run.stderr.contains("error[PB609]"), "{run}");
 }
 
-/// The four nearest probes correct a height; a fifth one that is never among them is measured for nothing.
+/// The four nearest probes correct a height; a fifth one that is never among them is measured in vain.
 #[test]
 fn a_probe_that_corrects_nothing_is_told_when_the_program_is_written() {
     let text = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B1\"\nmill 0,0 40,0\nend 40,0\nprobe 0,10\nprobe 40,10\nprobe 0,20\nprobe 40,20\n";
@@ -228,7 +228,7 @@ fn formulas_in_a_program_without_probes_are_an_error() {
     }
 }
 
-/// Every command that reads a program reports it.
+/// Every command that reads a program reports the difference.
 #[test]
 fn other_commands_tell_of_a_formula_that_lies() {
     let place = adjusted("");
@@ -261,7 +261,7 @@ fn the_headers_cutter_decides() {
         let run = place.run("verify a_Milling.gcode");
         succeed(&run);
         assert_eq!(run.stderr.contains("warning[PB777]"), is_told, "{diameter}: {run}");
-        // 3 mm beside the groove of the 2 mm cutter.
+        // The rapid move is 3 mm beside the groove of the 2 mm cutter.
         let good = place.read("a_Milling.gcode");
         let lines: Vec<&str> = good.lines().collect();
         let end = lines.iter().rposition(|line| line.starts_with("G00 Z")).unwrap() - 1;

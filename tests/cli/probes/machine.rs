@@ -1,4 +1,4 @@
-//! A simulated machine: moves the tool by the numbers in a program. It shares no code with the writer.
+//! Simulates a machine that moves the tool by the numbers in a program. It shares no code with the writer.
 
 /// A move between two points in space.
 #[derive(Clone, Copy, Debug)]
@@ -6,7 +6,7 @@ pub(crate) struct Motion {
     pub from: [f64; 3],
     pub to: [f64; 3],
     pub way: Way,
-    /// Whether the height was corrected.
+    /// Whether the height of the end was corrected.
     pub is_corrected: bool,
 }
 
@@ -14,14 +14,14 @@ pub(crate) struct Motion {
 pub(crate) enum Way {
     Rapid,
     Straight,
-    /// Around a centre; the angle in radians is negative if clockwise.
+    /// An arc around a centre; the angle in radians is negative if clockwise.
     Round {
         centre: [f64; 2],
         angle: f64,
     },
 }
 
-/// The motions of a program, in order.
+/// Returns the motions of a program, in order.
 pub(crate) fn motions(program: &str) -> Vec<Motion> {
     let mut at = [0.0, 0.0, 1000.0];
     let blocks = program.lines().filter(|line| line.starts_with("G0"));
@@ -56,7 +56,7 @@ fn motion(block: &str, from: [f64; 3]) -> Motion {
     Motion { from, to, way, is_corrected }
 }
 
-/// The counterclockwise angle between two points, greater than 0 and at most a full turn.
+/// Returns the counterclockwise angle between two points, greater than 0 and at most a full turn.
 fn turned(centre: [f64; 2], from: [f64; 3], to: [f64; 3]) -> f64 {
     let angle = |point: [f64; 3]| libm::atan2(point[1] - centre[1], point[0] - centre[0]);
     let turned = (angle(to) - angle(from)).rem_euclid(std::f64::consts::TAU);
@@ -64,7 +64,7 @@ fn turned(centre: [f64; 2], from: [f64; 3], to: [f64; 3]) -> f64 {
 }
 
 impl Motion {
-    /// The length in the plane in mm.
+    /// Returns the length in the plane in mm.
     pub(crate) fn length(&self) -> f64 {
         match self.way {
             Way::Round { centre, angle } => {
@@ -74,7 +74,7 @@ impl Motion {
         }
     }
 
-    /// The position of the tool at a fraction of the way.
+    /// Returns the position of the tool at a fraction of the motion.
     pub(crate) fn at(&self, part: f64) -> [f64; 3] {
         let between = |axis: usize| self.from[axis] + (self.to[axis] - self.from[axis]) * part;
         let [x, y] = match self.way {

@@ -1,4 +1,4 @@
-//! Z-probes from the drawing to the adjusted program. (book: language/probes)
+//! Tests Z-probes from the drawing to the adjusted program. (book: language/probes)
 
 mod current;
 mod executed;
@@ -10,10 +10,10 @@ use pathbuild_testkit::sheet;
 
 const OPTIONS: &str = "--feed 150 --rapid 1000 --sweep-height 20 --no-cache";
 
-/// The start of the plate's path, which is (0, 0) in the program.
+/// The start of the plate's path in the drawing, which is (0, 0) in the program.
 const START: [f64; 2] = [0.0, 20.0];
 
-/// A plate of 300 mm x 200 mm with 3 x 3 probes: a line of 300 mm, bars, an arc of R50, a helical circle and a hole.
+/// A plate of 300 mm x 200 mm with 3 x 3 probes, and a path with a line of 300 mm, bars, an arc of R50, a helical circle and a hole.
 const PLATE: &str = r#"
 layer 1234.1P
 start 0,20 "T5 O3 I2 B0.5 D2 P6 U30"
@@ -45,7 +45,7 @@ fn drawing(text: &str) -> Vec<u8> {
     sheet(text).unwrap_or_else(|errors| panic!("{errors:?}")).to_dxf()
 }
 
-/// The plate with probes in a.dxf, and without in b.dxf.
+/// Creates a place with the plate with probes in a.dxf, and without in b.dxf.
 fn plate(configuration: &str) -> Place {
     Place::new()
         .file("a.dxf", drawing(&format!("{PLATE}{PROBES}")))
@@ -62,7 +62,7 @@ fn emit(place: &Place, drawing: &str) -> Run {
     place.run(&format!("emit {drawing} {OPTIONS}"))
 }
 
-/// Enters measured values, computed from the position in the drawing, with three decimals.
+/// Enters measured values with three decimals, which `off` computes from the position in the drawing.
 fn measure(place: &Place, off: impl Fn(f64, f64) -> f64) {
     let measured = |line: &str| {
         let numbers = line.trim_start_matches("([").split(']').next().unwrap();
@@ -78,10 +78,10 @@ fn write(place: &Place, name: &str, text: &str) {
     std::fs::write(place.path().join(name), text).unwrap();
 }
 
-/// The moves of an adjusted program matched with those of the same program without probes, which has the correct heights for a flat plate:
-/// each flat move with the adjusted moves that correspond to it.
+/// Matches the moves of an adjusted program with those of the same program without probes, which has the correct heights for a flat plate. Returns
+/// each flat move with the corresponding adjusted moves.
 fn pairs(flat: &[Motion], adjusted: &[Motion]) -> Vec<(Motion, Vec<Motion>)> {
-    // After a sweep the height may be corrected again, which the flat program does not need.
+    // After a sweep the height may be corrected again, for which the flat program has no move.
     let is_correction = |motion: &Motion| {
         motion.is_corrected && motion.length() == 0.0 && (motion.to[2] - motion.from[2]).abs() < 0.1
     };
@@ -103,7 +103,7 @@ fn pairs(flat: &[Motion], adjusted: &[Motion]) -> Vec<(Motion, Vec<Motion>)> {
     pairs
 }
 
-/// The maximum errors of the adjusted program, in height and in the plane, sampled every 0.5 mm.
+/// Returns the maximum errors of the adjusted program, in height and in the plane, sampled every 0.5 mm.
 fn largest_error(place: &Place, off: impl Fn(f64, f64) -> f64) -> (f64, f64) {
     let (flat, adjusted) = (motions(&place.read("b_Milling.gcode")), motions(&place.read("a_Milling.gcode")));
     let (mut height, mut way) = (0.0_f64, 0.0_f64);
@@ -113,7 +113,7 @@ fn largest_error(place: &Place, off: impl Fn(f64, f64) -> f64) -> (f64, f64) {
         for piece in pieces {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
             let samples = (piece.length() / 0.5).ceil().max(1.0) as u32;
-            // Vertical moves, and those after them, are only corrected at their ends.
+            // A vertical move, and the move after it, are only corrected at their ends.
             let first = if whole.is_milling() { 0 } else { samples };
             for sample in first..=samples {
                 let part = f64::from(sample) / f64::from(samples);
@@ -208,7 +208,7 @@ fn too_many_pieces_are_refused() {
     let run = limited(1000);
     assert_eq!(run.status, Some(1), "{run}");
     assert!(run.stderr.contains("PB005") && run.stderr.contains("embedding-moves"), "{run}");
-    // Comments are not moves.
+    // The number does not include comments.
     let (_, count) = run.stderr.split_once("cut by z-split (").unwrap();
     let pieces: u32 = count.split(')').next().unwrap().parse().unwrap();
     assert_eq!([limited(pieces).status, limited(pieces - 1).status], [Some(0), Some(1)]);
@@ -265,7 +265,7 @@ fn values_that_were_entered_are_kept() {
     assert_ne!(place.read("a_Clean.gcode"), before);
 }
 
-/// Files of the original tool and of older versions lack the positions of probes in the emitted drawing.
+/// Files written by the original program or by older versions lack the positions of probes in the emitted drawing.
 #[test]
 fn values_without_places_are_kept_and_used() {
     let place = plate("");
@@ -280,7 +280,7 @@ fn values_without_places_are_kept_and_used() {
     succeed(&emit(&place, "a.dxf"));
     assert_eq!(place.read("a_Z.txt"), without, "the same probes");
     succeed(&place.run("adjust a.dxf --max-correction 1"));
-    // Another position, although the probe was not moved in the drawing.
+    // The probe has another position in the emitted drawing, although it was not moved in its own drawing.
     write(&place, "a_Z.txt", &with_places.replace("@ [150.000|80.000]", "@ [150.000|81.000]"));
     let run = place.run("adjust a.dxf --max-correction 1");
     assert!(run.status == Some(1) && run.stderr.contains("PB603"), "{run}");
@@ -437,7 +437,7 @@ fn the_largest_correction_must_be_said() {
     }
 }
 
-/// The places of the probes in the program, in the order of their numbers: `... @ [8.000|4.000]) #51=`.
+/// Returns the positions of the probes in the program, in the order of their numbers: `... @ [8.000|4.000]) #51=`.
 fn places_of_probes(values: &str) -> Vec<(f64, f64)> {
     let place = |line: &str| {
         let (x, y) = line.split_once("@ [")?.1.split_once(']')?.0.split_once('|')?;
@@ -450,7 +450,7 @@ fn places_of_probes(values: &str) -> Vec<(f64, f64)> {
 fn a_senders_log_replaces_typing() {
     let place = plate("z-model = \"tin\"\n");
     succeed(&emit(&place, "a.dxf"));
-    // The machine's zero is elsewhere, and the log does not say where.
+    // The machine's zero is elsewhere, and the log does not contain its position.
     let results: Vec<String> = places_of_probes(&place.read("a_Z.txt"))
         .into_iter()
         .zip(0..)

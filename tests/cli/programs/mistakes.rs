@@ -1,4 +1,4 @@
-//! Mistakes put into the programs by machine: which ones `verify` finds.
+//! Puts mistakes into programs automatically, and tests which ones `verify` finds.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -13,7 +13,7 @@ use super::{Known, PROGRAMS, counts};
 use crate::book::kept;
 use crate::support::{Place, project};
 
-/// A program as lines, with its moves by index of their line.
+/// The lines of a program, with the index of its line for each move.
 pub(super) struct Program {
     lines: Vec<String>,
     moves: Vec<(usize, Move)>,
@@ -22,10 +22,11 @@ pub(super) struct Program {
     surface: f64,
 }
 
-/// New texts of lines by index; `None` removes a line.
+/// New texts of lines, by index; `None` removes the line.
 pub(super) type Changes = Vec<(usize, Option<String>)>;
 
-/// A name in English and German, and what puts the mistake into a program; `None` if it has no suitable line.
+/// The name of a mistake in English and German, and a function that puts it into a program; the function returns `None` if the program has no
+/// suitable line.
 pub(super) type Mistake = ([&'static str; 2], fn(&Program) -> Option<Changes>);
 
 pub(super) const MISTAKES: &[Mistake] = &[
@@ -151,12 +152,12 @@ fn pattern(pattern: &str) -> Regex {
     Regex::new(&format!("(?i){pattern}")).unwrap()
 }
 
-/// The part of a line before any comment.
+/// Returns the part of a line before any comment.
 fn code(line: &str) -> &str {
     &line[..line.find(['(', ';']).unwrap_or(line.len())]
 }
 
-/// A line with another value for a letter, if it has a plain number there and `change` accepts it.
+/// Returns a line with another value for a letter, if it has a plain number there and `change` accepts it.
 fn with_value(line: &str, letter: char, change: impl Fn(&str) -> Option<String>) -> Option<String> {
     let found = pattern(&format!(r"{letter}\s*([-+]?[\d.]+)")).captures(code(line))?.get(1)?;
     Some(format!("{}{}{}", &line[..found.start()], change(found.as_str())?, &line[found.end()..]))
@@ -166,7 +167,7 @@ fn has_motion(line: &str) -> bool {
     pattern(r"G(0?[0-3]|8[1-9]|80)([^\d.]|$)").is_match(code(line))
 }
 
-/// A line with a word behind its block number.
+/// Inserts a word after the block number of a line.
 fn with_word(line: &str, word: &str) -> String {
     pattern(r"^(\s*N\d+)?\s*").replace(line, format!("${{1}} {word} ")).trim_start().to_owned()
 }
@@ -195,7 +196,7 @@ impl Program {
         lines.into_iter().flatten().fold(String::new(), |text, line| text + &line + "\n")
     }
 
-    /// The lines of straight level cuts below the surface, longer than 2 mm.
+    /// Returns the lines of straight level cuts below the surface that are longer than 2 mm.
     fn lateral(&self) -> impl Iterator<Item = usize> + '_ {
         self.feed_lines(|movement| {
             let length = movement.length();
@@ -203,7 +204,7 @@ impl Program {
         })
     }
 
-    /// The lines of plunges that go deeper than anything before, so that there is material below.
+    /// Returns the lines of plunges that go deeper than all earlier moves, so that there is material below.
     fn plunges(&self) -> impl Iterator<Item = usize> + '_ {
         let mut deepest = self.surface - 0.02;
         let moves = self.moves.iter().filter(|(_, movement)| matches!(movement.pace, Pace::Feed(_)));
@@ -225,7 +226,7 @@ impl Program {
             .map(|(line, _)| *line)
     }
 
-    /// Turns a cut into a rapid move, and only this one.
+    /// Turns one cut into a rapid move, without affecting the following cuts.
     fn as_rapid(&self, line: usize) -> Changes {
         let feed = pattern(r"G0?1([^\d.]|$)");
         let text = &self.lines[line];
@@ -236,7 +237,7 @@ impl Program {
         changes
     }
 
-    /// The next line with a move, with the motion word that it took over.
+    /// If the next line with a move inherits its motion word, returns that line with `word` inserted.
     fn motion_after(&self, line: usize, word: &str) -> Option<(usize, Option<String>)> {
         let (next, _) = self.moves.iter().find(|(next, _)| *next > line)?;
         let text = &self.lines[*next];
@@ -251,7 +252,7 @@ impl Program {
         self.lines.iter().any(|line| pattern(r"G20([^.\d]|$)").is_match(code(line)))
     }
 
-    /// Removes what raises the cutter between the last cut before a line and that line.
+    /// Removes the moves that raise the cutter between the last cut before a line and that line.
     fn without_lifts_before(&self, end: usize) -> Option<Changes> {
         let before = self.moves.iter().filter(|(line, _)| *line < end);
         let cut = before.rev().find(|(_, movement)| {
@@ -286,14 +287,14 @@ impl Program {
         (!changes.is_empty()).then_some(changes)
     }
 
-    /// Scales the last value of a letter up to a line.
+    /// Scales the last value of a letter before a line.
     fn scaled(&self, letter: char, by: f64, end: usize) -> Option<Changes> {
         let scaled = |line: &String| with_value(line, letter, |value| Some((number(value) * by).to_string()));
         let lines = self.lines[..=end].iter().enumerate().rev();
         lines.into_iter().find_map(|(index, line)| Some(vec![(index, Some(scaled(line)?))]))
     }
 
-    /// Changes X or Y of the first cut where `change` accepts it.
+    /// Changes X or Y of the first cut for which `change` accepts the value.
     fn in_plane(&self, change: fn(&str) -> Option<String>) -> Option<Changes> {
         self.in_axis('X', change).or_else(|| self.in_axis('Y', change))
     }
@@ -305,7 +306,7 @@ impl Program {
             .find_map(|line| Some(vec![(line, Some(with_value(&self.lines[line], axis, change)?))]))
     }
 
-    /// The first line that raises the cutter before a rapid move of more than 15 mm in the plane, with its move.
+    /// Returns the first line that raises the cutter before a rapid move of more than 15 mm in the plane, with its move.
     fn lift_before_rapid(&self) -> Option<(usize, Move)> {
         let states_height = |line: &usize| pattern("Z").is_match(code(&self.lines[*line]));
         let pairs = self.moves.windows(2).filter(|pair| !states_height(&pair[1].0));
@@ -350,7 +351,7 @@ fn missing_retract(program: &Program) -> Option<Changes> {
     Some(changes)
 }
 
-/// The first move, if it only states the height.
+/// Returns the line of the first move, if it only states the height.
 fn first_lift(program: &Program) -> Option<usize> {
     let line = program.moves.first()?.0;
     let text = code(&program.lines[line]);
@@ -398,7 +399,7 @@ fn lost_feed_word(program: &Program) -> Option<Changes> {
     None
 }
 
-/// The lines with a T word or, as FreeCAD writes it for GRBL, a comment with one.
+/// Returns the lines with a T word or, as FreeCAD writes it for GRBL, a comment with one.
 fn tool_words(program: &Program) -> Vec<(usize, u32)> {
     let word = pattern(r"^[^(;]*?T\s*(\d+)|^\(\s*M6\s*T(\d+)");
     let lines = program.lines.iter().enumerate();
@@ -454,7 +455,7 @@ fn wrong_direction(program: &Program) -> Option<Changes> {
     Some(vec![(line, Some(word.replace(&program.lines[line], other).into()))])
 }
 
-/// The findings for one kind of mistake in all programs.
+/// The findings that one kind of mistake causes in all programs.
 #[derive(Default)]
 struct Outcome {
     codes: BTreeMap<String, usize>,
@@ -507,7 +508,7 @@ fn mistakes_are_found() {
     {
         let mut table = format!("| {head} |\n| --- | --- | --- |\n");
         for ((names, _), outcome) in MISTAKES.iter().zip(&outcomes) {
-            // A code may be an error in some dialects and a warning in others.
+            // A code may be an error in some dialects and a warning in others; list it once.
             let codes: BTreeSet<&str> = outcome.codes.keys().map(|code| code.trim_end_matches('!')).collect();
             let codes: Vec<&str> = codes.into_iter().collect();
             let (name, tried) = (names[usize::from(lang == "de")], outcome.found + outcome.missed.len());

@@ -1,4 +1,5 @@
-//! Programs in the forms of other CAMs (fixtures/programs): no error in any, and mistakes put into them are found. (book: howto/any-program)
+//! Tests programs in the formats of other CAM programs (fixtures/programs): none has an error, and mistakes that are put into them are found.
+//! (book: howto/any-program)
 
 mod mistakes;
 mod translated;
@@ -13,14 +14,14 @@ use pathbuild_motion::Pace;
 
 use crate::support::{Place, project};
 
-/// A program with what is known about it besides its text.
+/// A program with facts about it that its text does not state.
 struct Known {
     name: &'static str,
-    /// The tools that it numbers, with their diameters in mm.
+    /// The numbers of its tools, with their diameters in mm.
     tools: &'static [(u32, f64)],
-    /// The diameter for `--cutter`, if it numbers none.
+    /// Diameter in mm for `--cutter`, if the program numbers no tools.
     cutter: Option<f64>,
-    /// The height of the stock's upper face.
+    /// Height in mm of the stock's upper face.
     surface: f64,
 }
 
@@ -62,7 +63,7 @@ impl Known {
         fs::read_to_string(project().join("fixtures/programs").join(self.name)).unwrap()
     }
 
-    /// A machine with these tools that can just run the program, with some room in the plane.
+    /// Returns the configuration of a machine with these tools that can just run the program, with some room in the plane.
     fn configuration(&self) -> String {
         let needs = Needs::of(&self.text());
         let mut text = format!(
@@ -82,14 +83,14 @@ impl Known {
         text
     }
 
-    /// The options with which everything is known.
+    /// Returns the options that state everything the program does not.
     fn options(&self) -> String {
         let cutter = self.cutter.map_or(String::new(), |cutter| format!(" --cutter {cutter}"));
         format!("--surface {}{cutter}", self.surface)
     }
 }
 
-/// The lowest point of a program, and its greatest feeds, in mm and mm/min.
+/// The lowest point of a program in mm, and its greatest feeds in mm/min.
 #[derive(Default)]
 struct Needs {
     low: f64,
@@ -111,7 +112,7 @@ impl Needs {
     }
 }
 
-/// How often each code was found, by file. Errors end with `!`.
+/// Returns for each file how often each code was found. Errors end with `!`.
 fn counts(place: &Place, arguments: &str) -> BTreeMap<String, BTreeMap<String, usize>> {
     let run = place.run(&format!("verify {arguments} --no-cache --format concise"));
     let mut counts: BTreeMap<String, BTreeMap<String, usize>> = BTreeMap::new();

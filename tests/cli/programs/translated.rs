@@ -1,4 +1,4 @@
-//! A program and its translation by `post` have the same findings about rapid moves, travel, feeds and the spindle.
+//! Checks that a program and its translation by `post` have the same findings about rapid moves, travel, feeds and the spindle.
 
 use std::collections::BTreeMap;
 
@@ -6,23 +6,23 @@ use super::mistakes::{MISTAKES, Program};
 use super::{Known, PROGRAMS, counts};
 use crate::support::Place;
 
-/// The codes of these findings.
+/// Codes of the findings that must be the same.
 const COMPARED: [&str; 11] =
     ["PB733", "PB740", "PB741", "PB744", "PB745", "PB746", "PB747", "PB748", "PB749", "PB770", "PB781"];
 
 const POSTS: [&str; 3] = ["linuxcnc", "grbl", "mach3"];
 
-/// A program that no post writes.
+/// A program that `post` refuses to translate.
 struct Refused {
     name: &'static str,
-    /// Lines that go to positions that only the machine knows, or may cut before the position is known, each with what may stand there
-    /// instead. The first is the one that is reported.
+    /// Lines that go to positions that only the machine knows, or may cut before the position is known, each with a replacement. The first of them
+    /// is the one that is reported.
     lines: &'static [(&'static str, &'static str)],
-    /// What is still refused then: posts write no arcs in G18.
+    /// Text that is still refused after the replacement: posts write no arcs in G18.
     then: Option<&'static str>,
 }
 
-/// (book: program/posts)
+/// The programs that are refused. (book: program/posts)
 const REFUSED: [Refused; 4] = [
     Refused { name: "carbide-create.nc", lines: &[("G53G0Z-5.000", "")], then: None },
     Refused { name: "easel.nc", lines: &[("G1 Z0.15000 F9.0", "G0 Z0.15000 F9.0")], then: None },
@@ -38,7 +38,7 @@ fn is_refused(known: &Known) -> bool {
     REFUSED.iter().any(|refused| refused.name == known.name)
 }
 
-/// The mistakes that are put into a program, all of them at once. Posts raise the cutter at the end.
+/// The mistakes that are put into a program, all of them together. Posts raise the cutter at the end.
 const BROKEN: [&str; 4] = [
     "rapid move through stock",
     "spindle speed ten times as high",
@@ -47,7 +47,7 @@ const BROKEN: [&str; 4] = [
 ];
 
 impl Known {
-    /// The program with several mistakes.
+    /// Returns the program with these mistakes.
     fn broken(&self) -> String {
         let program = Program::new(self);
         let mistakes = MISTAKES.iter().filter(|([name, _], _)| BROKEN.contains(name));
