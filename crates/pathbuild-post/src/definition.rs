@@ -50,10 +50,10 @@ pub struct Output {
     pub post_build: Option<Vec<String>>,
 }
 
-/// Greatest rounding of coordinates in mm without a warning: that of two decimals in mm.
+/// Maximum rounding error of coordinates in mm that causes no warning: the one of two decimals in mm.
 const FINE_ROUNDING: f64 = 0.005 * (1.0 + 1e-6);
 
-/// Greatest rounding of coordinates in mm: that of one decimal in mm.
+/// Maximum rounding error of coordinates in mm that causes no error: the one of one decimal in mm.
 const LARGEST_ROUNDING: f64 = 0.05 * (1.0 + 1e-6);
 
 /// Maximum size in bytes of a definition. Larger ones are refused.
@@ -221,7 +221,7 @@ impl PostDefinition {
         read_back::check(text, job, &expected)
     }
 
-    /// Half a unit of the last digit, in mm.
+    /// Returns half a unit of the last digit in mm: the largest rounding error of a coordinate.
     fn half_digit(&self, job: &Job) -> f64 {
         let decimals = match &self.engine {
             Engine::CamBam(definition) => definition.decimals(),
@@ -289,7 +289,7 @@ impl PostDefinition {
         Ok((error > FINE_ROUNDING).then(|| self.about_format(&posts::COARSE_NUMBERS).with("error", error)))
     }
 
-    /// A finding about the option that determines how numbers are written.
+    /// Creates a finding about the option that determines how numbers are written.
     fn about_format(&self, message: &'static Message) -> Diagnostic {
         let option = match &self.engine {
             Engine::CamBam(definition) => definition.format_option(),

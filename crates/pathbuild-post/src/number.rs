@@ -17,7 +17,7 @@ pub(crate) struct NumberFormat {
 #[derive(Debug)]
 pub(crate) struct FormatOption {
     pub(crate) name: &'static str,
-    /// Its value, or the default.
+    /// Value of the option in the file, or its default.
     pub(crate) value: String,
     /// Line and column in the definition's file, if the option is in it.
     pub(crate) line: Option<u32>,

@@ -115,12 +115,14 @@ pub(super) fn check(
     if problems.is_empty() { Ok(doubts) } else { Err(problems) }
 }
 
-/// The first length without a decimal point, if the reader may take it for thousandths. One finding stands for all words.
+/// Returns the finding about the first length without a decimal point, which the control may read as thousandths. It stands for all such
+/// words.
 fn without_point(problems: &[Diagnostic]) -> Option<Diagnostic> {
     problems.iter().find(|problem| problem.message == &gcode::NO_DECIMAL_POINT).cloned().map(as_post_s)
 }
 
-/// The first line that a switch at the machine can skip although it moves, changes the tool or its length, or switches the spindle.
+/// Returns a finding about the first line that a switch at the machine (block delete) can skip although it moves, changes the tool or its
+/// length, or switches the spindle.
 fn skippable(text: &[u8], steps: &[Step]) -> Option<Diagnostic> {
     let is_needed = |action: &Action| match action {
         Action::Move(_) | Action::SelectTool(_) | Action::ChangeTool(_) | Action::Spindle(_) => true,

@@ -123,7 +123,7 @@ impl Rs274Translation {
         }
         self.modes.line(self.line, line, motion);
         if line.is_optional {
-            // The first line begins with the modes of the definition.
+            // In the first line, the modes of the definition are already written, and `/` must precede them as well.
             let begin = if self.line == 1 { 0 } else { self.text.len() };
             self.text.insert(begin, '/');
         }
@@ -247,7 +247,7 @@ pub(crate) struct Words {
     pub(crate) words: Vec<Word>,
     /// Whether the line contains something that is neither a word nor a comment.
     pub(crate) has_more: bool,
-    /// Whether a `/` stands before the words, so that a switch at the machine can skip the line.
+    /// Whether the line begins with `/`, so that a switch at the machine (block delete) can skip it.
     pub(crate) is_optional: bool,
 }
 

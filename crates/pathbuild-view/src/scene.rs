@@ -170,7 +170,7 @@ pub struct Element {
     pub shape: Shape,
     /// Position in cutting order, counted from 1.
     pub order: Option<u32>,
-    /// Effective parameters of the element. Consecutive elements with the same ones share them.
+    /// Effective parameters of the element. Consecutive elements that have the same parameters share this list.
     #[serde(skip_serializing_if = "has_none", serialize_with = "shared")]
     pub parameters: Arc<[Parameter]>,
 }
@@ -679,8 +679,6 @@ pub(super) fn point<S: Serializer>(value: &[f64; 2], serializer: S) -> Result<S:
 pub(super) fn points<S: Serializer>(values: &[[f64; 2]; 2], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(values.iter().map(|value| value.map(rounded)))
 }
-
-// Parameters that several elements share.
 
 fn has_none(parameters: &Arc<[Parameter]>) -> bool {
     parameters.is_empty()

@@ -286,7 +286,7 @@ messages! {
 words! {
     /// Permitted values: any number.
     NUMBER: "a number", "eine Zahl";
-    /// Permitted values of measures that are greater than 0 and not extreme.
+    /// Permitted values of measures, without extreme ones, which can only be mistakes.
     MEASURE: "a number from 0.001 to 1000000", "eine Zahl von 0.001 bis 1000000";
     /// Permitted values: numbers greater than 0.
     POSITIVE: "a number greater than 0", "eine Zahl größer als 0";

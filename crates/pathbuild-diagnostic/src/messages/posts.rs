@@ -22,14 +22,14 @@ messages! {
         help_en: "write three decimals in mm or four in inches, such as NumberFormat 0.0## or decimals = 4",
         help_de: "drei Nachkommastellen in mm oder vier in Zoll schreiben, etwa NumberFormat 0.0## oder decimals = 4",
     }
-    /// Coordinates with so few decimals that parts are spoilt.
+    /// A number format with so few decimals that rounding would spoil parts.
     NUMBERS_TOO_COARSE: InvalidPost {
         en: "{option} is \"{value}\", which rounds coordinates by up to {error} mm; at most 0.05 mm is permitted",
         de: "{option} ist \"{value}\" und rundet Koordinaten um bis zu {error} mm; erlaubt sind höchstens 0,05 mm",
         help_en: "write three decimals in mm or four in inches, such as NumberFormat 0.0## or decimals = 4",
         help_de: "drei Nachkommastellen in mm oder vier in Zoll schreiben, etwa NumberFormat 0.0## oder decimals = 4",
     }
-    /// A number format without a digit after the point, for a target that may read whole numbers as thousandths.
+    /// A number format that writes whole numbers without a decimal point, for a target that may read them as thousandths.
     PATTERN_WITHOUT_POINT: InvalidPost {
         en: "{option} is \"{value}\", which writes whole numbers without a decimal point: some {dialect} controllers read them as thousandths",
         de: "{option} ist \"{value}\" und schreibt ganze Zahlen ohne Dezimalpunkt: manche Steuerungen mit {dialect} lesen sie als Tausendstel",

@@ -94,7 +94,7 @@ impl Definition {
         u8::try_from(self.settings.decimals).unwrap_or(u8::MAX)
     }
 
-    /// The option that determines how numbers are written.
+    /// Returns the option that determines how numbers are written, for messages.
     pub(crate) fn format_option(&self) -> FormatOption {
         let (line, column) = self.settings.decimals_place.unzip();
         FormatOption { name: "decimals", value: self.settings.decimals.to_string(), line, column }

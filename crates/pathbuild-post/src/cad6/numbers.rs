@@ -30,9 +30,9 @@ pub(super) enum Form {
 /// A C format. Flags, width and precision are an extension of pathbuild, because their notation in CAD6 is unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct CForm {
-    /// Pad with blanks on the right instead of the left.
+    /// Whether blanks are added on the right instead of the left.
     left: bool,
-    /// Pad with zeros instead of blanks.
+    /// Whether zeros are added instead of blanks.
     zeros: bool,
     width: usize,
     precision: Option<usize>,

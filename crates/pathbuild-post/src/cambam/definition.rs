@@ -148,7 +148,7 @@ impl Definition {
         self.options.number_format.always_has_point()
     }
 
-    /// The option that determines how numbers are written.
+    /// Returns the option that determines how numbers are written, for messages.
     pub(crate) fn format_option(&self) -> FormatOption {
         let stated = self.number_format.as_ref();
         let value = stated.map_or_else(|| "0.0###".to_owned(), |(text, _)| text.to_string());

@@ -50,7 +50,7 @@ impl Machine {
         }
     }
 
-    /// Whether a motion is active.
+    /// Whether this motion or cycle is the active one.
     pub(super) fn is_in(&self, (number, _): Code) -> bool {
         self.motion == Some(number * 10)
     }

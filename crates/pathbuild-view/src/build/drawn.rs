@@ -83,7 +83,7 @@ struct ElementBuilder<'a> {
     path: u32,
     /// Effective parameters of each element.
     in_force: BTreeMap<ElementId, &'a [InForceParameter]>,
-    /// The parameters of the previous element, and their form in the scene.
+    /// The parameters of the previous element, and their form in the scene, which the next element shares if it has the same ones.
     last: (&'a [InForceParameter], sync::Arc<[Parameter]>),
 }
 

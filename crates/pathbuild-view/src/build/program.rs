@@ -281,7 +281,7 @@ struct Finder {
 }
 
 impl Finder {
-    /// Drops the matched moves once there are many of them.
+    /// Drops the moves that are already matched, once there are many of them, to save memory.
     fn forget(&mut self) {
         if self.next >= MAX_SEARCHED_MOVES {
             self.written.drain(..self.next);

@@ -41,8 +41,8 @@ const SEARCH_PIECE: f64 = 0.25;
 /// Maximum number of pieces of a rapid move.
 const MOST_PIECES: f64 = 400.0;
 
-/// Maximum number of strokes that are painted at once. The time for the pixels of a path grows with the square of its strokes, and the memory
-/// with their number.
+/// Maximum number of strokes that are combined to one SVG path. The time for rendering a path grows with the square of its strokes, and
+/// the memory with their number.
 const MOST_AT_ONCE: usize = 512;
 
 /// The cuts of a scene, and the stock that surrounds them.
@@ -262,7 +262,7 @@ impl<'s> MilledStock<'s> {
         canvas.path(&all, &format!("fill=\"{UNTOUCHED_COLOUR}\""));
     }
 
-    /// Paints strokes that look alike at once, up to [`MOST_AT_ONCE`].
+    /// Draws strokes, combining consecutive ones that look alike to a single path, up to [`MOST_AT_ONCE`].
     fn strokes(&self, canvas: &mut Canvas, place: &PageTransform, strokes: &[Stroke]) {
         let mut all = String::new();
         let mut count = 0;

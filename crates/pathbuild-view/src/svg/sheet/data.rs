@@ -58,7 +58,7 @@ pub struct SheetTool {
     pub name: Option<String>,
     /// Spindle speed in revolutions per minute.
     pub speed: Option<f64>,
-    /// Whether the spindle turns clockwise.
+    /// Whether the spindle turns clockwise; `None` if the configuration does not state it.
     pub clockwise: Option<bool>,
     /// Number of cutting edges.
     pub flutes: Option<u32>,
