@@ -25,7 +25,7 @@ pub struct Diagnostic {
     pub notes: Vec<Note>,
     /// File that the diagnostic is about. Stages that know no files leave it empty, and their callers fill it in.
     pub file: Option<Utf8PathBuf>,
-    /// Name of the path that the diagnostic is about, as written in the drawing.
+    /// Name of the milling path that the diagnostic is about, as written in the drawing.
     pub path: Option<Box<str>>,
     /// Place in the file.
     pub place: Place,
@@ -105,19 +105,19 @@ impl Diagnostic {
         self.with(name, Value::quoted(text))
     }
 
-    /// Adds a note.
+    /// Adds a note with the values of its arguments.
     pub fn note(mut self, message: &'static Message, arguments: Vec<(&'static str, Value)>) -> Self {
         self.notes.push(Note { message, arguments });
         self
     }
 
-    /// Sets the file.
+    /// Sets the file that the diagnostic is about.
     pub fn in_file(mut self, file: &Utf8Path) -> Self {
         self.file = Some(file.to_owned());
         self
     }
 
-    /// Sets the path.
+    /// Sets the name of the milling path that the diagnostic is about.
     pub fn in_path(mut self, path: &str) -> Self {
         self.path = Some(path.into());
         self

@@ -80,7 +80,7 @@ pub enum Value {
     Quoted(Box<str>),
     /// A length in mm, or a feed in mm/min.
     Number(Number),
-    /// A count.
+    /// A number of things, without a unit.
     Count(u64),
     /// A point in the drawing.
     Point(Point),

@@ -380,7 +380,7 @@ pub fn reference_table(name: &str, lang: Lang) -> Option<Vec<Row>> {
 pub enum Language {
     /// A CamBam definition (.cbpp).
     CamBam,
-    /// Control texts (.toml).
+    /// A TOML file with control texts, as in CAD6.
     Cad6,
     /// The native writer itself. No definition can express its drillings without F, its correction formulas and its statistics.
     Native,

@@ -76,7 +76,7 @@ pub(crate) struct EngineOutput {
     pub(crate) shadow: TranslatedText,
     /// The origin of each line.
     pub(crate) origins: Vec<LineOrigin>,
-    /// Doubtful constructs.
+    /// Warnings about doubtful constructs in the definition or the text.
     pub(crate) warnings: Vec<Diagnostic>,
     /// Notes on functions that the job switches but the text does not.
     pub(crate) notes: Vec<Note>,

@@ -125,9 +125,9 @@ impl Job {
 /// The feeds of an operation, in mm/min.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Feeds {
-    /// Feed downwards.
+    /// Feed downwards; `None` if the job specifies none.
     pub(super) plunge: Option<f64>,
-    /// Feed in the plane.
+    /// Feed in the plane; `None` if the job specifies none.
     pub(super) cut: Option<f64>,
 }
 
@@ -336,7 +336,7 @@ pub enum JobStep {
     Move(Move),
     /// A hole, regardless of how it is drilled.
     Hole(Hole),
-    /// A dwell.
+    /// A pause of the machine.
     Dwell {
         /// Duration in seconds.
         seconds: f64,
@@ -362,21 +362,21 @@ pub struct Hole {
     pub exit: f64,
     /// Feed downwards in mm/min, if it is known.
     pub feed: Option<f64>,
-    /// How the bottom is reached.
+    /// Method of drilling.
     pub kind: HoleKind,
 }
 
-/// How a hole is drilled.
+/// The methods of drilling a hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HoleKind {
-    /// In one go.
+    /// The hole is drilled in one go.
     Plain,
-    /// In one go, followed by a dwell at the bottom.
+    /// The hole is drilled in one go, with a dwell at the bottom.
     Dwell {
         /// Duration in seconds.
         seconds: f64,
     },
-    /// In several pecks. After each, the tool is retracted out of the hole.
+    /// The hole is drilled in several pecks. After each, the tool is retracted out of the hole.
     Peck {
         /// Depth of a peck in mm, greater than 0.
         depth: f64,

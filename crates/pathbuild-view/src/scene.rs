@@ -259,7 +259,7 @@ pub struct Label {
     /// Centre of the circle by which the text is matched with elements.
     #[serde(serialize_with = "point")]
     pub at: Point,
-    /// The radius of that circle.
+    /// Radius in mm of the circle by which the text is matched with elements.
     #[serde(serialize_with = "millimetres")]
     pub radius: f64,
     /// Height of a line of the text in mm.

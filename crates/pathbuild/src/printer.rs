@@ -171,7 +171,7 @@ impl Printer {
         }
     }
 
-    /// Prints rendered diagnostics.
+    /// Prints rendered diagnostics. On stderr, they are suppressed with `-qq`.
     pub fn diagnostics(&self, stream: Stream, text: &RenderedText) {
         if stream == Stream::Stdout || self.verbosity >= Verbosity::Quiet {
             self.write(stream, text.as_str());

@@ -431,15 +431,16 @@ pub(super) struct Call<'a> {
 /// The action that a called text must write.
 #[derive(Debug)]
 pub(super) enum CallContent<'a> {
-    /// Moves to the start of a contour at safety height (`clearance`), by rapid down to working height, and at feed down to `at`.
+    /// Moves to the start of a contour at safety height (`clearance`), by rapid down to working height, and at feed down to `at`. Heights
+    /// are in mm.
     Start { at: Point, clearance: f64, working: f64, feed: Option<f64> },
-    /// A straight element.
+    /// Cuts a straight element of a contour.
     Line { to: Point, feed: Option<f64>, place: ContourPosition },
-    /// A circular element.
+    /// Cuts a circular element of a contour.
     Arc { movement: Move, place: ContourPosition },
     /// Retracts from the end of a contour.
     End { clearance: f64 },
-    /// A hole.
+    /// Drills a hole, from and to the height `clearance` in mm.
     Hole { hole: Hole, clearance: f64 },
     /// A rapid move that does not lead to a contour.
     Rapid { to: Point },

@@ -299,7 +299,7 @@ impl ControlTextReader<'_> {
     }
 }
 
-/// What programs a definition is able to write, derived from which control texts it has and which variables they use.
+/// The abilities of a definition, which depend on the control texts that it has and the variables that these use.
 #[derive(Clone, Copy)]
 #[expect(clippy::struct_excessive_bools, reason = "each is about a text of its own")]
 pub(super) struct Abilities {

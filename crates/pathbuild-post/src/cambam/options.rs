@@ -38,7 +38,7 @@ pub(super) struct Options {
     pub(super) extension: Box<str>,
 }
 
-/// How lines are numbered.
+/// Settings for numbering the lines of the output.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Numbering {
     pub(super) start: u32,

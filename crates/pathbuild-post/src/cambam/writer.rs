@@ -23,7 +23,7 @@ pub(super) type WriteResult = Result<(), Box<Diagnostic>>;
 /// Maximum nesting depth of user macros, and also of sections.
 const MOST_DEPTH: usize = 16;
 
-/// Writes a program.
+/// Expands the templates of a plan to the text of a program.
 pub(super) struct Writer<'a> {
     pub(super) plan: &'a Plan<'a>,
     pub(super) machine: Machine,
@@ -140,7 +140,7 @@ impl<'a> Writer<'a> {
         millimetres / self.plan.unit()
     }
 
-    /// Formats a length.
+    /// Formats a length in the output unit.
     pub(super) fn length(&self, millimetres: f64) -> String {
         self.number_format().format(self.scaled(millimetres))
     }

@@ -20,7 +20,7 @@ use crate::scene::{
 pub struct DrawnSource<'a> {
     /// Display name of the drawing that contains the path.
     pub file: &'a str,
-    /// The drawn elements.
+    /// Elements of the path as read from the drawing.
     pub raw: &'a RawPath,
     /// Positions of the elements in the drawing's file.
     pub positions: &'a SourceMap,

@@ -205,7 +205,7 @@ impl Room {
         Self { area, taken: BTreeSet::new(), lines: Vec::new() }
     }
 
-    /// Occupies a rectangle.
+    /// Marks the cells of a rectangle as occupied.
     pub(super) fn take(&mut self, rectangle: Rectangle) {
         self.taken.extend(self.cells(rectangle));
     }

@@ -60,7 +60,7 @@ fn state_word(context: &Context, written: WriteOutcome) -> &'static str {
     }
 }
 
-/// Runs a command.
+/// Runs a command and returns its exit status.
 pub fn run(context: &Context, command: &Command) -> ExitStatus {
     if let Some(refusal) = format_refusal(context, command) {
         return refuse(context, &refusal);

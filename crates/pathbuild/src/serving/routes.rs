@@ -28,7 +28,7 @@ use super::endpoint::{Endpoint, random};
 use super::endpoint::{HEADERS, PROGRAM, admit, method};
 use super::hub::{AnswerForm, Hub, Subject};
 
-/// State of the routes.
+/// State that all routes share.
 pub(super) struct Routes {
     endpoint: Endpoint,
     hub: Arc<Hub>,
