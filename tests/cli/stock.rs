@@ -1,4 +1,4 @@
-//! The still of the stock (`view --stock`) against heights that are calculated exactly, move by move. (book: program/pictures)
+//! Compares the picture of the stock (`view --stock`) with heights that are calculated exactly, move by move. (book: program/pictures)
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -15,17 +15,17 @@ use crate::support::{self, Place};
 
 type Point = [f64; 2];
 
-/// Distance in px within which the still may show what is beside a point. A circle is drawn as two halves with their radius; rounding both
-/// to hundredths of a pixel moves their middle by up to a pixel.
+/// Distance in px within which the picture may show the colour of a neighbouring point. A circle is drawn as two halves with their radius; rounding
+/// both to hundredths of a pixel moves their middle by up to a pixel.
 const ROUNDED: f64 = 1.1;
 
 /// Width in px of the line along the edges of cuts.
 const EDGE_WIDTH: f64 = 0.7;
 
-/// Number of steps into which the still divides the deepest slope. A step has the height of its upper end.
+/// Number of steps into which the picture divides the deepest slope. A step has the height of its upper end.
 const STEPS: f64 = 64.0;
 
-/// Number of shades of the least and the greatest depth in red.
+/// Difference between the red components of the colours for the least and the greatest depth.
 const SHADES: f64 = 115.0 - 189.0;
 
 /// A move with the cutter and the stock under it, in the coordinates of the drawing.
@@ -37,7 +37,7 @@ struct StockMove {
     radius: f64,
     top: f64,
     through: f64,
-    /// The corners of a box round its course.
+    /// Lower left and upper right corner of the bounding box of the tool's course.
     extent: [Point; 2],
 }
 
@@ -47,7 +47,7 @@ struct TurningMove {
     angle: f64,
 }
 
-/// What is at a point when all moves are done.
+/// The exact state of the stock at a point after all moves.
 #[derive(Clone, Copy, Debug)]
 struct Exact {
     height: f64,
@@ -57,7 +57,7 @@ struct Exact {
 }
 
 impl StockMove {
-    /// The move of a scene; `None` for one that probes, or whose position is not known.
+    /// Reads a move of a scene; returns `None` for a probing move, or if the position is not known.
     fn of(scene: &Value, path: &Value, movement: &Value) -> Option<Self> {
         let kind = movement["kind"].as_str()?;
         let zero = point(&path["zero"])?;
@@ -96,7 +96,7 @@ impl StockMove {
         x > low[0] - reach && x < high[0] + reach && y > low[1] - reach && y < high[1] + reach
     }
 
-    /// The heights of the tip where the cutter reaches a point and where it leaves it again.
+    /// Returns the heights of the tip when the cutter reaches a point and when it leaves the point again.
     fn heights_over(&self, at: Point) -> Vec<[f64; 2]> {
         let shares = match &self.arc {
             Some(arc) => arc.over(self.flat(), at, self.radius),
@@ -116,14 +116,14 @@ impl StockMove {
 }
 
 impl TurningMove {
-    /// The angle from one point to another in the direction of the move.
+    /// Returns the angle from one point to another, in the direction of the move.
     fn turned(&self, from: Point, to: Point) -> f64 {
         let direction = |at: Point| libm::atan2(at[1] - self.centre[1], at[0] - self.centre[0]);
         let angle = direction(to) - direction(from);
         (if self.clockwise { -angle } else { angle }).rem_euclid(TAU)
     }
 
-    /// The shares of the move, from 0 to 1, between which a cutter is over a point.
+    /// Returns the shares of the move, from 0 to 1, between which a cutter is over a point.
     fn over(&self, [from, _]: [Point; 2], at: Point, radius: f64) -> Vec<[f64; 2]> {
         let (own, away) = (distance(self.centre, from), distance(self.centre, at));
         if away > own + radius || away < own - radius {
@@ -139,7 +139,7 @@ impl TurningMove {
     }
 }
 
-/// The corners of a box round a course.
+/// Returns the corners of the bounding box of a course.
 fn extent([from, to]: [Point; 2], arc: Option<&TurningMove>) -> [Point; 2] {
     let mut all = vec![from, to];
     if let Some(arc) = arc {
@@ -153,7 +153,7 @@ fn extent([from, to]: [Point; 2], arc: Option<&TurningMove>) -> [Point; 2] {
     [[side(0, f64::min), side(1, f64::min)], [side(0, f64::max), side(1, f64::max)]]
 }
 
-/// The shares of a line, from 0 to 1, between which a cutter is over a point.
+/// Returns the shares of a line, from 0 to 1, between which a cutter is over a point.
 fn line_over([from, to]: [Point; 2], at: Point, radius: f64) -> Option<[f64; 2]> {
     let length = distance(from, to);
     if length == 0.0 {
@@ -172,15 +172,15 @@ struct ExactStock {
     moves: Vec<StockMove>,
     top: f64,
     low: f64,
-    /// The corners of the stock.
+    /// Lower left and upper right corner of the stock.
     blank: [Point; 2],
 }
 
-/// Material less than this above a rapid move, in mm, is attributed to rounding.
+/// Height in mm of material above a rapid move that is attributed to rounding.
 const RESIDUE: f64 = 0.002;
 
 impl ExactStock {
-    /// The stock of a scene; `None` if it has several upper faces.
+    /// Reads the stock of a scene; returns `None` if it has several upper faces.
     fn of(scene: &Value) -> Option<Self> {
         let mut moves = Vec::new();
         for path in scene["paths"].as_array().unwrap() {
@@ -202,12 +202,12 @@ impl ExactStock {
         has_one_top.then_some(Self { moves, top, low, blank })
     }
 
-    /// What is at a point when all moves are done.
+    /// Returns the state of the stock at a point after all moves.
     fn at(&self, at: Point) -> Exact {
         let mut exact = Exact { height: self.top, through: f64::NEG_INFINITY, is_hit: false };
         for movement in self.moves.iter().filter(|movement| movement.is_near(at, 0.0)) {
             for [from, to] in movement.heights_over(at) {
-                // Of a slope that descends rapidly, the highest place counts.
+                // On a slope that descends rapidly, the highest position counts.
                 let rapid =
                     if movement.is_vertical() { from.min(to) } else { movement.from[2].max(movement.to[2]) };
                 if !movement.is_rapid && from.min(to) < exact.height {
@@ -220,14 +220,14 @@ impl ExactStock {
         exact
     }
 
-    /// What is at a point, and close beside it.
+    /// Returns the exact state at a point and close beside it.
     fn around(&self, at: Point, away: f64) -> Vec<Exact> {
         let beside = ring(at, away).into_iter().chain(ring(at, away / 2.0));
         std::iter::once(at).chain(beside).map(|at| self.at(at)).collect()
     }
 }
 
-/// Points round another one.
+/// Returns points around another one.
 fn ring([x, y]: Point, away: f64) -> [Point; 16] {
     std::array::from_fn(|number| {
         let (sin, cos) = libm::sincos(TAU * number as f64 / 16.0);
@@ -235,7 +235,7 @@ fn ring([x, y]: Point, away: f64) -> [Point; 16] {
     })
 }
 
-/// Something painted: a stroke along a course.
+/// A stroke of the picture, along a course.
 struct Stroke {
     color: String,
     radius: f64,
@@ -247,12 +247,12 @@ enum StrokePiece {
     Arc([Point; 2], TurningMove),
 }
 
-/// A still, as its SVG paints it.
+/// A picture of the stock, as its SVG paints it.
 struct Still {
     strokes: Vec<Stroke>,
-    /// The upper left corner of the stock in px.
+    /// Upper left corner of the stock in px.
     corner: Point,
-    /// Px per mm.
+    /// Scale in px per mm.
     scale: f64,
     blank: [Point; 2],
 }
@@ -283,7 +283,7 @@ impl Still {
         }
     }
 
-    /// The colour at a point of the drawing; `None` where nothing is cut.
+    /// Returns the colour at a point of the drawing; `None` where nothing is cut.
     fn color(&self, [x, y]: Point) -> Option<&str> {
         let at = [
             self.corner[0] + (x - self.blank[0][0]) * self.scale,
@@ -303,7 +303,7 @@ impl StrokePiece {
     }
 }
 
-/// The commands of a path's data with their numbers.
+/// Splits a path's data into its commands, each with its numbers.
 fn commands(data: &str) -> Vec<(char, Vec<f64>)> {
     let begins = data.char_indices().filter(|(_, letter)| letter.is_ascii_uppercase());
     let begins: Vec<(usize, char)> = begins.collect();
@@ -332,7 +332,7 @@ fn pieces(data: &str) -> Vec<StrokePiece> {
     all
 }
 
-/// An arc of at most half a turn. Y points down on the page.
+/// Returns an arc of at most half a turn. Y points down on the page.
 fn half_circle([from, to]: [Point; 2], radius: f64, is_clockwise: bool) -> StrokePiece {
     let chord = distance(from, to);
     let radius = radius.max(chord / 2.0);
@@ -352,7 +352,7 @@ const THROUGH: &str = "#ccd6e0";
 const EDGE: &str = "#4a3012";
 const WRONG: &str = "#e50d1a";
 
-/// What may be wrong about the colour of a point; `None` if nothing.
+/// Describes what is wrong about the colour of a point; `None` if nothing is.
 fn fault(still: &Still, exact: &ExactStock, at: Point) -> Option<String> {
     let step = ((exact.top - exact.low) / STEPS).max(1e-3);
     let shade = (exact.top - exact.low) / SHADES.abs();
@@ -390,17 +390,17 @@ fn fault(still: &Still, exact: &ExactStock, at: Point) -> Option<String> {
     (!around.iter().any(is_right)).then(|| format!("{color} at {:?}", around[0]))
 }
 
-/// Distance in mm from the border of what a rapid move hits within which the map that looks for it may be wrong.
+/// Distance in mm from the edge of a collision within which the picture may be wrong, because rapid moves into material are found on a coarse map.
 const WIDE: f64 = 0.4;
 
-/// Whether a rapid move hits material within reach of a piece that is drawn red as a whole.
+/// Whether a rapid move hits material near a point. A piece of such a move is drawn red as a whole.
 fn is_hit_near(exact: &ExactStock, [x, y]: Point) -> bool {
     let reach = exact.moves.iter().map(|movement| movement.radius).fold(0.0, f64::max) * 2.5;
     let grid = || (-20..=20).map(|step| reach * f64::from(step) / 20.0);
     grid().any(|dx| grid().any(|dy| exact.at([x + dx, y + dy]).is_hit))
 }
 
-/// Random points of the stock: everywhere, and near the cuts.
+/// Random points of the stock: some anywhere, some near the cuts.
 struct Points {
     state: u64,
 }
@@ -427,14 +427,14 @@ impl Points {
     }
 }
 
-/// What is given for a program of other origin.
+/// Cutter and surface for a program of other origin.
 #[derive(Clone, Copy)]
 struct Given {
     cutter: f64,
     surface: f64,
 }
 
-/// Compares the still of a program with its exact heights. Returns the number of points that are through, cut, untouched and hit, or `None`
+/// Compares the picture of a program with its exact heights. Returns the numbers of points that are cut through, cut, untouched and hit, or `None`
 /// for a program with several upper faces.
 fn compare(place: &Place, name: &str, given: Option<Given>, points: &mut Points) -> Option<[usize; 4]> {
     let options = given.map(|Given { cutter, surface }| format!("--cutter {cutter} --surface {surface} "));
@@ -479,7 +479,7 @@ fn distance(one: Point, other: Point) -> f64 {
     libm::hypot(other[0] - one[0], other[1] - one[1])
 }
 
-/// A program with cuts at all heights, slopes, arcs and rapid moves, some of which run through material.
+/// Returns a program with cuts at all heights, slopes, arcs and rapid moves, some of which run through material.
 fn random_program(points: &mut Points) -> String {
     let mut text = String::from("G21 G90 G17 G94\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\n");
     let mut at: Point = [0.0; 2];
@@ -497,7 +497,7 @@ fn random_program(points: &mut Points) -> String {
                 continue;
             }
             5 => {
-                // Half a turn.
+                // The arc is half a turn.
                 let (i, j) = (round(-6.0, 6.0), round(1.0, 6.0));
                 let to = [at[0] + 2.0 * i, at[1] + 2.0 * j];
                 _ = writeln!(text, "G3 X{:.3} Y{:.3} I{i} J{j} Z{z}", to[0], to[1]);
@@ -530,7 +530,7 @@ fn the_still_shows_the_exact_heights() {
     }
     for number in 0..12 {
         let place = Place::new().file("a.nc", random_program(&mut points));
-        // Cuts at or below Z0 go through where the upper face lies above it.
+        // Cuts at or below Z0 go through if the upper face lies above it.
         let given = Given { cutter: 3.0, surface: f64::from(number % 2) };
         all.extend(compare(&place, "a.nc", Some(given), &mut points));
     }

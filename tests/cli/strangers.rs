@@ -41,7 +41,7 @@ fn place(kind: &str, name: &str) -> Place {
     place
 }
 
-/// Runs a command on a tree in which a name is each kind of special file.
+/// Runs a command on trees in which a name is each kind of special file in turn.
 #[track_caller]
 fn each(name: &str, command: &str, status: i32, expected: &str) {
     for kind in KINDS {
@@ -68,7 +68,7 @@ fn a_file_of_rules_must_be_a_file() {
     each(".gitignore", "emit .", 1, "not a regular file");
 }
 
-/// Writing never waits for the reader of a pipe; an existing reader gets everything.
+/// Writing to a pipe without a reader fails at once; an existing reader gets everything.
 #[test]
 fn a_report_into_a_pipe_has_a_reader_or_is_refused() {
     for arguments in ["--report json=pipe", "--baseline pipe --update-baseline"] {
@@ -79,7 +79,7 @@ fn a_report_into_a_pipe_has_a_reader_or_is_refused() {
     let place = place("fifo", "pipe");
     let reader =
         Command::new("cat").arg("pipe").current_dir(place.path()).stdout(Stdio::piped()).spawn().unwrap();
-    // It is a reader once it runs.
+    // The process reads from the pipe only after it has started.
     let written = (0..100).any(|_| {
         std::thread::sleep(Duration::from_millis(50));
         place.run("check 1202.1P.dxf --report json=pipe").status == Some(0)
@@ -112,7 +112,7 @@ fn a_configuration_must_be_a_file() {
 fn what_is_written_over_must_be_a_file() {
     each("1202.1P_Milling.gcode", "emit .", 1, "PB004");
     each("1202.1P_Milling.gcode", "emit --check .", 1, "not current");
-    // Special files of other names are not our programs.
+    // Special files that do not have the name of a program are left alone.
     each("x_Milling.gcode", "emit .", 0, "written");
 }
 
@@ -126,7 +126,7 @@ fn what_else_is_named_must_be_a_file() {
     each("out.ngc", "post 1202.1P.dxf --post linuxcnc -o out.ngc", 1, "PB");
 }
 
-/// A picture of a drawing that cannot be read would be an empty one.
+/// A drawing that cannot be read is an error, since its picture would be empty.
 #[test]
 fn what_cannot_be_read_is_not_drawn() {
     for extension in ["svg", "html", "json"] {
@@ -137,7 +137,7 @@ fn what_cannot_be_read_is_not_drawn() {
         let run = place.run("view 1202.1P.dxf -o b.svg");
         assert!(run.stderr.contains("PB001") && !run.stderr.contains("b.svg"), "{kind}: {run}");
         assert_eq!(place.read("b.svg"), "before");
-        // The other way round it is the picture that cannot be written.
+        // Now the picture cannot be written.
         let place = self::place(kind, "b.svg");
         let run = place.run("view 1202.1P.dxf -o b.svg");
         assert!(run.stderr.contains("PB004") && !run.stderr.contains("written\n"), "{kind}: {run}");
@@ -150,7 +150,7 @@ fn what_cannot_be_read_is_not_drawn() {
     }
 }
 
-/// One input just inside a limit, and one just outside.
+/// Each limit is tested with one input just inside and one just outside.
 #[test]
 fn files_have_limits_with_names() {
     let place = |rules: &str| {
@@ -180,7 +180,7 @@ fn files_have_limits_with_names() {
     assert!(configuration((4 << 20) + 1).stderr.contains("PB003"));
 }
 
-/// The meaning of ignore rules in our own directory walk: names, negation, directories, hidden names, rules of nested repositories.
+/// Tests ignore rules in our own directory walk: names, negation, directories, hidden names, rules of nested repositories.
 #[test]
 fn rules_say_what_counts() {
     let place = Place::new()
@@ -227,14 +227,14 @@ fn rules_say_what_counts() {
     );
 }
 
-/// A directory whose path is too long for the system cannot be listed: its content is not skipped silently.
+/// A directory whose path is too long for the system cannot be listed. This is reported instead of skipping its content.
 #[test]
 fn directories_too_deep_for_the_system_are_told() {
     for (depth, status) in [(2, 0), (10, 1)] {
         let place = Place::new().file("1202.1P.dxf", dxf());
         let below = |levels: usize| place.path().join(vec!["d".repeat(200); levels].join("/"));
         fs::create_dir_all(below(depth)).unwrap();
-        // The system does not accept a longer name at once.
+        // The system does not accept the long path at once, so it is built by renaming.
         let aside = place.path().join("aside");
         fs::rename(below(1), &aside).unwrap();
         fs::create_dir_all(below(15)).unwrap();
@@ -265,7 +265,7 @@ fn globs_and_expressions_that_go_too_deep_are_refused() {
     assert_eq!(place.run("config show").status, Some(0));
 }
 
-/// Faults of a configuration, on many lines and on a single one: the cost of each does not grow with the file.
+/// A configuration has many faults, on many lines or on a single one: the cost of each does not grow with the file.
 #[test]
 fn a_configuration_of_many_faults_takes_no_square_of_them() {
     let entries: Vec<String> = (0..5_000).map(|key| format!("unknown{key} = \"error\"")).collect();
@@ -299,7 +299,7 @@ fn a_time_limit_ends_in_its_code() {
     }
 }
 
-/// A killed run holds no lock: its leftovers are removed by the next run, but files being written by others stay.
+/// A killed run holds no lock, so the next run removes the files that it left; files that others are writing stay.
 #[test]
 fn what_killed_runs_left_goes_with_the_next_run() {
     let place = Place::new()

@@ -1,5 +1,5 @@
-//! Programs with subprograms and loops: those of the same file count wherever they are called, and nothing is claimed of the lengths and times
-//! of others. (book: program/reading, "Subprograms")
+//! Tests programs with subprograms and loops: those in the same file count wherever they are called. If others are called, no lengths and times are
+//! claimed. (book: program/reading, "Subprograms")
 
 use crate::support::Place;
 
@@ -76,7 +76,7 @@ fn a_program_of_a_drawing_calls_nothing() {
     assert_eq!(run.status, Some(0), "{run}");
     let good = place.read("out/1234_Milling.ngc");
     let cut = good.lines().find(|line| line.contains("X40")).unwrap();
-    // The moves are the same, but whether the control finds the same subroutine is not known.
+    // The moves are the same, but the control may find another subroutine of that name.
     let called = good.replacen(cut, &format!("o7 sub\n{cut}\no7 endsub\no7 call"), 1);
     let place = place.file("good.ngc", good).file("called.ngc", called);
     let run = place.run("verify good.ngc --against 1234.1P");

@@ -1,10 +1,10 @@
-//! `texts`: the table of effective parameters of each element, and their origins.
+//! Tests `texts`, which prints a table of the effective parameters of each element, and their origins.
 
 use serde_json::Value as Json;
 
 use crate::support::Place;
 
-/// A path with a chain, a helical circle, a sweep with its own S, a subpath and a probe; and one that borrows its parameters.
+/// A path with a chain, a helical circle, a sweep with its own S, a subpath and a probe, and a second path.
 const DRAWING: &str = "layer 1234.1P\nstart 0,0 \"T5 O2 B0 F150 M20x2\"\nmill 0,0 20,0 \"I1 B0,5\"\n\
     mill 20,0 40,0\nsweep 40,0 60,0 \"S12\"\nmill circle 60,0 d 6 \"I2\"\nsweep 60,0 80,0\nsubpath 80,0 100,0 \">1234.2P\"\n\
     probe 10,10 \"H1\"\nend 100,0\n\
@@ -15,7 +15,7 @@ fn place(configuration: &str) -> Place {
     Place::new().file("1234.dxf", drawing.to_dxf()).file("pathbuild.toml", configuration)
 }
 
-/// The source of a value, an option or a line of the configuration, is stated: in both languages, on the screen and in what the page shows.
+/// The origin of a value, an option or a line of the configuration, is stated in both languages, in the terminal and on the page.
 #[test]
 fn a_value_says_whether_an_option_or_the_configuration_gives_it() {
     let place = place("rapid = 1000\nsweep-height = 20\n");
@@ -40,7 +40,7 @@ fn a_value_says_whether_an_option_or_the_configuration_gives_it() {
     assert!(lines.contains(&("sweep-height", Some(2))) && lines.contains(&("probe-feed", None)), "{lines:?}");
 }
 
-/// The effective parameters of the element at a place: letter, value and origin.
+/// Returns the effective parameters of the element at a position: letter, value and origin.
 fn in_force(place: &Place, at: [f64; 2], element: &str) -> Vec<String> {
     let run = place.run("texts 1234.dxf --format json");
     assert_eq!(run.status, Some(0), "{run}");
@@ -65,7 +65,7 @@ fn each_parameter_says_where_it_comes_from() {
         in_force(&place, [0.0, 0.0], segment),
         [&["B0.5 own", "F150 path", "I1 own"], &of_path[..]].concat()
     );
-    // I of a chain comes from its first segment; B from each segment.
+    // I of a chain comes from its first segment, and B from each segment.
     assert_eq!(
         in_force(&place, [20.0, 0.0], segment),
         [&["B0 path", "F150 path", "I1 chain"], &of_path[..]].concat()
@@ -105,7 +105,7 @@ fn without_options_defaults_hold() {
     assert!(probe.contains(&"Z150 path".to_owned()), "{probe:?}");
 }
 
-/// The same drawing gives the same feeds as its program: with --compatible, probes do not use the path's F.
+/// A drawing has the same feeds as its program: with --compatible, probes do not use the path's F.
 #[test]
 fn probing_feeds_are_those_of_the_program() {
     let feed = |configuration: &str| in_force(&place(configuration), [10.0, 10.0], "a Z-probe").pop();

@@ -1,5 +1,5 @@
-//! `--untrusted`, and the user's own configuration: what an untrusted tree may set, read and write. Each rule has one case just inside and
-//! one just outside. (book: reference/configuration)
+//! Tests `--untrusted` and the user's own configuration: what an untrusted tree may set, read and write. Each rule has one case just inside and one
+//! just outside. (book: reference/configuration)
 #![cfg(unix)]
 
 use std::fs;
@@ -17,7 +17,7 @@ pub(crate) fn dxf(name: &str) -> Vec<u8> {
     sheet(&drawn).unwrap().to_dxf()
 }
 
-/// A repository in the directory `tree` with its configuration in `tree/work`; there are drawings in it and outside.
+/// Creates a repository in the directory `tree` with its configuration in `tree/work`, and drawings inside and outside.
 fn repository(more: &str) -> Place {
     Place::new()
         .file("tree/.git/HEAD", "ref: refs/heads/main\n")
@@ -31,7 +31,7 @@ fn run(place: &Place, arguments: &str) -> Run {
     place.run_in("tree/work", &arguments.split_whitespace().collect::<Vec<_>>())
 }
 
-/// A configuration that is valid in trusted and in untrusted trees.
+/// Asserts that a configuration is valid in trusted and in untrusted trees.
 #[track_caller]
 fn inside(more: &str) {
     for option in ["", " --untrusted"] {
@@ -40,7 +40,7 @@ fn inside(more: &str) {
     }
 }
 
-/// A configuration that is valid in trusted trees only.
+/// Asserts that a configuration is valid in trusted trees only.
 #[track_caller]
 fn outside(more: &str, expected: &str) {
     assert_eq!(run(&repository(more), "config show").status, Some(0), "{more}");
@@ -100,7 +100,7 @@ fn links_of_a_strangers_configuration_lead_into_its_repository() {
     }
 }
 
-/// A drawing, an ignore file, a program, a post definition and a directory that are links.
+/// A drawing, an ignore file, a program, a post definition and a directory are links.
 #[test]
 fn links_that_lead_out_are_not_read() {
     let outside = "it leads out of the repository, which is not trusted";
@@ -141,7 +141,7 @@ fn links_that_lead_out_are_not_read() {
     }
 }
 
-/// As in a trusted tree: the header of a program names its path.
+/// As in a trusted tree, the path is found by the header of the program.
 #[test]
 fn programs_that_are_older_than_a_strangers_drawing_are_told() {
     let wrong = "layer 1202.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 50,0";
@@ -154,8 +154,8 @@ fn programs_that_are_older_than_a_strangers_drawing_are_told() {
     }
 }
 
-/// The cached result of a trusted run for a linked drawing does not apply to an untrusted run, even if the drawing has not changed for a
-/// while and is not read again.
+/// The cached result of a trusted run for a linked drawing does not apply to an untrusted run, even if the drawing has not changed for a while and
+/// is not read again.
 #[test]
 fn kept_results_of_a_trusted_run_are_no_ones_of_a_stranger() {
     let place = repository("library = [\".\"]");
@@ -181,7 +181,7 @@ fn a_strangers_configuration_that_is_a_link_leads_into_its_repository() {
     }
 }
 
-/// Programs are only written in the repository: a directory on the way may be a link.
+/// Programs are written only inside the repository: a parent directory may be a link that leads out.
 #[test]
 fn nothing_is_written_through_links_that_lead_out() {
     for (target, status) in [("../parts", 0), ("../../outside", 1)] {
@@ -204,7 +204,7 @@ fn nothing_is_written_through_links_that_lead_out() {
     }
 }
 
-/// Paths on the command line are chosen by the user.
+/// Paths on the command line are chosen by the user, so they may lead anywhere.
 #[test]
 fn what_the_command_line_names_may_lie_anywhere() {
     let place = repository("").file("own.toml", CONFIGURATION);
@@ -257,7 +257,7 @@ fn posts_of_strangers_run_no_command() {
     }
 }
 
-/// Results from when the tree was trusted are not used.
+/// Results from a time when the tree was trusted are not used.
 #[test]
 fn what_is_known_of_ones_own_tree_is_not_known_of_a_strangers() {
     let place = repository("");
@@ -270,7 +270,7 @@ fn what_is_known_of_ones_own_tree_is_not_known_of_a_strangers() {
     }
 }
 
-/// `[trust] roots`: trees elsewhere are untrusted even without the option.
+/// With `[trust] roots`, trees elsewhere are untrusted even without the option.
 #[test]
 fn trees_that_do_not_lie_below_a_trusted_root_are_strangers() {
     for (root, status) in [("tree", 0), ("", 0), ("outside", 2), ("tree/work", 2)] {
@@ -278,12 +278,12 @@ fn trees_that_do_not_lie_below_a_trusted_root_are_strangers() {
         let root = place.path().canonicalize().unwrap().join(root);
         let place = place.users(&format!("[trust]\nroots = [\"/nowhere\", {:?}]\n", root.to_str().unwrap()));
         assert_eq!(run(&place, "check .").status, Some(status), "{}", root.display());
-        // The explicit option is always respected.
+        // The explicit option applies in trusted trees as well.
         assert_eq!(run(&place, "check . --untrusted").status, Some(2));
     }
 }
 
-/// Messages use the user's language, programs that of the tree.
+/// Messages are in the user's language, programs in that of the tree.
 #[test]
 fn a_persons_language_is_said_and_the_trees_is_written() {
     let place = repository("lang = \"en\"").users("lang = \"de\"\n");

@@ -1,4 +1,4 @@
-//! `--untrusted` with several trees, links between them, and a cache in one of them. (book: reference/configuration)
+//! Tests `--untrusted` with several trees, links between them, and a cache in one of them. (book: reference/configuration)
 #![cfg(unix)]
 
 use std::fs;
@@ -8,7 +8,7 @@ use std::time::Duration;
 use crate::support::{Place, Run};
 use crate::untrusted::{CONFIGURATION, dxf};
 
-/// Two repositories, `one` and `two`, and a drawing outside of both, to which a link in `two` leads.
+/// Creates two repositories, `one` and `two`, and a drawing outside of both, to which a link in `two` leads.
 fn trees() -> Place {
     let place = Place::new()
         .file("one/.git/HEAD", "")
@@ -26,7 +26,7 @@ fn assert_status(run: &Run, status: i32, code: &str) {
     assert_eq!((run.status, run.stderr.contains(code)), (Some(status), !code.is_empty()), "{run}");
 }
 
-/// The configuration may be the user's own while the tree of another argument is untrusted.
+/// The user's own configuration does not make the tree of another argument trusted.
 #[test]
 fn each_argument_is_confined_to_its_own_repository() {
     for arguments in ["check one two", "check two one", "check two", "--config own/pathbuild.toml check two"]
@@ -34,7 +34,7 @@ fn each_argument_is_confined_to_its_own_repository() {
         let run = trees().run(&format!("--untrusted {arguments}"));
         assert_eq!(run.status, Some(1), "{arguments}: {run}");
         assert!(run.stderr.contains("PB001") && run.stderr.contains("1204.1P.dxf"), "{arguments}: {run}");
-        // In a trusted tree, the link is like any other.
+        // In a trusted tree, the link is followed like any other.
         let run = trees().run(arguments);
         assert_eq!(run.status, Some(0), "{arguments}: {run}");
     }
@@ -52,7 +52,7 @@ fn one_tree_that_is_not_trusted_makes_the_run_untrusted() {
     assert_status(&trusting(&["two"]), 1, "PB001");
 }
 
-/// Otherwise a link in a tree would decide which tree is read and written.
+/// A link inside a repository does not decide which tree is read and written.
 #[test]
 fn a_link_in_a_repository_leads_to_no_other_one() {
     let place = || {
@@ -63,7 +63,7 @@ fn a_link_in_a_repository_leads_to_no_other_one() {
             .file("other/pathbuild.toml", CONFIGURATION)
             .file("other/1204.1P.dxf", dxf("1204.1P"));
         symlink("../other", place.path().join("tree/components")).unwrap();
-        // The user's own link to a tree, outside of any repository.
+        // The user's own link leads to a tree and is outside of any repository.
         symlink("other", place.path().join("mine")).unwrap();
         place
     };
@@ -83,7 +83,7 @@ fn a_cache_in_a_strangers_tree_is_not_used() {
         ("../cache", true),
         (".cache", false),
         ("link/cache", false),
-        // Links from outside that lead into the tree.
+        // These links are outside and lead into the tree.
         ("../alias/.cache", false),
         ("../outside/inner/deep/.cache", false),
         ("../alias/../cache", true),
@@ -104,13 +104,13 @@ fn a_cache_in_a_strangers_tree_is_not_used() {
         assert_eq!(found.status, Some(0), "{cache}: {found}");
         assert_eq!(found.stderr.contains("is not trusted"), !is_used, "{cache}: {found}");
         assert_eq!(place.path().join("tree").join(cache).exists(), is_used, "{cache}");
-        // In a trusted tree it is used wherever it is.
+        // In a trusted tree, the cache is used wherever it is.
         run("");
         assert!(place.path().join("tree").join(cache).exists(), "{cache}");
     }
 }
 
-/// The user's cache directory may be such a link, too.
+/// The user's cache directory may also be a link into such a tree.
 #[test]
 fn a_persons_cache_directory_in_a_strangers_tree_is_not_used() {
     let place = Place::new()
@@ -145,14 +145,14 @@ fn an_example_is_not_written_out_of_a_strangers_tree() {
     assert!(place.path().join("tree/components/2001.1P.dxf").exists(), "{run}");
 }
 
-/// A file has the same bytes and stamp behind a link.
+/// A file has the same bytes and stamp if it is reached by a link, so its cached result must not be used.
 #[test]
 fn what_is_known_of_a_drawing_is_not_known_of_it_behind_a_link() {
     let place = Place::new()
         .file("tree/.git/HEAD", "")
         .file("tree/pathbuild.toml", CONFIGURATION)
         .file("tree/sub/1202.1P.dxf", dxf("1202.1P"));
-    // Its stamp is cached once it has not changed for a while.
+    // The stamp of the file is cached only after it has not changed for a while.
     std::thread::sleep(Duration::from_secs(4));
     let check = || place.run_in("tree", &["--untrusted", "check", "sub/1202.1P.dxf"]);
     assert_eq!(check().status, Some(0));

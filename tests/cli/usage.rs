@@ -1,4 +1,4 @@
-//! Incorrect usage: the message, no side effects, exit status 2. (book: reference/commands)
+//! Tests incorrect usage: there is a message, no side effect, and exit status 2. (book: reference/commands)
 
 use std::ffi::OsString;
 
@@ -9,7 +9,7 @@ use clap::{CommandFactory, Parser};
 use insta::assert_snapshot;
 use pathbuild::args::Cli;
 
-/// The output without the list of commands, which is compared with the actual commands instead.
+/// Returns the output without the list of commands, which is compared with the actual commands instead.
 fn without_commands(run: &Run) -> String {
     let shown = run.to_string();
     let (before, rest) = shown.split_once("\nCommands:\n").expect("a list of commands");
@@ -128,7 +128,7 @@ fn a_full_disk_is_an_error() {
     assert!(String::from_utf8_lossy(&output.stderr).starts_with("error: cannot write to standard output"));
 }
 
-/// Only the given command is fully defined, unless there is an error in the command line.
+/// Normally, only the given command is fully defined; all are if there is an error in the command line. Messages must not differ.
 #[test]
 fn a_command_line_says_the_same_whatever_of_the_commands_is_defined() {
     let lines = [

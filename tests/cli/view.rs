@@ -1,4 +1,4 @@
-//! `view`: scenes, and pictures of them. (docs: "Pictures")
+//! Tests `view`: scenes, and pictures of them. (docs: "Pictures")
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -17,7 +17,7 @@ use crate::conformance::recorded::{self, Form, What};
 use crate::growth::drawings;
 use crate::support::{self, Place, Run};
 
-/// Statistics in a program's text are rounded to three decimals; here nothing is rounded.
+/// Tolerance for values in a scene, which are not rounded, unlike statistics in a program's text.
 const EXACT: f64 = 1e-4;
 
 fn scene(run: &Run) -> Value {
@@ -25,7 +25,7 @@ fn scene(run: &Run) -> Value {
     serde_json::from_str(&fs::read_to_string(run.arguments.rsplit(' ').next().unwrap()).unwrap()).unwrap()
 }
 
-/// What lies far away on other layers, or in texts and clamps, is not drawn, and must not take memory either.
+/// Elements far away on other layers, or in texts and clamps, are not drawn, and must not take memory either.
 #[test]
 #[cfg(all(target_os = "linux", feature = "pictures"))]
 fn a_png_takes_little_memory_wherever_things_lie() {
@@ -86,7 +86,7 @@ fn adds_up(case: &Path, what: &What) -> usize {
         line.extend(options.iter().filter(|option| !is_of_emit(option)).map(|option| (*option).clone()));
         let ran = support::program().args(&line).current_dir(case).output().unwrap();
         let Ok(text) = fs::read_to_string(&file) else {
-            // If it cannot be shown, a reason was printed.
+            // If the program cannot be shown, a reason was printed.
             assert!(!ran.stderr.is_empty(), "{}: {line:?}", case.display());
             continue;
         };
@@ -106,7 +106,7 @@ fn is_of_emit(option: &str) -> bool {
     option.starts_with("--out-dir") || option == "--force"
 }
 
-/// Whether a path has a program; its moves must match the lengths of its statistics and the bounding box of its G-code.
+/// Whether a path has a program. Asserts that the moves match the lengths of the statistics and the bounding box of the G-code.
 fn agrees(path: &Value, name: &str) -> bool {
     let moves = path["moves"].as_array().unwrap();
     if moves.is_empty() {
@@ -117,7 +117,7 @@ fn agrees(path: &Value, name: &str) -> bool {
     };
     let totals = &path["totals"];
     let total = |name: &str| totals[name].as_f64().unwrap();
-    // The drawn length equals the counted length and the stated length.
+    // The length that is drawn equals the one that is counted and the one that is stated.
     let drawn = |it: &Value| in_plane(it).hypot(number(it, "from", 2) - number(it, "to", 2));
     let said = |it: &Value| it["length"].as_f64().unwrap();
     let kinds: [(&[&str], &str); 3] =
@@ -150,10 +150,10 @@ fn in_plane(it: &Value) -> f64 {
     }
 }
 
-/// Tolerance for three decimals, and for arcs in pieces of half a degree.
+/// Tolerance in mm for numbers with three decimals, and for arcs in pieces of half a degree.
 const DIGITS: f64 = 0.005;
 
-/// Points of a move; many points of an arc.
+/// Returns points of a move; for an arc, many.
 fn points(it: &Value) -> Vec<[f64; 3]> {
     let place = |end: &str| [0, 1, 2].map(|axis| number(it, end, axis));
     let (from, to) = (place("from"), place("to"));
@@ -252,7 +252,7 @@ fn the_cuts_of_a_long_program_have_their_lines() {
     }
 }
 
-/// Checks that the line of each milling move starts where the move does, in a text read in this dialect; plunges have a line, too.
+/// Checks that the line of each milling move starts where the move does, in a text read in this dialect, and that plunges have a line as well.
 fn lines_lead_to_moves(path: &Value, text: &str, dialect: Dialect) {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
     let mut read: BTreeMap<u64, Vec<Move>> = BTreeMap::new();
@@ -367,7 +367,7 @@ fn findings_have_their_places() {
     assert_eq!(scene["paths"][0]["elements"].as_array().unwrap().len(), 4);
 }
 
-/// A finding about a parameter text is circled on it; one about the way is circled where that breaks off.
+/// A finding about a parameter text is circled at the text; one about the order of milling is circled where the chain breaks off.
 #[test]
 fn a_wrong_text_is_circled_itself() {
     let drawing = |text: &str, end: &str| {
@@ -390,7 +390,7 @@ fn a_wrong_text_is_circled_itself() {
     }
 }
 
-/// A line of a type without a meaning is drawn, and the finding is on its middle instead of on the start marker.
+/// A line with a line type that has no meaning is drawn, and the finding is at the line's middle instead of the start marker.
 #[test]
 fn an_element_is_circled_at_its_middle() {
     let place = library();
@@ -403,7 +403,7 @@ fn an_element_is_circled_at_its_middle() {
         f64::midpoint(shape["from"][axis].as_f64().unwrap(), shape["to"][axis].as_f64().unwrap())
     });
     assert_eq!(scene["findings"][0]["at"], serde_json::json!(middle));
-    // The path breaks off at a place of its own, which is the start of an element as well.
+    // The path breaks off at a position that is also the start of an element.
     let drawing = "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 F150\"\nmill 20,0 0,0\nmill 21,0 30,0\nend 30,0\n";
     let place = Place::new().file("1234.1P.dxf", sheet(drawing).unwrap().to_dxf());
     place.run("view 1234.1P --no-cache -o x.json");
@@ -434,7 +434,7 @@ fn circles_keep_their_centres() {
             continue;
         }
         seen += 1;
-        // The angle between neighbouring ends, seen from the centre, determines how far their rounding moves it.
+        // The angle between neighbouring ends, seen from the centre, determines how far the rounding of the ends moves the centre.
         let radius = pieces[1][0];
         let is_apart = |pair: &[[f64; 2]]| {
             let [[x, y], [a, b]] = [pair[0], pair[1]];
@@ -471,7 +471,7 @@ fn a_program_is_seen_without_elements() {
     assert_eq!(place.run("view a.nc -o a.svg").status, Some(0));
 }
 
-/// A page is sent to others: it names files beside what is shown, but not where they lie on this machine.
+/// A page is sent to others, so it names files relative to the shown file and does not reveal where they are on this machine.
 #[test]
 fn absolute_names_are_not_in_a_scene() {
     let place = library().file("else/a.nc", "G21 G90 G17\nG0 X0 Y0 Z5\nG1 F100 Z-1\nM30\n");
@@ -486,12 +486,12 @@ fn absolute_names_are_not_in_a_scene() {
         assert!(run.stderr.contains("x.json: written"), "{run}");
         let scene = place.read("else/x.json");
         assert!(!scene.contains(root) && scene.contains(&format!("\"{expected}\"")), "{scene}");
-        // The terminal names them as they were given.
+        // The terminal shows the names as they were given.
         assert_eq!(run.stderr.contains("<PLACE>/mistakes"), file.contains("3008"), "{run}");
     }
 }
 
-/// Cases without pictures in the book: a drawing with an erroneous path, and a program of another origin.
+/// Tests cases without pictures in the book: a drawing with an erroneous path, and a program of another origin.
 #[test]
 fn without_a_program_and_without_elements() {
     let broken = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B4 MPlate\"\nmill 0,0 20,0 \"B3\"\nmark 20,0 20,10\nsweep 20,10 30,10\nbars 31,10 40,10\nprobe 5,5 \"LA\"\nturn 20,0\nend 40,10\n";
@@ -554,7 +554,7 @@ fn the_stock_is_the_same_bytes_on_every_run() {
     assert!(picture.contains("cut through") && !picture.contains(RAPID_THROUGH_MATERIAL), "{picture}");
 }
 
-/// Horizontal moves of a picture, by the colour of their stroke: left and right end, and width of the stroke.
+/// Returns the horizontal moves of a picture with a stroke of this colour: left and right end, and width of the stroke.
 fn swept(svg: &str, color: &str) -> Vec<[f64; 3]> {
     let document = roxmltree::Document::parse(svg).unwrap();
     let strokes = document.descendants().filter(|node| node.attribute("stroke") == Some(color));
@@ -583,7 +583,7 @@ fn strokes_of_the_stock_are_painted_in_groups() {
     }
 }
 
-/// The cutter stays above a bar for P and O together, so that P is left of it.
+/// The cutter stays above a bar for a length of P and O together, so that P is left of the bar.
 #[test]
 fn bars_have_their_true_width() {
     let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 S9 F100 P3 U12 D3\"\nbars 0,0 40,0\nend 40,0";
@@ -606,7 +606,7 @@ fn rapid_moves_through_material_are_red() {
         assert_eq!(run.status, Some(0), "{run}");
         assert_eq!(place.read(&format!("{file}.svg")).contains(RAPID_THROUGH_MATERIAL), is_through, "{file}");
     }
-    // A rapid move back along a cut runs through no material.
+    // A rapid move back along a cut does not hit material.
     let along = "G21 G90 G17 G94\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20\nG0 X0\nG0 Z5\nM30\n";
     let place = Place::new().file("a.nc", along);
     place.run("view a.nc --stock --cutter 2 --surface 0 -o a.svg");
@@ -670,7 +670,7 @@ fn what_cannot_be_shown_says_so() {
     }
 }
 
-/// The approximate rectangles of the texts in some layers of a picture, as left, top, right and bottom in px, with their content.
+/// Returns the approximate rectangles of the texts in some layers of a picture, as left, top, right and bottom in px, with their content.
 fn texts_of(svg: &str) -> Vec<([f64; 4], String)> {
     let document = roxmltree::Document::parse(svg).unwrap();
     let layers = ["texts", "order", "ends", "probes", "embedded", "findings", "keep-outs"];
@@ -681,7 +681,7 @@ fn texts_of(svg: &str) -> Vec<([f64; 4], String)> {
     let label = |node: roxmltree::Node<'_, '_>| {
         let number = |name: &str| node.attribute(name).unwrap().parse::<f64>().unwrap();
         let (text, size) = (node.text().unwrap_or_default().to_owned(), number("font-size"));
-        // Narrower than they are, so that adjoining texts do not count as overlapping.
+        // The rectangles are narrower than the texts, so that adjoining texts do not count as overlapping.
         let width = 0.5 * size * text.chars().count() as f64;
         let left =
             if node.attribute("text-anchor").is_some() { number("x") - width / 2.0 } else { number("x") };
@@ -732,7 +732,7 @@ fn texts_of_a_picture_are_apart() {
     assert!(pictures > 50, "{pictures}");
 }
 
-/// Short lines close together, each with its own parameters.
+/// Returns a drawing of short lines close together, each with its own parameters.
 fn crowded() -> String {
     use std::fmt::Write;
 
@@ -786,7 +786,7 @@ fn what_the_cutter_takes_is_whole_in_a_picture() {
         .unwrap();
     let bottom: f64 = clip.attribute("height").unwrap().parse().unwrap();
     assert!(y + width / 2.0 <= bottom, "{line} {width}: {bottom}");
-    // As wide as the cutter, with its number next to it.
+    // The disc is as wide as the cutter, and its number is next to it.
     let [x, y, radius, _] =
         below("cuts", "circle").into_iter().map(|it| it.1).find(|it| it[2] > 5.0).unwrap();
     assert!((2.0 * radius - width).abs() < 0.02, "{radius} {width}");

@@ -1,4 +1,4 @@
-//! Accepted findings: reasons, dates, entries that match nothing any more, and how they are written. (book: howto/ci)
+//! Tests accepted findings: reasons, dates, entries that match nothing any more, and how entries are written. (book: howto/ci)
 
 use std::process::Command;
 
@@ -42,7 +42,7 @@ fn strict(place: &Place, more: &str) -> Run {
 fn with_epoch(place: &Place, epoch: &str, more: &[&str]) -> Option<i32> {
     let mut command: Command = program();
     command.args(["check", "parts/1235.1P.dxf", "--error-on-warning", "-q"]).args(more);
-    // The zone of the user must not matter.
+    // The time zone of the user must not matter.
     command.current_dir(place.path()).env("SOURCE_DATE_EPOCH", epoch).env("TZ", "Pacific/Kiritimati");
     command.output().unwrap().status.code()
 }
@@ -139,7 +139,7 @@ fn an_ended_table_leaves_the_level_of_the_one_before() {
 fn the_date_is_that_of_the_option_else_of_the_variable_in_utc() {
     let place = place();
     assert_eq!(accept(&place, &["--until", "2031-12-31"]).status, Some(0));
-    // 2031-12-31 23:59:59 UTC, and a second later.
+    // The times are 2031-12-31 23:59:59 UTC and a second later.
     assert_eq!(with_epoch(&place, "1956527999", &[]), Some(0));
     assert_eq!(with_epoch(&place, "1956528000", &[]), Some(1));
     assert_eq!(
@@ -150,7 +150,7 @@ fn the_date_is_that_of_the_option_else_of_the_variable_in_utc() {
     for epoch in ["soon", "-1", "", "99999999999999"] {
         assert_eq!(with_epoch(&place, epoch, &[]), Some(2), "{epoch}");
     }
-    // A leap day, and the ends of a century.
+    // The dates are a leap day, and the ends of a century.
     let place = place.file("pathbuild.toml", entry("until = 2028-02-29\n"));
     assert_eq!(
         with_epoch(&place, "1835481599", &["--baseline", "none"]),
@@ -162,7 +162,7 @@ fn the_date_is_that_of_the_option_else_of_the_variable_in_utc() {
     assert_eq!(with_epoch(&place, "1835481600", &["--baseline", "none"]), Some(1));
 }
 
-/// A roughing cut that is removed later turns a touch of 0.05 mm into a plunge of 3 mm at the same place.
+/// After an earlier roughing cut is removed, a rapid move that entered the material by 0.05 mm enters it by 3 mm at the same position.
 #[test]
 fn an_accepted_rapid_move_holds_while_it_is_not_deeper() {
     let program = |head: &str, roughed: &str| {
@@ -198,7 +198,7 @@ fn an_accepted_rapid_move_holds_while_it_is_not_deeper() {
     assert!(invalid.status == Some(2) && invalid.stderr.contains("`deep` is not a depth"), "{invalid}");
 }
 
-/// A move down and sideways, and one beyond the travel, hold only as far as they were accepted.
+/// Diagonal plunges and moves beyond the travel are only accepted as far as they went at that time.
 #[test]
 fn slopes_and_moves_beyond_the_machine_are_accepted_up_to_a_depth() {
     let program = "G21 G90 G17 G40 G94 G54\nM3 S12000\nG0 Z5\nG0 X0 Y0\nG1 Z-3 F100\nG1 X20 F200\nG0 Z5\nG0 X10 Z-1\nG0 Z5\nG0 X100.5\nM5\nM30\n";
@@ -365,7 +365,7 @@ fn tables_of_the_configuration_hold_for_programs() {
     assert_eq!([is_told("2031-12-31"), is_told("2032-01-01")], [false, true]);
 }
 
-/// Different programs often have one name, such as `op1.nc` in the directory of each job.
+/// Different programs often have the same name, such as `op1.nc` in the directory of each job.
 #[test]
 fn an_accepted_finding_of_a_program_holds_for_this_program_only() {
     let program = "( T1 D=6 CR=0 - flat end mill )\nG17 G21 G90 G94\nT1 M6\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X40\nG0 Y20\n\
@@ -386,7 +386,7 @@ fn an_accepted_finding_of_a_program_holds_for_this_program_only() {
     let entries = || place.read("pathbuild-baseline.txt").matches("PB740").count();
     assert_eq!(verify("b/s.nc", accept).status, Some(0));
     assert_eq!((verify("a/s.nc", "").status, entries()), (Some(0), 2));
-    // A baseline of version 0.2.0 has the name of the file in its fingerprint; it holds for the file that it describes.
+    // Fingerprints of version 0.2.0 contain only the name of the file; an entry holds for the file that its description names.
     let text = place.read("pathbuild-baseline.txt");
     let of_a = text.lines().find(|line| line.contains(" a/s.nc ")).unwrap();
     let earlier = format!("{EARLIER}{}\n", &of_a[32..]);
@@ -397,5 +397,5 @@ fn an_accepted_finding_of_a_program_holds_for_this_program_only() {
     assert_eq!((entries(), place.read("pathbuild-baseline.txt").contains(EARLIER)), (1, false));
 }
 
-/// What version 0.2.0 wrote for the finding of this test.
+/// Fingerprint that version 0.2.0 wrote for the finding of this test.
 const EARLIER: &str = "693e5331a6bd5b503f531e1fe073e35e";

@@ -1,4 +1,4 @@
-//! `pathbuild why`: the reasons why results of the last check no longer apply. (book: reference/commands)
+//! Tests `pathbuild why`, which gives the reasons why results of the last check no longer hold. (book: reference/commands)
 
 use std::fmt::Write;
 
@@ -26,7 +26,7 @@ subpath 0,0 20,0 ">1111.1P"
 end 20,0
 "#;
 
-/// A library that has been checked.
+/// Creates a library that has been checked.
 fn checked() -> Place {
     let place = Place::of(LIBRARY);
     assert_eq!(place.run("check").status, Some(0));
@@ -90,7 +90,7 @@ fn without_a_configuration_there_is_nothing_to_ask() {
     assert_eq!(checked().run("why 8001.1P --no-cache").status, Some(2));
 }
 
-/// The machine may have been busy: the result of cancelled work is not cached.
+/// The result of work that was cancelled is not cached, because the machine may have been busy.
 #[test]
 fn what_took_too_long_is_compiled_again() {
     let mut lines = String::new();
@@ -132,12 +132,12 @@ fn results_hold_in_directories_with_links() {
     link("store/a.bin", &component);
     assert_eq!(place.run("check").status, Some(0));
     all_hold(&place);
-    // The file that it leads to.
+    // The file to which the link leads has changed.
     fs::write(place.path().join("store/a.bin"), [&bytes[..], b"\n"].concat()).unwrap();
     assert_eq!(why(&place, "8001.1P"), "8001.dxf: would be compiled again\n  1111.dxf has changed\n");
     assert_eq!(place.run("check").status, Some(0));
     all_hold(&place);
-    // The same bytes elsewhere, which may be those of another drawing.
+    // The link leads to a file with the same bytes, which may be another drawing.
     link("store/b.bin", &component);
     let said = why(&place, "8001.1P");
     assert!(
@@ -147,7 +147,7 @@ fn results_hold_in_directories_with_links() {
     assert_eq!(place.run("check").status, Some(0));
     all_hold(&place);
 
-    // A directory that is searched, and is a link itself.
+    // A directory that is searched is a link.
     let configuration = "library = [\"projects\"]\nsearch = [\"parts\"]\n";
     let place = Place::of(LIBRARY).file("pathbuild.toml", configuration);
     for directory in ["projects", "store", "other"] {

@@ -1,4 +1,4 @@
-//! What Windows shells leave to programs, and the spelling of paths. Runs on all systems; tests/tools/windows.sh runs it on Windows.
+//! Tests patterns that Windows shells leave to programs, and the spelling of paths. Runs on all systems; tests/tools/windows.sh runs it on Windows.
 
 use crate::support::Place;
 
@@ -26,7 +26,7 @@ end 40,0
 no drawing
 "#;
 
-/// The number of paths that a check of these arguments finds, all without errors.
+/// Returns the number of paths that a check of these arguments finds, all without errors.
 fn paths(place: &Place, arguments: &[&str]) -> usize {
     let run = place.run_with(&[&["check", "--no-cache"], arguments].concat());
     assert_eq!(run.status, Some(0), "{run}");
@@ -61,7 +61,7 @@ fn a_pattern_that_nothing_matches_is_a_file_that_is_not_there() {
     }
 }
 
-/// Brackets in file names are ordinary characters, on Windows too.
+/// In file names, brackets are ordinary characters, on Windows as well.
 #[test]
 fn a_file_of_just_that_name_is_meant() {
     let place = Place::of(&PARTS.replace("parts/1235.dxf", "parts/123[4].dxf"));

@@ -1,11 +1,12 @@
-//! Wording that readers once stumbled over, in both languages: a drawing or a command for each, and its output. (book: first/first-part)
+//! Tests messages that readers once misunderstood, in both languages: each test has a drawing or a command, and its output. (book:
+//! first/first-part)
 
 use crate::support::{Place, runs};
 use insta::assert_snapshot;
 
 const START: &str = "start 0,0 \"T5 O2 I5 B0 F100 M20x2\"";
 
-/// Typical mistakes: the drawing, and the complete output.
+/// Tests typical mistakes, each with its drawing and the complete output.
 #[test]
 fn mistakes_of_draughtsmen_are_named() {
     let mistakes = [
@@ -35,7 +36,7 @@ fn mistakes_of_draughtsmen_are_named() {
     assert_snapshot!(mistakes.map(said).join("\n"));
 }
 
-/// An element on a wrong layer is named if it is what the path lacks, no matter in which direction it lies.
+/// A stray element on a wrong layer is named if the path lacks it, whichever way round it is drawn.
 #[test]
 fn elements_on_a_wrong_layer_are_named() {
     let said = |own: &str, other: &str| {
@@ -55,7 +56,7 @@ fn elements_on_a_wrong_layer_are_named() {
     }
 }
 
-/// A different cutter, thickness or material than that of the embedded path: each has its own advice.
+/// Cutter, thickness or material differ from those of the embedded path: each difference has its own advice.
 #[test]
 fn what_differs_from_an_embedded_path_has_its_own_advice() {
     let said = |parameters: &str| {
@@ -68,7 +69,7 @@ fn what_differs_from_an_embedded_path_has_its_own_advice() {
     assert_snapshot!(["T5 O3 M20x2", "T6.5 O2 M20x2", "T5 O2 MWood"].map(said).join("\n"));
 }
 
-/// A path of the library that is not where the command searches.
+/// The path is in the library, but not where the command searches.
 #[test]
 fn a_path_that_is_elsewhere_is_named_with_its_drawing() {
     let place = Place::of(&format!(
@@ -80,7 +81,7 @@ fn a_path_that_is_elsewhere_is_named_with_its_drawing() {
     assert_snapshot!(said.join("\n"));
 }
 
-/// A missing measured value, a probe without contact, nested brackets.
+/// Tests a missing measured value, a probe without contact, and nested brackets.
 #[test]
 fn words_of_other_commands() {
     let place = Place::of(&format!(

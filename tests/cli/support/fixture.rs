@@ -1,12 +1,12 @@
-//! Runs a fixture (crates/pathbuild-testkit, README.md): writes its files, runs its commands, and compares the diagnostics with the noted
-//! ones: each expected diagnostic once, and no others.
+//! Runs a fixture (crates/pathbuild-testkit, README.md): writes its files, runs its commands, and compares the diagnostics with the noted ones.
+//! Each expected diagnostic must occur once, and no others.
 
 use pathbuild_testkit::{Expect, Fixture};
 use serde_json::Value as Json;
 
 use super::{Place, Run};
 
-/// The deviations from the fixture.
+/// Runs a fixture and returns the deviations.
 pub fn faults(text: &str) -> Vec<String> {
     let fixture = match Fixture::parse(text) {
         Ok(fixture) => fixture,
@@ -37,7 +37,7 @@ pub fn faults(text: &str) -> Vec<String> {
     faults
 }
 
-/// The diagnostics in the output on both streams.
+/// Returns the diagnostics in the output on both streams.
 pub fn findings(run: &Run) -> Vec<Json> {
     let lines = run.stdout.lines().chain(run.stderr.lines());
     let objects = lines.filter(|line| line.starts_with('{')).map(|line| serde_json::from_str(line).unwrap());

@@ -1,4 +1,4 @@
-//! Runs the program like a shell: in a directory of its own, with an empty environment.
+//! Runs the program as a shell would, in a separate directory and with an empty environment.
 #![allow(unreachable_pub, reason = "one binary's own module")]
 
 pub mod fixture;
@@ -18,7 +18,7 @@ pub use said::Said;
 use tempfile::TempDir;
 use wait4::Wait4 as _;
 
-/// The DXF of a drawing in the text form of the test kit.
+/// Converts a drawing in the text form of the test kit to DXF.
 pub fn dxf(drawing: &str) -> Vec<u8> {
     pathbuild_testkit::sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}")).to_dxf()
 }
@@ -41,7 +41,7 @@ impl Place {
         }
     }
 
-    /// A directory with the files of a fixture (crates/pathbuild-testkit, README.md).
+    /// Creates a directory with the files of a fixture (crates/pathbuild-testkit, README.md).
     pub fn of(fixture: &str) -> Self {
         let fixture = Fixture::parse(fixture).unwrap();
         fixture.files.iter().fold(Self::new(), |place, file| place.file(&file.name, file.bytes()))
@@ -77,7 +77,7 @@ impl Place {
         self.configurations.path()
     }
 
-    /// The cache directory of this tree.
+    /// Returns the cache directory of this tree.
     pub fn cache(&self) -> PathBuf {
         let below = if cfg!(windows) { "pathbuild/cache" } else { "pathbuild" };
         let mut trees = fs::read_dir(self.caches.path().join(below)).into_iter().flatten();
@@ -103,10 +103,10 @@ impl Place {
         self.said(arguments, self.command(directory, arguments).output().unwrap())
     }
 
-    /// Runs `pathbuild` with arguments separated by spaces. Also returns the processor time of that run alone.
+    /// Runs `pathbuild` with arguments separated by spaces. Also returns the processor time of that run.
     pub fn run_timed(&self, arguments: &str) -> (Run, Duration) {
         let arguments: Vec<&str> = arguments.split_whitespace().collect();
-        // Files instead of pipes, which would have to be read while waiting for the end.
+        // Use files instead of pipes, which would have to be read while waiting for the end.
         let [mut stdout, mut stderr] = [(); 2].map(|()| tempfile::tempfile().unwrap());
         let mut command = self.command(".", &arguments);
         command.stdout(stdout.try_clone().unwrap()).stderr(stderr.try_clone().unwrap());
@@ -166,13 +166,13 @@ impl Place {
     }
 }
 
-/// A path as displayed by the program.
+/// Returns a path as the program displays it.
 pub fn shown(path: &Path) -> String {
     let path = path.to_string_lossy();
     if cfg!(windows) { path.replace('\\', "/") } else { path.into_owned() }
 }
 
-/// The program with an environment that chooses no language, since Windows would use that of its user.
+/// Returns a command for the program, with an environment that chooses English: otherwise Windows would use the language of its user.
 pub fn program() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_pathbuild"));
     command.env_clear().env("LC_ALL", "C").stdin(Stdio::null());
@@ -201,7 +201,7 @@ impl fmt::Display for Run {
     }
 }
 
-/// Several consecutive runs.
+/// Runs several commands in turn and returns their output.
 pub fn runs<'a>(place: &Place, lines: impl IntoIterator<Item = &'a str>) -> String {
     lines.into_iter().map(|line| place.run(line).to_string()).collect::<Vec<_>>().join("\n")
 }

@@ -1,4 +1,4 @@
-//! The output of a running process.
+//! Collects the output of a running process.
 
 use std::io::{BufRead, BufReader};
 use std::process::Child;
@@ -8,11 +8,11 @@ use std::time::Duration;
 /// The lines of a process's stderr as they arrive.
 pub struct Said(Receiver<String>);
 
-/// Maximum waiting time; a machine that builds everything in parallel is slow.
+/// Maximum time to wait for a line. It is long because a machine that builds everything in parallel is slow.
 const PATIENCE: Duration = Duration::from_mins(1);
 
 impl Said {
-    /// Reads the stderr of a process.
+    /// Starts reading the stderr of a process.
     pub fn by(child: &mut Child) -> Self {
         let stderr = BufReader::new(child.stderr.take().unwrap());
         let (sender, lines) = channel();
@@ -22,7 +22,7 @@ impl Said {
         Self(lines)
     }
 
-    /// The lines up to one that contains a text.
+    /// Waits for a line that contains a text, and returns the lines up to it.
     #[track_caller]
     pub fn until(&self, text: &str) -> Vec<String> {
         let mut seen = Vec::new();

@@ -1,4 +1,4 @@
-//! `watch`: drawings, directories and configurations that are links.
+//! Tests `watch` with drawings, directories and configurations that are links.
 
 use std::os::unix::fs::symlink;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use super::replaced::library_in;
 use super::*;
 
-/// A library whose component 1001 is no file of its own.
+/// Creates a library whose component 1001 is a link to a file elsewhere.
 fn linked(link: impl FnOnce(&Path)) -> Place {
     let place = library().file("master/1001.dxf", dxf("1001.1P", 5, &[]));
     let component = place.path().join("library/parts/1001.dxf");
@@ -16,7 +16,7 @@ fn linked(link: impl FnOnce(&Path)) -> Place {
     place
 }
 
-/// An edit there is one of the component, and one of the program that embeds it.
+/// Edits the file to which the component leads, and asserts that the component and the program that embeds it are processed.
 fn is_noticed(watch: &Watch<'_>, file: &str) {
     watch.write(file, dxf("1001.1P", 4, &[]));
     let said = watch.until("library/parts/1001.dxf: changed");
@@ -35,13 +35,13 @@ fn a_file_behind_a_link_is_watched() {
     ] {
         is_noticed(&Watch::begin(&place, arguments), "master/1001.dxf");
     }
-    // As most editors save.
+    // Most editors save by renaming a new file.
     let watch = Watch::begin(&place, "watch --format concise");
     watch.write("master/new.tmp", dxf("1001.1P", 4, &[]));
     watch.rename("master/new.tmp", "master/1001.dxf");
     let said = watch.until("library/parts/1001.dxf: changed");
     assert!(said.iter().any(|line| line.contains("PB506")), "{said:#?}");
-    // The directory of the file may be another one later.
+    // The directory of the file may be replaced later.
     watch.rename("master", "before");
     watch.until("watching ");
     fs::create_dir(place.path().join("master")).unwrap();
@@ -50,7 +50,7 @@ fn a_file_behind_a_link_is_watched() {
     is_noticed(&watch, "master/1001.dxf");
 }
 
-/// A link to a link, through a directory that is a link, to a file without the name of a drawing.
+/// The component is a link to a link, through a directory that is a link, to a file without the name of a drawing.
 #[test]
 fn every_link_on_the_way_is_watched() {
     let place = linked(|at| {
@@ -64,7 +64,7 @@ fn every_link_on_the_way_is_watched() {
     });
     let watch = Watch::begin(&place, "watch --format concise");
     is_noticed(&watch, "store/a.bin");
-    // The link in the middle leads elsewhere.
+    // The link in the middle now leads elsewhere.
     watch.write("store/b.bin", dxf("1001.1P", 4, &[]));
     fs::remove_file(place.path().join("master/1001.dxf")).unwrap();
     symlink("../current/b.bin", place.path().join("master/1001.dxf")).unwrap();
@@ -72,7 +72,7 @@ fn every_link_on_the_way_is_watched() {
     watch.write("store/b.bin", dxf("1001.1P", 5, &[]));
     let said = watch.until(" 0 new findings");
     assert!(said.last().unwrap().contains("library/parts/1001.dxf: changed"), "{said:#?}");
-    // So does the directory.
+    // The directory link now leads elsewhere, too.
     fs::create_dir(place.path().join("other")).unwrap();
     watch.write("other/b.bin", dxf("1001.1P", 4, &[]));
     fs::remove_file(place.path().join("current")).unwrap();
@@ -84,7 +84,7 @@ fn every_link_on_the_way_is_watched() {
     assert!(said.last().unwrap().contains("library/parts/1001.dxf: changed"), "{said:#?}");
 }
 
-/// Rules of a team are often a link to a file that several libraries share.
+/// A team's ignore rules are often a link to a file that several libraries share.
 #[test]
 fn an_ignore_file_behind_a_link_is_watched() {
     for name in [".gitignore", ".ignore"] {
@@ -96,7 +96,7 @@ fn an_ignore_file_behind_a_link_is_watched() {
         watch.until("library/old/1009.dxf: ");
         watch.write("rules", "");
         watch.until("library/old/1009.dxf: ");
-        // Nothing of the directory is drawn, so that no drawing leads there.
+        // No drawing leads to that directory, because it contains none.
         watch.write("rules", "*.dxf\n");
         watch.until("library/old/1009.dxf: ");
         watch.write("rules", "");
@@ -104,7 +104,7 @@ fn an_ignore_file_behind_a_link_is_watched() {
     }
 }
 
-/// A hard link is a second name of the same file: who writes it by either changes the drawing.
+/// A hard link is a second name of the same file: writing the file under either name changes the drawing.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_file_with_another_name_is_watched() {
@@ -116,14 +116,14 @@ fn a_file_with_another_name_is_watched() {
     }
     let watch = Watch::begin(&place, "watch --format concise");
     is_noticed(&watch, "library/parts/1001.dxf");
-    // What takes the place of the other name is another file.
+    // A file that replaces the other name is no longer the drawing.
     watch.write("master/new.tmp", dxf("1001.1P", 4, &[]));
     watch.rename("master/new.tmp", "master/1001.dxf");
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
     watch.until("PB506");
 }
 
-/// Both names in the library: the system watches the file once.
+/// Both names are in the library; the system watches the file only once.
 #[cfg(target_os = "linux")]
 #[test]
 fn two_drawings_that_are_one_file_change_together() {
@@ -143,7 +143,7 @@ fn two_drawings_that_are_one_file_change_together() {
     }
 }
 
-/// The system watches a directory once, by the last of the names that it was told.
+/// The system watches a directory once, under the last of the names given to it.
 #[test]
 fn a_directory_with_two_names_is_watched_by_both() {
     for (configuration, link) in [
@@ -159,7 +159,7 @@ fn a_directory_with_two_names_is_watched_by_both() {
     }
 }
 
-/// The real directory is exchanged, and the link stays as it is.
+/// The real directory is replaced, and the link stays as it is.
 #[test]
 fn a_directory_behind_a_link_that_is_replaced_is_watched() {
     let place = library();
@@ -179,7 +179,7 @@ fn watch_rename(place: &Place, from: &str, to: &str) {
     fs::rename(place.path().join(from), to).unwrap();
 }
 
-/// A configuration that several libraries share.
+/// The configuration is a link to a file that several libraries share.
 #[test]
 fn a_configuration_that_is_a_link_is_watched() {
     let place = library().file("shared/all.toml", CONFIGURATION);
@@ -191,7 +191,7 @@ fn a_configuration_that_is_a_link_is_watched() {
     assert!(said.iter().any(|line| line.contains("PB507")), "{said:#?}");
 }
 
-/// What a stranger's link leads to is neither read nor watched.
+/// The target of a link in an untrusted tree is neither read nor watched.
 #[test]
 fn a_link_out_of_a_strangers_tree_is_not_watched() {
     let place = library_in("tree").file("secret/1003.dxf", dxf("1003.1P", 5, &[]));

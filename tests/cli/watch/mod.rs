@@ -1,4 +1,4 @@
-//! `watch`: its output and files as drawings change.
+//! Tests the output and the files of `watch` as drawings change.
 
 #[cfg(unix)]
 mod links;
@@ -18,7 +18,7 @@ use pathbuild_testkit::sheet;
 
 const CONFIGURATION: &str = "spindle = \"manual\"\nfeed = 150\nrapid = 1000\nsweep-height = 20\nlibrary = [\"library\"]\nsearch = [\"library/parts\"]\n\n[emit]\ntargets = [\"8*\"]\n";
 
-/// A drawing of one path with T, which mills or embeds.
+/// Returns a drawing of one path with this T, which mills, or embeds other paths.
 fn dxf(name: &str, thickness: u32, embeds: &[&str]) -> Vec<u8> {
     let mut text = format!("layer {name}\nstart 0,0 \"T{thickness} O2 I1 B0 MPlate\"\n");
     if embeds.is_empty() {
@@ -45,7 +45,7 @@ struct Watch<'a> {
     place: &'a Place,
     child: Child,
     lines: Said,
-    /// The output until it was watching.
+    /// The output up to the line that says that it is watching.
     beginning: Vec<String>,
 }
 
@@ -54,7 +54,7 @@ impl<'a> Watch<'a> {
         Self::begin_in(place, ".", program(), arguments)
     }
 
-    /// Starts in a subdirectory.
+    /// Starts `watch` in a subdirectory.
     fn begin_in(place: &'a Place, directory: &str, mut command: Command, arguments: &str) -> Self {
         command.args(arguments.split_whitespace()).current_dir(place.path().join(directory));
         let mut child = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
@@ -64,7 +64,7 @@ impl<'a> Watch<'a> {
         watch
     }
 
-    /// The lines up to one that contains a text.
+    /// Reads lines up to one that contains a text, and returns them.
     #[track_caller]
     fn until(&self, text: &str) -> Vec<String> {
         self.lines.until(text)
@@ -111,7 +111,7 @@ fn an_edit_asks_again_what_depends_on_it_and_writes_its_programs() {
     assert!(said.iter().any(|line| line.contains("8002_Milling.gcode: written")), "{said:#?}");
     assert_ne!(place.read("library/projects/8002_Milling.gcode"), other);
 
-    // The drawing that depended on the edited one no longer does.
+    // The drawing that embedded the edited one no longer embeds it.
     watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &[]));
     watch.until("1002.dxf: changed");
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
@@ -119,7 +119,7 @@ fn an_edit_asks_again_what_depends_on_it_and_writes_its_programs() {
     assert!(said.last().unwrap().contains(": changed; 2 drawings checked"), "{said:#?}");
 }
 
-/// The names of drawings and directories are not paths: a user would wait for programs that never come.
+/// Targets that name drawings and directories instead of paths are reported: a user would wait for programs that never come.
 #[test]
 fn targets_that_mean_no_path_are_told_at_the_beginning() {
     let unmet = |targets: &str, arguments: &str| {
@@ -132,7 +132,7 @@ fn targets_that_mean_no_path_are_told_at_the_beginning() {
     assert_eq!(unmet("\"projects\"", "watch --format concise"), 0);
 }
 
-/// `watch parts` and `watch ./parts` are the same.
+/// `watch parts` and `watch ./parts` watch the same directory.
 #[test]
 fn a_directory_without_a_separator_is_watched() {
     let place = Place::new().file("pathbuild.toml", "feed = 150\n");
@@ -165,12 +165,12 @@ fn drawings_that_come_go_and_are_renamed_are_noticed() {
     let from = place.path().join("library/projects/1001.dxf");
     fs::rename(from, place.path().join("library/projects/7001.dxf")).unwrap();
     let said = watch.until("7001.dxf: changed");
-    // It is no longer searched there.
+    // The directory is no longer searched.
     assert!(said.last().unwrap().contains(" 1 new finding,"), "{said:#?}");
     assert!(said.iter().any(|line| line.contains("7001.dxf: warning[PB521]")), "{said:#?}");
 }
 
-/// Two projects give a component the same wrong value. The error there goes with the second of them.
+/// Two projects give a component the same wrong value. The finding is fixed only when the second one is corrected.
 #[test]
 fn a_finding_counts_as_fixed_once_no_drawing_leads_to_it() {
     let component =
@@ -197,7 +197,7 @@ fn a_finding_counts_as_fixed_once_no_drawing_leads_to_it() {
     }
 }
 
-/// Typed without a separator, it could be the name of a path.
+/// Without a separator, the argument could also be the name of a path.
 #[test]
 fn a_directory_by_its_name_is_watched() {
     let place = library().file("aside/1003.dxf", dxf("1003.1P", 5, &[]));
@@ -207,7 +207,7 @@ fn a_directory_by_its_name_is_watched() {
     assert!(said.iter().any(|line| line.contains("PB503")), "{said:#?}");
 }
 
-/// A drawing of the library may be hidden if a rule includes it again.
+/// A hidden drawing is part of the library if a rule includes it.
 #[test]
 fn a_hidden_drawing_that_counts_is_watched() {
     let place = library()
@@ -222,7 +222,7 @@ fn a_hidden_drawing_that_counts_is_watched() {
     assert!(!said.iter().any(|line| line.contains(".1004.dxf") && line.contains("PB503")), "{said:#?}");
 }
 
-/// If only projects are watched, findings of components on their own are not queried.
+/// If only projects are watched, components are not checked on their own.
 #[test]
 fn an_edit_of_what_is_not_watched_asks_only_what_is() {
     let place = library();
@@ -290,8 +290,8 @@ fn an_edited_post_begins_anew() {
     assert!(place.read(program).starts_with("(anna)"));
 }
 
-/// A change to one drawing while two hundred others are being checked because of another change that is not repeated: the pending ones are
-/// checked together with it. The pauses put it before, between and after the batches.
+/// A drawing changes while two hundred others are being checked because of an earlier change, which is not repeated: the remaining drawings are
+/// checked together with it. The pauses put the second change before, between and after the batches.
 #[test]
 fn changes_that_come_while_others_are_worked_on_are_not_lost() {
     const PROJECTS: usize = 200;
@@ -300,7 +300,7 @@ fn changes_that_come_while_others_are_worked_on_are_not_lost() {
         place.file(&format!("library/projects/{name}.dxf"), dxf(&name, 5, &["1001.1P"]))
     });
     let watch = Watch::begin(&place, "watch --emit --format concise");
-    // Each project is wrong, including 8001; 1002, and 8002 that embeds it, lack a path.
+    // Each project is wrong, including 8001; 1002, and 8002, which embeds it, lack a path.
     let wrong = i64::try_from(PROJECTS).unwrap() + 1 + 2;
     for pause in [65, 90, 120, 180, 260, 400] {
         watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
@@ -318,7 +318,7 @@ fn changes_that_come_while_others_are_worked_on_are_not_lost() {
     }
 }
 
-/// With a drawing that is removed while it is pending: it is not checked.
+/// A drawing that is removed while it waits to be checked is not checked.
 #[test]
 fn a_drawing_that_goes_while_it_waits_is_not_asked() {
     const PROJECTS: usize = 200;
@@ -328,7 +328,7 @@ fn a_drawing_that_goes_while_it_waits_is_not_asked() {
     });
     let watch = Watch::begin(&place, "watch --format concise");
     for (index, pause) in [65, 90, 120, 180, 260].into_iter().enumerate() {
-        // The last remaining one by name; 8001 and others before it are wrong then.
+        // Remove the last of the drawings that still wait, by name; 8001 and others before it are then wrong.
         let wrong = i64::try_from(PROJECTS - index).unwrap();
         watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
         std::thread::sleep(Duration::from_millis(pause));
@@ -343,7 +343,7 @@ fn a_drawing_that_goes_while_it_waits_is_not_asked() {
     }
 }
 
-/// The increase in the number of findings. Each changed file has a line, and the lines of one revision agree.
+/// Returns the increase in the number of findings. Asserts that each changed file has a line, and that the lines of one revision agree.
 fn difference(said: &[String]) -> i64 {
     let counts = said.iter().filter_map(|line| {
         let revision = line.strip_prefix('[')?.split(']').next()?;
@@ -354,7 +354,7 @@ fn difference(said: &[String]) -> i64 {
     counts.collect::<BTreeMap<_, _>>().values().sum()
 }
 
-/// The system does not report that a drawing can be read again if its link leads through a directory without access for others.
+/// If the link of a drawing leads through a directory without access for others, the system does not report when the drawing can be read again.
 #[cfg(target_os = "linux")]
 #[test]
 fn what_may_have_passed_is_tried_again_with_the_next_change() {
@@ -371,7 +371,7 @@ fn what_may_have_passed_is_tried_again_with_the_next_change() {
     assert!(watch.beginning.iter().any(|line| line.contains("1003.dxf: error[PB001]")));
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
     watch.until("1001.dxf: changed");
-    // It has no effect yet, and nothing is reported.
+    // The change has no effect yet, and nothing is reported.
     std::thread::sleep(Duration::from_millis(500));
     allow("closed", 0o755);
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
@@ -382,7 +382,7 @@ fn what_may_have_passed_is_tried_again_with_the_next_change() {
     assert!(line.starts_with(expected), "{line}");
 }
 
-/// Whether each revision names the files of the previous one that left drawings for it.
+/// Whether each revision also names the files because of which the previous revision left drawings unchecked.
 fn are_named_again(said: &[String]) -> bool {
     let mut revisions: BTreeMap<u32, (BTreeSet<&str>, bool)> = BTreeMap::new();
     for line in said.iter().filter_map(|line| line.strip_prefix('[')) {
@@ -406,7 +406,7 @@ fn what_cannot_be_watched_is_wrong_usage() {
     assert_eq!(run.status, Some(2), "{run}");
 }
 
-/// Editors write a configuration in pieces, or remove it first.
+/// Editors write a configuration in pieces, or remove it first, so it may be invalid for a moment.
 #[test]
 fn a_configuration_that_is_wrong_for_a_moment_ends_nothing() {
     let place = library();
@@ -432,7 +432,7 @@ fn a_configuration_that_is_wrong_for_a_moment_ends_nothing() {
 
 const REPLACED: &str = "a watched directory appeared, disappeared or was replaced";
 
-/// The system watches a directory, not its name; Git and synchronisation programs replace directories.
+/// The system watches a directory, not its name, but Git and synchronisation programs replace directories.
 #[test]
 fn a_directory_that_takes_the_place_of_one_is_watched() {
     let place = library();
@@ -454,7 +454,7 @@ fn a_directory_that_takes_the_place_of_one_is_watched() {
     assert!(watch.until("parts/1001.dxf: changed").iter().any(|line| line.contains("PB503")));
 }
 
-/// If the replacement appears at once, and is a link.
+/// The replacement appears at once, and is a link.
 #[cfg(unix)]
 #[test]
 fn a_link_that_takes_the_place_of_a_directory_is_watched() {
@@ -469,7 +469,7 @@ fn a_link_that_takes_the_place_of_a_directory_is_watched() {
     assert!(said.iter().any(|line| line.contains("PB503")), "{said:#?}");
 }
 
-/// If only a parent of a watched directory is replaced.
+/// Only a parent of a watched directory is replaced.
 #[test]
 fn what_leads_to_a_directory_may_be_replaced() {
     let configuration = CONFIGURATION.replace("library", "all/library").replace("all/library =", "library =");
@@ -512,7 +512,7 @@ fn a_library_that_is_missing_at_the_beginning_is_watched_once_it_comes() {
     watch.until("watching ");
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
     watch.until("1001.dxf: changed");
-    // The same for an argument without a configuration.
+    // The same holds for an argument without a configuration.
     let place = Place::new();
     let watch = Watch::begin(&place, "watch parts --format concise");
     fs::create_dir(place.path().join("parts")).unwrap();
@@ -521,7 +521,7 @@ fn a_library_that_is_missing_at_the_beginning_is_watched_once_it_comes() {
     watch.until("1001.dxf: changed");
 }
 
-/// From a sibling directory: events contain no `..`.
+/// The argument begins with `..`, but the paths in events do not.
 #[test]
 fn a_directory_above_is_watched() {
     for arguments in ["watch ../library --format concise", "watch ../library/parts/1001.dxf --format concise"]
@@ -568,7 +568,7 @@ fn a_program_that_could_not_be_written_is_written_later() {
     assert!(said.last().unwrap().contains(" 0 new findings, 1 fixed"), "{said:#?}");
 }
 
-/// The program as an unprivileged user; `None` if that is impossible.
+/// Returns a command that runs the program as an unprivileged user; `None` if that is impossible.
 #[cfg(target_os = "linux")]
 fn as_nobody() -> Option<Command> {
     let nobody = || {
@@ -581,7 +581,7 @@ fn as_nobody() -> Option<Command> {
     version.is_ok_and(|run| run.status.success()).then(nobody)
 }
 
-/// All other directories are watched; this one is reported, and watched as soon as it can be listed.
+/// A directory that cannot be listed is reported, and watched as soon as it can be listed. All other directories are watched meanwhile.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_directory_that_cannot_be_listed_keeps_nothing_else_from_being_watched() {

@@ -1,8 +1,8 @@
-//! `watch` in a working directory that is replaced.
+//! Tests `watch` in a working directory that is replaced.
 
 use super::*;
 
-/// The library in a directory of its own, which may be replaced while `watch` runs in it.
+/// Creates the library in a separate directory, which may be replaced while `watch` runs in it.
 pub(super) fn library_in(directory: &str) -> Place {
     Place::new()
         .file(&format!("{directory}/pathbuild.toml"), CONFIGURATION)
@@ -10,7 +10,7 @@ pub(super) fn library_in(directory: &str) -> Place {
         .file(&format!("{directory}/library/projects/8001.dxf"), dxf("8001.1P", 5, &["1001.1P"]))
 }
 
-/// Copies the library of another place there, as Git or an unpacked archive does.
+/// Copies the library of another place into this directory, as Git or an unpacked archive does.
 fn unpack(place: &Place, directory: &str) {
     let from = library_in(directory);
     for name in ["pathbuild.toml", "library/parts/1001.dxf", "library/projects/8001.dxf"] {
@@ -20,7 +20,7 @@ fn unpack(place: &Place, directory: &str) {
     }
 }
 
-/// The process stays in the directory that it was started in, whatever becomes of that.
+/// The process stays in the directory in which it was started, even if that is renamed or removed.
 #[test]
 fn a_working_directory_that_is_replaced_is_watched() {
     for arguments in
@@ -29,7 +29,7 @@ fn a_working_directory_that_is_replaced_is_watched() {
         let place = library_in("work");
         let watch = Watch::begin_in(&place, "work", program(), arguments);
 
-        // Renamed, and another one under its name.
+        // The directory is renamed, and another one gets its name.
         watch.rename("work", "aside");
         unpack(&place, "work");
         watch.until("watching 2 paths");
@@ -37,12 +37,12 @@ fn a_working_directory_that_is_replaced_is_watched() {
         let said = watch.until("parts/1001.dxf: changed");
         assert!(said.iter().any(|line| line.contains("PB506")), "{arguments}: {said:#?}");
 
-        // Missing for a while.
+        // The directory is missing for a while.
         fs::remove_dir_all(place.path().join("work")).unwrap();
         watch.until("work is missing: nothing is checked until it is there again");
         unpack(&place, "work");
         watch.until("watching 2 paths");
-        // Polling tells by the time of the last change.
+        // Polling detects changes by the modification time, which must differ.
         std::thread::sleep(Duration::from_millis(1100));
         watch.write("work/library/parts/1001.dxf", dxf("1001.1P", 5, &["1999.1P"]));
         let said = watch.until("parts/1001.dxf: changed");
@@ -50,7 +50,7 @@ fn a_working_directory_that_is_replaced_is_watched() {
     }
 }
 
-/// The same where a directory above is another one.
+/// A parent of the working directory is replaced.
 #[test]
 fn what_leads_to_the_working_directory_may_be_replaced() {
     let place = library_in("above/work");
@@ -63,7 +63,7 @@ fn what_leads_to_the_working_directory_may_be_replaced() {
     watch.until("parts/1001.dxf: changed");
 }
 
-/// The working directory is not needed if no argument is relative to it.
+/// If no argument is relative to the working directory, it may be removed.
 #[test]
 fn a_working_directory_that_nothing_is_named_from_may_go() {
     let place = library_in("work").file("elsewhere/a.txt", "");
