@@ -1,4 +1,4 @@
-//! Arbitrary bytes cause no panic, no hang and no non-finite numbers, and respect the wanted layers and the limits. (book:
+//! Tests that arbitrary bytes cause no panic, no hang and no non-finite numbers, and respect the wanted layers and the limits. (book:
 //! reference/reliability)
 
 use std::time::{Duration, Instant};
@@ -62,7 +62,7 @@ fn options(layers: &dyn Fn(&str) -> bool, tolerance: f64) -> Options<'_> {
     }
 }
 
-/// Reads a file and checks what must hold for any drawing.
+/// Reads a file and asserts conditions that hold for any drawing.
 fn check(bytes: &[u8]) -> Drawing {
     check_with(bytes, 1e-12);
     check_with(bytes, 0.01)
@@ -135,8 +135,7 @@ fn mutate(bytes: &mut Vec<u8>, mutation: &Mutation) {
     }
 }
 
-/// The same file with differently padded codes, so that most are read carefully one by one instead of many at a time. Lines without a code
-/// are unchanged.
+/// Returns the file with differently padded codes, so that most are read one by one instead of many at a time. Lines without a code are unchanged.
 fn padded_otherwise(file: &[u8], paddings: &[usize]) -> Vec<u8> {
     const PADDINGS: &[(&str, &str)] =
         &[("", ""), (" ", ""), ("    ", ""), ("\t", ""), ("", " "), (" ", "\t ")];
@@ -154,12 +153,12 @@ fn padded_otherwise(file: &[u8], paddings: &[usize]) -> Vec<u8> {
     lines.collect::<Vec<_>>().join(&b'\n')
 }
 
-/// The same file after a comment of this length.
+/// Returns the file after a comment of this length.
 fn behind_a_remark(file: &[u8], length: usize) -> Vec<u8> {
     [b"999\n", &*vec![b'x'; length], b"\n", file].concat()
 }
 
-/// A drawing with all features.
+/// Returns a drawing with all features.
 fn everything() -> Vec<u8> {
     let content = PIECES[9..19].concat();
     let inner = PIECES[9..15].concat();
@@ -184,7 +183,7 @@ fn every_beginning_of_a_file_is_read() {
     }
 }
 
-/// Nothing of the previous drawing is left, whatever the results.
+/// When a drawing is read into an existing value, nothing of the previous drawing is left.
 #[test]
 fn a_drawing_is_read_in_the_place_of_another() {
     let whole = everything();

@@ -1,5 +1,5 @@
-//! Which settings are part of the cache keys: each is changed alone, and the keys of checks and of programs must change or stay as
-//! expected. (book: reference/configuration)
+//! Tests which settings are part of the cache keys: each is changed alone, and the keys of checks and of programs must change or stay as expected.
+//! (book: reference/configuration)
 
 #![expect(
     clippy::unwrap_used,
@@ -16,12 +16,12 @@ use pathbuild_workspace::Inputs;
 use pathbuild_workspace::config::{self, Overrides, ResultKind, Settings};
 use tempfile::TempDir;
 
-/// Whether the results of `check` and of `emit` depend on a setting.
+/// Whether the results of `check`, and those of `emit`, depend on a setting.
 const BOTH: [bool; 2] = [true, true];
 const PROGRAMS: [bool; 2] = [false, true];
 const NONE: [bool; 2] = [false, false];
 
-/// Each key, a configuration that sets it to another value than its default, and the results that depend on it.
+/// For each key, a configuration that sets it to another value than its default, and the results that depend on it.
 const CHANGES: &[(&str, &str, [bool; 2])] = &[
     ("feed", "feed = 1", BOTH),
     ("rapid", "rapid = 1", PROGRAMS),
@@ -130,7 +130,7 @@ fn settings(base: &Utf8Path, text: &str) -> Settings {
     Settings { file: Some(Utf8PathBuf::from("pathbuild.toml")), ..settings }
 }
 
-/// The settings in the cache keys of `check` and of `emit`.
+/// Returns the settings in the cache keys of `check` and of `emit`.
 fn questions(settings: &Settings) -> [String; 2] {
     [ResultKind::Check, ResultKind::Emit].map(|whose| {
         let mut text = String::new();

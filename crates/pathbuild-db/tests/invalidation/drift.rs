@@ -1,4 +1,4 @@
-//! Drawings that change without notice: bytes that are read again must be those that the index was built from.
+//! Tests drawings that change without notice: bytes that are read again must be those from which the index was built.
 
 use pathbuild_db::{Role, check_target, program};
 
@@ -7,8 +7,8 @@ use crate::world::{World, dxf};
 
 const FILE: &str = "lib/1111.1P.dxf";
 
-/// The codes of the located findings, whether there is a program, and the number of rounds. Repeats as long as drawings have changed
-/// meanwhile.
+/// Returns the codes of the located findings, whether there is a program, and the number of rounds. Repeats the work as long as drawings have
+/// changed meanwhile.
 fn settled(world: &mut World, role: &Role) -> (Vec<String>, bool, u32) {
     let mut rounds = 0;
     loop {
@@ -31,7 +31,7 @@ fn settled(world: &mut World, role: &Role) -> (Vec<String>, bool, u32) {
 fn a_program_is_made_of_the_drawing_that_was_checked() {
     let mut world = World::new(&[(FILE, &component("1111.1P", "0"))]);
     assert!(world.judge("path", FILE, "1111.1P", Role::Emitted).is_empty());
-    // Too deep, without notifying the database.
+    // The path is now too deep, and the database is not notified.
     world.put_unnoticed(FILE, &component("1111.1P", "9"));
     assert_eq!(settled(&mut world, &Role::Emitted), (vec!["PB203".to_owned()], false, 2));
 }
@@ -56,7 +56,7 @@ fn a_drawing_that_went_or_came_has_changed_too() {
     assert_eq!(settled(&mut world, &Role::Checked), (Vec::new(), false, 1));
 }
 
-/// Identical bytes are no change, however often they are read.
+/// Reading identical bytes again is not a change.
 #[test]
 fn a_drawing_that_was_saved_without_a_change_has_not_changed() {
     let mut world = World::new(&[(FILE, &component("1111.1P", "0"))]);

@@ -1,8 +1,8 @@
-//! Edits of a library: two components, and a project that embeds one of them.
+//! Tests edits of a library with two components, and a project that embeds one of them.
 
 use crate::world::World;
 
-/// A component from (0, 0) to (20, 0).
+/// Returns a component from (0, 0) to (20, 0).
 pub(crate) fn component(name: &str, bottom: &str) -> String {
     format!("layer {name}\nstart 0,0 \"T5 O3 I1 Mx\"\nmill 0,0 20,0 \"B{bottom}\"\nend 20,0")
 }
@@ -16,7 +16,7 @@ const SIBLING: &str = "lib/1112.1P.dxf";
 const PROJECT: &str = "lib/8001.1P.dxf";
 const OUTER: &str = "lib/8002.1P.dxf";
 
-/// `outer` embeds `project`, which embeds `component`; `sibling` stands alone.
+/// Creates a library in which `outer` embeds `project`, which embeds `component`; `sibling` is not embedded.
 fn world() -> World {
     let mut world = World::new(&[
         (COMPONENT, &component("1111.1P", "0")),
@@ -56,7 +56,7 @@ const OF_PROJECT: [&str; 7] = [
     "resolve_path project",
 ];
 
-/// All of them except the look-up.
+/// The part of these queries that a change in the drawing repeats: all except the look-up.
 const DRAWN: std::ops::RangeTo<usize> = ..6;
 
 #[test]

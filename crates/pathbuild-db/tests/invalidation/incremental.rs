@@ -18,21 +18,21 @@ const PATHS: usize = 6;
 /// An edit. Numbers are taken modulo the number of candidates, so that any part of a sequence is a valid sequence.
 #[derive(Clone, Debug)]
 enum Step {
-    /// Mills a path deeper.
+    /// Lowers B of a path.
     Deepen(usize),
-    /// Puts a remark before a path.
+    /// Inserts a remark before a path.
     Remark(usize),
-    /// Draws the path into a second file as well, in its own directory or in the search directory.
+    /// Draws the path in a second file as well, in its own directory or in the search directory.
     Double(usize, usize),
     /// Removes a file.
     Remove(usize),
     /// Renames a file so that its name no longer admits its path.
     Hide(usize),
-    /// Embeds a path in one that it embeds itself, closing a cycle.
+    /// Makes a path embed one that embeds it, which closes a cycle.
     Close(usize),
-    /// Removes one embedding.
+    /// Removes one embedding from a path.
     Unembed(usize),
-    /// Redraws everything missing under its usual name, and removes what was added.
+    /// Draws missing paths again under their usual names, and removes additional files.
     Mend,
 }
 
@@ -118,7 +118,7 @@ impl Kept {
         Self { system, db, targets: HashMap::new() }
     }
 
-    /// Brings the files from one state of the library to the next.
+    /// Changes the files from one state of the library to the next.
     fn edit(&mut self, before: &Library, after: &Library) {
         let names: BTreeSet<&String> = before.files.keys().chain(after.files.keys()).collect();
         for name in names {
@@ -136,7 +136,7 @@ impl Kept {
         }
     }
 
-    /// The outcome for each file's path.
+    /// Returns the outcome for each file's path.
     fn outcomes(&mut self, library: &Library) -> BTreeMap<String, Outcome> {
         let outcome = |(file, drawing): (&String, &Drawing)| {
             let target = self.targets.entry(file.clone()).or_insert_with(|| {
@@ -148,7 +148,7 @@ impl Kept {
         library.files.iter().map(outcome).collect()
     }
 
-    /// Fills in lines and handles.
+    /// Fills in the lines and handles of an outcome.
     fn located(&self, outcome: Outcome) -> Outcome {
         let located = outcome.diagnostics.into_iter().map(|found| locate(&self.db, found)).collect();
         Outcome { diagnostics: located, program: outcome.program }

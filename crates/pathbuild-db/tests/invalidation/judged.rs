@@ -1,4 +1,4 @@
-//! The values and roles that checks depend on, and duplicate findings.
+//! Tests the values and roles that checks depend on, and duplicate findings.
 
 use pathbuild_db::{Limits, Role, Settings};
 use pathbuild_path::Bindings;
@@ -7,7 +7,7 @@ use salsa::Setter;
 use crate::embedding::component;
 use crate::world::{LIMITS, World};
 
-/// Correct with B0; with B9 the tool mills through the table.
+/// A path that is correct with B0; with B9 the tool mills through the table.
 const WITH_VARIABLE: &str = "layer 1114.1P\nstart 0,0 \"T5 O3 I1 Mx :B0,9\"\nmill 0,0 20,0 \"B=B\"\nend 20,0";
 
 fn project(path: &str, segment: &str) -> String {
@@ -34,21 +34,21 @@ fn a_path_is_judged_with_the_values_that_it_is_given() {
     assert_eq!(checked(Role::Emitted), ["PB302"]);
 }
 
-/// The sweep height that follows from the role is checked even if a path embeds nothing.
+/// The sweep height depends on the role, and is checked even if a path embeds nothing.
 #[test]
 fn the_sweep_height_of_a_role_is_checked() {
     let drawing = |t: &str| {
         format!("layer 1111.1P\nstart 0,0 \"T5 O3 I1 Mx B0\"\nmill 0,0 20,0\nprobe 10,30 \"T{t}\"\nend 20,0")
     };
     let checked = |t: &str, role| codes(&[("lib/1111.dxf", &drawing(t))], "lib/1111.dxf", "1111.1P", role);
-    // T + O when checked, the option's 20 mm when emitted.
+    // S is T + O if the path is checked, and the option's 20 mm if it is emitted.
     assert_eq!(checked("7.9", Role::Checked), [""; 0]);
     assert_eq!(checked("8", Role::Checked), ["PB203"]);
     assert_eq!(checked("19.9", Role::Emitted), [""; 0]);
     assert_eq!(checked("20", Role::Emitted), ["PB203"]);
 }
 
-/// With S of its own, heights that H adds are checked in any role; otherwise only if S is given elsewhere.
+/// If a path has an S, heights that H adds are checked in any role; otherwise only if S is given elsewhere.
 #[test]
 fn what_h_raises_is_checked_where_a_path_embeds_nothing() {
     let checked = |s: &str, h: &str| {
@@ -94,7 +94,7 @@ fn limits_hold_for_every_path() {
     }
 }
 
-/// Drawings without findings need no expensive query: they are read once.
+/// Drawings without findings need no expensive query, so they are read once.
 #[test]
 fn a_check_reads_each_drawing_once() {
     let project = project("8001.1P", ">1111.1P");

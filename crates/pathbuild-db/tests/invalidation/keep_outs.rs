@@ -1,4 +1,4 @@
-//! Clamps: an edit of one invalidates every program around it. (book: language/keep-outs)
+//! Tests clamps: an edit of one invalidates every program around it. (book: language/keep-outs)
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ fn with_clamp(y: &str) -> String {
     format!("{}\nlayer clamps\ncircle 10,{y} d 6\ntext 8,{y} \"Z90\"", component("1111.1P", "0"))
 }
 
-/// Sets the layers that hold clamps. Returns the settings from before.
+/// Sets the layers that contain clamps. Returns the previous settings.
 fn name_clamps(world: &mut World) -> Arc<Language> {
     let settings = Settings::get(&world.db);
     let before = Arc::clone(settings.language(&world.db));
@@ -38,7 +38,7 @@ fn an_edited_clamp_reaches_what_embeds_its_path() {
         assert_eq!(world.codes(label), ["PB407"]);
         assert_eq!(world.outcome(label).program, None);
     }
-    // The project's finding is that of the component, with the subpath that leads there.
+    // The project has the finding of the component, with the subpath that leads to it.
     let trace = |label: &str| {
         let outcome = world.outcome(label);
         let step = |step: &TraceStep| format!("{} {}", step.file, step.path);
@@ -48,7 +48,7 @@ fn an_edited_clamp_reaches_what_embeds_its_path() {
     assert_eq!(trace("project"), ["lib/8001.1P.dxf 8001.1P"]);
     world.draw("lib/1111.1P.dxf", &with_clamp("8"));
     assert_eq!(world.outcome("project"), right);
-    // An unclear clamp stops both; without the setting it is ignored.
+    // An unclear clamp is an error of both; without the setting it is ignored.
     world.draw("lib/1111.1P.dxf", &with_clamp("2").replace("Z90", "high"));
     assert_eq!(world.codes("project"), ["PB117", "PB511"]);
     Settings::get(&world.db).set_language(&mut world.db).to(language);

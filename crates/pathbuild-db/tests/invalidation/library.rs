@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-/// Drawings by file name.
+/// The drawings of a library, by file name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Library {
     pub(crate) files: BTreeMap<String, Drawing>,
@@ -12,40 +12,40 @@ pub(crate) struct Library {
 /// A drawing with one path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Drawing {
-    /// The path's number.
+    /// Number of the path.
     pub(crate) path: usize,
-    /// B in tenths of a millimetre.
+    /// The parameter B in tenths of a millimetre.
     pub(crate) bottom: u32,
-    /// The paths it embeds.
+    /// Numbers of the embedded paths.
     pub(crate) embeds: Vec<usize>,
-    /// Remarks before the path.
+    /// Number of remarks before the path.
     pub(crate) remarks: u32,
 }
 
 /// The result for a path according to the specification.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Prediction {
-    /// All depths in the order of milling.
+    /// All depths of a valid path, in the order of milling.
     Milled(Vec<u32>),
-    /// The codes of its errors.
+    /// The codes of the path's errors.
     Wrong(BTreeSet<&'static str>),
 }
 
-/// The directories that are searched for paths: the drawings' own, and a search directory.
+/// The directories in which paths are searched for: the drawings' own, and a search directory.
 pub(crate) const DIRECTORIES: [&str; 2] = ["lib", "parts"];
 
-/// The name of a path.
+/// Returns the name of a path.
 pub(crate) fn name(path: usize) -> String {
     format!("{}.1P", 1001 + path)
 }
 
-/// The name of a path's file.
+/// Returns the name of a path's file.
 pub(crate) fn file_name(directory: &str, path: usize, note: &str) -> String {
     format!("{directory}/{}{note}.dxf", 1001 + path)
 }
 
 impl Library {
-    /// Three components, and three projects above each other that embed them.
+    /// Creates a library of three components, and three levels of projects that embed them.
     pub(crate) fn new() -> Self {
         let embeds: [&[usize]; 6] = [&[], &[], &[], &[0, 1], &[1, 2, 3], &[4]];
         let drawing = |(path, embeds): (usize, &&[usize])| Drawing {
@@ -86,7 +86,7 @@ impl Library {
         open.pop();
     }
 
-    /// The files that define a path as seen from a file: those of the directories whose names allow it, and that file itself, whatever its
+    /// Returns the files that define a path, as seen from a file: those of the directories whose names admit it, and that file itself, whatever its
     /// name.
     fn definitions<'a>(&'a self, from: &'a str, path: usize) -> Vec<&'a str> {
         let own = directory(from);
@@ -98,7 +98,7 @@ impl Library {
         defining.map(|(file, _)| file.as_str()).filter(|file| *file == from || is_searched(file)).collect()
     }
 
-    /// Everything that could affect the path of a file: the drawings it reaches, without remarks.
+    /// Returns everything that could affect the path of a file: the drawings that it reaches, without remarks.
     pub(crate) fn reach(&self, file: &str) -> BTreeMap<&str, (u32, &[usize])> {
         let (mut reached, mut open) = (BTreeMap::new(), vec![file]);
         while let Some(next) = open.pop() {
@@ -116,7 +116,7 @@ fn directory(file: &str) -> &str {
 }
 
 impl Drawing {
-    /// The text form: a milled line from the start to the end, then from there up to each embedded path, along it and back.
+    /// Returns the text form: a milled line from the start to the end, then from there up to each embedded path, along it and back.
     pub(crate) fn text(&self) -> String {
         let remark = "layer REMARKS\ntext 0,-50 \"a remark\"\n".repeat(self.remarks as usize);
         let depth = f64::from(self.bottom) / 10.0;

@@ -13,7 +13,7 @@ const OTHER: &str = "lib/1112.1P.dxf";
 const PROJECT: &str =
     "layer 8001.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 300,0 \">1114.1P :B1\"\nend 300,0";
 
-/// Enough segments that the walk checks the clock.
+/// Returns a path with so many segments that the walk checks the clock.
 fn long(name: &str, values: &str) -> String {
     let lines: Vec<String> = (0..300).map(|x| format!("mill {x},0 {},0\n", x + 1)).collect();
     format!("layer {name}\nstart 0,0 \"T5 O3 I1 Mx {values}\"\n{}end 300,0", lines.concat())

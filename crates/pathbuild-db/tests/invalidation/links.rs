@@ -11,7 +11,7 @@ use pathbuild_db::{Database, Db, Role, System, check_target};
 use crate::embedding::component;
 use crate::world::{dxf, set_up};
 
-/// The codes of the findings about a path.
+/// Returns the codes of the findings about a path.
 fn codes(drawing: &Utf8Path, path: &str) -> Vec<String> {
     let db = Database::new(Arc::new(OsSystem));
     set_up(&db, &[]);
@@ -19,7 +19,7 @@ fn codes(drawing: &Utf8Path, path: &str) -> Vec<String> {
     check_target(&db, target).map(|found| found.code().to_string()).collect()
 }
 
-/// A drawing that is reachable by two names counts once.
+/// A drawing that has two names counts as one definition.
 #[test]
 fn a_link_to_a_drawing_is_no_second_definition() {
     let directory = tempfile::tempdir().unwrap();

@@ -1,11 +1,11 @@
-//! Directories that are listed before a query needs their names.
+//! Tests directories that are listed before a query needs their names.
 
 use crate::embedding::component;
 use crate::world::World;
 
 const PROJECT: &str = "lib/8001.1P.dxf";
 
-/// A project that embeds one path from a drawing named after it, and one from a drawing named after a range.
+/// Creates a project that embeds one path from a drawing named after it, and one from a drawing named after a range.
 fn world() -> World {
     let project = "layer 8001.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\n\
                    subpath 20,0 40,0 \">2222.1P\"\nend 40,0";
@@ -30,7 +30,7 @@ fn names_that_another_thread_lists_are_waited_for() {
     listing.join().unwrap();
 }
 
-/// Otherwise the query would list the directory itself.
+/// The query uses the names of the listing and does not list the directory itself.
 #[test]
 fn the_names_are_those_of_the_listing() {
     let mut world = world();
@@ -51,7 +51,7 @@ fn a_listing_that_never_runs_keeps_nobody_waiting() {
     assert!(is_made(&world));
 }
 
-/// A listing belongs to the revision in which it began.
+/// A listing is valid only in the revision in which it began.
 #[test]
 fn names_that_change_before_they_are_wanted_are_listed_again() {
     let mut world = world();
@@ -73,7 +73,7 @@ fn names_that_are_known_are_not_listed_until_they_change() {
     assert!(is_made(&world));
 }
 
-/// A prefetched file is indexed; this does not affect where paths are found.
+/// A prefetched file is indexed, which does not affect where paths are found.
 #[test]
 fn prefetching_indexes_the_drawings_of_the_names_that_are_embedded() {
     let mut world = world();

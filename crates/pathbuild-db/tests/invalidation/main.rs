@@ -1,4 +1,4 @@
-//! Which queries run again after an edit, and which must not. (ARCHITECTURE.md, "Queries")
+//! Tests which queries run again after an edit, and which must not. (ARCHITECTURE.md, "Queries")
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up its files has failed")]
 
 mod drift;

@@ -1,4 +1,4 @@
-//! Bounded memory: which values are evicted, which stay, and that eviction does not change results.
+//! Tests that memory is bounded: some values are evicted and others stay, and eviction does not change results.
 
 use pathbuild_db::Role;
 
@@ -8,10 +8,10 @@ use crate::world::World;
 const PROJECT: &str = "layer 8001.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\nend 20,0";
 const OTHER: &str = "layer 8002.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\nend 20,0";
 
-/// The large values of a path: what was read and what it becomes.
+/// The queries with large values: the entities of a drawing, and the stages of a path.
 const LARGE: [&str; 4] = ["raw_file component", "raw_path component", "path component", "chains component"];
 
-/// More drawings than are kept.
+/// Number of drawings, which is greater than the number whose large values stay in memory.
 const MANY: usize = 300;
 
 fn world() -> World {
@@ -49,7 +49,7 @@ fn a_project_is_judged_without_the_paths_it_embeds() {
     assert!(LARGE.iter().all(|query| !ran.contains(*query)), "{ran:?}");
 }
 
-/// The program needs the paths, which were evicted and are computed again.
+/// The program needs the paths, which were evicted and are therefore computed again.
 #[test]
 fn what_was_dropped_is_made_again_and_is_the_same() {
     let mut world = world();

@@ -1,10 +1,10 @@
-//! Edits of a drawing with two paths, and of a drawing beside it.
+//! Tests edits of a drawing with two paths, and of a drawing beside it.
 
 use crate::world::World;
 
 const FILE: &str = "lib/1111.dxf";
 
-/// Two paths. The first has a letter without effect, which gives a warning with a place.
+/// A drawing of two paths. The first one has a letter without effect, which gives a warning with a position.
 const DRAWING: &str = r#"
 layer 1111.1P
 start 0,0 "T5 O3 I1 B0"
@@ -29,15 +29,15 @@ fn world() -> World {
     world
 }
 
-/// Everything that is computed from the first path.
+/// The queries that depend on the first path.
 const OF_PATH: [&str; 4] = ["path path", "chains path", "closure path", "program path"];
 
 const OF_SIBLING: [&str; 4] = ["path sibling", "chains sibling", "closure sibling", "program sibling"];
 
-/// The drawing, and the paths extracted from it.
+/// The queries that read the drawing and extract its paths.
 const READING: [&str; 4] = ["file_index sibling", "raw_file sibling", "raw_path path", "raw_path sibling"];
 
-/// The paths extracted from the drawing's index.
+/// The queries that extract the paths from the drawing's index.
 const INDEX: [&str; 2] = ["path_index path", "path_index sibling"];
 
 const OF_OTHER: [&str; 8] = [
@@ -89,7 +89,7 @@ fn a_file_that_was_saved_without_a_change_runs_only_the_reader() {
     world.expect(&READING, &all_of(&[&INDEX, &OF_PATH, &OF_SIBLING, &OF_OTHER]));
 }
 
-/// Where the walk cannot continue, all layers of the drawing are searched for the cause.
+/// If the walk cannot continue, all layers of the drawing are searched for the cause.
 #[test]
 fn a_remark_in_a_drawing_with_a_gap_runs_only_the_reader() {
     let gap = DRAWING.replace("mill 20,0 20,10", "mill 20,1 20,10");

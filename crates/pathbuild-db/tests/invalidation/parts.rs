@@ -1,4 +1,4 @@
-//! Finished parts: only edits of outlines and cuts check them again. (book: language/part)
+//! Tests finished parts: only edits of outlines and cuts check them again. (book: language/part)
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ const FILE: &str = "lib/1111.1P.dxf";
 const SIBLING: &str = "lib/1112.1P.dxf";
 const PROJECT: &str = "lib/8001.1P.dxf";
 
-/// A path beside a plate whose upper edge it may enter.
+/// Returns a path beside a plate whose upper edge it may enter.
 fn drawing(feed: &str, top: &str) -> String {
     component("1111.1P", feed, top)
 }
@@ -24,7 +24,7 @@ fn component(name: &str, feed: &str, top: &str) -> String {
     )
 }
 
-/// Embeds both components, far enough apart.
+/// Returns a project that embeds both components, far enough apart.
 fn project() -> String {
     "layer 8001.1P\nstart 0,0 \"T5 O2 I1 F100 Mx\"\nsubpath 0,0 0,22 \">1111.1P\"\nsweep 0,22 100,0\n\
      subpath 100,0 100,22 \">1112.1P\"\nend 100,22"
@@ -62,7 +62,7 @@ fn an_edit_beside_cuts_and_outlines_checks_no_part_again() {
     assert!(ran(&drawing("120", "20.5").replace("21", "21.5"), &[]), "the cuts");
 }
 
-/// Two components with parts, and a project that embeds both.
+/// Creates two components with parts, and a project that embeds both.
 fn world() -> World {
     let mut world = World::new(&[
         (FILE, &drawing("100", "20")),
@@ -98,15 +98,15 @@ fn an_edit_asks_for_the_parts_that_depend_on_it_and_no_others() {
         let spared: Vec<&str> = spared.iter().map(String::as_str).collect();
         world.expect(&ran, &spared);
     };
-    // An outline that is still right: no program is built again.
+    // The outline is still correct, so no program is built again.
     let built = [of("component", "path chains program"), of("project", "program")];
     let judged = "path_index indexed_parts checked_parts closure";
     edit(&drawing("100", "19.99"), judged, "cuts_into_neighbours closure", &built);
-    // A cut that is still right.
+    // The cut is still correct.
     let cut = drawing("100", "19.99").replace("40,-1", "40.5,-1");
     let built = format!("{judged} path chains program");
     edit(&cut, &built, "cuts_into_neighbours closure program", &[]);
-    // Nothing that the part check sees.
+    // The part check does not depend on the comment.
     let judged = [of("component", judged), of("project", "cuts_into_neighbours closure")];
     let comment = cut.replace("mill 40,21 0,21", "mill 40,21 0,21 \"Q(last)\"");
     edit(&comment, "path chains program", "program", &judged);

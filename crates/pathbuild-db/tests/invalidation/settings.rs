@@ -1,4 +1,4 @@
-//! Settings: each consumer depends on one field only.
+//! Tests that each query depends on only one field of the settings.
 
 use camino::Utf8PathBuf;
 use pathbuild_db::Settings;

@@ -19,10 +19,10 @@ pub(crate) struct World {
     system: Arc<MemorySystem>,
     pub(crate) db: Database,
     log: Arc<Mutex<Vec<String>>>,
-    /// The target that made a query run first.
+    /// For each query, the label of the target for which it ran first.
     labels: HashMap<String, &'static str>,
     targets: Vec<(&'static str, Target)>,
-    /// The queries that ran for the last target.
+    /// The queries that ran for the last target, each with its label.
     ran: BTreeSet<String>,
 }
 
@@ -55,7 +55,7 @@ pub(crate) const READING: Reading = Reading {
 /// Limits that no path here exceeds.
 pub(crate) const LIMITS: Limits = Limits { moves: 1_000_000, memory: 1 << 30, paths: 1000 };
 
-/// The settings that all tests here begin with, with additional search directories.
+/// Applies the settings with which all tests here begin, and further search directories.
 pub(crate) fn set_up(db: &Database, search: &[&str]) {
     let language = Language {
         path_pattern: PathPattern::default(),
@@ -81,7 +81,7 @@ pub(crate) fn outcome(db: &Database, target: Target) -> Outcome {
 }
 
 impl World {
-    /// Files with drawings in text form.
+    /// Creates files from drawings in text form, and a database over them.
     pub(crate) fn new(files: &[(&str, &str)]) -> Self {
         let system = Arc::new(MemorySystem::default());
         for (name, text) in files {
@@ -93,14 +93,14 @@ impl World {
         Self { system, db, log, labels: HashMap::new(), targets: Vec::new(), ran: BTreeSet::new() }
     }
 
-    /// Queries a path for emitting, and records what ran for the first time.
+    /// Queries a path for emitting, and records the queries that ran for the first time.
     pub(crate) fn ask(&mut self, label: &'static str, file: &str, path: &str) {
         let target = self.new_target(label, file, path, Role::Emitted);
         outcome(&self.db, target);
         self.note(label);
     }
 
-    /// Queries the codes of a path's findings, nothing else.
+    /// Returns the codes of a path's findings, without querying its program.
     pub(crate) fn judge(&mut self, label: &'static str, file: &str, path: &str, role: Role) -> Vec<String> {
         let target = self.new_target(label, file, path, role);
         let codes = check_target(&self.db, target).map(|found| found.code().to_string()).collect();
@@ -113,7 +113,7 @@ impl World {
         &self.ran
     }
 
-    /// The input of a drawing.
+    /// Returns the input of a drawing.
     pub(crate) fn file(&self, file: &str) -> SourceFile {
         self.db.file(file.into())
     }
@@ -174,22 +174,22 @@ impl World {
         }
     }
 
-    /// The bytes of a file.
+    /// Returns the bytes of a file.
     pub(crate) fn bytes(&self, file: &str) -> Vec<u8> {
         self.system.read(file.into(), u64::MAX).unwrap()
     }
 
-    /// The result for a target.
+    /// Returns the results for a target.
     pub(crate) fn outcome(&self, label: &str) -> Outcome {
         outcome(&self.db, self.target(label))
     }
 
-    /// The codes of a target's findings, in order.
+    /// Returns the codes of a target's findings, in order.
     pub(crate) fn codes(&self, label: &str) -> Vec<String> {
         self.outcome(label).diagnostics.iter().map(|found| found.code().to_string()).collect()
     }
 
-    /// The place of a target's first finding.
+    /// Returns the place of a target's first finding.
     pub(crate) fn place(&self, label: &str) -> Place {
         let found = self.outcome(label).diagnostics.first().cloned().expect("there is a finding");
         locate(&self.db, found).place
@@ -199,7 +199,7 @@ impl World {
         self.targets.iter().find(|(known, _)| *known == label).expect("the target was asked for").1
     }
 
-    /// Queries everything again and compares the queries that ran: exactly `ran`, and so none of `spared`. Both are written as `query
+    /// Queries everything again and asserts that exactly the queries in `ran` ran, and so none of `spared`. Both contain texts of the form `query
     /// label`; a query that runs for the first time has the label `new`.
     #[track_caller]
     pub(crate) fn expect(&mut self, ran: &[&str], spared: &[&str]) {
@@ -229,7 +229,7 @@ impl World {
     }
 }
 
-/// A query without its key, with the label.
+/// Returns the name of a query without its key, followed by the label.
 fn named(query: &str, label: &str) -> String {
     format!("{} {label}", query.split('(').next().unwrap_or_default())
 }

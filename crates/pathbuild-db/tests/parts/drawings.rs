@@ -1,4 +1,4 @@
-//! Drawings just inside and just outside of each rule.
+//! Tests drawings that just comply with each rule, and drawings that just do not.
 
 use pathbuild_diagnostic::{Lang, Severity};
 
@@ -8,7 +8,7 @@ use crate::{PartTest, codes, messages, number};
 
 const START: &str = "layer 1234.1P\nstart -5,-5 \"T2 O2 I0.5 B-0.2 D0.8 P3 U8 A20 S5\"\n";
 
-/// A plate of 40 x 25 with two openings, whose circles begin at 3 o'clock. The contour is drawn with `verb`.
+/// Returns a plate of 40 x 25 mm with two openings, whose circles begin at 3 o'clock. The contour is drawn with `verb`.
 fn plate(verb: &str) -> String {
     format!(
         "{START}sweep -5,-5 11,13\nmill circle 11,13 d 10\nsweep 11,13 31,13\nmill circle 31,13 d 6\n\
@@ -31,7 +31,7 @@ fn a_plate_without_bars_is_loose_unless_something_else_holds_it() {
     assert_eq!(held.codes(&[("1234.1P.dxf", &drawing)]), ["PB212"]);
 }
 
-/// A contour 0.5 mm too far outside leaves material all round, and is as loose without bars.
+/// A contour 0.5 mm too far outside leaves material all round. Without bars, the part is still loose.
 #[test]
 fn a_contour_too_far_outside_leaves_material_all_round() {
     let contour = |verb: &str| {
@@ -85,7 +85,7 @@ fn compatible_programs_get_warnings_only() {
     assert!(found.iter().all(|found| found.severity == Severity::Warning), "{found:?}");
 }
 
-/// The tool of compatible programs plunges to B at the start of a segment, through the half bar there.
+/// In compatible programs, the tool plunges to B at the start of a segment and thus cuts through the half bar there.
 #[test]
 fn compatible_programs_lose_half_bars_at_corners() {
     let compatible = PartTest { is_compatible: true, ..PartTest::default() };
@@ -93,7 +93,7 @@ fn compatible_programs_lose_half_bars_at_corners() {
     assert!(!codes(&plate("bars")).contains(&"PB218".to_owned()));
 }
 
-/// Both ends of the arc are clear of the straight edge.
+/// The arc enters the straight edge between its ends, which are both clear of the edge.
 #[test]
 fn an_arc_that_bulges_into_an_edge_is_found_between_its_ends() {
     let bulge = |height: f64| {
@@ -144,7 +144,7 @@ fn corners_that_no_cutter_reaches_are_one_remark() {
     assert_eq!(codes(&fillet(4.0)), ["PB213"], "larger");
 }
 
-/// The end of a slot has the radius of the cutter, which reaches it from one point only.
+/// The end of a slot has the radius of the cutter, so the cutter reaches it from one point only.
 #[test]
 fn a_cutter_reaches_an_arc_of_its_own_radius() {
     let slot = |end: f64| {
@@ -161,7 +161,7 @@ fn a_cutter_reaches_an_arc_of_its_own_radius() {
         left.map_or(0.0, |found| number(found, "thickness"))
     };
     assert_eq!((left(20.0), left(19.981)), (0.0, 0.0));
-    // Between the samples of the rim's distance the largest one lies.
+    // The largest distance of the edge lies between the sampled points.
     for missing in [0.03, 0.5] {
         assert!((left(20.0 - missing) - missing).abs() < 0.01, "{missing}: {}", left(20.0 - missing));
     }
@@ -177,7 +177,7 @@ fn a_bar_that_another_path_cuts_is_lost() {
         )
     };
     let codes = |drawing: &str| PartTest::default().codes(&[("1234.1.dxf", drawing)]);
-    // 42 / 11: three bars, those inside at 14 and 28.
+    // The length of 42 mm gives three bars (42 / 11), of which the inner ones are at 14 and 28.
     assert_eq!(codes(&second(14.0, -0.2)), ["PB218"]);
     assert_eq!(codes(&second(14.0, 0.79)), [""; 0], "it ends as high as the bar");
     assert_eq!(codes(&second(21.0, -0.2)), [""; 0], "between the bars");
@@ -213,7 +213,7 @@ fn project(distance: f64, height: f64) -> String {
     )
 }
 
-/// A square of 22 x 22 around the line from start to end, milled on all sides.
+/// Returns a component with a square of 22 x 22 mm around the line from start to end, milled on all sides.
 fn component() -> String {
     "layer 1234.1P\nstart 0,0 \"T2 O2 I0.5 B0 D0.8 P3 U8 MX\"\nsweep 0,0 3,-12\nbars 3,-12 27,-12\n\
      bars to 27,12 3,12 3,-12\nsweep 3,-12 30,0\nend 30,0\nlayer Part\npolyline 4,-11 26,-11 26,11 4,11 closed\n"
@@ -238,7 +238,7 @@ fn neighbours_in_a_project_need_room_for_the_cutter() {
     }
 }
 
-/// A path that only engraves leaves the outline to others; one that goes through somewhere should go through along the outline, too.
+/// A path that only engraves leaves the outline to others. A path with a through cut anywhere should also cut through along the outline.
 #[test]
 fn only_paths_with_through_cuts_leave_material() {
     let path = |other: &str| {
@@ -252,7 +252,7 @@ fn only_paths_with_through_cuts_leave_material() {
     assert!(left("0"), "it goes through elsewhere");
 }
 
-/// A cut of another component beside the part does not enter it, but goes through its bar, down to Z0 or above the bar.
+/// A cut of another component beside the part does not enter the part, but cuts through its bar, down to Z0 or above the bar.
 #[test]
 fn bars_must_not_be_cut_by_other_components() {
     let plate = format!(
@@ -275,7 +275,7 @@ fn bars_must_not_be_cut_by_other_components() {
     assert_eq!(codes(0.77).len(), 6, "every bar of this side, by more than the tolerance");
 }
 
-/// A raised component is on a plate of its own: cuts of the other one go through it, but its own end above the other.
+/// A raised component is on a raised plate: cuts of the other component go through it, but its own cuts end above the other one.
 #[test]
 fn heights_of_embeddings_raise_the_plate() {
     let component = component();
@@ -345,11 +345,11 @@ fn a_hole_that_the_part_lacks_is_a_gouge() {
         plate("bars").replace("sweep 31,13 0,0", "sweep 31,13 21,13\nmill circle 21,13 d 2\nsweep 21,13 0,0");
     let found = PartTest::default().diagnostics(&[("1234.1P.dxf", &drawing)]);
     let [found] = &found[..] else { panic!("{found:?}") };
-    // 5 mm from the rim of the larger opening.
+    // The position is 5 mm from the edge of the larger opening.
     assert!((number(found, "depth") - 6.0).abs() < 1e-6, "{found:?}");
 }
 
-/// A thread round a hole is no island, and a hole in it no missing one.
+/// A thread around a hole is not an island, and a hole in the thread is not a missing one.
 #[test]
 fn of_rings_in_each_other_one_must_be_cut() {
     let drawing = plate("bars") + "circle 31,13 d 5\n";
@@ -369,7 +369,7 @@ fn a_group_in_the_expression_names_the_path() {
     assert_eq!(test.codes(&[("1234.1P.dxf", &part("Part 1234_"))]), ["PB220"], "digits follow");
 }
 
-/// Far from the origin, turned, and with three decimals, the same things are found.
+/// The findings are the same far from the origin, rotated, and with three decimals.
 #[test]
 fn places_and_directions_do_not_matter() {
     for degrees in [0.0_f64, 33.3, 180.0] {
@@ -409,7 +409,7 @@ fn a_part_belongs_to_paths_within_the_cutter_diameter() {
     assert_eq!(beside(-1.01), ["PB220"]);
 }
 
-/// The path that is too far outside leaves nothing where another one cuts; material that both leave is reported once.
+/// A path that is too far outside leaves no material where another path cuts. Material that both leave is reported once.
 #[test]
 fn what_paths_leave_is_judged_on_their_union() {
     let path = |letter: &str, y: f64| {
@@ -440,7 +440,7 @@ fn marks_along_an_outline_leave_nothing() {
     assert!(along("mill 0,0 40,0 \"B1.5\""));
 }
 
-/// An embedded path cuts across the outline that the project draws: it is for the project's own cuts.
+/// An embedded path cuts across the outline that the project draws, which is only for the project's own cuts.
 #[test]
 fn outlines_of_a_project_are_for_its_own_cuts() {
     let component = component();
@@ -473,7 +473,7 @@ fn a_gouge_names_the_element_that_cuts() {
     assert_eq!((point.x.0, point.y.0), (42.0, 0.0), "{gouge:?}");
 }
 
-/// The ring runs 10 mm away from the part, to which the path belongs because of its lower edge.
+/// The ring runs 10 mm away from the part. The path belongs to the part because of the part's lower edge.
 #[test]
 fn a_part_is_loose_wherever_the_ring_runs() {
     let drawing = |last: &str| {
@@ -487,7 +487,7 @@ fn a_part_is_loose_wherever_the_ring_runs() {
     assert!(!codes(&drawing("sweep")).contains(&"PB217".to_owned()));
 }
 
-/// Bars within a ring that is milled all round, however far away, hold the part to what comes loose itself.
+/// Bars within a ring that is milled all round only hold the part to material that comes loose itself, however far away the ring is.
 #[test]
 fn bars_within_a_closed_ring_hold_nothing() {
     let drawing = |last: &str| {
@@ -501,7 +501,7 @@ fn bars_within_a_closed_ring_hold_nothing() {
     assert!(!codes(&drawing("bars")).contains(&"PB217".to_owned()));
 }
 
-/// The lines of the contour pass each other at the corners. The last one ends `height` mm above the first, both of them 2 mm wide.
+/// The lines of the contour pass each other at the corners. The last one ends `height` mm above the first one; both are 2 mm wide.
 #[test]
 fn cuts_that_cross_or_overlap_close_a_ring() {
     let is_loose = |height: f64| {
@@ -516,7 +516,7 @@ fn cuts_that_cross_or_overlap_close_a_ring() {
     assert!(!is_loose(2.0), "they touch");
 }
 
-/// A cut that comes nearer and nearer to the edge leaves a wedge, whichever way it runs.
+/// A cut that gradually approaches the edge leaves a wedge, in whichever direction it is milled.
 #[test]
 fn a_wedge_is_as_thick_in_both_directions() {
     let thickness = |from: f64, to: f64| {
@@ -546,8 +546,8 @@ fn a_gouge_at_a_corner_is_as_deep_as_the_corner_is_overlapped() {
     }
 }
 
-/// A slot cutter, by the name and O of its path, cuts beside what the outline shows: it leaves nothing, cuts nothing out, and holds back
-/// no remark about what others leave.
+/// The name and O of the path select a slot cutter, which cuts beside the drawn line: it leaves nothing, cuts nothing out, and suppresses no
+/// finding about material that others leave.
 #[test]
 fn slot_cutters_are_searched_for_gouges_only() {
     let path = |letter: &str, tool: u32, y: f64| {
@@ -569,7 +569,7 @@ fn slot_cutters_are_searched_for_gouges_only() {
     assert_eq!(codes(&ring("S")), ["PB212"]);
 }
 
-/// A cutter of 2 mm beside an edge reaches 0.2 mm beyond the end of its cut.
+/// A cutter of 2 mm beside an edge cuts 0.2 mm beyond the end of its line.
 #[test]
 fn stretches_below_a_tenth_are_no_leftover() {
     let gap = |to: f64| {
@@ -582,7 +582,7 @@ fn stretches_below_a_tenth_are_no_leftover() {
     assert!(gap(20.52).contains(&"PB215".to_owned()));
 }
 
-/// A groove across the rim says nothing about the rim, one along it does.
+/// A groove across the edge does not count as milling the edge; one along the edge does, so the material that it leaves is reported.
 #[test]
 fn a_groove_across_the_rim_leaves_nothing() {
     let groove = |way: &str, end: &str| {

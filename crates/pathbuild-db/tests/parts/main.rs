@@ -1,4 +1,4 @@
-//! The part check: what it finds in drawings, and what it must not find. (book: language/part)
+//! Tests the part check: which findings it reports for drawings, and which it must not. (book: language/part)
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up its files has failed")]
 #![allow(clippy::format_push_string, reason = "drawings are texts, which are put together piece by piece")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small numbers of corners")]
@@ -24,7 +24,7 @@ use pathbuild_testkit::sheet;
 
 /// The settings of a check.
 struct PartTest<'t> {
-    /// `None`: the key is not set.
+    /// Regular expression of the key `part`; `None` if the key is not set.
     pattern: Option<&'t str>,
     tolerance: f64,
     is_held_otherwise: bool,
@@ -38,7 +38,7 @@ impl Default for PartTest<'_> {
 }
 
 impl PartTest<'_> {
-    /// The findings about all drawings and their paths.
+    /// Returns the findings about all drawings and their paths.
     fn diagnostics(&self, files: &[(&str, &str)]) -> Vec<Diagnostic> {
         let db = self.database(files);
         let mut found = Vec::new();
@@ -56,7 +56,7 @@ impl PartTest<'_> {
         found
     }
 
-    /// The codes of these findings, in ascending order and each once.
+    /// Returns the codes of these findings, in ascending order and each once.
     fn codes(&self, files: &[(&str, &str)]) -> Vec<String> {
         let mut codes: Vec<String> =
             self.diagnostics(files).iter().map(|found| found.code().to_string()).collect();
@@ -111,18 +111,18 @@ impl PartTest<'_> {
     }
 }
 
-/// The codes that a single drawing gives with the usual settings.
+/// Returns the codes for a single drawing with the usual settings.
 fn codes(drawing: &str) -> Vec<String> {
     PartTest::default().codes(&[("1234.1P.dxf", drawing)])
 }
 
-/// The messages that a single drawing gives with the usual settings.
+/// Returns the messages for a single drawing with the usual settings.
 fn messages(drawing: &str) -> Vec<String> {
     let found = PartTest::default().diagnostics(&[("1234.1P.dxf", drawing)]);
     found.iter().map(|found| format!("{} {}", found.code(), found.text(Lang::En))).collect()
 }
 
-/// The value of a number in a finding.
+/// Returns the value of a numeric argument of a finding.
 fn number(found: &Diagnostic, name: &str) -> f64 {
     let value = found.arguments.iter().find(|(known, _)| *known == name).map(|(_, value)| value);
     match value {

@@ -1,8 +1,8 @@
-//! Reading outlines: what joins, what is dropped, what is doubtful.
+//! Tests reading outlines: which elements join, which are dropped, which are doubtful.
 
 use crate::{codes, messages};
 
-/// A path along the lower edge of the plate from (0, 1) to (40, 20).
+/// Returns a path along the lower edge of a plate from (0, 1) to (40, 20), with this outline of the plate.
 fn beside(outline: &str) -> String {
     format!("layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 S5\"\nmill 0,0 40,0\nend 40,0\nlayer Part\n{outline}\n")
 }
@@ -20,7 +20,7 @@ fn curves_join_within_a_hundredth() {
     );
 }
 
-/// Of 117.5 mm, a tenth may be missing; threads and letters have larger gaps.
+/// A gap may be up to a tenth of the outline's 117.5 mm; threads and letters have larger gaps.
 #[test]
 fn a_gap_is_named_up_to_a_tenth_of_the_outline() {
     let gap = |x: f64| messages(&beside(&format!("line {x},1 40,1\n{SIDES}")));
@@ -71,7 +71,7 @@ fn an_open_outline_beside_a_closed_one_leaves_that_alone() {
     assert!(found.len() == 1 && found[0].starts_with("PB220"), "{found:?}");
 }
 
-/// Two ends of a rectangle that are too long cross each other.
+/// The ends of two sides of a rectangle are too long and cross each other.
 #[test]
 fn overlong_ends_are_a_crossing_and_no_gap() {
     for over in [0.3, 2.0] {
@@ -90,7 +90,7 @@ fn overlong_ends_are_a_crossing_and_no_gap() {
 
 #[test]
 fn an_outline_in_the_shape_of_an_eight_crosses_itself() {
-    // The two halves cancel out, or one is larger.
+    // Either the two halves have the same area, or one is larger.
     for right in ["40,20 40,1", "40,24 40,1"] {
         let found = messages(&beside(&format!("polyline 0,1 {right} 0,20 closed\ncircle 5,10 d 2")));
         assert!(found.len() == 1 && found[0].contains("crosses itself at ("), "{found:?}");
@@ -108,7 +108,7 @@ fn outlines_that_touch_themselves_do_not_cross() {
     assert!(crossing.iter().any(|found| found.contains("crosses itself")), "just outside: {crossing:?}");
 }
 
-/// A circle as rim needs a path like any other rim.
+/// A circle as the outer edge needs a path like any other edge.
 #[test]
 fn a_circle_may_be_a_rim() {
     let rim =
@@ -138,7 +138,7 @@ fn dangling_lines_and_lines_across_the_part_are_dropped() {
     assert_eq!(codes(&beside(&format!("{whole}\nline 0,1 40,1"))), [""; 0], "drawn twice");
 }
 
-/// A line from the rim to an opening belongs to neither.
+/// A line from the outer edge to an opening belongs to neither.
 #[test]
 fn a_line_between_two_rings_is_dropped() {
     let drawing =
@@ -189,7 +189,7 @@ fn blocks_are_expanded() {
     assert_eq!(codes(&drawing("0,0.9")), ["PB213"]);
 }
 
-/// Four lines that are all too long form an outline between their crossings, unless too much of them lies beyond these.
+/// Four lines that are all too long form an outline between their crossings, unless too much of their length is beyond these.
 #[test]
 fn lines_that_overshoot_all_corners_form_an_outline() {
     let with_hole = |over: f64| {
@@ -202,7 +202,7 @@ fn lines_that_overshoot_all_corners_form_an_outline() {
         ];
         messages(&beside(&format!("{}\n{CIRCLE}", lines.join("\n"))))
     };
-    // The outline is 118 mm long, and eight ends lie beyond it.
+    // The outline is 118 mm long, and eight ends are beyond it.
     for over in [0.6, 1.6] {
         let found = with_hole(over);
         assert!(found.len() == 1 && found[0].starts_with("PB219"), "{over}: {found:?}");

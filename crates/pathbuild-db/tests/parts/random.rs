@@ -1,4 +1,4 @@
-//! Random outlines with arcs and openings: paths that are offset exactly, and paths that are not.
+//! Tests random outlines with arcs and openings, with paths that are offset exactly, and with paths that are not.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use pathbuild_path::{Xy, direction};
 
 use crate::{PartTest, number};
 
-/// A corner of a rounded polygon: where its arc begins and ends, and its centre. `is_outer`: whether the corner points out of the part.
+/// A corner of a rounded polygon: the ends and the centre of its arc, and whether the corner points out of the part (`is_outer`).
 struct Corner {
     from: Xy,
     to: Xy,
@@ -32,7 +32,7 @@ impl Random {
 }
 
 impl RandomPart {
-    /// A star-shaped polygon whose corners are rounded. `None` if the roundings do not fit on its sides.
+    /// Creates a star-shaped polygon with rounded corners; returns `None` if the arcs do not fit between its sides.
     fn new(random: &mut Random) -> Option<Self> {
         let count = random.between(4.0, 9.0).floor();
         let point = |number: f64, random: &mut Random| {
@@ -47,7 +47,7 @@ impl RandomPart {
             let after = (points[(number + 1) % points.len()] - at).normalize();
             let radius = random.between(2.5, 5.0);
             let half = (before + after).normalize();
-            // The distance from the corner to the arc's ends, by the angle between its sides.
+            // `cosine` and `sine` of the angle between the sides give the distance from the corner to the arc's ends.
             let cosine = half.dot(&after);
             let sine = (1.0 - cosine * cosine).sqrt();
             let tangent = radius * cosine / sine;
@@ -74,7 +74,7 @@ impl RandomPart {
         fits.then_some(Self { corners, openings })
     }
 
-    /// The outline shifted outwards by `distance` mm, as elements of a drawing.
+    /// Returns the outline shifted outwards by `distance` mm, as elements of a drawing.
     fn contour(&self, distance: f64, line: &str, arc: &str) -> String {
         let shifted: Vec<[Xy; 2]> = self.corners.iter().map(|corner| corner.shifted(distance)).collect();
         let mut text = String::new();
@@ -90,13 +90,13 @@ impl RandomPart {
         text
     }
 
-    /// A drawing of the part and of its path, which runs `distance` mm beside the outline, with another cut.
+    /// Returns a drawing of the part and of its path, which runs `distance` mm beside the outline, with another cut.
     fn drawing(&self, tool: f64, distance: f64, other: &str) -> String {
         let start = self.corners[0].shifted(distance)[0];
         let mut text = format!("layer 1234.1P\nstart 60,60 \"T2 O{tool} I1 B-0.2 D0.8 P2 U6 A30 S5\"\n");
         let mut at = "60,60".to_owned();
         for (centre, radius) in &self.openings {
-            // The circle that is drawn is the outer edge of what is milled.
+            // The drawn circle is the outer edge of the milled area.
             let diameter = 2.0 * (radius - distance) + tool;
             let to = format!("{},{}", centre.x, centre.y);
             text += &format!("sweep {at} {to}\nmill circle {to} d {diameter}\n");
@@ -113,7 +113,7 @@ impl RandomPart {
     }
 
     #[expect(clippy::disallowed_methods, reason = "only the sign of the sum of the angles counts")]
-    /// The signed distance from a point to the part, positive outside: an independent calculation.
+    /// Returns the signed distance from a point to the part, positive outside. This calculation is independent of the code under test.
     fn signed(&self, at: Xy) -> f64 {
         let mut distance = f64::INFINITY;
         let mut turned = 0.0;
@@ -171,7 +171,7 @@ impl Corner {
         if self.is_outer { 1.0 } else { -1.0 }
     }
 
-    /// The ends of its arc on a path `distance` mm outside.
+    /// Returns the ends of the corner's arc on a path `distance` mm outside.
     fn shifted(&self, distance: f64) -> [Xy; 2] {
         let radius = self.radius + distance * self.sign();
         [self.from, self.to].map(|at| self.centre + (at - self.centre) * (radius / self.radius))
@@ -180,7 +180,7 @@ impl Corner {
 
 fn findings(drawing: &str) -> Vec<Diagnostic> {
     let found = PartTest::default().diagnostics(&[("1234.1P.dxf", drawing)]);
-    // Short lines of the contour stay whole, which is intended.
+    // Short lines of the contour are left standing as a whole, which is intended.
     found.into_iter().filter(|found| !matches!(&*found.code().to_string(), "PB408" | "PB212")).collect()
 }
 
@@ -209,7 +209,7 @@ fn paths_with_a_wrong_offset_are_found_all_round() {
     for (number, (part, mut random)) in parts(50).enumerate() {
         let wrong = random.between(0.03, 0.9);
         let inside = findings(&part.drawing(TOOL, TOOL / 2.0 - wrong, ""));
-        // Each of the openings and each corner and side.
+        // There must be a finding for each opening, each corner and each side.
         let gouges: Vec<&Diagnostic> =
             inside.iter().filter(|found| found.code().to_string() == "PB213").collect();
         assert!(gouges.len() >= part.corners.len() + 2, "{number}: {inside:?}");
@@ -234,14 +234,14 @@ fn paths_with_a_wrong_offset_are_found_all_round() {
     }
 }
 
-/// A line from outside that enters the part: place and depth agree with sampled distances.
+/// A line enters the part from outside: position and depth of the finding agree with sampled distances.
 #[test]
 fn a_stray_cut_is_found_where_it_is_deepest() {
     for (number, (part, mut random)) in parts(50).enumerate() {
         let away = direction(random.between(0.0, 360.0));
         let aside = direction(random.between(0.0, 360.0));
         let (begin, wrong) = (Xy::origin() + away * 45.0, random.between(0.03, 2.0));
-        // The end of the cut, at the right distance from the rim, less the error.
+        // The cut ends where its distance from the edge is right, less the error.
         let mut reach = 45.0;
         while part.signed(Xy::origin() + away * reach) > TOOL / 2.0 - wrong {
             reach -= 0.1;

@@ -30,7 +30,7 @@ fn read_all(bytes: &[u8]) -> Drawing {
     read(bytes, &options)
 }
 
-/// Files that we read differently: the number of differences, and why ours are right.
+/// Files that we read differently from ezdxf, each with the number of differences and the reason why our result is right.
 const KNOWN: &[(&str, usize, &str)] = &[
     ("0b94b2f2ceaf.dxf", 1, UTF_8),
     ("0e3b61bf4451.dxf", 1, UTF_8),

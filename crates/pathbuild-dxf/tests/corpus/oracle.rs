@@ -1,4 +1,4 @@
-//! Results of ezdxf. The columns are described in the README of the corpus.
+//! The results of ezdxf. Their columns are described in the README of the corpus.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -11,13 +11,13 @@ use crate::seen::{Seen, SeenLayers};
 /// The result of ezdxf for a file.
 pub(crate) struct Expected {
     pub(crate) file: String,
-    /// Whether ezdxf neither failed nor had to repair the file.
+    /// Whether ezdxf read the file without failing or repairing it.
     pub(crate) is_strict: bool,
     pub(crate) layers: SeenLayers,
     pub(crate) entities: Vec<Seen>,
 }
 
-/// The results for all files.
+/// Reads the results for all files.
 pub(crate) fn expected(corpus: &Path) -> Vec<Expected> {
     let packed = std::fs::read(corpus.join("ezdxf.jsonl.gz")).expect("the oracle");
     let mut lines = String::new();
@@ -99,7 +99,7 @@ impl Columns<'_> {
         }
     }
 
-    /// Anchor, height, rotation, alignment, mirroring.
+    /// Returns anchor, height, rotation, alignment and mirroring of a text.
     fn one_line(&self) -> Vec<f64> {
         let [horizontal, vertical] = [9, 10].map(|column| self.number(column));
         let [x, y] = match horizontal {

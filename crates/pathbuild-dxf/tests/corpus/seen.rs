@@ -4,29 +4,29 @@ use std::collections::BTreeMap;
 
 use pathbuild_dxf::{Drawing, Entity, Geometry, HorizontalAlign, MText, Origin, Text, VerticalAlign};
 
-/// Layers by upper-case name, with whether they are frozen or off.
+/// For each layer, by its upper-case name, whether it is frozen or off.
 pub(crate) type SeenLayers = BTreeMap<String, bool>;
 
 /// An entity in world coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Seen {
     pub(crate) kind: String,
-    /// The layer in upper case.
+    /// Name of the layer in upper case.
     pub(crate) layer: String,
-    /// The resolved line type in upper case.
+    /// Name of the resolved line type in upper case.
     pub(crate) line_type: String,
-    /// Empty if the entity has no handle.
+    /// Handle of the entity; empty if it has none.
     pub(crate) handle: String,
-    /// The string; for an MTEXT, followed by the plain text.
+    /// The string of a text; for an MTEXT, followed by its plain text.
     pub(crate) texts: Vec<String>,
     pub(crate) numbers: Vec<f64>,
 }
 
-/// Largest difference of numbers, which the oracle gives with nine decimals.
+/// Maximum difference of equal numbers, of which the oracle has nine decimals.
 const NEAR: f64 = 2e-9;
 
 impl Seen {
-    /// The property in which the two differ; `None` if they are equal.
+    /// Returns the name of a property that differs; `None` if the entities are equal.
     pub(crate) fn difference(&self, other: &Self) -> Option<&'static str> {
         let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= NEAR + 1e-15 * a.abs();
         if self.kind != other.kind || self.numbers.len() != other.numbers.len() {
@@ -48,14 +48,14 @@ impl Seen {
     }
 }
 
-/// The entities directly in ENTITIES: no parts of polylines, curves or blocks.
+/// Returns the entities directly in ENTITIES, without parts of polylines, curves or blocks.
 pub(crate) fn of_drawing(drawing: &Drawing, is_inserted: impl Fn(u32) -> bool) -> Vec<Seen> {
     let all = drawing.entities.iter().zip(&drawing.origins);
     let own = all.filter(|(entity, origin)| entity.group.is_none() && !is_inserted(origin.line));
     own.map(|(entity, origin)| seen(drawing, entity, *origin)).collect()
 }
 
-/// The layers in use.
+/// Returns the layers in use.
 pub(crate) fn layers_of(drawing: &Drawing) -> SeenLayers {
     drawing.layers.iter().map(|layer| (layer.name.to_uppercase(), layer.hidden)).collect()
 }

@@ -1,4 +1,4 @@
-//! Binary files give the same drawing as their ASCII form.
+//! Tests that binary files give the same drawing as their ASCII form.
 
 use pathbuild_dxf::{Drawing, Geometry};
 
@@ -12,7 +12,7 @@ enum Codes {
     TwoBytes,
 }
 
-/// The binary form of an ASCII file.
+/// Converts an ASCII file to binary form.
 fn binary(ascii: &str, codes: Codes) -> Vec<u8> {
     let mut bytes = SENTINEL.to_vec();
     let lines: Vec<&str> = ascii.lines().collect();

@@ -1,4 +1,4 @@
-//! Insertions only matter if they put something on a wanted layer; problems of all others are ignored. (book: language/layers-and-names)
+//! Insertions matter only if they draw on a wanted layer; problems of all others are ignored. (book: language/layers-and-names)
 
 use std::time::{Duration, Instant};
 
@@ -7,8 +7,8 @@ use pathbuild_dxf::{Options, read};
 
 use crate::support::{file, file_codes, options};
 
-/// The number of entities on layer P, and of those left out there, if this block is inserted on a layer with different scales in x and y,
-/// so that it is left out if it matters.
+/// Inserts a block on a layer with different scales in x and y, so that its contents are left out if they matter. Returns the number of entities on
+/// layer P, and of those left out there.
 fn left_out(blocks: &str, layer: &str) -> usize {
     let insert = format!("0 INSERT\n8 {layer}\n2 B\n10 0\n20 0\n41 2\n42 3");
     let options = Options { keep_layer: &|name| name == "P", ..options() };
@@ -21,12 +21,12 @@ fn block(name: &str, content: &str) -> String {
     format!("0 BLOCK\n8 0\n{name}\n10 0\n20 0\n{content}\n0 ENDBLK\n8 0\n")
 }
 
-/// A line with these groups before its points.
+/// Returns a LINE with these groups before its points.
 fn line(groups: &str) -> String {
     format!("0 LINE\n{groups}\n10 0\n20 0\n11 1\n21 0\n")
 }
 
-/// The result of [`left_out`] for inserting a block with this content on layer X.
+/// Returns the result of [`left_out`] for inserting a block with this content on layer X.
 fn left_out_with(content: &str) -> usize {
     left_out(&block("2 B", content), "X")
 }
@@ -91,12 +91,12 @@ fn of_two_blocks_of_a_name_the_first_counts() {
     assert_eq!(left_out(&(other + &wanted), "X"), 0);
 }
 
-/// The drawing with this block content inserted on layer X, while layers named P are wanted.
+/// Returns the drawing with this block content inserted on layer X, while layers named P are wanted.
 fn drawing(content: &str) -> String {
     file("", "", &block("2 B", content), "0 INSERT\n8 X\n2 B\n10 0\n20 0\n41 2\n42 3")
 }
 
-/// The number of entities left out, and the codes of the findings about the file.
+/// Returns the number of entities left out, and the codes of the findings about the file.
 fn found(drawing: impl AsRef<[u8]>) -> (usize, Vec<Code>) {
     let drawing = read(drawing.as_ref(), &Options { keep_layer: &|name| name == "P", ..options() });
     (drawing.left_out.len(), file_codes(&drawing))
@@ -104,7 +104,7 @@ fn found(drawing: impl AsRef<[u8]>) -> (usize, Vec<Code>) {
 
 #[test]
 fn a_layer_counts_however_its_code_and_lines_are_written() {
-    // At each offset within the bytes that are examined together.
+    // Test each offset within the bytes that are examined together.
     for before in 0..20 {
         let drawing = drawing(&(line(&format!("999 {:before$}\n8 X", "")) + &line("8 P")));
         for code in ["8", " 8", "  8", "   8", "8 ", "\t8\t", "008", " 08", "+8"] {
@@ -122,7 +122,7 @@ fn a_layer_that_has_to_be_decoded_counts() {
     assert_eq!(found(drawing(&line("8 X|P"))), (1, vec![]));
 }
 
-/// A very large number of layers: line numbers are not counted from the start of the file for each.
+/// There are very many layers, and line numbers must not be counted from the start of the file for each.
 #[test]
 fn blocks_that_name_very_many_layers_are_looked_at_in_time() {
     let many: String = (0..60_000).map(|number| line(&format!("8 L{number}\u{e4}"))).collect();
@@ -132,7 +132,7 @@ fn blocks_that_name_very_many_layers_are_looked_at_in_time() {
     assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
 }
 
-/// Otherwise the blocks are not read, like other unused sections.
+/// Damage is reported only then: otherwise the blocks are not read, like other unused sections.
 #[test]
 fn what_is_broken_in_blocks_is_told_if_they_may_hold_something_wanted() {
     let broken = |content: &str| drawing(content).replace(" 62\n1\n", " 6x\n1\n");

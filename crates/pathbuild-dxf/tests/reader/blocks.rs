@@ -1,4 +1,4 @@
-//! INSERT: insertions are replaced by the contents of their blocks. (book: language/layers-and-names; book: reference/dxf)
+//! Tests INSERT: insertions are replaced by the contents of their blocks. (book: language/layers-and-names; book: reference/dxf)
 
 use pathbuild_diagnostic::{Code, EntityKind, Handle, Lang, Point};
 use pathbuild_dxf::{Drawing, Geometry, HorizontalAlign, Options, Origin, Point3, read};
@@ -7,7 +7,7 @@ use crate::support::{faults, file, file_faults, options, read_all};
 
 const LAYERS: &str = "0 TABLE\n2 LAYER\n0 LAYER\n2 P\n6 DASHED\n0 LAYER\n2 Q\n6 DOT\n0 ENDTAB";
 
-/// A line from (1, 0) to (3, 0).
+/// A LINE from (1, 0) to (3, 0) with handle AA.
 const LINE: &str = "0 LINE\n5 AA\n8 P\n10 1\n20 0\n11 3\n21 0";
 
 fn block(name: &str, base: &str, content: &str) -> String {
@@ -18,7 +18,7 @@ fn drawing(blocks: &str, entities: &str) -> Drawing {
     read_all(file("", LAYERS, blocks, entities))
 }
 
-/// The ends of all lines.
+/// Returns the ends of all lines.
 fn lines(drawing: &Drawing) -> Vec<[f64; 4]> {
     assert_eq!((faults(drawing), &drawing.left_out), (vec![], &vec![]));
     let ends = |it: &Geometry| match it {
@@ -30,7 +30,7 @@ fn lines(drawing: &Drawing) -> Vec<[f64; 4]> {
     drawing.entities.iter().map(|entity| ends(&entity.geometry)).collect()
 }
 
-/// The ends of the line that an insertion with these groups produces.
+/// Returns the ends of the line that an insertion with these groups produces.
 fn inserted(groups: &str) -> Vec<[f64; 4]> {
     lines(&drawing(
         &block("B", "10 1\n20 0\n30 0", LINE),
@@ -145,7 +145,7 @@ fn blocks_are_nested() {
     assert_eq!(layers, ["P", "Q"]);
 }
 
-/// Layer 0 within layer 0: everything belongs to the layer of the outermost insertion.
+/// If all blocks use layer 0, everything belongs to the layer of the outermost insertion.
 #[test]
 fn blocks_on_layer_0_are_nested() {
     let blocks = block("INNER", "", &LINE.replace("8 P", "8 0"))
@@ -359,7 +359,7 @@ fn heights_of_blocks_add_up() {
     assert_eq!(z("10 0\n20 0\n30 0", "43 0"), 0.0);
 }
 
-/// A broken BLOCKS section may begin with a layer. Its line is counted although others follow.
+/// A damaged BLOCKS section may begin with a layer. Its line is counted although others follow.
 #[test]
 fn a_section_of_blocks_may_begin_with_a_layer() {
     let section = |name: &str, pairs: &str| format!("0\nSECTION\n2\n{name}\n{pairs}0\nENDSEC\n");
@@ -369,7 +369,7 @@ fn a_section_of_blocks_may_begin_with_a_layer() {
     assert!(drawing.entities.is_empty() && drawing.diagnostics.is_empty(), "{drawing:?}");
 }
 
-/// A CAD program writes an external reference as an empty block with a flag.
+/// CAD programs write an external reference as an empty block with a flag.
 #[test]
 fn an_empty_external_reference_is_missing() {
     let left_out = |flags: &str, content: &str| {
@@ -385,7 +385,7 @@ fn an_empty_external_reference_is_missing() {
     assert_eq!(left_out("70 2", ""), [""; 0]);
 }
 
-/// A block draws nothing in the CAD where the layer of its insertion is frozen.
+/// If the layer of its insertion is frozen, a block draws nothing in the CAD program.
 #[test]
 fn a_block_inserted_on_a_frozen_layer_is_told() {
     let layers =
@@ -404,7 +404,7 @@ fn a_block_inserted_on_a_frozen_layer_is_told() {
     assert_eq!(found("70 0\n62 -7"), [""; 0], "off: what lies on other layers stays visible");
 }
 
-/// The findings about a block that is inserted on layer P, of which nothing else is read, with the layers that it draws on.
+/// Returns the findings about a block that is inserted on layer P, the only layer that is read, with the layers on which the block draws.
 fn left_out_on_p(blocks: &str) -> Vec<(String, Vec<String>)> {
     let text = file("", LAYERS, blocks, "0 INSERT\n8 P\n2 B\n10 7\n20 8");
     let drawing = read(text.as_bytes(), &Options { keep_layer: &|name| name == "P", ..options() });
@@ -458,7 +458,7 @@ fn entities_of_mirrored_insertions_are_marked() {
     for groups in ["41 -1", "42 -1", "230 -1"] {
         assert_eq!(is_mirrored(groups), [true, false], "{groups}");
     }
-    // Two mirrors make a rotation.
+    // Mirroring twice is a rotation.
     for groups in ["41 1", "41 -1\n42 -1", "41 -1\n230 -1", "50 90"] {
         assert_eq!(is_mirrored(groups), [false, false], "{groups}");
     }

@@ -1,4 +1,4 @@
-//! Reads like PathDxf2GCode: nothing but lines, arcs, circles and texts outside of blocks. (book: language/layers-and-names)
+//! Tests reading as PathDxf2GCode does: nothing but lines, arcs, circles and texts outside of blocks. (book: language/layers-and-names)
 
 use pathbuild_dxf::{Drawing, Geometry, Options, read};
 

@@ -1,4 +1,4 @@
-//! Approximates ELLIPSE and SPLINE by arcs within a tolerance. (book: reference/configuration, `approximate-curves`)
+//! Tests the approximation of ELLIPSE and SPLINE by arcs within a tolerance. (book: reference/configuration, `approximate-curves`)
 
 use std::f64::consts::TAU;
 
@@ -17,7 +17,7 @@ fn distance(a: XY, b: XY) -> f64 {
     libm::hypot(a[0] - b[0], a[1] - b[1])
 }
 
-/// The point at a fraction of a piece.
+/// Returns the point at a fraction of a piece.
 fn at(piece: &Geometry, part: f64) -> XY {
     match piece {
         Geometry::Line(line) => [
@@ -32,13 +32,13 @@ fn at(piece: &Geometry, part: f64) -> XY {
     }
 }
 
-/// The angle from start to end in degrees, negative if clockwise.
+/// Returns the angle from start to end in degrees, negative if clockwise.
 fn sweep(arc: &Arc) -> f64 {
     let turn = (arc.end_angle - arc.start_angle).rem_euclid(360.0);
     if arc.clockwise { turn - 360.0 } else { turn }
 }
 
-/// The direction of a piece at its start (0) or end (1).
+/// Returns the direction of a piece at its start (0) or end (1).
 fn direction(piece: &Geometry, part: f64) -> XY {
     const STEP: f64 = 1e-7;
     let [from, to] = if part == 0.0 { [0.0, STEP] } else { [1.0 - STEP, 1.0] };
@@ -47,7 +47,7 @@ fn direction(piece: &Geometry, part: f64) -> XY {
     [(b[0] - a[0]) / length, (b[1] - a[1]) / length]
 }
 
-/// The distance of a point from a piece.
+/// Returns the distance of a point from a piece.
 fn to_piece(point: XY, piece: &Geometry) -> f64 {
     let to_ends = distance(point, at(piece, 0.0)).min(distance(point, at(piece, 1.0)));
     match piece {
@@ -62,7 +62,7 @@ fn to_piece(point: XY, piece: &Geometry) -> f64 {
     }
 }
 
-/// The maximum distance of the curve's points from the pieces. Points of the pieces must be about as near to the curve, which excludes
+/// Returns the maximum distance of the curve's points from the pieces. Points of the pieces must be about as near to the curve, which excludes
 /// loops.
 fn deviation(pieces: &[Geometry], curve: impl Fn(f64) -> XY) -> f64 {
     let points: Vec<XY> = (0..=1500).map(|step| curve(f64::from(step) / 1500.0)).collect();
@@ -76,7 +76,7 @@ fn deviation(pieces: &[Geometry], curve: impl Fn(f64) -> XY) -> f64 {
     points.iter().map(to_pieces).fold(0.0, f64::max)
 }
 
-/// The distance of a point from a polygon.
+/// Returns the distance of a point from a polygon.
 fn to_polygon(point: XY, polygon: &[XY]) -> f64 {
     let to_side = |side: &[XY]| {
         let [dx, dy] = [side[1][0] - side[0][0], side[1][1] - side[0][1]];
@@ -88,7 +88,7 @@ fn to_polygon(point: XY, polygon: &[XY]) -> f64 {
     polygon.windows(2).map(to_side).fold(f64::INFINITY, f64::min)
 }
 
-/// The pieces of the only curve. They must join, and do so without a bend if the curve is smooth.
+/// Returns the pieces of the only curve, after asserting that they join, and that they do so without a bend if the curve is smooth.
 fn pieces(drawing: &Drawing, is_smooth: bool) -> Vec<Geometry> {
     assert_eq!((faults(drawing), &drawing.left_out, &drawing.diagnostics), (vec![], &vec![], &vec![]));
     let pieces: Vec<Geometry> = drawing.entities.iter().map(|entity| entity.geometry.clone()).collect();
@@ -113,7 +113,7 @@ fn ellipse(groups: &str) -> String {
     entities(&format!("0 ELLIPSE\n8 A\n10 5\n20 6\n11 30\n21 40\n{groups}"))
 }
 
-/// A point of the ellipse.
+/// Returns a point of the ellipse.
 fn on_ellipse(ratio: f64, parameter: f64) -> XY {
     let (sin, cos) = libm::sincos(parameter);
     [5.0 + 30.0 * cos - 40.0 * ratio * sin, 6.0 + 40.0 * cos + 30.0 * ratio * sin]
@@ -156,7 +156,7 @@ fn a_part_of_an_ellipse_has_its_ends() {
     }
 }
 
-/// The distance between the start of the first and the end of the last piece.
+/// Returns the distance between the start of the first and the end of the last piece.
 fn gap(drawing: &Drawing) -> f64 {
     let ends = [(drawing.entities.first(), 0.0), (drawing.entities.last(), 1.0)];
     let [start, end] = ends.map(|(entity, part)| at(&entity.expect("there are pieces").geometry, part));
@@ -240,7 +240,7 @@ fn a_curve_in_a_scaled_block_is_approximated_where_it_ends_up() {
     });
 }
 
-/// The point of a B-spline, computed from the definition of the basis functions.
+/// Returns a point of a B-spline, computed from the definition of the basis functions.
 fn on_spline(degree: usize, knots: &[f64], points: &[[f64; 3]], parameter: f64) -> XY {
     fn basis(index: usize, degree: usize, knots: &[f64], at: f64) -> f64 {
         if degree == 0 {
@@ -262,7 +262,7 @@ fn on_spline(degree: usize, knots: &[f64], points: &[[f64; 3]], parameter: f64) 
     [sum[0] / sum[2], sum[1] / sum[2]]
 }
 
-/// A SPLINE with these knots and weighted points.
+/// Returns a SPLINE with these knots and weighted points.
 fn spline(degree: usize, knots: &[f64], points: &[[f64; 3]], groups: &str) -> String {
     let knots: Vec<_> = knots.iter().map(|knot| format!("40 {knot}")).collect();
     let points: Vec<_> =
@@ -371,7 +371,7 @@ fn coinciding_control_points_do_no_harm() {
     assert!(pieces.len() < 10, "{}", pieces.len());
 }
 
-/// A waiver compares places.
+/// The place of the finding is the first fit point, because waivers compare places.
 #[test]
 fn a_spline_of_fit_points_is_left_out_at_the_first_of_them() {
     let file = entities("0 SPLINE\n8 A\n70 8\n71 3\n74 1\n11 3\n21 4\n31 0");

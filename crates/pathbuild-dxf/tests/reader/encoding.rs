@@ -1,11 +1,11 @@
-//! Decoding of strings. (book: reference/dxf, "encoding")
+//! Tests the decoding of strings. (book: reference/dxf, "encoding")
 
 use pathbuild_diagnostic::{Code, Lang};
 use pathbuild_dxf::{Drawing, Geometry};
 
 use crate::support::{file_codes, read_all, section};
 
-/// A file with a version (such as `AC1015`), a code page, and a TEXT of these bytes.
+/// Returns a file with a version (such as `AC1015`), a code page, and a TEXT of these bytes.
 fn file(version: &str, code_page: &str, text: &[u8]) -> Vec<u8> {
     let variable = |name: &str, value: &str| {
         if value.is_empty() { String::new() } else { format!("9 {name}\n1 {value}\n") }
@@ -26,14 +26,14 @@ fn text_of(drawing: &Drawing) -> String {
     }
 }
 
-/// The string of a file without findings.
+/// Returns the string of a file, which must have no findings.
 fn decoded(version: &str, code_page: &str, text: &[u8]) -> String {
     let drawing = read_all(file(version, code_page, text));
     assert_eq!(drawing.diagnostics, []);
     text_of(&drawing)
 }
 
-/// The string of a file with a doubtful encoding, and the finding about it.
+/// Returns the string of a file with a doubtful encoding, and the finding about it.
 fn doubtful(version: &str, code_page: &str, text: &[u8]) -> (String, String) {
     let drawing = read_all(file(version, code_page, text));
     assert_eq!(file_codes(&drawing), [Code::DoubtfulEncoding]);
@@ -181,7 +181,7 @@ fn escapes_that_are_no_character_are_doubtful() {
     }
 }
 
-/// A file with one MTEXT split into these chunks.
+/// Returns a file with one MTEXT split into these chunks.
 fn chunks(version: &str, chunks: &[(u8, &[u8])]) -> Vec<u8> {
     let mut file = section("HEADER", &format!("9 $ACADVER\n1 {version}")).into_bytes();
     file.extend(b"  0\nSECTION\n  2\nENTITIES\n  0\nMTEXT\n  8\nA\n 10\n0\n 20\n0\n 40\n1\n");

@@ -1,4 +1,4 @@
-//! LINE, ARC and CIRCLE: correct and faulty entities. (book: reference/dxf)
+//! Tests correct and faulty LINE, ARC and CIRCLE entities. (book: reference/dxf)
 
 use crate::support::{entities, faults, file, only, only_geometry, options, read_all};
 use pathbuild_diagnostic::{Code, EntityKind, Handle, Lang, Point};
@@ -156,7 +156,7 @@ fn what_no_path_consists_of_is_left_out_with_its_name() {
     }
 }
 
-/// In a block it is only a template: each insertion has an ATTRIB instead.
+/// In a block, an attribute definition is only a template: each insertion has an ATTRIB instead.
 #[test]
 fn an_attribute_definition_is_left_out_where_it_is_visible() {
     let record = "0 ATTDEF\n8 P\n10 7\n20 8\n1 B2\n2 DEPTH\n";

@@ -1,11 +1,11 @@
-//! Entities on unwanted layers are skipped, especially fast if many of the same kind and layer follow each other. Entities between them are
-//! still read, and errors in the file reported. (book: reference/dxf: "lines")
+//! Tests that entities on unwanted layers are skipped, which is especially fast if many of the same kind and layer follow each other. Entities
+//! between them are still read, and errors in the file are reported. (book: reference/dxf: "lines")
 
 use pathbuild_dxf::{Options, Origin, read};
 
 use crate::support::{entities, file_faults, options};
 
-/// A line with these groups before its points.
+/// Returns a LINE with these groups before its points.
 fn line(groups: &str) -> String {
     format!("0 LINE\n{groups}\n10 0\n20 0\n11 1\n21 0\n")
 }
@@ -14,7 +14,7 @@ fn others(count: usize) -> String {
     line("5 F\n8 OTHERS").repeat(count)
 }
 
-/// The origins of the entities on layers P and 0.
+/// Returns the origins of the entities on layers P and 0.
 fn wanted(pairs: &str) -> Vec<Origin> {
     let options = Options { keep_layer: &|name| matches!(name, "P" | "0"), ..options() };
     let drawing = read(entities(pairs).as_bytes(), &options);
@@ -61,7 +61,7 @@ fn the_first_layer_that_is_not_wanted_counts() {
 
 #[test]
 fn lines_and_handles_are_those_of_the_entity() {
-    // Each has seven pairs; the first pair is on line 5.
+    // Each of these entities has seven pairs, and the first pair is on line 5.
     for before in 0..20_u32 {
         let found = wanted(&(others(before as usize) + &line("5 A\n8 P")));
         assert_eq!(found.iter().map(|origin| origin.line).collect::<Vec<_>>(), [5 + 14 * before]);

@@ -1,4 +1,4 @@
-//! Only those LAYER records are read that may belong to a wanted layer; problems of all others are ignored. (book: reference/dxf)
+//! Tests that only those LAYER records are read that may belong to a wanted layer; problems of all others are ignored. (book: reference/dxf)
 
 use std::time::{Duration, Instant};
 
@@ -10,13 +10,13 @@ use crate::support::{file, lines, options, section};
 const LTYPE: &str = "0 TABLE\n2 LTYPE\n0 LTYPE\n2 1000.1P\n6 WRONG\n0 ENDTAB\n";
 const STYLE: &str = "0 TABLE\n2 STYLE\n0 STYLE\n2 1000.1P\n6 WRONG\n0 ENDTAB\n";
 
-/// A drawing with these tables and a circle on each of these layers.
+/// Returns a drawing with these tables and a circle on each of these layers.
 fn drawing(tables: &str, layers: &[&str]) -> String {
     let circle = |layer: &&str| format!("0 CIRCLE\n8 {layer}\n10 0\n20 0\n40 1\n");
     file("", tables, "", &layers.iter().map(circle).collect::<String>())
 }
 
-/// The LAYER table with these records, and further tables around it.
+/// Returns the LAYER table with these records, and further tables around it.
 fn table(records: &str) -> String {
     format!("{LTYPE}0 TABLE\n2 LAYER\n70 3\n{records}\n0 ENDTAB\n{STYLE}")
 }
@@ -25,7 +25,7 @@ fn read_layers_with_1(file: impl AsRef<[u8]>) -> Drawing {
     read(file.as_ref(), &Options { keep_layer: &|name| name.contains('1'), ..options() })
 }
 
-/// The line types of the entities, or the findings about the file.
+/// Returns the line types of the entities, or the findings about the file.
 fn line_types(file: impl AsRef<[u8]>) -> String {
     let drawing = read_layers_with_1(file);
     let said = drawing
@@ -129,7 +129,7 @@ fn a_record_whose_beginning_is_lost_is_an_error_where_all_are_read() {
     assert!(said.starts_with("PB002") && said.contains("expected a group code here"), "{said}");
 }
 
-/// These would take hours if anything were examined twice.
+/// Reading would take hours if any part were examined twice.
 #[test]
 fn tables_full_of_the_name_are_read_in_time() {
     let many = |line: &str| line.repeat(100_000);

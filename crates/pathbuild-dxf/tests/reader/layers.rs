@@ -1,4 +1,4 @@
-//! Layers and line types: names, tables, and hidden layers. (book: reference/dxf)
+//! Tests layers and line types: names, tables, and hidden layers. (book: reference/dxf)
 
 use std::cell::RefCell;
 
@@ -8,7 +8,7 @@ use crate::support::{entities, file, options, read_all};
 
 const CIRCLE: &str = "10 0\n20 0\n40 1";
 
-/// A drawing with a circle on each of these layers.
+/// Reads a drawing with a circle on each of these layers.
 fn circles(layers: &[&str], tables: &str) -> Drawing {
     let circles: Vec<_> = layers.iter().map(|layer| format!("0 CIRCLE\n8 {layer}\n{CIRCLE}")).collect();
     read_all(file("", tables, "", &circles.join("\n")))
@@ -122,7 +122,7 @@ fn of_several_records_of_a_name_the_first_counts() {
     }
 }
 
-/// A very large number of records.
+/// There are very many records with almost the same name.
 #[test]
 fn records_are_found_among_thousands_that_are_almost_the_same() {
     const BITS: usize = 11;
@@ -187,7 +187,7 @@ fn layers_that_differ_in_one_character_are_not_the_same() {
     let of_length = |length: usize| (0..=length).map(move |place| with_other(length, place));
     for lengths in (1..=18).map(|length| length..=length).chain([1..=18]) {
         let layers: Vec<_> = lengths.flat_map(of_length).collect();
-        // Each a second time, when all are cached.
+        // Each layer occurs a second time, when all are cached.
         let twice: Vec<_> = layers.iter().chain(&layers).map(String::as_str).collect();
         let drawing = circles(&twice, "");
         assert_eq!(names(&drawing), layers.iter().map(|layer| (layer.as_str(), false)).collect::<Vec<_>>());

@@ -1,4 +1,4 @@
-//! PB005: limits of entities and texts. (book: reference/configuration, `[limits]`)
+//! Tests PB005 for limits of entities and texts. (book: reference/configuration, `[limits]`)
 
 use pathbuild_dxf::{Drawing, Options, read};
 
@@ -29,7 +29,7 @@ fn entities_are_limited() {
     }
 }
 
-/// Ten thousand faults count as one entity each, the others as twenty.
+/// The first ten thousand faults count as one entity each, all others as twenty.
 #[test]
 fn many_faults_count_as_more_than_entities() {
     let broken = "0 CIRCLE\n8 A\n10 x\n20 0\n40 1\n";

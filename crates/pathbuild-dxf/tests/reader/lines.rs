@@ -1,4 +1,4 @@
-//! Parsing of pairs: line ends, padding, comments, codes. (book: reference/dxf)
+//! Tests how pairs are parsed: line ends, padding, comments, codes. (book: reference/dxf)
 
 use crate::support::{entities, faults, file_faults, only, read_all};
 
@@ -14,7 +14,7 @@ fn all_line_ends_are_read() {
     }
 }
 
-/// Most programs pad codes to three characters. Others use none or six, with any line ends.
+/// Most programs pad codes to three characters. Others pad them to six or not at all, with any line ends.
 #[test]
 fn codes_are_read_in_any_width() {
     let lf = entities(&[LINE; 50].join("\n"));

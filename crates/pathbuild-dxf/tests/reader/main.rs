@@ -1,4 +1,4 @@
-//! The reader, rule by rule: for each, one input just inside and one just outside. (book: reference/dxf)
+//! Tests the reader rule by rule, with one input that just complies and one that just does not. (book: reference/dxf)
 
 mod binary;
 mod block_layers;

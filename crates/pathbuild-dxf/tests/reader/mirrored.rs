@@ -1,4 +1,4 @@
-//! Object coordinates: extrusions. (book: reference/dxf)
+//! Tests object coordinates, which an extrusion direction defines. (book: reference/dxf)
 
 use pathbuild_dxf::{Arc, Circle, Geometry, HorizontalAlign, Line, Point3};
 
@@ -45,7 +45,7 @@ fn a_mirrored_mtext_stands_on_the_other_side_of_its_anchor() {
     };
     assert_eq!(mtext("71 1"), (HorizontalAlign::Right, 0.0));
     assert_eq!(mtext("71 9\n50 30"), (HorizontalAlign::Left, -30.0));
-    // It is read from right to left: its direction in world coordinates is that of -x.
+    // The text is read from right to left: its direction in world coordinates is that of -x.
     assert_eq!(mtext("71 1\n11 -1\n21 0"), (HorizontalAlign::Right, 0.0));
 }
 
@@ -119,7 +119,7 @@ fn heights_are_given_as_they_are() {
         panic!()
     };
     assert_eq!(circle.centre.z, 0.5);
-    // R10 used an elevation instead.
+    // R10 wrote an elevation instead of z coordinates.
     let Geometry::Line(line) =
         only_geometry(entities("0 LINE\n8 A\n38 0.5\n10 1\n20 2\n11 1\n21 3\n31 0.25"))
     else {

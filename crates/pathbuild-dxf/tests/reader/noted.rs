@@ -1,4 +1,4 @@
-//! Notes texts on unwanted layers without decoding them.
+//! Tests that texts on unwanted layers are noted without being decoded.
 
 use pathbuild_dxf::{Options, read};
 

@@ -1,11 +1,11 @@
-//! Numbers as CAD programs write them. (book: reference/dxf: "numbers")
+//! Tests numbers as CAD programs write them. (book: reference/dxf: "numbers")
 
 use pathbuild_dxf::Geometry;
 use proptest::prelude::*;
 
 use crate::support::{entities, faults, read_all};
 
-/// The number read from a text, in the place of an angle, which may have any value.
+/// Reads a number from a text, in the place of an angle, which may have any value.
 fn number(text: &str) -> Result<f64, String> {
     let drawing = read_all(entities(&format!("0 TEXT\n8 A\n50 {text}\n10 0\n20 0\n40 1\n1 x")));
     match drawing.entities.first().map(|entity| &entity.geometry) {
@@ -68,7 +68,7 @@ fn numbers_that_are_not_finite_are_errors() {
     assert_eq!(number("1e308"), Ok(1e308));
 }
 
-/// No machine could reach anything beyond a kilometre.
+/// No machine reaches farther than a kilometre.
 #[test]
 fn coordinates_and_lengths_are_at_most_a_kilometre() {
     let is_sound = |entity: &str| read_all(entities(entity)).faults.is_empty();

@@ -1,4 +1,4 @@
-//! The plain text of an MTEXT. (book: language/parameter-texts)
+//! Tests the plain text of an MTEXT. (book: language/parameter-texts)
 
 use pathbuild_dxf::Geometry;
 
@@ -60,7 +60,7 @@ fn a_command_without_its_semicolon_stays() {
     assert_eq!(plain(r"C:\x"), r"C:\x");
     assert_eq!(plain(r"T3\"), r"T3\");
     assert_eq!(plain(r"T3\W1.1 O2"), r"T3\W1.1 O2");
-    // After the last `;`, and before it.
+    // The code is after the last `;` in the first case, and before it in the second.
     assert_eq!(plain(r"\A1;T3\A1\A1"), r"T3\A1\A1");
     assert_eq!(plain(r"T3\A1\A1;"), "T3");
 }

@@ -1,4 +1,4 @@
-//! LWPOLYLINE and POLYLINE become lines and arcs. (book: language/layers-and-names)
+//! Tests that LWPOLYLINE and POLYLINE become lines and arcs. (book: language/layers-and-names)
 
 use pathbuild_diagnostic::{Code, EntityKind, Handle};
 use pathbuild_dxf::{Arc, Drawing, Geometry, Line, Point3};
@@ -22,14 +22,14 @@ fn light(groups: &str) -> Drawing {
     read_all(entities(&format!("0 LWPOLYLINE\n5 2F\n8 A\n{groups}")))
 }
 
-/// A POLYLINE with these groups and vertices.
+/// Reads a POLYLINE with these groups and vertices.
 fn heavy(groups: &str, vertices: &[&str]) -> Drawing {
     let vertices: Vec<_> = vertices.iter().map(|groups| format!("0 VERTEX\n8 OTHER\n{groups}")).collect();
     let vertices = vertices.join("\n");
     read_all(entities(&format!("0 POLYLINE\n5 2F\n8 A\n66 1\n{groups}\n{vertices}\n0 SEQEND\n8 A")))
 }
 
-/// The centre is 2.5 km away. The arc becomes a line if that is at most half a micrometre off.
+/// The centre is 2.5 km away. The arc becomes a line if it deviates from one by at most half a micrometre.
 #[test]
 fn an_arc_that_is_too_large_is_a_line_if_it_is_flat() {
     let shape = |bulge: &str| light(&format!("90 2\n10 0\n20 0\n42 {bulge}\n10 100\n20 0"));
@@ -37,7 +37,7 @@ fn an_arc_that_is_too_large_is_a_line_if_it_is_flat() {
     assert!(!shape("0.0000101").left_out.is_empty() || !shape("0.0000101").faults.is_empty());
 }
 
-/// The ends of an arc, computed from its centre, radius and angles.
+/// Returns the ends of an arc, computed from its centre, radius and angles.
 fn ends(arc: &Arc) -> [[f64; 2]; 2] {
     [arc.start_angle, arc.end_angle].map(|angle| {
         let (sin, cos) = libm::sincos(angle.to_radians());
@@ -62,7 +62,7 @@ fn straight_pieces_become_lines() {
     );
 }
 
-/// Two half circles, neither of which is lost.
+/// The polyline becomes two half circles, neither of which is lost.
 #[test]
 fn a_closed_polyline_of_two_corners_goes_there_and_back() {
     let halves = "10 0\n20 0\n42 1\n10 4\n20 0\n42 1";

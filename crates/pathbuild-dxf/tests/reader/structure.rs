@@ -1,10 +1,10 @@
-//! Sections, the end of the file, and files that are not DXF. (book: reference/dxf; book: reference/diagnostics, PB002 and PB007)
+//! Tests sections, the end of the file, and files that are not DXF. (book: reference/dxf; book: reference/diagnostics, PB002 and PB007)
 
 use crate::support::{entities, file_faults, only, read_all, section};
 
 const CIRCLE: &str = "0 CIRCLE\n8 A\n10 1\n20 2\n40 3";
 
-/// The findings about a file as a whole.
+/// Returns the findings about a file as a whole.
 fn said(file: impl AsRef<[u8]>) -> String {
     let drawing = read_all(file);
     assert!(
@@ -115,7 +115,7 @@ fn only_sections_follow_each_other() {
 
 #[test]
 fn variables_behind_the_header_count() {
-    // As written by dxflib 2.0.
+    // The section has the form that dxflib 2.0 writes.
     let header = section("HEADER", "9 $ACADVER\n1 AC1015") + "  9\n$INSUNITS\n 70\n     1\n  0\nENDSEC\n";
     let drawing = read_all(format!("{header}{}", entities(CIRCLE)));
     assert_eq!(

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use pathbuild_diagnostic::{Code, Lang};
 use pathbuild_dxf::{Drawing, Entity, Geometry, Options, Units, read};
 
-/// Options that keep everything.
+/// Returns options that keep all entities.
 pub(crate) fn options() -> Options<'static> {
     Options {
         keep_layer: &|_| true,
@@ -18,12 +18,12 @@ pub(crate) fn options() -> Options<'static> {
     }
 }
 
-/// A section with pairs, which are given as `code value` lines.
+/// Returns a section with pairs, which are given as `code value` lines.
 pub(crate) fn section(name: &str, pairs: &str) -> String {
     format!("  0\nSECTION\n  2\n{name}\n{}  0\nENDSEC\n", lines(pairs))
 }
 
-/// Pairs in DXF form, given as `code value` lines.
+/// Returns pairs in DXF form, given as `code value` lines.
 pub(crate) fn lines(pairs: &str) -> String {
     let mut text = String::new();
     for line in pairs.lines().map(str::trim_start).filter(|line| !line.is_empty()) {
@@ -33,12 +33,12 @@ pub(crate) fn lines(pairs: &str) -> String {
     text
 }
 
-/// A file with these entities and nothing else.
+/// Returns a file with these entities and nothing else.
 pub(crate) fn entities(pairs: &str) -> String {
     section("ENTITIES", pairs) + "  0\nEOF\n"
 }
 
-/// A file with header variables, table records, blocks and entities.
+/// Returns a file with header variables, table records, blocks and entities.
 pub(crate) fn file(header: &str, tables: &str, blocks: &str, entities: &str) -> String {
     section("HEADER", header)
         + &section("TABLES", tables)
@@ -60,17 +60,17 @@ pub(crate) fn only(file: impl AsRef<[u8]>) -> Entity {
     drawing.entities.into_iter().next().expect("one entity")
 }
 
-/// The shape of the only entity.
+/// Reads a drawing and returns the geometry of its only entity.
 pub(crate) fn only_geometry(file: impl AsRef<[u8]>) -> Geometry {
     only(file).geometry
 }
 
-/// Codes of the diagnostics of the file as a whole.
+/// Returns the codes of the diagnostics of the file as a whole.
 pub(crate) fn file_codes(drawing: &Drawing) -> Vec<Code> {
     drawing.diagnostics.iter().map(pathbuild_diagnostic::Diagnostic::code).collect()
 }
 
-/// Faults as code, line and message.
+/// Returns faults as code, line and message.
 pub(crate) fn faults(drawing: &Drawing) -> Vec<String> {
     let show = |fault: &pathbuild_dxf::Fault| {
         let it = &fault.diagnostic;
@@ -80,7 +80,7 @@ pub(crate) fn faults(drawing: &Drawing) -> Vec<String> {
     drawing.faults.iter().map(show).collect()
 }
 
-/// Findings about the file as code, line and message.
+/// Returns findings about the file as code, line and message.
 pub(crate) fn file_faults(drawing: &Drawing) -> Vec<String> {
     let show = |it: &pathbuild_diagnostic::Diagnostic| {
         format!("{} {} {}", it.code(), it.place.line.unwrap_or(0), it.text(Lang::En))

@@ -1,4 +1,4 @@
-//! TEXT and MTEXT: positions and alignment. (book: language/parameter-texts)
+//! Tests TEXT and MTEXT: positions and alignment. (book: language/parameter-texts)
 
 use HorizontalAlign::{Centre, Left, Right};
 use VerticalAlign::{Baseline, Bottom, Middle, Top};
@@ -125,7 +125,7 @@ fn the_later_of_rotation_and_direction_holds() {
 
 #[test]
 fn an_embedded_object_is_no_part_of_an_mtext() {
-    // R2018 repeats groups of the MTEXT there with different meanings.
+    // After `Embedded Object`, R2018 repeats groups of the MTEXT with different meanings.
     let text = mtext("71 5\n101 Embedded Object\n70 1\n10 7\n20 8\n11 0\n21 1\n40 99\n71 9");
     assert_eq!(
         (text.anchor, text.height, text.rotation, text.horizontal),

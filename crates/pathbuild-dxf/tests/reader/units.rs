@@ -1,4 +1,4 @@
-//! $INSUNITS. (book: reference/dxf; book: reference/configuration, `units`)
+//! Tests $INSUNITS. (book: reference/dxf; book: reference/configuration, `units`)
 
 use pathbuild_dxf::{Drawing, Geometry, Options, Units, read};
 

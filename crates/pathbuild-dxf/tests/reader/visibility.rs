@@ -1,4 +1,4 @@
-//! Which invisible entities count, and which do not. (book: reference/dxf)
+//! Tests which invisible entities are read, and which are not. (book: reference/dxf)
 
 use pathbuild_diagnostic::{Code, Severity};
 

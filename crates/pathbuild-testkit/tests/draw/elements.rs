@@ -1,4 +1,4 @@
-//! The output of each statement of the text form.
+//! Tests the output of each statement of the text form.
 
 use crate::records::{Record, entities, number, value};
 

@@ -1,4 +1,4 @@
-//! The errors of the text form, each with its position and the expected input.
+//! Tests the errors of the text form, each with its position and the expected input.
 
 use pathbuild_testkit::sheet;
 

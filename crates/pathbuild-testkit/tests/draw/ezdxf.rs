@@ -36,7 +36,7 @@ spline fit 0,0 1,1 2,0
 circle 0,0 d 9 paper
 "#;
 
-/// A Python with ezdxf: the one given by `PATHBUILD_EZDXF`, or python3.
+/// Returns a Python with ezdxf: the one given by `PATHBUILD_EZDXF`, or python3.
 #[expect(clippy::disallowed_methods, reason = "where an oracle is")]
 fn python() -> Option<String> {
     let python = std::env::var("PATHBUILD_EZDXF").unwrap_or_else(|_| "python3".to_owned());

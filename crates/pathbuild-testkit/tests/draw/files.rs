@@ -1,4 +1,4 @@
-//! The bytes of the files: versions, encodings, line ends, omitted parts, and determinism.
+//! Tests the bytes of the files: versions, encodings, line ends, omitted parts, and determinism.
 
 use dxf::Drawing;
 use dxf::entities::EntityType;
@@ -228,7 +228,7 @@ fn fingerprints_for_other_processes() {
     println!("{}", fingerprints());
 }
 
-/// Dates, random numbers, the order of hash maps and the time zone differ between processes.
+/// Processes differ in date, random numbers, order of hash maps and time zone, none of which may affect the bytes.
 #[test]
 fn other_processes_write_the_same_bytes() {
     let exe = std::env::current_exe().unwrap();

@@ -1,4 +1,4 @@
-//! Fixtures with several files and expectations.
+//! Tests fixtures with several files and expectations.
 
 use pathbuild_diagnostic::{Code, Handle};
 use pathbuild_testkit::{Content, Fixture};

@@ -1,4 +1,4 @@
-//! Libraries and furniture.
+//! Tests generated libraries, and the frames, title blocks and dimensions around drawings.
 
 use pathbuild_path::{
     Bindings, FilePattern, Path, PathKey, PathPattern, RawPath, SegmentKind, SubpathName, Xy, bind, raw_file,
@@ -38,7 +38,7 @@ fn the_same_seed_gives_the_same_bytes_in_any_order() {
     assert_ne!(other, in_turn[5].1);
 }
 
-/// The paths of a drawing, with example values for their variables, after checking that none has findings.
+/// Returns the paths of a drawing, with example values for their variables, after checking that none has findings.
 fn paths(name: &str, sheet: &Sheet) -> Vec<Path> {
     let file = raw_file(&drawing(&sheet.to_dxf()), &language());
     assert_eq!(file.diagnostics, [], "{name}");

@@ -1,8 +1,8 @@
-//! The positions of parameter texts, checked independently by sampling points on text circles and elements.
+//! Checks the positions of parameter texts independently, by sampling points on text circles and elements.
 
 use pathbuild_testkit::{Entity, Shape, Sheet, sheet, text_circle};
 
-/// Points on an element, dense enough that no text circle fits between them.
+/// Returns points on an element, so dense that no text circle fits between them.
 fn samples(shape: &Shape) -> Vec<(f64, f64)> {
     let steps = (0..=2000).map(|i| f64::from(i) / 2000.0);
     match shape {
@@ -151,7 +151,7 @@ fn polylines_ellipses_and_splines_take_texts() {
     assert!(sheet("spline fit 0,0 10,10 20,0 \"B0\"").is_ok());
 }
 
-/// The circles of book: language/parameter-texts, computed by hand for letters of 10 mm and texts of five characters: w = 30, h = 10.
+/// The circles are those of book: language/parameter-texts, computed by hand for letters of 10 mm and texts of five characters: w = 30, h = 10.
 #[test]
 fn the_text_circle_follows_the_anchor() {
     let circle = |text: &str| {

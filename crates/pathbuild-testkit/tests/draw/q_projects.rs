@@ -1,9 +1,9 @@
-//! The Q-projects that the program draws, compared with the same drawings built by the test kit's writer for all versions.
+//! Compares the Q-projects that the program draws with the same drawings built by the test kit's writer, for all versions.
 
 use pathbuild_draw::{EmbeddingPath, q_project};
 use pathbuild_testkit::{Draft, Entity, Point};
 
-/// The same rows as [`q_project`] draws, as entities of a draft.
+/// Returns the rows that [`q_project`] draws, as entities of a draft.
 fn drafted(paths: &[EmbeddingPath<'_>]) -> Vec<u8> {
     let mut draft = Draft::new();
     let mut start = Point::new(0.0, 0.0);
@@ -59,7 +59,7 @@ fn a_q_project_has_the_bytes_of_the_same_draft() {
         "T6 O2 MPlate",
         &[(40.0, ">1234.1P O2 H2 MPlate T5"), (0.0, ">1234.2P"), (0.4, ">1234.3P")],
     )]);
-    // Further layers come before other handles; layer 0 and names that differ in case are listed once.
+    // Further layers shift the other handles; layer 0 and names that differ in case are listed once.
     assert_same(&[
         path("1234.0Q", "", &[(60.0, "")]),
         path("1234.1q", "T1", &[(0.0, "")]),
@@ -79,7 +79,7 @@ fn texts_with_foreign_and_special_characters_have_the_same_bytes() {
     assert_same(&[path("a.0Q", "", &[(2000.0, long.as_str())])]);
 }
 
-/// Without a text of its own, the start takes each text that is near the short segment.
+/// If the start has no text of its own, each text that is near the short segment is assigned to it.
 #[test]
 fn a_text_without_room_is_named() {
     assert!(q_project(&[path("1234.0Q", "T5", &[(0.01, ">1234.1P")])]).is_ok());

@@ -1,4 +1,4 @@
-//! Reads the files with our own reader, which shares no code with this writer.
+//! Reads the files with our own reader, which shares no code with the test kit's writer.
 
 use pathbuild_dxf::{Drawing, Geometry, Options, Point3, Units, read};
 use pathbuild_path::{Language, RawPath, raw_file};
@@ -76,7 +76,7 @@ fn is_same_angle(a: f64, b: f64) -> bool {
     turn.min(360.0 - turn) < 1e-9
 }
 
-/// Whether an entity of the reader matches the drawn one.
+/// Whether an entity that was read matches the drawn one.
 fn agrees(read: &Geometry, drawn: &Entity) -> bool {
     match (read, &drawn.shape) {
         (Geometry::Line(read), Shape::Line(line)) => is_at(read.start, line.from) && is_at(read.end, line.to),
@@ -113,12 +113,12 @@ fn agrees(read: &Geometry, drawn: &Entity) -> bool {
     }
 }
 
-/// The plain text of the texts drawn here.
+/// Returns the plain text of the texts that these tests draw.
 fn without_formatting(text: &str) -> String {
     text.replace("\\P", "\n").replace("\\S1^ 2;", "12").replace("\\~", "\u{a0}")
 }
 
-/// A drawing written in all possible ways.
+/// Writes a drawing in all possible ways.
 fn written(text: &str) -> Vec<(String, Sheet)> {
     let options =
         ["", "binary\n", "lineends lf\n", "lineends cr\n", "bom\n", "encoding utf-8\n", "encoding escaped\n"];
@@ -169,14 +169,14 @@ fn polylines_and_blocks_are_read_as_their_parts() {
     }
 }
 
-/// The texts of a path's start and elements, in the order of the path.
+/// Returns the texts that were read for a path's start and elements, in the order of the path.
 fn texts_found(path: &RawPath) -> Vec<String> {
     let text = |index| path.drawn.text(index).map(|text| text.as_str().to_owned()).unwrap_or_default();
     let markers = path.start.iter().chain(&path.probes).map(|marker| text(marker.text));
     markers.chain(path.drawn.elements.iter().map(|element| text(element.text))).collect()
 }
 
-/// The texts that were drawn, in the same order.
+/// Returns the texts that were drawn, in the same order.
 fn texts_drawn(sheet: &Sheet) -> Vec<String> {
     let note = |entity: &Entity| entity.note.as_ref().map_or(String::new(), |note| note.value.clone());
     let special = |diameter: f64| move |entity: &&Entity| matches!(&entity.shape, Shape::Circle(circle) if close(circle.radius * 2.0, diameter) && entity.line_type.as_deref() == Some("PHANTOM"));

@@ -1,9 +1,9 @@
-//! Shared helpers: a DXF file split into records, knowing nothing but its line structure.
+//! Splits a DXF file into records, using nothing but its line structure.
 
-/// The pairs from one group 0 to the next.
+/// The pairs of code and value from one group 0 to the next.
 pub(crate) type Record = Vec<(i32, String)>;
 
-/// The records of ASCII DXF encoded in UTF-8.
+/// Returns the records of ASCII DXF encoded in UTF-8.
 pub(crate) fn records(bytes: &[u8]) -> Vec<Record> {
     let text = std::str::from_utf8(bytes).unwrap();
     let lines: Vec<&str> = text.lines().collect();
@@ -18,29 +18,29 @@ pub(crate) fn records(bytes: &[u8]) -> Vec<Record> {
     records
 }
 
-/// The records of a section.
+/// Returns the records of a section.
 pub(crate) fn section(records: &[Record], name: &str) -> Vec<Record> {
     let begin = records.iter().position(|record| record[0].1 == "SECTION" && record[1].1 == name).unwrap();
     let rest = records[begin + 1..].iter();
     rest.take_while(|record| record[0].1 != "ENDSEC").cloned().collect()
 }
 
-/// The first value of a code.
+/// Returns the first value of a code.
 pub(crate) fn value(record: &Record, code: i32) -> Option<&str> {
     record.iter().find(|pair| pair.0 == code).map(|pair| pair.1.as_str())
 }
 
-/// The first value of a code as a number.
+/// Returns the first value of a code as a number.
 pub(crate) fn number(record: &Record, code: i32) -> f64 {
     value(record, code).unwrap().trim().parse().unwrap()
 }
 
-/// The entities of a drawing in text form.
+/// Returns the entities of a drawing in text form.
 pub(crate) fn entities(text: &str) -> Vec<Record> {
     section(&records(&dxf(text)), "ENTITIES")
 }
 
-/// A drawing in text form as DXF.
+/// Converts a drawing in text form to DXF.
 pub(crate) fn dxf(text: &str) -> Vec<u8> {
     pathbuild_testkit::sheet(text).unwrap().to_dxf()
 }

@@ -1,5 +1,5 @@
-//! Files are added to, removed from and changed in a library while one session watches it. After each step, the session's reports must add
-//! up to the findings of a check from scratch. Each step waits for the previous one, so that all of them happen to the same session.
+//! Adds, removes and changes files in a library while one session watches it. After each step, the session's reports must add up to the findings of
+//! a check from scratch. Each step waits for the previous one, so that all of them happen to the same session.
 
 use std::cell::{Cell, RefCell};
 use std::fs;
@@ -22,7 +22,7 @@ const TICK: &str = "lib/ticks/9999.1P.dxf";
 /// Performs the next step of a test; returns `false` if none is left.
 type Step<'s> = Box<dyn FnMut(&OnDisk) -> bool + 's>;
 
-/// Performs the steps one after the other.
+/// Performs the steps of a test one after the other.
 struct Driver<'s> {
     name: String,
     place: OnDisk,
@@ -33,7 +33,7 @@ struct Driver<'s> {
     is_patient: Cell<bool>,
 }
 
-/// A little longer than the watcher waits for an incomplete drawing.
+/// Time slightly longer than the watcher waits for an incomplete drawing.
 const PATIENCE: Duration = Duration::from_millis(2_100);
 
 impl Driver<'_> {
@@ -135,7 +135,7 @@ fn project(name: &str, embeds: &[&str]) -> String {
 
 const CONFIGURATION: &str = "library = [\"lib\"]\nsearch = [\"spare\"]\nfeed = 100\nspindle = \"manual\"\n";
 
-/// Projects that embed components, some of which exist.
+/// Creates projects that embed components, some of which exist.
 fn place() -> OnDisk {
     let place = OnDisk::configured(CONFIGURATION, &[]);
     for directory in ["spare", "lib/more", "away"] {
@@ -189,7 +189,7 @@ fn one_session_takes_over_any_sequence_of_arrivals() {
         let mut chance = Chance(0x9e37_79b9_7f4a_7c15 ^ seed);
         let mut left = crate::steps() / 5;
         let step = move |place: &OnDisk| {
-            // Usually one change per step, sometimes several.
+            // Most steps make one change, some make several.
             for _ in 0..=(chance.below(3) / 2 * chance.below(3)) {
                 take_step(place, &mut chance);
             }
@@ -200,7 +200,7 @@ fn one_session_takes_over_any_sequence_of_arrivals() {
     }
 }
 
-/// Regression test: the first file caused the directory's names to be listed late, so that the second one was taken for known.
+/// Regression test: the first file caused the directory's names to be listed late, so that the second file was taken for a known one.
 #[test]
 fn a_component_that_arrives_after_another_drawing_is_found() {
     for (first, second) in [(3, 0), (3, 2), (7, 5), (10, 8), (10, 9), (3, 1)] {

@@ -1,5 +1,5 @@
-//! Bugs that are triggered by reading a drawing or listing a directory, and directories that cannot be listed: each is reported for the
-//! file or directory concerned, and does not affect anything else.
+//! Tests bugs that are triggered by reading a drawing or listing a directory, and directories that cannot be listed: each is reported for the file
+//! or directory, and does not affect anything else.
 
 use std::fs;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use pathbuild_workspace::{Inputs, Workspace, check, emit, list};
 use crate::mischief::{Event, Mischief};
 use crate::on_disk::{OnDisk, sorted};
 
-/// A file system in which reading or listing the victim triggers a bug the n-th time.
+/// Returns a file system in which reading or listing the victim triggers a bug the n-th time.
 fn bug(place: &OnDisk, victim: &str, time: i64, lasts: bool) -> Arc<Mischief> {
     trouble(Event::Panic, place, victim, time, lasts)
 }
@@ -56,7 +56,7 @@ fn a_bug_in_one_drawing_keeps_no_other_from_being_checked() {
     }
 }
 
-/// The same for a directory whose listing triggers a bug.
+/// A bug triggered by listing a directory is reported for that directory, in the same way.
 #[test]
 fn a_bug_in_listing_a_directory_keeps_no_other_from_being_checked() {
     let workshop = Workshop::new(3);
@@ -79,7 +79,7 @@ fn a_bug_in_listing_a_directory_keeps_no_other_from_being_checked() {
     }
 }
 
-/// The paths of a library, each with its drawing.
+/// Returns the paths of a library, each with its drawing.
 fn paths(place: &OnDisk) -> Vec<(String, String)> {
     let inputs = Inputs::default();
     let workspace = place.workspace(&inputs, Arc::new(OsSystem), false);
@@ -136,7 +136,7 @@ fn a_bug_in_listing_ends_no_command() {
     in_each_listing(Event::Panic, "InternalError");
 }
 
-/// Otherwise a path in it would not be found, or another one would count as the only one of that name.
+/// The directory is reported: otherwise a path in it would not be found, or another one would count as the only one of that name.
 #[test]
 fn a_directory_that_cannot_be_listed_is_told() {
     in_each_listing(Event::Fail, "UnreadableFile");

@@ -1,4 +1,4 @@
-//! Programs that are generated while files change or the machine is busy.
+//! Tests programs that are generated while files change or the machine is busy.
 
 use std::fs;
 use std::sync::Arc;
@@ -90,7 +90,7 @@ fn an_inserted_file_that_changes_meanwhile_is_noticed() {
     assert!(outdated >= 2, "the file changed {outdated} times");
 }
 
-/// A machine that is busy: work that begins with the n-th query of the clock appears to have taken too long.
+/// Returns a file system on a busy machine: work that begins with the n-th query of the clock appears to have taken too long.
 fn busy(time: i64) -> Arc<Mischief> {
     Arc::new(Mischief {
         trigger: String::new(),
@@ -124,7 +124,7 @@ fn no_program_lacks_what_took_too_long() {
     assert!((1..10).filter(is_given_up).count() >= 2);
 }
 
-/// The same for comparing a program on disk with its drawing.
+/// The machine is busy once while a program on disk is compared with its drawing.
 #[test]
 fn no_program_is_held_against_what_took_too_long() {
     let place = OnDisk::configured(EMITTING, &[(DRAWING, &long("8001.1P"))]);

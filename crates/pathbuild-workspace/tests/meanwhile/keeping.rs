@@ -1,4 +1,4 @@
-//! Which results are cached, when, and for which bytes.
+//! Tests which results are cached, when, and for which bytes.
 
 use std::fs::{self, File};
 use std::sync::Arc;
@@ -86,7 +86,7 @@ fn what_is_made_of_other_bytes_is_not_kept_under_those_that_were_compared() {
     is_as_without_cache(&place);
 }
 
-/// A drawing is added after its directory was listed for any reason, but before the results are cached.
+/// A drawing is added after its directory was listed, but before the results are cached.
 #[test]
 fn a_directory_in_which_a_drawing_came_meanwhile_is_asked_again() {
     let found = |time| {

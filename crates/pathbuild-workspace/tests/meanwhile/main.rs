@@ -1,4 +1,4 @@
-//! Files change, disappear or cannot be read during a check, at moments chosen by a [`System`]. Later runs with the cache must find the
+//! Tests checks during which files change, disappear or cannot be read, at moments chosen by a [`System`]. Later runs with the cache must find the
 //! same as runs without it. `PATHBUILD_STEPS` sets the number of steps for each of two libraries (default: 60). (docs/reliability.md)
 
 #![expect(
@@ -44,7 +44,7 @@ fn steps() -> usize {
     std::env::var("PATHBUILD_STEPS").map_or(60, |steps| steps.parse().unwrap())
 }
 
-/// Tests one library. Each step is an edit, a run during which an event happens, and two runs that must find the same as one without cache.
+/// Tests one library. Each step is an edit, a run during which an event happens, and two runs that must find the same as one without a cache.
 fn library(seed: u64) {
     let mut workshop = Workshop::new(seed);
     let place = OnDisk::new(&workshop);

@@ -14,27 +14,27 @@ use pathbuild_diagnostic::Value;
 /// The event that happens to a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Event {
-    /// It is removed.
+    /// The file is removed.
     Vanish,
-    /// Other bytes are written into it.
+    /// Other bytes are written into the file.
     Change,
     /// Another file with the same modification time takes its name.
     Replace,
-    /// Reading it fails this once.
+    /// Reading the file fails this once.
     Fail,
-    /// Reading it triggers a bug.
+    /// Reading the file triggers a bug.
     Panic,
-    /// Nothing happens to it, but work that begins now appears to have taken too long already.
+    /// The file is unchanged, but work that begins now appears to have taken too long already.
     Busy,
 }
 
-/// The operating system's files, with one event: just before or after a certain file is read or directory is listed, or after the file is
+/// The operating system's files, with one event: just before or after a certain file is read or a certain directory is listed, or after the file is
 /// written, for the n-th time.
 #[derive(Debug)]
 pub(crate) struct Mischief {
     pub(crate) trigger: String,
     pub(crate) countdown: AtomicI64,
-    /// Whether the event happens every time after that as well.
+    /// Whether the event also happens every time after the n-th.
     pub(crate) lasts: bool,
     pub(crate) is_before: bool,
     pub(crate) event: Event,
@@ -42,7 +42,7 @@ pub(crate) struct Mischief {
     pub(crate) bytes: Vec<u8>,
 }
 
-/// Longer than the time limit for a path.
+/// Time that is longer than the time limit for a path.
 const LONG: Duration = Duration::from_secs(61);
 
 impl Mischief {

@@ -16,7 +16,7 @@ use pathbuild_workspace::posting::PostArguments;
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace, check};
 use tempfile::TempDir;
 
-/// Configuration of a library whose programs are written.
+/// Configuration of a library for which programs are emitted.
 pub(crate) const EMITTING: &str = "library = [\"lib\"]\nfeed = 100\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n[emit]\ntargets = [\"8*\"]\n";
 
 /// A library on disk, with a directory for its cache.
@@ -62,7 +62,7 @@ impl OnDisk {
         fs::write(self.path().join(file), sheet(text).unwrap().to_dxf()).unwrap();
     }
 
-    /// The files of cached results, with their modification times and sizes.
+    /// Returns the files of cached results, with their modification times and sizes.
     pub(crate) fn kept(&self) -> Vec<(Utf8PathBuf, SystemTime, u64)> {
         let directory = Utf8Path::from_path(self.caches.path()).unwrap().join("kept");
         let entries = directory.read_dir_utf8().unwrap().map(|entry| entry.unwrap().into_path());
@@ -112,7 +112,7 @@ impl OnDisk {
         sorted(found.chain(checked.files.iter().map(|it| format!("{it:?}"))).collect())
     }
 
-    /// Writes the programs that the configuration names; removes stale ones on request.
+    /// Writes the programs that the configuration names; removes stale ones if `removes_stale`.
     pub(crate) fn emit(&self, system: Arc<dyn System>, is_kept: bool, removes_stale: bool) -> Emission {
         let inputs = Inputs::default();
         let workspace = Workspace { jobs: Some(1), ..self.workspace(&inputs, system, is_kept) };
@@ -128,7 +128,7 @@ impl OnDisk {
         request.run(&mut request.session(&workspace)).unwrap()
     }
 
-    /// The workspace of a run.
+    /// Returns the workspace of a run.
     pub(crate) fn workspace(&self, inputs: &Inputs, system: Arc<dyn System>, is_kept: bool) -> Workspace {
         let given = Overrides { config: Some(self.path().join("pathbuild.toml")), ..Overrides::default() };
         let (settings, faults) = config::load(&OsSystem::shared(), &given, inputs, self.path());
@@ -147,7 +147,7 @@ impl OnDisk {
     }
 }
 
-/// A path with enough segments for the walk to query the clock.
+/// Returns a path with so many segments that the walk queries the clock.
 pub(crate) fn long(name: &str) -> String {
     let segments: Vec<String> = (0..300).map(|x| format!("mill {x},0 {},0\n", x + 1)).collect();
     format!("layer {name}\nstart 0,0 \"T5 O2 I1 B0 MX\"\n{}end 300,0", segments.concat())

@@ -1,4 +1,4 @@
-//! While a library is watched, drawings with transient findings are checked again after the next change of any file.
+//! Tests that, while a library is watched, drawings with transient findings are checked again after the next change of any file.
 
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
@@ -23,7 +23,7 @@ const VICTIM: &str = "lib/8001.1P.dxf";
 struct Editor {
     /// The drawing that is changed, with its new content.
     edit: (&'static str, String),
-    /// Whether the event no longer happens after the first check.
+    /// Whether the event stops happening after the first check.
     passes: bool,
     place: OnDisk,
     mischief: Arc<Mischief>,
@@ -70,7 +70,7 @@ impl Listener for Editor {
         match self.told.borrow().len() {
             1 if self.passes && update.before.is_empty() => {}
             2 => self.place.draw(OTHER.0, OTHER.1),
-            // A further retry would happen within this time.
+            // Another retry would happen within this time.
             _ => self.end_after(Duration::from_secs(1)),
         }
     }
@@ -162,7 +162,7 @@ fn a_program_that_was_given_up_is_tried_again() {
     assert!((1..10).any(is_of_program));
 }
 
-/// Otherwise each save of a drawing that exceeds the time limit would take that time twice.
+/// A drawing that was just checked is not retried: otherwise each save of a drawing that exceeds the time limit would take that time twice.
 #[test]
 fn what_was_just_tried_is_not_tried_again() {
     let edit = (VICTIM, long("8001.1P").replace("B0", "B1"));
@@ -178,7 +178,7 @@ fn a_directory_in_which_something_was_looked_for_in_vain_is_listed_again() {
     let project = "layer 8001.1P\nstart 0,0 \"T5 O2 I1 MX\"\nsubpath 0,0 40,0 \">1001.1P\"\nend 40,0";
     let place = OnDisk::configured(EMITTING, &[OTHER, (VICTIM, project)]);
     let edit = (OTHER.0, OTHER.1.replace("B0", "B1"));
-    // The second time, because the first listing finds the drawings.
+    // The event happens the second time, because the first listing finds the drawings.
     let editor = watch_place(place, "lib", Event::Fail, 2, false, false, edit, true);
     assert_eq!(*editor.found.borrow(), [Code::UnreadableFile]);
     let told = editor.told.borrow();
