@@ -1,15 +1,15 @@
-//! Which element each text belongs to. (book: language/parameter-texts)
+//! Tests to which element each text belongs. (book: language/parameter-texts)
 
 use pathbuild_path::{Curve, RawPath, Shape};
 
 use crate::support::{codes, raw, read};
 
-/// A path whose start, end and their texts are far from everything else.
+/// Reads a path whose start, end and their texts are far from everything else.
 fn drawing(statements: &str) -> RawPath {
     raw(&format!("layer 1234.1P\nstart 500,0 \"T5 O3 I1 B0 D2\"\nend 500,90\n{statements}"))
 }
 
-/// The elements in the order of segments, with their texts.
+/// Returns the elements in the order of segments, with their texts.
 fn owners(statements: &str) -> Vec<String> {
     let raw = drawing(statements);
     let found = codes(&raw.diagnostics).into_iter().filter(|code| code != "PB116");
@@ -26,18 +26,18 @@ fn owners(statements: &str) -> Vec<String> {
     raw.drawn.elements.iter().map(owner).collect()
 }
 
-/// Whether a text finds an element.
+/// Whether a text is assigned to an element.
 fn finds(statements: &str, text: &str) -> bool {
     !codes(&drawing(&format!("{statements}\n{text}")).diagnostics).contains(&"PB107".to_owned())
 }
 
-/// A text of four characters with a height of 2 mm, whose circle is centred at this point and has a radius of 2.6 mm.
+/// Returns a text of four characters with a height of 2 mm, whose circle has its centre at this point and a radius of 2.6 mm.
 fn text(at: &str, string: &str) -> String {
     assert_eq!(string.len(), 4);
     format!("text {at} \"{string}\" height 2 align centre middle")
 }
 
-/// A text whose circle is centred at this point and has a radius of exactly 1.4 mm.
+/// Returns a text whose circle has its centre at this point and a radius of exactly 1.4 mm.
 fn mtext(at: &str, string: &str) -> String {
     assert!(string.len() >= 2);
     format!("mtext {at} \"{string}\" height 2 align middle centre")
@@ -54,7 +54,7 @@ fn a_circle_comes_before_an_arc_and_an_arc_before_a_line() {
     assert_eq!(owners(&format!("{near_the_line}\n{at}")), ["line F100"]);
 }
 
-/// The distance to the centre decides, even if a larger circle is overlapped more.
+/// The text belongs to the element with the nearest centre, even if it overlaps a larger circle more.
 #[test]
 fn the_nearest_circle_is_that_of_the_nearest_centre() {
     let circles = "circle 0,0 d 20\ncircle 16,0 d 12";
@@ -72,7 +72,7 @@ fn the_nearest_arc_or_line_is_that_of_the_least_distance() {
     assert_eq!(owners(&format!("{arcs}\n{}", text("0,11.6", "F100"))), ["arc -", "arc F100"]);
 }
 
-/// The true distance decides, regardless of the lengths of the lines.
+/// The distance counts, regardless of the lengths of the lines.
 #[test]
 fn long_lines_are_as_near_as_short_ones() {
     let lines = "mill 0,0 400,0\nmill 190,3 210,3";
@@ -85,7 +85,7 @@ fn a_tie_goes_to_the_first_in_the_file() {
     assert_eq!(owners(&format!("mill 0,0 40,0\nmark 0,2 40,2\n{between}")), ["line F100", "line -"]);
     assert_eq!(owners(&format!("mark 0,2 40,2\nmill 0,0 40,0\n{between}")), ["line F100", "line -"]);
     assert_eq!(owners(&format!("circle 16,1 d 8\ncircle 24,1 d 8\n{between}")), ["circle F100", "circle -"]);
-    // Segments are ordered as circles, lines, arcs; texts are assigned before that.
+    // The order of segments is circles, lines, arcs, but texts are assigned before the segments are ordered.
     assert_eq!(
         owners(&format!("mill 0,0 40,0\ncircle 20,90 d 8\nmark 0,2 40,2\n{between}"))[1..],
         ["line F100", "line -"]
@@ -165,7 +165,7 @@ fn an_element_takes_one_text() {
     assert_eq!(codes(&drawing(&format!("mill 0,0 40,0\n{texts}")).diagnostics), ["PB107"]);
 }
 
-/// In file order, but single-line texts come first.
+/// Texts are assigned in file order, but single-line texts before all others.
 #[test]
 fn all_text_comes_before_all_mtext() {
     let (one, other) = (text("20,0.5", "F100"), mtext("20,0.5", "F200"));
@@ -193,7 +193,7 @@ fn markers_of_the_end_and_turns_and_hidden_lines_take_no_text() {
     assert_eq!(codes(&raw.diagnostics), ["PB107"]);
 }
 
-/// The text of a DOT line is kept but ignored, so that it can be enabled again; likewise for a DOT probe.
+/// The text of a DOT line is assigned but ignored, so that the line can be enabled again; so is that of a DOT probe.
 #[test]
 fn skipped_elements_take_their_text() {
     assert_eq!(owners(&format!("skip 0,0 40,0\n{}", text("20,0.5", "%x9="))), ["line %x9="]);
@@ -285,7 +285,7 @@ fn a_text_without_element_says_on_which_layer_it_would_have_one() {
     );
 }
 
-/// A number in letters, since names of layers have no digits after the tilde.
+/// Writes a number in letters, because names of layers have no digits after the tilde.
 fn letters(number: usize) -> String {
     [number / 676, number / 26 % 26, number % 26]
         .map(|digit| (b'A'..=b'Z').nth(digit).map_or('A', char::from))
@@ -293,7 +293,7 @@ fn letters(number: usize) -> String {
         .collect()
 }
 
-/// The first three are listed, and a hundred are searched.
+/// The message lists the first three layers, and at most a hundred are searched.
 #[test]
 fn a_text_without_element_names_a_few_layers() {
     let layers = |empty: usize, full: usize| {
@@ -317,7 +317,7 @@ fn a_text_without_element_names_a_few_layers() {
     assert_eq!(layers(100, 2), [""; 0]);
 }
 
-/// A layer with texts alone is not a path: the texts are reported as lost.
+/// A layer that contains only texts is not a path: the texts are reported as lost.
 #[test]
 fn a_text_on_a_layer_without_elements_belongs_to_nothing() {
     let file = read(

@@ -1,4 +1,4 @@
-//! The messages for drawings with two mistakes. (book: reference/diagnostics)
+//! Tests the messages for drawings with two mistakes. (book: reference/diagnostics)
 
 use crate::support::wrong;
 
@@ -45,11 +45,11 @@ const MISTAKES: [Mistake; 14] = [
     },
 ];
 
-/// Pairs of mistakes where one hides the other, or that form another mistake together.
+/// Pairs of mistakes of which one hides the other, or which look like another mistake together, with the codes that are reported.
 const TOGETHER: [([&str; 2], &[&str]); 7] = [
     // Without O, it is unknown which circle is too small.
     (["O missing", "hole too small"], &["PB201 O"]),
-    // Only one end is left, which is not where the path ends, or none.
+    // The only end that is left is in the wrong place, or there is none.
     (["no end", "second end"], &["PB403"]),
     (["no end", "end elsewhere"], &["PB102"]),
     // Without an end, the path breaks off at the remaining segments.

@@ -1,4 +1,4 @@
-//! Milling chains. (book: language/chains-and-passes)
+//! Tests milling chains. (book: language/chains-and-passes)
 
 use pathbuild_path::{Chain, Item};
 
@@ -41,7 +41,7 @@ fn every_other_segment_ends_a_chain() {
     }
 }
 
-/// In walking order, not in file order.
+/// The first segment is the first in walking order, not in file order.
 #[test]
 fn infeed_and_first_depth_are_those_of_the_first_segment() {
     let own = |statements: &str| {
@@ -74,7 +74,7 @@ fn each_chain_needs_an_infeed() {
     };
     assert_eq!(two("\"I1\"", "\"I1\""), [""; 0]);
     assert_eq!(two("\"I1\"", ""), ["PB201 I"]);
-    // Both are one mistake.
+    // Two chains without I are one mistake.
     assert_eq!(two("", ""), ["PB201 I"]);
 }
 
@@ -86,7 +86,7 @@ fn a_chain_that_begins_with_a_return_has_its_values() {
     assert_eq!(infeeds, [2.0, 3.0]);
 }
 
-/// The letter has an effect in the chain that retraces the segment, so it is not reported there, even though it had none before.
+/// The letter has no effect where the segment is milled, but takes effect in the chain that retraces the segment, so it is not reported.
 #[test]
 fn a_letter_without_effect_is_not_reported_for_a_return() {
     let statements = "mill 0,0 20,0\nmill 20,0 20,10 \"N1\"\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nend 40,0";

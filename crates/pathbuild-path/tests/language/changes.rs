@@ -1,4 +1,4 @@
-//! What was changed between two versions of a path: each kind of change, and one that changes nothing. (book: program/comparing)
+//! Tests the changes that are found between two versions of a path: each kind of change, and one that changes nothing. (book: program/comparing)
 
 use pathbuild_diagnostic::{Lang, Value};
 use pathbuild_path::{
@@ -10,7 +10,7 @@ use crate::support::{language, read};
 const PARAMETERS: &str = "O2 T3 I1 B0 F150";
 const ROUND: &str = "mill 0,0 40,0\nmill 40,0 40,20\nsweep 40,20 0,20\nend 0,20\n";
 
-/// The changes between two drawings of a path.
+/// Returns the changes between two drawings of a path.
 fn compared(old: &str, new: &str) -> DrawnChanges {
     let sides = [old, new].map(|drawing| {
         let mut paths = read(drawing).paths;
@@ -30,7 +30,7 @@ fn drawing(parameters: &str, statements: &str) -> String {
     format!("layer 1234.1P\nstart 0,0 \"{parameters}\"\n{statements}")
 }
 
-/// The changes between two versions of the elements, in words.
+/// Returns the changes between two versions of the elements, in words.
 fn changes(old: &str, new: &str) -> Vec<String> {
     in_words(&compared(&drawing(PARAMETERS, old), &drawing(PARAMETERS, new)))
 }
@@ -40,7 +40,7 @@ fn in_words(changes: &DrawnChanges) -> Vec<String> {
     words.collect()
 }
 
-/// The changes after a replacement in a drawing.
+/// Returns the changes after a replacement in a drawing.
 #[track_caller]
 fn replaced(from: &str, to: &str) -> Vec<String> {
     assert!(ROUND.contains(from), "{from}");
@@ -56,17 +56,17 @@ fn texts() {
     assert_eq!(other("F100 B2"), ["line at (40, 0): text B1 became B2"]);
     assert_eq!(other("B2 F120"), ["line at (40, 0): text F100 B1 became B2 F120"]);
     assert_eq!(other("B1"), ["line at (40, 0): text F100 removed"]);
-    // The same values, in another order, written otherwise, or with a comment.
+    // The text has the same values in another order, in another form, or with a comment.
     for text in ["B1 F100", "F100.0 B1,0", "F100 B1 QEdge"] {
         assert_eq!(other(text), [""; 0], "{text}");
     }
-    // The value of the path is that of the element.
+    // The element's new value is the one that it had from the path.
     assert_eq!(replaced(line, &format!("{line} \"B0\"")), [""; 0]);
 }
 
 #[test]
 fn letters_without_effect_are_no_change() {
-    // Only the first segment of a chain gives I.
+    // I of a chain is taken from its first segment only.
     let [first, second] = ["mill 0,0 40,0", "mill 40,0 40,20"];
     assert_eq!(replaced(first, &format!("{first} \"I0.5\"")), ["line at (0, 0): text I0.5 added"]);
     assert_eq!(replaced(second, &format!("{second} \"I0.5\"")), [""; 0]);
@@ -79,7 +79,7 @@ fn the_text_of_the_path() {
     assert_eq!(text("O2 T3 I1 B1 F150"), ["start marker: text B0 became B1"]);
     assert_eq!(text("O3 T3 I1 B0 F100"), ["start marker: text O2 F150 became O3 F100"]);
     assert_eq!(text("T3 O2 B0 I1 F150 MBrass"), [""; 0]);
-    // No element takes D, and every element gives its own B.
+    // No element uses D, and every element has its own B.
     assert_eq!(text("O2 T3 I1 B0 F150 D1"), [""; 0]);
     let own = ROUND.replace("mill 0,0 40,0", "mill 0,0 40,0 \"B1\"").replace("40,20\ns", "40,20 \"B1\"\ns");
     let [old, new] = ["B0", "B2"].map(|depth| drawing(&format!("O2 T3 I1 {depth} F150"), &own));
@@ -130,7 +130,7 @@ fn a_path_that_was_moved_on_its_sheet() {
             "line at (140, 75): moved by (0, 5) mm"
         ]
     );
-    // Everything except the start: reported once for all lines.
+    // Everything except the start is shifted, which is reported once for all lines.
     let lines = "mill 10,0 50,0\nmill 50,0 50,20\nmill 50,20 10,20\nend 10,20\n";
     let rest = lines.replace("10,", "15,").replace("50,", "55,");
     assert_eq!(
@@ -179,7 +179,7 @@ fn order_and_direction_do_not_matter() {
     let turned = "sweep 0,20 40,20\nmill 40,20 40,0\nmill 40,0 0,0\nend 0,20\n";
     let changes = compared(&drawing(PARAMETERS, ROUND), &drawing(PARAMETERS, turned));
     assert_eq!(in_words(&changes), [""; 0]);
-    // That may still decide between lines with the same order at a star.
+    // The order may still decide between lines of equal rank at a star.
     assert!(changes.is_reordered);
     assert!(!compared(&drawing(PARAMETERS, ROUND), &drawing(PARAMETERS, ROUND)).is_reordered);
 }
@@ -203,7 +203,7 @@ fn equal_changes_are_told_once() {
     assert_eq!(changes(&holes("1", &row), &holes("1", &row[1..])), ["circle at (1, 5): removed"]);
 }
 
-/// Many equal elements at one place take neither long nor each other's place.
+/// Many equal elements at one place are compared quickly, and each is paired with its own counterpart.
 #[test]
 fn crowds() {
     let crowd = |number: usize, text: &str| {
@@ -216,7 +216,7 @@ fn crowds() {
     );
 }
 
-/// A groove milled at two depths is drawn twice, in any order.
+/// A groove that is milled at two depths is drawn twice, in any order.
 #[test]
 fn elements_at_one_place_are_told_apart_by_their_depths() {
     let lines = |first: &str, second: &str| {
@@ -229,7 +229,7 @@ fn elements_at_one_place_are_told_apart_by_their_depths() {
     );
 }
 
-/// A line at the top of the file, so that hardly any element keeps its handle.
+/// A line that is inserted at the top of the file, so that hardly any element keeps its handle.
 const ADDED: &str = "mill 0,0 0,-30\n";
 
 #[test]

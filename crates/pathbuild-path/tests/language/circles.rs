@@ -1,10 +1,10 @@
-//! Special circles, holes and helical circles, and elements outside the plane. (book: language/markers)
+//! Tests special circles, holes and helical circles, and elements outside the plane. (book: language/markers)
 
 use pathbuild_path::SegmentKind;
 
 use crate::support::{compile, path, raw, read, wrong};
 
-/// The meaning of a PHANTOM circle with a diameter.
+/// Returns the meaning of a PHANTOM circle with this diameter.
 fn special(diameter: &str) -> String {
     let raw = raw(&format!("layer 1234.1P\nmill 0,0 20,0\ncircle PHANTOM 50,50 d {diameter}"));
     let is = [
@@ -68,7 +68,7 @@ fn a_diameter_that_means_nothing_is_shown_with_its_digits() {
     assert_eq!(said("5"), "a PHANTOM circle with a diameter of 5 mm has no meaning");
 }
 
-/// Two starts belong to one path even on different layers of it.
+/// Two start markers on different layers of one path are two starts of that path.
 #[test]
 fn markers_are_counted_over_all_layers_of_a_path() {
     let tilde = path("T5 O3 I1 B0", "mill 0,0 20,0\nend 20,0\nlayer 1234.1P~A\nstart 50,50");
@@ -94,7 +94,7 @@ fn elements_lie_in_the_plane() {
     assert_eq!(wrong(&path("T5 O3 I1 B0", "mill 0,0 20,0\nend 20,0 z 1")), ["PB110"]);
 }
 
-/// The meaning of a circle with a diameter for O3.
+/// Returns the meaning of a circle with this diameter for O3.
 fn drilled_or_milled(diameter: &str) -> String {
     let statements = format!("sweep 0,0 20,0\ncircle 20,0 d {diameter}\nend 20,0");
     let compiled = compile(&path("T5 O3 I1 B0", &statements));
@@ -139,13 +139,13 @@ fn a_helical_circle_is_no_larger_than_a() {
     assert_eq!(helix("A7", "8"), ["PB405"]);
 }
 
-/// O is the literal of the path itself; O of a subpath does not affect its circles.
+/// The O of the path decides; O of a subpath does not affect the path's circles.
 #[test]
 fn holes_are_of_the_paths_o() {
     assert_eq!(wrong(&path("T5 O=X I1 B0 :X1~3", "sweep 0,0 20,0\ncircle 20,0 d 3\nend 20,0")), ["PB206 O"]);
 }
 
-/// Three holes in a row and a milled line, each with its text.
+/// Returns three holes in a row and a milled line, each with its text.
 fn row(texts: [&str; 4]) -> String {
     let [first, second, third, line] = texts.map(|text| format!("\"{text}\""));
     let statements = format!(
@@ -160,13 +160,13 @@ fn what_is_wrong_with_a_hole_is_said_of_each() {
     assert_eq!(wrong(&row(["B6", "B6", "B1", "B1"])), ["PB203 B", "PB203 B"]);
 }
 
-/// A circle of 10 mm for a cutter of 3 mm: its axis moves on one of 7 mm. Bars are counted along that circle.
+/// For a cutter of 3 mm, the axis moves on a circle of 7 mm inside the drawn one of 10 mm. Bars are counted along the circle of the axis.
 #[test]
 fn the_axis_of_the_cutter_moves_inside_the_drawn_circle() {
     let compiled = compile(&path("T5 O3 I1 B0 Mx", "sweep 0,0 20,0\ncircle 20,0 d 10\nend 20,0"));
     let helix = &compiled.path.unwrap().helices[0];
     assert_eq!((helix.radius, helix.axis_radius(3.0)), (5.0, 3.5));
-    // 22 mm have room for two bars of 1 mm each 10 mm, 31.4 mm would have room for three.
+    // The axis moves 22 mm, which is enough for two bars at a distance of 10 mm; 31.4 mm would be enough for three.
     let bars = |distance: f64| {
         let text = format!("circle CENTER 20,0 d 10 \"D2 P1 U{distance}\"");
         let compiled = compile(&path("T5 O3 I1 B0 Mx", &format!("sweep 0,0 20,0\n{text}\nend 20,0")));

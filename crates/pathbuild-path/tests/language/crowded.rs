@@ -1,4 +1,4 @@
-//! Crowded points, compared with a walk that examines all segments in each step. (book: language/chains-and-passes)
+//! Tests crowded points by comparison with a walk that examines all segments in each step. (book: language/chains-and-passes)
 
 use pathbuild_diagnostic::Code;
 use pathbuild_path::{Curve, Item, Xy};
@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use crate::support::{compile, path};
 
-/// A milled line.
+/// A milled line of the drawing.
 #[derive(Clone, Copy, Debug)]
 struct Drawn {
     start: Xy,
@@ -21,7 +21,7 @@ fn coincide(a: Xy, b: Xy) -> bool {
     near((b - a).norm_squared(), 0.0)
 }
 
-/// The points of the walk, computed literally by the specification.
+/// Returns the points of the walk, computed directly from the specification.
 fn plain_walk(lines: &[Drawn]) -> Vec<Xy> {
     let (mut left, mut at, mut points) = ((0..lines.len()).collect::<Vec<_>>(), Xy::origin(), Vec::new());
     let length = |line: usize| (lines[line].end - lines[line].start).norm();
@@ -40,7 +40,7 @@ fn plain_walk(lines: &[Drawn]) -> Vec<Xy> {
     }
 }
 
-/// Pairs of lines between the centre and several tips, with lengths that are equal, near each other, or different.
+/// Generates pairs of lines between the centre and several tips, with lengths that are equal, nearly equal, or different.
 fn petals() -> impl Strategy<Value = Vec<Drawn>> {
     let noise = || prop_oneof![Just(0.0), -1e-9..1e-9, -1e-5..1e-5];
     let rest = move || (noise(), any::<bool>());
@@ -57,7 +57,7 @@ fn petals() -> impl Strategy<Value = Vec<Drawn>> {
     })
 }
 
-/// A number as it is rounded in a drawing.
+/// Rounds a number as in a drawing.
 fn written(number: f64) -> f64 {
     (number * 1e9).round() / 1e9
 }
@@ -79,7 +79,7 @@ fn check(lines: &[Drawn], expected: &[Xy]) {
     let end = expected.last().copied().unwrap_or(Xy::origin());
     let drawn = lines.iter().map(line).collect::<String>() + &format!("end {:?},{:?}", end.x, end.y);
     let compiled = compile(&path("T5 O3 I1 B0", &drawn));
-    // Some lines lie on each other.
+    // Some lines coincide.
     assert!(compiled.found.iter().all(|found| found.code() == Code::LeftoverElement), "{:?}", compiled.found);
     let (path, walked) = (compiled.path.expect("it is sound"), compiled.walked);
     let Some(Item::Chain(chain)) = walked.items.first() else { panic!() };
@@ -88,7 +88,7 @@ fn check(lines: &[Drawn], expected: &[Xy]) {
     assert!(ends.len() == expected.len() && ends.iter().zip(expected).all(is_same), "{ends:?}\n{expected:?}");
 }
 
-/// An even number of equal lines between the centre and one tip: all are traversed, in the order drawn.
+/// An even number of equal lines connects the centre and one tip: all are traversed, in the order drawn.
 #[test]
 fn lines_that_lie_on_each_other_are_taken_in_the_order_drawn() {
     let line = Drawn { start: Xy::origin(), end: Xy::new(10.0, 0.0) };

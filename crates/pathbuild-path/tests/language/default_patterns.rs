@@ -11,7 +11,7 @@ static FILE: LazyLock<FilePattern> =
 static PATH: LazyLock<PathPattern> =
     LazyLock::new(|| PathPattern::new(&format!("(?:{})", PathPattern::DEFAULT)).unwrap());
 
-/// Parts of names and similar characters: ſ and K count as letters of A-Z if case is ignored.
+/// Generates parts of names and similar characters: ſ and K count as letters of A-Z if case is ignored.
 fn text() -> impl Strategy<Value = String> {
     let piece = prop_oneof![
         4 => "[0-9]{4}",
@@ -48,7 +48,7 @@ proptest! {
     }
 }
 
-/// The texts of the property tests match sometimes.
+/// Some texts of the property tests match, so the tests are not void.
 #[test]
 fn letters_that_are_s_and_k_without_case_are_letters_of_paths() {
     for name in ["1234.5ſ", "1234.5\u{212a}", "1234.5k"] {

@@ -1,10 +1,10 @@
-//! Permitted values that are suspicious to a machinist: PB116 and PB211.
+//! Tests permitted values that are suspicious to a machinist: PB116 and PB211.
 
 use pathbuild_path::{Bindings, DoubtThresholds, Language};
 
 use crate::support::{codes, compile_raw, language, path, read_as};
 
-/// The findings about a path, with their values.
+/// Returns the findings about a path, with their values.
 fn said(drawing: &str, doubts: DoubtThresholds) -> Vec<String> {
     let language = Language { doubts, ..language() };
     let (raw, _) = read_as(drawing, &language).paths.into_iter().next().expect("there is a path");
@@ -64,7 +64,7 @@ fn a_mark_is_not_deeper_than_half_the_material() {
     assert_eq!(mark("T5 O2 I1", " \"D2.5\""), [""; 0]);
     assert_eq!(mark("T5 O2 I1", " \"D2.49\""), ["PB211 D2.49"]);
     assert_eq!(mark("T5 O2 I1", " \"D-0.2\""), ["PB211 D-0.2"]);
-    // The path's D, which also applies to support bars.
+    // The D of the path also applies to support bars.
     assert_eq!(mark("T5 O2 I1 D2.5", ""), [""; 0]);
     assert_eq!(mark("T5 O2 I1 D2.49", ""), ["PB211 D2.49"]);
     assert_eq!(mark("T5 O2 I1 D2.49", " \"D4.8\""), [""; 0]);
@@ -102,7 +102,7 @@ fn a_feed_is_not_above_the_machines() {
     assert_eq!(said(&path("T5 O2 I1 B0 F9999", "mill 0,0 40,0\nend 40,0"), unknown), [""; 0]);
 }
 
-/// The codes for a path with lines or circles and a text.
+/// Returns the codes for a path with lines or circles and a text.
 fn texts(statements: &str, margin: f64) -> Vec<String> {
     let drawing = format!("layer 1234.1P\nstart 500,0 \"T5 O3 I1 B0 D2\"\nend 500,90\n{statements}");
     let language = Language { doubts: DoubtThresholds { text_margin: margin, ..MACHINE }, ..language() };
@@ -116,7 +116,7 @@ fn text(y: f64) -> String {
 #[test]
 fn a_text_is_nearer_to_its_element_than_to_another() {
     let lines = "mill 0,0 40,0\nmill 0,3 40,3";
-    // 1.44 mm from one line and 1.56 mm from the other; then 1.46 and 1.54.
+    // The text is 1.44 mm from one line and 1.56 mm from the other; then 1.46 and 1.54 mm.
     assert_eq!(texts(&format!("{lines}\n{}", text(1.44)), 0.1), [""; 0]);
     assert_eq!(texts(&format!("{lines}\n{}", text(1.46)), 0.1), ["PB116"]);
     assert_eq!(texts(&format!("{lines}\n{}", text(1.44)), 0.2), ["PB116"]);
@@ -141,7 +141,7 @@ fn an_element_that_has_its_text_is_no_rival() {
     assert_eq!(found, [""; 0]);
 }
 
-/// If the text belonged to the hole, the start would have none, which is an error.
+/// The text cannot belong to the hole: then the start would have none, which is an error.
 #[test]
 fn markers_are_no_rivals_of_elements() {
     let (start, hole) = ("start 20,0 \"T5 O3 I1 B0 D2\"", "circle 20,0 d 3\nend 20,0");
@@ -149,7 +149,7 @@ fn markers_are_no_rivals_of_elements() {
     assert_eq!(said(""), [""; 0]);
 }
 
-/// With such a text, the subpath would be an error.
+/// With such a text, the subpath would be an error, so the text does not belong to it.
 #[test]
 fn an_element_that_does_not_know_the_letters_is_no_rival() {
     let both = "mill 0,0 40,0\nsubpath 0,3 40,3";
@@ -189,7 +189,7 @@ fn a_circle_hardly_larger_than_the_cutter_was_meant_to_be_drilled() {
     let circle = |diameter: &str, doubts: DoubtThresholds| {
         said(&path("T5 O3 I1 B0 D2", &format!("circle 0,0 d {diameter}\nmill 0,0 40,0\nend 40,0")), doubts)
     };
-    // It is drilled up to 0.001 mm.
+    // Up to a deviation of 0.001 mm, the circle is drilled.
     for (diameter, is_doubtful) in
         [("3", false), ("3.001", false), ("3.002", true), ("3.05", true), ("3.051", false)]
     {
@@ -200,7 +200,7 @@ fn a_circle_hardly_larger_than_the_cutter_was_meant_to_be_drilled() {
     assert_eq!(circle("3.002", DoubtThresholds { hole_margin: 0.0, ..MACHINE }), [""; 0]);
 }
 
-/// A ring of lines in which statements can be replaced.
+/// Returns the findings about a ring of lines in which statements are replaced.
 fn ring(start: &str, change: (&str, &str)) -> Vec<String> {
     let ring = "mill 0,0 40,0\nmill 40,0 40,30\nmill 40,30 0,30\nmill 0,30 0,0\nend 0,0";
     said(&path(start, &ring.replacen(change.0, change.1, 1)), MACHINE)
@@ -227,7 +227,7 @@ fn an_outline_that_has_lost_its_bars_is_doubtful() {
     }
 }
 
-/// A disc that is cut out along arcs, and an outline whose gap the cutter closes.
+/// A disc is cut out along arcs, and the cutter closes the gap of an outline.
 #[test]
 fn rims_that_have_lost_their_bars_are_doubtful() {
     const BARS: &str = "T5 O2 I1 B-0.3 D2 P3 U15 A50";
@@ -237,7 +237,7 @@ fn rims_that_have_lost_their_bars_are_doubtful() {
     let open = |gap: f64| found(BARS, &format!("mill 0,0 40,0 40,30 0,30 0,{gap}\nend 0,{gap}"));
     assert_eq!(open(1.99), ["PB212 "]);
     assert_eq!(open(2.0), [""; 0]);
-    // There and back beside it, nothing is left in between.
+    // The tool mills there and, beside that, back: nothing is left in between.
     assert_eq!(found(BARS, "mill 0,0 40,0 40,1.9 0,1.9\nend 0,1.9"), [""; 0]);
     assert_eq!(found(BARS, "mill 0,0 1.5,0\nend 1.5,0"), [""; 0]);
 }
@@ -263,7 +263,7 @@ fn the_first_depth_lies_in_the_material_of_the_chain() {
         assert_eq!(codes.len(), usize::from(is_doubtful), "{first}: {codes:?}");
     }
     assert_eq!(line("T5 O2 I1 B1", "W6"), ["PB211 W6"]);
-    // W of the first segment applies, and the deepest bottom is that of the whole chain.
+    // W of the first segment applies to the whole chain, and so does its greatest depth.
     let deeper = path("T5 O2 I1 B3 W1", "mill 0,0 20,0\nmill 20,0 40,0 \"B1\"\nend 40,0");
     assert_eq!(said(&deeper, MACHINE), [""; 0]);
     let chains = "mill 0,0 10,0\nsweep 10,0 20,0\nmill 20,0 30,0\nend 30,0";
@@ -282,20 +282,20 @@ fn a_first_depth_without_a_chain_has_no_effect() {
 
 #[test]
 fn a_nearer_element_of_another_kind_is_a_rival() {
-    // The distance to a circle is that to its centre: 3.7 mm; the line is 0 to 3.8 mm away.
+    // The distance to a circle is the distance to its centre, 3.7 mm; the line is 0 to 3.8 mm away.
     let ring = "mill 0,0 17,0\ncircle 20,0 d 6";
     let at = |y: f64, string: &str| {
         texts(&format!("{ring}\ntext 16.3,{y} \"{string}\" height 1 align centre middle"), 0.1)
     };
     assert_eq!(at(0.0, "B3"), ["PB116"]);
     assert_eq!(at(0.5, "B3"), ["PB116"]);
-    // A line that does not know the letter, already has a text, or is too far away for this one.
+    // The line takes no such letter, already has a text, or is too far away for this one.
     let sweep = ring.replace("mill", "sweep");
     let text = "text 16.3,0 \"B3\" height 1 align centre middle";
     assert_eq!(texts(&format!("{sweep}\n{text}"), 0.1), [""; 0]);
     assert_eq!(texts(&format!("{ring}\ntext 8,0 \"B2\" height 1 align centre middle\n{text}"), 0.1), [""; 0]);
     assert_eq!(texts(&format!("{}\n{text}", ring.replace("mill 0,0 17,0", "mill 0,3 17,3")), 0.1), [""; 0]);
-    // The ring is nearer.
+    // The ring is nearer to the text.
     let inside = "text 19.9,0.2 \"B3\" height 1 align centre middle";
     assert_eq!(texts(&format!("mill 0,0 30,0\ncircle 20,0.2 d 6\n{inside}"), 0.1), [""; 0]);
 }

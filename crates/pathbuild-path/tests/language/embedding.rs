@@ -1,4 +1,4 @@
-//! Whether a path fits the subpath segment that names it. (book: language/embedding)
+//! Tests whether a path fits the subpath segment that names it. (book: language/embedding)
 
 use std::sync::LazyLock;
 
@@ -9,12 +9,12 @@ use pathbuild_path::{
 
 use crate::support::{codes, compile, language, path, raw};
 
-/// A path with one subpath segment of 20 mm.
+/// Returns a path with one subpath segment of 20 mm.
 fn project(parameters: &str, segment: &str) -> PathSignature {
     signature(&path(parameters, &format!("subpath 0,0 20,0 \"{segment}\"\nend 20,0")))
 }
 
-/// A path of 20 mm to be embedded.
+/// Returns a path of 20 mm to be embedded.
 fn component(parameters: &str) -> PathSignature {
     component_of(parameters, "20")
 }
@@ -27,7 +27,7 @@ fn signature(drawing: &str) -> PathSignature {
     PathSignature::of(&compile(drawing).path.expect("the path is right"))
 }
 
-/// The verdict on the only segment of a path.
+/// Returns the verdict on the only segment of a path.
 fn judged<R>(
     outer: &PathSignature,
     restrictions: &[Restriction],
@@ -36,12 +36,12 @@ fn judged<R>(
     judge(Judge::new(outer, restrictions, &LANGUAGE, false), &outer.subpaths[0])
 }
 
-/// The mismatches with their letters.
+/// Returns the mismatches with their letters.
 fn misfits(outer: &PathSignature, inner: &PathSignature) -> Vec<String> {
     judged(outer, &[], |judge, call| codes(&judge.misfits(call, inner)))
 }
 
-/// The code that prevents a path from embedding the one named by its segment.
+/// Returns the code that prevents a path from embedding the one named by its segment.
 fn refused(outer: &PathSignature, restrictions: &[Restriction]) -> Option<String> {
     judged(outer, restrictions, |judge, call| {
         judge.name(call).err().map(|problem| problem.code().to_string())
@@ -96,13 +96,13 @@ fn o_is_that_of_the_embedding_path() {
     assert_eq!(with("3", "O3.000003", "3.000003", false), []);
     assert_eq!(with("3", "", "3", false), []);
     assert_eq!(with("3", "O2", "2", true), warning);
-    // The segment contradicts even its own path: an error as before, and only one.
+    // The segment contradicts even its own path, which is a single error as before.
     assert_eq!(with("3", "O2", "3", false), error);
     assert_eq!(with("3", "O2", "3", true), error);
     assert_eq!(with("3", "O2", "1", false), error);
 }
 
-/// Tools for 1111.1P and for all other paths, of the same diameter.
+/// There is a tool for 1111.1P and another one for all other paths, both of the same diameter.
 #[test]
 fn the_tool_is_that_of_the_embedding_path() {
     let found = |of_inner: &'static str, is_named, inner_tool: &str, is_compatible| {
@@ -123,14 +123,14 @@ fn the_tool_is_that_of_the_embedding_path() {
     assert_eq!(found("slot", true, "3", false), [(said.to_owned(), true)]);
     assert_eq!(found("slot", true, "3", true), [(said.to_owned(), false)]);
     assert_eq!(found("mill", true, "3", false), []);
-    // Any tool of its diameter will do for a path that no tool names.
+    // For a path that no tool names, any tool of its diameter suffices.
     assert_eq!(found("slot", false, "3", false), []);
-    // Another diameter is another tool, and reported as such.
+    // A tool of another diameter is a different tool, which is reported.
     let [(text, true)] = &found("slot", true, "2", false)[..] else { panic!() };
     assert!(text.contains("is drawn for a cutter of 2 mm"), "{text}");
 }
 
-/// An embedded path lies in the material of the embedding path.
+/// An embedded path is in the material of the embedding path.
 #[test]
 fn t_of_a_segment_is_no_more_than_that_of_its_path() {
     let with = |own: &str, segment: &str| {
@@ -195,7 +195,7 @@ fn a_segment_names_a_path_and_no_more() {
     assert_eq!(named("Mx"), ["PB501"]);
 }
 
-/// Letters and digits that directly adjoin a name belong to it; the original tool ignores them.
+/// Letters and digits directly after a name belong to it; PathDxf2GCode ignores them.
 #[test]
 fn a_name_that_goes_on_is_another() {
     let named = |segment: &str, is_compatible| {
@@ -245,7 +245,7 @@ fn what_is_not_found_names_what_is_near() {
     };
     assert!(notes(&[]).is_empty());
     assert_eq!(notes(&["1111.2P", "111.1P", "1111.1Q"]), ["similar names: 111.1P, 1111.1Q"]);
-    // The next path of the same drawing is another one: it is no slip of the pen.
+    // The next path of the same drawing is a different path and not a misspelling.
     let there = "paths in drawings that could contain it: ";
     assert_eq!(notes(&["1111.3P", "1111.2P"]), [format!("{there}1111.2P, 1111.3P")]);
     let many = ["1111.2P", "1111.3P", "1111.4P", "1111.5P", "1111.6P", "1111.7P"];

@@ -1,11 +1,11 @@
-//! Compares the name of a file with the paths in it. (book: language/layers-and-names)
+//! Tests that the name of a file is compared with the paths in the file. (book: language/layers-and-names)
 
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{
     FilePattern, PathName, PathPattern, is_q_project, judge_file_name, q_project_name, tested_by_q_project,
 };
 
-/// The codes and names of the findings for a file with this name and these paths.
+/// Returns the codes and names of the findings for a file with this name and these paths.
 fn said(stem: &str, held: &[&str]) -> Vec<String> {
     said_with(FilePattern::DEFAULT, PathPattern::DEFAULT, stem, held)
 }

@@ -1,4 +1,4 @@
-//! The files that may define a path. (book: language/embedding)
+//! Tests which files may define a path. (book: language/embedding)
 
 use pathbuild_path::{FilePattern, PathKey, PathPattern};
 
@@ -11,7 +11,7 @@ fn holds(stem: &str, name: &str) -> bool {
     holds_with(FilePattern::DEFAULT, PathPattern::DEFAULT, stem, name)
 }
 
-/// Those of the given paths that a file of this name may define.
+/// Returns those of the given paths that a file of this name may define.
 fn held<'a>(stem: &str, names: &[&'a str]) -> Vec<&'a str> {
     names.iter().copied().filter(|name| holds(stem, name)).collect()
 }
@@ -63,7 +63,7 @@ fn a_range_may_have_blanks_an_en_dash_and_a_letter_behind_either_end() {
     assert!(!holds_with(pattern, "([A-Z]+)([0-9]+)", "AB1PQ \u{2013} AB5", "AB3"));
 }
 
-/// A group that does not participate ends the comparison: the name with further groups is greater.
+/// If a group does not participate in a match, the comparison ends there: the name with further groups is greater.
 #[test]
 fn optional_groups_of_a_custom_pattern_end_the_comparison() {
     let pattern = "([A-Z]+)(?:-([0-9]+))?(?:[.]([0-9]+))?";
@@ -78,7 +78,7 @@ fn optional_groups_of_a_custom_pattern_end_the_comparison() {
     assert!(holds("AB-1", "AB.2"), "the same");
 }
 
-/// Leftmost first and without overlap: the middle name belongs to the first range, so no second range begins with it.
+/// Matches are found from left to right without overlap: the middle name belongs to the first range, so no second range begins with it.
 #[test]
 fn ranges_do_not_overlap() {
     let names = ["1001.1A", "1002.1A", "1003.1A", "1004.1A", "1005.1A"];
@@ -99,7 +99,7 @@ fn a_name_with_more_groups_than_the_file_is_in_it_and_not_the_other_way_round() 
     assert!(holds("1234.3", "1234.3.A"));
     assert!(holds("1234.3", "1234.3"));
     assert!(!holds("1234.3", "1234"));
-    // A greater file part ends a range after the path.
+    // A greater number of the file ends a range after the path.
     assert!(holds("1233-1234.3", "1234"));
     assert!(!holds("1234.3-1235", "1234"));
 }

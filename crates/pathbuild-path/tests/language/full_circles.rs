@@ -1,11 +1,11 @@
-//! Arcs that form full circles. (book: language/markers)
+//! Tests arcs that form full circles. (book: language/markers)
 
 use pathbuild_dxf::{Options, Units, read};
 use pathbuild_path::{Arc, Curve, Xy, raw_file};
 
 use crate::support::language;
 
-/// The only arc of a drawing with this BLOCKS section and these entities.
+/// Reads the only arc of a drawing with this BLOCKS section and these entities.
 fn arc(blocks: &str, entities: &str) -> Arc {
     let section = |name: &str, pairs: &str| format!("0 SECTION\n2 {name}\n{pairs}\n0 ENDSEC\n");
     let text = format!("{}{}0 EOF\n", section("BLOCKS", blocks), section("ENTITIES", entities));
@@ -34,7 +34,7 @@ fn drawn(start: f64, end: f64) -> String {
     format!("0 ARC\n8 1234.1P\n10 10\n20 5\n40 3\n50 {start:?}\n51 {end:?}")
 }
 
-/// A turn may be 5e-7 radians (2.86e-5 degrees) short of a whole one, or beyond it: the control that runs the program sees no difference.
+/// A turn may deviate from a whole one by 5e-7 radians (2.86e-5 degrees), which makes no difference to the control that runs the program.
 #[test]
 fn angles_a_whole_turn_or_nothing_apart_make_a_full_circle() {
     for (start, end) in [
@@ -51,7 +51,7 @@ fn angles_a_whole_turn_or_nothing_apart_make_a_full_circle() {
         let arc = arc("0 NONE", &drawn(start, end));
         assert_eq!((arc.degrees, arc.end), (360.0, arc.start), "{start} {end}");
     }
-    // What trimming leaves of an arc is no circle.
+    // The remnant of a trimmed arc is not a full circle.
     for (start, end, degrees) in [
         (0.1, 0.1 + 2.9e-5, 2.9e-5),
         (0.1, 0.1 + 1e-10, 1e-10),

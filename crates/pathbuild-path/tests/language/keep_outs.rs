@@ -1,4 +1,4 @@
-//! Reading clamps, and finding the moves that hit them. (book: language/keep-outs)
+//! Tests reading clamps, and finding the moves that hit them. (book: language/keep-outs)
 
 use pathbuild_diagnostic::{Code, Lang};
 use pathbuild_dxf::{Options, Units};
@@ -14,7 +14,7 @@ fn clamps_of(drawing: &str) -> KeepOuts {
     clamps_among(drawing, "")
 }
 
-/// The clamps of a drawing with further entities as pairs of DXF.
+/// Reads the clamps of a drawing with further entities, which are given as pairs of DXF.
 fn clamps_among(drawing: &str, entities: &str) -> KeepOuts {
     let language = Language { keep_out: LayerPattern::new("clamps?|2000[.]1P").ok(), ..language() };
     let options = Options {
@@ -32,7 +32,7 @@ fn clamps_among(drawing: &str, entities: &str) -> KeepOuts {
     keep_outs(&pathbuild_dxf::read(dxf.as_bytes(), &options), &language)
 }
 
-/// The clamps of a drawing without findings.
+/// Returns the clamps of a drawing that has no findings.
 #[track_caller]
 fn right(drawing: &str) -> Vec<KeepOut> {
     let KeepOuts { all, problems } = clamps_of(drawing);
@@ -40,7 +40,7 @@ fn right(drawing: &str) -> Vec<KeepOut> {
     all
 }
 
-/// The findings about the clamps of a drawing, in short form.
+/// Returns the findings about the clamps of a drawing, in short form.
 fn wrong(drawing: &str) -> Vec<(Code, String)> {
     let KeepOuts { problems, .. } = clamps_of(drawing);
     problems.iter().map(|problem| (problem.code(), problem.text(Lang::En))).collect()
@@ -78,14 +78,14 @@ const SQUARE: &str = "layer clamps\nline 10,0 20,0 20,10 10,10 10,0\ntext 12,4 \
 fn closed_outlines_are_clamps() {
     let outlines = [
         "line 10,0 20,0 20,10 10,10 10,0",
-        // In any order and direction.
+        // The lines are drawn in any order and direction.
         "line 10,0 20,0\nline 10,10 20,10\nline 20,10 20,0\nline 10,10 10,0",
         "polyline 10,0 20,0 20,10 10,10 closed",
-        // Closed by its last vertex, or by a line.
+        // The outline is closed by its last vertex, or by a line.
         "polyline 10,0 20,0 20,10 10,10 10,0",
         "polyline 20,0 20,10 10,10 10,0\nline 10,0 20,0",
         "circle 15,5 d 10",
-        // A half circle and its diameter.
+        // The outline is a half circle and its diameter.
         "line 10,0 20,0\narc 20,0 to 10,0 centre 15,0",
         "polyline 10,0 20,0 bulge 1 closed",
     ];
@@ -119,7 +119,7 @@ fn heights_are_numbers_greater_than_0() {
 fn each_outline_has_one_text_inside_or_overlapping_it() {
     assert_wrong("layer clamps\ncircle 0,0 d 10\n", &["no text gives the height"]);
     assert_wrong(&format!("{SQUARE}text 12,7 \"Z30\"\n"), &["several texts"]);
-    // Three are listed, the others are counted.
+    // Three texts are listed, and the others are counted.
     let texts = |count: usize| format!("{SQUARE}{}", "text 12,7 \"Z30\"\n".repeat(count - 1));
     assert_wrong(
         &texts(3),
@@ -129,14 +129,14 @@ fn each_outline_has_one_text_inside_or_overlapping_it() {
         &texts(4),
         &["4 texts are inside the outline of this clamp or overlap it, the first are Z25, Z30, Z30"],
     );
-    // The circle of the text, of 2.57 mm, touches the outline from outside, or just not.
+    // The circle of the text, with a radius of 2.57 mm, just touches the outline from outside, or just does not.
     let beside = |x: f64| SQUARE.replace("12,4", &format!("{x},4"));
     assert_eq!(right(&beside(10.0 - 2.25 - 2.57)).len(), 1);
     assert_wrong(
         &beside(10.0 - 2.25 - 2.58),
         &["neither inside an outline nor overlapping one", "no text gives the height"],
     );
-    // A text shared by two outlines counts for both.
+    // A text that is near two outlines counts for both.
     let neighbour = "line 20.5,0 30,0 30,10 20.5,10 20.5,0\n";
     let shared =
         right(&format!("layer clamps\nline 10,0 20,0 20,10 10,10 10,0\n{neighbour}text 18,4 \"Z25\"\n"));
@@ -147,7 +147,7 @@ fn each_outline_has_one_text_inside_or_overlapping_it() {
 fn an_outline_that_does_not_close_is_an_error() {
     let gap = |to: &str| format!("layer clamps\nline 10,0 20,0 20,10 10,10 {to}\ntext 12,4 \"Z25\"\n");
     assert_eq!(right(&gap("10,0.00003")).len(), 1);
-    // The text lies in the box around the outline.
+    // The text is inside the bounding box of the outline.
     assert_wrong(&gap("10,0.00004"), &["is not closed"]);
     assert_wrong(&gap("10,1"), &["ends at (10, 1) and at (10, 0), 1 mm apart"]);
     let text = "neither inside an outline nor overlapping one";
@@ -158,7 +158,7 @@ fn an_outline_that_does_not_close_is_an_error() {
         &["meet at (20, 0)", "meet at (20, 10)", "neither inside an outline nor overlapping one"],
     );
     assert_wrong("layer clamps\nline 0,0 5,0 5,5 0,0\nline 5,5 9,9\n", &["more than two"]);
-    // Closed polylines may touch.
+    // Closed polylines may touch each other.
     let squares = "polyline 0,0 9,0 9,9 0,9 closed\ntext 2,4 \"Z5\"\npolyline 9,0 18,0 18,9 9,9 closed\ntext 11,4 \"Z7\"";
     assert_eq!(right(&format!("layer clamps\n{squares}\n")).len(), 2);
 }
@@ -169,7 +169,7 @@ fn a_curve_that_is_not_understood_is_an_error() {
     assert_wrong(&drawing, &["this SPLINE on a layer with clamps is not supported"]);
 }
 
-/// The four sides of a polyline are one finding.
+/// The four sides of a polyline give one finding.
 #[test]
 fn a_clamp_lies_in_the_plane() {
     for (outline, count) in [("circle 0,0 d 20 z 5", 1), ("polyline -5,-5 5,-5 5,5 -5,5 closed z 5", 4)] {
@@ -192,7 +192,7 @@ fn a_hidden_layer_counts() {
     assert!(matches!(&problems[..], [problem] if problem.code() == Code::LayerNotVisible));
 }
 
-/// The tool clears the outline by half of O, at each height below that of the clamp.
+/// At each height below that of the clamp, the tool must clear the outline by half of O.
 #[test]
 fn the_tool_keeps_out_by_its_radius() {
     let clamps = right(SQUARE);
@@ -207,7 +207,7 @@ fn the_tool_keeps_out_by_its_radius() {
         assert!(!enters(&clamps, &flat(curve(9.0), 24.0)));
         assert!(!enters(&clamps, &flat(curve(8.999), 24.0)));
     }
-    // Past a corner, and through the middle without coming near the ends of the outline.
+    // The tool moves past a corner, and through the middle without coming near the ends of the outline.
     assert!(!enters(&clamps, &flat(line([9.2, -0.61], [9.2, -9.0]), 24.0)));
     assert!(enters(&clamps, &flat(line([9.2, -0.59], [9.2, -9.0]), 24.0)));
     assert!(enters(&clamps, &flat(line([14.0, 5.0], [16.0, 5.0]), 24.0)));
@@ -219,13 +219,13 @@ fn the_tool_may_go_over_a_clamp() {
     let over = line([0.0, 5.0], [30.0, 5.0]);
     assert!(!enters(&clamps, &flat(over, 25.0)));
     assert!(enters(&clamps, &flat(over, 24.999)));
-    // Down beside the clamp, and down into it.
+    // The tool moves down beside the clamp, and down into it.
     let down = |x: f64| TipMove { curve: line([x, 5.0], [x, 5.0]), from_z: 30.0, to_z: 0.0 };
     assert!(!enters(&clamps, &down(5.0)));
     assert!(enters(&clamps, &down(15.0)));
 }
 
-/// Ramps and helices only count where they are lower than the clamp.
+/// Ramps and helices count only where they are lower than the clamp.
 #[test]
 fn a_slope_counts_below_the_height() {
     let clamps = right(SQUARE);
@@ -239,7 +239,7 @@ fn a_slope_counts_below_the_height() {
             Arc { centre, radius: 10.0, start, end: Xy::new(10.0, 5.0), clockwise: false, degrees: 180.0 };
         TipMove { curve: Curve::Arc(arc), from_z, to_z }
     };
-    // It reaches the clamp after about 150 degrees.
+    // The helix reaches the clamp after about 150 degrees.
     assert!(!enters(&clamps, &helix(20.0, 26.5)));
     assert!(enters(&clamps, &helix(26.0, 20.0)));
 }
@@ -275,7 +275,7 @@ fn curve() -> impl Strategy<Value = Curve> {
     prop_oneof![straight, round]
 }
 
-/// Closely spaced points along a curve.
+/// Returns closely spaced points along a curve.
 fn points(curve: &Curve) -> Vec<Xy> {
     let length = curve.length();
     let point = |step: i32| match length {
@@ -288,7 +288,7 @@ fn points(curve: &Curve) -> Vec<Xy> {
 const STEPS: i32 = 240;
 
 proptest! {
-    /// The distance between two curves equals that between their nearest points, up to the precision of the sampled points.
+    /// The distance between two curves equals that between their nearest sampled points, up to the precision of sampling.
     #[test]
     fn distances_are_exact(one in curve(), other in curve()) {
         let (ones, others) = (points(&one), points(&other));
@@ -318,7 +318,7 @@ proptest! {
             if !corners[number].1 {
                 return Curve::Line(Line { start, end });
             }
-            // A half circle bulging outwards.
+            // The arc is a half circle that bulges outwards.
             let centre = middle(start, end);
             Curve::Arc(Arc { centre, radius: (end - start).norm() / 2.0, start, end, clockwise: false, degrees: 180.0 })
         };
@@ -337,7 +337,7 @@ fn middle(start: Xy, end: Xy) -> Xy {
     start + (end - start) / 2.0
 }
 
-/// Whether a polygon winds around a point, by the sum of the angles of its sides.
+/// Whether a polygon winds around a point, by the sum of the angles of its sides as seen from the point.
 fn winds(polygon: &[Xy], point: Xy) -> bool {
     let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
     let angle = |(a, b): (&Xy, &Xy)| {
@@ -347,7 +347,7 @@ fn winds(polygon: &[Xy], point: Xy) -> bool {
     libm::fabs(sides.map(angle).sum::<f64>()) > 1.0
 }
 
-/// A hatch with a rectangular boundary of two points that counts, and a seed point.
+/// Returns a hatch with a rectangular boundary, of which two points are read, and a seed point.
 fn hatch(layer: &str, x: f64, y: f64) -> String {
     format!(
         "0\nHATCH\n8\n{layer}\n10\n0\n20\n0\n30\n0\n91\n1\n93\n2\n10\n{x}\n20\n{y}\n10\n0\n20\n0\n98\n1\n10\n0\n20\n0\n"
@@ -367,7 +367,7 @@ fn a_hatch_alone_is_an_unclear_clamp() {
         let texts: Vec<_> = problems.iter().map(|problem| problem.text(Lang::En)).collect();
         assert_eq!(texts, if is_lone { vec![said] } else { vec![] }, "{drawing} {x}");
     }
-    // On a layer without clamps, and beside an outline with an error, which may be its own.
+    // The hatch is on a layer without clamps, or beside an outline with an error, to which it may belong.
     assert_eq!(clamps_among(SQUARE, &hatch("other", 50.0, 5.0)).problems, []);
     let open = "layer clamps\nline 10,0 20,0 20,10\n";
     let beside = clamps_among(open, &hatch("clamps", 50.0, 5.0)).problems;
@@ -386,7 +386,7 @@ fn a_block_of_other_layers_is_an_unclear_clamp() {
         ],
     );
     assert!(clamps_of(&inserted("parts")).problems[0].is_error());
-    // What lies on the layer of a path counts there.
+    // Elements on the layer of a path belong to the path.
     assert_eq!(wrong(&inserted("1000.1P")), []);
     assert_eq!(right(&format!("{}text 15,5 \"Z25\"\n", inserted("0"))).len(), 1);
 }

@@ -1,4 +1,4 @@
-//! Where each letter is permitted: every cell of the table of book: language/letters.
+//! Tests where each letter is permitted: every cell of the table of book: language/letters.
 
 use crate::support::{path, wrong};
 
@@ -29,26 +29,26 @@ const LETTERS: [(char, &str); 23] = [
     (':', "a1~2"),
 ];
 
-/// Path parameters such that nothing is missing on any element.
+/// Text of the start that gives every value that any element needs.
 const PATH: &str = "T5 O3 Mx F200 B1 D3 I1 P1 U4";
 
-/// A cell of the table.
+/// The meaning of a cell of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Cell {
-    /// `!`: from the element or the path.
+    /// `!`: the element or the path must give the letter.
     Needed,
-    /// `o`.
+    /// `o`: the element may give the letter.
     Allowed,
-    /// `c!` and `c`: given by the first segment of the chain.
+    /// `c!` and `c`: the first segment of the chain must or may give the letter.
     ChainNeeded,
     Chain,
-    /// `-`: without effect.
+    /// `-`: the letter has no effect.
     Ignored,
-    /// `p` and empty: unknown in the element's own text.
+    /// `p` and empty: the letter is unknown in the element's own text.
     Unknown,
 }
 
-/// The cell of a letter in a row. Rows are written as `LETTER:CELL`, without the unknown letters. `p` is left out, since it does not
+/// Returns the cell of a letter in a row. Rows are written as `LETTER:CELL`, without the unknown letters. `p` is left out, because it does not
 /// concern the element's text.
 fn cell(row: &str, letter: char) -> Cell {
     let cell = row.split(' ').find(|cell| cell.starts_with(letter)).map(|cell| &cell[2..]);
@@ -107,7 +107,7 @@ fn note(text: &str) -> String {
     if text.is_empty() { String::new() } else { format!(" \"{text}\"") }
 }
 
-/// A circle at the end of a sweep.
+/// Returns a circle at the end of a sweep.
 fn circle(circle: &'static str) -> impl Fn(&str) -> String {
     move |text| format!("sweep 0,0 40,0\ncircle {}{}\nend 40,0", circle, note(text))
 }
@@ -190,7 +190,7 @@ fn helical_circle_with_bars() {
     check_row("F:o B:! D:! I:! P:! U:! Q:o", circle("BORDER 40,0 d 10"));
 }
 
-/// T and O are required but never missing, since the path gives them.
+/// T and O are needed but never missing, because the path gives them.
 #[test]
 fn subpath() {
     check_row("N:o T:o O:o M:o H:o >:o ::o", |text| {

@@ -1,31 +1,31 @@
-//! Checks values against their limits: PB203. (book: language/letters)
+//! Tests that values are checked against their limits: PB203. (book: language/letters)
 
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_path::{Path, PathRole, SweepLimits};
 
 use crate::support::{codes, compile, path, wrong};
 
-/// A path with a milled line and this text at its start.
+/// Returns the findings about a path with a milled line and this text at its start.
 fn start(text: &str) -> Vec<String> {
     wrong(&path(text, "mill 0,0 40,0\nend 40,0"))
 }
 
-/// A statement on a path from (0, 0) to (40, 0).
+/// Returns the findings about a statement on a path from (0, 0) to (40, 0).
 fn on(statement: &str, parameters: &str) -> Vec<String> {
     let errors = wrong(&path(parameters, &format!("{statement}\nend 40,0")));
     errors.into_iter().filter(|found| !found.starts_with("PB210")).collect()
 }
 
-/// The smallest numbers that count as positive begin above 0.000000001.
+/// Numbers just above and just below the limit of 0.000000001, from which a number counts as positive.
 const INSIDE: &str = "0.0000000011";
 const OUTSIDE: &str = "0.0000000009";
 
-/// A value of a letter that is just large enough. Programs have three decimals for feeds.
+/// Returns a value of a letter that is just large enough. Programs have three decimals for feeds.
 fn inside(letter: char) -> &'static str {
     if matches!(letter, 'F' | 'Z') { "0.0005" } else { INSIDE }
 }
 
-/// A value of a letter that is just too small.
+/// Returns a value of a letter that is just too small.
 fn outside(letter: char) -> &'static str {
     if matches!(letter, 'F' | 'Z') { "0.00049" } else { OUTSIDE }
 }
@@ -67,14 +67,14 @@ fn a_value_that_must_be_greater_than_0_has_an_example() {
     assert_eq!(letters.concat(), "ACFIOPTUWZ");
 }
 
-/// Parts of a polyline share its text; another polyline or line may have an equal text of its own.
+/// All parts of a polyline share its text, so a mistake in it is reported once. Another polyline or line may have an equal text of its own.
 #[test]
 fn what_a_text_says_wrong_is_said_once_of_each_text() {
     for (text, fault) in [("B9", "PB203 B"), ("BX", "PB205 B"), ("G1", "PB202 G")] {
         let polyline =
             |x: u32| format!("mill polyline {x},0 {},0 bulge 0.5 {},0 \"{text}\"\n", x + 20, x + 40);
         let (first, second) = (polyline(0), polyline(40));
-        // The end of the path is irrelevant here.
+        // Findings about the end of the path do not matter here.
         let is_of_text = |found: &String| !found.starts_with("PB4");
         let with = |drawn: &str| -> Vec<String> {
             let found = wrong(&path("T5 O3 I1 B0", &format!("{drawn}end 99,0")));
@@ -106,7 +106,7 @@ fn an_elements_values_are_greater_than_0() {
             assert_eq!(with(outside(letter)), [format!("PB203 {letter}")], "{letter} {statement}");
         }
     }
-    // It is positive, but leads to endless bars, which is another rule.
+    // The value is positive, but leads to endless bars, which is reported by another rule.
     assert_eq!(on(&format!("bars 0,0 40,0 \"U{OUTSIDE}\""), parameters)[0], "PB203 U");
     assert!(!on(&format!("bars 0,0 40,0 \"U{INSIDE}\""), parameters).contains(&"PB203 U".to_owned()));
 }
@@ -148,7 +148,8 @@ fn letters_without_effect_are_checked_too() {
     assert_eq!(on("mill 0,0 40,0 \"S5\"", "T5 O3 I1 B0"), ["PB203 S"]);
 }
 
-/// T of a probe or a subpath is the thickness there: it must be below the path's S, and may be below depths that the element does not have.
+/// T of a probe or a subpath is the thickness at that position: it must be below the path's S, and may be below depths that the element does not
+/// have.
 #[test]
 fn an_elements_own_t_is_compared_with_the_paths_s_alone() {
     let probe =
@@ -165,7 +166,7 @@ fn an_elements_own_t_is_compared_with_the_paths_s_alone() {
     assert_eq!(subpath("T10", "T5 O3 I1 B1 S10"), ["PB203 S"]);
 }
 
-/// Problems with the path's values are reported there, not again at every element.
+/// Faulty values of the path are reported at its start, and not again at every element.
 #[test]
 fn the_paths_own_faults_are_reported_once() {
     assert_eq!(on("mill 0,0 40,0 \"F100\"", "T5 O3 I1 B6"), ["PB203 B"]);
@@ -183,7 +184,7 @@ fn d_is_above_b_on_paths_and_where_there_are_bars() {
     assert_eq!(on("bars 0,0 40,0 \"D1\"", parameters), ["PB203 D"]);
     assert_eq!(on("bars 0,0 40,0 \"B2\"", "T5 O3 I1 D2 P1 U4"), ["PB203 D"]);
     assert_eq!(on("sweep 0,0 40,0\ncircle BORDER 40,0 d 10 \"D1\"", parameters), ["PB203 D"]);
-    // Elsewhere they are unrelated.
+    // On different elements, the values are unrelated.
     assert_eq!(on("mill 0,0 40,0 \"B3\"", "T5 O3 I1 D2"), [""; 0]);
     assert_eq!(on("mark 0,0 40,0 \"D0.5\"", "T5 O3 I1 B1"), [""; 0]);
 }
@@ -209,23 +210,23 @@ fn the_default_sweep_height_is_above_every_t() {
     let subpath = compile(&path("T5 O3 I1 B0", "subpath 0,0 40,0 \">1111.1P T7\"\nend 40,0")).path.unwrap();
     assert_eq!(check(&subpath, 7.1), [""; 0]);
     assert_eq!(check(&subpath, 7.0), ["PB203"]);
-    // An explicit S was checked with the other values.
+    // An explicit S was checked together with the other values.
     let with = compile(&path("T5 O3 I1 B0 S20", "mill 0,0 40,0\nend 40,0")).path.unwrap();
     assert_eq!(check(&with, 1.0), [""; 0]);
 }
 
 #[test]
 fn there_is_room_for_the_cutter_between_bars() {
-    // Two bars on 10 mm: the distance between them is 10 / 2 - P.
+    // With two bars on 10 mm, the distance between them is 10 / 2 - P.
     let bars = |p: &str, u: &str| on("bars 0,0 10,0\nsweep 10,0 40,0", &format!("T5 O3 I1 B0 D2 P{p} U{u}"));
     assert_eq!(bars("2", "3"), [""; 0]);
     assert_eq!(bars("2.00001", "2.9"), ["PB406"]);
     let polyline = on("bars polyline 0,0 10,0 10,10 \"P2.00001\"\nsweep 10,10 40,0", "T5 O3 I1 B0 D2 U2.9");
     assert_eq!(polyline, ["PB406", "PB406"], "of each part, as they are drawn");
-    // There is no gap if there is no room for a bar and its distance.
+    // If there is no room for a bar and its distance, the line has no gap at all.
     assert_eq!(bars("5", "5"), [""; 0]);
     assert_eq!(bars("5.001", "5"), ["PB408"]);
-    // A short edge may stand between longer ones; if none has a gap, that is reported once.
+    // A short edge may be left standing between longer ones. If no edge has a gap, that is reported once.
     let edges = |length: u32| {
         let elements = format!(
             "bars 0,0 {length},0\nbars {length},0 {length},4\nbars {length},4 {length},8\nsweep {length},8 40,0"

@@ -1,4 +1,4 @@
-//! Line types: their names, and their meanings on lines, arcs and circles. (book: language/line-types)
+//! Tests line types: their names, and their meanings on lines, arcs and circles. (book: language/line-types)
 
 use pathbuild_path::{Cut, LineType, LineTypeAliases, Role, SegmentKind};
 
@@ -77,7 +77,7 @@ fn an_alias_holds_in_a_drawing() {
     assert_eq!((codes(&raw.diagnostics), raw.drawn.elements[0].role), (vec![], Role::Cut(Cut::Mill)));
 }
 
-/// The meaning of a drawn entity: its role, or the code of the finding.
+/// Returns the meaning of a drawn entity: its role, or the code of the finding.
 fn meaning(statement: &str) -> String {
     let raw = raw(&path("T5 O3 I1 B0 D2 P1 U1", &format!("{statement}\nend 40,0")));
     match (raw.diagnostics.first(), raw.drawn.elements.first(), raw.probes.len()) {
@@ -135,7 +135,7 @@ fn a_line_takes_its_layers_line_type() {
     assert_eq!(raw(drawing).drawn.elements[0].role, Role::Cut(Cut::Mark));
 }
 
-/// The text at a skipped subpath is for humans: neither its name nor its letters count, nor does its sweep height.
+/// The text of a skipped subpath is for humans: its name, its letters and its sweep height are ignored.
 #[test]
 fn the_text_of_a_skipped_subpath_is_not_read() {
     let skipped = "line DOT 0,0 20,0 \">9999.9P S4 N9 XY\"\nmill 20,0 40,0\nend 40,0";
@@ -153,7 +153,7 @@ fn unknown_names_suggest_a_line_type() {
         ("CONTINOUS", Some(LineType::Continuous)),
         ("PHANT", Some(LineType::Phantom)),
         ("STRICHPUNKTLINIE", Some(LineType::Dashdot)),
-        // Digits distinguish numbered types.
+        // Numbered line types are distinguished by their digits.
         ("ACAD_ISO06W100", None),
         ("ZIGZAG", None),
     ];

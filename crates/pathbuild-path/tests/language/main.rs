@@ -1,4 +1,4 @@
-//! The rules of the drawing language, each with one drawing just inside and one just outside. (book: language/layers-and-names
+//! Tests the rules of the drawing language, each with one drawing that just complies and one that just does not. (book: language/layers-and-names
 //! to language/q-projects)
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up its drawing has failed")]
 

@@ -1,4 +1,4 @@
-//! Typical mistakes, each reported as a single error with a correction.
+//! Tests typical mistakes, each reported as a single error with a correction.
 
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_path::{ElementClass, ParameterTexts};
@@ -7,7 +7,7 @@ use crate::support::{compile, path};
 
 const P: &str = "T5 O3 I1 B0";
 
-/// Message and help of each error.
+/// Returns message and help of each error.
 fn said(found: &[Diagnostic]) -> Vec<String> {
     let with_help = |found: &Diagnostic| {
         format!("{} {}; {}", found.code(), found.text(Lang::En), found.help(Lang::En).unwrap_or_default())
@@ -65,7 +65,7 @@ fn a_path_is_embedded_with_its_sign() {
         "write \">2050.1P\"",
     );
     assert_one(&of_text("> 2050.1P", ElementClass::Subpath), "PB202 ", "write \">2050.1P\"");
-    // The sign has its name already.
+    // The sign `>` is already followed by its name.
     assert_one(
         &of_text(">2050.1P 5", ElementClass::Subpath),
         "PB202 ",
@@ -164,7 +164,7 @@ fn a_hole_along_a_line_wants_the_line_split() {
     assert_one(&found(arc), "PB402 ", "split the line or arc at (20, 20)");
 }
 
-/// The second of two bars that are too close is reported as well, since each place must be corrected.
+/// If two bars are too close, the second one is reported as well, because each must be corrected.
 #[test]
 fn the_same_fault_is_said_of_each_element() {
     let bars = "bars 0,0 8,0 \"D2 P2 U2\"\nbars 8,0 16,0 \"D2 P2 U2\"\nend 16,0";
@@ -174,7 +174,7 @@ fn the_same_fault_is_said_of_each_element() {
     assert!(places[0] != places[1] && places.iter().all(|(code, _)| code == "PB406"), "{places:?}");
 }
 
-/// Codes of a drawing's findings, and their notes.
+/// Returns the codes of a drawing's findings, and their notes.
 fn noted(drawing: &str) -> (Vec<String>, Vec<String>) {
     let found = compile(drawing).found;
     let codes = found.iter().map(|found| found.code().to_string()).collect();
@@ -192,7 +192,7 @@ fn a_line_without_length_is_left_over() {
     for line in ["line CONTINUOUS 20,0 20,0", "line HIDDEN 20,0 20,0"] {
         assert_eq!(with(line), ["PB121"], "{line}");
     }
-    // A program has three decimals.
+    // A program has three decimals, so a smaller difference is not visible in it.
     assert_eq!(codes_of("mill 0,0 20,0 20.0004,0\nend 20.0004,0"), ["PB121"]);
     assert_eq!(codes_of("sweep 0,0 20,0 20.0006,0\nmill 20.0006,0 40,0\nend 40,0"), [""; 0]);
 }
@@ -217,7 +217,7 @@ fn a_cut_of_almost_no_length_is_left_over() {
     assert!(arc(0.003).contains(&"PB121".to_owned()) && !arc(0.0033).contains(&"PB121".to_owned()));
 }
 
-/// A groove that leads to a dead end is drawn twice, so that the walk comes back along the copy, which has no text.
+/// A groove that leads to a dead end is drawn twice, so that the walk returns along the copy, which has no text.
 #[test]
 fn a_line_drawn_twice_is_milled_at_two_depths() {
     let groove =
@@ -229,11 +229,11 @@ fn a_line_drawn_twice_is_milled_at_two_depths() {
         twice(&groove("mill arc 40,0 to 40,20 centre 40,10\nmill arc 40,20 to 40,0 centre 40,10 cw")),
         1
     );
-    // Two depths on purpose, two half circles, and a sweep back.
+    // The two lines have different depths on purpose, or are two half circles, or a sweep returns along the line.
     assert_eq!(twice(&groove("mill 40,0 40,20 \"B2 N1\"\nmill 40,0 40,20 \"B1 N2\"")), 0);
     assert_eq!(groove("mill arc 40,0 to 40,20 centre 40,10\nmill arc 40,20 to 40,0 centre 40,10"), [""; 0]);
     assert_eq!(groove("mill 40,0 40,20 \"B2\"\nsweep 40,20 40,0"), [""; 0]);
-    // Three copies, and one more groove to come back.
+    // There are three copies, and a fourth groove to return.
     assert_eq!(twice(&codes_of(&format!("{}\nend 20,0", "mill 0,0 20,0\n".repeat(3)))), 2);
 }
 
@@ -293,7 +293,7 @@ fn a_sweep_drawn_twice_is_named() {
     let found =
         said(&compile(&path("T5 O3 I1 B0 D1 P4 U9", &format!("{outline}\n{outline}\nend 0,0"))).found);
     assert_one(&found, "PB402 a segment with support bars at ", "delete one of the two");
-    // There and back on a mill and a sweep is what an infeed needs.
+    // Milling there and sweeping back is how an infeed is drawn.
     assert_eq!(codes_of("mill 0,0 20,0\nsweep 20,0 0,0\nend 0,0"), [""; 0]);
 }
 
@@ -312,7 +312,7 @@ fn markers_that_lost_their_line_type_are_recognised() {
         path("circle 0,0 d 1", "circle 20,30 d 2"),
         (strings(&["PB101", "PB102"]), strings(&[start, end]))
     );
-    // Nearly a marker's diameter: the consequences are not reported.
+    // The circle nearly has a marker's diameter: only this is reported, and not its consequences.
     assert_eq!(path("circle PHANTOM 0,0 d 1.1", "circle PHANTOM 20,30 d 1.9").0, ["PB105", "PB105"]);
     assert_eq!(path("start 0,0", "circle PHANTOM 20,30 d 1.7").0, ["PB105", "PB102"]);
 }
@@ -329,7 +329,7 @@ fn a_second_text_on_an_element_says_so() {
     assert_eq!(second("20,9"), [""; 0], "it overlaps nothing");
 }
 
-/// A gap that three decimals do not show.
+/// The gap is too small to be visible with three decimals.
 #[test]
 fn points_that_look_alike_are_told_apart() {
     let text = |drawing: &str| compile(&path(P, drawing)).found[0].text(Lang::En);

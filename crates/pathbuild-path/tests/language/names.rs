@@ -1,4 +1,4 @@
-//! Path names and the layers they are on. (book: language/layers-and-names)
+//! Tests path names and the layers of paths. (book: language/layers-and-names)
 
 use std::collections::BTreeSet;
 
@@ -76,7 +76,7 @@ fn another_pattern_holds_in_place_of_the_default() {
     for name in ["gear", "GEAR", "x12"] {
         assert!(pattern.layer(name).is_some(), "{name}");
     }
-    // The pattern is one alternative or the other as a whole, not `^[a-z]+` or `x([0-9]+)$`.
+    // The pattern matches as a whole, either of its alternatives, and not `^[a-z]+` or `x([0-9]+)$`.
     for name in ["gear1", "yx12", "2913.2P"] {
         assert!(pattern.layer(name).is_none(), "{name}");
     }

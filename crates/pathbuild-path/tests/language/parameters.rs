@@ -1,4 +1,4 @@
-//! Inheritance of values: the element's own, or else the path's. (book: language/letters)
+//! Tests the inheritance of values: an element has its own value, or else the path's. (book: language/letters)
 
 use pathbuild_path::{
     CutParameters, ElementClass, Letter, Path, PathNumbers, PathOptions, PathRole, Provider, SegmentKind,
@@ -23,7 +23,7 @@ const PATH: [(char, &str); 13] = [
     ('A', "20"),
 ];
 
-/// A different value for each letter.
+/// Returns a second value for each letter.
 fn other(letter: char) -> &'static str {
     match letter {
         'T' => "4.5",
@@ -47,7 +47,7 @@ fn parameters(changed: Option<char>) -> String {
     PATH.iter().map(piece).collect::<Vec<_>>().join(" ")
 }
 
-/// The parameters of a path's first segment and its probe, without their origins.
+/// Returns the parameters of a path's first segment and its probe, without their origins.
 fn known(parameters: &str, statements: &str) -> String {
     let compiled = compile(&path(parameters, statements));
     let errors: Vec<_> = compiled.found.iter().filter(|found| found.is_error()).collect();
@@ -153,7 +153,8 @@ fn the_default_s_of_an_embedded_or_checked_path_is_t_and_o() {
     assert_eq!(with.sweep_height(&options, PathRole::Emitted), Some(20.0));
 }
 
-/// Everything that is milled or drilled needs a feed, but only a chain needs the path's feed even if all its segments have their own.
+/// Everything that is milled or drilled needs a feed. Even if all segments have their own, a chain needs the path's feed, but other elements do
+/// not.
 #[test]
 fn a_path_needs_the_option_for_a_feed_where_it_gives_none() {
     let needs = |parameters: &str, statements: &str| {
@@ -172,7 +173,7 @@ fn a_path_needs_the_option_for_a_feed_where_it_gives_none() {
 
 const GIVER: &str = "layer 1234.2P\nstart 0,100 \"T5 O3 I1 B1\"\nmill 0,100 40,100\nend 40,100";
 
-/// The findings about a path that borrows by @, next to one that lends.
+/// Returns the findings about a path that borrows by @, next to a path that lends.
 fn at(text: &str, giver: &str) -> Vec<String> {
     wrong(&format!("{}\n{giver}", path(text, "mill 0,0 40,0\nend 40,0")))
 }
@@ -224,7 +225,7 @@ fn faults_of_borrowed_parameters_are_reported_with_the_path_they_belong_to() {
     }
 }
 
-/// F, S, A, H and Z that no text gives, of a path with O2, T5 and F90.
+/// Tests F, S, A, H and Z if no text gives them, for a path with O2, T5 and F90.
 #[test]
 fn defaults_follow_from_one_function() {
     use ElementClass::{HelicalCircle, Mill, PathStart, Probe, Subpath};

@@ -3,7 +3,7 @@
 use pathbuild_path::{FilePattern, NameRange, PathKey, PathPattern, RangeTable};
 use proptest::prelude::*;
 
-/// The ranges in the names of some files.
+/// Returns the ranges in the names of some files.
 fn ranges(pattern: &FilePattern, stems: &[String]) -> Vec<(NameRange, u32)> {
     let of_file = |(number, stem): (u32, &String)| {
         pattern.ranges(stem).into_iter().map(move |range| (range, number)).collect::<Vec<_>>()
@@ -33,7 +33,7 @@ fn check(file: &str, path: &str, stems: &[String], names: &[String]) -> Result<(
     Ok(())
 }
 
-/// A part of a file name by the default pattern. The numbers are few, so that ranges meet.
+/// Generates a part of a file name by the default pattern. There are few different numbers, so that ranges overlap.
 fn number() -> impl Strategy<Value = String> {
     prop_oneof![
         (1000..1006_u32).prop_map(|group| group.to_string()),
@@ -63,12 +63,12 @@ fn unusual() -> impl Strategy<Value = String> {
     })
 }
 
-/// A group of a pattern whose groups are integers, texts, or empty.
+/// Generates a name for a pattern whose groups are integers, texts, or empty.
 fn mixed() -> impl Strategy<Value = String> + Clone {
     "([0-9]{1,2}|[A-C]{1,2})?([.]([0-9]|[A-B]))?"
 }
 
-/// Digits and letters in any order: integers, and texts that are sorted between them.
+/// Generates digits and letters in any order: integers, and texts that are sorted between them.
 fn spelt() -> impl Strategy<Value = String> + Clone {
     "[0-2][0-2A]{0,2}"
 }
@@ -85,7 +85,7 @@ proptest! {
         check(FilePattern::DEFAULT, PathPattern::DEFAULT, &stems, &names)?;
     }
 
-    /// Numbers that are too large for the fast representation, and paths whose second group is missing or a text.
+    /// The numbers are too large for the fast representation, or the second group of a path is missing or a text.
     #[test]
     fn the_table_says_what_the_scan_says_of_unusual_numbers(
         stems in prop::collection::vec(stem(unusual().boxed()), 0..6),
@@ -97,7 +97,7 @@ proptest! {
         check("([0-9]+)(?:[.]([0-9]+))?", path, &stems, &texts)?;
     }
 
-    /// Groups that are sometimes integers and sometimes texts have no order, and may be missing anywhere.
+    /// Groups that are integers in some names and texts in others have no order, and may be missing anywhere.
     #[test]
     fn the_table_says_what_the_scan_says_where_there_is_no_order(
         stems in prop::collection::vec(stem(mixed()), 0..8),

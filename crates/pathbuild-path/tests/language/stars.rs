@@ -1,4 +1,4 @@
-//! The order of segments that meet at a point. (book: language/chains-and-passes)
+//! Tests the order of segments that meet at a point. (book: language/chains-and-passes)
 
 use crate::support::{items, path, wrong};
 
@@ -8,7 +8,7 @@ fn walked(statements: &str) -> Vec<String> {
     items(&path(P, statements))
 }
 
-/// Loops of two segments begin at (40, 0); which loop comes first?
+/// At (40, 0), the hole comes first, then the helical circles from the inside out, then the line.
 #[test]
 fn holes_come_before_helical_circles_and_those_from_the_inside_out() {
     let statements =
@@ -16,7 +16,7 @@ fn holes_come_before_helical_circles_and_those_from_the_inside_out() {
     assert_eq!(walked(statements)[1..], ["hole 40,0", "helix 40,0 r4", "helix 40,0 r5", "[40,0 60,0]"]);
 }
 
-/// The order -1000000 of a hole is below any practical N; a smaller N wins.
+/// A hole has the order -1000000, which is below any practical N; a smaller N comes first.
 #[test]
 fn orders_decide_first() {
     let star = |first: &str, second: &str| {
@@ -37,7 +37,7 @@ fn unnumbered_segments_have_the_order_9998() {
     let first = |statements: &str| {
         walked(&format!("{statements}\nend 0,0"))[0].split(", ").next().unwrap().to_owned()
     };
-    // With equal orders, the shorter would come first, and what is milled before sweeps.
+    // With equal orders, shorter segments would come first, and milled ones before sweeps.
     assert_eq!(first("mill 0,0 40,0 0,0 \"N9997\"\nmill 0,0 20,20 0,0"), "[0,0 40,0");
     assert_eq!(first("mill 0,0 10,0 0,0 \"N9999\"\nmill 0,0 20,20 0,0"), "[0,0 20,20");
     assert_eq!(first("mill 0,0 10,0 0,0 \"N9999\"\nline HIDDEN 0,0 20,20 0,0"), "sweep 0,0 20,20");
@@ -67,14 +67,14 @@ fn the_shorter_comes_first_and_the_first_on_a_tie() {
     assert_eq!(first("mill 0,0 20,0 0,0\nmill 0,0 0,19.9999 0,0"), "[0,0 0,19.9999");
 }
 
-/// The length of an arc is that of its chord.
+/// The chord counts as the length of an arc.
 #[test]
 fn the_length_of_an_arc_is_its_chord() {
     let statements = "mill arc 0,0 20,0 r 10\nmill 20,0 0,0\nmill 0,0 0,25 0,0\nend 0,0";
     assert!(walked(statements)[0].starts_with("[0,0 20,0"));
 }
 
-/// Circles, lines, arcs: the order of segments, which breaks ties, is not the file order.
+/// Equal segments are ordered as circles, lines, arcs, and not in file order.
 #[test]
 fn lines_come_before_arcs_on_a_tie() {
     let statements = "mill arc 0,0 20,0 r 10 cw\nmill 20,0 0,0 \"F7\"\nend 0,0";
@@ -83,14 +83,14 @@ fn lines_come_before_arcs_on_a_tie() {
     assert_eq!(compiled.walked.members(chain)[0].cut(compiled.path.as_ref().unwrap()).feed, Some(7.0));
 }
 
-/// A single candidate is always taken, regardless of its number.
+/// A single candidate is always taken, whatever its order.
 #[test]
 fn a_number_matters_only_at_a_star() {
     assert_eq!(walked("mill 0,0 20,0 \"N9\"\nmill 20,0 40,0 \"N1\"\nend 40,0"), ["[0,0 20,0, 20,0 40,0]"]);
     assert_eq!(wrong(&path(P, "mill 0,0 20,0 \"N9\"\nmill 20,0 40,0 \"N1\"\nend 40,0")), [""; 0]);
 }
 
-/// Orders at the limit of precision would be near each other: N is compared exactly.
+/// N is compared exactly: with a tolerance, orders at the limit of precision would be equal.
 #[test]
 fn orders_compare_exactly() {
     let star = |number: &str| {

@@ -1,4 +1,4 @@
-//! Things drawn for a path that do not reach it: PB119 and PB120.
+//! Tests elements that are drawn for a path but do not belong to it: PB119 and PB120.
 
 use pathbuild_dxf::{Drawing, Options, Units};
 use pathbuild_path::{Language, LayerPattern, PartSettings, SlotPaths, may_be_stray_text, stray_findings};
@@ -20,7 +20,7 @@ fn drawn(drawing: &str) -> Drawing {
     pathbuild_dxf::read(&sheet.to_dxf(), &options)
 }
 
-/// The codes for a path with a groove and a hole, and elements on other layers.
+/// Returns the codes for a path with a groove and a hole, and elements on other layers.
 fn strays(others: &str) -> Vec<String> {
     strays_with("mill 0,0 40,0\nsweep 40,0 60,0\nmark 60,0 80,0 \"D4\"\nend 80,0", others)
 }
@@ -61,7 +61,7 @@ fn only_an_element_without_a_text_that_would_get_it_counts() {
     assert_eq!(note("70,0"), [""; 0], "the mark has its text");
 }
 
-/// The cutter has 2 mm: the smaller circle is drilled, which takes no I, and the larger one is milled.
+/// The cutter has 2 mm, so the smaller circle is drilled and takes no I, and the larger one is milled.
 #[test]
 fn the_cutter_decides_whether_a_circle_would_take_a_letter() {
     let circle = |diameter: u32| {
@@ -133,7 +133,7 @@ fn a_layer_is_named_once_however_much_is_on_it() {
     assert_eq!(strays(other), ["PB120"]);
 }
 
-/// Texts that the preliminary test must not miss.
+/// The preliminary test of undecoded bytes must not miss these texts.
 #[test]
 fn the_first_look_at_bytes_is_certain() {
     for text in [
@@ -171,7 +171,7 @@ fn the_first_look_at_bytes_is_certain() {
     }
 }
 
-/// The findings about a drawing with layers other than those of paths.
+/// Returns the findings about a drawing with layers other than those of paths.
 fn strays_beside(keep_out: &str, part: Option<&str>, others: &str) -> Vec<String> {
     let drawing = format!("layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0\n{others}");
     let part = part.map(|pattern| PartSettings {
@@ -237,10 +237,10 @@ fn a_height_in_an_outline_on_an_unread_layer_is_told() {
     assert_eq!(found(&clamp("Vise", "Z25 Z1", "20,40")), [""; 0], "no height");
     let open = "layer Vise\nline 10,40 20,40 20,50\ntext 15,40 \"Z25\"";
     assert_eq!(found(open), [""; 0]);
-    // One finding for each layer, and none beside that about its name.
+    // There is one finding for each layer, and none about the layer's name in addition.
     let two = format!("{}\ncircle 60,40 d 9\ntext 60,40 \"Z30\"", clamp("Vise", "Z25", "20,40"));
     assert_eq!(found(&two), ["PB119"]);
     assert_eq!(found(&clamp("Clamp", "Z25", "20,40")), ["PB120"]);
-    // Without `keep-out`, nothing is a clamp.
+    // Without `keep-out`, no layer contains clamps.
     assert_eq!(strays_beside("(", None, &clamp("Vise", "Z25", "20,40")), [""; 0]);
 }

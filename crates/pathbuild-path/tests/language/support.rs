@@ -12,12 +12,12 @@ use pathbuild_testkit::sheet;
 pub(crate) struct Compiled {
     pub(crate) path: Option<Path>,
     pub(crate) walked: WalkedPath,
-    /// The findings, stage by stage.
+    /// The findings, in the order of the stages.
     pub(crate) found: Vec<Diagnostic>,
 }
 
 impl Compiled {
-    /// The curves of the path's first chain.
+    /// Returns the curves of the path's first chain.
     #[track_caller]
     pub(crate) fn first_chain(&self) -> Vec<Curve> {
         let (Some(path), Some(Item::Chain(chain))) = (&self.path, self.walked.items.first()) else {
@@ -27,7 +27,7 @@ impl Compiled {
     }
 }
 
-/// Disables doubts, since odd values are irrelevant to tests of other rules.
+/// Thresholds that disable doubts, because odd values do not matter in tests of other rules.
 const NO_DOUBTS: DoubtThresholds = DoubtThresholds {
     below_plate: f64::INFINITY,
     infeed: f64::INFINITY,
@@ -50,7 +50,7 @@ pub(crate) fn language() -> Language {
     }
 }
 
-/// The paths of a drawing.
+/// Reads the paths of a drawing.
 pub(crate) fn read(drawing: &str) -> RawFile {
     read_as(drawing, &language())
 }
@@ -69,20 +69,20 @@ pub(crate) fn read_as(drawing: &str, language: &Language) -> RawFile {
     raw_file(&pathbuild_dxf::read(&sheet.to_dxf(), &options), language)
 }
 
-/// The only path of a drawing, unbound.
+/// Reads the only path of a drawing, without binding its parameters.
 pub(crate) fn raw(drawing: &str) -> RawPath {
     let mut paths = read(drawing).paths;
     assert_eq!(paths.len(), 1, "paths in\n{drawing}");
     paths.remove(0).0
 }
 
-/// The first path of a drawing with example values.
+/// Compiles the first path of a drawing with example values.
 pub(crate) fn compile(drawing: &str) -> Compiled {
     let (raw, _) = read(drawing).paths.into_iter().next().expect("there is a path");
     compile_raw(&raw, &Bindings::check_values(&raw.definitions), &language())
 }
 
-/// Compiles a path stage by stage. Each stage skips findings that follow from earlier ones.
+/// Compiles a path stage by stage. Each stage suppresses findings that follow from earlier ones.
 pub(crate) fn compile_raw(raw: &RawPath, bindings: &Bindings, language: &Language) -> Compiled {
     let mut compiled = Compiled { path: None, walked: WalkedPath::default(), found: raw.diagnostics.clone() };
     let ExaminedPath { path, problems } = examine(raw, bindings, language);
@@ -95,7 +95,7 @@ pub(crate) fn compile_raw(raw: &RawPath, bindings: &Bindings, language: &Languag
     compiled
 }
 
-/// The codes of findings with their letters.
+/// Returns the codes of findings with their letters.
 pub(crate) fn codes(found: &[Diagnostic]) -> Vec<String> {
     let code = |found: &Diagnostic| {
         let letter = found.arguments.iter().find(|(name, _)| *name == "letter");
@@ -105,17 +105,17 @@ pub(crate) fn codes(found: &[Diagnostic]) -> Vec<String> {
     found.iter().map(code).collect()
 }
 
-/// The codes of the findings about the first path of a drawing.
+/// Returns the codes of the findings about the first path of a drawing.
 pub(crate) fn wrong(drawing: &str) -> Vec<String> {
     codes(&compile(drawing).found)
 }
 
-/// A drawing of one path, with the text of its start at (0, 0) and further statements.
+/// Returns a drawing of one path, with the text of its start at (0, 0) and further statements.
 pub(crate) fn path(parameters: &str, statements: &str) -> String {
     format!("layer 1234.1P\nstart 0,0 \"{parameters}\"\n{statements}")
 }
 
-/// The operations along the first path of a drawing, one line for each item, with chains in brackets.
+/// Returns the operations along the first path of a drawing, one line for each item, with chains in brackets.
 #[track_caller]
 pub(crate) fn items(drawing: &str) -> Vec<String> {
     let compiled = compile(drawing);

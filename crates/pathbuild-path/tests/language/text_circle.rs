@@ -1,11 +1,11 @@
-//! The circle by which a text is matched with its element. (book: language/parameter-texts)
+//! Tests the circle by which a text is matched with its element. (book: language/parameter-texts)
 
 use pathbuild_dxf::{HorizontalAlign, MText, Point3, Text, VerticalAlign};
 use pathbuild_path::TextCircle;
 
 const ANCHOR: Point3 = Point3 { x: 100.0, y: 200.0, z: 0.0 };
 
-/// Ten characters with a height of 2 mm: w = 12.
+/// Returns a text of ten characters with a height of 2 mm: w = 12.
 fn text() -> Text {
     Text {
         string: "0123456789".into(),
@@ -19,7 +19,7 @@ fn text() -> Text {
     }
 }
 
-/// Two lines of at most ten characters with a height of 2 mm: w = 12, H = 4.
+/// Returns a text of two lines of at most ten characters with a height of 2 mm: w = 12, H = 4.
 fn mtext() -> MText {
     MText {
         plain: "0123456789\n012".into(),
@@ -32,7 +32,7 @@ fn mtext() -> MText {
     }
 }
 
-/// The centre of a text's circle relative to the anchor.
+/// Returns the centre of a text's circle relative to the anchor.
 fn offset(circle: TextCircle) -> (f64, f64) {
     let round = |number: f64| (number * 1e9).round() / 1e9;
     (round(circle.centre.x - ANCHOR.x), round(circle.centre.y - ANCHOR.y))
@@ -109,7 +109,7 @@ fn mirrored_texts_mirror_the_offset() {
     assert_eq!(drawn(true, false), (-6.0, 1.0));
     assert_eq!(drawn(false, true), (6.0, -1.0));
     assert_eq!(drawn(true, true), (-6.0, -1.0));
-    // The mirrored text is rotated, not the other way round.
+    // The text is mirrored first and then rotated.
     let turned = Text { backwards: true, rotation: 90.0, ..text() };
     assert_eq!(offset(TextCircle::of_text(&turned)), (-1.0, -6.0));
 }
@@ -123,7 +123,7 @@ fn lengths_are_those_of_the_raw_string() {
     assert_eq!(offset(TextCircle::of_mtext(&with_code)), (6.0, -2.0));
 }
 
-/// Counts characters, not bytes.
+/// The length is in characters, not in bytes.
 #[test]
 fn every_character_counts_once() {
     let umlauts = Text { string: "äöüß€äöüß€".into(), ..text() };

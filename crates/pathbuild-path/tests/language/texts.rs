@@ -1,10 +1,10 @@
-//! The content of parameter texts. (book: language/parameter-texts)
+//! Tests the content of parameter texts. (book: language/parameter-texts)
 
 use pathbuild_path::{ElementClass, Letter, ParameterTexts, parse_integer, parse_number};
 
 use crate::support::{codes, compile, path, raw, wrong};
 
-/// The pieces of a text: letters with their values, and `?` for other characters.
+/// Returns the pieces of a text: letters with their values, and `?` for other characters.
 fn pieces(text: &str) -> Vec<String> {
     let texts = ParameterTexts::from(text);
     let text = texts.first().unwrap();
@@ -37,7 +37,7 @@ fn pieces_are_separated_by_blanks_and_line_breaks() {
     assert_eq!(pieces(""), [""; 0]);
 }
 
-/// Comments with spaces are written with non-breaking spaces.
+/// A comment contains non-breaking spaces, because ordinary ones would end it.
 #[test]
 fn a_non_breaking_space_separates_nothing() {
     assert_eq!(pieces("Qa\u{a0}b B1"), ["Q=a\u{a0}b", "B=1"]);
@@ -49,7 +49,7 @@ fn a_tilde_at_a_lines_end_continues_the_value() {
     assert_eq!(pieces("Qlong~\r\n \t value B1"), ["Q=longvalue", "B=1"]);
     assert_eq!(pieces("Qlong~\n\n\nvalue"), ["Q=longvalue"]);
     assert_eq!(pieces("Qone~\ntwo~\nthree"), ["Q=onetwothree"]);
-    // Elsewhere, a tilde is an ordinary character.
+    // In other positions, a tilde is an ordinary character.
     assert_eq!(pieces(":a1~2 Qx~"), [":=a1~2", "Q=x~"]);
     assert_eq!(pieces("Qlong~ B1"), ["Q=long~", "B=1"]);
 }
@@ -86,7 +86,7 @@ fn percent_codes_are_replaced() {
     assert_eq!(text("%%u%%"), "Q%%u%%");
 }
 
-/// For long and short texts, for recent and earlier ones, in a path with more elements than are compared.
+/// Tests long and short texts, recent and earlier ones, in a path with more elements than are compared.
 #[test]
 fn each_element_has_the_text_that_is_drawn_beside_it() {
     let same = |length: usize| "a".repeat(length);

@@ -1,4 +1,4 @@
-//! Turn markers: dead ends. (book: language/order-and-turns)
+//! Tests turn markers, which mark dead ends. (book: language/order-and-turns)
 
 use crate::support::{compile, items, path, wrong};
 
@@ -12,7 +12,7 @@ fn codes_of(statements: &str) -> Vec<String> {
     wrong(&path(P, statements))
 }
 
-/// A path from (0, 0) via (20, 0) to (40, 0), with a branch up to (20, 10).
+/// Walks a path from (0, 0) via (20, 0) to (40, 0), with a branch up to (20, 10).
 fn branch(statement: &str) -> Vec<String> {
     walked(&format!("mill 0,0 20,0\n{statement}\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nend 40,0"))
 }
@@ -77,7 +77,7 @@ fn over_a_hole_nothing_is_done_and_a_helical_circle_raises_the_tool() {
     );
 }
 
-/// A hole on the way also ends the chain of the way back.
+/// A hole in a chain also ends the chain in which the tool returns.
 #[test]
 fn a_hole_on_the_way_ends_the_chain_of_the_way_back() {
     let walked =
@@ -93,7 +93,7 @@ fn a_hole_on_the_way_ends_the_chain_of_the_way_back() {
     );
 }
 
-/// With equal orders, the shorter segment would come first.
+/// If the orders were equal, the shorter segment would come first.
 #[test]
 fn an_unnumbered_dead_end_comes_before_what_has_the_order_9999() {
     let walked = walked("mill 0,0 20,0 20,10\nmill 20,0 25,0 \"N9999\"\nturn 20,10\nend 25,0");
@@ -109,7 +109,7 @@ fn without_a_marker_a_dead_end_is_an_error() {
     assert_eq!(codes_of(&format!("{dead_end}\nturn 20.00004,10")), ["PB401"]);
 }
 
-/// The tool only goes back to the next branch, and retraces each segment once.
+/// The tool only returns to the nearest branch, and retraces each segment once.
 #[test]
 fn each_segment_is_returned_over_once() {
     let comb = "mill 0,0 20,0 20,10\nmill 20,0 40,0 \"N9997\"\nmill 40,0 40,10\nmill 40,0 60,0 \"N9999\"\nturn 20,10\nturn 40,10\nend 60,0";
@@ -124,7 +124,7 @@ fn each_segment_is_returned_over_once() {
 
 #[test]
 fn a_dead_end_within_a_dead_end_leads_back_to_the_first() {
-    // From (20, 0) up to (20, 10), where a branch leads to (30, 10), and on to (20, 20); then along to (40, 0).
+    // The path leads from (20, 0) up to (20, 10), where a branch leads to (30, 10), and on to (20, 20); then along to (40, 0).
     let statements = "mill 0,0 20,0\nmill 20,0 20,10 \"N1\"\nmill 20,10 30,10 \"N1\"\nmill 20,10 20,20 \"N2\"\nmill 20,0 40,0 \"N3\"\n\
                       turn 30,10\nturn 20,20\nend 40,0";
     assert_eq!(
@@ -138,7 +138,7 @@ fn a_dead_end_within_a_dead_end_leads_back_to_the_first() {
 #[test]
 fn a_marker_has_no_effect_where_something_continues_or_on_the_way_back() {
     assert_eq!(codes_of("mill 0,0 20,0 40,0\nturn 20,0\nend 40,0"), ["PB114"]);
-    // The marker at (20, 10) is passed on the way back from (20, 20).
+    // The tool passes the marker at (20, 10) when it returns from (20, 20).
     let passed = "mill 0,0 20,0 20,10 20,20\nmill 20,0 40,0 \"N9999\"\nturn 20,20\nturn 20,10\nend 40,0";
     assert_eq!(codes_of(passed), ["PB114"]);
 }
@@ -174,7 +174,7 @@ fn the_way_back_ends_at_the_start() {
         found.notes[0].text(pathbuild_diagnostic::Lang::En),
         "the nearest open end is at (50, 0), 30 mm away (a milling segment)"
     );
-    // A branch at the start itself is found.
+    // A branch at the start is found as well.
     assert_eq!(codes_of("mill 0,0 20,0\nmill 0,0 0,30\nturn 20,0\nend 0,30"), [""; 0]);
 }
 

@@ -1,4 +1,4 @@
-//! Variables. (book: language/variables)
+//! Tests variables. (book: language/variables)
 
 use pathbuild_path::{Bindings, Definition};
 
@@ -8,7 +8,7 @@ fn definition(text: &str) -> Definition {
     Definition::parse(text).unwrap_or_else(|problem| panic!("{text}: {problem:?}"))
 }
 
-/// The values that a definition permits.
+/// Returns those of the values that a definition permits.
 fn allowed<'a>(text: &str, values: &[&'a str]) -> Vec<&'a str> {
     let definition = definition(text);
     values.iter().copied().filter(|value| definition.allows(value)).collect()
@@ -23,7 +23,7 @@ fn a_range_allows_both_ends_and_what_is_between() {
     let values = ["-0.5", "-0,5", "0", "1.2", "1.1999999", "-0.51", "1.21", "x", ""];
     assert_eq!(allowed("x-0.5~1,2", &values), ["-0.5", "-0,5", "0", "1.2", "1.1999999"]);
     assert_eq!(allowed("x2~2", &["2", "2.1"]), ["2"]);
-    // Compared approximately, as everywhere.
+    // Numbers are compared approximately, as everywhere.
     assert_eq!(allowed("x1~2", &["2.000001", "2.00001"]), ["2.000001"]);
 }
 
@@ -34,7 +34,7 @@ fn a_range_is_the_right_way_round() {
     assert!(is_wrong("x2~1,9"));
 }
 
-/// With decimal commas it could also be a list: the range is tried first.
+/// With decimal commas, the text could also be a list, but it is first tried as a range.
 #[test]
 fn a_range_comes_before_a_list() {
     assert_eq!(allowed("x-0,5~0,4", &["0", "-0,5", "5~0"]), ["0", "-0,5"]);
@@ -44,7 +44,7 @@ fn a_range_comes_before_a_list() {
 #[test]
 fn a_list_allows_its_texts_exactly() {
     assert_eq!(allowed("xP1,P2,P3", &["P1", "P3", "p1", "P", "P1,P2", ""]), ["P1", "P3"]);
-    // Compared as text: 1.0 is not 1.
+    // Values are compared as text, so 1.0 is not 1.
     assert_eq!(allowed("x1,2", &["1", "1.0"]), ["1"]);
     assert_eq!(allowed("x?P1,?P2", &["P1", "?P1", "P2"]), ["P1", "P2"]);
     assert_eq!(allowed("xa\u{a0},\u{a0}b", &["a", "b"]), ["a", "b"]);
@@ -76,7 +76,7 @@ fn a_wrong_definition_is_reported_at_the_start() {
     assert_eq!(with(":"), ["PB301"]);
 }
 
-/// k counts all variables from 0 as written.
+/// k is the index of the variable among all of them, from 0, in the order in which they are written.
 #[test]
 fn check_values_are_examples_of_each_definition() {
     let values = |definitions: &str| {
@@ -100,7 +100,7 @@ fn corner_values_are_all_of_a_list_and_the_ends_of_a_range() {
     assert_eq!(definition("a?xy").corner_values(), ["x", "y"]);
 }
 
-/// A path with a text on its line and values for its variables.
+/// Compiles a path with a text on its line and values for its variables.
 fn bound(text: &str, values: &[(char, &str)]) -> crate::support::Compiled {
     let definitions: Vec<String> = values.iter().map(|(name, _)| format!(":{name}1~2")).collect();
     let raw = raw(&path(
@@ -111,7 +111,7 @@ fn bound(text: &str, values: &[(char, &str)]) -> crate::support::Compiled {
     compile_raw(&raw, &bindings, &language())
 }
 
-/// The value of Q, or the codes of the findings.
+/// Returns the value of Q, or the codes of the findings.
 fn filled(text: &str, values: &[(char, &str)]) -> String {
     let compiled = bound(&format!("Q{text}"), values);
     if let Some(path) = compiled.path {
@@ -142,7 +142,7 @@ fn a_value_that_leads_back_to_itself_is_an_error() {
     assert_eq!(filled("=a", &[('a', "=b"), ('b', "=c"), ('c', "x")]), "x");
 }
 
-/// A chain of variables, each defined by the next; the last one is `x`.
+/// Returns a chain of variables, each defined by the next one; the last one is `x`.
 fn chained(count: u32) -> String {
     let names: Vec<char> = (0..count).filter_map(|index| char::from_u32(0x4e00 + index)).collect();
     let mut values: Vec<(char, String)> =
@@ -152,7 +152,7 @@ fn chained(count: u32) -> String {
     filled(&format!("={}", names[0]), &values)
 }
 
-/// Thousands of variables would require a pass each.
+/// Thousands of variables that refer to each other would require a pass each.
 #[test]
 fn values_refer_to_others_up_to_a_depth() {
     assert_eq!((chained(65), chained(66)), ("x".to_owned(), "PB305".to_owned()));
@@ -166,7 +166,7 @@ fn a_reference_to_nothing_is_an_error() {
     assert_eq!(filled("=A", &[('a', "1")]), "PB303");
 }
 
-/// Variables that double the text in each pass.
+/// The text of variables doubles in each pass.
 #[test]
 fn a_text_does_not_grow_beyond_the_limit() {
     let double: Vec<(char, String)> =
@@ -228,13 +228,13 @@ fn a_variable_that_no_text_uses_has_no_effect() {
     assert_eq!(found(":D0~1", "B=D"), [""; 0]);
     assert_eq!(found(":D0~1", "Qdeep=D"), [""; 0]);
     assert_eq!(found(":D0~1 F=D", "B1"), [""; 0]);
-    // `=E` is wrong (PB303), and D was probably meant.
+    // `=E` is wrong (PB303), and D was probably intended.
     assert_eq!(found(":D0~1", "B=E"), [""; 0]);
-    // Used by the value of another variable.
+    // The value of another variable refers to D.
     assert_eq!(found(":D0~1 :Ea,=D", "B=E"), [""; 0]);
 }
 
-/// What is not read may use it: a text without an element, and a path that borrows the text of the start.
+/// A text that is not read may refer to the variable: one without an element, or one in a path that borrows the text of the start.
 #[test]
 fn a_variable_that_may_be_used_elsewhere_is_not_reported() {
     let with = |text: &str| {

@@ -1,4 +1,4 @@
-//! The walk from the start to the end. (book: language/chains-and-passes)
+//! Tests the walk from the start to the end. (book: language/chains-and-passes)
 
 use pathbuild_diagnostic::Lang;
 
@@ -7,7 +7,7 @@ use pathbuild_path::{Bindings, Curve, Xy};
 
 const P: &str = "T5 O3 I1 B0 D2";
 
-/// The findings about a path with these statements, and the sentences of their help.
+/// Returns the findings about a path with these statements, and the sentences of their help.
 fn found(statements: &str) -> (Vec<String>, Vec<String>) {
     let compiled = compile(&path(P, statements));
     let notes = compiled.found.iter().flat_map(|found| &found.notes);
@@ -44,7 +44,7 @@ fn ends_that_nearly_meet_do() {
     assert_eq!(codes_of("mill 0.000032,0 20,0\nend 20,0"), ["PB401"]);
     assert_eq!(codes_of("mill 0,0 20,0\nend 20.000031,0"), [""; 0]);
     assert_eq!(codes_of("mill 0,0 20,0\nend 20.000032,0"), ["PB403"]);
-    // In both directions.
+    // The ends differ in X and Y.
     assert_eq!(codes_of("mill 0,0 20,0\nmill 20.00002,0.00002 40,0\nend 40,0"), [""; 0]);
     assert_eq!(codes_of("mill 0,0 20,0\nmill 20.00003,0.00002 40,0\nend 40,0"), ["PB401"]);
 }
@@ -74,7 +74,7 @@ fn a_duplicate_is_named() {
     assert_eq!((codes, notes), (vec!["PB402".to_owned()], Vec::<String>::new()));
     let [problem] = &compile(&path("T5 O3 I1 B0", twice)).found[..] else { panic!() };
     assert!(problem.text(Lang::En).starts_with("a milling segment at (20, 0) is drawn twice"));
-    // An arc between the same points is a different way.
+    // An arc between the same points is a different segment.
     let (codes, notes) =
         found("mill 0,0 20,0\nmill 20,0 40,0\nmill arc 40,0 60,0 r 10\nmill 60,0 80,0\nend 40,0");
     assert_eq!((codes.len(), notes.len()), (1, 0));
@@ -95,7 +95,7 @@ fn segments_that_are_left_over_at_the_end_are_counted() {
 fn the_end_must_be_reached() {
     assert_eq!(codes_of("mill 0,0 20,0\nend 20,0"), [""; 0]);
     assert_eq!(codes_of("mill 0,0 20,0\nend 30,0"), ["PB403"]);
-    // Not after PB401, which has the same cause.
+    // PB401 has the same cause, so nothing else is reported.
     assert_eq!(codes_of("mill 0,0 20,0\nmill 30,0 40,0\nend 50,0"), ["PB401"]);
 }
 
@@ -119,7 +119,7 @@ fn a_closed_path_ends_where_it_starts() {
     assert_eq!(codes_of("mill 0,0 20,0 20,20 0,0\nend 0,0"), [""; 0]);
 }
 
-/// Without a tolerance nothing is joined; with one, the nearest ends are, each with a warning.
+/// Without a tolerance no ends are joined; with one, the nearest ends are, each with a warning.
 #[test]
 fn ends_within_the_tolerance_are_joined() {
     let raw = raw(&path(P, "mill 0,0 20,0\nmill 20.01,0 40,0\nend 40.01,0"));
@@ -152,7 +152,7 @@ fn a_joined_arc_stays_where_it_is() {
     };
     assert_eq!((line.end, lead.start, lead.end), (Xy::new(20.0, 0.0), Xy::new(20.0, 0.0), arc.start));
     assert_eq!((arc.centre, arc.radius, arc.end), (Xy::new(25.01, 0.0), 5.0, Xy::new(25.01, 5.0)));
-    // Retraced from a dead end.
+    // The arc is retraced from a dead end.
     let compiled = joined("mill 0,0 20,0\nmill arc centre 25.01,0 r 5 from 90 to 180\nturn 25.01,5\nend 0,0");
     let ends: Vec<Xy> = compiled.first_chain().iter().map(Curve::end).collect();
     let tip = Xy::new(25.01, 5.0);
@@ -162,7 +162,7 @@ fn a_joined_arc_stays_where_it_is() {
     assert_eq!([ends[4], ends[5]], [Xy::new(20.0, 0.0), Xy::new(0.0, 0.0)]);
 }
 
-/// The line that leads into an arc is not a segment of its own: letters of the arc count as those of the chain's first segment.
+/// The line that leads into an arc is not a separate segment: letters of the arc count as those of the chain's first segment.
 #[test]
 fn a_joined_arc_may_begin_a_chain() {
     let drawn = "sweep 0,0 20,0\nmill arc centre 25.01,0 r 5 from 90 to 180 \"I1\"\nend 25.01,5";
@@ -187,7 +187,7 @@ fn a_path_is_walked_where_its_values_are_wrong() {
     assert_eq!(wrong(&path("T5 O3 I1", "mill 0,0 20,0\nend 20,0")), ["PB201 B"]);
 }
 
-/// After a small gap it is clear where the path continues.
+/// A small gap leaves no doubt where the path continues.
 #[test]
 fn a_gap_does_not_hide_another_mistake() {
     let two = |gap: f64| {
@@ -199,7 +199,7 @@ fn a_gap_does_not_hide_another_mistake() {
     assert_eq!(found("mill 0,0 20,0\nmill 20.5,0 40,0\ncircle 30,50 d 3\nend 40,0").0, ["PB401", "PB402"]);
     assert_eq!(found("mill 0,0 20,0\nmill 20.5,0 40,0\nend 60,0").0, ["PB401", "PB403"]);
     assert_eq!(found("mill 0,0 20,0\nmill 20.5,0 40,0\nend 40,0").0, ["PB401"]);
-    // A line in hundreds of pieces is one mistake.
+    // A line that is drawn in hundreds of pieces with gaps is one mistake.
     let pieces: Vec<String> = (0..200).map(|at| format!("mill {at},0 {at}.5,0\n")).collect();
     assert_eq!(found(&format!("{}end 199.5,0", pieces.concat())).0.len(), 11);
 }
