@@ -1,4 +1,4 @@
-//! Tests of adjusting programs, including everything that must be rejected. (book: language/probes)
+//! Tests adjusting programs, including everything that must be rejected. (book: language/probes)
 #![allow(
     clippy::unwrap_used,
     clippy::disallowed_methods,
@@ -14,7 +14,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::adjust::{AdjustedProgram, Inputs, Source, adjust};
 use pathbuild_gcode::native::{self, Parts};
 
-/// A file with the value of one probe that was drawn at 2.
+/// A file with the value of one probe, whose drawn thickness is 2 mm.
 const VALUES: &str = "([1.000 2.000]/T=2.000) #51=2.100\n";
 
 fn run(program: impl AsRef<[u8]>, values: impl AsRef<[u8]>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
@@ -41,7 +41,7 @@ fn adjusted(program: impl AsRef<[u8]>, values: impl AsRef<[u8]>) -> String {
     String::from_utf8(adjusted.program).unwrap()
 }
 
-/// Each problem as `file:line:column code`.
+/// Returns each problem as `file:line:column code`.
 fn told(problems: &[Diagnostic]) -> Vec<String> {
     let place = |it: &Diagnostic| match (it.place.line, it.place.column) {
         (Some(line), Some(column)) => format!(":{line}:{column}"),
@@ -56,14 +56,14 @@ fn refused(result: Result<AdjustedProgram, Vec<Diagnostic>>) -> Vec<String> {
     told(&result.expect_err("it was adjusted"))
 }
 
-/// The value of a formula.
+/// Returns the value of a formula.
 #[track_caller]
 fn value(formula: &str) -> String {
     let program = adjusted(format!("X0.000(={formula})"), VALUES);
     program.strip_prefix('X').unwrap().split('(').next().unwrap().to_owned()
 }
 
-/// The column of an error in a formula, relative to the formula.
+/// Returns the column of an error in a formula, relative to the formula.
 #[track_caller]
 fn column(formula: &str) -> u32 {
     let problems = run(format!("X0.000(={formula})"), VALUES).expect_err("it has a value");
@@ -336,7 +336,7 @@ fn a_height_that_is_extrapolated_too_far_is_refused() {
     let formula = |weight: &str| format!("Z1.000(=1.000+{weight}*[#51-2.000]-0.5*[#52-2.000])");
     assert!(run(formula("1.114"), values).is_ok());
     assert_eq!(refused(run(formula("1.120"), values)), ["a_Clean.gcode:1:2 PB602"]);
-    // The same for negative corrections.
+    // Negative corrections have the same limit.
     let down = "([0.000 0.000]/T=2.000) #51=1.100\n([1.000 0.000]/T=2.000) #52=2.000\n";
     assert!(run(formula("1.114"), down).is_ok());
     assert_eq!(refused(run(formula("1.120"), down)), ["a_Clean.gcode:1:2 PB602"]);
@@ -371,7 +371,7 @@ fn an_older_line_whose_height_no_formula_says_is_refused() {
         let result = run(format!("X5.000(={formula})"), "@ [138.000|299.000] #2001=5,1");
         assert_eq!(refused(result), ["a_Z.txt:1:27 PB601"], "{formula}");
     }
-    // If nothing uses it, it is harmless.
+    // A parameter that no formula refers to is harmless.
     assert!(run("X5.000(=5)", "@ [138.000|299.000] #2001=5,1").is_ok());
 }
 
@@ -382,7 +382,7 @@ fn an_older_line_must_fit_every_formula() {
     assert_eq!(refused(run(program, "@ [1|2] #2001=5,1")), ["a_Z.txt:1:15 PB602"]);
 }
 
-/// A program that lists the probe it was made with.
+/// A program whose header lists the probe with which it was made.
 const MADE: &str = "%\n(pathbuild)\n(Probe #51: [5.000 -15.000] T=2.000 X12.000 Y3.000)\nG01 X1.000(=#51)\n";
 
 #[test]
@@ -450,7 +450,7 @@ fn the_offset_of_the_workpiece_is_taken_off() {
     assert_eq!(problems, ["sender.log:2:1 PB602", "sender.log:4:1 PB602"]);
 }
 
-/// The results may be shifted together, because a log need not state the offset, but not among each other.
+/// All results may be shifted by the same offset, because a log need not state it, but not relative to each other.
 #[test]
 fn the_results_of_a_log_are_at_the_places_of_the_probes() {
     let values =
@@ -498,7 +498,7 @@ fn a_value_that_was_entered_must_be_that_of_the_log() {
     assert_eq!(refused(run_with_log("X1(=#51)", &values("x"), log)), ["a_Z.txt:2:29 PB601"]);
 }
 
-/// Nine probes on a grid of 100 mm, as the header of a program and as a file of values, each deviating by the result of `off`.
+/// Returns nine probes on a grid of 100 mm, as the header of a program and as a file of values. Each value deviates by the result of `off`.
 fn grid(off: impl Fn(f64, f64) -> f64) -> (String, String) {
     let (mut program, mut values) = (String::new(), String::new());
     for probe in 0..9 {
@@ -538,9 +538,8 @@ fn tilted_and_bent_plates_have_no_odd_probes() {
     assert_eq!(odd(|x, y| 0.5 * x * y), [""; 0]);
 }
 
-/// The corners of a twisted plate are 0.1 mm from the plane through all probes. Eight probes minus three for the plane leave five degrees
-/// of freedom
-/// for their scatter, which at the middle one is 0.1 * sqrt(4/5 * 9/8).
+/// The corners of a twisted plate are 0.1 mm from the plane through all probes. Eight probes minus three for the plane leave five degrees of
+/// freedom for their scatter, which at the middle one is 0.1 * sqrt(4/5 * 9/8).
 #[test]
 fn a_probe_is_odd_beyond_four_times_the_scatter_of_the_others() {
     let raised = |middle: f64| odd(|x, y| if (x, y) == (0.0, 0.0) { middle } else { 0.1 * x * y });

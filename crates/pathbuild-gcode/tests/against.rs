@@ -1,4 +1,4 @@
-//! Tests which programs do what their drawing says. (book: program/reading, `verify --against`)
+//! Tests which programs match their drawing. (book: program/reading, `verify --against`)
 
 mod common;
 
@@ -13,7 +13,7 @@ const FINE: [&str; 0] = [];
 /// Height of S0 in all programs, in mm.
 const CLEARANCE: f64 = 5.0;
 
-/// The differences of a program from these moves, which begin above the zero of the path.
+/// Returns the differences of a program from these moves, which begin above the zero of the path.
 fn differences(dialect: Dialect, program: &str, drawn: &str) -> Vec<String> {
     let drawn = format!("G17 G21 G90 G94\nG0 X0 Y0 Z5\n{drawn}\nM30\n");
     let moves = interpret(drawn.as_bytes(), Native, &Options::default()).moves();
@@ -47,7 +47,8 @@ fn a_program_pauses_only_above_the_material() {
     assert!(!paused_at("X0"), "the height is unknown");
 }
 
-/// A helix of this radius from (radius, 0), for a control that accepts none, replaced by chords to the directions and heights.
+/// Returns chords instead of a helix, as for a control that accepts none. The helix has this radius and begins at (radius, 0); the chords end at
+/// these directions and heights.
 fn chords(radius: f64, [degrees, depth]: [f64; 2], ends: &[[f64; 2]]) -> Vec<String> {
     let place = |degrees: f64| {
         let (sin, cos) = libm::sincos(degrees.to_radians());
@@ -68,14 +69,14 @@ fn chords_stay_within_a_hundredth_of_their_helix() {
     assert_eq!(chords(10.0, [5.14, -1.0], &[[2.57, -0.5], [5.14, -1.0]]), FINE);
 }
 
-/// All of a circle of 0.005 mm is within 0.01 mm of its diameter.
+/// A circle of 0.005 mm is within 0.01 mm of its diameter, but a chord does not replace it.
 #[test]
 fn a_chord_replaces_less_than_half_a_turn() {
     assert_eq!(chords(0.005, [270.0, -3.0], &[[90.0, -1.0], [180.0, -2.0], [270.0, -3.0]]), FINE);
     assert_eq!(chords(0.005, [270.0, -3.0], &[[180.0, -2.0], [270.0, -3.0]]), ["4 moves-differ"]);
 }
 
-/// A helix of 10 mm that falls by 5 mm in 5 degrees, 5.73 mm per mm: its height is known to 0.0202 mm.
+/// A helix of 10 mm falls by 5 mm in 5 degrees, at 5.73 mm per mm, so its height is known to 0.0202 mm.
 #[test]
 fn heights_of_chords_are_those_of_their_places_on_a_steep_helix() {
     let middle = |depth: f64| chords(10.0, [5.0, -5.0], &[[2.5, depth], [5.0, -5.0]]);

@@ -27,7 +27,7 @@ fn differ(found: &str, expected: &str) -> Option<Difference> {
     compare(&moves(found), &moves(expected), &Tolerance::of_decimals(3))
 }
 
-/// The kind of difference, and the lines.
+/// Returns the kind of difference, and the lines.
 fn kind(found: &str, expected: &str) -> Option<(DifferenceKind, Option<u32>, Option<u32>)> {
     differ(found, expected)
         .map(|it| (it.kind, it.found.map(|found| found.0), it.expected.map(|expected| expected.0)))
@@ -99,7 +99,7 @@ fn pieces_have_the_feed_of_the_whole() {
 fn moves_that_go_nowhere_do_not_count() {
     assert_same("G1 X10\nX10\nG0 X10\nG1 Y10", "G1 X10\nY10");
     assert_same("G1 X10\nG0 Z5\nG1 Y10", "G1 X10\nY10");
-    // The distance by which the end of a short arc may be moved to avoid a full circle.
+    // The end of a short arc may be moved by this distance to avoid a full circle.
     assert_same("G1 X10\nX10.0014\nX10 Y10", "G1 X10\nY10");
     assert!(differ("G1 X10\nX10.0016\nX10 Y10", "G1 X10\nY10").is_some());
 }
@@ -148,7 +148,7 @@ fn arcs_may_be_chords_where_that_is_tolerated() {
     };
     let arc = moves("G2 X10 Y0 Z3 I5 J0");
     let tolerance = Tolerance { chord: 0.01, ..Tolerance::of_decimals(3) };
-    // For 0.01 mm at a radius of 5 mm, chords of up to 7.2 degrees suffice.
+    // For a deviation of 0.01 mm at a radius of 5 mm, chords of up to 7.2 degrees suffice.
     assert_eq!(compare(&moves(&chords(26)), &arc, &tolerance), None);
     assert_eq!(compare(&arc, &moves(&chords(26)), &tolerance), None);
     assert!(compare(&moves(&chords(16)), &arc, &tolerance).is_some());
@@ -219,7 +219,7 @@ fn height(z: f64) -> Height {
     Height { z, at: Xy::new(0.0, 0.0) }
 }
 
-/// A program with every kind of move and coordinates that need more than three decimals.
+/// Returns a program with every kind of move and coordinates that need more than three decimals.
 fn program() -> Program {
     let third = 1.0 / 3.0;
     let mut names = Names::default();

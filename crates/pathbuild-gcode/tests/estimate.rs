@@ -4,7 +4,7 @@ use pathbuild_gcode::dialect::Dialect::Native;
 use pathbuild_gcode::estimate::{Kinematics, seconds};
 use pathbuild_gcode::interpret::{Options, interpret};
 
-/// 6000 mm/min is 100 mm/s.
+/// A machine whose X and Y axes reach 6000 mm/min, which is 100 mm/s.
 const MACHINE: Kinematics = Kinematics {
     rates: [6000.0, 6000.0, 600.0],
     accelerations: [100.0, 100.0, 20.0],
@@ -24,20 +24,20 @@ fn takes(program: &str, machine: &Kinematics, expected: f64) {
 
 #[test]
 fn a_long_way_is_ramps_and_a_stretch_at_full_speed() {
-    // Acceleration to 100 mm/s in 1 s over 50 mm, 100 mm at full speed, then deceleration.
+    // The tool accelerates to 100 mm/s in 1 s over 50 mm, travels 100 mm at full speed, then decelerates.
     takes("G0 X200", &MACHINE, 3.0);
     takes("G1 F6000 X200", &MACHINE, 3.0);
 }
 
 #[test]
 fn a_short_way_never_reaches_its_speed() {
-    // With 100 mm/s² the middle at 25 mm is reached after sqrt(2 * 25 / 100) s; the same again to the end.
+    // At 100 mm/s², the tool reaches the middle at 25 mm after sqrt(2 * 25 / 100) s, and takes the same time to the end.
     takes("G0 X50", &MACHINE, 2.0 * libm::sqrt(0.5));
 }
 
 #[test]
 fn a_slow_feed_takes_nearly_its_length() {
-    // 1 mm/s is reached in 10 ms over 5 µm.
+    // The tool reaches 1 mm/s in 10 ms over 5 µm.
     takes("G1 F60 X10", &MACHINE, 0.02 + (10.0 - 0.01));
 }
 
@@ -63,7 +63,7 @@ fn corners_are_taken_as_fast_as_the_deviation_allows() {
     let corner = "G1 F6000 X200\nY200";
     takes(corner, &MACHINE, 6.0);
     let soft = Kinematics { junction_deviation: 0.01, ..MACHINE };
-    // GRBL: v² = a d sin(θ/2) / (1 - sin(θ/2)), where θ is the angle between the moves.
+    // GRBL's formula is v² = a d sin(θ/2) / (1 - sin(θ/2)), where θ is the angle between the moves.
     let half_sine = libm::sqrt(0.5);
     let corner_speed = libm::sqrt(100.0 * 0.01 * half_sine / (1.0 - half_sine));
     let saved_each = {
@@ -78,7 +78,7 @@ fn corners_are_taken_as_fast_as_the_deviation_allows() {
 
 #[test]
 fn a_small_circle_is_not_taken_at_full_speed() {
-    // With a radius of 1 mm: sqrt(100 * 1) = 10 mm/s.
+    // At a radius of 1 mm, the speed is limited to sqrt(100 * 1) = 10 mm/s.
     let circumference = 2.0 * std::f64::consts::PI;
     takes("G2 F6000 X0 Y0 I1", &MACHINE, 0.2 + (circumference - 1.0) / 10.0);
     let large = time("G0 X0 Y0 Z0\nG2 F6000 X0 Y0 I200", &MACHINE);

@@ -1,4 +1,4 @@
-//! Tests of guessing dialects.
+//! Tests guessing dialects.
 
 use pathbuild_gcode::dialect::Dialect::{
     self, Fanuc, Grbl, Haas, LinuxCnc, Mach3, Marlin, Native, Rs274, Xpertmill,

@@ -1,4 +1,5 @@
-//! What programs state about their tools and their stock. All programs here are written to the form of the CAM that is named, not copied.
+//! Tests what is read about tools and stock from the comments of programs. All programs here follow the format of the CAM program that is named,
+//! but are not copied from it.
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{FORMS, Header, HeaderReader, stated};
@@ -10,7 +11,7 @@ fn header(program: &str) -> Header {
     reader.finish(200)
 }
 
-/// The tools that cut: the line from which they apply, the number, the diameter, and the width that is known to be flat.
+/// Returns the tools that cut: the line from which they apply, the number, the diameter, and the width that is known to be flat.
 fn tools(program: &str) -> Vec<String> {
     let show = |length: f64| format!("{}", (length * 1000.0).round() / 1000.0);
     let tool = |tool: &pathbuild_gcode::header::CuttingTool| {
@@ -53,7 +54,7 @@ fn free_text_states_nothing() {
         "18 FLAT CARBIDE ENDMILL",
         "1001 - 1/4\" Facing 6mm",
         "bracket_6mm_D=6.nc",
-        // Another key, no diameter, or no value.
+        // These comments have another key, no diameter, or no value.
         "T1 DIA=6 CR=0 - flat end mill",
         "T1 D=0 CR=0 - ZMIN=4 - laser cutter",
         "T1 D=6 - ZMIN=4 - flat end mill",
@@ -65,7 +66,7 @@ fn free_text_states_nothing() {
         "STOCK/BLOCK, 100, 100, 0, 0, 0, 0",
         "stockMin:0.00, 0.00, -1.00",
         "stockMid:0.00mm, 0.00mm, -1.00mm",
-        // An inch mark is no unit that FreeCAD's label is read with.
+        // An inch mark is not a unit in FreeCAD's labels.
         "TC: 1/4\" Endmill",
         "TC: 12.7 V90deg Q009",
         "Compensated Tool Path. Diameter: 0",
@@ -76,7 +77,7 @@ fn free_text_states_nothing() {
         "MSG, Change tool bit to drill size 0.8mm",
         "MSG, Change tool bit to cutter diameter 0.00000in",
         "T2 : 0.0",
-        // Estlcam and SheetCam.
+        // These comments are by Estlcam and SheetCam.
         "End mill 3mm",
         "Operation: Outside Offset, 0, T1: 3 mm end mill, 2 mm Deep",
     ];
@@ -120,7 +121,7 @@ fn the_unit_is_that_of_the_program_unless_the_field_names_one() {
     assert_eq!(with_unit("1 = End Mill {3.175 mm}", "G20"), "3: T1 3.175 flat 3.175");
     assert_eq!(with_unit("1 = End Mill {0.125 inch}", "G21"), "3: T1 3.175 flat 3.175");
     assert_eq!(with_unit("tool#=1 flute=0.25 len=1 unit=imperial", "G21"), "3: T1 6.35 flat ?");
-    // The word in force at the comment counts, not the first one.
+    // The unit in force at the comment counts, not the first one of the program.
     let later = format!("G20\nG21\n(TOOL/MILL,6,0,9,0)\nT1 M6\n{CUT}");
     assert_eq!(tools(&later), ["4: T1 6 flat 6"]);
 }
@@ -135,7 +136,7 @@ fn a_description_holds_while_its_tool_is_in_use() {
     // T alone only selects the next tool, unless the program has no M6.
     assert_eq!(tools(&format!("{two}T1 M6\nT2\n{CUT}")), ["4: T1 6 flat 6"]);
     assert_eq!(tools(&format!("{two}T2\n{CUT}")), ["4: T2 3 flat 3"]);
-    // Without a tool change, only a single description is that of the tool.
+    // Without a tool change, a description belongs to the tool only if it is the only one.
     assert_eq!(tools(&format!("{two}{CUT}")), ["0: - unknown"]);
     assert_eq!(tools(&format!("(T1 D=6 CR=0 - ZMIN=-1 - flat end mill)\n{CUT}")), ["0: T1 6 flat 6"]);
 }
@@ -175,14 +176,14 @@ fn a_tool_with_two_diameters_is_reported() {
     };
     assert_eq!(problems(&twice("6.02")), [""; 0]);
     assert_eq!(problems(&twice("6.03")), ["2 header-contradiction"]);
-    // The narrower one removes material.
+    // The narrower of two tools removes material.
     assert_eq!(tools(&twice("3")), ["4: T1 6 flat 3"]);
-    // A bull nose and a flat end mill of the same diameter.
+    // A bull nose and a flat end mill have the same diameter.
     let tips = format!(
         "(T1 D=6 CR=0 - ZMIN=-1 - flat end mill)\n(T1 D=6 CR=1 - ZMIN=-1 - bullnose end mill)\nG21\nT1 M6\n{CUT}"
     );
     assert_eq!(problems(&tips), ["2 header-contradiction"]);
-    // Two forms that describe the tool in use.
+    // Two comments of different forms describe the tool in use.
     let forms = format!("G21\n(TOOL/MILL,3,0,9,0)\n(1 = End Mill {{6 mm}})\nT1 M6\n{CUT}");
     assert_eq!(problems(&forms), ["3 header-contradiction"]);
 }
@@ -193,7 +194,7 @@ fn a_listed_tool_that_is_never_selected_is_reported() {
     assert_eq!(problems(&format!("{list}T1 M6\nG1 X1 F9\nT2 M6\nG1 X2")), [""; 0]);
     assert_eq!(problems(&format!("{list}T1 M6\nG1 X1 F9\nG1 X2")).len(), 1);
     assert_eq!(problems(&format!("{list}G1 X1 F9\nG1 X2")), [""; 0], "tools are changed by hand");
-    // The operator inserts what the list says, and the machine takes T7.
+    // The operator inserts the tool that the list names, and the machine takes T7.
     assert_eq!(problems(&format!("{list}T7 M6\nG1 X1 F9")), ["1 disagreement"]);
 }
 

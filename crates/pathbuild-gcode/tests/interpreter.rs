@@ -1,4 +1,4 @@
-//! Tests of the interpreter: the effects of words, and their order. (book: program/reading)
+//! Tests the interpreter: the effects of words, and their order. (book: program/reading)
 
 mod common;
 
@@ -12,7 +12,7 @@ use pathbuild_gcode::interpret::{Heights, MachineOffsets, Options, interpret};
 
 const HEAD: &str = "G17 G21 G90 G94\n";
 
-/// The steps of a program after [`HEAD`], with M30 at its end.
+/// Returns the steps of a program after [`HEAD`], with M30 at its end.
 fn run(dialect: Dialect, program: &str) -> Vec<String> {
     trace(dialect, &format!("{HEAD}{program}\nM30\n"))
         .into_iter()
@@ -20,7 +20,7 @@ fn run(dialect: Dialect, program: &str) -> Vec<String> {
         .collect()
 }
 
-/// The problems of a program after [`HEAD`], with M30 at its end.
+/// Returns the problems of a program after [`HEAD`], with M30 at its end.
 fn wrong(dialect: Dialect, program: &str) -> Vec<String> {
     faults(dialect, &format!("{HEAD}{program}\nM30\n"))
 }
@@ -182,21 +182,21 @@ fn half_circles_by_radius_are_doubtful() {
 fn a_radius_that_is_too_short_is_no_half_circle() {
     let found = |radius: &str| wrong(LinuxCnc, &format!("G0 X0 Y0 Z0\nG2 X19.999 Y0 R{radius} F10"));
     assert_eq!(found("10.000"), ["3 doubtful-arc"]);
-    // LinuxCNC accepts a radius that is a little too short.
+    // LinuxCNC accepts a radius that is slightly too short.
     assert_eq!(found("9.999"), FINE);
 }
 
-/// The S of a layer starts its spindle, and nothing stops it: S0 would cut with the spindle at rest.
+/// The S of a layer starts its spindle, and nothing stops it: with S0, the tool would cut with the spindle stopped.
 #[test]
 fn a_layer_of_xpertmill_needs_a_speed_above_zero() {
     let layer = |speed: &str| faults(Xpertmill, &format!("G71\nM06 02 {speed}\nG00 Z5\nM30"));
     assert_eq!(layer("S0"), ["2 value-out-of-range"]);
     assert_eq!(layer("S1"), [""; 0]);
-    // Elsewhere S0 before M3 is what controls begin with.
+    // In other dialects, S0 before M3 is the initial state of the control.
     assert_eq!(faults(Grbl, "G21\nS0\nM30"), [""; 0]);
 }
 
-/// XpertMILL knows no G91.
+/// XpertMILL has no G91 and no helices.
 #[test]
 fn arcs_that_leave_their_plane_are_doubtful_where_helices_are_unknown() {
     let is_doubtful = |arc: &str| {
@@ -228,7 +228,7 @@ fn arcs_need_a_centre() {
     );
 }
 
-/// GRBL ends with "Unused words" (error 36) where a value word has no command, "No axis words" (26) and "G43.1 dynamic axis error" (37).
+/// GRBL reports "Unused words" (error 36) if a value word has no command, "No axis words" (26) and "G43.1 dynamic axis error" (37).
 #[test]
 fn words_without_a_command_stop_grbl() {
     for words in [
@@ -259,7 +259,7 @@ fn words_without_a_command_stop_grbl() {
     assert_eq!(wrong(LinuxCnc, "G10 L2 P1"), FINE);
 }
 
-/// P0 sets the external offset of Fanuc, L20 the additional systems, and with G91 the numbers are added.
+/// P0 sets the external offset of Fanuc, L20 the additional systems, and with G91 the numbers are added to the offsets.
 #[test]
 fn g10_of_fanuc_sets_other_offsets() {
     for words in ["G10 L2 P0 Z-5.", "G10 L20 P1 Z0", "G91\nG10 L2 P1 Z-5.\nG90"] {
@@ -272,7 +272,7 @@ fn g10_of_fanuc_sets_other_offsets() {
     assert_eq!(wrong(Fanuc, "G10 L2 P1 Z-5."), FINE);
 }
 
-/// G43.1 replaces the length, so that the same coordinate is elsewhere afterwards.
+/// G43.1 replaces the tool length, so that the same coordinate is another position afterwards.
 #[test]
 fn a_length_given_by_number_moves_the_tip_once_the_tool_has_cut() {
     let cut = "G49\nG0 X0 Y0 Z5\nG1 X1 F100";
@@ -286,7 +286,7 @@ fn a_length_given_by_number_moves_the_tip_once_the_tool_has_cut() {
         assert_eq!(moves("G20 G43.1 Z1\nG21 G0 Z5")[2..], ["6 rapid to 1 0 30.4"]);
         assert_eq!(wrong(dialect, &format!("{cut}\nG43.1 Z-10")), FINE);
     }
-    // Another tool has a zero of its own, and so has one that has not cut yet.
+    // Another tool has a zero of its own, and so has a tool that has not cut yet.
     let fine = "T1 M6\nG49\nG0 X0 Y0 Z5\nG43.1 Z-9\nG0 Z5\nG1 X1 F100\nT2 M6\nG43.1 Z7\nG0 Z5\nG1 X2";
     assert_eq!(wrong(LinuxCnc, fine), FINE);
     assert_eq!(run(LinuxCnc, fine)[2], "6 rapid to 0 0 5");
@@ -304,12 +304,12 @@ fn a_length_whose_difference_is_unknown_is_not_followed() {
     assert_eq!(found("G43 H1", "T2 M6\nG43.1 Z5"), FINE);
     assert_eq!(found("G43 H1", "M0\nG43.1 Z5"), FINE, "the operator may have changed the tool");
     assert_eq!(found("G43 H1", "G43.2 H2"), ["6 word-not-followed"]);
-    // Both words want Z.
+    // Both words take Z.
     assert_eq!(found("G43.1 Z4", "G0 G43.1 Z5"), ["6 conflicting-words"]);
     assert_eq!(found("G43.1 Z4", "G80 G43.1 Z5"), FINE);
 }
 
-/// Fanuc keeps H and D, LinuxCNC refuses them where no word needs them.
+/// Fanuc stores H and D, and LinuxCNC refuses them if no word needs them.
 #[test]
 fn an_offset_beside_a_word_for_the_tool_length() {
     for words in ["G49 H0", "G43 H1 D1"] {
@@ -333,7 +333,7 @@ fn a_centre_of_the_third_axis_may_be_0_where_it_is_ignored() {
     assert_eq!(wrong(Grbl, "G18\nG0 X10 Y0 Z0\nG3 X10 Z0 I-10 J0 F10"), FINE);
 }
 
-/// The beginning of programs that Vectric posts for Mach3.
+/// Programs that Vectric posts for Mach3 begin like this.
 #[test]
 fn mach3_ends_cycles_beside_a_motion_and_has_two_words_for_each_unit() {
     assert_eq!(wrong(Mach3, "G00G21G17G90G40G49G80\nG71G91.1\nX1Y1"), FINE);
@@ -343,7 +343,7 @@ fn mach3_ends_cycles_beside_a_motion_and_has_two_words_for_each_unit() {
     assert_eq!(wrong(Mach3, "G0 G1 X1 Y1 F10"), ["2 conflicting-words"]);
 }
 
-/// Marlin and XpertMILL are not known to repeat the previous motion.
+/// Marlin and XpertMILL are not known to repeat the previous motion, so each line must state its motion.
 #[test]
 fn a_motion_that_is_not_stated_is_missed_where_it_must_be() {
     let missed = |dialect| {
@@ -415,7 +415,7 @@ fn linuxcnc_counts_turns_and_takes_absolute_centres() {
         run(LinuxCnc, "G0 X1 Y0 Z0\nG90.1 G2 X0 Y-1 I0 J0 F10")[1],
         "3 feed 10 to 0 -1 0 cw round 0 0 by 90"
     );
-    // Centres are relative to the origin of the program, wherever that is.
+    // Centres are relative to the origin of the program, wherever the origin is.
     let shifted = run(LinuxCnc, "G0 X11 Y7 Z0\nG92 X1 Y0\nG90.1 G2 X0 Y-1 I0 J0 F10");
     assert_eq!(shifted[1], "4 feed 10 to 10 6 0 cw round 10 7 by 90");
     assert_eq!(wrong(LinuxCnc, "G0 X1 Y0 Z0\nG90.1 G2 X0 Y-1 I0 F10"), ["3 missing-word"]);
@@ -533,7 +533,7 @@ fn g92_renames_where_the_tool_is() {
         "5 rapid to 2 1 1",
         "it is in effect already"
     );
-    // G92.1 leaves nothing that G92.3 could restore.
+    // After G92.1, there is no offset that G92.3 could restore.
     assert_eq!(run(LinuxCnc, "G0 X1 Y1 Z1\nG92 X0\nG92.1\nG0 X1\nG92.3\nX1")[2], "7 rapid to 1 1 1");
     assert_eq!(wrong(Native, "G92"), ["2 missing-word"]);
 }
@@ -570,7 +570,7 @@ fn g10_places_coordinate_systems() {
     assert_eq!(run(Native, "G0 X1 Y1 Z1\nG10 L2 P2 X10\nG55 G0 X2")[2], "4 rapid to 12 1 1");
     assert_eq!(run(Native, "G0 X1 Y1 Z1\nG10 L20 P2 X0\nG55 G0 X2")[2], "4 rapid to 3 1 1");
     assert_eq!(run(Native, "G0 X1 Y1 Z1\nG10 L2 P0 X10\nG0 X2")[1], "4 rapid to 12 1 1");
-    // G10 L2 counts from the machine's zero, and where G54 is, is not known.
+    // G10 L2 counts from the machine's zero, and the position of G54 is not known.
     assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG10 L2 P2 X10\nG55 G0 X2"), ["4 unknown-offset"]);
     assert_eq!(wrong(Native, "G10 L2 P9 X10\nG10 L2 P10 X10"), ["3 value-out-of-range"]);
 }
@@ -585,7 +585,7 @@ fn named_places_are_unknown_without_configuration() {
         run(Native, "G0 X1 Y1 Z1\nG91 G28 Z2\nG90 G0 Z5"),
         ["2 rapid to 1 1 1", "3 rapid to 1 1 3", "3 rapid to 1 1 ? Home1", "4 rapid to 1 1 5"]
     );
-    // Nothing depends on its position until something is cut from there.
+    // The position does not matter until a cut starts there.
     assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG30"), FINE);
     assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG30\nG0 X1 Y1\nG0 Z1\nG1 Z0 F9"), FINE);
     assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG30\nG0 Z1\nG1 Z0 F9"), ["3 unknown-offset"]);
@@ -832,7 +832,7 @@ fn expressions_without_a_value_leave_out_their_line() {
     }
 }
 
-/// Numbered parameters above 5000 belong to the control, which knows their values.
+/// Numbered parameters above 5000 belong to the control, and only the control knows their values.
 #[test]
 fn a_parameter_that_only_the_machine_sets_is_said() {
     assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z0\nX[#5001]"), ["3 machine-value"]);
@@ -882,7 +882,7 @@ fn names_that_linuxcnc_defines_are_values_of_the_machine() {
     assert_eq!(wrong(LinuxCnc, "#<_task>=2\n#1=#<_task>"), FINE, "what the program has set");
 }
 
-/// Outputs, overrides and look-ahead take values of their own, and change no path.
+/// Outputs, overrides and look-ahead take values of their own, and do not change the path.
 #[test]
 fn words_beside_the_path_have_their_values() {
     for words in [
@@ -942,7 +942,7 @@ fn additional_systems_are_places_of_their_own() {
     assert_eq!(wrong(Grbl, "G59 P7"), ["2 unused-word"]);
 }
 
-/// G10 L2 counts from the machine's zero, where the positions before are not known.
+/// G10 L2 counts from the machine's zero, relative to which the earlier positions are not known.
 #[test]
 fn g10_l2_after_the_first_move_is_doubtful() {
     let found = |words: &str| wrong(LinuxCnc, words);
@@ -954,7 +954,7 @@ fn g10_l2_after_the_first_move_is_doubtful() {
     assert_eq!(found("G0 X0 Y0 Z5\nG10 L20 P2 X9\nG55\nG0 X0"), FINE);
 }
 
-/// With K0 (Haas: L0) the cycle is only stored, and the next position is drilled.
+/// With K0 (Haas: L0) the cycle is stored without drilling, and the next position is drilled.
 #[test]
 fn a_cycle_may_be_stored_without_drilling() {
     for (dialect, zero) in [(Fanuc, "K0"), (Haas, "L0")] {
@@ -964,7 +964,7 @@ fn a_cycle_may_be_stored_without_drilling() {
             run(dialect, &program(zero))[1..],
             ["4 rapid to 3 0 5", "4 rapid to 3 0 1", "4 feed 100 to 3 0 -2", "4 rapid to 3 0 5"]
         );
-        // Whether the tool goes to X1 is not known.
+        // It is not known whether the tool goes to X1.
         assert_eq!(wrong(dialect, &program(&format!("X1. {zero}"))), ["3 value-out-of-range"]);
     }
     let program = "G0 X0 Y0 Z5\nG98 G81 Z-2 R1 F100 L0";
@@ -995,7 +995,7 @@ fn mach3_has_the_parameters_and_expressions_of_rs274() {
     assert_eq!(wrong(Mach3, "G0 X#100"), ["2 cannot-evaluate"]);
 }
 
-/// Beckhoff's controls and others take F and S in the line of G04 for the time, and keep feed and speed.
+/// Controls such as Beckhoff's take F and S in the line of G04 as the time, and keep feed and speed.
 #[test]
 fn dwells_of_din_have_seconds_or_turns() {
     let din = |program: &str| {
@@ -1196,12 +1196,12 @@ fn percent_begins_a_program_for_xpertmill_and_stands_nowhere_else() {
     assert!(found("%\nG71\n%\nG00 X1 Y1 Z1\nM30\n"));
 }
 
-/// The problems of a program with its own end, after a line.
+/// Returns the problems of a program that contains its own end, after a line.
 fn wrong_of(dialect: Dialect, program: &str) -> Vec<String> {
     faults(dialect, &format!("G17 G21 G90\n{program}\n"))
 }
 
-/// Where a program moves in X, without what precedes and follows the calls.
+/// Returns the X positions of a program's moves, without the moves before and after the calls.
 fn places(dialect: Dialect, program: &str) -> String {
     let text = format!("G21 G90\nG0 X0. Y0. Z5.\n{program}\n");
     let moves = interpret(text.as_bytes(), dialect, &Options::default()).moves();
@@ -1217,7 +1217,7 @@ fn subprograms_run_where_they_are_called() {
             "O<Slot> sub\nG0 X[#1+#2]\nO<slot> endsub\no<slot> call [1] [2]\no<SLOT> call [4]\nM2",
             "3 4",
         ),
-        // The definition may follow the end.
+        // The definition may come after the end of the program.
         (LinuxCnc, "o1 call\nG0 X2\nM2\no1 sub\nG0 X1\no1 endsub", "1 2"),
         (
             LinuxCnc,
@@ -1239,7 +1239,7 @@ fn subprograms_run_where_they_are_called() {
         (LinuxCnc, "o1 if [1]\nG0 X1\no1 else\nG0 X2\no1 endif\nG0 X9\nM2", "1 9"),
         (LinuxCnc, "o1 if [0]\nG0 X1\no1 elseif [0]\nG0 X2\no1 else\nG0 X3\no1 endif\nM2", "3"),
         (LinuxCnc, "o1 if [0]\nG0 X1\no1 elseif [1]\nG0 X2\no1 elseif [1]\nG0 X3\no1 endif\nM2", "2"),
-        // The condition of a branch that is not reached has no value, and needs none.
+        // The condition of a branch that is not reached is not evaluated, so it may be invalid.
         (LinuxCnc, "o1 if [1]\nG0 X1\no1 elseif [#<none>]\nG0 X2\no1 endif\nM2", "1"),
         (
             LinuxCnc,
@@ -1251,7 +1251,7 @@ fn subprograms_run_where_they_are_called() {
             "#5=0\no1 do\n#5=[#5+1]\no2 if [#5 eq 2]\no1 continue\no2 endif\nG0 X#5\no1 while [#5 lt 3]\nM2",
             "1 3",
         ),
-        // A condition that does not hold forgets the `continue`, and a `do` loop with a single pass the `break`.
+        // A condition that is false ends the effect of `continue`, and a `do` loop with a single pass that of `break`.
         (
             LinuxCnc,
             "o1 do\no1 continue\no1 while [0]\no2 while [0]\no2 endwhile\no3 repeat [2]\nG0 X1\no3 endrepeat\nM2",
@@ -1315,7 +1315,7 @@ fn calls_that_cannot_be_followed_are_reported() {
         assert_eq!(unfollowed(Mach3, program), 1, "{program}");
     }
     assert_eq!(unfollowed(Fanuc, "O7\nG0 X1.\nM98 P7\nM30"), 1, "the main program");
-    // A subprogram that is never called is text after the end.
+    // A subprogram that is never called is text after the end of the program.
     assert_eq!(wrong_of(Mach3, "M30\nO5\nG0 X1\nM99").len(), 1);
 }
 
@@ -1381,7 +1381,7 @@ fn ignored_feeds_are_not_missing() {
     );
 }
 
-/// As unit vectors at both ends; `None` if the arc has no radius.
+/// Returns the directions of an arc at both ends as unit vectors; `None` if the arc has no radius.
 #[test]
 fn an_arc_begins_and_ends_along_its_tangents() {
     for (code, ends) in [("G3", [[0.0, 1.0], [-1.0, 0.0]]), ("G2", [[0.0, -1.0], [1.0, 0.0]])] {
@@ -1411,7 +1411,7 @@ fn a_number_of_holes_names_its_letter() {
     }
 }
 
-/// Messages do not mix languages.
+/// A message contains words of one language only.
 #[test]
 fn limits_of_values_are_said_in_both_languages() {
     let help = |program: &str, lang| {
@@ -1500,7 +1500,7 @@ fn grbl_runs_what_follows_m30() {
     assert_eq!(after(Grbl, "(end)\n\n; end\n"), []);
 }
 
-/// A cycle that begins below R rises first, but on Fanuc it goes to the hole first.
+/// A cycle that begins below R rises first, but on Fanuc the tool goes to the hole first.
 #[test]
 fn a_cycle_below_its_level_rises_before_or_above_the_hole() {
     let program = "G0 X0. Y0. Z-1.\nG81 X5. Y0. Z-2. R1. F80.";

@@ -1,4 +1,4 @@
-//! Tests of the rules for tool lengths, each with a program that violates it and one that just does not.
+//! Tests the rules for tool lengths, each with a program that violates the rule and one that just does not.
 
 mod common;
 
@@ -13,7 +13,7 @@ const FINE: [&str; 0] = [];
 /// Controls with M6 and G43.
 const CONTROLS: [Dialect; 4] = [LinuxCnc, Rs274, Fanuc, Haas];
 
-/// The problems of a program on material up to Z 0; warnings end with a question mark.
+/// Returns the problems of a program on material up to Z 0; warnings end with a question mark.
 #[track_caller]
 fn wrong(dialect: Dialect, program: &str) -> Vec<String> {
     let text = format!("G17 G21 G90 G94 F100.\n{program}\nM30\n");
@@ -29,7 +29,7 @@ fn wrong(dialect: Dialect, program: &str) -> Vec<String> {
     rules.finish().iter().map(text).collect()
 }
 
-/// The same on every control.
+/// Returns these problems, after asserting that they are the same on every control.
 #[track_caller]
 fn wrong_everywhere(program: &str) -> Vec<String> {
     let all = CONTROLS.map(|dialect| wrong(dialect, program));
@@ -37,7 +37,7 @@ fn wrong_everywhere(program: &str) -> Vec<String> {
     all[0].clone()
 }
 
-/// A cut at X, from and to above the material.
+/// Returns a cut at X, from and to above the material.
 fn cut(x: u8) -> String {
     format!("G0 X{x}.0 Y0.0\nG1 Z-1.0\nG0 Z5.0\n")
 }
@@ -55,7 +55,7 @@ fn the_same_tool_keeps_its_length() {
     let program = |tool: &str| format!("T1 M6\nG0 G43 H1 Z5.0\n{}{tool} M6\n{}", cut(0), cut(9));
     assert_eq!(wrong_everywhere(&program("T1")), FINE);
     assert_eq!(wrong_everywhere(&program("T3")), ["9 wrong-tool-length"]);
-    // A length set before the first change may be meant for its tool.
+    // A length set before the first tool change may belong to the tool of that change.
     assert_eq!(wrong_everywhere(&format!("G43 H1\nT1 M6\nG0 Z5.0\n{}", cut(0))), FINE);
     assert_eq!(wrong_everywhere(&format!("G43 H1\nT2 M6\nG0 Z5.0\n{}", cut(0))), ["6 wrong-tool-length"]);
 }
@@ -77,7 +77,7 @@ fn a_length_stays_on() {
     assert_eq!(wrong_everywhere(&program("M8")), FINE);
     assert_eq!(wrong_everywhere(&program("G49")), ["7 wrong-tool-length"]);
     assert_eq!(wrong(Fanuc, &program("G43 H0")), ["7 wrong-tool-length"]);
-    // After the last cut, and above the material.
+    // The length is switched off after the last cut and above the material.
     assert_eq!(wrong_everywhere(&format!("T1 M6\nG0 G43 H1 Z5.0\n{}G49\nG0 Z9.0\nG1 X5.0\n", cut(0))), FINE);
     assert_eq!(
         wrong_everywhere(&format!("T1 M6\nG0 G43 H1 Z5.0\n{}G49\nG1 Z-0.5\n", cut(0))),
@@ -96,7 +96,7 @@ fn all_tools_have_a_length_or_none() {
 fn g43_without_h_means_what_the_control_makes_of_it() {
     let program = format!("T1 M6\nG0 G43 Z5.0\n{}", cut(0));
     assert_eq!(wrong(LinuxCnc, &program), FINE);
-    // The H of the program before is not known.
+    // The H of the previous program is not known.
     assert_eq!(wrong(Fanuc, &program), FINE);
     let second = format!("T1 M6\nG0 G43 H1 Z5.0\n{}T2 M6\nG0 G43 Z5.0\n{}", cut(0), cut(9));
     assert_eq!(wrong(LinuxCnc, &second), FINE);

@@ -1,4 +1,4 @@
-//! Tests of numbers with three decimals: the exact binary value, with ties to even, as in `{:.3}`. (book: reference/glossary)
+//! Tests numbers with three decimals: the exact binary value, with ties to even, as in `{:.3}`. (book: reference/glossary)
 
 use pathbuild_gcode::native::f3;
 use proptest::prelude::*;
@@ -22,7 +22,7 @@ proptest! {
         prop_assert_eq!(f3(number), formatted(number));
     }
 
-    /// Halves of a thousandth are exact in binary if they are multiples of an eighth; the neighbouring numbers are not ties.
+    /// Halves of a thousandth are exact in binary if they are multiples of an eighth. The neighbouring numbers are not ties.
     #[test]
     fn ties_go_to_even(sixteenths in -1_000_000..1_000_000_i32, beside in -2..=2_i64) {
         let tie = f64::from(sixteenths) / 16.0;

@@ -1,4 +1,4 @@
-//! Tests of the header line that identifies the origin of programs. (book: program/gcode)
+//! Tests the header line that identifies the origin of programs. (book: program/gcode)
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::provenance::{Provenance, is_same_program};

@@ -1,4 +1,4 @@
-//! Tests of rapid moves into material, in programs made from drawings. (book: program/reading)
+//! Tests rapid moves into material, in programs made from drawings. (book: program/reading)
 
 use pathbuild_gcode::verify::rapids_into_material;
 use pathbuild_toolpath::{
@@ -25,25 +25,25 @@ fn mill(x: f64, y: f64, z: f64) -> ProgramStep {
     go(PlannedMove::Line { feed: 150.0, to: Xy::new(x, y), z: height(z) })
 }
 
-/// Half a circle clockwise, to a position straight above or below.
+/// Returns half a circle clockwise, to a position straight above or below.
 fn half_circle(x: f64, y: f64, radius: f64, z: f64) -> ProgramStep {
     let (to, centre) = (Xy::new(x, y), Xy::new(0.0, radius));
     go(PlannedMove::Arc { feed: 150.0, clockwise: true, centre, to, z: height(z), is_spiral: true })
 }
 
-/// The following cuts have this upper face and a cutter with this diameter.
+/// Returns a step that sets the upper face and the cutter's diameter of the following cuts.
 fn element(surface: f64, cutter: f64) -> ProgramStep {
     let (kind, at) = (ElementKind::MillingChain, Xy::new(0.0, 0.0));
     ProgramStep::Comment(Comment::Element { kind, at, bottom: 0.0, surface, cutter, peck: None })
 }
 
-/// The codes of the problems in a program on a plate of 5 mm, with a cutter of 3 mm.
+/// Returns the codes of the problems in a program on a plate of 5 mm, with a cutter of 3 mm.
 fn found(steps: Vec<ProgramStep>) -> Vec<String> {
     let program = Program { tool: 3.0, sweep_height: 20.0, thickness: 5.0, steps, ..Program::default() };
     rapids_into_material(&program).iter().map(|it| it.code().to_string()).collect()
 }
 
-/// A helical circle around (30, 30), from whose bottom the tool moves to the centre.
+/// Returns a helical circle around (30, 30), from whose bottom the tool moves to the centre.
 fn circle(radius: f64, cutter: f64) -> Vec<ProgramStep> {
     let (low, high) = (30.0 - radius, 30.0 + radius);
     let turn = |z: f64| [half_circle(30.0, high, radius, z), half_circle(30.0, low, -radius, z)];
@@ -84,7 +84,7 @@ fn a_milled_slot_is_free_and_what_is_beside_it_is_not() {
     let back = |to: ProgramStep| vec![lift(5.0), mill(0.0, 0.0, 2.0), mill(20.0, 0.0, 2.0), to, lift(20.0)];
     assert_eq!(found(back(sweep(0.0, 0.0))), [""; 0]);
     assert_eq!(found(back(sweep(0.0, 0.8))), ["PB740"]);
-    // A slope makes room only down to its own depth: everything above its highest point is free.
+    // A slope removes material down to its own depth, and everything above its highest point is free.
     let slope = |z: f64| vec![lift(5.0), mill(20.0, 0.0, 2.0), lift(z), sweep(0.0, 0.0), lift(20.0)];
     assert_eq!(found(slope(5.0)), [""; 0]);
     assert_eq!(found(slope(2.5)), ["PB740"]);

@@ -1,4 +1,4 @@
-//! Tests of the reader: how lines become words in each dialect. (book: program/reading)
+//! Tests the reader: how lines become words in each dialect. (book: program/reading)
 
 mod common;
 
@@ -6,7 +6,7 @@ use common::{faults, reading_faults, spelled_out, words};
 use pathbuild_gcode::dialect::Dialect::{Grbl, LinuxCnc, Marlin, Native, Rs274, Xpertmill};
 use pathbuild_gcode::read::{BlockReader, Op, Value};
 
-/// Value and number of decimals of the first word.
+/// Returns value and number of decimals of the first word.
 fn number(text: &str) -> (f64, u8) {
     let mut reader = BlockReader::new(text.as_bytes(), Rs274.rules());
     let block = reader.next_block().expect("a block");
@@ -169,7 +169,7 @@ fn block_numbers_are_the_dialects() {
     assert_eq!(reading_faults(Grbl, b"N10000000 X1\nN10000001 X1\n"), ["2 invalid-word"]);
 }
 
-/// Marlin: "No Checksum with line number", "No Line Number with checksum", "checksum mismatch".
+/// Marlin's messages are "No Checksum with line number", "No Line Number with checksum", and "checksum mismatch".
 #[test]
 fn marlin_numbers_lines_only_with_a_checksum() {
     assert_eq!(words(Marlin, "N5 G1 X2*103\n"), ["1: G1 X2"]);
@@ -223,7 +223,7 @@ fn a_line_without_end_is_not_kept() {
 fn grbl_obeys_some_bytes_wherever_they_stand() {
     assert_eq!(reading_faults(Grbl, b"(Hallo!)\n"), ["1 real-time-character"]);
     assert_eq!(reading_faults(Grbl, "(Ä)\n".as_bytes()), ["1 real-time-character"]);
-    // An ä is C3 A4; both bytes are only removed.
+    // An ä consists of the bytes C3 A4, which are both removed.
     assert_eq!(reading_faults(Grbl, "(ä)\n".as_bytes()), [""; 0]);
     assert_eq!(reading_faults(LinuxCnc, "(Ä!)\n".as_bytes()), [""; 0]);
 }

@@ -1,4 +1,4 @@
-//! Bad input never causes panics, hangs or unbounded growth.
+//! Tests that bad input never causes panics, hangs or unbounded growth.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
@@ -18,7 +18,7 @@ const PIECES: &str = "G0 G1 G2 G3 G4 G10 G17 G18 G19 G20 G21 G28 G28.1 G30 G38.2
     G83 G85 G89 G90 G90.1 G91 G92 G92.1 G92.2 G92.3 G93 G94 G95 G98 G99 M0 M2 M3 M5 M6 M7 M9 M30 X Y Z I J K R P Q L F S T N O H # \
     #<a>= #1= [ ] ** MOD ATAN SIN EXISTS ( ) (= (== ; // ! % / 1 1 -2.5 0 . 1e9 99999999999999999999 0.0000001 ä \u{84} ,";
 
-/// Parts of G-code in any order, which reach deeper into the interpreter than random bytes.
+/// Generates parts of G-code in any order, which reach deeper into the interpreter than random bytes.
 fn programs() -> impl Strategy<Value = String> {
     let ends = ["\n", "\n", "\n", "\n", "\r\n", " ", " "];
     let pieces: Vec<&str> = PIECES.split_whitespace().chain(ends).collect();
@@ -52,7 +52,7 @@ fn run(text: &[u8], dialect: Dialect) {
     }
 }
 
-/// Placeholders in a message or its help for which the diagnostic has no value.
+/// Returns the placeholders in a message or its help for which the diagnostic has no value.
 fn missing_values(problem: &Diagnostic) -> Vec<&'static str> {
     let (text, help) = (&problem.message.text, &problem.message.help);
     let names = [text.en, text.de, help.en, help.de].into_iter().flat_map(|template| {
@@ -108,7 +108,7 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// The same for formulas.
+    /// The fast path and the general path give the same result for formulas as well.
     #[test]
     fn blanks_in_formulas_change_nothing(
         pieces in proptest::collection::vec(
@@ -135,7 +135,7 @@ proptest! {
             let codes: Vec<_> = reader.into_problems().into_diagnostics().iter().map(Diagnostic::code).collect();
             (blocks, codes)
         };
-        // With a blank before it, it is read like any other expression.
+        // After a blank, the formula is read like any other expression.
         prop_assert_eq!(read(""), read(" "));
     }
 }

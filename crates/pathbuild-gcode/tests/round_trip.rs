@@ -1,4 +1,4 @@
-//! The reader reads back what the native writer writes: the same moves, without problems.
+//! Tests that the reader reads back what the native writer writes: the same moves, without problems.
 
 mod common;
 
@@ -15,14 +15,14 @@ use pathbuild_toolpath::{
 };
 use proptest::prelude::*;
 
-/// A move in numbers that do not depend on the position of the tool.
+/// A move as numbers that do not depend on the position of the tool.
 #[derive(Clone, Debug)]
 enum Sketch {
     Sweep(f64, f64),
     Lift(f64),
     Drill(f64),
     Line(f64, f64, f64, f64),
-    /// Radius, direction of the centre, angle, clockwise, height, feed.
+    /// An arc: radius, direction of the centre, angle, whether it is clockwise, height, feed.
     Arc(f64, f64, f64, bool, f64, f64),
 }
 
@@ -62,7 +62,7 @@ fn program(sketches: &[Sketch]) -> Program {
                 let centre = spoke(direction);
                 let turned = spoke(if clockwise { direction - angle } else { direction + angle });
                 let is_full = angle == std::f64::consts::TAU;
-                // Slopes are never so steep that a move of less than a digit in the plane descends.
+                // No slope is so steep that a move with less than the last digit in the plane descends.
                 let z = if length < 0.01 { height_now } else { z };
                 let to = if is_full { at } else { at + centre.coords - turned.coords };
                 PlannedMove::Arc { feed, clockwise, centre, to, z: height(z), is_spiral: false }
@@ -81,7 +81,7 @@ fn program(sketches: &[Sketch]) -> Program {
         let count = Count { class: MoveClass::Milling, length, feed: None };
         steps.push(ProgramStep::Move { to, count });
         if matches!(to, PlannedMove::Arc { .. }) && length < 0.01 {
-            // Such arcs are beside support bars, so that another part of the edge always follows.
+            // Such arcs are beside support bars, so another part of the edge always follows.
             at += Xy::new(0.5, 0.5).coords;
             steps.push(ProgramStep::Move {
                 to: PlannedMove::Line { feed: 100.0, to: at, z: Height { z: height_now, at } },
@@ -127,7 +127,7 @@ proptest! {
     }
 }
 
-/// The lines of a text without comments, none of which must be active, nested or unclosed.
+/// Returns the lines of a text without comments, and asserts that none of these is active, nested or unclosed.
 fn code_of(text: &str, compatible: bool) -> Vec<String> {
     let code = |line: &str| {
         let (mut code, mut rest) = (String::new(), line);
@@ -143,7 +143,7 @@ fn code_of(text: &str, compatible: bool) -> Vec<String> {
     text.lines().map(code).collect()
 }
 
-/// Every byte and every known active text, in each text that comes from a drawing, a file name or an option.
+/// Tests every byte and every known active text, in each text that comes from a drawing, a file name or an option.
 #[test]
 fn no_text_of_others_leaves_its_comment() {
     let hostile = [
@@ -193,7 +193,7 @@ fn no_text_of_others_leaves_its_comment() {
     }
 }
 
-/// A single arc from this position: as it is written and read back, and as it is in the program.
+/// Returns a single arc from this position, as it is written and read back, and as it is in the program.
 fn arc_from(
     at: [f64; 2],
     radius: f64,
@@ -214,15 +214,16 @@ fn arc_from(
     (program.steps.iter().find_map(is_arc).expect("an arc"), program)
 }
 
-/// Distances in mm between the ends of arcs: within rounding, one or two digits, and just inside and outside of the range that is checked.
+/// Distances in mm between the ends of arcs: within rounding, one or two units of the last digit, and just inside and outside of the range that is
+/// checked.
 const GAPS: [f64; 12] =
     [0.0, 1e-9, 0.0004, 0.0006, 0.001, 0.0014, 0.002, 0.003, 0.009_99, 0.010_01, 0.012, 0.02];
 
-/// Starts on, beside and between the numbers that can be printed.
+/// Start points on, beside and between numbers that can be printed exactly.
 const BEGINNINGS: [[f64; 2]; 5] =
     [[0.0, 0.0], [3.0005, -2.0005], [0.000_499_9, 0.000_500_1], [-7.123_45, 1.0004], [12.0002, 0.0005]];
 
-/// Calls a function for arcs with those distances, with small and large radii in all directions.
+/// Calls a function for arcs with these distances, with small and large radii in all directions.
 fn for_arcs_with_gaps(mut each: impl FnMut([f64; 2], f64, f64, bool, f64)) {
     for gap in GAPS {
         for radius in [0.05, 0.0731, 0.4, 5.0, 80.0] {
@@ -237,7 +238,7 @@ fn for_arcs_with_gaps(mut each: impl FnMut([f64; 2], f64, f64, bool, f64)) {
     }
 }
 
-/// The end of the arc in a text, and its angle in radians.
+/// Returns the end of the arc in a text, and its angle in radians.
 fn arc_in(text: &str) -> ([f64; 3], f64) {
     let read = interpret(text.as_bytes(), Native, &Options::default());
     let moves = read.moves();
@@ -268,7 +269,7 @@ fn an_arc_just_short_of_a_whole_turn_stays_one() {
             MoveShape::Line => None,
         });
         let said = said.unwrap_or_else(|| panic!("{text}"));
-        // The expected arc is the one that was drawn, not a full circle instead.
+        // The expected arc is the one that was drawn, and not a full circle.
         assert!((said.x() - to.x).abs() < 1e-8 && (said.y() - to.y).abs() < 1e-8, "{said:?}, {to:?}");
     });
 }
@@ -284,11 +285,11 @@ fn an_arc_of_next_to_nothing_never_goes_round() {
     });
 }
 
-/// The half of a circle that is so small that all of it is within rounding.
+/// Half a circle that is so small that all of it is within rounding stays half a circle.
 #[test]
 fn half_a_tiny_circle_stays_half() {
     for radius in [0.001, 0.002, 0.003] {
-        // Slightly more than a half.
+        // The arc is slightly longer than half a circle.
         let length = 1.0001 * std::f64::consts::PI * radius;
         for (angle, clockwise) in [(0.0, false), (0.7, true), (2.0, false), (4.1, true)] {
             let (arc, program) = arc_from([0.0, 0.0], radius, angle, clockwise, length);
@@ -303,7 +304,7 @@ fn half_a_tiny_circle_stays_half() {
     }
 }
 
-/// A text with one of its numbers changed by some thousandths.
+/// Returns a text with one of its numbers changed by some thousandths.
 fn with_another_number(text: &str, which: usize, thousandths: i32) -> String {
     let lines =
         text.find("G00 X0.000 Y0.000").map_or(0, |at| at + 18)..text.find("(Milling").unwrap_or(text.len());
@@ -318,7 +319,7 @@ fn with_another_number(text: &str, which: usize, thousandths: i32) -> String {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 500, ..ProptestConfig::default() })]
 
-    /// Comparing moves while reading accepts nothing that a comparison of the entire lists would reject.
+    /// Comparing moves while reading accepts nothing that a comparison of the complete lists would reject.
     #[test]
     fn reading_back_says_what_the_comparison_says(
         sketches in sketches(),
@@ -329,7 +330,7 @@ proptest! {
         let text = with_another_number(&text_of(&program), which, thousandths);
         let read = interpret(text.as_bytes(), Native, &Options::default());
         let expected: Vec<_> = program.moves().collect();
-        // When read back, an arc that would be a full circle may be one digit longer.
+        // When it is read back, an arc that would become a full circle may be longer by one unit of the last digit.
         let differs = |place: f64| {
             let exactly = Tolerance::of_decimals(3);
             compare(&read.moves(), &expected, &Tolerance { place: exactly.place + place, ..exactly }).is_some()
@@ -351,7 +352,7 @@ fn a_written_program_is_recognised() {
     assert!(!as_is.problems.iter().any(Diagnostic::is_error), "{:?}", as_is.problems);
 }
 
-/// A line, an arc and a hole.
+/// Returns a program with a line, an arc and a hole.
 fn small() -> Program {
     program(&[
         Sketch::Lift(5.0),
@@ -373,7 +374,7 @@ fn what_is_not_what_the_program_says_is_found_when_read_back() {
     for at in digits.filter(|at| *at < end) {
         let digit = if &text[at..=at] == "9" { "7" } else { "9" };
         let other = format!("{}{digit}{}", &text[..at], &text[at + 1..]);
-        // The last digit of a centre moves an arc by less than the rounding of its ends; `G90 Z5` has the same effect as before.
+        // The last digit of a centre moves an arc by less than the rounding of its ends, and `G90 Z5` has the same effect as before.
         let may_be_the_same =
             text[..at].rsplit([' ', '\n']).next().is_some_and(|word| word.starts_with(['G', 'I', 'J']));
         if !may_be_the_same {
@@ -385,7 +386,7 @@ fn what_is_not_what_the_program_says_is_found_when_read_back() {
     assert!(changed > 50, "{changed}");
     let (without, _) = text.split_once("G02").expect("an arc");
     assert!(native::read_back(without, &program).is_err(), "cut off");
-    // The same moves, with a spindle that turns without a speed.
+    // The moves are the same, but the spindle turns without a speed.
     let turning = text.replacen("G00 X0.000 Y0.000", "M03\nG00 X0.000 Y0.000", 1);
     assert!(native::read_back(&turning, &program).is_err(), "{turning}");
 }

@@ -167,7 +167,7 @@ fn recorded_programs_move_as_linuxcnc_moves_them() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/programs/native/{name}.gcode"));
         #[expect(clippy::disallowed_methods, reason = "a fixture")]
         let text = std::fs::read_to_string(path).expect("the fixture");
-        // LinuxCNC clears the feed at G94, so it is repeated after that.
+        // LinuxCNC clears the feed at G94, so the feed is repeated after G94.
         assert_same(&rs274, name, &text.replace(" G94\n", " G94\nF150\n"));
     }
 }

@@ -1,4 +1,4 @@
-//! Tests of lengths and times of drawn and of parsed programs.
+//! Tests lengths and times of drawn and of parsed programs.
 
 use std::f64::consts::PI;
 
@@ -11,7 +11,7 @@ use pathbuild_toolpath::{
     Correction, Count, Height, MoveClass, PlannedMove, Program, ProgramStep, Statistics, Xy,
 };
 
-/// Lengths of milling, drilling and sweeps of a text.
+/// Returns the lengths of milling, drilling and sweeps in a text.
 fn lengths(text: &str, dialect: Dialect) -> [f64; 3] {
     let tally = tally(text, dialect);
     [tally.milling, tally.drilling, tally.rapid].map(|kind| kind.total.length)
@@ -28,27 +28,27 @@ fn assert_lengths(text: &str, expected: [f64; 3]) {
     assert!(is_near, "{text}: {found:?}, expected {expected:?}");
 }
 
-/// The lift to 10 mm is the first move with a length: X, Y and Z are known before it.
+/// Start of a program after which X, Y and Z are known, so that the next move is the first one with a length.
 const START: &str = "G0 X0 Y0\nG0 Z5\nF100\n";
 
 #[test]
 fn counting_begins_at_the_first_position_that_is_wholly_known() {
     assert_lengths("G0 Z5\nG0 X30\nG0 X0 Y0\nG0 X7", [0.0, 0.0, 7.0]);
     assert_lengths("G0 X0 Y0 Z5\nG0 X3 Y4", [0.0, 0.0, 5.0]);
-    // Z is never known.
+    // The program never states Z.
     assert_lengths("G0 X0 Y0\nG0 X3 Y4", [0.0; 3]);
 }
 
 #[test]
 fn counting_pauses_behind_a_position_that_is_not_known() {
-    // G28 goes to the known position Z 8 first, then home.
+    // G28 goes to the known position Z 8 first, then to the home position.
     assert_lengths(&format!("{START}G28 Z8\nG0 X50\nG0 Z5\nG0 X54"), [0.0, 0.0, 3.0 + 4.0]);
     assert_lengths(&format!("{START}G28\nG0 X0 Y0\nG0 Z5\nG0 Z6"), [0.0, 0.0, 1.0]);
     assert_lengths(&format!("{START}G53 G0 Z0\nG0 X50\nG1 Z5\nG1 X54"), [4.0, 0.0, 0.0]);
     assert_lengths(&format!("{START}G38.2 Z0\nG0 X50\nG0 Z5\nG0 X52"), [0.0, 0.0, 2.0]);
 }
 
-/// The machine may have moved the tool anywhere, so all three axes must be specified again, even with the same values.
+/// The machine may have moved the tool anywhere, so all three axes must be stated again, even with the same values.
 #[test]
 fn counting_pauses_behind_a_tool_change() {
     assert_lengths(&format!("{START}T1 M6\nG0 X0 Y0\nG0 Z5\nG0 Z6"), [0.0, 0.0, 1.0]);
@@ -69,10 +69,10 @@ fn drilling_is_what_goes_less_than_a_two_thousandth_of_a_millimetre_in_the_plane
     assert!(inside[0] == 0.0 && (inside[1] - 4.0).abs() < 1e-6, "{inside:?}");
     let outside = lengths(&format!("G21 G90 G94 G17\n{START}G1 X0.00051 Z1"), LinuxCnc);
     assert!(outside[1] == 0.0 && (outside[0] - 4.0).abs() < 1e-6, "{outside:?}");
-    // Both axes together.
+    // X and Y together count as one move in the plane.
     assert_lengths(&format!("{START}G1 X0.0003 Y0.0003 Z1"), [0.0, libm::hypot(4.0, 0.000_424_264), 0.0]);
     assert_lengths(&format!("{START}G1 X0.0004 Y0.0004 Z1"), [libm::hypot(4.0, 0.000_565_685), 0.0, 0.0]);
-    // Rapid moves are sweeps in any direction.
+    // Rapid moves count as sweeps in any direction.
     assert_lengths(&format!("{START}G0 Z1\nG0 Z5"), [0.0, 0.0, 8.0]);
 }
 
@@ -84,7 +84,7 @@ fn slanted_moves_and_helices_count_in_space() {
     assert_lengths(&format!("{START}G3 X10 Y0 I5 Z2 P2"), [libm::hypot(15.0 * PI, 3.0), 0.0, 0.0]);
 }
 
-/// Down and up again; rapid moves in cycles are sweeps.
+/// A cycle moves down and up again; its rapid moves count as sweeps.
 #[test]
 fn cycles_count_as_the_moves_that_they_stand_for() {
     assert_lengths(&format!("{START}G98 G81 X3 Y4 Z-1 R2 F100"), [0.0, 3.0, 5.0 + 3.0 + 6.0]);
@@ -104,7 +104,7 @@ fn times_are_those_of_counted_lengths() {
     assert!((found.sum(500.0).time - found.cutting().time - 50.0 / 500.0).abs() < 1e-9);
 }
 
-/// A program whose planned lengths differ from those of its moves.
+/// Returns a program whose planned lengths differ from those of its moves.
 fn drawn() -> Program {
     let height = |z| Height { z, at: Xy::origin() };
     let count = |class, feed| Count { class, length: 1000.0, feed };
@@ -125,7 +125,7 @@ fn drawn() -> Program {
             step(PlannedMove::Sweep { to: Xy::new(3.0, 4.0) }, MoveClass::Sweep, None),
             step(PlannedMove::Lift { z: height(6.0) }, MoveClass::Sweep, None),
             step(PlannedMove::Drill { feed: 50.0, z: height(4.0) }, MoveClass::Drilling, Some(50.0)),
-            // Descends by a move planned as milling, like half circles with no radius.
+            // The tool descends by a move that is planned as milling, like half circles without a radius.
             step(
                 PlannedMove::Line { feed: 100.0, to: Xy::new(3.0, 4.0), z: height(3.0) },
                 MoveClass::Milling,
@@ -144,7 +144,7 @@ fn a_drawn_program_counts_its_own_moves() {
     let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-3, "{found}, {expected}");
     near(found.milling.length, milling);
     near(found.drilling.length, 2.0 + 1.0);
-    // The sweep, the way down, and the final lift to S0.
+    // The length contains the sweep, the move down, and the final lift to S0.
     near(found.sweeps.length, 5.0 + 4.0 + 8.0);
     near(found.milling.time, milling / 100.0);
     near(found.drilling.time, 2.0 / 50.0 + 1.0 / 100.0);

@@ -1,4 +1,4 @@
-//! Tests of summaries, including the two XpertMILL examples of the vendor, which describe the same program in two notations.
+//! Tests summaries, including the two XpertMILL examples of the vendor, which describe the same program in two notations.
 
 mod common;
 
@@ -52,7 +52,7 @@ fn what_was_taken_for_granted_is_told_apart_from_what_is_wrong() {
     assert_eq!(guessed("G21 G90\nG0 X1\nM30\n"), 0);
 }
 
-/// The two columns of the listing in the reference.
+/// Reads the two columns of the listing in the vendor's reference.
 #[expect(clippy::disallowed_methods, reason = "foreign data lies beside the project")]
 fn vendor_examples() -> Option<[String; 2]> {
     let file = pathbuild_testkit::shared("reference/cad6_xpertmill_gcode.md")?;

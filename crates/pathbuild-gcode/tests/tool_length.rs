@@ -1,10 +1,10 @@
-//! Tests of the check of tool lengths: the one in effect must be that of the tool that cuts.
+//! Tests the check of tool lengths: the length in effect must be that of the tool that cuts.
 
 use pathbuild_gcode::dialect::Dialect::LinuxCnc;
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::verify::LengthRules;
 
-/// The lines of the findings about a program, in which `cut` stands for a cut.
+/// Returns the lines of the findings about a program, in which `cut` stands for a cut.
 fn found(program: &str) -> Vec<u32> {
     let text = format!("G17 G21 G90 G94 F100\n{program}\nM30\n").replace("cut", "G1 X1\nX0");
     let mut rules = LengthRules::new(LinuxCnc, None);
@@ -19,7 +19,7 @@ fn h_is_the_number_of_the_tool_in_the_spindle() {
     assert_eq!(found("T1 M6\nG43 H1\ncut"), NOTHING);
     assert_eq!(found("T1 M6\nG43\ncut"), NOTHING);
     assert_eq!(found("T1 M6\nG43 H2\ncut"), [3]);
-    // Which tool is in the spindle at the start is not known.
+    // The tool in the spindle at the start is not known.
     assert_eq!(found("G43 H2\ncut"), NOTHING);
     assert_eq!(found("T1 M6\nG43 H2\nG43 H1\ncut"), NOTHING);
 }

@@ -1,4 +1,4 @@
-//! Tests of the rules of verify, each with a program that violates it and one that just does not.
+//! Tests the rules of `verify`, each with a program that violates the rule and one that just does not.
 
 mod common;
 
@@ -29,7 +29,7 @@ fn wrong(program: &str, stock: Option<&Stock>) -> Vec<String> {
     verify(&run(program).steps, stock).iter().map(fault_text).collect()
 }
 
-/// The problems of a program for a machine.
+/// Returns the problems of a program on a machine.
 fn wrong_on(machine: &Machine, program: &str) -> Vec<String> {
     let mut rules = MachineRules::new(machine);
     for step in &run(program).steps {
@@ -38,7 +38,7 @@ fn wrong_on(machine: &Machine, program: &str) -> Vec<String> {
     rules.finish().iter().map(fault_text).collect()
 }
 
-/// The problems on material up to Z 5 with a cutter of 2 mm.
+/// Returns the problems on material up to Z 5 with a cutter of 2 mm.
 fn on_stock(program: &str) -> Vec<String> {
     wrong(program, Some(&Stock::uniform(5.0, 2.0)))
 }
@@ -62,7 +62,7 @@ fn a_rapid_move_through_material_is_an_error() {
 fn a_rapid_move_where_all_is_cut_is_none() {
     assert_eq!(behind_slot("G0 X0\nG0 Z10"), FINE);
     assert_eq!(behind_slot("G0 X10\nG0 X5\nG0 Z10"), FINE);
-    // There is material 0.1 mm beside the slot, but the grid only knows the width of the slot to twice its resolution.
+    // There is material 0.1 mm beside the slot, but the grid represents the width of the slot only to twice its resolution.
     assert_eq!(behind_slot("G0 X10 Y0.15\nG0 Z10"), FINE);
     assert_eq!(behind_slot("G0 X10 Y0.5\nG0 Z10"), ["6 rapid-in-material"]);
 }
@@ -84,24 +84,24 @@ fn a_rapid_move_just_above_the_material_is_none() {
 
 #[test]
 fn elsewhere_nothing_is_known_and_nothing_said() {
-    // At a distance of O from the middle of the slot, nothing is known.
+    // At a distance of O from the centre line of the slot, the material is unknown.
     assert_eq!(behind_slot("G0 Z10\nG0 Y3.1\nG0 Z0\nG38.2 Z-1\nG0 Z10"), FINE);
     assert_eq!(behind_slot("G0 Z10\nG0 Y2.5\nG0 Z0\nG0 Z10"), ["8 rapid-plunge"]);
 }
 
 #[test]
 fn rapid_moves_alone_mill_nothing_anywhere() {
-    // Far from the slot, where nothing is known of the material.
+    // Far from the slot, the material is unknown.
     let far = |program: &str| behind_slot(&format!("G0 Z10\nG0 X50 Y50\n{program}\nG0 Z10"));
     assert_eq!(far("G0 Z4.999\nG0 X60"), FINE);
     assert_eq!(far("G0 Z4.99\nG0 X60"), ["8 rapid-plunge"]);
     assert_eq!(far("G0 Z1\nG0 X60\nG0 Y60\nG0 X70 Y70 Z5"), ["8 rapid-plunge"]);
     assert_eq!(far("G0 Z1\nG0 X60\nG53 G0 Z0\nG0 Z10"), ["8 rapid-plunge"]);
     assert_eq!(far("G0 Z1\nG0 X60\nG0 Z4.9\nG0 X70"), ["8 rapid-plunge"]);
-    // Beside the stock, a cut follows, or a probe.
+    // The rapid move is beside the stock, and a cut or a probe follows.
     assert_eq!(far("G0 Z1\nG0 X60\nG1 X60.001\nG0 X70"), ["9 rapid-in-material", "11 rapid-in-material"]);
     assert_eq!(far("G0 Z1\nG0 Z2\nG0 X60\nG38.2 Z0"), FINE);
-    // Within the slot, all is cut.
+    // Within the slot, all material is removed.
     assert_eq!(behind_slot("G0 Z10\nG0 X15\nG0 Z1\nG0 X5\nG0 Z10"), FINE);
 }
 
@@ -147,7 +147,7 @@ fn circles_are_cut_all_round() {
     let circle = "G0 X10 Y0 Z10\nG0 Z5\nG1 Z1\nG2 X10 Y0 I-10\nG0 Z10\n";
     assert_eq!(on_stock(&format!("{circle}G0 X0 Y-10\nG0 Z1\nG0 Z10")), FINE);
     assert_eq!(on_stock(&format!("{circle}G0 X0 Y-10.5\nG0 Z1\nG0 Z10")), ["8 rapid-plunge"]);
-    // From inside to the middle of a circle whose core has not been milled.
+    // The tool moves from inside to the middle of a circle whose core has not been milled.
     assert_eq!(on_stock(&format!("{circle}G0 X8.5 Y0\nG0 Z1\nG0 Z10")), ["8 rapid-plunge"]);
 }
 
@@ -191,7 +191,7 @@ fn a_large_program_is_checked_more_coarsely_not_never() {
     let stock = Stock::uniform(5.0, 2.0).with_resolution(0.02);
     let problems = verify(&steps, Some(&stock));
     let plunge = problems.iter().find(|problem| problem.code().name() == "rapid-plunge").expect("a plunge");
-    // 20240 mm² divided into 16 million cells.
+    // The resolution is that of 20240 mm² divided into 16 million cells.
     let help = plunge.help(Lang::En).expect("help");
     assert!(help.contains("stock known to within 0.036"), "{help}");
 }
@@ -204,7 +204,7 @@ fn rapid_moves_of_any_length_are_checked_in_no_time() {
 
 #[test]
 fn a_slope_over_a_large_map_costs_what_it_covers() {
-    // 4096 parts over a slot whose tiles are in the same rows: each part meets two of 3000 tiles.
+    // A slope of 4096 pieces crosses a slot whose tiles are in the same rows: each piece meets two of 3000 tiles.
     let slot = "G0 X0 Y0 Z10\nG1 Z1\nX32000\nG0 Z10\nG0 X0\nG1 Z205\nX30 Y1 Z0\nG0 Z10\n";
     let began = std::time::Instant::now();
     assert_eq!(on_stock(slot), FINE);
@@ -244,10 +244,10 @@ fn the_cutter_is_raised_before_it_moves_in_the_plane() {
     assert_eq!(wrong("G0 X1 Y1\nG0 Z5"), ["2 start-not-raised"]);
     assert_eq!(wrong("G0 Z5\nG0 X1 Y1"), FINE);
     assert_eq!(wrong("G0 X1 Y1 Z5\nG1 X2"), FINE);
-    // Named positions.
+    // Named positions of the machine raise the tool.
     assert_eq!(wrong("G53 G0 Z0\nG0 X1 Y1"), FINE);
     assert_eq!(wrong("G28 G91 Z0\nG90\nG0 X1 Y1"), FINE);
-    // In the plane alone they do not raise it.
+    // A named position in the plane alone does not raise the tool.
     assert_eq!(wrong("G53 G0 X5 Y5\nG0 X1 Y1"), ["2 start-not-raised"]);
     assert_eq!(wrong("G53 G0 X0\nG0 Z5\nG0 X1 Y1"), ["2 start-not-raised"]);
     assert_eq!(wrong("G28 X0\nG0 Z5\nG0 X1 Y1"), ["2 start-not-raised"]);
@@ -278,7 +278,7 @@ fn the_spindle_turns_while_cutting() {
     );
     assert_eq!(wrong("M3 S1000\nG0 X0 Y0 Z5\nG1 Z1\nG0 Z5\nT2 M6\nG1 Z1"), ["7 spindle-off"]);
     assert_eq!(wrong("M3 S1000\nG0 X0 Y0 Z5\nG1 Z1\nG0 Z5\nM5"), FINE);
-    // The first height may be set by feed.
+    // The first height may be reached at feed.
     assert_eq!(wrong("G1 Z5\nG0 X0 Y0\nM3 S1000\nG1 Z1\nG0 Z5\nM5"), FINE);
     assert_eq!(wrong("G1 Z5\nG0 X0 Y0\nG1 Z1\nM3 S1000\nG0 Z5\nM5"), ["4 spindle-off"]);
 }
@@ -339,15 +339,15 @@ fn the_spindle_stands_where_the_operator_changes_the_tool() {
     assert_eq!(program("M0\nT2\nM3 S1000"), ["8 spinning-at-change"]);
     assert_eq!(program("T2\nM0"), ["9 spinning-at-change"]);
     assert_eq!(program("T2\nM5 M0\nM3 S1000"), FINE);
-    // A pause without a tool, and a change by a changer, which stops the spindle itself.
+    // The program pauses without a tool change, or a changer stops the spindle itself.
     assert_eq!(program("M0"), FINE);
     let haas = "T1\nM3 S9000\nG0 Z9.\nM0\nT2\nM30\n";
     let read = interpret(haas.as_bytes(), pathbuild_gcode::dialect::Dialect::Haas, &Options::default());
     assert_eq!(verify(&read.steps, None).iter().map(fault_text).collect::<Vec<_>>(), FINE);
 }
 
-/// A program in LinuxCNC's dialect, on material up to Z 0 with a cutter of 2 mm: its findings, and the number of rapid moves whose way is
-/// not known, with the line of the first.
+/// Returns the findings about a program in LinuxCNC's dialect, on material up to Z 0 with a cutter of 2 mm, and the number of rapid moves from
+/// unknown positions, with the line of the first.
 fn from_unknown(program: &str) -> (Vec<String>, Option<(usize, u32)>) {
     let text = format!("G17 G21 G90 G94 F100\n{program}\nM30\n");
     let read = interpret(text.as_bytes(), pathbuild_gcode::dialect::Dialect::LinuxCnc, &Options::default());
@@ -358,7 +358,7 @@ fn from_unknown(program: &str) -> (Vec<String>, Option<(usize, u32)>) {
     (found, blind.finish().map(|blind| (blind.count, blind.line)))
 }
 
-/// A slot from (0, 0) to (20, 0) at Z-5 that is cut from there on.
+/// Cuts a slot at Z-5 from the current position to X20.
 const SLOT_AT_5: &str = "G1 Z-5\nG1 X20\nG0 Z5";
 
 #[test]
@@ -380,7 +380,7 @@ fn a_first_move_down_into_the_material_is_found() {
     assert_eq!(found, ["2 rapid-plunge"]);
     assert_eq!(blind, Some((1, 2)));
     assert_eq!(from_unknown(&format!("G0 X0 Y0 Z5\n{SLOT_AT_5}")), (Vec::new(), None));
-    // Far from all cuts, rapid moves alone lead down and up again.
+    // Far from all cuts, the tool moves down and up again by rapid moves alone.
     let (found, blind) = from_unknown(&format!("G0 X90 Y90 Z-2\nG0 X95\nG0 Z5\nG0 X0 Y0\n{SLOT_AT_5}"));
     assert_eq!(found, ["2 rapid-plunge"]);
     assert_eq!(blind, Some((1, 2)));
@@ -473,7 +473,7 @@ fn moves_stay_within_the_machines_travel() {
         wrong("G0 X0 Y0 Z0\nX-10.1\nX-10.2\nX100.1\nY-0.1\nZ30.1"),
         ["3 outside-machine", "5 outside-machine", "6 outside-machine", "7 outside-machine"]
     );
-    // An arc leaves the box between its ends.
+    // The arc leaves the travel between its ends.
     assert_eq!(wrong("G0 X0 Y0 Z0\nG2 X2 Y0 I1"), FINE);
     assert_eq!(wrong("G0 X0 Y0 Z0\nG3 X2 Y0 I1"), ["3 outside-machine"]);
 }
@@ -494,10 +494,10 @@ fn feeds_are_those_that_the_axes_can_do() {
         wrong("G0 X0 Y0 Z0\nG1 X10 F1000\nX20 F1001\nX30\nZ1 F201\nZ2 F200"),
         ["4 feed-too-high", "6 feed-too-high"]
     );
-    // Rounding errors in a component are harmless.
+    // A rounding error in a component is harmless.
     assert_eq!(wrong("G0 X0 Y0 Z0\nG1 X10 F1000.0000009"), FINE);
     assert_eq!(wrong("G0 X0 Y0 Z0\nG1 X10 F1000.0000011"), ["3 feed-too-high"]);
-    // At 45 degrees each axis has its component.
+    // At 45 degrees, each axis has a share of the feed.
     assert_eq!(wrong("G0 X0 Y0 Z0\nG1 X10 Y10 F1414\nX20 Y20 F1415"), ["4 feed-too-high"]);
     assert_eq!(wrong("G0 X0 Y0 Z0\nG2 X10 Y0 I5 F1000\nX20 I5 F1001"), ["4 feed-too-high"]);
 }
@@ -566,7 +566,7 @@ fn recordings() -> Vec<PathBuf> {
         .collect()
 }
 
-/// The problems found by reading and verify in a native program with this cutter diameter, and whether its material was known.
+/// Returns the problems that reading and `verify` find in a native program with this cutter diameter, and whether its material was known.
 fn all_wrong(text: &[u8], cutter: f64) -> (Vec<Diagnostic>, bool) {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
     let result = interpret(text, Native, &options);
@@ -576,7 +576,7 @@ fn all_wrong(text: &[u8], cutter: f64) -> (Vec<Diagnostic>, bool) {
     (problems, stock.is_some())
 }
 
-/// O in the drawings next to a recording; all drawings of a case have the same.
+/// Returns O of the drawings next to a recording; all drawings of a case have the same.
 #[expect(clippy::disallowed_methods, reason = "recordings are files of the project")]
 fn cutter_of(recording: &Path) -> f64 {
     let case = recording.ancestors().nth(3).expect("CASE/expected/RUN/FILE");
@@ -605,7 +605,7 @@ fn no_recorded_program_has_an_error() {
         assert!(!problems.iter().any(Diagnostic::is_error), "{}: {}", file.display(), spelled_out(&problems));
         checked_on_stock += u32::from(has_stock);
     }
-    // Only programs that mill nothing, or never plunge at feed after a rapid move down, have no surface.
+    // The surface is unknown only for programs that mill nothing, or never plunge at feed after a rapid move down.
     assert!(checked_on_stock > 150, "{checked_on_stock}");
 }
 
@@ -695,7 +695,7 @@ fn rapids_at_depth(steps: &[Step], stock: &Stock) -> Vec<String> {
     rules.finish(steps, stock).iter().map(fault_text).collect()
 }
 
-/// Rapid moves at cutting depth, with a cutter of 6 mm and an unknown surface.
+/// Returns the rapid moves at cutting depth, with a cutter of 6 mm and an unknown surface.
 fn at_depth(program: &str) -> Vec<String> {
     let stock = Stock::with_unknown_surface(&[(0, Cutter::flat(6.0))]);
     rapids_at_depth(&run(program).steps, &stock)
@@ -707,7 +707,7 @@ fn a_rapid_move_between_cuts_of_the_same_depth_is_doubtful() {
         |z: &str| at_depth(&format!("G0 X0 Y0 Z5\nG1 Z-2 F100\nX20\nG0 Z{z}\nG0 Y20\nG1 Z-2\nX0\nG0 Z5\nX9"));
     assert_eq!(between("-2"), ["6 rapid-at-depth"]);
     assert_eq!(between("-1.99"), FINE);
-    // As deep as the cut that follows, but not as the one before.
+    // The move is as deep as the following cut, but not as deep as the previous one.
     let next =
         |z: &str| at_depth(&format!("G0 X0 Y0 Z5\nG1 Z-4 F100\nX20\nG0 Z-2\nG0 Y20\nG1 Z{z}\nX0\nG0 Z5"));
     assert_eq!(next("-2.1"), FINE);
@@ -720,7 +720,7 @@ fn a_rapid_move_where_the_program_has_cut_is_not_doubtful() {
     assert_eq!(back("0"), FINE);
     assert_eq!(back("3"), FINE);
     assert_eq!(back("4.5"), ["5 rapid-at-depth"]);
-    // Cut there, but not as deep.
+    // There is a cut at that position, but it is not as deep.
     let shallow = "G0 X0 Y0 Z5\nG1 Z-1 F100\nX20\nG1 Z-2\nG0 X0\nG0 Z5";
     assert_eq!(at_depth(shallow), ["6 rapid-at-depth"]);
 }
@@ -741,12 +741,12 @@ fn a_thin_cutter_leaves_no_rapid_move_at_depth_undoubted() {
 
 #[test]
 fn moves_in_the_air_have_no_cutting_depth() {
-    // Retracts and links by feed.
+    // The program retracts and links at feed.
     assert_eq!(at_depth("G0 X0 Y0 Z5\nG1 Z-2 F100\nX20\nG1 Z5\nG1 X40\nG0 Y20\nG1 Z-2\nX0\nG1 Z5"), FINE);
-    // A laser, and a pen that is put down by rapid moves.
+    // The program is for a laser, or for a pen that is put down by rapid moves.
     assert_eq!(at_depth("G0 X0 Y0 Z0\nG1 X20 F100\nG0 Y20\nG1 X0\nG0 X9 Y9"), FINE);
     assert_eq!(at_depth("G0 X0 Y0 Z5\nG0 Z0\nG1 X20 F100\nG0 Z5\nG0 Y20\nG0 Z0\nG1 X0\nG0 Z5\nG0 X9"), FINE);
-    // Holes.
+    // The program drills holes.
     assert_eq!(
         at_depth("G0 X0 Y0 Z5\nG1 Z-9 F100\nG0 Z5\nG0 X20\nG0 Z1\nG1 Z-4\nG0 Z0\nG0 Z-3\nG1 Z-9\nG0 Z5"),
         FINE

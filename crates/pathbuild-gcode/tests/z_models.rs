@@ -1,4 +1,4 @@
-//! Tests of how heights between probes are found, where moves are corrected, and how they are split for that. (book: language/probes)
+//! Tests how heights between probes are calculated, where moves are corrected, and how they are split for that. (book: language/probes)
 #![allow(
     clippy::unwrap_used,
     clippy::disallowed_methods,
@@ -19,13 +19,13 @@ fn places(points: &[(f64, f64)]) -> Vec<Xy> {
     points.iter().map(|(x, y)| Xy::new(*x, *y)).collect()
 }
 
-/// Nine probes on a plate of 300 mm x 200 mm.
+/// Returns nine probes on a plate of 300 mm x 200 mm.
 fn grid() -> Vec<(f64, f64)> {
     let point = |number: u32| (f64::from(number % 3) * 150.0, f64::from(number / 3) * 100.0);
     (0..9).map(point).collect()
 }
 
-/// The weight of each probe at a point.
+/// Returns the weight of each probe at a point.
 fn weights(model: ZModel, points: &[(f64, f64)], at: (f64, f64)) -> Vec<f64> {
     let mut all = vec![0.0; points.len()];
     for (probe, weight) in Surface::new(model, &places(points)).weights(Xy::new(at.0, at.1)) {
@@ -34,7 +34,7 @@ fn weights(model: ZModel, points: &[(f64, f64)], at: (f64, f64)) -> Vec<f64> {
     all
 }
 
-/// The value of a model at a point, for measured values given as a function of the position.
+/// Returns the value of a model at a point, for measured values given as a function of the position.
 fn modelled(model: ZModel, points: &[(f64, f64)], measured: impl Fn(f64, f64) -> f64, at: (f64, f64)) -> f64 {
     let weights = weights(model, points, at);
     weights.iter().zip(points).map(|(weight, (x, y))| weight * measured(*x, *y)).sum()
@@ -85,7 +85,7 @@ fn tin_is_linear_in_each_triangle() {
 
 #[test]
 fn tin_triangles_are_those_of_delaunay() {
-    // Of the two ways to divide this kite, the one with the short diagonal.
+    // Of the two ways to divide this kite, the one with the shorter diagonal is used.
     let kite = [(0.0, -1.0), (10.0, 0.0), (0.0, 1.0), (-10.0, 0.0)];
     assert_near(&weights(ZModel::Tin, &kite, (0.0, 0.0)), &[0.5, 0.0, 0.5, 0.0]);
 }
@@ -168,7 +168,7 @@ fn line(to: (f64, f64), z: f64, from: (f64, f64)) -> ProgramStep {
     ProgramStep::Move { to: PlannedMove::Line { feed: 200.0, to, z: Height { z, at: from } }, count }
 }
 
-/// An arc whose centre is relative to its start.
+/// Returns an arc whose centre is relative to its start.
 fn arc(centre: (f64, f64), to: (f64, f64), z: f64, (clockwise, angle): (bool, f64)) -> ProgramStep {
     let (centre, to) = (Xy::new(centre.0, centre.1), Xy::new(to.0, to.1));
     let length = centre.coords.norm() * angle.to_radians();
@@ -202,7 +202,7 @@ fn written(program: &Program, correction: Correction) -> String {
     native::write_program(program, &Header::default(), &options)
 }
 
-/// The lines of moves after those of the frame.
+/// Returns the lines of moves, without those that every program begins and ends with.
 fn moves(program: &Program, correction: Correction) -> Vec<String> {
     let text = written(program, correction);
     let body =
@@ -210,7 +210,7 @@ fn moves(program: &Program, correction: Correction) -> Vec<String> {
     body.lines().map(str::to_owned).collect()
 }
 
-/// The moves without their formulas.
+/// Returns the moves without their formulas.
 fn plain(program: &Program, correction: Correction) -> Vec<String> {
     moves(program, correction).iter().map(|line| line.split("(=").next().unwrap().to_owned()).collect()
 }
@@ -427,7 +427,7 @@ fn milling_outside_the_probes_is_found() {
             ),
             None
         );
-        // An arc whose ends are inside the probes.
+        // The ends of the arc are inside the area of the probes.
         let bow =
             vec![line((100.0, 0.0), 1.0, (0.0, 0.0)), arc((50.0, 0.0), (200.0, 0.0), 1.0, (false, 180.0))];
         let (.., distance) = outside(model, bow).unwrap();
@@ -453,7 +453,7 @@ fn as_many_pieces_as_nobody_can_store_are_counted_without_making_them() {
     assert_eq!(TIN.count(&program), u64::MAX);
 }
 
-/// Reproducible random points.
+/// Returns reproducible random points.
 fn scattered(count: usize, mut seed: u64) -> Vec<(f64, f64)> {
     let mut coordinate = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -462,7 +462,7 @@ fn scattered(count: usize, mut seed: u64) -> Vec<(f64, f64)> {
     (0..count).map(|_| (coordinate(), coordinate())).collect()
 }
 
-/// The four nearest probes found by position equal those found by comparing all; the first ones if several are equally near.
+/// The four nearest probes found by position are those found by comparing all; if several are equally near, the first ones are taken.
 #[test]
 fn the_four_nearest_are_found_wherever_they_lie() {
     for (points, seed) in

@@ -8,12 +8,12 @@ use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::read::{Block, BlockReader, Value};
 use pathbuild_motion::{Action, Move, MoveShape, NamedPosition, Pace, Position, Step};
 
-/// The effects of a program, with one text per step.
+/// Returns the effects of a program, with one text per step.
 pub(crate) fn trace(dialect: Dialect, program: &str) -> Vec<String> {
     trace_with(dialect, program, &Options::default())
 }
 
-/// The same with options.
+/// Like [`trace`], with options.
 pub(crate) fn trace_with(dialect: Dialect, program: &str, options: &Options) -> Vec<String> {
     let steps = interpret(program.as_bytes(), dialect, options).steps;
     let is_shown =
@@ -21,28 +21,28 @@ pub(crate) fn trace_with(dialect: Dialect, program: &str, options: &Options) -> 
     steps.iter().filter(is_shown).map(step_text).collect()
 }
 
-/// The changes made by a program besides position, spindle, tool and system.
+/// Returns the changes that a program makes besides position, spindle, tool and system.
 pub(crate) fn changes(dialect: Dialect, program: &str) -> Vec<String> {
     let steps = interpret(program.as_bytes(), dialect, &Options::default()).steps;
     steps.iter().filter(|step| matches!(step.action, Action::Change(_))).map(step_text).collect()
 }
 
-/// The problems of a program, as line and name of the code.
+/// Returns the problems of a program, as line and name of the code.
 pub(crate) fn faults(dialect: Dialect, program: &str) -> Vec<String> {
     faults_with(dialect, program, &Options::default())
 }
 
-/// The same with options.
+/// Like [`faults`], with options.
 pub(crate) fn faults_with(dialect: Dialect, program: &str, options: &Options) -> Vec<String> {
     interpret(program.as_bytes(), dialect, options).problems.iter().map(fault_text).collect()
 }
 
-/// `3 missing-feed`.
+/// Formats a problem as line and name of its code, such as `3 missing-feed`.
 pub(crate) fn fault_text(diagnostic: &Diagnostic) -> String {
     format!("{} {}", diagnostic.place.line.unwrap_or(0), diagnostic.code().name())
 }
 
-/// Line, message and marked text of diagnostics, as shown to the user.
+/// Returns line, message and marked text of diagnostics, as shown to the user.
 pub(crate) fn spelled_out(diagnostics: &[Diagnostic]) -> String {
     diagnostics
         .iter()
@@ -54,7 +54,7 @@ pub(crate) fn spelled_out(diagnostics: &[Diagnostic]) -> String {
         .collect()
 }
 
-/// The words of each block: `1: G1 X2.5`. Expressions are shown as `[ ]`.
+/// Returns the words of each block, such as `1: G1 X2.5`. Expressions are shown as `[ ]`.
 pub(crate) fn words(dialect: Dialect, program: &str) -> Vec<String> {
     let mut reader = BlockReader::new(program.as_bytes(), dialect.rules());
     let mut blocks = Vec::new();
@@ -64,7 +64,7 @@ pub(crate) fn words(dialect: Dialect, program: &str) -> Vec<String> {
     blocks
 }
 
-/// The problems reported by the reader alone.
+/// Returns the problems that the reader alone reports.
 pub(crate) fn reading_faults(dialect: Dialect, program: &[u8]) -> Vec<String> {
     let mut reader = BlockReader::new(program, dialect.rules());
     while reader.next_block().is_some() {}
@@ -133,7 +133,7 @@ fn position_text(position: &Position) -> String {
     [0, 1, 2].map(coordinate).join(" ")
 }
 
-/// At most four decimals, no trailing zeros.
+/// Formats a number with at most four decimals and no trailing zeros.
 fn short(number: f64) -> String {
     let text = format!("{number:.4}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

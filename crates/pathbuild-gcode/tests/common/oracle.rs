@@ -1,8 +1,7 @@
 //! Uses LinuxCNC's own interpreter, `rs274`, as an oracle to compare with ours.
 //!
-//! `tests/tools/fetch-rs274.sh DIR` unpacks it, and `PATHBUILD_RS274=DIR` tells where it is. Without it these tests are skipped with a
-//! message, unless
-//! `PATHBUILD_REQUIRE` contains `rs274`.
+//! `tests/tools/fetch-rs274.sh DIR` unpacks it, and `PATHBUILD_RS274=DIR` tells where it is. Without it these tests are skipped with a message,
+//! unless `PATHBUILD_REQUIRE` contains `rs274`.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -12,25 +11,25 @@ use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_motion as motion;
 use pathbuild_motion::{Action, Pace};
 
-/// Both calculate with doubles; rs274 prints four decimals.
+/// Tolerance of the comparison: both interpreters calculate with doubles, but rs274 prints four decimals.
 const PRINTED: f64 = 0.000_051;
 
-/// A canonical call that moves or dwells.
+/// A canonical call of rs274 that moves or dwells.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Call {
     Rapid([f64; 3]),
     Feed([f64; 3], f64),
-    /// End, centre in the plane, signed number of turns begun, feed.
+    /// An arc: end, centre in the plane, signed number of turns begun, feed.
     Arc([f64; 3], [f64; 2], i64, f64),
     Probe([f64; 3], f64),
     Dwell(f64),
     Tool(i64),
 }
 
-/// The interpretation of a program by rs274.
+/// The result of rs274 for a program.
 pub(crate) struct Oracle {
     pub(crate) calls: Vec<Call>,
-    /// Its output if it rejected the program.
+    /// Output of rs274 if it rejected the program.
     pub(crate) refusal: Option<String>,
 }
 
@@ -53,7 +52,7 @@ pub(crate) fn ask(program: &Path, text: &str) -> Oracle {
     Oracle { calls: calls_of(&String::from_utf8_lossy(&output.stdout)), refusal }
 }
 
-/// The canonical calls printed by rs274 for a program, which may be any bytes, with a tool table; `None` if it rejects the program.
+/// Returns the canonical calls that rs274 prints for a program, which may be any bytes, with a tool table; `None` if it rejects the program.
 #[allow(dead_code, reason = "not every test that has this oracle asks for its own words")]
 pub(crate) fn output(program: &Path, tools: &Path, text: &[u8]) -> Option<String> {
     let file = tempfile::Builder::new().suffix(".ngc").tempfile().expect("a temporary file");
@@ -70,7 +69,7 @@ fn calls_of(output: &str) -> Vec<Call> {
     let (mut feed, mut plane) = (0.0, [0, 1, 2]);
     let mut calls = Vec::new();
     for line in output.lines() {
-        // `   12 N..... STRAIGHT_FEED(1.0000, ...)`, with the block number if there is one.
+        // A line has the form `   12 N..... STRAIGHT_FEED(1.0000, ...)`, with the block number if there is one.
         let Some((front, arguments)) = line.split_once('(') else { continue };
         let name = front.rsplit(' ').next().unwrap_or_default();
         let words: Vec<&str> = arguments.trim_end_matches(')').split(',').map(str::trim).collect();
@@ -116,7 +115,7 @@ fn calls_of(output: &str) -> Vec<Call> {
     without_standing(calls)
 }
 
-/// Our steps as calls, by the rules of a dialect.
+/// Returns our steps as calls, by the rules of a dialect.
 pub(crate) fn our_calls(text: &str, dialect: Dialect) -> Vec<Call> {
     let result = interpret(text.as_bytes(), dialect, &Options::default());
     let calls = result.steps.iter().filter_map(|step| match &step.action {
@@ -170,8 +169,8 @@ fn agree(theirs: &Call, ours: &Call) -> bool {
     }
 }
 
-/// Returns the first difference between rs274's reading of a program and ours, or `None` if they agree and the program moves at all. rs274 may
-/// be given other words for the same.
+/// Returns the first difference between rs274's reading of a program and ours, or `None` if they agree and the program moves at all. rs274 may get
+/// another text (`theirs`) with the same meaning.
 pub(crate) fn difference(program: &Path, theirs: &str, ours: &str, dialect: Dialect) -> Option<String> {
     let oracle = ask(program, theirs);
     if let Some(refusal) = oracle.refusal {

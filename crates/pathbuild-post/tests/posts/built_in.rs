@@ -1,4 +1,4 @@
-//! Tests of the built-in posts.
+//! Tests the built-in posts.
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
@@ -10,7 +10,7 @@ use pathbuild_post::{
 
 use crate::support::{arc, feed, operation, rapid, texts};
 
-/// A job with two tools, a line, an arc, a helix, a circle and two holes.
+/// Returns a job with two tools, a line, an arc, a helix, a circle and two holes.
 fn sample() -> Job {
     let circle = |to: [f64; 3], from: [f64; 3], clockwise| arc(clockwise, from, [20.0, 0.0], to, Some(250.0));
     let hole = |x: f64, kind| {
@@ -72,7 +72,7 @@ fn programs() {
     }
 }
 
-/// A probing move onto the face of the material, as in the native probing program.
+/// Returns a job with probing moves onto the face of the material, as in the native probing program.
 fn probing_run() -> Job {
     let text = "G17 G21 G90 G94\nT1\nG0 Z15\nG0 X0 Y0\nG0 X192 Y20\nG0 Z4\nG38.3 Z0 F40\nG4 P4\nG0 Z15\nG0 X268 Y20\nG0 Z4\nG38.3 Z0 F40\nG0 Z15\nM30\n";
     let steps = interpret(text.as_bytes(), Dialect::Native, &Options::default()).steps;
@@ -155,7 +155,7 @@ fn fanuc_dwells_in_milliseconds() {
     assert_eq!(dwells("linuxcnc", 0.5), ["P0.5", "P0.25"]);
 }
 
-/// After a change by hand the tip is on the stock or wherever the tool was changed.
+/// After a manual tool change, the tip is on the stock or wherever the tool was changed.
 #[test]
 fn the_new_tool_moves_up_first_where_it_is_changed_by_hand() {
     for (name, change) in [("grbl", "M0 "), ("marlin", "M0 "), ("estlcam", "T2 M6")] {

@@ -1,4 +1,4 @@
-//! Tests of control texts: the examples of the manual, and every rule of the language.
+//! Tests control texts: the examples of the manual, and every rule of the language.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use pathbuild_post::{
 
 use crate::support::{arc, feed, job, operation, rapid, texts, unchecked};
 
-/// The rectangle of the manual: 50/100, 100 x 50, clockwise, safety height 100, depth 20.
+/// The rectangle of the manual: from (50, 100), 100 x 50 mm, clockwise, safety height 100, depth 20.
 const RECTANGLE: &str = r#"
 [post]
 name = "DIN"
@@ -435,7 +435,7 @@ fn doubtful_terms_are_warnings() {
     assert_eq!(warnings("{.~ZClearance~} ~PrgName~ {5-~Q1~}"), "");
 }
 
-/// The column is that of the open brace or of the variable, wherever it is in its text.
+/// The column is that of the opening brace or of the variable, wherever it is in its text.
 #[test]
 fn faults_of_texts_have_their_column() {
     let column = |text: &str| {
@@ -447,7 +447,7 @@ fn faults_of_texts_have_their_column() {
     assert_eq!(columns, [9, 7, 1, 11, 4]);
 }
 
-/// Calls each of them, and one that does not exist.
+/// Calls each function, and one that does not exist.
 #[test]
 fn functions_are_those_of_the_manual_and_some_more() {
     let value = |term: &str| text_with(&format!("{{.{term}}}"), &[]);
@@ -510,7 +510,7 @@ fn files_that_are_missing_or_lie_elsewhere_are_errors() {
     assert!(error(r"\\\~*/etc/passwd*").contains("it does not lie below the post's directory"));
 }
 
-/// A post that shows which calls are made.
+/// A post whose output shows which texts are used.
 const CALLS: &str = "
 [post]
 number-lines = false

@@ -1,4 +1,4 @@
-//! Tests of reading CamBam definitions, and of the errors in them.
+//! Tests reading CamBam definitions, and the errors in them.
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_post::{JobStep, PostMacro, PostOptions};
@@ -131,7 +131,7 @@ fn what_is_no_definition_is_refused() {
         refused[0].text(Lang::En),
         "the definition is not UTF-8 text: this line has a character in another encoding, such as ANSI"
     );
-    // Its name says that it is a CamBam definition, not one with control texts that lacks them.
+    // By its name, the file is a CamBam definition, and not one with control texts that are missing.
     assert_eq!(read("").unwrap_err()[0].code().to_string(), "PB750");
     assert_eq!(read("[post]\n").unwrap_err()[0].code().to_string(), "PB750");
 }
@@ -174,7 +174,7 @@ fn lines_that_define_no_macro_and_built_in_names_are_warnings() {
     assert_eq!(texts(&written.warnings), expected);
 }
 
-/// `$a1` contains `$a2` contains ... contains M0.
+/// Returns macros of which each contains the next one: `$a1` contains `$a2`, and so on; the last one contains M0.
 fn chain(length: usize) -> String {
     let link = |index: usize| format!("$a{index}={{$a{}}}\n", index + 1);
     let links: String = (1..length).map(link).collect();
@@ -302,7 +302,7 @@ fn an_empty_program_is_refused() {
     }
 }
 
-/// A post with the macro waits for the spindle; for one without it there is a note.
+/// A post with the macro waits for the spindle; one without it gets a note.
 #[test]
 fn a_wait_for_the_spindle_that_is_not_written_is_noted() {
     let notes = |elements: &str, spin_up| {

@@ -1,4 +1,4 @@
-//! Tests of how CamBam templates become lines, and how each line affects the next.
+//! Tests how CamBam templates become lines, and how each line affects the next.
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_motion::{Coolant, Turning};
@@ -204,7 +204,7 @@ fn lines_that_are_no_gcode_are_warnings_unless_suppressed() {
     assert_eq!(warnings("<SuppressParserErrors>true</SuppressParserErrors>"), [""; 0]);
 }
 
-/// The blank of a Heidenhain program: its corners are not approached. G31 alone is a probing move.
+/// The corners of the blank in a Heidenhain program are not approached. G31 without them is a probing move.
 #[test]
 fn corners_of_the_blank_are_no_moves() {
     let post = read(&definition("<PostFile>M30</PostFile>")).unwrap();

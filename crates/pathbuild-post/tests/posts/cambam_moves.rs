@@ -1,4 +1,4 @@
-//! Tests of moves through a CamBam definition: registers, arcs, cycles, start and end of cutting.
+//! Tests moves through a CamBam definition: registers, arcs, cycles, start and end of cutting.
 
 use pathbuild_motion::{Arc, Move, MoveShape, Pace, Plane, Turning};
 use pathbuild_post::{Entry, Hole, HoleKind, Job, JobStep, PostOptions, Units};
@@ -7,7 +7,7 @@ use crate::support::{
     self, bare, errors, feed, job, lines, lines_with, operation, output, rapid, read, texts,
 };
 
-/// The lines after the way to (0, 0, 5).
+/// Returns the lines after the moves to (0, 0, 5).
 #[track_caller]
 fn moves(elements: &str, steps: Vec<JobStep>) -> Vec<String> {
     lines(&bare(elements), &job(steps)).split_off(2)
@@ -48,7 +48,7 @@ fn codes_are_modal_where_the_template_says_so() {
         ["FEED X1.0", "X2.0", "G0 X3.0", "FEED X4.0"],
         "however the word is spelt"
     );
-    // The shadow contains the motions that the words stand for.
+    // The text that is read back contains the motions for which the words stand.
     let whole = named.replace("{$_x}", "{$f} {$_x}");
     let written = read(&bare(&whole)).unwrap().write(&job(steps), &PostOptions::default());
     assert!(written.is_ok(), "{:?}", written.map_err(|errors| texts(&errors)));
@@ -60,7 +60,7 @@ fn registers_have_other_signs_on_demand() {
     assert_eq!(moves(signs, vec![feed(-1.5, 0.0, 5.0)]), ["G1 X-1.5 X1.5 X1.5 -1.5"]);
 }
 
-/// A reversed axis is reversed in every line, also where a move does not specify it, after a tool change and at clearance.
+/// A reversed axis is reversed in every line, even where a move does not state it, after a tool change and at the clearance height.
 #[test]
 fn a_reversed_axis_has_one_sign() {
     let round = |axis: &str| {
@@ -138,7 +138,7 @@ fn arcs_written_by_radius_are_cut_below_half_a_turn() {
     let expected = ["G3 X-5.0 Y8.6603 R10.0", "G3 Y-8.6603 R10.0", "G3 X10.0 Y0.0 R10.0"];
     assert_eq!(moves(elements, vec![feed(10.0, 0.0, 5.0), circle])[1..], expected);
     assert_eq!(moves(elements, vec![feed(10.0, 0.0, 5.0), quarter()])[1..], ["G3 X0.0 Y10.0 R10.0"]);
-    // With a centre in addition, the direction is unambiguous.
+    // If the line also contains a centre, the direction is unambiguous.
     let both = elements.replace("R{$arc.radius}", "(R{$arc.radius}) {$i} {$j}");
     let whole = arc([10.0, 0.0, 5.0], [0.0, 0.0], [0.0, -10.0, 5.0]);
     assert_eq!(moves(&both, vec![feed(10.0, 0.0, 5.0), whole])[1..], ["G3 X0.0 Y-10.0 (R10.0) I-10.0 J0.0"]);
@@ -323,7 +323,7 @@ fn an_angle_stands_in_place_of_the_axis_across() {
         let text = text(output);
         assert!(text.contains("A180.0") && !text.contains('Y') && !text.contains("G81"), "{text}");
     }
-    // Around Y, with the spelling of the manual.
+    // The rotary axis turns around Y, with the spelling of the manual.
     let round_y = wrapped("<AxisOfSpin>Y</AxisOfSpin><RotaryAxis>B</RotaryAxis>", turn, false).unwrap();
     assert_eq!(texts(&round_y.warnings), Vec::<String>::new());
     assert!(!text(round_y).contains('X'));

@@ -1,4 +1,4 @@
-//! Programs written by CamBam, parsed and written by our engine, are reproduced byte for byte. (../shared/cambam-output)
+//! Programs that CamBam wrote are read, written by our engine, and reproduced byte for byte. (../shared/cambam-output)
 
 use camino::Utf8Path;
 use pathbuild_gcode::dialect::Dialect;
@@ -34,18 +34,18 @@ fn read(text: &str, name: &str) -> Job {
     job
 }
 
-/// The text of a comment line.
+/// Returns the text of a comment line.
 fn comment(line: &str) -> Option<&str> {
     line.trim().strip_prefix('(').map(|text| text.trim_end_matches(')').trim())
 }
 
-/// Index and diameter in a comment about a tool.
+/// Returns index and diameter from a comment about a tool.
 fn tool(text: &str) -> Option<(u32, f64)> {
     let (index, diameter) = text.strip_prefix('T')?.split_once(" : ")?;
     Some((index.parse().ok()?, diameter.parse().ok()?))
 }
 
-/// The program as written by CamBam and as written by our engine; `None` if ../shared is absent.
+/// Returns the program as written by CamBam and as written by our engine; `None` if ../shared is absent.
 fn both(output: &str, definition: &str, name: &str, date: &str) -> Option<(Vec<String>, Vec<String>)> {
     let original = shared(&format!("cambam-output/{output}"))?;
     let definition = shared(&format!("posts/{definition}"))?;
@@ -123,7 +123,7 @@ fn grbl_without_tool_change() {
 fn a_definition_with_tool_lengths() {
     let Some(default) = shared("posts/default-reconstructed.cbpp") else { return };
     let Some(original) = shared("cambam-output/g43-custom-two-tools-2012.nc") else { return };
-    // The definition that produced it is unknown. It is Default with tool lengths in the tool change.
+    // The definition that produced this file is unknown. It equals Default with tool lengths in the tool change.
     let change = "{$clearance}\nG43 H0\n{$comment} T{$tool.index} : {$tool.diameter} {$endcomment}\nT{$tool.index} M6\nG43 H{$tool.index}</ToolChange>";
     let (before, rest) = default.split_once("<ToolChange>").unwrap();
     let (_, after) = rest.split_once("</ToolChange>").unwrap();
@@ -135,7 +135,7 @@ fn a_definition_with_tool_lengths() {
     assert_same(&lines(&original), &lines(std::str::from_utf8(&written.text).unwrap()));
 }
 
-/// The tool is below the surface: it must not move to the hole and up at once.
+/// The tool is below the surface, so it must not move up and to the hole in one move.
 #[test]
 fn a_cycle_below_its_level_rises_in_a_move_of_its_own() {
     let before_hole = |z: &str| {

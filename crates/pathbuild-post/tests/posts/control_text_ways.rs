@@ -1,11 +1,11 @@
-//! Tests of rapids, small arcs and holes in control texts: what a text cannot express is retracted, written as a line, or an error.
+//! Tests rapid moves, small arcs and holes in control texts: moves that a text cannot express are retracted, written as a line, or refused.
 
 use pathbuild_motion::Turning;
 use pathbuild_post::{Entry, Hole, HoleKind, Job, JobStep, Operation, PostOptions, load};
 
 use crate::support::{self, DIN, feed, job, operation, rapid, read_toml, texts};
 
-/// Output of the manual's definition for a job, read back in a dialect.
+/// Returns the output of the manual's definition for a job, read back in a dialect.
 #[track_caller]
 fn written(definition: &str, job: &Job) -> Vec<String> {
     let options = PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() };
@@ -26,7 +26,7 @@ fn high(steps: Vec<JobStep>) -> Job {
     job
 }
 
-/// The heights of rapids that move only in Z.
+/// Returns the heights of rapid moves in Z alone.
 fn lifts(lines: &[String]) -> Vec<&str> {
     lines.iter().filter_map(|line| line.strip_prefix("G00 Z")).collect()
 }
@@ -41,12 +41,12 @@ fn a_way_round_something_goes_over_it_or_point_for_point() {
     let lines = written(DIN, &high(steps.clone()));
     let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");
     assert_eq!(lines[over - 1], "G00 Z+25", "{lines:?}");
-    // Anything higher than the clearance of the path is passed at the height used by the program.
+    // A rapid move that is higher than the path's clearance is made at the height that the program uses.
     steps[4] = rapid(10.0, 40.0, 30.0);
     let lines = written(DIN, &high(steps));
     let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");
     assert_eq!(lines[over - 1], "G00 Z+30", "{lines:?}");
-    // The same applies beyond its end, and back before its beginning, in X and in Y.
+    // The same applies beyond the path's end, and before its beginning, in X and in Y.
     for (beyond, end) in [
         ([70.0, 0.0], [60.0, 0.0]),
         ([5.0, 0.0], [60.0, 0.0]),
@@ -68,7 +68,7 @@ fn a_way_round_something_goes_over_it_or_point_for_point() {
         let over = lines.iter().position(|line| *line == there).expect("the second contour");
         assert_eq!(lines[over - 1], "G00 Z+25", "{beyond:?} {lines:?}");
     }
-    // A straight move at the same height needs no retraction.
+    // A straight move at the same height needs no retract.
     let straight = vec![
         rapid(0.0, 0.0, 2.0),
         feed(0.0, 0.0, -1.0),
@@ -95,7 +95,7 @@ fn hole(x: f64, level: f64, kind: HoleKind) -> JobStep {
     })
 }
 
-/// The definition with a text for holes.
+/// Returns the definition with a text for holes.
 fn with_point() -> String {
     DIN.replace(
         "contour-end =",
@@ -204,7 +204,7 @@ fn a_tool_is_changed_above_where_the_tool_is() {
     let change = lines.iter().position(|line| line.starts_with("T2")).expect("a tool change");
     assert_eq!(lines[change + 1], "G00 Z+25", "{lines:?}");
     assert_eq!(lifts(&lines[..change]).last(), Some(&"+25"), "{lines:?}");
-    // If the program itself descends before, the text still begins where the text of the contour ended.
+    // If the program itself descends before, the text still begins at the height at which the text of the contour ended.
     let mut job = job;
     job.operations[0].steps.push(rapid(1.0, 0.0, 4.0));
     let lines = written(DIN, &job);
@@ -274,7 +274,7 @@ fn a_program_that_ends_with_the_spindle_turning_is_refused() {
     assert!(texts(&switched_on.expect_err("it is switched on again"))[0].contains("PB770"));
 }
 
-/// The way back from a helix within the material is a feed, at the end as well as between two cuts.
+/// The tool returns from a helix within the material at feed, at the end as well as between two cuts.
 #[test]
 fn a_program_may_end_with_a_helical_hole() {
     let half = |from: [f64; 3], to: [f64; 3]| arc(from, [0.0; 2], to);

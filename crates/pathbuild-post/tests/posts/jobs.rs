@@ -1,4 +1,4 @@
-//! Tests of converting finished programs to jobs.
+//! Tests the conversion of finished programs to jobs.
 
 use std::f64::consts::{PI, TAU};
 
@@ -74,7 +74,7 @@ fn a_program_begins_at_its_start_at_sweep_height_and_ends_there() {
     );
 }
 
-/// Such arcs are located between support bars whose distance equals the diameter of the cutter.
+/// Such arcs are between support bars whose distance equals the diameter of the cutter.
 #[test]
 fn an_arc_that_would_be_printed_as_a_full_circle_is_a_line() {
     let arc = |length: f64| {
@@ -95,7 +95,7 @@ fn an_arc_that_would_be_printed_as_a_full_circle_is_a_line() {
     assert!(matches!(arc(0.002), JobStep::Move(it) if it.course().is_some()));
 }
 
-/// The ends of a full circle drawn as an arc come from two elements, so they may differ minimally.
+/// The ends of a full circle that is drawn as an arc come from two elements, so they may differ slightly.
 #[test]
 fn a_full_circle_ends_where_it_begins() {
     let arc = |by: f64, length: f64| {

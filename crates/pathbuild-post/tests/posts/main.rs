@@ -1,4 +1,4 @@
-//! Tests of post-processors through their public interface.
+//! Tests post-processors through their public interface.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod built_in;

@@ -1,4 +1,4 @@
-//! Tests of messages about definitions: which text produced a line, why a value is missing, what is doubtful.
+//! Tests messages about definitions: which text produced a line, why a value is missing, and which texts are doubtful.
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
@@ -7,7 +7,7 @@ use pathbuild_post::{Job, PostDefinition, PostOptions, Units};
 
 use crate::support::{DIN, arc, bare, definition, feed, job, rapid, read, read_toml, texts};
 
-/// The notes of diagnostics.
+/// Returns the notes of diagnostics.
 fn notes(found: &[Diagnostic]) -> Vec<String> {
     found.iter().flat_map(|found| found.notes.iter().map(|note| note.text(Lang::En))).collect()
 }
@@ -99,7 +99,7 @@ fn a_helix_without_z_is_mended_in_the_text_of_arcs() {
     assert!(found[0].contains("the text arc has no ~Z1~"), "{found:?}");
     let with_line = flat("arc = '{?~ArcDir~{$G03}{$G02}} X{+~X1~} Y{+~Y1~} Z{+~Z1~}");
     assert!(read_toml(&with_line).write(&job, &PostOptions::default()).is_ok(), "lines have Z");
-    // Without a text of arcs, lines stand for the helix.
+    // Without a text for arcs, the helix is written as lines.
     let lines_only = both.lines().filter(|line| !line.starts_with("arc = ")).collect::<Vec<_>>().join("\n");
     let found = texts(&read_toml(&lines_only).write(&job, &PostOptions::default()).unwrap_err());
     assert!(found[0].contains("has no ~Z1~") && !found[0].contains("the text arc"), "{found:?}");

@@ -1,4 +1,4 @@
-//! Removes, empties and reverses each text of each definition, one at a time; whatever is written must contain all moves.
+//! Removes, empties and reverses each text of each definition, one at a time. Every program that is still written must contain all moves.
 
 use std::io::Write;
 
@@ -8,7 +8,7 @@ use pathbuild_post::{BUILT_IN, Hole, HoleKind, Job, JobStep, Language, PostDefin
 
 use crate::support::{DIN, arc, feed, operation, rapid, real_definitions};
 
-/// A program with every kind of move, for two tools.
+/// Returns a program with every kind of move, for two tools.
 pub(crate) fn program() -> Job {
     let arc = |clockwise, from, [x, y, _]: [f64; 3], to| arc(clockwise, from, [x, y], to, Some(100.0));
     let hole = Hole {
@@ -155,7 +155,7 @@ const SECTIONS: [&str; 55] = [
     "Dialect",
 ];
 
-/// Variants in which one element is removed, emptied or has its parts reversed; absent elements are emptied.
+/// Returns variants in which one element is removed, emptied or has its parts reversed; elements that are absent are added without content.
 fn elements_changed(text: &str) -> Vec<String> {
     let mut variants = Vec::new();
     for name in SECTIONS {
@@ -177,7 +177,7 @@ fn elements_changed(text: &str) -> Vec<String> {
     variants
 }
 
-/// The same for control texts.
+/// Returns such variants of a definition with control texts.
 fn texts_changed(text: &str) -> Vec<String> {
     let mut variants = Vec::new();
     let begin = text.find("[text]").unwrap();
@@ -195,13 +195,13 @@ fn texts_changed(text: &str) -> Vec<String> {
     variants
 }
 
-/// The words of a text in reverse order.
+/// Returns the words of a text in reverse order.
 fn reversed(text: &str) -> String {
     let parts: Vec<&str> = text.split_inclusive([' ', '\n']).collect();
     parts.into_iter().rev().flat_map(|part| [part.trim_end(), " "]).collect()
 }
 
-/// Whether the cuts come in order, according to a reader that knows only G0 to G3, X, Y and Z and shares no code with the program.
+/// Whether the cuts are in order, according to a reader that knows only G0 to G3, X, Y and Z and shares no code with the program.
 fn has_all_cuts(text: &str) -> bool {
     let (mut at, mut motion) = ([f64::NAN; 3], 0.0);
     let mut left = CUTS.iter().peekable();

@@ -1,4 +1,4 @@
-//! Inserts texts from drawings, file names and options in every place of every post; no control must act on any of them.
+//! Inserts texts from drawings, file names and options in every place of every post. No control may interpret any of them as code.
 
 use camino::Utf8Path;
 use pathbuild_post::{BUILT_IN, Job, JobStep, Language, PostDefinition, PostOptions};
@@ -51,7 +51,7 @@ fn no_control_acts_on_a_text_of_others() {
         let is_own = own.iter().any(|(own, _)| own == name);
         let bytes = (0..=255_u8).map(|byte| format!("a{}G1 Z-99", char::from(byte)));
         for hostile in bytes.chain(HOSTILE.map(str::to_owned)) {
-            // Each byte in all places at once, and each known dangerous text in every single place.
+            // Test each byte in all places together, and each known dangerous text in every single place.
             let first = if HOSTILE.contains(&hostile.as_str()) { 0 } else { PLACES - 1 };
             for place in first..PLACES {
                 let one = |text: &str| written(&post, place, text, is_own);
@@ -63,7 +63,7 @@ fn no_control_acts_on_a_text_of_others() {
     }
 }
 
-/// Taking responsibility for a definition does not extend to the texts it puts into comments.
+/// If the user takes responsibility for a definition, the texts that it puts into comments are nevertheless checked.
 #[test]
 fn no_text_ends_or_begins_a_comment_of_a_definition_s_own() {
     let marks = [
@@ -158,7 +158,7 @@ fn check(name: &str, place: usize, hostile: &str, found: &str, harmless: &str) {
     }
 }
 
-/// What remains of a line without its comments, none of which must be active.
+/// Returns a line without its comments, and asserts that none of the texts is active.
 fn code_of(line: &str, marks: &[&str], at: &str) -> String {
     let mut code = String::new();
     let mut rest = line;

@@ -1,4 +1,4 @@
-//! Tests of parsed programs as jobs, and of built-in posts against the native program.
+//! Tests parsed programs as jobs, and built-in posts against the native program.
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::dialect::{Charset, Dialect};
@@ -135,7 +135,7 @@ fn what_a_job_cannot_say_is_an_error_with_its_line() {
     assert!(errors(&format!("{start}G2 X0 Y0 I5 P2 F60"))[0].starts_with("2: PB765 a move of this kind"));
 }
 
-/// A move of sufficient length; the length is otherwise unused.
+/// Returns a step with a move of sufficient length, which is not used otherwise.
 fn go(to: PlannedMove) -> ProgramStep {
     ProgramStep::Move { to, count: Count { class: MoveClass::Milling, length: 99.0, feed: None } }
 }
@@ -144,7 +144,7 @@ fn height(z: f64) -> Height {
     Height { z, at: Xy::new(0.0, 0.0) }
 }
 
-/// Lines, bars, arcs, a helical circle and holes, in two embedded paths.
+/// Returns a program with lines, bars, arcs, a helical circle and holes, in two embedded paths.
 fn program() -> Program {
     let mut names = Names::default();
     let (a, b, clamp) = (names.intern("1234.1A"), names.intern("1234.2B"), names.intern("Spannpratze?"));
@@ -154,7 +154,7 @@ fn program() -> Program {
     let line = |x: f64, y: f64, z| go(PlannedMove::Line { feed: 220.5, to: Xy::new(x, y), z: height(z) });
     let arc = |clockwise, centre: [f64; 2], to: [f64; 2], z, is_spiral| {
         let (centre, to) = (Xy::new(centre[0], centre[1]), Xy::new(to[0], to[1]));
-        // One radian at a radius of 10 mm, and half circles with a radius of 5 mm.
+        // The arc covers one radian at a radius of 10 mm, or half a circle with a radius of 5 mm.
         let length = if is_spiral { 5.0 * std::f64::consts::PI } else { 10.0 };
         let to = PlannedMove::Arc { feed: 180.0, clockwise, centre, to, z: height(z), is_spiral };
         ProgramStep::Move { to, count: Count { class: MoveClass::Milling, length, feed: None } }
@@ -224,7 +224,7 @@ fn program() -> Program {
     }
 }
 
-/// The dialect in which the output of a built-in post is read.
+/// Returns the dialect in which the output of a built-in post is read.
 fn reader(post: &str) -> Dialect {
     match post {
         "grbl" | "marlin" => Dialect::Grbl,
@@ -236,7 +236,7 @@ fn reader(post: &str) -> Dialect {
 #[track_caller]
 fn assert_moves_alike(name: &str, text: &[u8], program: &Program) {
     let read = interpret(text, reader(name), &Options::default());
-    // The native program has three decimals; xpertmill writes a helix as chords.
+    // The native program has three decimals, and XpertMILL's post writes a helix as chords.
     let tolerance = Tolerance { chord: 0.01, ends: Ends::Cutting, ..Tolerance::of_decimals(3) };
     if let Some(difference) = compare(&read.moves(), &program.moves().collect::<Vec<_>>(), &tolerance) {
         panic!("{name}: {}\n{}", difference.diagnostic().text(Lang::En), String::from_utf8_lossy(text));
@@ -298,7 +298,7 @@ fn a_native_program_that_is_read_comes_out_of_every_post_with_the_same_moves() {
     }
 }
 
-/// Output of a built-in post for a program in a dialect.
+/// Returns the output of a built-in post for a program in a dialect.
 fn posted(text: &str, dialect: Dialect, post: &str) -> Result<Vec<String>, Vec<String>> {
     let steps = interpret(text.as_bytes(), dialect, &Options::default()).steps;
     let mut job =
@@ -310,7 +310,7 @@ fn posted(text: &str, dialect: Dialect, post: &str) -> Result<Vec<String>, Vec<S
     Ok(String::from_utf8(output.text).unwrap().lines().map(str::to_owned).collect())
 }
 
-/// The lines after the second tool change.
+/// Returns the lines after the second tool change.
 fn after_change(lines: &[String]) -> &[String] {
     let change = lines.iter().rposition(|line| line.starts_with("M3 ")).expect("the spindle starts again");
     &lines[change + 1..]
@@ -337,7 +337,7 @@ fn a_new_tool_never_goes_down_where_the_old_one_ended() {
             "{deep}: {found:?}"
         );
     }
-    // At the surface nothing is hit; to a different depth the program itself moves by rapid.
+    // At the surface the tool hits nothing. To another depth, the program itself moves by a rapid move.
     for fine in ["G0 X20 Z0\nG1 Z-3", "G0 Z5\nG0 X20\nG1 Z-3", "G0 X20 Z-1\nG1 Z-3"] {
         let lines = errors(fine).unwrap_or_else(|errors| panic!("{fine}: {errors:?}"));
         assert!(!after_change(&lines).iter().any(|line| line.contains("Z-2.0")), "{fine}: {lines:?}");
@@ -378,7 +378,7 @@ fn a_program_that_names_no_tool_is_written_without_a_change() {
         let is_change = |line: &&String| line.contains("T0") || line.contains("M6") || line.contains("H0");
         assert_eq!(lines.iter().find(is_change), None, "{post}");
     }
-    // M6 alone in the head changes nothing; later it would hide a manual change.
+    // M6 alone at the start of a program changes nothing; later it would hide a manual change.
     assert!(posted(&text.replace("S1000", "M6\nS1000"), Dialect::LinuxCnc, "grbl").is_ok());
     let by_hand = posted(&text.replace("G1 X10", "M6\nG1 X10"), Dialect::LinuxCnc, "grbl").unwrap_err();
     assert!(by_hand[0].contains("PB765 the tool is changed here"), "{by_hand:?}");

@@ -1,4 +1,4 @@
-//! Definitions of any form never cause panics, hangs or unbounded growth.
+//! Tests that no definition causes panics, hangs or unbounded growth.
 
 use camino::Utf8Path;
 use pathbuild_motion::Turning;
@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 use crate::support::{arc, definition, feed, job, rapid};
 
-/// A program with every kind of move.
+/// Returns a program with every kind of move.
 fn program() -> Job {
     let arc = arc(true, [10.0, 0.0, -1.0], [0.0; 2], [10.0, 0.0, -2.0], Some(100.0));
     let hole = pathbuild_post::Hole {
@@ -31,7 +31,7 @@ fn program() -> Job {
     job
 }
 
-/// Parts of valid templates, and parts that break them.
+/// Generates templates from valid parts and parts that break them.
 fn template() -> impl Strategy<Value = String> {
     let pieces = prop::sample::select(vec![
         "{$x}",
@@ -72,7 +72,7 @@ fn template() -> impl Strategy<Value = String> {
     prop::collection::vec(pieces, 0..12).prop_map(|pieces| pieces.concat())
 }
 
-/// The same for control texts.
+/// Generates control texts in the same way.
 fn control_text() -> impl Strategy<Value = String> {
     let pieces = prop::sample::select(vec![
         "{",

@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_motion::{Arc, Move, MoveShape, Pace, Plane, Position};
 use pathbuild_post::{Entry, Job, JobStep, Operation, Output, PostDefinition, PostOptions, Tool};
 
-/// A file of `../shared` next to the project. `None` if that is absent; the test is then skipped.
+/// Reads a file of `../shared` next to the project; returns `None` if it is absent, so that the test is skipped.
 pub(crate) fn shared(name: &str) -> Option<String> {
     let path = pathbuild_testkit::shared(name)?;
     #[expect(clippy::disallowed_methods, reason = "a test's own files")]
@@ -32,7 +32,7 @@ contour-end = 'G00 Z{+~ZClearance~}'
 program-end = 'M30'
 ";
 
-/// Real definitions with their names, if ../shared contains them.
+/// Returns real definitions with their names, if ../shared contains them.
 pub(crate) fn real_definitions() -> Vec<(String, String)> {
     let names = [
         "default-reconstructed.cbpp",
@@ -45,12 +45,12 @@ pub(crate) fn real_definitions() -> Vec<(String, String)> {
     names.iter().filter_map(|name| Some(((*name).to_owned(), shared(&format!("posts/{name}"))?))).collect()
 }
 
-/// A CamBam definition with these elements.
+/// Returns a CamBam definition with these elements.
 pub(crate) fn definition(elements: &str) -> String {
     format!("<?xml version=\"1.0\"?>\n<PostProcessor Version=\"0.9.8.0\">\n{elements}\n</PostProcessor>")
 }
 
-/// A CamBam definition that writes only the moves.
+/// Returns a CamBam definition that writes only the moves.
 pub(crate) fn bare(elements: &str) -> String {
     definition(&format!(
         "<PostFile>{{$mops}}</PostFile><MOP>{{$blocks}}</MOP><EndOfLine>\\n</EndOfLine>{elements}"
@@ -67,7 +67,7 @@ pub(crate) fn read_toml(text: &str) -> PostDefinition {
         .unwrap_or_else(|errors| panic!("{:?}", texts(&errors)))
 }
 
-/// Output of a definition for a job.
+/// Returns the output of a definition for a job.
 pub(crate) fn output(
     definition: &str,
     job: &Job,
@@ -76,7 +76,7 @@ pub(crate) fn output(
     unchecked(&read(definition)?, job, options)
 }
 
-/// Output for a job that is read back only if a dialect is declared, for tests of texts that are not entire programs.
+/// Returns the output for a job. It is read back only if a dialect is declared, for tests of texts that are not entire programs.
 pub(crate) fn unchecked(
     post: &PostDefinition,
     job: &Job,
@@ -86,7 +86,7 @@ pub(crate) fn unchecked(
     post.write(job, &PostOptions { unchecked, ..options.clone() })
 }
 
-/// The lines that a definition produces for a job.
+/// Returns the lines that a definition produces for a job.
 #[track_caller]
 pub(crate) fn lines(definition: &str, job: &Job) -> Vec<String> {
     lines_with(definition, job, &PostOptions::default())
@@ -100,13 +100,13 @@ pub(crate) fn lines_with(definition: &str, job: &Job, options: &PostOptions<'_>)
     }
 }
 
-/// The errors that a definition produces for a job: `line: code text (help)`.
+/// Returns the errors that a definition produces for a job, as `line: code text (help)`.
 #[track_caller]
 pub(crate) fn errors(definition: &str, job: &Job) -> Vec<String> {
     texts(&output(definition, job, &PostOptions::default()).expect_err("the post must fail"))
 }
 
-/// Diagnostics as `line: code text (help)`.
+/// Formats diagnostics as `line: code text (help)`.
 pub(crate) fn texts(diagnostics: &[Diagnostic]) -> Vec<String> {
     let text = |diagnostic: &Diagnostic| {
         let line = diagnostic.place.line.map_or(String::new(), |line| format!("{line}: "));
@@ -116,7 +116,7 @@ pub(crate) fn texts(diagnostics: &[Diagnostic]) -> Vec<String> {
     diagnostics.iter().map(text).collect()
 }
 
-/// A job with one operation that begins at (0, 0, 5), on the clearance plane; the upper face of the material is at 0.
+/// Returns a job with one operation that begins at (0, 0, 5), on the clearance plane; the upper face of the material is at 0.
 pub(crate) fn job(steps: Vec<JobStep>) -> Job {
     Job { name: "part".into(), operations: vec![operation("mill", 1, steps)], ..Job::default() }
 }
@@ -139,7 +139,7 @@ pub(crate) fn feed(x: f64, y: f64, z: f64) -> JobStep {
     JobStep::feed([x, y, z], Some(100.0))
 }
 
-/// Along an arc in XY.
+/// Returns a move along an arc in XY.
 pub(crate) fn arc(
     clockwise: bool,
     from: [f64; 3],
@@ -152,7 +152,7 @@ pub(crate) fn arc(
     JobStep::Move(Move { from: from.into(), to: to.into(), shape: MoveShape::Arc(arc), pace, named: None })
 }
 
-/// Steps of which it is forgotten where the straight ones begin.
+/// Returns steps in which straight moves no longer state where they begin.
 pub(crate) fn straight_from_anywhere(steps: &[JobStep]) -> Vec<JobStep> {
     let forget = |step: &JobStep| match step {
         JobStep::Move(it) if it.shape == MoveShape::Line => {

@@ -1,4 +1,4 @@
-//! Tests of what the target of a post accepts, and what happens otherwise.
+//! Tests which outputs the target of a post accepts, and what happens otherwise.
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
@@ -42,7 +42,7 @@ fn rejected(line: u32, target: &str, word: &str) -> String {
     format!("line {line} of the output: {target} does not accept \"{word}\"")
 }
 
-/// The number of errors is limited, within one line and over several, because each contains part of its line.
+/// The number of errors is limited, both within one line and over several lines, because each error contains part of its line.
 #[test]
 fn so_many_errors_are_told() {
     for (text, count) in
@@ -237,7 +237,7 @@ fn a_definition_that_writes_the_moves_of_a_hole_itself_is_let() {
     assert!(String::from_utf8(output.text).unwrap().contains("(by hand)"));
 }
 
-/// Writes unchecked, if anything may be written, and for a dialect in which the text is read back.
+/// Writes a job with `unchecked`, which must succeed, and then for a dialect in which the text is read back.
 fn read_back(elements: &str, steps: Vec<JobStep>) -> Result<(), Vec<String>> {
     let text = definition(&format!("<PostFile>{{$mops}}</PostFile><MOP>{{$blocks}}</MOP>{elements}"));
     let post = PostDefinition::read(text.as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
@@ -369,7 +369,7 @@ fn what_the_reader_refuses_is_not_written() {
     assert!(errors[0].contains("this cutting move has no feed"), "{errors:?}");
 }
 
-/// Real definitions declare no dialect; their output is followed as far as all controls agree.
+/// Real definitions declare no dialect. Their output is interpreted as far as all controls agree.
 #[test]
 fn without_a_dialect_words_and_spindle_are_followed_too() {
     let mut job =
@@ -419,7 +419,7 @@ fn without_a_dialect_words_and_spindle_are_followed_too() {
             doubts(words)
         );
     }
-    // No spindle word is required if the operator switches it, or if the user takes responsibility for the output.
+    // A spindle word is not required if the operator controls the spindle, or if the user takes responsibility for the output.
     for options in [
         PostOptions { manual_spindle: true, ..PostOptions::default() },
         PostOptions { unchecked: true, ..PostOptions::default() },
@@ -464,7 +464,7 @@ fn dwells_are_compared() {
     assert!(written("linuxcnc", "G4 P0.501", 0.5005).is_ok(), "half a millisecond");
 }
 
-/// Without a dialect, the number of G4 may count seconds or milliseconds, but nothing else.
+/// Without a dialect, the number of G4 may be in seconds or milliseconds, but must be one of them.
 #[test]
 fn dwells_of_texts_without_a_dialect_are_compared() {
     let steps = |seconds| {

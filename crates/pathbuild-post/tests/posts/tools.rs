@@ -1,4 +1,4 @@
-//! Tests of tool, tool length and spindle in the output of definitions, each with a correct definition and one with a single mistake.
+//! Tests tool, tool length and spindle in the output of definitions, each with a correct definition and one with a single mistake.
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_motion::Turning;
@@ -23,7 +23,7 @@ G43 H{$tool.index}</ToolChange>
 {$blocks}</MOP>
 <EndOfLine>\\n</EndOfLine>";
 
-/// A job for T1 at 9000 1/min and T2 at 3000 1/min.
+/// Returns a job for T1 at 9000 1/min and T2 at 3000 1/min.
 fn two_tools() -> Job {
     let milled = |tool, x, speed| {
         let steps =
@@ -35,7 +35,7 @@ fn two_tools() -> Job {
     Job { name: "part".into(), operations: vec![milled(1, 0.0, 9000.0), second], ..Job::default() }
 }
 
-/// What is wrong with the output of a definition.
+/// Returns the findings about the output of a definition.
 fn wrong(text: &str, job: &Job) -> Vec<String> {
     let found = read(&definition(text)).unwrap().write(job, &PostOptions::default());
     let text = |problem: &pathbuild_diagnostic::Diagnostic| match problem.notes.first() {
@@ -64,7 +64,7 @@ fn each_cut_has_its_own_tool() {
         changed("T{$tool.index} M6", "M6")[0],
         "the output has not changed to T1, with which the program makes this cut"
     );
-    // T alone changes the tool where there is no M6.
+    // Without M6, T alone changes the tool.
     assert_eq!(changed("T{$tool.index} M6", "T{$tool.index}\nM0"), FINE);
     // Without any T, the program must stop for the operator.
     let by_hand = |change: &str| changed("T{$tool.index} M6\nG43 H{$tool.index}", change);
@@ -99,10 +99,10 @@ fn the_spindle_stands_where_the_operator_changes_the_tool() {
     let spinning = "the spindle still turns where the program stops for the tool change";
     assert_eq!(by_hand("M0"), [spinning]);
     assert!(by_hand("T{$tool.index}\nM0")[0].contains(spinning));
-    // A changer stops it by itself.
+    // A tool changer stops the spindle itself.
     assert_eq!(changed("M5\nT{$tool.index} M6", "T{$tool.index} M6"), FINE);
     assert_eq!(changed("{$blocks}", "M0\n{$blocks}"), FINE, "a pause after the change");
-    // A pause for the same tool.
+    // The program pauses, but the tool stays the same.
     let mut job = two_tools();
     job.operations[1].tool = job.operations[0].tool.clone();
     assert_eq!(wrong(&RIGHT.replace("{$blocks}", "M0\n{$blocks}"), &job), FINE);
