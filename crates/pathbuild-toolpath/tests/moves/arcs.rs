@@ -1,4 +1,4 @@
-//! Tests of arcs: direction, centre and ends. ("mill arc")
+//! Tests arcs: direction, centre and ends. ("mill arc")
 
 use pathbuild_toolpath::{PlannedMove, Program, ProgramStep};
 
@@ -26,9 +26,9 @@ fn milled(statement: &str, end: &str) -> Vec<String> {
 
 #[test]
 fn an_arc_is_run_in_its_own_direction() {
-    // Drawn counterclockwise, from the left of the centre to the right, below it.
+    // The arc is drawn counterclockwise, from the left of the centre to the right, below the centre.
     assert_eq!(milled("mill arc centre 10,0 r 10 from 180 to 0", "20,0"), ["G03 10 0 20 0"]);
-    // Drawn counterclockwise, from the right to the left, above the centre; milled from its end.
+    // The arc is drawn counterclockwise, from the right to the left, above the centre, and milled from its end.
     assert_eq!(milled("mill arc centre 10,0 r 10 from 0 to 180", "20,0"), ["G02 10 0 20 0"]);
 }
 
@@ -37,7 +37,7 @@ fn an_arc_that_is_run_from_its_end_turns_the_other_way() {
     assert_eq!(milled("mill arc centre 10,0 r 10 from 0 to 180", "20,0"), ["G02 10 0 20 0"]);
 }
 
-/// I and J are relative to the start of the move, also for later passes that start at the other end.
+/// I and J are relative to the start of the move, even in later passes that start at the other end.
 #[test]
 fn the_centre_counts_from_where_the_run_begins() {
     let program = program(&path("T5 O3 I2 B0", "mill arc centre 0,10 r 10 from 270 to 0\nend 10,10"));
@@ -54,7 +54,7 @@ fn an_arc_over_zero_degrees_is_not_run_the_long_way() {
         };
         program.steps.iter().filter_map(length).collect()
     };
-    // A quarter, and three quarters of a circle.
+    // The arcs are a quarter and three quarters of a circle.
     assert_eq!(lengths("mill arc centre 0,10 r 10 from 270 to 0", "10,10"), ["15.708"]);
     assert_eq!(lengths("mill arc centre 0,10 r 10 from 270 to 180", "-10,10"), ["47.124"]);
     assert_eq!(lengths("arc CONTINUOUS centre 10,0 r 10 from 180 to 180", "0,0"), ["62.832"]);

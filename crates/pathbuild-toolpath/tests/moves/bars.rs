@@ -1,11 +1,11 @@
-//! Tests of support bars. ("Support bars")
+//! Tests support bars. ("Support bars")
 
 use crate::support::{COMPATIBLE, estimate, moves, path, program_with, shown};
 
-/// 40 mm with four bars of 2 mm: 2.5 mm on a bar, 1 mm down, 3 mm between, 1 mm up, 5 mm on a bar, and so on.
+/// A line of 40 mm with these parameters has four bars of 2 mm: 2.5 mm on a bar, 1 mm down, 3 mm between, 1 mm up, 5 mm on a bar, and so on.
 const FOUR: &str = "T5 O3 D2 B0 P2 U8";
 
-/// The points along a line of 40 mm, up to the first repetition.
+/// Returns the points along a line of 40 mm, up to the first repetition.
 fn milled(parameters: &str) -> Vec<String> {
     moves(&path(parameters, "bars 0,0 40,0\nend 40,0"))
 }
@@ -38,7 +38,7 @@ fn gaps_and_bars_follow_each_other() {
     assert_eq!(milled[19..], ["L 10"]);
 }
 
-/// The moves in [`SECTIONS`] and a move down, for each of six passes.
+/// Each of six passes has the moves in [`SECTIONS`] and a move down.
 #[test]
 fn moves_over_bars_are_estimated() {
     assert_eq!(estimate(&path(&format!("{FOUR} I1"), "bars 0,0 40,0\nend 40,0")), 6 * (17 + 1));
@@ -48,7 +48,7 @@ fn moves_over_bars_are_estimated() {
 fn bars_matter_only_below_their_top() {
     let milled = milled(&format!("{FOUR} I1"));
     assert_eq!(milled[..7], ["L 5", "D 4", "M 40,0 4", "D 3", "M 0,0 3", "D 2", "M 40,0 2"]);
-    // Backwards from here. It also begins with a bar, at the height of the tool.
+    // The next pass is milled backwards. It also begins with a bar, at the height of the tool.
     assert_eq!(milled[7..11], ["M 37.5,0 2", "M 36.5,0 1", "M 33.5,0 1", "M 32.5,0 2"]);
     let last = milled.len();
     assert_eq!(milled[last - 5..], ["M 33.5,0 0", "M 36.5,0 0", "M 37.5,0 2", "M 40,0 2", "L 10"]);
@@ -94,7 +94,7 @@ fn without_room_for_a_gap_nothing_below_d_is_milled() {
     );
 }
 
-/// At most as long as half a bar, and limited by the room between the bars.
+/// A slope is at most as long as half a bar, and is limited by the distance between the bars.
 #[test]
 fn slopes_are_as_long_as_there_is_room() {
     let slope = |parameters: &str| {
@@ -102,15 +102,15 @@ fn slopes_are_as_long_as_there_is_room() {
         (milled[2].clone(), milled[3].clone())
     };
     let step = |text: &str| text.to_owned();
-    // 45 degrees: D - B.
+    // The slope is at 45 degrees, so its length is D - B.
     assert_eq!(slope("D0.5 B0 P2 U8"), (step("M 2.5,0 0.5"), step("M 3,0 0")));
-    // P / 2.
+    // The length of the slope is P / 2.
     assert_eq!(slope("D3 B0 P2 U8"), (step("M 2.5,0 3"), step("M 3.5,0 0")));
-    // (L / n - P - O) / 2: six bars of 3 mm with 3.667 mm between them.
+    // The length of the slope is (L / n - P - O) / 2, for six bars of 3 mm with 3.667 mm between them.
     assert_eq!(slope("D3 B0 P3 U3.6"), (step("M 3,0 3"), step("M 3.333,0 0")));
 }
 
-/// The cutter just fits, so there is no slope and nothing between.
+/// The cutter just fits between the bars, so there are no slopes, and no move at the bottom.
 #[test]
 fn bars_may_be_a_cutters_diameter_apart() {
     let milled = milled("T5 O3 I5 D2 B0 P2 U3");
@@ -126,7 +126,7 @@ fn bars_stand_on_arcs_too() {
     assert_eq!(arc[arc.len() - 2..], ["A 20,0 2", "L 10"]);
 }
 
-/// Bars are calculated in the path's own drawing and raised with it.
+/// Bars are calculated in the path's own drawing and raised together with it.
 #[test]
 fn bars_are_raised_by_h() {
     let drawing = format!(
@@ -147,7 +147,7 @@ fn the_original_tool_drills_into_the_bar_where_a_segment_begins() {
     assert_eq!(sweepless[3..6], ["D 0", "L 2", "M 2.5,0 2"]);
 }
 
-/// Sweepless runs also begin and end with a bar.
+/// Sweepless passes also begin and end with a bar.
 #[test]
 fn sweepless_runs_spare_bars() {
     let drawing = path("T5 O3 D2 B0 P2 U38 I5 W5", "bars 0,0 40,0\nend 40,0");

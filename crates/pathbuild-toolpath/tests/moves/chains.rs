@@ -1,4 +1,4 @@
-//! Tests of milling chains, pass by pass. ("Chains, ordinary milling")
+//! Tests milling chains, pass by pass. ("Chains, ordinary milling")
 
 use pathbuild_toolpath::{PlannedMove, ProgramStep, memory};
 
@@ -23,12 +23,12 @@ fn the_first_depth_is_one_infeed_below_the_surface_and_the_last_is_the_bottom() 
     assert_eq!(depths("2", "0"), "3 1 0");
     assert_eq!(depths("9", "0"), "0");
     assert_eq!(depths("5", "0"), "0");
-    // A depth almost at the bottom is taken for the bottom.
+    // A depth that is almost at the bottom counts as the bottom.
     assert_eq!(depths("2.4999999999", "0"), "2.5 0");
     assert_eq!(depths("2.499", "0"), "2.501 0.002 0");
 }
 
-/// In binary, 50 times 0.1 is not 5, but the last of fifty subtractions must still be the bottom.
+/// In binary, 50 times 0.1 is not 5, but the last of fifty subtractions must still give the bottom.
 #[test]
 fn depths_arise_by_subtracting_again_and_again() {
     let milled = moves(&path("T5 O3 I0.1 B0", LINE));
@@ -51,7 +51,8 @@ fn the_nearest_edge_is_next() {
     assert_eq!(moves(&path("T5 O3 I1 B3", "mill 0,0 40,0 40,30\nend 40,30")), expected);
 }
 
-/// Descending by 1 mm at the end of the short line is nearer than the next line at the same depth, but only if its upper edge is done.
+/// At the end of the short line, descending by 1 mm is nearer than the next line at the same depth. It is permitted only after the upper edge there
+/// is milled.
 #[test]
 fn an_edge_waits_for_the_one_above_it() {
     let closed = moves(&path("T5 O3 I1 B3", "mill 0,0 40,0 40,30 0,0\nend 0,0"));
@@ -66,7 +67,8 @@ fn an_edge_waits_for_the_one_above_it() {
 fn distances_are_in_space() {
     let order =
         |infeed: &str| moves(&path(&format!("T9 O3 I{infeed} B1"), "mill 0,0 2,0\nmill 2,0 4,0\nend 4,0"));
-    // After the first edge of the second line (at 4, 0): its own next edge, or the next edge of the first line, from (2, 0).
+    // After the first edge of the second line, which ends at (4, 0), there is a choice: the next edge of that line, or the next edge of the first
+    // line, from (2, 0).
     assert_eq!(order("4")[..5], ["L 9", "D 5", "M 2,0 5", "M 4,0 5", "D 1"]);
     assert_eq!(order("4")[5], "M 2,0 1");
 }
@@ -74,10 +76,10 @@ fn distances_are_in_space() {
 /// If several are equally near, the first in segment order is chosen, and its end rather than its start.
 #[test]
 fn ties_go_to_the_first_segment_and_to_its_end() {
-    // A full circle begins and ends at the same point. The walk runs it from its end, so its edge runs from the other one.
+    // A full circle begins and ends at the same point. The walk runs it from its end, so its edge starts at its other end.
     let circle = "arc CONTINUOUS centre 10,0 r 10 from 180 to 180\nend 0,0";
     assert_eq!(moves(&path("T5 O3 I5 B0", circle)), ["L 5", "D 0", "A 0,0 0", "L 10"]);
-    // From the middle of a line milled to and fro, both ends of the next edge are equally near.
+    // The tool is in the middle of a line that is milled there and back, so both ends of the next edge are equally near.
     let both = "mill 0,0 0,20\nmill 0,20 0,0\nend 0,0";
     assert_eq!(moves(&path("T5 O3 I5 B0", both))[..4], ["L 5", "D 0", "M 0,20 0", "M 0,0 0"]);
 }
@@ -90,7 +92,7 @@ fn at_last_the_tool_is_at_the_end_of_the_last_segment_at_sweep_height() {
     assert_eq!(odd, ["L 5", "D 4", "M 40,0 4", "L 10"]);
 }
 
-/// Travel goes up to the sweep height, across, and down again.
+/// Between edges that do not meet, the tool goes up to the sweep height, across, and down again.
 #[test]
 fn the_tool_travels_over_the_material() {
     // The second line is deeper, so its lower edges remain after everything else is done.
@@ -116,7 +118,7 @@ fn the_tool_travels_over_the_material() {
     );
 }
 
-/// A path's own S applies to its chains, otherwise the option.
+/// The chains of a path use the path's own S or, if it has none, that of the option.
 #[test]
 fn the_sweep_height_is_the_paths_or_the_options() {
     let last = |parameters: &str| moves(&path(parameters, LINE)).iter().rev().nth(1).unwrap().clone();
@@ -144,7 +146,7 @@ fn a_comment_stands_before_each_pass_of_its_segment() {
         ]
     );
     assert_eq!(moves_and_comments(&path("T5 O3 I5 B0", "mill 0,0 40,0 \"Q\"\nend 40,0"))[2], "Q ");
-    // The same before the retraction to a bar.
+    // The order is the same before the move up to a bar.
     let bars = path("T5 O3 I5 B0 D3 P50 U50", "bars 0,0 40,0 \"Qx\"\nend 40,0");
     assert_eq!(moves_and_comments(&bars)[..4], ["L 5", "D 3", "Q x", "M 40,0 3"]);
     assert_eq!(shown(&program_with(&bars, COMPATIBLE), true)[..4], ["L 5", "D 0", "Q x", "L 3"]);
@@ -185,7 +187,7 @@ fn returns_have_edges_of_their_own() {
     );
 }
 
-/// Each line has its own depth: 5 mm take six passes of two moves, 2 mm take three.
+/// Each line has its own depth: 5 mm require six passes of two moves, 2 mm require three.
 #[test]
 fn moves_are_estimated_line_by_line() {
     let with_depth = |depth: &str| {
@@ -195,7 +197,7 @@ fn moves_are_estimated_line_by_line() {
     assert_eq!([with_depth("B0"), with_depth("B3")], [36, 30]);
 }
 
-/// As stated in docs/reliability.md: 208 bytes for a move and a comment.
+/// A move and a comment take 208 bytes, as stated in docs/reliability.md.
 #[test]
 fn memory_is_estimated_with_a_comment_for_each_move() {
     assert_eq!([memory(1), memory(1000), memory(u64::MAX)], [208, 208_000, u64::MAX]);

@@ -1,11 +1,11 @@
-//! Tests of the feeds of plunges and of probing. ("Elementary moves"; book: language/letters, Z)
+//! Tests the feeds of plunges and of probing. ("Elementary moves"; book: language/letters, Z)
 
 use pathbuild_path::PathOptions;
 use pathbuild_toolpath::{MoveClass, PlannedMove, Program, ProgramStep};
 
 use crate::support::{COMPATIBLE, OPTIONS, path, program, program_with};
 
-/// For each plunge, its feed and the feed used for statistics.
+/// Returns for each plunge its feed, and the feed used for statistics.
 fn plunges(program: &Program) -> Vec<(f64, f64)> {
     let plunge = |step: &ProgramStep| match step {
         ProgramStep::Move { to: PlannedMove::Drill { feed, .. }, count } => {
@@ -16,7 +16,7 @@ fn plunges(program: &Program) -> Vec<(f64, f64)> {
     program.steps.iter().filter_map(plunge).collect()
 }
 
-/// Checks the feeds of plunges by default, and in compatible programs, which plunge at the previous feed but count with another one.
+/// Checks the feeds of plunges by default, and in compatible programs, which plunge at the previous feed but calculate times with another one.
 #[track_caller]
 fn expect(drawing: &str, default: &[f64], original: &[(f64, f64)]) {
     let default: Vec<(f64, f64)> = default.iter().map(|feed| (*feed, *feed)).collect();
@@ -28,7 +28,7 @@ fn expect(drawing: &str, default: &[f64], original: &[(f64, f64)]) {
 fn a_hole_is_drilled_at_its_own_feed() {
     let hole = "mill 0,0 20,0 \"F1000\"\nsweep 20,0 30,0\ncircle 30,0 d 3 \"F40\"\nsweep 30,0 40,0\nend 40,0";
     expect(&path("T5 O3 I5 B0 F80", hole), &[80.0, 40.0], &[(150.0, 80.0), (1000.0, 40.0)]);
-    // Without a feed of its own it uses that of the path, and without that --feed.
+    // A hole without a feed of its own uses that of the path, or else --feed.
     let plain = "circle 0,0 d 3\nsweep 0,0 40,0\nend 40,0";
     expect(&path("T5 O3 B0 F80", plain), &[80.0], &[(150.0, 80.0)]);
     expect(&path("T5 O3 B0", plain), &[100.0], &[(150.0, 100.0)]);

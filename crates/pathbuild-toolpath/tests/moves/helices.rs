@@ -1,4 +1,4 @@
-//! Tests of helical circles. ("Helical circle")
+//! Tests helical circles. ("Helical circle")
 
 use pathbuild_path::PathOptions;
 use pathbuild_toolpath::{PlannedMove, ProgramStep};
@@ -8,7 +8,7 @@ use crate::support::{
     shown,
 };
 
-/// A sweep to a helical circle, and a sweep away from it.
+/// Returns a sweep to a helical circle, the circle, and a sweep away from it.
 fn helix(circle: &str) -> String {
     format!("sweep 0,0 20,0\n{circle}\nsweep 20,0 40,0\nend 40,0")
 }
@@ -55,7 +55,7 @@ fn a_helical_mark_ends_at_d() {
     assert_eq!(mark[4..8], ["C 20,2.5 4", "C 20,-2.5 3", "C 20,2.5 3", "C 20,-2.5 3"]);
 }
 
-/// The cutter has room at the centre of a small circle, so it is not raised.
+/// At the centre of a small circle no core is left, so the cutter is not raised there.
 #[test]
 fn a_circle_with_a_core_is_left_at_sweep_height() {
     let after = |diameter: &str| {
@@ -74,14 +74,14 @@ fn a_comment_stands_after_the_retraction() {
     assert_eq!(moves[2..5], ["L 8", "Q x", "S 20,-2.5"]);
 }
 
-/// If a circle follows a hole, the tool is raised from the hole.
+/// If a circle follows a hole, the tool is raised from the hole first.
 #[test]
 fn the_tool_is_raised_from_a_hole() {
     let both = path("T5 O3 I9 B1", &helix("circle 20,0 d 3\ncircle 20,0 d 8"));
     assert_eq!(moves(&both)[2..6], ["L 5", "D 1", "L 8", "S 20,-2.5"]);
 }
 
-/// J is the radius at the cutter's centre, I is zero.
+/// J is the radius of the circle that the cutter's centre follows, and I is zero.
 #[test]
 fn centres_are_straight_above_and_below() {
     let program = program(&path("T5 O3 I9 B1", &helix("circle 20,0 d 8")));
@@ -100,7 +100,7 @@ fn centres_are_straight_above_and_below() {
 
 #[test]
 fn what_a_helical_circle_counts() {
-    // The lift is counted from the start of the last full circle, which is at the bottom.
+    // The length of the lift is counted from the start of the last full circle, which is at the bottom.
     assert_eq!(
         counts(&path("T5 O3 I2 B1", &helix("circle 20,0 d 8 \"F300\"")))[2..],
         [
@@ -118,7 +118,7 @@ fn what_a_helical_circle_counts() {
     );
 }
 
-/// Heights on the way down are corrected for the centre, including the lift because of the core.
+/// On the way down, heights are corrected for the centre of the circle, and so is that of the lift over the core.
 #[test]
 fn heights_name_the_centre() {
     let program = program(&path("T5 O3 I9 B1", &helix("circle 20,0 d 8")));
@@ -142,9 +142,9 @@ const BARS: &str = "circle BORDER 20,0 d 11";
 #[test]
 fn below_d_full_circles_leave_bars() {
     let milled = moves(&path("T5 O3 I2 B0 D2 P2 U9", &helix(BARS)));
-    // First down to D as usual.
+    // First the circle is milled down to D as usual.
     assert_eq!(milled[4..10], ["C 20,4 4", "C 20,-4 3", "C 20,4 2", "C 20,-4 2", "C 20,4 2", "C 20,-4 2"]);
-    // Then a full circle at B: bar, down, between, up, bar, down, between, up, bar.
+    // Then follows a full circle at B: bar, down, between, up, bar, down, between, up, bar.
     let circle = &milled[10..19];
     let heights: Vec<&str> = circle.iter().map(|step| step.split(' ').nth(2).unwrap()).collect();
     assert_eq!(heights, ["2", "0", "0", "2", "2", "0", "0", "2", "2"]);
@@ -153,7 +153,7 @@ fn below_d_full_circles_leave_bars() {
     assert_eq!(milled[19..], ["L 10", "S 40,0"]);
 }
 
-/// From D in steps of I, the last at B.
+/// From D, the circle is milled in steps of I; the last step is at B.
 #[test]
 fn circles_with_bars_go_down_by_infeeds() {
     let lowest = |parameters: &str, options: PathOptions| {
@@ -170,18 +170,19 @@ fn circles_with_bars_go_down_by_infeeds() {
     assert_eq!(of_default("T5 O3 I0.5 B1 D2 P2 U21"), "1.5 1");
     assert_eq!(of_default("T5 O3 I0.4 B1 D2 P2 U21"), "1.6 1.2 1");
     assert_eq!(of_default("T5 O3 I5 B1 D2 P2 U21"), "1");
-    // A remainder caused by rounding is not a separate pass.
+    // A remainder that is only a rounding error is not a separate pass.
     assert_eq!(of_default("T5 O3 I0.3333333333 B1 D2 P2 U21"), "1.667 1.333 1");
-    // The original tool continues the infeeds of the spiral, 4.3 to 1.5, although the spiral stops at D.
+    // PathDxf2GCode continues the infeeds of the spiral, 4.3 to 1.5, although the spiral stops at D.
     let of_original = |parameters: &str| lowest(parameters, COMPATIBLE);
     assert_eq!(of_original("T5 O3 I0.5 B1 D2 P2 U21"), "1.5 1");
     assert_eq!(of_original("T5 O3 I0.4 B1 D2 P2 U21"), "1.4 1");
     assert_eq!(of_original("T5 O3 I0.7 B1 D2 P2 U21"), "1");
-    // They are below B, so the ring between D and B remains.
+    // The next infeeds are below B, so the ring between D and B remains.
     assert_eq!(of_original("T5 O3 I5 B1 D2 P2 U21"), "");
 }
 
-/// Bars depend on the circle of the cutter's centre, 25.133 mm and not 28: two sweeps, 6 moves down to D, two passes with two bars.
+/// Bars are counted along the circle of the cutter's centre, which is 25.133 mm long and not 28 mm: there are two sweeps, 6 moves down to D, and
+/// two passes with two bars.
 #[test]
 fn bars_of_a_circle_are_estimated_by_where_the_centre_runs() {
     assert_eq!(estimate(&path("T5 O3 I2 B0 D2 P2 U7", &helix(BARS))), 2 * 4 + 6 + 2 * 9);
@@ -193,7 +194,7 @@ fn without_room_for_a_bar_nothing_below_d_is_milled() {
     assert_eq!(milled[4..], ["C 20,4 2.5", "C 20,-4 2", "C 20,4 2", "C 20,-4 2", "L 10", "S 40,0"]);
 }
 
-/// Regardless of how the embedding rotates the path, circles begin below their centre, where the half circles end.
+/// Circles begin below their centre, where the half circles end, even if the embedding rotates the path.
 #[test]
 fn circles_begin_below_the_centre_however_the_path_is_turned() {
     let drawing = |circle: &str| {

@@ -1,17 +1,17 @@
-//! Tests of drilled holes. ("Drilled hole")
+//! Tests drilled holes. ("Drilled hole")
 
 use pathbuild_toolpath::{Comment, ElementKind, ProgramStep};
 
 use crate::support::{counts, moves, moves_and_comments, path, program};
 
-/// A sweep to a hole, and a sweep away from it.
+/// Returns a sweep to a hole, the hole, and a sweep away from it.
 fn hole(circle: &str) -> String {
     format!("sweep 0,0 20,0\n{circle}\nsweep 20,0 40,0\nend 40,0")
 }
 
 const P: &str = "T5 O3 I1 B0 D3";
 
-/// The tool stays at the bottom; the next element retracts it.
+/// The tool stays at the bottom of the hole, and the next element retracts it.
 #[test]
 fn a_hole_is_drilled_at_once_to_its_bottom() {
     assert_eq!(moves(&path(P, &hole("circle 20,0 d 3"))), ["L 10", "S 20,0", "L 5", "D 0", "L 10", "S 40,0"]);

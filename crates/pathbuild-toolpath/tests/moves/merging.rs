@@ -1,4 +1,4 @@
-//! Tests of merging consecutive sweeps. ("Merging sweeps")
+//! Tests merging consecutive sweeps. ("Merging sweeps")
 
 use crate::support::{COMPATIBLE, counts, moves, moves_and_comments, path, program_with, shown};
 
@@ -9,7 +9,7 @@ fn of_sweeps_that_follow_each_other_the_last_is_kept() {
     assert_eq!(moves(&path(P, "sweep 0,0 10,0 20,0 20,30\nend 20,30")), ["L 10", "S 20,30"]);
 }
 
-/// Omitted sweeps are not counted: the length is that of the last one alone.
+/// Omitted sweeps are not counted: the length is that of the remaining one.
 #[test]
 fn what_is_left_out_does_not_count() {
     assert_eq!(counts(&path(P, "sweep 0,0 10,0 20,0 20,30\nend 20,30")), ["Sweep 0", "Sweep 30"]);
@@ -38,7 +38,7 @@ fn comments_do_not_keep_them_apart() {
     );
 }
 
-/// Below the S of the emitted path there may be obstacles, so rapid moves follow the drawing.
+/// Below the S of the emitted path there may be obstacles, so there the rapid moves follow the drawing.
 #[test]
 fn only_sweeps_at_or_above_s_are_merged() {
     let around = |s: &str| {
@@ -50,13 +50,13 @@ fn only_sweeps_at_or_above_s_are_merged() {
     let low = ["L 11.9", "S 0,20", "S 40,20", "S 40,0"];
     assert_eq!(moves(&around("11.9")), low);
     assert_eq!(moves(&around("12")), ["L 12", "S 40,0"]);
-    // Equal within the tolerance for numbers.
+    // Heights that differ within the tolerance for numbers are equal.
     assert_eq!(moves(&around("11.999999")), ["L 12", "S 40,0"]);
     assert_eq!(moves(&around("12.5")), ["L 12.5", "S 40,0"]);
     assert_eq!(shown(&program_with(&around("11.9"), COMPATIBLE), false), ["L 11.9", "S 40,0"]);
 }
 
-/// Embedded paths sweep at their own S, usually T + O. Only above the S of the emitted path is everything known to be clear.
+/// Embedded paths sweep at their own S, usually T + O. Obstacles are only known to be absent above the S of the emitted path.
 #[test]
 fn what_embedded_paths_sweep_below_s_stays() {
     let component = path("T5 O3 I5 B0 S10", "sweep 0,0 10,0\nmill 10,0 20,0\nsweep 20,0 40,0\nend 40,0");

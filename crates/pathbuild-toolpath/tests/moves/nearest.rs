@@ -6,17 +6,17 @@ use crate::support::{moves, path, short};
 
 type Point = (f64, f64);
 
-/// A remaining edge: its ends in walking order, and its height.
+/// An edge that remains to be milled: its ends in walking order, and its height.
 struct Edge {
     start: Point,
     end: Point,
     z: f64,
-    /// Index of the edge above it.
+    /// Index of the edge above this one, which must be milled first.
     above: Option<usize>,
     is_done: bool,
 }
 
-/// Reproducible random steps, mostly on a grid to get many ties.
+/// Returns reproducible random points, mostly on a grid to get many ties.
 fn wander(steps: usize, scale: f64) -> Vec<Point> {
     let mut state = 0x9e37_79b9_u32;
     let mut random = |below: u32| {
@@ -37,7 +37,7 @@ fn wander(steps: usize, scale: f64) -> Vec<Point> {
     points
 }
 
-/// The moves found by a scan: from the nearer end of the nearest edge to its other end, and so on.
+/// Returns the moves found by a scan: from the nearer end of the nearest edge to its other end, and so on.
 fn scanned(points: &[Point], depths: &[f64]) -> Vec<String> {
     let pairs = points.windows(2);
     let mut edges: Vec<Edge> = pairs
@@ -88,7 +88,7 @@ fn assert_scanned(scale: f64, points: &[Point]) {
 
 #[test]
 fn the_nearest_edge_of_a_long_chain_is_that_of_a_scan() {
-    // Distances much greater than, equal to, and less than the infeed.
+    // The distances are much greater than, equal to, and less than the infeed.
     for scale in [10.0, 2.0, 0.5] {
         // Each point occurs once, so that the walk follows the drawing.
         let mut points = wander(400, scale);

@@ -1,4 +1,4 @@
-//! Tests of Z-probes: order, positions and heights. (book: language/probes)
+//! Tests Z-probes: order, positions and heights. (book: language/probes)
 
 use pathbuild_toolpath::ProbePoint;
 
@@ -6,7 +6,7 @@ use crate::support::{path, program, short};
 
 const LINE: &str = "mill 0,0 40,0\nend 40,0";
 
-/// The probes in order, with position and height.
+/// Returns the probes in order, with position and height.
 fn probes(drawing: &str) -> Vec<String> {
     let show =
         |probe: &ProbePoint| format!("{},{} {}", short(probe.at.x), short(probe.at.y), short(probe.height));

@@ -1,4 +1,4 @@
-//! Tests of the lengths and times counted by the original tool.
+//! Tests the lengths and times that PathDxf2GCode counts.
 
 use pathbuild_toolpath::{
     Count, Height, MoveClass, PlannedMove, Program, ProgramStep, Statistics, Total, Xy,
@@ -6,7 +6,7 @@ use pathbuild_toolpath::{
 
 use crate::support::{counts, path, program};
 
-/// Milling counts with the feed of the segment, descending to an edge with that of the path.
+/// Milling counts with the feed of the segment, and descending to an edge with that of the path.
 #[test]
 fn milling_counts_with_the_segments_feed_and_coming_down_with_the_paths() {
     let line = "mill 0,0 40,0 \"F300\"\nend 40,0";
@@ -14,9 +14,9 @@ fn milling_counts_with_the_segments_feed_and_coming_down_with_the_paths() {
         counts(&path("T5 O3 I5 B0 F200", line)),
         ["Sweep 5", "Drilling 5 200", "Milling 40 300", "Sweep 10"]
     );
-    // With --feed if the path has none.
+    // If the path has no feed, --feed is used.
     assert_eq!(counts(&path("T5 O3 I5 B0", line))[1], "Drilling 5 100");
-    // The same for sweepless milling, with a descent to W first.
+    // Sweepless milling is counted in the same way, with a descent to W first.
     assert_eq!(counts(&path("T5 O3 I5 B0 F200 W1", line))[1..3], ["Drilling 4 200", "Milling 40 300"]);
 }
 
@@ -29,11 +29,11 @@ fn slopes_count_with_their_length_in_the_plane() {
     );
 }
 
-/// A sweep counts with the distance in space to its target, with the height of the target.
+/// The length of a sweep is the distance in space to its target, including the target's height.
 #[test]
 fn a_sweep_counts_with_the_height_of_its_aim() {
     assert_eq!(counts(&path("T5 O3 I5 B0", "sweep 0,0 40,0\nend 40,0"))[1], "Sweep 40");
-    // At a height of 10 mm from (80, 0) to (40, 0), where the next edge is at 3 mm.
+    // The tool travels at a height of 10 mm from (80, 0) to (40, 0), where the next edge is at 3 mm.
     let travel = "mill 0,0 40,0\nmill 40,0 80,0 \"B4\"\nmill 80,0 120,0\nend 120,0";
     let found = counts(&path("T5 O3 I1 B3", travel));
     assert!(found.contains(&"Sweep 40.608".to_owned()), "{found:?}");
@@ -76,14 +76,14 @@ fn every_move_counts_once() {
     assert_eq!(Statistics::of_reference(&program(&drawing), 1000.0).commands, 7 + 1);
 }
 
-/// Slightly above S, so that the first sweep writes its Z.
+/// The start is slightly above S, so that the first sweep states its Z.
 #[test]
 fn the_start_is_a_little_above_the_sweep_height() {
     let program = Program { sweep_height: 10.0, ..Program::default() };
     assert_eq!(program.start_height(), 10.0 * (1.0 + 0.000_002));
 }
 
-/// 1.4 times the calculated time, rounded up to whole minutes after rounding to 0.0000001 s.
+/// The minutes are 1.4 times the calculated time, rounded up to whole minutes after rounding to 0.0000001 s.
 #[test]
 fn minutes_are_rounded_up() {
     let minutes = |time: f64| Total { length: 0.0, time }.minutes();
@@ -94,7 +94,7 @@ fn minutes_are_rounded_up() {
     assert_eq!(minutes(5.0 / 1.4 + 1e-8), 6.0);
 }
 
-/// The minutes of the sum are calculated from the total time, not by adding minutes.
+/// The minutes of the sum are calculated from the total time, and not by adding minutes.
 #[test]
 fn the_sum_is_rounded_once() {
     let total = |time| Total { length: 0.0, time };

@@ -1,8 +1,8 @@
-//! Tests of embedded paths: position, height and surrounding moves. (book: language/embedding)
+//! Tests embedded paths: position, height and surrounding moves. (book: language/embedding)
 
 use crate::support::{moves, moves_and_comments, path};
 
-/// A project from (0, 0) that embeds a component of 40 mm, together with the component.
+/// Returns a project from (0, 0) that embeds a component of 40 mm, together with the component.
 fn project(segment: &str, end: &str, component: &str) -> String {
     format!("layer 8001.1P\nstart 0,0 \"T9 O3 S20\"\n{segment}\nend {end}\n{component}")
 }
@@ -17,7 +17,7 @@ fn a_subpath_is_marked_at_both_ends() {
     assert_eq!(moves, ["START 1234.1P", "L 5", "D 0", "M 40,0 0", "L 8", "END 1234.1P"]);
 }
 
-/// Its S is its own or T + O, regardless of the embedding path's.
+/// The S of an embedded path is its own or T + O, regardless of the embedding path's S.
 #[test]
 fn an_embedded_path_has_its_own_sweep_height() {
     let last = |parameters: &str| {
@@ -37,7 +37,7 @@ fn a_path_is_turned_and_moved() {
     assert_eq!(back[4..6], ["M 10,-10 0", "M 10,0 0"]);
 }
 
-/// If the segment is run from its end, the start of the path is there.
+/// If the segment is run from its end, the start of the embedded path is there.
 #[test]
 fn the_start_lies_where_the_walk_comes_from() {
     let component = path("T5 O3 I5 B0", "mill 0,0 40,10 40,0\nend 40,0");
@@ -45,7 +45,7 @@ fn the_start_lies_where_the_walk_comes_from() {
     assert_eq!(moves[2..4], ["M 40,10 0", "M 40,0 0"]);
 }
 
-/// Paths are not scaled. They may miss the end of the segment by 0.001 mm, but the next element begins at the end of the segment.
+/// Embedded paths are not scaled. They may miss the end of the segment by 0.001 mm, but the next element begins at the end of the segment.
 #[test]
 fn what_follows_begins_at_the_segments_end() {
     let lines = "subpath 0,0 40.0009,0 \">1234.1P\"\nmill 40.0009,0 60,0 \"I5 B0\"";
@@ -81,7 +81,7 @@ fn a_path_without_direction_is_not_turned() {
     assert_eq!(moves(&drawing)[4], "M 10,40 0");
 }
 
-/// It keeps its orientation relative to the embedding path, however that is rotated.
+/// A path without a direction keeps its orientation relative to the embedding path, however that is rotated.
 #[test]
 fn a_path_without_direction_is_turned_with_what_embeds_it() {
     let closed = path("T5 O3 I5 B0", "mill 0,0 10,0 0,0\nend 0,0");

@@ -35,7 +35,7 @@ pub(crate) const OPTIONS: PathOptions =
 /// Options for compatible programs.
 pub(crate) const COMPATIBLE: PathOptions = PathOptions { compatible: true, ..OPTIONS };
 
-/// The program of the first path of a drawing.
+/// Returns the program of the first path of a drawing.
 #[track_caller]
 pub(crate) fn program(drawing: &str) -> Program {
     program_with(drawing, OPTIONS)
@@ -46,7 +46,7 @@ pub(crate) fn program_with(drawing: &str, options: PathOptions) -> Program {
     fold(&drawn(drawing), 0, "1234.1P.dxf", options, 0)
 }
 
-/// Estimated number of moves of the first path of a drawing.
+/// Returns the estimated number of moves of the first path of a drawing.
 #[track_caller]
 pub(crate) fn estimate(drawing: &str) -> u64 {
     let Drawn(paths) = drawn(drawing);
@@ -86,18 +86,18 @@ fn drawn(drawing: &str) -> Drawn {
     Drawn(file.paths.iter().map(|(raw, _)| walked(raw)).collect())
 }
 
-/// A drawing of a path with these parameters and its start at (0, 0).
+/// Returns a drawing of a path with these parameters and its start at (0, 0).
 pub(crate) fn path(parameters: &str, statements: &str) -> String {
     format!("layer 1234.1P\nstart 0,0 \"{parameters}\"\n{statements}")
 }
 
-/// The moves of the first path of a drawing.
+/// Returns the moves of the first path of a drawing.
 #[track_caller]
 pub(crate) fn moves(drawing: &str) -> Vec<String> {
     shown(&program(drawing), false)
 }
 
-/// Moves, with Q comments and the comments of subpaths.
+/// Returns the moves, with Q comments and the comments of subpaths.
 #[track_caller]
 pub(crate) fn moves_and_comments(drawing: &str) -> Vec<String> {
     shown(&program(drawing), true)
@@ -141,7 +141,7 @@ pub(crate) fn short(number: f64) -> String {
     if number == "-0" { "0".to_owned() } else { number.to_owned() }
 }
 
-/// How each move is counted: class, length, and feed unless it is the rapid one.
+/// Returns how each move is counted: class, length, and feed unless it is the rapid one.
 #[track_caller]
 pub(crate) fn counts(drawing: &str) -> Vec<String> {
     let count = |count: &Count| {

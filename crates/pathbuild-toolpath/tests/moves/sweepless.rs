@@ -1,4 +1,4 @@
-//! Tests of sweepless milling. ("Chains, sweepless milling (W given)")
+//! Tests sweepless milling. ("Chains, sweepless milling (W given)")
 
 use crate::support::{moves, path};
 
@@ -10,7 +10,7 @@ fn an_open_chain_is_run_to_and_fro_at_each_depth_but_the_last() {
     );
 }
 
-/// There is no sweep, and no retraction at the end.
+/// With a single pass, there is no sweep, and no retract at the end.
 #[test]
 fn one_run_goes_there_only() {
     assert_eq!(
@@ -30,7 +30,7 @@ fn a_closed_chain_is_run_round() {
     );
 }
 
-/// A segment with fewer edges repeats its deepest one.
+/// In every pass, a segment with fewer edges repeats its deepest one.
 #[test]
 fn every_run_goes_over_all_segments() {
     let lines = "mill 0,0 20,0\nmark 20,0 40,0\nend 40,0";

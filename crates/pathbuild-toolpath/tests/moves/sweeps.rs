@@ -1,4 +1,4 @@
-//! Tests of sweeps, travel and plunges. ("Elementary moves", "Sweeps")
+//! Tests sweeps, travel and plunges. ("Elementary moves", "Sweeps")
 
 use crate::support::{counts, moves, path};
 
@@ -11,7 +11,7 @@ fn a_sweep_is_at_its_own_height_or_the_paths() {
     assert_eq!(moves(&path(P, "sweep 0,0 40,0 \"S20\"\nend 40,0")), ["L 20", "S 40,0"]);
 }
 
-/// S0 is slightly above S, so that the first sweep always writes its Z.
+/// The start height S0 is slightly above S, so that the first sweep always states its Z.
 #[test]
 fn the_first_sweep_writes_its_height() {
     assert_eq!(moves(&path(P, "sweep 0,0 40,0\nend 40,0"))[0], "L 10");
@@ -33,11 +33,11 @@ fn nothing_is_swept_between_points_that_coincide() {
 
 #[test]
 fn above_the_surface_the_tool_comes_down_fast() {
-    // To the surface, but not below it: no drilling.
+    // The plunge goes to the surface, but not below it, so nothing is drilled.
     assert_eq!(moves(&path("T5 O3 I1 B4 W5", "mill 0,0 40,0\nend 40,0"))[..2], ["L 5", "M 40,0 5"]);
-    // Below the surface: rapidly to the surface, then drilling.
+    // The plunge goes below the surface: rapidly to the surface, then by drilling.
     assert_eq!(moves(&path(P, "mill 0,0 40,0\nend 40,0"))[..2], ["L 5", "D 0"]);
-    // Starting below the surface: only drilling.
+    // The plunge starts below the surface, so all of it is drilled.
     assert_eq!(moves(&path("T5 O3 I1 B3", "mill 0,0 40,0\nend 40,0"))[3], "D 3");
 }
 
@@ -61,7 +61,7 @@ fn heights_that_are_near_are_the_same() {
     assert_eq!(holes("0.9999"), ["L 5", "D 1", "D 1", "L 10", "S 40,0"]);
 }
 
-/// The distance in space, including the height difference before the sweep.
+/// A plunge is counted with the distance in space, including the height difference before the sweep.
 #[test]
 fn what_a_plunge_counts() {
     assert_eq!(
