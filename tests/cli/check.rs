@@ -1,5 +1,5 @@
-//! Tests the output of `check`: streams, formats, reports, baseline, summary, exit status. The findings themselves are tested elsewhere. (book:
-//! reference/commands)
+//! Tests the output of `check`: streams, formats, reports, baseline, summary, exit status. The findings themselves are tested elsewhere.
+//! (book: reference/commands)
 
 use crate::support::{Place, Run};
 use insta::assert_snapshot;

@@ -1,5 +1,5 @@
-//! Tests machine-readable output: every command prints a single document on stdout and nothing else. Also tests reports and file names. (book:
-//! reference/output)
+//! Tests machine-readable output: every command prints a single document on stdout and nothing else. Also tests reports and file names.
+//! (book: reference/output)
 
 use insta::assert_snapshot;
 use serde_json::Value;

@@ -1,5 +1,5 @@
-//! Tests projects with excessive embedding: they give the correct result or exceed a limit that is reported, in bounded time and memory. (book:
-//! language/embedding; book: reference/configuration, [limits])
+//! Tests projects with excessive embedding: they give the correct result or exceed a limit that is reported, in bounded time and memory.
+//! (book: language/embedding; book: reference/configuration, [limits])
 
 use std::fmt::Write;
 use std::time::{Duration, Instant};

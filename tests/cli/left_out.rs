@@ -1,5 +1,5 @@
-//! Tests entities on a path's layer that are left out (PB111): programs, sheets and the last line of `emit` mention them. (book:
-//! language/layers-and-names)
+//! Tests entities on a path's layer that are left out (PB111): programs, sheets and the last line of `emit` mention them.
+//! (book: language/layers-and-names)
 
 use crate::support::{Place, Run};
 

@@ -1,5 +1,5 @@
-//! Tests `machine import` with descriptions of machines in every known format, all written according to the formats' documentation. (book:
-//! howto/machine)
+//! Tests `machine import` with descriptions of machines in every known format, all written according to the formats' documentation.
+//! (book: howto/machine)
 
 use std::io::Write;
 

@@ -1,5 +1,5 @@
-//! Configured severities decide whether a program is written: a raised warning stops it, and a lowered error stops it with a reason. (book:
-//! reference/diagnostics)
+//! Configured severities decide whether a program is written: a raised warning stops it, and a lowered error stops it with a reason.
+//! (book: reference/diagnostics)
 
 use crate::support::{Place, Run};
 

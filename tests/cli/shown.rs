@@ -1,5 +1,5 @@
-//! Tests untrusted names, layers and texts in every command and format: no output controls a terminal or begins a command of a CI runner. (book:
-//! reference/commands)
+//! Tests untrusted names, layers and texts in every command and format: no output controls a terminal or begins a command of a CI runner.
+//! (book: reference/commands)
 #![cfg(unix)]
 
 use crate::support::{Place, Run};

@@ -1,5 +1,5 @@
-//! Tests messages that readers once misunderstood, in both languages: each test has a drawing or a command, and its output. (book:
-//! first/first-part)
+//! Tests messages that readers once misunderstood, in both languages: each test has a drawing or a command, and its output.
+//! (book: first/first-part)
 
 use crate::support::{Place, runs};
 use insta::assert_snapshot;

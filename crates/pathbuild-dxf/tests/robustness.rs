@@ -1,5 +1,5 @@
-//! Tests that arbitrary bytes cause no panic, no hang and no non-finite numbers, and respect the wanted layers and the limits. (book:
-//! reference/reliability)
+//! Tests that arbitrary bytes cause no panic, no hang and no non-finite numbers, and respect the wanted layers and the limits.
+//! (book: reference/reliability)
 
 use std::time::{Duration, Instant};
 

@@ -1,5 +1,5 @@
-//! Programs that a user drops on the page: their moves, the findings of [`verify`](crate::verify), and the assumptions made for them. (book:
-//! program/browser)
+//! Programs that a user drops on the page: their moves, the findings of [`verify`](crate::verify), and the assumptions made for them.
+//! (book: program/browser)
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang, shown};

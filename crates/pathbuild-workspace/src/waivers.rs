@@ -1,5 +1,5 @@
-//! Waivers: findings that are accepted for a stated reason, some of them only until a date. Baselines and `severity-in` contain them. (book:
-//! howto/ci)
+//! Waivers: findings that are accepted for a stated reason, some of them only until a date. Baselines and `severity-in` contain them.
+//! (book: howto/ci)
 
 use std::fmt;
 use std::str::FromStr;

@@ -1,6 +1,6 @@
-//! Generates the pictures of the books: `pictures/FOLDER-PATH.svg` is the output of `view PATH` in a copy of the folder's drawings, or of `view
-//! NAME.dxf` if a drawing has that name. `pictures/sheet-FOLDER-PATH.svg` is the output of `sheet PATH`, `pictures/stock-FOLDER-PATH.svg` that of
-//! `view PATH --stock`. `pictures/drawn-NAME.svg` is drawn by hand and shows what `view` cannot.
+//! Generates the pictures of the books: `pictures/FOLDER-PATH.svg` is the output of `view PATH` in a copy of the folder's drawings, or of
+//! `view NAME.dxf` if a drawing has that name. `pictures/sheet-FOLDER-PATH.svg` is the output of `sheet PATH`, `pictures/stock-FOLDER-PATH.svg`
+//! that of `view PATH --stock`. `pictures/drawn-NAME.svg` is drawn by hand and shows what `view` cannot.
 
 use std::collections::BTreeSet;
 use std::fs;

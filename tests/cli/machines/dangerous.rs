@@ -1,5 +1,5 @@
-//! Makes random dangerous changes to programs of the example library, and checks that `verify --against`, run as by users, reports each. (book:
-//! program/reading)
+//! Makes random dangerous changes to programs of the example library, and checks that `verify --against`, run as by users, reports each.
+//! (book: program/reading)
 //!
 //! Programs are emitted natively and through every built-in post. Bytes, words, lines and comments are changed at random. Whether a change is
 //! dangerous is decided by independent readers if available: LinuxCNC's interpreter for linuxcnc, mach3, fanuc, haas, estlcam and din, and the same

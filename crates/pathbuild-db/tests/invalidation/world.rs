@@ -199,8 +199,8 @@ impl World {
         self.targets.iter().find(|(known, _)| *known == label).expect("the target was asked for").1
     }
 
-    /// Queries everything again and asserts that exactly the queries in `ran` ran, and so none of `spared`. Both contain texts of the form `query
-    /// label`; a query that runs for the first time has the label `new`.
+    /// Queries everything again and asserts that exactly the queries in `ran` ran, and so none of `spared`. Both contain texts of the form
+    /// `query label`; a query that runs for the first time has the label `new`.
     #[track_caller]
     pub(crate) fn expect(&mut self, ran: &[&str], spared: &[&str]) {
         let found = self.run_again();

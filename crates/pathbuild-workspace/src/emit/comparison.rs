@@ -1,5 +1,5 @@
-//! Compares programs on disk with their drawings, and differing programs with those of `--compatible`. (book: language/probes, book:
-//! program/compatible)
+//! Compares programs on disk with their drawings, and differing programs with those of `--compatible`. (book: language/probes,
+//! book: program/compatible)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, join};

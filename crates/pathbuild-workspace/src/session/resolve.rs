@@ -1,6 +1,6 @@
 //! Resolves arguments to drawings and paths. Diagnostics get hints: paths that exist elsewhere in the library, misspelled names on the command
-//! line, missing directories, directories without drawings, drawings without paths. (book: reference/commands; book: language/embedding; book:
-//! reference/diagnostics)
+//! line, missing directories, directories without drawings, drawings without paths. (book: reference/commands; book: language/embedding;
+//! book: reference/diagnostics)
 
 use std::cell::LazyCell;
 use std::collections::BTreeMap;
