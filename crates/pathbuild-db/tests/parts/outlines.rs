@@ -53,6 +53,32 @@ fn a_hole_in_an_open_outline_is_no_part() {
     assert!(found.len() == 1 && found[0].starts_with("PB220"), "closed: {found:?}");
 }
 
+/// A bend line closes one half of a plate whose outline has a gap. That half is not the part.
+#[test]
+fn a_line_that_closes_half_of_an_open_outline_makes_no_part() {
+    let rest = "line 40,20 0,20\nline to 0,1\nline 0,1 40,1\nline 0,1 40,20";
+    let plate =
+        |right: &str| messages(&beside(&format!("{rest}\n{right}\ncircle 10,15 d 3\ncircle 30,5 d 3")));
+    let whole = plate("line 40,1 40,20");
+    assert!(whole.len() == 2 && whole.iter().all(|found| found.starts_with("PB220")), "{whole:?}");
+    // Of the open half, a tenth may be missing.
+    for (from, to) in [("9", "9.3"), ("9", "11"), ("5", "10.3"), ("1", "3"), ("18", "20"), ("18", "19.9")] {
+        let right = format!("line 40,1 40,{from}\nline 40,{to} 40,20");
+        let found = plate(&right.replace("line 40,1 40,1\n", "").replace("\nline 40,20 40,20", ""));
+        assert!(found.len() == 1 && found[0].contains("gap"), "{from} {to}: {found:?}");
+    }
+    let far = plate("line 40,1 40,5\nline 40,11 40,20");
+    assert!(!far.iter().any(|found| found.contains("gap")), "{far:?}");
+}
+
+/// Lines that end near each other inside a part divide it, and do not bound it.
+#[test]
+fn a_gap_in_a_line_across_the_part_does_not_matter() {
+    let whole = format!("line 0,1 40,1\n{SIDES}");
+    assert_eq!(codes(&beside(&format!("{whole}\nline 0,1 20,10\nline 22,11 40,20"))), [""; 0]);
+    assert_eq!(codes(&beside(&format!("{whole}\nline 0,1 38,19"))), [""; 0]);
+}
+
 /// A line from the open outline to the hole changes nothing.
 #[test]
 fn a_line_from_an_open_outline_to_its_hole_does_not_close_it() {

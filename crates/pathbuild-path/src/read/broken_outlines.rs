@@ -1,11 +1,12 @@
 //! Outlines of finished parts that are open or cross themselves or others. (book: language/part)
 
 use std::cell::Cell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Point};
-use rstar::Envelope as _;
+use rstar::primitives::GeomWithData;
+use rstar::{Envelope as _, RTree};
 
 use crate::element::shown;
 use crate::geometry::{Curve, Line, Xy};
@@ -13,7 +14,7 @@ use crate::keep_out::Outline;
 use crate::part::{BoxIndex, at_along, square};
 use crate::read::outline_graph::{Graph, NEARLY_JOINED};
 use crate::read::rings::{
-    Chain, Crossing, MOST_COMPARED, crossings, curves_of, nesting, rims_crossed, self_crossing,
+    Chain, Crossing, JOINED, MOST_COMPARED, crossings, curves_of, nesting, rims_crossed, self_crossing,
 };
 
 /// Largest gap that counts as a mistake, relative to the length of the outline. Arcs that represent threads, leaders and letters have
@@ -68,8 +69,18 @@ impl SortedOutlines {
         }
         let outermost = rings.iter().zip(&is_outermost).filter(|(_, is_outermost)| **is_outermost);
         let rims = Rims::new(outermost.map(|(ring, _)| curves_of(ring)).collect());
+        let open_chains = graph.open_chains();
+        let hanging = if open_chains.is_empty() { Vec::new() } else { graph.hanging_chains() };
+        let mut curves_of_halves = BTreeSet::new();
+        for half in open_halves(&rings, &hanging).into_iter().filter(|half| is_outermost[half.ring]) {
+            curves_of_halves.extend(half.curves);
+            if !std::mem::replace(&mut is_left_out[half.ring], true) {
+                broken.push(BrokenOutline::closed_half(&rings[half.ring]));
+            }
+            broken.push(half.outline);
+        }
         let mut others = Vec::new();
-        for chain in graph.open_chains() {
+        for chain in open_chains.into_iter().filter(|chain| !curves_of_halves.contains(&chain[0].0)) {
             match BrokenOutline::of_chain(&chain, &rims) {
                 Some(outline) => broken.push(outline),
                 None => others.push(chain),
@@ -105,6 +116,12 @@ impl BrokenOutline {
             overlong: None,
             border: Border::new(&curves_of(ring)),
         }
+    }
+
+    /// The half of an outline that a line closes, while the other half has a gap.
+    fn closed_half(ring: &Chain) -> Self {
+        let border = Border::new(&curves_of(ring));
+        Self { curve: ring[0].0, at: ring[0].1.start(), problem: None, overlong: None, border }
     }
 
     /// The outline that an open chain was probably meant to be: its ends cross or almost meet, or it is drawn round a ring.
@@ -171,6 +188,140 @@ fn overshooting(chains: &[Chain]) -> Vec<BrokenOutline> {
         })
     };
     graph.rings().into_iter().filter_map(outline).collect()
+}
+
+/// The open half of an outline with a gap whose other half is closed by a line across.
+struct OpenHalf {
+    /// Index of the ring that the closed half forms.
+    ring: usize,
+    outline: BrokenOutline,
+    /// The numbers of the curves on both sides of the gap.
+    curves: Vec<usize>,
+}
+
+/// A point with a number.
+type NumberedPoint = GeomWithData<[f64; 2], usize>;
+
+/// Returns the open halves of outlines. They hang on the ring on both sides of the gap, and leave it outwards: inside, there are only lines
+/// across the part.
+fn open_halves(rings: &[Chain], hanging: &[Chain]) -> Vec<OpenHalf> {
+    if hanging.is_empty() {
+        return Vec::new();
+    }
+    let nodes = (0..)
+        .zip(rings)
+        .flat_map(|(ring, chain)| chain.iter().map(move |(_, curve)| numbered(curve.start(), ring)));
+    let nodes = RTree::bulk_load(nodes.collect());
+    let sides = sides_outside(rings, hanging, &nodes);
+    let ends = (0..).zip(&sides).map(|(number, side)| numbered(side.end, number));
+    let ends = RTree::bulk_load(ends.collect());
+    let half = |(number, side): (usize, &OpenSide<'_>)| {
+        side.closed_at_ring(&nodes).or_else(|| side.closed_by_other(number, &sides, &ends))
+    };
+    sides.iter().enumerate().filter_map(half).collect()
+}
+
+fn numbered(at: Xy, number: usize) -> NumberedPoint {
+    GeomWithData::new([at.x, at.y], number)
+}
+
+/// The chains that leave a ring outwards. `nodes` are the ends of the rings' curves, with the number of their ring.
+fn sides_outside<'c>(
+    rings: &[Chain],
+    hanging: &'c [Chain],
+    nodes: &RTree<NumberedPoint>,
+) -> Vec<OpenSide<'c>> {
+    let mut borders: BTreeMap<usize, Border> = BTreeMap::new();
+    let ring_at =
+        |at: Xy| nodes.locate_within_distance([at.x, at.y], JOINED * JOINED).map(|node| node.data).min();
+    let mut sides: Vec<OpenSide<'c>> =
+        hanging.iter().filter_map(|chain| OpenSide::new(chain, ring_at)).collect();
+    sides.retain(|side| {
+        let border = borders.entry(side.ring).or_insert_with(|| Border::new(&curves_of(&rings[side.ring])));
+        !border.0.contains(side.middle())
+    });
+    sides
+}
+
+/// Upper bound on the ends that are compared with an end.
+const MOST_NEIGHBOURS: usize = 32;
+
+/// A chain that leaves a ring.
+struct OpenSide<'c> {
+    chain: &'c Chain,
+    ring: usize,
+    begin: Xy,
+    end: Xy,
+    length: f64,
+}
+
+impl<'c> OpenSide<'c> {
+    /// `None` if the chain begins at no ring that `ring_at` finds.
+    fn new(chain: &'c Chain, ring_at: impl Fn(Xy) -> Option<usize>) -> Option<Self> {
+        let (begin, end) = (chain.first()?.1.start(), chain.last()?.1.end());
+        Some(Self { chain, ring: ring_at(begin)?, begin, end, length: length(&curves_of(chain)) })
+    }
+
+    fn middle(&self) -> Xy {
+        let (_, curve) = &self.chain[self.chain.len() / 2];
+        at_along(curve, curve.length() / 2.0)
+    }
+
+    /// Whether a place on the ring is another one than that where this chain begins.
+    fn is_elsewhere(&self, at: Xy) -> bool {
+        (at - self.begin).norm() > JOINED
+    }
+
+    /// The half that this chain forms if its end is near a point of the ring.
+    fn closed_at_ring(&self, nodes: &RTree<NumberedPoint>) -> Option<OpenHalf> {
+        let near = nodes.nearest_neighbor_iter([self.end.x, self.end.y]).take(MOST_NEIGHBOURS);
+        let mut points = near.filter(|node| node.data == self.ring).map(|node| Xy::from(*node.geom()));
+        self.closed(points.find(|at| self.is_elsewhere(*at))?, None)
+    }
+
+    /// The half that this chain, with number `own`, forms with a later one whose end is near.
+    fn closed_by_other(
+        &self,
+        own: usize,
+        sides: &[OpenSide<'_>],
+        ends: &RTree<NumberedPoint>,
+    ) -> Option<OpenHalf> {
+        let near = ends.nearest_neighbor_iter([self.end.x, self.end.y]).take(MOST_NEIGHBOURS);
+        let mut others = near.map(|end| (end.data, &sides[end.data]));
+        let is_other = |(number, other): &(usize, &OpenSide<'_>)| {
+            *number != own && other.ring == self.ring && self.is_elsewhere(other.begin)
+        };
+        let (number, other) = others.find(is_other)?;
+        if number > own { self.closed(other.end, Some(other)) } else { None }
+    }
+
+    /// The outline that this chain forms with the ring, if a small gap separates its end from a point of the ring, or from the end of another
+    /// chain.
+    fn closed(&self, to: Xy, other: Option<&OpenSide<'_>>) -> Option<OpenHalf> {
+        let gap = (to - self.end).norm();
+        let whole = self.length + other.map_or(0.0, |other| other.length);
+        if gap > LARGEST_GAP * whole {
+            return None;
+        }
+        let line = |start, end| Curve::Line(Line { start, end });
+        let mut border = curves_of(self.chain);
+        border.push(line(self.end, to));
+        let back = other.map(|other| curves_of(other.chain)).unwrap_or_default();
+        border.extend(back.into_iter().rev().map(Curve::reversed));
+        border.push(line(other.map_or(to, |other| other.begin), self.begin));
+        border.retain(|curve| curve.length() > 0.0);
+        // Two ends that almost meet are reported in pairs.
+        let is_reported = gap <= JOINED || other.is_some() && gap <= NEARLY_JOINED;
+        let outline = BrokenOutline {
+            curve: self.chain.last()?.0,
+            at: self.end,
+            problem: (!is_reported).then(|| gap_problem(self.end, to)),
+            overlong: None,
+            border: Border::new(&border),
+        };
+        let both = self.chain.iter().chain(other.into_iter().flat_map(|other| other.chain));
+        Some(OpenHalf { ring: self.ring, outline, curves: both.map(|(number, _)| *number).collect() })
+    }
 }
 
 /// Returns PB219 for two ends that should meet.

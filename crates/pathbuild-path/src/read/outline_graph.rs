@@ -131,29 +131,26 @@ impl Graph {
     /// The longest chain of each connected group of curves that belong to no ring. Ends that almost meet count as joined, except for the
     /// two ends of a chain.
     pub(super) fn open_chains(&self) -> Vec<Chain> {
-        let dividing: BTreeSet<usize> = self.dividing().into_iter().collect();
-        let open = || self.numbers.iter().copied().filter(|number| !dividing.contains(number));
-        let mut groups: Vec<usize> = (0..self.tails.len()).collect();
-        for number in open() {
-            unite(&mut groups, self.tails[2 * number], self.tails[2 * number + 1]);
-        }
-        let mut joints: Vec<usize> = (0..self.tails.len()).collect();
-        for (one, other) in self.near_misses() {
-            let is_open = |end: usize| !dividing.contains(&(end / 2));
-            if is_open(one) && is_open(other) && unite(&mut groups, self.tails[one], self.tails[other]) {
-                unite(&mut joints, self.tails[one], self.tails[other]);
-            }
-        }
-        let nodes: Vec<usize> = self.tails.iter().map(|tail| root(&mut joints, *tail)).collect();
-        let mut outgoing: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for half_edge in open().flat_map(|number| [2 * number, 2 * number + 1]) {
-            outgoing.entry(nodes[half_edge]).or_default().push(half_edge);
-        }
-        let forest = Forest { graph: self, nodes, outgoing };
+        let dividing = self.dividing().into_iter().collect();
+        let mut forest = Forest::new(self, &dividing);
         let mut known = BTreeSet::new();
-        let roots = open().map(|number| root(&mut groups, self.tails[2 * number]));
-        let roots: Vec<usize> = roots.filter(|root| known.insert(*root)).collect();
-        roots.into_iter().map(|root| forest.longest_chain(root)).collect()
+        let open = self.numbers.iter().filter(|number| !dividing.contains(number));
+        let roots: Vec<usize> = open.map(|number| root(&mut forest.trees, self.tails[2 * number])).collect();
+        roots.into_iter().filter(|root| known.insert(*root)).map(|root| forest.longest_chain(root)).collect()
+    }
+
+    /// The longest chain from a ring in each connected group of curves that belong to no ring. Ends that almost meet count as joined.
+    pub(super) fn hanging_chains(&self) -> Vec<Chain> {
+        let dividing: BTreeSet<usize> = self.dividing().into_iter().collect();
+        let mut forest = Forest::new(self, &dividing);
+        let ends = dividing.iter().flat_map(|number| [2 * number, 2 * number + 1]);
+        let on_rings: BTreeSet<usize> = ends.map(|half_edge| self.tails[half_edge]).collect();
+        let mut known = BTreeSet::new();
+        let is_open = |node: &usize| forest.outgoing.contains_key(node);
+        let open: Vec<usize> = on_rings.into_iter().filter(is_open).collect();
+        let firsts: Vec<usize> =
+            open.into_iter().filter(|node| known.insert(root(&mut forest.trees, *node))).collect();
+        firsts.into_iter().map(|node| forest.chain(forest.way_to_farthest(node))).collect()
     }
 
     fn directed(&self, half_edge: usize) -> Curve {
@@ -214,13 +211,40 @@ struct Forest<'g> {
     nodes: Vec<usize>,
     /// The half-edges that begin at each node.
     outgoing: BTreeMap<usize, Vec<usize>>,
+    /// For each node, one that is nearer to the root of its tree, or the root itself.
+    trees: Vec<usize>,
 }
 
-impl Forest<'_> {
+impl<'g> Forest<'g> {
+    /// The curves that are not in `dividing`. Ends that almost meet become one node, except for the two ends of a tree.
+    fn new(graph: &'g Graph, dividing: &BTreeSet<usize>) -> Self {
+        let open = || graph.numbers.iter().copied().filter(|number| !dividing.contains(number));
+        let mut trees: Vec<usize> = (0..graph.tails.len()).collect();
+        for number in open() {
+            unite(&mut trees, graph.tails[2 * number], graph.tails[2 * number + 1]);
+        }
+        let mut joints: Vec<usize> = (0..graph.tails.len()).collect();
+        for (one, other) in graph.near_misses() {
+            let is_open = |end: usize| !dividing.contains(&(end / 2));
+            if is_open(one) && is_open(other) && unite(&mut trees, graph.tails[one], graph.tails[other]) {
+                unite(&mut joints, graph.tails[one], graph.tails[other]);
+            }
+        }
+        let nodes: Vec<usize> = graph.tails.iter().map(|tail| root(&mut joints, *tail)).collect();
+        let mut outgoing: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for half_edge in open().flat_map(|number| [2 * number, 2 * number + 1]) {
+            outgoing.entry(nodes[half_edge]).or_default().push(half_edge);
+        }
+        Self { graph, nodes, outgoing, trees }
+    }
+
     /// The longest chain in the tree that contains a node.
     fn longest_chain(&self, node: usize) -> Chain {
         let one_end = self.way_to_farthest(self.nodes[node]).last().map_or(node, |last| last ^ 1);
-        let way = self.way_to_farthest(self.nodes[one_end]);
+        self.chain(self.way_to_farthest(self.nodes[one_end]))
+    }
+
+    fn chain(&self, way: Vec<usize>) -> Chain {
         way.into_iter().map(|half_edge| (half_edge / 2, self.graph.directed(half_edge))).collect()
     }
 
