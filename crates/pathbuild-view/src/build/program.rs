@@ -210,6 +210,9 @@ pub struct GcodeSource<'a> {
 /// Decodes a text and converts its line ends to LF, so that line numbers agree with those of the reader.
 fn plain_lines(text: &[u8]) -> String {
     let text = String::from_utf8_lossy(text);
+    if !text.contains('\r') {
+        return text.into_owned();
+    }
     if text.contains('\n') { text.replace("\r\n", "\n").replace('\r', " ") } else { text.replace('\r', "\n") }
 }
 

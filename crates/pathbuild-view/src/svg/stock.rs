@@ -49,6 +49,8 @@ const MOST_AT_ONCE: usize = 512;
 pub(super) struct MilledStock<'s> {
     pub(super) scene: &'s Scene,
     blanks: Vec<Blank>,
+    /// The areas that strokes paint.
+    areas: Vec<SweptArea>,
     strokes: Vec<Stroke>,
     /// Pieces of rapid moves that hit material.
     hits: Vec<SweptArea>,
@@ -70,24 +72,27 @@ struct SweptArea {
 
 /// A stroke to paint. Higher strokes are painted first, and an edge before the cuts at the same height.
 struct Stroke {
-    swept: SweptArea,
+    /// Index into [`MilledStock::areas`]: an edge and the cut inside it have the same area, which takes more memory than the stroke.
+    area: u32,
     z: f64,
     kind: StrokeKind,
     /// Colour that replaces the colour of the depth.
     mark: Option<&'static str>,
 }
 
-impl Stroke {
-    /// Returns a key that is equal for strokes that paint the same area: the move in micrometres, without heights, and the diameter.
+impl SweptArea {
+    /// Returns a key that is equal for areas that look the same: the move in micrometres, without heights, and the diameter.
     fn key(&self) -> [i64; 7] {
-        let Move { from, to, shape, .. } = &self.swept.way;
+        let Move { from, to, shape, .. } = &self.way;
         let centre = if let MoveShape::Arc(arc) = shape { arc.centre } else { [0.0; 2] };
         let ([a, b, _], [c, d, _]) = (from.at, to.at);
         #[expect(clippy::cast_possible_truncation, reason = "saturates")]
         let micrometres = |value: f64| (value * 1000.0).round() as i64;
-        [a, b, c, d, centre[0], centre[1], self.swept.diameter].map(micrometres)
+        [a, b, c, d, centre[0], centre[1], self.diameter].map(micrometres)
     }
+}
 
+impl Stroke {
     /// Returns the height that remains after the cut. All cuts through the plate have the same height.
     fn height(&self) -> f64 {
         if self.kind >= StrokeKind::ThroughEdge { f64::NEG_INFINITY } else { self.z }
@@ -123,43 +128,42 @@ struct CuttingConditions {
 
 impl<'s> MilledStock<'s> {
     pub(super) fn of(scene: &'s Scene) -> Self {
-        let mut cuts = Vec::new();
         let mut blanks: Vec<Blank> = Vec::new();
-        for path in &scene.paths {
-            for movement in path.moves.iter().filter(|movement| movement.kind.cuts()) {
-                let Some(setting) = setting(scene, path, movement) else { continue };
-                let Some([low, high]) = movement.extent().filter(|_| is_known(&movement.way)) else {
-                    continue;
-                };
-                let zero = path.zero;
-                let extent = [
-                    [0, 1].map(|axis| low[axis] + zero[axis] - setting.diameter),
-                    [0, 1].map(|axis| high[axis] + zero[axis] + setting.diameter),
-                ];
-                match blanks.iter_mut().find(|(_, top)| *top == setting.top) {
-                    Some((blank, _)) => {
-                        let mut corners = Some(*blank);
-                        widen(&mut corners, extent);
-                        *blank = corners.unwrap_or(*blank);
-                    }
-                    None => blanks.push((extent, setting.top)),
+        let (mut low, mut count) = (f64::INFINITY, 0);
+        for (path, movement, setting) in cuts(scene) {
+            let Some([from, to]) = movement.extent() else { continue };
+            let zero = path.zero;
+            let extent = [
+                [0, 1].map(|axis| from[axis] + zero[axis] - setting.diameter),
+                [0, 1].map(|axis| to[axis] + zero[axis] + setting.diameter),
+            ];
+            match blanks.iter_mut().find(|(_, top)| *top == setting.top) {
+                Some((blank, _)) => {
+                    let mut corners = Some(*blank);
+                    widen(&mut corners, extent);
+                    *blank = corners.unwrap_or(*blank);
                 }
-                cuts.push((moved(&movement.way, zero), setting));
+                None => blanks.push((extent, setting.top)),
             }
+            low = low.min(movement.way.from.z()).min(movement.way.to.z());
+            count += 1;
         }
-        let lowest = |(way, _): &(Move, CuttingConditions)| way.from.z().min(way.to.z());
-        let low = cuts.iter().map(lowest).reduce(f64::min).unwrap_or_default();
         blanks.sort_by(|one, other| one.1.total_cmp(&other.1));
+        let low = if count > 0 { low } else { 0.0 };
         let top = blanks.last().map_or(low, |(_, top)| *top);
         let step = ((top - low) / STEPS).max(1e-3);
-        let mut strokes: Vec<Stroke> =
-            cuts.iter().flat_map(|(way, setting)| strokes(way, setting, step)).collect();
+        let mut painter =
+            StrokeBuilder { areas: Vec::with_capacity(count), strokes: Vec::with_capacity(2 * count) };
+        for (path, movement, setting) in cuts(scene) {
+            painter.cut(&moved(&movement.way, path.zero), &setting, step);
+        }
+        let StrokeBuilder { areas, mut strokes } = painter;
         sort(&mut strokes);
         let blank = if let [blank] = blanks[..] { Some(blank) } else { None };
         let hits = scene.paths.iter().flat_map(|path| hits(scene, path, blank)).collect();
         let unreachable = Code::UnreachableCorner.to_string();
         let has_corners = scene.findings.iter().any(|finding| finding.code == unreachable);
-        Self { scene, blanks, strokes, hits, range: [top, low], has_corners }
+        Self { scene, blanks, areas, strokes, hits, range: [top, low], has_corners }
     }
 
     /// Combines two stocks, and marks the cuts of this one that are deeper than those of the other. Returns `None` if there are none,
@@ -167,10 +171,13 @@ impl<'s> MilledStock<'s> {
     fn compared(mut self, other: Self, mark: &'static str) -> Option<Self> {
         let mut heights: BTreeMap<_, f64> = BTreeMap::new();
         for stroke in &other.strokes {
-            let height = heights.entry(stroke.key()).or_insert(f64::INFINITY);
+            let height = heights.entry(other.area(stroke).key()).or_insert(f64::INFINITY);
             *height = height.min(stroke.height());
         }
-        let is_deeper = |stroke: &Stroke| heights.get(&stroke.key()).is_none_or(|z| stroke.height() < *z);
+        let areas = &self.areas;
+        let is_deeper = |stroke: &Stroke| {
+            heights.get(&areas[stroke.area as usize].key()).is_none_or(|z| stroke.height() < *z)
+        };
         self.strokes.retain(|stroke| matches!(stroke.kind, StrokeKind::Cut | StrokeKind::Through));
         self.strokes.retain(is_deeper);
         if self.strokes.is_empty() {
@@ -179,7 +186,10 @@ impl<'s> MilledStock<'s> {
         for stroke in &mut self.strokes {
             stroke.mark = Some(mark);
         }
-        self.strokes.extend(other.strokes);
+        let first = number(self.areas.len());
+        self.areas.extend(other.areas);
+        let others = other.strokes.into_iter();
+        self.strokes.extend(others.map(|stroke| Stroke { area: first + stroke.area, ..stroke }));
         sort(&mut self.strokes);
         self.blanks.extend(other.blanks);
         self.range = [self.range[0].max(other.range[0]), self.range[1].min(other.range[1])];
@@ -196,7 +206,8 @@ impl<'s> MilledStock<'s> {
                 side.is_none_or(|(from, to)| from - radius <= high && to + radius >= low)
             })
         };
-        self.strokes.retain(|stroke| is_near(&stroke.swept));
+        let areas = &self.areas;
+        self.strokes.retain(|stroke| is_near(&areas[stroke.area as usize]));
         self.hits.retain(is_near);
         self
     }
@@ -267,19 +278,20 @@ impl<'s> MilledStock<'s> {
         let mut all = String::new();
         let mut count = 0;
         for (index, next) in strokes.iter().enumerate() {
-            all.push_str(&data(&next.swept.way, place));
+            let SweptArea { way, diameter } = self.area(next);
+            all.push_str(&data(way, place));
             count += 1;
             let is_alike = |other: &Stroke| {
                 other.kind == next.kind
                     && other.z == next.z
                     && other.mark == next.mark
-                    && other.swept.diameter == next.swept.diameter
+                    && self.area(other).diameter == *diameter
             };
             if count < MOST_AT_ONCE && strokes.get(index + 1).is_some_and(is_alike) {
                 continue;
             }
             count = 0;
-            let width = next.swept.diameter * place.scale();
+            let width = diameter * place.scale();
             let data = std::mem::take(&mut all);
             match next.kind {
                 StrokeKind::Edge | StrokeKind::ThroughEdge => {
@@ -292,6 +304,10 @@ impl<'s> MilledStock<'s> {
                 }
             }
         }
+    }
+
+    fn area(&self, stroke: &Stroke) -> &SweptArea {
+        &self.areas[stroke.area as usize]
     }
 
     fn color(&self, z: f64) -> String {
@@ -429,6 +445,15 @@ fn is_known(way: &Move) -> bool {
     way.from.known.and(way.to.known) == Axes::ALL && way.named.is_none()
 }
 
+/// The cuts of a scene whose place and material are known.
+fn cuts(scene: &Scene) -> impl Iterator<Item = (&ScenePath, &SceneMove, CuttingConditions)> {
+    let all = scene.paths.iter().flat_map(|path| path.moves.iter().map(move |movement| (path, movement)));
+    let known = all.filter(|(_, movement)| {
+        movement.kind.cuts() && is_known(&movement.way) && movement.extent().is_some()
+    });
+    known.filter_map(move |(path, movement)| Some((path, movement, setting(scene, path, movement)?)))
+}
+
 fn setting(scene: &Scene, path: &ScenePath, movement: &SceneMove) -> Option<CuttingConditions> {
     let line = movement.line.unwrap_or(0);
     let later = path.tools.partition_point(|tool| tool.line <= line);
@@ -455,46 +480,57 @@ fn moved(way: &Move, zero: Point) -> Move {
     moved
 }
 
-/// Returns the strokes that a cut paints. A slope is divided into steps, each of which has the height of its upper end.
-fn strokes(way: &Move, setting: &CuttingConditions, step: f64) -> Vec<Stroke> {
-    let CuttingConditions { diameter, top, through } = *setting;
-    let [from, to] = [way.from.z(), way.to.z()];
-    let mut strokes = Vec::new();
-    let mut add = |way: Move, z: f64, has_edge: bool| {
-        let (z, edge, kind) = if z <= through {
-            (through, StrokeKind::ThroughEdge, StrokeKind::Through)
+/// Collects what cuts paint.
+struct StrokeBuilder {
+    areas: Vec<SweptArea>,
+    strokes: Vec<Stroke>,
+}
+
+impl StrokeBuilder {
+    /// Adds the strokes that a cut paints. A slope is divided into steps, each of which has the height of its upper end.
+    fn cut(&mut self, way: &Move, setting: &CuttingConditions, step: f64) {
+        let [from, to] = [way.from.z(), way.to.z()];
+        let low = from.min(to);
+        if low >= setting.top {
+            return;
+        }
+        let bottom = if from < to { way.from } else { way.to };
+        if way.is_vertical() {
+            self.add(Move { from: bottom, to: bottom, shape: MoveShape::Line, ..*way }, low, setting, true);
+        } else if (from - to).abs() < step / 4.0 {
+            self.add(*way, from.max(to), setting, true);
+        } else {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "at most the number of steps"
+            )]
+            let count = ((from - to).abs() / step).ceil().clamp(1.0, STEPS) as u32;
+            for piece in way.split(count) {
+                let z = piece.from.z().max(piece.to.z());
+                if z < setting.top {
+                    self.add(piece, z, setting, false);
+                }
+            }
+            self.add(Move { from: bottom, to: bottom, shape: MoveShape::Line, ..*way }, low, setting, false);
+        }
+    }
+
+    fn add(&mut self, way: Move, z: f64, setting: &CuttingConditions, has_edge: bool) {
+        let (z, edge, kind) = if z <= setting.through {
+            (setting.through, StrokeKind::ThroughEdge, StrokeKind::Through)
         } else {
             (rounded(z), StrokeKind::Edge, StrokeKind::Cut)
         };
-        let swept = SweptArea { way, diameter };
-        strokes.extend(has_edge.then_some(Stroke { swept, z, kind: edge, mark: None }));
-        strokes.push(Stroke { swept, z, kind, mark: None });
-    };
-    let low = from.min(to);
-    if low >= top {
-        return Vec::new();
+        let area = number(self.areas.len());
+        self.areas.push(SweptArea { way, diameter: setting.diameter });
+        self.strokes.extend(has_edge.then_some(Stroke { area, z, kind: edge, mark: None }));
+        self.strokes.push(Stroke { area, z, kind, mark: None });
     }
-    let bottom = if from < to { way.from } else { way.to };
-    if way.is_vertical() {
-        add(Move { from: bottom, to: bottom, shape: MoveShape::Line, ..*way }, low, true);
-    } else if (from - to).abs() < step / 4.0 {
-        add(*way, from.max(to), true);
-    } else {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "at most the number of steps"
-        )]
-        let count = ((from - to).abs() / step).ceil().clamp(1.0, STEPS) as u32;
-        for piece in way.split(count) {
-            let z = piece.from.z().max(piece.to.z());
-            if z < top {
-                add(piece, z, false);
-            }
-        }
-        add(Move { from: bottom, to: bottom, shape: MoveShape::Line, ..*way }, low, false);
-    }
-    strokes
+}
+
+fn number(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(u32::MAX)
 }
 
 /// Rounds a height to a micrometre, so that cuts at the same height can be drawn as one path.
