@@ -222,7 +222,7 @@ pub enum EntryKind {
 }
 
 impl Names {
-    /// Returns an empty list.
+    /// Creates an empty list.
     pub const fn none() -> Self {
         Self { text: String::new(), ends: Vec::new() }
     }
@@ -234,7 +234,7 @@ impl Names {
         self.ends.extend(names.ends.iter().map(|end| begin + end));
     }
 
-    /// Appends a name.
+    /// Appends a name, even if the list contains it already.
     pub fn push(&mut self, name: &str) {
         self.text.push_str(name);
         self.ends.push(self.text.len());

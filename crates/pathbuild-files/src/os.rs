@@ -21,7 +21,7 @@ use crate::{Entry, EntryKind, FileKind, FileLink, Listing, ReadError, System, Wr
 pub struct OsSystem;
 
 impl OsSystem {
-    /// Returns a shared instance.
+    /// Returns the file system as a trait object, for callers that accept any [`System`].
     pub fn shared() -> Arc<dyn System> {
         Arc::new(Self)
     }

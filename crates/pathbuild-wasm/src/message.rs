@@ -69,9 +69,9 @@ pub struct Options {
     pub feed: Option<String>,
     /// S in mm for paths that do not set it.
     pub sweep_height: Option<String>,
-    /// Rapid feed in mm/min.
+    /// Speed of rapid moves in mm/min.
     pub rapid: Option<String>,
-    /// Probing feed in mm/min.
+    /// Feed of probing moves in mm/min (Z), for probes that do not set it.
     pub probe_feed: Option<String>,
     /// The post; `None` for the one in the configuration.
     pub post: Option<String>,
@@ -91,7 +91,7 @@ pub enum Language {
 /// A path or drawing that took too long or triggered a bug, so that the instance of the compiler ended.
 #[derive(Clone, Debug, Deserialize)]
 pub struct LostPath {
-    /// The path or drawing.
+    /// The path or drawing that was being processed.
     #[serde(flatten)]
     pub place: Place,
     /// The reason, with its fields at the same level in JSON.

@@ -29,7 +29,7 @@ pub struct DroppedProgram {
 /// Values that a user assumes for a program, as text; missing ones are taken from the program.
 #[derive(Clone, Debug, Default, Deserialize)]
 pub struct Assumptions {
-    /// Name of the dialect.
+    /// Name of the dialect; `None` guesses it.
     pub dialect: Option<String>,
     /// Diameter of the cutter in mm.
     pub cutter: Option<String>,

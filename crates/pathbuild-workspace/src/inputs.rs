@@ -24,7 +24,7 @@ impl Inputs {
     }
 }
 
-/// A single input.
+/// A drawing, path or directory that is given to a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input<'a> {
     /// A drawing or directory: the text ends in .dxf, contains a path separator, or is `.` or `..`.
@@ -34,7 +34,7 @@ pub enum Input<'a> {
 }
 
 impl<'a> Input<'a> {
-    /// Classifies an input.
+    /// Classifies the text of an input.
     pub fn new(text: &'a str) -> Self {
         let is_place = is_drawing(Utf8Path::new(text))
             || text.contains(std::path::is_separator)

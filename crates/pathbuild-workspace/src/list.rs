@@ -28,7 +28,7 @@ pub struct Request<'a> {
     pub post: Option<&'a str>,
 }
 
-/// The listed paths.
+/// The listed paths, with the number of searched drawings and their diagnostics.
 #[derive(Clone, Debug, Default)]
 pub struct PathListing {
     /// The paths, sorted by drawing, then in file order.
@@ -119,7 +119,7 @@ impl ListArguments {
     }
 }
 
-/// Lists a single path.
+/// Lists a single path of a drawing.
 pub fn of_path(
     session: &mut Session<'_>,
     file: SourceFile,
@@ -304,9 +304,9 @@ impl Figures {
 pub struct Row {
     /// The path with its figures.
     pub path: ListedPath,
-    /// Number of errors.
+    /// Number of errors of the path and of the paths that it embeds.
     pub errors: usize,
-    /// Number of warnings.
+    /// Number of warnings of the path and of the paths that it embeds.
     pub warnings: usize,
 }
 
@@ -385,7 +385,7 @@ pub struct Stats {
 pub struct Total {
     /// Number of paths.
     pub paths: usize,
-    /// Length in mm.
+    /// Total length of their programs in mm.
     pub length: f64,
     /// Machining time in minutes, of the paths for which it is known.
     pub minutes: f64,

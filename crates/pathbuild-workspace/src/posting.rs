@@ -36,7 +36,7 @@ pub struct PostProcessor {
     file: Option<Utf8PathBuf>,
     /// Files that the definition inserts into programs, relative to its directory.
     insertions: Vec<Utf8PathBuf>,
-    /// The configured tools.
+    /// The configured tools, in the order of the configuration.
     pub tools: ToolTable,
     /// Feed in mm/min for cuts without a feed of their own.
     feed: Option<f64>,

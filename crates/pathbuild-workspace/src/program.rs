@@ -32,7 +32,7 @@ pub struct ReadingOptions {
     pub unit_codes: UnitCodes,
     /// Whether I and J are the absolute position of an arc's centre.
     pub absolute_arc_centres: bool,
-    /// Whether F is ignored.
+    /// Whether F words are ignored.
     pub ignore_feed: bool,
 }
 
@@ -62,7 +62,7 @@ impl ReadingOptions {
 /// A program that was read from a file.
 #[derive(Debug)]
 pub struct Program {
-    /// File name as given.
+    /// Name of the file, as given.
     pub file: Utf8PathBuf,
     /// Contents of the file.
     pub text: Vec<u8>,

@@ -42,7 +42,7 @@ impl fmt::Display for Date {
 pub struct RunDate {
     /// The day on which waivers must still hold.
     pub date: Date,
-    /// Source of the date.
+    /// Source of the day.
     pub source: DateSource,
 }
 
@@ -51,9 +51,9 @@ pub struct RunDate {
 pub enum DateSource {
     /// The option `--date`, or a caller of the library.
     Given,
-    /// The variable `SOURCE_DATE_EPOCH`.
+    /// The environment variable `SOURCE_DATE_EPOCH`.
     Epoch,
-    /// The system's clock.
+    /// The clock of the system, in UTC.
     Clock,
 }
 
@@ -146,7 +146,7 @@ impl Waiver {
 /// A finding that is not reported because it is accepted.
 #[derive(Clone, Debug)]
 pub struct WaivedFinding {
-    /// The finding.
+    /// The finding that is accepted.
     pub diagnostic: Diagnostic,
     /// The entry that accepts it.
     pub waiver: Waiver,

@@ -17,7 +17,7 @@ use crate::config::{Origin, Settings};
 pub struct Workspace {
     /// Settings from the configuration and the command line.
     pub settings: Settings,
-    /// The file system.
+    /// The file system that all commands use.
     pub system: Arc<dyn System>,
     /// Language of all output, if the user has configured one for all trees.
     pub own_lang: Option<Lang>,

@@ -60,7 +60,7 @@ impl FromIterator<(&'static str, Vec<String>)> for GivenOptions {
 /// Values from the command line. Options that set keys are stored as text, so that they are validated together with the configuration.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
-    /// Options that set keys.
+    /// Options that set keys of the configuration.
     pub settings: GivenOptions,
     /// Language of messages (`--lang`).
     pub lang: Option<Lang>,

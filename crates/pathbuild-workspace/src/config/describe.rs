@@ -47,7 +47,7 @@ pub struct KeyValue {
     pub origin: String,
 }
 
-/// Lists all settings.
+/// Lists all keys of the configuration with their values.
 pub fn settings(settings: &Settings) -> Vec<KeyValue> {
     let setting = |section| {
         move |ShownSetting { name, value, origin }: ShownSetting| {

@@ -68,7 +68,7 @@ pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {
     schema: || json!({ "oneOf": [{ "const": 0 }, { "type": "number", "minimum": SHORTEST_PIECE }] }),
 };
 
-/// Smallest [`PIECE`] in mm.
+/// Smallest value of a [`PIECE`] other than 0, in mm.
 const SHORTEST_PIECE: f64 = 0.1;
 
 /// Tolerance of the part check in mm. With a smaller one than the bound, the rounding of coordinates would be reported.
@@ -81,7 +81,7 @@ pub(in crate::config) const PART_TOLERANCE: ValueType<f64> = ValueType {
     schema: || json!({ "type": "number", "minimum": FINEST_TOLERANCE }),
 };
 
-/// Smallest [`PART_TOLERANCE`] in mm.
+/// Smallest value of [`PART_TOLERANCE`], in mm.
 const FINEST_TOLERANCE: f64 = 0.005;
 
 /// A positive whole number.
@@ -123,7 +123,7 @@ pub(in crate::config) const AXES: ValueType<Option<[f64; 3]>> = ValueType {
     schema: || json!({ "type": "array", "items": { "type": "number", "exclusiveMinimum": 0 }, "minItems": 3, "maxItems": 3 }),
 };
 
-/// A boolean.
+/// True or false.
 pub(in crate::config) const SWITCH: ValueType<bool> =
     ValueType { read: switch, show: |on| Some(on.to_string()), schema: || json!({ "type": "boolean" }) };
 

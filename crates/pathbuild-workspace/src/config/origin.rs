@@ -46,7 +46,7 @@ impl Origin {
 /// A value with its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourcedValue<T> {
-    /// The value.
+    /// The value, whichever source sets it.
     pub value: T,
     /// The source that set the value.
     pub origin: Origin,

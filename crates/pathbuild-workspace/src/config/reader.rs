@@ -152,7 +152,7 @@ impl<'a> TomlReader<'a> {
         beyond == 0
     }
 
-    /// Adds a diagnostic.
+    /// Adds a diagnostic, which [`finish`](Self::finish) returns.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }
@@ -183,7 +183,7 @@ impl<'a> TomlReader<'a> {
         self.require(value.get_ref().as_str(), &messages::TEXT, value)
     }
 
-    /// Returns all diagnostics.
+    /// Ends reading and returns all diagnostics.
     pub(super) fn finish(self) -> Vec<Diagnostic> {
         self.diagnostics
     }

@@ -139,11 +139,11 @@ choice! {
 choice! {
     /// How a diagnostic is reported.
     Level {
-        /// Reported as an error.
+        /// The diagnostic is reported as an error.
         Error = "error",
-        /// Reported as a warning.
+        /// The diagnostic is reported as a warning.
         Warning = "warning",
-        /// Not reported.
+        /// The diagnostic is not reported.
         Ignore = "ignore",
     }
 }
@@ -162,7 +162,7 @@ impl Level {
 /// A further name for a line type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LineTypeAlias {
-    /// Name in drawings.
+    /// Name of the line type in drawings.
     pub name: Box<str>,
     /// The line type that it stands for.
     pub line_type: LineType,
@@ -203,7 +203,7 @@ impl Pattern {
         set.map(|set| Self { text: text.into(), set }).map_err(|error| Value::foreign(error.kind()))
     }
 
-    /// Whether a name matches.
+    /// Whether the glob matches a name.
     pub fn matches(&self, name: &str) -> bool {
         self.set.is_match(name)
     }
@@ -244,7 +244,7 @@ pub(crate) fn level_in(levels: &[(Code, Level)], code: Code) -> Option<Level> {
 /// A tool, as post-processors know it. (book: program/posts)
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
-    /// Name of its table.
+    /// Name of the tool's table.
     pub name: Box<str>,
     /// Diameter in mm; the tool suits paths with this O.
     pub diameter: f64,
@@ -333,9 +333,9 @@ choice! {
 /// A range with a lower and an upper end, such as the travel of an axis in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
-    /// Lower end.
+    /// Lower end of the range.
     pub from: f64,
-    /// Upper end.
+    /// Upper end of the range.
     pub to: f64,
 }
 

@@ -59,7 +59,7 @@ pub struct PathDiff {
     pub name: String,
     /// Path of the drawing that defines it on the old and on the new side, relative to the root; `None` if the side lacks the path.
     pub files: [Option<Utf8PathBuf>; 2],
-    /// The kind of difference.
+    /// How the path differs.
     pub outcome: Outcome,
 }
 
@@ -82,10 +82,10 @@ pub enum Outcome {
     Changed(Box<ProgramDiff>),
 }
 
-/// Differences between two programs.
+/// Differences between the old and the new program of a path.
 #[derive(Debug, Default)]
 pub struct ProgramDiff {
-    /// Changes, grouped by kind.
+    /// Changes of the moves, grouped by kind.
     pub groups: Vec<Group>,
     /// Reasons for the changes; `None` unless both sides are drawings, empty if no element and no setting differs.
     pub reasons: Option<Vec<Reason>>,
@@ -98,11 +98,11 @@ pub struct ProgramDiff {
 /// Pictures of a change, at the same scale.
 #[derive(Debug)]
 pub struct PictureSet {
-    /// Old and new moves in one picture.
+    /// Old and new moves in one picture, as SVG.
     pub changes: String,
-    /// Old moves only.
+    /// The old moves only, as SVG.
     pub old: String,
-    /// New moves only.
+    /// The new moves only, as SVG.
     pub new: String,
     /// Pictures of the stock that the change removes, and of the stock that it leaves.
     pub stock: Vec<String>,

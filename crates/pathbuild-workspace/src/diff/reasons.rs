@@ -38,9 +38,9 @@ pub enum Reason {
 pub struct ValueChange {
     /// Name of the variable or of the key.
     pub name: String,
-    /// The old value.
+    /// The value on the old side.
     pub was: Option<String>,
-    /// The new value.
+    /// The value on the new side.
     pub now: Option<String>,
 }
 

@@ -133,7 +133,7 @@ fn outside_probes(outside: &UnprobedPoint) -> Diagnostic {
         .with("at", Point::new(outside.at.x, outside.at.y))
 }
 
-/// A generated file.
+/// A generated file that is not yet written.
 pub(super) struct Output {
     pub(super) kind: OutputKind,
     pub(super) path: Utf8PathBuf,

@@ -37,7 +37,7 @@ pub enum DrawingComparison {
         /// The first line that differs.
         other: OtherLine,
     },
-    /// The drawing has errors.
+    /// The drawing has these errors.
     Wrong(Vec<Diagnostic>),
     /// The moves depend on these missing options.
     NeedsOptions(Vec<MissingOption>),

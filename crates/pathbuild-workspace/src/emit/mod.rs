@@ -62,7 +62,7 @@ pub struct Request<'a> {
     pub removes_stale: bool,
 }
 
-/// The outcome of `emit`.
+/// The programs of a run of `emit`, with their diagnostics.
 #[derive(Debug)]
 pub struct Emission {
     /// The outcome of each program, in the order of the targets.

@@ -78,7 +78,7 @@ fn meaning<'a>(context: &'a Workspace, name: &str) -> &'a str {
     }
 }
 
-/// Settings for writing files.
+/// Takes the settings for writing files from the configuration.
 pub fn writing(settings: &Settings) -> WriteSettings {
     let limits = &settings.limits;
     WriteSettings {

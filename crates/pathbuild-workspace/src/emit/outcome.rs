@@ -44,7 +44,7 @@ pub struct ProgramOutcome {
     pub(super) hashes: Vec<[u8; 32]>,
     /// Length of the program in mm.
     pub length: f64,
-    /// Machining time in minutes.
+    /// Machining time of the program in minutes.
     pub minutes: f64,
     /// Errors of the program, and differences between its moves and those on disk.
     pub problems: Vec<Diagnostic>,
@@ -94,17 +94,17 @@ impl ProgramOutcome {
 /// The outcome of a single file.
 #[derive(Debug)]
 pub enum State {
-    /// Written by this run.
+    /// The file was written by this run.
     Written,
-    /// Up to date before this run, so not written.
+    /// The file was up to date before this run, so it was not written.
     Unchanged,
-    /// Compared with the file on disk: equal.
+    /// The file on disk was compared and is equal.
     Current,
-    /// Compared with the file on disk: different.
+    /// The file on disk was compared and differs.
     Outdated,
-    /// Compared: there is no file on disk.
+    /// There is no file on disk to compare with.
     Missing,
-    /// Not written; the content is to be printed.
+    /// The file is not written; this content is to be printed.
     Printed(Vec<u8>),
 }
 

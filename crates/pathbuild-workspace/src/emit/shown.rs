@@ -39,7 +39,7 @@ pub struct SceneReport {
 /// The program text that is shown beside the moves.
 #[derive(Clone, Copy, Debug)]
 pub enum ShownText<'a> {
-    /// The native program.
+    /// The native program, whatever `emit` writes.
     Native,
     /// The program that `emit` writes, natively or through a post-processor. Falls back to the native program if `emit` writes nothing.
     Emitted(Option<&'a PostProcessor>),

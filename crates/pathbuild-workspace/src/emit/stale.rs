@@ -384,7 +384,7 @@ struct Writers {
     idle: BTreeSet<Title>,
     /// Drawings whose paths are all known.
     covered: BTreeSet<Title>,
-    /// Other existing drawings.
+    /// Drawings that exist, but whose paths are not known.
     others: BTreeSet<Title>,
     /// Whether the run knows all drawings of the library, or all beside the program, so that any other drawing no longer exists.
     knows_all: bool,

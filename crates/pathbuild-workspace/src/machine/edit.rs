@@ -12,7 +12,7 @@ use super::{DescribedValue, Quantity, Target};
 pub struct Change {
     /// Name of the table, with dots.
     pub table: String,
-    /// Name of the key.
+    /// Name of the key in that table.
     pub key: &'static str,
     /// Previous value in the configuration, as TOML; `None` if it had none.
     pub old: Option<String>,
@@ -20,7 +20,7 @@ pub struct Change {
     pub new: String,
     /// Names of the entries that the value was read from.
     pub source: String,
-    /// Whether the values differ.
+    /// Whether the new value differs from the previous one.
     pub is_new: bool,
 }
 

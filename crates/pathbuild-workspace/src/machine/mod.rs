@@ -27,9 +27,9 @@ pub const LARGEST: u64 = 4 << 20;
 /// The unit of lengths, for descriptions that do not name it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LengthUnit {
-    /// Millimetres.
+    /// The millimetre, as in metric descriptions.
     Millimetre,
-    /// Inches.
+    /// The inch of 25.4 mm.
     Inch,
 }
 
@@ -76,7 +76,7 @@ pub struct DescribedTool {
 pub struct DescribedValue {
     /// The table of the configuration to which the value belongs.
     pub target: Target,
-    /// Name of the key.
+    /// Name of the key in that table.
     pub key: &'static str,
     /// The value, in the configuration's units.
     pub value: Quantity,

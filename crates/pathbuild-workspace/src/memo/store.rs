@@ -26,7 +26,7 @@ use crate::workspace::Workspace;
 pub struct Answer<T> {
     /// The subject of the result. It begins with the path of a drawing; anything more specific follows after a NUL.
     pub subject: Box<str>,
-    /// The result.
+    /// The decoded result.
     pub value: T,
     /// The inputs from which this run computed the result; `None` if the result was cached.
     pub inputs: Option<Inputs>,
@@ -79,7 +79,7 @@ pub(super) struct Store {
     pub(super) next: Cell<usize>,
 }
 
-/// A generated file.
+/// A file that was generated from a result.
 #[derive(Clone, Debug)]
 pub struct GeneratedFile {
     /// Path of the file.
@@ -350,11 +350,11 @@ impl CoveredPaths<'_> {
 /// The drawings that a run uses. The subject of a result is a drawing, or something in it whose description follows the drawing's path after a NUL.
 #[derive(Debug)]
 pub(super) enum Scope {
-    /// All drawings.
+    /// The run uses all drawings.
     All,
-    /// Certain drawings.
+    /// The run uses certain drawings.
     Drawings {
-        /// Paths of the drawings.
+        /// Paths of these drawings.
         drawings: HashSet<String>,
         /// Directories that were listed completely, so that they contain no other drawings.
         directories: HashSet<String>,

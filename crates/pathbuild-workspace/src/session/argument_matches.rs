@@ -44,7 +44,7 @@ pub struct ArgumentMatches {
 /// The files or the directory that one argument may refer to.
 #[derive(Debug)]
 pub enum Argument {
-    /// A directory.
+    /// A directory with the drawings in and below it.
     Directory(SearchedDirectory),
     /// A drawing by its file, whether it exists or not.
     Drawing(SourceFile),

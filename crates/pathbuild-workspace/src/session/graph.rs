@@ -48,9 +48,9 @@ pub struct Node {
 pub struct Embedding {
     /// Index of the embedding path in [`Graph::nodes`].
     pub from: usize,
-    /// The embedded path.
+    /// The embedded path, or the reason why there is none.
     pub to: End,
-    /// Number of segments.
+    /// Number of subpath segments that embed it.
     pub count: usize,
 }
 

@@ -25,9 +25,9 @@ use crate::workspace::relative;
 pub struct Selection {
     /// Drawings in named directories, in the order of their places, without those that were named themselves.
     pub drawings: Vec<Utf8PathBuf>,
-    /// Drawings that were named.
+    /// Drawings that the arguments name.
     pub named: Vec<SourceFile>,
-    /// Paths that were named.
+    /// Paths that the arguments name.
     pub paths: Vec<SelectedPath>,
     /// Directories that were named; without arguments, those of the library.
     pub directories: Vec<Utf8PathBuf>,
@@ -55,7 +55,7 @@ impl Session<'_> {
         self.select_matches(self.match_arguments(inputs))
     }
 
-    /// Resolves matched arguments.
+    /// Resolves all matched arguments.
     pub fn select_matches(&self, matches: ArgumentMatches) -> Selection {
         let mut selection =
             self.select_arguments(&matches, &matches.arguments, &|file| path_names(&self.db, file));

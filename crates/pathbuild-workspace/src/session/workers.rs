@@ -33,7 +33,7 @@ impl Workers {
         Some(Self { pool, is_wanted })
     }
 
-    /// Number of threads.
+    /// Returns the number of worker threads.
     pub(super) fn count(&self) -> usize {
         self.pool.current_num_threads()
     }

@@ -12,7 +12,7 @@ use crate::config::types::Requirement;
 /// A check of a program, with its outcome.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CheckRecord {
-    /// The kind of check.
+    /// The kind of check that may be required.
     pub requirement: Requirement,
     /// Whether the check was made, and with which values.
     pub outcome: Outcome,
@@ -45,20 +45,20 @@ pub enum Assumption {
 pub struct RapidValues {
     /// Diameters of the cutters in mm, in the order of use.
     pub cutters: Vec<f64>,
-    /// Source of the cutters.
+    /// Source of the cutters' diameters.
     pub cutter_origin: Origin,
     /// Height in mm of the upper face of the material, where it is highest.
     pub surface: f64,
     /// Whether the upper face has the same height everywhere.
     pub is_level: bool,
-    /// Source of the height.
+    /// Source of the height of the upper face.
     pub surface_origin: Origin,
 }
 
 /// Source of a value; the program's own statements come last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Origin {
-    /// The command line.
+    /// An option on the command line.
     Option,
     /// The drawing that the program is compared with.
     Drawing,

@@ -36,21 +36,21 @@ pub(super) struct Watcher {
     due: Instant,
     /// Whether a wake-up was requested and not yet handled.
     is_rung: bool,
-    /// Whether watching must end.
+    /// Whether the end of watching was requested.
     is_over: bool,
     /// Incomplete drawings, each with the time after which it is read although it is incomplete.
     unfinished: BTreeMap<Utf8PathBuf, Instant>,
 }
 
-/// The outcome of waiting.
+/// The outcome of waiting for changes.
 pub(super) enum Batch {
-    /// Files have changed.
+    /// These files have changed.
     Changes(Changes),
     /// Watching must start again, for this reason.
     Restart(Restart),
     /// A wake-up was requested through the `Bell`.
     Rung,
-    /// Watching must end.
+    /// The end of watching was requested.
     Over,
 }
 
@@ -179,7 +179,7 @@ impl Watcher {
         self.is_over || pending.is_incomplete || pending.restart.is_some() || has_drawings
     }
 
-    /// Whether watching must end.
+    /// Whether the end of watching was requested.
     pub(super) fn is_over(&mut self, session: &Session<'_>) -> bool {
         self.poll_signals(session);
         self.is_over

@@ -52,13 +52,13 @@ pub trait Listener {
 /// The result of the first check.
 #[derive(Debug)]
 pub struct FirstCheck {
-    /// Number of drawings.
+    /// Number of drawings that were checked.
     pub drawings: usize,
     /// Number of paths in these drawings.
     pub paths: usize,
-    /// All diagnostics.
+    /// All diagnostics of the first check.
     pub diagnostics: Vec<Diagnostic>,
-    /// Duration of the check.
+    /// Duration of the first check.
     pub time: Duration,
 }
 
@@ -87,7 +87,7 @@ pub struct Update {
     pub new: Vec<Diagnostic>,
     /// Those previous diagnostics that no drawing has any more, not even an unchanged one.
     pub fixed: Vec<Diagnostic>,
-    /// Duration of the batch.
+    /// Time that the batch took.
     pub time: Duration,
 }
 
@@ -104,7 +104,7 @@ pub enum WatchEnd {
     NothingNamed,
     /// Programs are to be written, but the configuration names no targets.
     NoTargets,
-    /// The post-processor has errors.
+    /// The post-processor has these errors.
     BadPost(Vec<Diagnostic>),
     /// The system cannot report changes, for this reason.
     CannotWatch(String),

@@ -39,7 +39,7 @@ pub(super) struct Library<'a> {
 /// The outcome of a batch of changes.
 #[derive(Debug, Default)]
 pub(super) struct Batch {
-    /// Files that changed.
+    /// Files whose changes caused the batch.
     pub(super) changed: BTreeSet<Utf8PathBuf>,
     /// Drawings that were checked.
     pub(super) checked_files: Vec<SourceFile>,

@@ -29,7 +29,7 @@ pub(super) struct Writer<'a> {
 pub(super) struct WriteOutcome {
     /// Diagnostics of these drawings' programs from the previous time.
     pub(super) before: Vec<Diagnostic>,
-    /// Current diagnostics.
+    /// Current diagnostics of these drawings' programs.
     pub(super) now: Vec<Diagnostic>,
 }
 
