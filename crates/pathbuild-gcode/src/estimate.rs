@@ -12,14 +12,13 @@ pub struct Kinematics {
     pub rates: [f64; 3],
     /// Maximum accelerations of X, Y and Z, in mm/s².
     pub accelerations: [f64; 3],
-    /// Distance in mm by which a corner could be cut at the speed at which it is taken. With 0, the tool stops in every corner.
+    /// Distance in mm by which a corner could be cut at the speed at which the tool passes it. With 0, the tool stops in every corner.
     pub junction_deviation: f64,
 }
 
-/// The duration of a program in seconds, consisting of moves and dwells, without stops for the operator.
+/// Estimates the duration of a program in seconds: moves and dwells, without stops for the operator.
 ///
-/// Axes with unknown positions count as not moving. A move without a feed counts as a rapid; the interpreter reports the missing
-/// feed.
+/// Axes with unknown positions count as not moving. A move without a feed counts as a rapid; the interpreter reports the missing feed.
 pub fn seconds(steps: &[Step], kinematics: &Kinematics) -> f64 {
     let mut seconds = 0.0;
     let mut moves: Vec<TimedMove> = Vec::new();
@@ -58,7 +57,7 @@ struct TimedMove {
     /// Directions at the start and at the end, as unit vectors.
     begin: [f64; 3],
     end: [f64; 3],
-    /// Whether the tool stops at the end, as after a probing move, whose end is unknown.
+    /// Whether the tool stops after the move, as after a probing move, whose end is unknown.
     stops: bool,
 }
 
@@ -126,13 +125,13 @@ fn seconds_of(moves: &[TimedMove], kinematics: &Kinematics) -> f64 {
     moves.iter().zip(squares.windows(2)).map(|(way, ends)| duration(way, ends[0], ends[1])).sum()
 }
 
-/// The squared speeds between moves, including those before the first and after the last.
+/// Computes the squared speeds at the start of each move and at the end of the last, in mm²/s².
 fn entry_squares(moves: &[TimedMove], kinematics: &Kinematics) -> Vec<f64> {
     let mut squares = vec![0.0; moves.len() + 1];
     for (index, pair) in moves.windows(2).enumerate() {
         squares[index + 1] = corner_square(&pair[0], &pair[1], kinematics);
     }
-    // The speed is limited by what can be reached from before and by what can be decelerated afterwards.
+    // The speed is limited both by the acceleration before this point and by the distance left to decelerate after it.
     for (index, way) in moves.iter().enumerate().rev() {
         squares[index] = squares[index].min(squares[index + 1] + 2.0 * way.acceleration * way.length);
     }
@@ -161,7 +160,7 @@ fn corner_square(before: &TimedMove, behind: &TimedMove, kinematics: &Kinematics
     square.min(slower * slower)
 }
 
-/// Time in seconds for a move, given the squares of the speeds at both ends.
+/// Returns the time in seconds for a move, given the squares of the speeds at both ends.
 fn duration(way: &TimedMove, from: f64, to: f64) -> f64 {
     let (speed, acceleration) = (way.speed, way.acceleration);
     // Square of the speed that would be reached if only the length limited it.

@@ -1,7 +1,7 @@
-//! What a program states about its tools and its stock in comments. (book: program/reading)
+//! Reads comments in which a program describes its tools and its stock. (book: program/reading)
 //!
-//! A value is read only from a keyed field of a form listed in [`FORMS`], never from free text. A value from a comment may be wrong, so it
-//! only adds checks.
+//! A value is read only from a keyed field of a form listed in [`FORMS`], never from free text. A value from a comment may be wrong, so it only adds
+//! checks.
 
 use std::collections::BTreeMap;
 
@@ -13,10 +13,10 @@ use crate::provenance::{Provenance, head_remarks};
 use crate::read::Problems;
 use crate::verify::Cutter;
 
-/// Lengths in comments are rounded, often to two decimals, so that they are equal if they differ by at most this, in mm.
+/// Lengths in comments are rounded, often to two decimals. Two lengths count as equal if they differ by at most this, in mm.
 const ROUNDING_TOLERANCE: f64 = 0.01;
 
-/// Difference in mm of lengths that are not rounded.
+/// Maximum difference in mm at which two lengths that are not rounded count as equal.
 const EXACT_TOLERANCE: f64 = 1e-6;
 
 /// One inch in mm.
@@ -25,11 +25,11 @@ const INCH: f64 = 25.4;
 /// The unit of a length in a comment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StatedUnit {
-    /// Millimetres, which the field names.
+    /// Millimetres, stated by the field itself.
     Millimetre,
-    /// Inches, which the field names.
+    /// Inches, stated by the field itself.
     Inch,
-    /// The unit of G20 or G21.
+    /// The unit that G20 or G21 selects for the program.
     OfProgram,
 }
 
@@ -44,12 +44,12 @@ pub enum Tip {
     Unknown,
 }
 
-/// The moves to which the description of a tool applies.
+/// The moves for which a tool's description is valid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// Those of the tool with this number.
+    /// The moves of the tool with this number.
     Number(u32),
-    /// Those from the comment to the first tool change after a cut.
+    /// The moves from the comment to the first tool change after a cut.
     Following,
     /// All moves after the comment.
     Program,
@@ -58,7 +58,7 @@ pub enum Scope {
 /// A tool that a comment describes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedTool {
-    /// Where the description applies.
+    /// The moves to which the description applies.
     pub scope: Scope,
     /// The diameter, in `unit`.
     pub diameter: f64,
@@ -68,7 +68,7 @@ pub struct StatedTool {
     pub unit: StatedUnit,
 }
 
-/// Corners of the stock in program coordinates, as far as a comment states them.
+/// Corners of the stock in program coordinates; a corner that the comment does not state is `None`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedStock {
     /// The lower corner.
@@ -79,12 +79,12 @@ pub struct StatedStock {
     pub unit: StatedUnit,
 }
 
-/// The content of a comment.
+/// The data that one comment states.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statement {
-    /// A tool.
+    /// The tool, if the comment describes one.
     pub tool: Option<StatedTool>,
-    /// The stock.
+    /// The stock, if the comment describes it.
     pub stock: Option<StatedStock>,
     /// The height of the stock's upper face in mm, if it is given without the stock.
     pub surface: Option<f64>,
@@ -95,13 +95,13 @@ pub struct Statement {
 /// A form of comment.
 #[derive(Debug)]
 pub struct HeaderForm {
-    /// The program that writes it.
+    /// The software that writes comments of this form.
     pub name: &'static str,
-    /// Where the form was seen.
+    /// Source in which the form was seen.
     pub source: &'static str,
     /// A comment in this form.
     pub sample: &'static str,
-    /// How an earlier comment of the program begins, if the form by itself could be free text.
+    /// The start of an earlier comment that must occur in the program, if the form by itself could be free text.
     pub signature: Option<&'static str>,
     read: fn(&str) -> Option<Statement>,
 }
@@ -151,13 +151,13 @@ header_forms! {
         "T2 : 2.0", "Made using CamBam" => cambam;
 }
 
-/// What a comment, without its brackets, states in the first form that it has. `is_signed` tells whether a form's signature has been met.
+/// Parses a comment, without its brackets, by the first form that fits. `is_signed` reports whether a form's signature has been found.
 pub fn stated(comment: &str, is_signed: &dyn Fn(&str) -> bool) -> Option<(&'static HeaderForm, Statement)> {
     let signed = |form: &&HeaderForm| form.signature.is_none_or(is_signed);
     FORMS.iter().filter(signed).find_map(|form| Some((form, (form.read)(comment.trim())?)))
 }
 
-/// Collects tool changes, and what comments state, step by step.
+/// Collects tool changes and the data from comments, step by step.
 #[derive(Debug, Default)]
 pub struct HeaderReader {
     events: Vec<(u32, Event)>,
@@ -167,11 +167,11 @@ pub struct HeaderReader {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Event {
-    /// T.
+    /// A T word, with the number of the tool.
     Select(u32),
-    /// M6.
+    /// An M6, with the number of the tool that it inserts.
     Insert(u32),
-    /// A word for the unit, by its number times ten.
+    /// A G code for the unit, times ten.
     Unit(u16),
     /// One or more cuts.
     Cut,
@@ -198,7 +198,7 @@ impl HeaderReader {
         }
     }
 
-    /// Processes the comments at the beginning of a text. This is for translated programs, whose steps contain no comments.
+    /// Processes the comments at the beginning of a text. Used for translated programs, whose steps contain no comments.
     pub fn head_of(&mut self, text: &[u8]) {
         let steps = std::mem::take(&mut self.events);
         head_remarks(text).for_each(|remark| self.comment(0, &remark));
@@ -212,7 +212,7 @@ impl HeaderReader {
         self.events.extend(found.map(|(_, statement)| (line, Event::Statement(statement))));
     }
 
-    /// What the whole program states. `inch` is the number of the word for inches times ten.
+    /// Returns what the whole program states. `inch` is ten times the G code that selects inches (200 for G20).
     pub fn finish(self, inch: u16) -> Header {
         let has_insertions = self.events.iter().any(|(_, event)| matches!(event, Event::Insert(_)));
         let has_selections = self.events.iter().any(|(_, event)| matches!(event, Event::Select(_)));
@@ -245,16 +245,16 @@ impl HeaderReader {
     }
 }
 
-/// Fusion writes its list of tools above G20 or G21.
+/// Whether the program's first unit word selects inches. It also applies to comments above it: Fusion writes its list of tools above G20 or G21.
 fn starts_in_inches(events: &[(u32, Event)], inch: u16) -> bool {
     let unit = |event: &Event| if let Event::Unit(code) = event { Some(*code == inch) } else { None };
     events.iter().find_map(|(_, event)| unit(event)).unwrap_or(false)
 }
 
-/// The tools and the stock of a program as far as it states them.
+/// The tools and the stock of a program, as its comments describe them.
 #[derive(Debug, Default)]
 pub struct Header {
-    /// The tools that the program inserts, or selects if it inserts none, with their lines.
+    /// The tools that the program inserts, or selects if it inserts none, each with its line.
     pub changes: Vec<(u32, u32)>,
     /// Whether lines are executed out of order.
     pub has_calls: bool,
@@ -262,7 +262,7 @@ pub struct Header {
     pub tools: Vec<CuttingTool>,
     /// The height of the stock's upper face in mm.
     pub surface: Option<f64>,
-    /// Whether pathbuild stated the surface.
+    /// Whether the surface was stated by pathbuild.
     pub is_of_pathbuild: bool,
     /// Contradictions between comments.
     pub problems: Vec<Diagnostic>,
@@ -271,11 +271,11 @@ pub struct Header {
 /// A tool that cuts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CuttingTool {
-    /// The line from which it applies.
+    /// The line from which the tool is in use.
     pub line: u32,
-    /// Its T number.
+    /// The tool's T number.
     pub number: Option<u32>,
-    /// Its widths, if comments state them.
+    /// The tool's widths, if comments state them.
     pub cutter: Option<StatedCutter>,
 }
 
@@ -288,7 +288,7 @@ pub struct StatedCutter {
     pub diameter: f64,
     /// The width of the flat part of the tip, if it is known.
     pub flat: Option<f64>,
-    /// Diameters that differ by at most this are equal.
+    /// Maximum difference in mm at which another diameter counts as equal to this one.
     tolerance: f64,
 }
 
@@ -300,13 +300,13 @@ impl StatedCutter {
             Tip::BullNose(radius) => Some((tool.diameter - 2.0 * radius).max(0.0)),
             Tip::Unknown => None,
         };
-        // pathbuild writes all digits.
+        // pathbuild writes all digits, so its diameters are exact.
         let tolerance =
             if tool.scope == Scope::Program { EXACT_TOLERANCE } else { ROUNDING_TOLERANCE + EXACT_TOLERANCE };
         Self { line, diameter: tool.diameter * scale, flat: flat.map(|flat| flat * scale), tolerance }
     }
 
-    /// Whether the diameter is the given one, as exactly as the comment states it.
+    /// Whether the given diameter equals this one within the precision of the comment.
     pub fn has_diameter(&self, diameter: f64) -> bool {
         libm::fabs(self.diameter - diameter) <= self.tolerance
     }
@@ -350,7 +350,7 @@ struct Collector {
     /// The description of the tool in use, and whether that tool has cut.
     of_current: Option<(StatedCutter, bool)>,
     number: Option<u32>,
-    /// The line of a tool change, or of a description, after the last cut.
+    /// The line of the last tool change or description after the last cut.
     since: Option<u32>,
     tools: Vec<CuttingTool>,
     corners: [Option<(u32, [f64; 3])>; 2],
@@ -360,7 +360,7 @@ struct Collector {
 }
 
 impl Collector {
-    /// Reads the descriptions by number, which may be anywhere.
+    /// Reads the descriptions of numbered tools, which may be anywhere in the program.
     fn numbered(&mut self, events: &[(u32, Event)], inch: u16) {
         let mut in_inches = self.in_inches;
         for (line, event) in events {
@@ -378,8 +378,8 @@ impl Collector {
         }
     }
 
-    /// Reports listed tools that the program does not change to; only the first one if it changes to none of them. A program without any
-    /// change leaves the tool to the operator.
+    /// Reports listed tools that the program never changes to; only the first one if it changes to none of them. A program without tool changes
+    /// leaves the choice of the tool to the operator.
     fn never_selected(&mut self, changes: &[(u32, u32)]) {
         let is_used = |number: &u32| changes.iter().any(|(_, change)| change == number);
         let most = match changes {
@@ -434,7 +434,7 @@ impl Collector {
         self.is_of_pathbuild |= statement.surface.is_some();
     }
 
-    /// Takes a corner of the stock. Of two different ones the higher counts, which leaves more material.
+    /// Records a corner of the stock. If comments state different corners, the higher one counts, which leaves more material.
     fn corner(&mut self, line: u32, index: usize, corner: [f64; 3]) {
         let Some((_, known)) = self.corners[index] else {
             self.corners[index] = Some((line, corner));
@@ -498,7 +498,7 @@ impl Collector {
     }
 }
 
-/// One tool, with its diameter in the unit of the program.
+/// Creates a statement that describes one tool.
 fn tool(scope: Scope, diameter: f64, tip: Tip, unit: StatedUnit) -> Statement {
     Statement { tool: Some(StatedTool { scope, diameter, tip, unit }), ..Statement::default() }
 }
@@ -543,7 +543,8 @@ fn cut_viewer_tool(comment: &str) -> Option<Statement> {
     Some(tool(Scope::Following, diameter, tip, StatedUnit::OfProgram))
 }
 
-/// The origin is the position of program zero, measured from the lower corner of the block. Without it, nothing is known.
+/// Parses the stock of CutViewer. The origin is the position of program zero, measured from the lower corner of the block. Without it, the position
+/// of the stock is unknown.
 fn cut_viewer_stock(comment: &str) -> Option<Statement> {
     let fields: [f64; 6] = numbers(after_key(comment, "STOCK/BLOCK")?)?.try_into().ok()?;
     let (size, origin) = ([fields[0], fields[1], fields[2]], [fields[3], fields[4], fields[5]]);
@@ -584,7 +585,7 @@ fn vcarve(comment: &str) -> Option<Statement> {
     Some(tool(Scope::Number(number.trim().parse().ok()?), positive(diameter)?, tip, unit_named(unit)?))
 }
 
-/// Users may rename a tool, so its name does not prove that it is flat.
+/// Parses a tool of FreeCAD. Users may rename a tool, so its name does not prove that it is flat.
 fn freecad_label(comment: &str) -> Option<Statement> {
     let (size, _) = comment.strip_prefix("TC: ")?.split_once(' ')?;
     let diameter = positive(size.strip_suffix("mm")?)?;
@@ -616,7 +617,7 @@ fn kiri_moto(comment: &str) -> Option<Statement> {
     Some(tool(Scope::Number(number), diameter, Tip::Unknown, unit))
 }
 
-/// The size of a cutter for outlines or for isolation; the latter is often pointed.
+/// Parses the size of a cutter of pcb2gcode, for outlines or for isolation; the latter is often pointed.
 fn pcb2gcode(comment: &str) -> Option<Statement> {
     let text = comment.strip_prefix("MSG, Change tool bit to ")?;
     let size = text.strip_prefix("cutter diameter ").or_else(|| text.strip_prefix("mill diameter "))?;
@@ -624,20 +625,20 @@ fn pcb2gcode(comment: &str) -> Option<Statement> {
     Some(tool(Scope::Following, positive(diameter)?, Tip::Unknown, unit_named(unit)?))
 }
 
-/// The diameter is 0 where the user specified none.
+/// Parses a tool of CamBam, whose diameter is 0 if the user specified none.
 fn cambam(comment: &str) -> Option<Statement> {
     let (number, diameter) = comment.strip_prefix('T')?.split_once(" : ")?;
     let scope = Scope::Number(number.trim().parse().ok()?);
     Some(tool(scope, positive(diameter)?, Tip::Unknown, StatedUnit::OfProgram))
 }
 
-/// The text after a key and its comma; the case of the key does not matter.
+/// Returns the text after a key and its comma. The case of the key does not matter.
 fn after_key<'c>(comment: &'c str, key: &str) -> Option<&'c str> {
     let (found, fields) = comment.split_once(',')?;
     found.trim().eq_ignore_ascii_case(key).then_some(fields)
 }
 
-/// All numbers of a list with commas; `None` if a field is not a number.
+/// Parses a comma-separated list of numbers; `None` if a field is not a number.
 fn numbers(fields: &str) -> Option<Vec<f64>> {
     fields.split(',').map(number).collect()
 }

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::dialect::Dialect;
 
-/// The content of the line.
+/// The origin of a program, as stated by its header line.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
     /// Version of pathbuild.
@@ -40,18 +40,18 @@ pub struct Provenance {
 /// This version of pathbuild.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// The first word of the line.
+/// The first word of the header line.
 const NAME: &str = "pathbuild";
 
-/// Number of lines at the beginning of a file in which the line is searched for.
+/// Number of lines at the beginning of a file in which the header line is searched for.
 const HEAD_LINES: usize = 40;
 
-/// Number of bytes at the beginning of a file that contain the line.
+/// Number of bytes at the beginning of a file in which the header line is searched for.
 pub const HEAD: usize = 4096;
 
 impl Provenance {
-    /// The provenance of programs, in the order in which they are milled. `options` are the bytes of everything else that the text
-    /// depends on.
+    /// Computes the provenance of programs, in the order in which they are milled. `options` are the bytes of everything else that the text depends
+    /// on.
     pub fn of_programs<P: Borrow<Program>>(programs: &[P], options: &[u8], dialect: Option<Dialect>) -> Self {
         let programs = || programs.iter().map(Borrow::borrow);
         Self {
@@ -64,7 +64,7 @@ impl Provenance {
         }
     }
 
-    /// Whether programs with these provenances mill the same in the same way, regardless of the versions that wrote them.
+    /// Whether programs with these provenances make the same moves with the same options, regardless of the versions that wrote them.
     pub fn is_same(&self, other: &Self) -> bool {
         (&self.moves, &self.options) == (&other.moves, &other.options)
     }
@@ -78,14 +78,14 @@ impl Provenance {
     }
 }
 
-/// The first lines of a program, without block numbers and comment marks.
+/// Returns the first lines of a program, without block numbers and comment marks.
 pub(crate) fn head_remarks(head: &[u8]) -> impl Iterator<Item = String> {
     let text = String::from_utf8_lossy(&head[..head.len().min(HEAD)]);
     let lines: Vec<String> = text.lines().take(HEAD_LINES).map(|line| remark(line).to_owned()).collect();
     lines.into_iter()
 }
 
-/// The value, if all items are equal.
+/// Returns the value of all items if they are equal, otherwise `None`.
 fn common<T: PartialEq>(mut values: impl Iterator<Item = T>) -> Option<T> {
     let first = values.next()?;
     values.all(|value| value == first).then_some(first)
@@ -100,7 +100,7 @@ pub fn is_same_program(a: &[u8], b: &[u8]) -> bool {
     a == b || is_same(a, b)
 }
 
-/// Position of the version in a program.
+/// Finds the position of the version in a program.
 fn version_in(program: &[u8]) -> Option<Range<usize>> {
     let head = &program[..program.len().min(HEAD)];
     let mut begin = 0;
@@ -116,7 +116,7 @@ fn version_in(program: &[u8]) -> Option<Range<usize>> {
     None
 }
 
-/// A line without block number and comment marks.
+/// Strips the block number and the comment marks from a line.
 fn remark(line: &str) -> &str {
     let line = line.trim();
     let digits =
@@ -181,7 +181,7 @@ impl Provenance {
     }
 }
 
-/// The hash of the programs in a file. Comments are ignored, except those of the drawing for the operator.
+/// Returns the hash of the programs in a file. Comments are ignored, except those that the drawing addresses to the operator.
 pub(super) fn hash<'a>(programs: impl Iterator<Item = &'a Program>) -> Hash {
     let mut hasher = Hasher::new();
     for program in programs {
@@ -211,7 +211,7 @@ impl Bytes {
         self.number(point.y);
     }
 
-    /// Adds a height with the point that its formula is for.
+    /// Adds a height, and the point for which its formula is calculated.
     fn height(&mut self, height: Height) {
         self.number(height.z);
         self.point(height.at);

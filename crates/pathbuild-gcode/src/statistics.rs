@@ -1,4 +1,4 @@
-//! A program in numbers, calculated from its own moves: moves, lengths, times, bounding box, tools, feeds. (book: program/gcode; book:
+//! Calculates the statistics of a program from its own moves: moves, lengths, times, bounding box, tools, feeds. (book: program/gcode; book:
 //! program/reading, `import`)
 
 use std::collections::{HashMap, HashSet};
@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Spindle, Step};
 use pathbuild_toolpath::{Program, Statistics, Total};
 
-/// The statistics of a program with a rapid feed in mm/min, calculated from its moves. A compatible program has those of the original tool.
+/// Calculates the statistics of a program from its moves, with a rapid feed in mm/min. A compatible program gets those of the original tool.
 pub fn statistics(program: &Program, rapid: f64) -> Statistics {
     if program.compatible {
         return Statistics::of_reference(program, rapid);
@@ -24,8 +24,8 @@ pub fn statistics(program: &Program, rapid: f64) -> Statistics {
     }
 }
 
-/// Decides which moves of a parsed program have a length: those between positions that are completely known and that the program has
-/// specified since the last tool change.
+/// Filter for the moves of a parsed program whose length counts: those between positions that are completely known and that the program has specified
+/// since the last tool change.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LengthFilter {
     /// The axes specified before the current step.
@@ -54,7 +54,7 @@ pub struct Tally {
     pub milling: MoveTotals,
     /// Straight cutting moves up or down.
     pub drilling: MoveTotals,
-    /// Number of probing moves. They have no length, because it is not known in advance how far they go.
+    /// Number of probing moves. Their length is not counted, because it is not known in advance how far they go.
     pub probing: u64,
     /// Number of arcs among all moves.
     pub arcs: u64,
@@ -70,24 +70,24 @@ pub struct MoveTotals {
 }
 
 impl Tally {
-    /// Number of moves.
+    /// Returns the number of all moves, including probing moves.
     pub fn moves(&self) -> u64 {
         [self.rapid, self.milling, self.drilling].iter().map(|kind| kind.moves).sum::<u64>() + self.probing
     }
 
-    /// Length and time of milling and drilling.
+    /// Returns the length and the time of milling and drilling.
     pub fn cutting(&self) -> Total {
         self.milling.total + self.drilling.total
     }
 
-    /// Length and time of all moves, with a rapid feed in mm/min.
+    /// Returns the length and the time of all moves, with a rapid feed in mm/min.
     pub fn sum(&self, rapid: f64) -> Total {
         self.cutting() + self.sweeps(rapid)
     }
 
     fn sweeps(&self, rapid: f64) -> Total {
         let length = self.rapid.total.length;
-        // Without length there is no time either, whatever the feed.
+        // Moves without length take no time, whatever the feed.
         Total { length, time: if length > 0.0 { length / rapid } else { 0.0 } }
     }
 
@@ -116,7 +116,7 @@ impl Tally {
     }
 }
 
-/// A program in numbers.
+/// The statistics of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
     /// The totals of the program.
@@ -125,7 +125,7 @@ pub struct Summary {
     pub tools: Vec<ToolTotals>,
     /// Least and greatest X, Y, Z of all moves in mm; `None` for axes that never move to a known position.
     pub extent: Extent,
-    /// The same for cutting moves.
+    /// Least and greatest X, Y, Z of cutting moves in mm; `None` for axes that never cut at a known position.
     pub cut: Extent,
     /// Total dwell time (G4) in seconds.
     pub dwell: f64,
@@ -143,7 +143,7 @@ pub type Extent = [Option<(f64, f64)>; 3];
 pub struct ToolTotals {
     /// Number of the tool; `None` before the program names one.
     pub tool: Option<u32>,
-    /// Totals of its moves.
+    /// Totals of the tool's moves.
     pub tally: Tally,
     /// Spindle speeds while cutting, in 1/min, in order of first use.
     pub speeds: Vec<f64>,
@@ -173,7 +173,7 @@ impl Summary {
 
 struct Collector {
     summary: Summary,
-    /// The tools in order of use, with what has been recorded for each.
+    /// The tools by number, with the speeds and feeds that have been recorded for each.
     known: HashMap<Option<u32>, KnownTool>,
     /// Whether M6 changes tools; in programs without it, T does.
     has_changes: bool,
@@ -238,7 +238,7 @@ impl Collector {
     }
 }
 
-/// Adds a positive value unless it is already known. Positive numbers are equal if their bits are.
+/// Adds a positive value unless it is already known. Positive numbers are equal if and only if their bits are.
 fn note(values: &mut Vec<f64>, known: &mut HashSet<u64>, value: f64) {
     if value > 0.0 && known.insert(value.to_bits()) {
         values.push(value);
@@ -254,7 +254,7 @@ fn widen(extent: &mut Extent, movement: &Move) {
     }
 }
 
-/// Least and greatest X, Y, Z of the cutter tip in the cutting moves of a drawn program, in mm; `None` if nothing is cut.
+/// Returns the least and greatest X, Y, Z of the cutter tip in the cutting moves of a drawn program, in mm; `None` if nothing is cut.
 pub fn cutting_box(program: &Program) -> Extent {
     let mut extent = Extent::default();
     for (_, movement) in program.moves().filter(|(_, movement)| matches!(movement.pace, Pace::Feed(_))) {

@@ -17,18 +17,18 @@ use crate::native::{f3, push_exact};
 /// Measured heights by probe number.
 pub(super) type Values = BTreeMap<u32, f64>;
 
-/// What the values are compared with.
+/// Checks measured values against the program's formulas, its table of probes and the permitted correction.
 pub(super) struct Check<'c, 'a> {
     pub(super) inputs: &'c Inputs<'a>,
     pub(super) table: &'c ProbeTable,
     pub(super) survey: &'c ProbeSurvey<'a>,
 }
 
-/// Two positions or heights with three decimals are different if they differ by at least this.
+/// Minimum difference, in mm, at which two positions or heights count as different: both are written with three decimals.
 pub(super) const DIFFERENT: f64 = 0.000_5;
 
 impl Check<'_, '_> {
-    /// Checks each value and returns all of them.
+    /// Checks every value and returns the usable ones by probe number; errors are added to `problems`.
     pub(super) fn values(&self, lines: &[ProbeLine<'_>], problems: &mut Vec<Diagnostic>) -> Values {
         let mut values = Values::new();
         for line in lines {
@@ -95,7 +95,7 @@ impl Check<'_, '_> {
         Ok(())
     }
 
-    /// The heights at which the probe was drawn. In the older form of the file these only follow from the formulas.
+    /// Returns the heights at which the probe was drawn. If the line states none, as in the older form of the file, they are taken from the formulas.
     fn expected(&self, line: &ProbeLine<'_>) -> Result<Vec<f64>, Box<Diagnostic>> {
         let program_probe = self.table.probes.get(&line.probe).map(|program_probe| program_probe.height);
         if let Some(height) = line.height.or(program_probe) {
@@ -110,7 +110,7 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Probes that formulas use but the file does not list, each at its first use. Only one per line of the program is reported.
+    /// Reports probes that formulas use but the file does not list, each at its first use. At most one per line of the program is reported.
     fn unknown(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
         let file = self.inputs.values.file.file_name().unwrap_or_default();
         let known: BTreeSet<u32> = lines.iter().map(|line| line.probe).collect();
@@ -123,7 +123,7 @@ impl Check<'_, '_> {
         unknown.collect()
     }
 
-    /// Probes that were measured but are not used by any formula, because formulas were removed or changed.
+    /// Reports probes that were measured but are not used by any formula, because formulas were removed or changed.
     pub(super) fn unused(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
         let file = self.inputs.program.file.file_name().unwrap_or_default();
         let is_stated = |line: &&ProbeLine<'_>| {
@@ -137,7 +137,7 @@ impl Check<'_, '_> {
         unused.collect()
     }
 
-    /// Probes that do not fit their neighbours. This requires that the program lists the positions of its probes.
+    /// Reports probes whose heights do not fit those of their neighbours. This requires that the program lists the positions of its probes.
     pub(super) fn odd_probes(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
         let measured = lines.iter().map(|line| match (line.value, self.table.probes.get(&line.probe)) {
             (EnteredValue::Value(value), Some(ProgramProbe { at: Some(at), height, .. })) => {

@@ -33,9 +33,9 @@ pub struct Source<'a> {
 /// The inputs for adjusting a program.
 #[derive(Clone, Copy, Debug)]
 pub struct Inputs<'a> {
-    /// `DRAWING_Clean.gcode`, with formulas.
+    /// The program with formulas, `DRAWING_Clean.gcode`.
     pub program: Source<'a>,
-    /// `DRAWING_Z.txt`, with one line per probe.
+    /// The file of measured values, `DRAWING_Z.txt`, with one line per probe.
     pub values: Source<'a>,
     /// The log of a sender that ran the probing program. Its values are used for probes without a value in `values`.
     pub log: Option<Source<'a>>,
@@ -46,29 +46,29 @@ pub struct Inputs<'a> {
 /// A program with measured heights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AdjustedProgram {
-    /// `DRAWING_Milling.gcode`.
+    /// Content of the adjusted program, `DRAWING_Milling.gcode`.
     pub program: Vec<u8>,
     /// Number of corrected heights.
     pub heights: u64,
     /// Least and greatest correction in mm; (0, 0) if there is none.
     pub corrections: (f64, f64),
-    /// Probes that do not fit their neighbours.
+    /// Warnings about probes whose heights do not fit those of their neighbours.
     pub warnings: Vec<Diagnostic>,
     /// Errors for probes that no formula uses. Such a program must not be milled, because its formulas were removed or changed.
     pub unused: Vec<Diagnostic>,
 }
 
-/// The first line, counted from 1, with a formula that has not been applied: `Z1.000(=...)` as opposed to `(==...)`.
+/// Returns the first line, counted from 1, with a formula that has not been applied: `Z1.000(=...)` as opposed to `(==...)`.
 pub fn first_open_formula(program: &[u8]) -> Option<u32> {
     let is_open = |line: &[u8]| spots(line).any(|spot| line.get(spot.formula.start) != Some(&b'='));
     (1..).zip(program.split(|byte| *byte == b'\n')).find(|(_, line)| is_open(line)).map(|(number, _)| number)
 }
 
-/// A formula or probe of a program, with its line counted from 1.
+/// A formula, or a probe of the header, with its line counted from 1.
 #[derive(Debug)]
 pub(crate) struct FormulaText {
     pub(crate) line: u32,
-    /// Without brackets and without the mark of applied formulas.
+    /// The text without brackets and without the second `=` that marks applied formulas.
     pub(crate) text: String,
     /// Whether the formula is marked as applied.
     pub(crate) is_applied: bool,
@@ -96,7 +96,7 @@ pub(crate) fn probe_entries(program: &[u8]) -> Vec<FormulaText> {
     entries.collect()
 }
 
-/// A line without its comments. Formulas are kept.
+/// Removes the comments from a line. Formulas are kept.
 pub(crate) fn without_comments(line: &str) -> String {
     let bytes = line.as_bytes();
     let mut formulas = spots(bytes).map(|spot| spot.formula.start - 2..spot.formula.end + 1).peekable();
@@ -124,7 +124,7 @@ pub fn is_adjusted_from(program: Source<'_>, clean: Source<'_>) -> bool {
     adjusted_again(program, clean).is_some_and(|expected| is_same_program(program.bytes, &expected))
 }
 
-/// The result of [`adjust`] for `clean` with the measured heights listed in the header of a program; `None` unless all of them are listed.
+/// Returns the result of [`adjust`] for `clean` with the measured heights listed in the header of a program; `None` unless all of them are listed.
 pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>> {
     let stated = ProbeTable::read(program).probes;
     let measured = |(probe, made): (&u32, &ProgramProbe)| Some((*probe, made.measured?));
@@ -174,10 +174,8 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     Ok(adjusted)
 }
 
-// The adjusted program.
-
-/// Factor and amount in mm by which a height may exceed the largest correction, although no probe does: weights with three decimals need
-/// not sum to 1.
+/// Factor and amount in mm by which a corrected height may exceed the largest correction even if no probe does: weights with three decimals need not
+/// sum to 1.
 const CORRECTION_SLACK: (f64, f64) = (1.002, 0.002);
 
 /// Evaluates all formulas. Everything else is preserved byte for byte.
@@ -262,7 +260,7 @@ impl Writer<'_> {
         Ok(height)
     }
 
-    /// Checks a correction: far outside the probes, a plane can exceed the values of all of them.
+    /// Checks that a correction is within the limit, because a plane far outside the probes can exceed all measured values.
     fn check(&mut self, line: Line<'_>, spot: &Spot, correction: f64) -> Result<(), Box<Diagnostic>> {
         let limit = self.inputs.max_correction;
         if correction.abs() > CORRECTION_SLACK.0 * limit + CORRECTION_SLACK.1 {
@@ -280,17 +278,17 @@ impl Writer<'_> {
     }
 }
 
-/// The text up to its last blank.
+/// Removes the last word of a text and keeps the blank before it.
 fn without_last_word(text: &[u8]) -> &[u8] {
     text.iter().rposition(|byte| *byte == b' ').map_or(text, |end| &text[..end])
 }
 
-/// Whether the number belongs to a Z word.
+/// Whether the number before a formula belongs to a Z word.
 fn is_height(line: &[u8], spot: &Spot) -> bool {
     line[..spot.number.start].trim_ascii_end().last().is_some_and(|letter| letter.eq_ignore_ascii_case(&b'Z'))
 }
 
-/// The measured heights. Every probe used by a formula has one, which was checked before.
+/// The measured heights by probe. [`Check::values`](check::Check::values) has ensured that every probe used by a formula has one.
 struct MeasuredHeights<'v>(&'v Values);
 
 impl Probes for MeasuredHeights<'_> {

@@ -1,4 +1,4 @@
-//! Lines of a program, the formulas in them (numbers, `#51` and so on, + - * /, ( ) and [ ]), and the probes that those use.
+//! Splits a program into lines and finds the formulas in them (numbers, `#51` and so on, + - * /, ( ) and [ ]) and the probes that the formulas use.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -14,7 +14,7 @@ pub(super) struct Line<'a> {
     pub(super) source: Source<'a>,
     /// Line number, counted from 1.
     pub(super) number: u32,
-    /// Including the line break.
+    /// The line as bytes, including the line break.
     pub(super) bytes: &'a [u8],
 }
 
@@ -55,13 +55,13 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Number of bytes shown before an error, and from its start on.
+/// Number of bytes shown before the start of an error, and from there on.
 const EXCERPT_BYTES: usize = 500;
 
 /// A number with its formula, as byte ranges of the line.
 #[derive(Clone, Debug)]
 pub(super) struct Spot {
-    /// Digits with an optional sign and decimal point. With several points it is not a valid number.
+    /// Digits with an optional sign and decimal point. If there are several points, this is not a valid number.
     pub(super) number: Range<usize>,
     /// The text between `(=` and the closing bracket.
     pub(super) formula: Range<usize>,
@@ -118,18 +118,18 @@ pub(super) struct ProbeSurvey<'a> {
     pub(super) probes: BTreeMap<u32, ProbeUse<'a>>,
 }
 
-/// A probe used by formulas.
+/// The first use of a probe in formulas, and the heights at which the probe was drawn.
 #[derive(Debug)]
 pub(super) struct ProbeUse<'a> {
     /// The line of its first use.
     pub(super) line: Line<'a>,
     pub(super) at: Range<usize>,
-    /// Least and greatest height at which it was drawn, according to the formulas.
+    /// Least and greatest height in mm at which the probe was drawn, according to the formulas.
     pub(super) drawn: Option<(f64, f64)>,
 }
 
 impl<'a> ProbeSurvey<'a> {
-    /// Checks all formulas. At most one error per line is reported.
+    /// Checks all formulas and collects the probes that they use. At most one error per line is reported.
     pub(super) fn of(program: Source<'a>, problems: &mut Vec<Diagnostic>) -> Self {
         let mut survey = Self::default();
         for line in lines(program) {
@@ -173,7 +173,7 @@ fn check(line: &[u8], spot: &Spot, probes: &mut impl Probes) -> Result<(), Fault
     Ok(())
 }
 
-/// The number before a formula.
+/// Parses the number before a formula.
 pub(super) fn number(line: &[u8], spot: &Spot) -> Option<f64> {
     let text = str::from_utf8(&line[spot.number.clone()]).ok()?;
     text.parse().ok().filter(|number: &f64| number.is_finite())
@@ -209,7 +209,7 @@ pub(super) trait Probes {
     /// Returns the measured height of a probe. `at` is its position in the formula.
     fn value(&mut self, probe: u32, at: Range<usize>) -> f64;
 
-    /// Called for each `[#51-5.000]`, which tells at which height the probe was drawn.
+    /// Called for each difference such as `[#51-5.000]`, which gives the height at which the probe was drawn.
     fn drawn(&mut self, _probe: u32, _height: f64) {}
 }
 
@@ -252,7 +252,7 @@ struct Term {
 enum Form {
     Number,
     Probe(u32),
-    /// A probe minus a number.
+    /// A probe's number, and the height subtracted from its measured height.
     Difference(u32, f64),
     Other,
 }
@@ -349,7 +349,7 @@ impl<P: Probes> Parser<'_, P> {
         Ok(Term { value: self.probes.value(probe, start..self.at), form: Form::Probe(probe) })
     }
 
-    /// The next byte that is not blank.
+    /// Skips blanks and returns the next byte without consuming it.
     fn peek(&mut self) -> Option<u8> {
         self.skip(|byte| matches!(byte, b' ' | b'\t'));
         self.text.get(self.at).copied()

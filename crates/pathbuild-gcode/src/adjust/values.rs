@@ -1,8 +1,8 @@
-//! The measured values: in the file into which the user enters them, and in the log of a sender, with one `[PRB:x,y,z:1]` per probe, as
+//! Reads the measured values from the file into which the user enters them, and from the log of a sender, which has one `[PRB:x,y,z:1]` per probe, as
 //! reported by Grbl and similar controls. (book: language/probes)
 //!
-//! The values of a log are in machine coordinates. If a preceding status report gives the workpiece offset (`WCO:x,y,z`), it is subtracted.
-//! Otherwise machine zero must be workpiece zero, which the comparison with the drawn heights will reveal.
+//! The values of a log are in machine coordinates. If a preceding status report gives the workpiece offset (`WCO:x,y,z`), it is subtracted. Otherwise
+//! machine zero must be workpiece zero, which the comparison with the drawn heights will reveal.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -19,11 +19,11 @@ use super::Source;
 use super::scan::{Line, lines};
 use crate::native::f3;
 
-/// A probe in the file.
+/// A line of the file of values, which describes one probe.
 #[derive(Debug)]
 pub(super) struct ProbeLine<'a> {
     pub(super) line: Line<'a>,
-    /// The number after #.
+    /// The number after `#`.
     pub(super) probe: u32,
     pub(super) place: ProbePoint,
     /// Position in the emitted drawing; missing in programs of the original tool and of old versions of pathbuild.
@@ -31,11 +31,11 @@ pub(super) struct ProbeLine<'a> {
     /// The expected height (th); missing in the older form.
     pub(super) height: Option<f64>,
     pub(super) value: EnteredValue,
-    /// Position of the value, present or missing: in this line, or in a line of a log.
+    /// Position of the value, or of the place where it is missing: in this line, or in a line of a log.
     pub(super) value_at: (Line<'a>, Range<usize>),
 }
 
-/// What follows the `=`.
+/// The value after the `=`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum EnteredValue {
     Nothing,
@@ -44,7 +44,7 @@ pub(super) enum EnteredValue {
     Wrong,
 }
 
-/// The ASCII text may be surrounded by bytes of any code page.
+/// A line of the file of values. Bytes of any code page may surround the ASCII text that it matches.
 static VALUE_LINE: LazyLock<bytes::Regex> = LazyLock::new(|| {
     let number = r"\s*(-?[0-9]+(?:[.,][0-9]+)?)\s*";
     let at = format!(r"@\s*\[{number}\|{number}\]");
@@ -113,7 +113,7 @@ pub(super) fn parse(text: &[u8]) -> Option<f64> {
     parse_number(str::from_utf8(text).ok()?)
 }
 
-/// The probes of a program. Programs of the original tool have no such table.
+/// The probes listed in a program's header. Programs of the original tool list none.
 #[derive(Debug, Default)]
 pub(super) struct ProbeTable {
     pub(super) probes: BTreeMap<u32, ProgramProbe>,
@@ -123,15 +123,15 @@ pub(super) struct ProbeTable {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ProgramProbe {
     pub(super) place: ProbePoint,
-    /// Height at which it was drawn, in mm.
+    /// Height at which the probe was drawn, in mm.
     pub(crate) height: f64,
-    /// Position in the program.
+    /// Position in the program's coordinates.
     pub(super) at: Option<Xy>,
     /// Measured height in mm; only in adjusted programs.
     pub(crate) measured: Option<f64>,
 }
 
-/// Formats its position as in the drawing.
+/// Formats the position as in the drawing.
 impl fmt::Display for ProgramProbe {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [x, y] = self.place;
@@ -140,7 +140,7 @@ impl fmt::Display for ProgramProbe {
     }
 }
 
-/// Position of a probe in its own drawing.
+/// X and Y of a probe in its own drawing, in mm.
 pub(super) type ProbePoint = [f64; 2];
 
 static HEADER_ENTRY: LazyLock<Regex> = LazyLock::new(|| {
@@ -152,7 +152,7 @@ static HEADER_ENTRY: LazyLock<Regex> = LazyLock::new(|| {
 });
 
 impl ProbeTable {
-    /// Reads the comments before the first block of the program.
+    /// Reads the probes listed in the comments before the first block of the program.
     pub(super) fn read(program: Source<'_>) -> Self {
         let mut table = Self::default();
         for line in lines(program).map(Line::content).take_while(|line| is_header(line)) {
@@ -169,13 +169,13 @@ pub(super) fn is_header(line: &[u8]) -> bool {
     matches!(line.first(), None | Some(b'(' | b'%' | b';'))
 }
 
-/// The probe listed in a line of the header.
+/// Parses the probe listed in a line of the header; `None` if the line lists none.
 pub(super) fn entry_of_line(line: &[u8]) -> Option<(u32, ProgramProbe)> {
     let comment = line.trim_ascii_end().strip_prefix(b"(")?.strip_suffix(b")")?;
     probe_entry(str::from_utf8(comment).ok()?)
 }
 
-/// The probe listed in a comment, with its number.
+/// Parses the probe listed in a comment, with its number; `None` if the comment lists none.
 pub(crate) fn probe_entry(comment: &str) -> Option<(u32, ProgramProbe)> {
     if !comment.starts_with("Probe #") {
         return None;
@@ -195,7 +195,7 @@ static LOG_REPORT: LazyLock<bytes::Regex> = LazyLock::new(|| {
         .expect("a constant pattern")
 });
 
-/// A probing result.
+/// A height that a sender logged for one probing move.
 #[derive(Debug)]
 struct LoggedHeight<'a> {
     line: Line<'a>,
@@ -203,7 +203,7 @@ struct LoggedHeight<'a> {
     place: [f64; 3],
 }
 
-/// Assigns the values of the log to the probes that have none, in the order of their numbers, which is that of the probing program.
+/// Assigns the values of the log, in their order, to the probes without a value, in the order of their numbers: the probing program uses that order.
 pub(super) fn fill_from_log<'a>(
     probes: &mut [ProbeLine<'a>],
     values: Source<'_>,
@@ -278,8 +278,8 @@ fn read_log<'a>(log: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<LoggedHe
     measured
 }
 
-/// The first result that was measured elsewhere than its probe, up to the distance that all results have in common: the log may lack the
-/// offset of the workpiece. Probes whose place in the program is not stated are not compared.
+/// Reports the first result that was measured elsewhere than its probe. A displacement that all results share is ignored, because the log may lack
+/// the offset of the workpiece. Probes whose position in the program is not stated are not compared.
 fn misplaced(probes: &[&mut ProbeLine<'_>], measured: &[LoggedHeight<'_>]) -> Option<Diagnostic> {
     let mut common: Option<[f64; 2]> = None;
     probes.iter().zip(measured).find_map(|(probe, measured)| {
@@ -299,7 +299,7 @@ fn misplaced(probes: &[&mut ProbeLine<'_>], measured: &[LoggedHeight<'_>]) -> Op
 /// Distance in mm along an axis within which a result counts as measured at its probe: a machine stops at whole steps.
 const PLACE_TOLERANCE: f64 = 0.1;
 
-/// The position in `x,y,z:1`.
+/// Parses the position in `x,y,z:1`.
 fn position(report: &Captures<'_>) -> Result<[f64; 3], &'static Message> {
     let text = report.name("probe").map_or(&b""[..], |found| found.as_bytes());
     let colon = text.iter().rposition(|byte| *byte == b':').ok_or(&messages::BROKEN_LOG_LINE)?;
@@ -311,7 +311,7 @@ fn position(report: &Captures<'_>) -> Result<[f64; 3], &'static Message> {
     }
 }
 
-/// The first three of several comma-separated numbers; machines with more axes report more.
+/// Parses the first three of several comma-separated numbers; machines with more axes report more.
 fn first_three(text: &[u8]) -> Option<[f64; 3]> {
     let numbers: Option<Vec<f64>> = text.split(|byte| *byte == b',').map(parse).collect();
     numbers?.first_chunk().copied()

@@ -7,28 +7,28 @@ pub struct Words {
     pub letters: Letters,
     /// Accepted G codes, in ascending order.
     pub g: &'static [u16],
-    /// Accepted G codes with another meaning than in RS274; they are not followed.
+    /// Accepted G codes whose meaning differs from that in RS274; the interpreter does not follow them.
     pub g_own: &'static [u16],
     /// Accepted M codes, in ascending order.
     pub m: &'static [u16],
     /// M codes that are ignored.
     pub m_ignored: &'static [u16],
-    /// Accepted words that change neither where the tool goes nor which line is run.
+    /// Accepted words that change neither the tool's path nor the order of lines.
     pub inert: &'static [InertWord],
     /// Whether M100 to M199 run programs of the user.
     pub own_m_codes: bool,
-    /// Whether unknown words are ignored with a warning, whereas other controls stop.
+    /// Whether the control ignores unknown words, so that they only cause a warning; other controls stop.
     pub lenient: bool,
 }
 
-/// A word that changes neither where the tool goes nor which line is run: the control's look-ahead, its outputs, its overrides.
+/// A word that changes neither the tool's path nor the order of lines: it controls look-ahead, outputs or overrides.
 #[derive(Debug)]
 pub struct InertWord {
     /// `G` or `M`.
     pub letter: char,
     /// The code, times ten.
     pub code: u16,
-    /// The letters that it takes.
+    /// The letters of the values that the word takes, in upper case.
     pub values: &'static [u8],
     /// The values of the first of these letters that are known to be harmless; empty if all are.
     pub harmless: &'static [f64],
@@ -61,7 +61,7 @@ impl Words {
         self.g.binary_search(&code).is_ok()
     }
 
-    /// The entry of an inert word.
+    /// Returns the entry of an inert word; `None` if the dialect has no such word.
     pub fn inert(&self, letter: char, code: u16) -> Option<&'static InertWord> {
         self.inert.iter().find(|word| (word.letter, word.code) == (letter, code))
     }
@@ -77,7 +77,7 @@ const fn inert(letter: char, code: u16, values: &'static [u8]) -> InertWord {
     InertWord { letter, code, values, harmless: &[] }
 }
 
-/// What most dialects have in common.
+/// The words that most dialects share; each of them overrides some fields.
 const COMMON_WORDS: Words = Words {
     letters: Letters(0),
     g: &[],
@@ -153,7 +153,7 @@ pub(super) static XPERTMILL: Words = Words {
     ..COMMON_WORDS
 };
 
-/// The words common to GRBL and RS274/NGC, because the native program is written for senders of both.
+/// The words that GRBL and RS274/NGC share, because the native program is written for senders of both.
 pub(super) static NATIVE: Words = Words {
     letters: Letters::new(b"ABCDFGHIJKLMNPQRSTXYZ"),
     g: &[

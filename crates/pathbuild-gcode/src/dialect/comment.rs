@@ -1,5 +1,5 @@
-//! Comments with text from outside: names, remarks, dates. All text from drawings, file names and options goes through this module.
-//! (book: program/gcode; book: program/reading)
+//! Writes comments with text from outside: names, remarks, dates. All text from drawings, file names and options goes through this module. (book:
+//! program/gcode; book: program/reading)
 
 use std::borrow::Cow;
 
@@ -66,7 +66,7 @@ pub fn within_comment(text: &str, dialect: Option<Dialect>, charset: Charset) ->
     all
 }
 
-/// Whether a byte is harmless in all dialects, as are almost all characters in practice.
+/// Whether a byte is harmless in all dialects, as almost all characters are in practice.
 fn is_harmless_everywhere(byte: u8) -> bool {
     matches!(byte, b' '..=b'~')
         && !matches!(byte, b'#' | b'(' | b')' | b'\\' | b';' | b'%' | b'!' | b'?' | b'~')
@@ -140,5 +140,5 @@ pub(crate) fn beginning_of(text: &str, words: &[&'static str]) -> Option<&'stati
     words.iter().copied().find(|word| begins(word))
 }
 
-/// Words that change what the user sees on some control: messages, and which moves a preview shows.
+/// Words at the start of a comment that change what some control displays: messages, and which moves a preview shows.
 const DISPLAY_WORDS: &[&str] = &["MSG", "DEBUG", "PRINT", "AXIS", "PREVIEW,", "STAT", "TOUCH", "PAUSE"];

@@ -27,7 +27,7 @@ macro_rules! dialects {
         }
 
         impl Dialect {
-            /// All dialects, in listing order.
+            /// All dialects, in the order in which they are listed to users.
             pub const ALL: &[Self] = &[$(Self::$dialect,)*];
 
             /// Name on the command line.
@@ -78,7 +78,7 @@ impl fmt::Display for Dialect {
     }
 }
 
-/// Parses a [`name`](Dialect::name).
+/// Parses the [`name`](Dialect::name) of a dialect.
 impl FromStr for Dialect {
     type Err = ();
 

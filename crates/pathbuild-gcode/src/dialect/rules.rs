@@ -7,7 +7,7 @@ use super::codes::{self, Words};
 #[derive(Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 pub struct Rules {
-    /// The dialect.
+    /// The dialect that these rules describe.
     pub dialect: Dialect,
     /// Spelling of words and comments.
     pub spelling: Spelling,
@@ -21,15 +21,15 @@ pub struct Rules {
     pub start_motion: StartMotion,
     /// The words that switch to inches and to millimetres (G codes times ten).
     pub unit_words: [u16; 2],
-    /// Other words with the same meaning.
+    /// G codes (times ten) that switch to inches and to millimetres besides `unit_words`.
     pub unit_synonyms: Option<[u16; 2]>,
-    /// Whether M6 selects layers, to which moves and S belong.
+    /// Whether M6 selects a layer, and moves and S apply to the selected layer.
     pub layers: bool,
-    /// Whether a motion word applies only to its own line; repeating it by coordinates alone causes a warning.
+    /// Whether a motion word applies only to its own line; coordinates alone repeat it, with a warning.
     pub motion_is_stated: bool,
     /// How G4 specifies its time.
     pub dwell: DwellRules,
-    /// Whether the control obeys only the first G, M or T word of a line, with which the line must begin. Other words are its values.
+    /// Whether the control obeys only the first G, M or T word of a line, which must be its first word. All other words are values of that command.
     pub one_command: bool,
     /// Whether a line may have only one G and one M word.
     pub one_word_each: bool,
@@ -43,17 +43,17 @@ pub struct Rules {
     pub unusual: OptionalWords,
     /// Whether M5 and M9 take effect after the move in the same line.
     pub stops_last: bool,
-    /// Whether rapid moves have the feed F like all other moves.
+    /// Whether rapid moves use the feed F, as all other moves do.
     pub rapids_at_feed: bool,
-    /// Whether `O1234` at the beginning is the program number.
+    /// Whether `O1234` at the beginning of a file is the program number.
     pub program_numbers: bool,
     /// Whether a number without a decimal point counts least increments on some machines, so that `X10` is 0.010 mm.
     pub least_increments: bool,
-    /// Whether the control keeps H and D, so that they may stand beside any word for the tool length.
+    /// Whether the control stores H and D, so that both may accompany any word for the tool length.
     pub keeps_offsets: bool,
     /// Whether G10 needs an axis.
     pub offsets_need_axis: bool,
-    /// The letter for the repetitions of a drilling cycle.
+    /// The letter of the word for the number of repetitions of a drilling cycle.
     pub repeats: u8,
     /// Whether a drilling cycle with 0 repetitions is only stored, for the lines after it.
     pub stores_cycles: bool,
@@ -67,16 +67,16 @@ pub struct Rules {
     pub lifts_to_start: bool,
     /// Whether G80 may stand beside a motion word, which then applies.
     pub ends_cycles_beside_motion: bool,
-    /// How tool lengths are kept.
+    /// Which tool length is in effect where the program does not state one.
     pub lengths: LengthRules,
 }
 
-/// What a control keeps of the tool length.
+/// Which tool length a control retains from earlier lines and programs.
 #[derive(Clone, Copy, Debug)]
 pub struct LengthRules {
-    /// Whether G43 without H takes the H before it, even that of the program before; otherwise it takes the tool in the spindle.
+    /// Whether G43 without H uses the last H, even one of the previous program; otherwise it uses the number of the tool in the spindle.
     pub keeps_entry: bool,
-    /// Whether the length of the program before is in effect until the program states one.
+    /// Whether the length set by the previous program remains in effect until this program sets one.
     pub keeps_length: bool,
 }
 
@@ -85,34 +85,34 @@ pub struct LengthRules {
 pub struct ReferenceRules {
     /// G codes (times ten) that move axes to their reference switches.
     pub g: &'static [u16],
-    /// Whether the control then counts from the switches, no longer from the zero of the part.
+    /// Whether the control afterwards counts coordinates from the switches and no longer from the workpiece zero.
     pub loses_zero: bool,
 }
 
-/// Words that a control only knows if it was built with a special setting.
+/// Words that a control supports only if it was built with a special setting.
 #[derive(Debug)]
 pub struct OptionalWords {
     /// G codes, times ten.
     pub g: &'static [u16],
-    /// Whether P, the number of turns of an arc, is one.
+    /// Whether P, the number of turns of an arc, is such a word.
     pub turns: bool,
 }
 
-/// How P selects additional coordinate systems.
+/// How P numbers coordinate systems besides G54 to G59.
 #[derive(Debug)]
 pub struct SystemNumbers {
-    /// The G code, times ten.
+    /// G code, times ten, with which P selects a system.
     pub code: u16,
-    /// Number of values of P, from 1, that stand for G54 and those after it.
+    /// Number of values of P, from 1, that select G54 and the systems after it.
     pub regular: u32,
-    /// Greatest P.
+    /// Maximum value of P.
     pub most: u32,
 }
 
 /// How G4 specifies its time.
 #[derive(Debug)]
 pub struct DwellRules {
-    /// Unit of P.
+    /// Unit of the time in P.
     pub p: DwellUnit,
     /// Letters other than P that specify seconds.
     pub seconds: &'static [u8],
@@ -141,7 +141,7 @@ pub struct ArcRules {
     pub radius: RadiusTolerance,
     /// Whether an axis word in the plane of the arc is required even if its value does not change.
     pub axis_word: bool,
-    /// Amount in mm by which half the chord of an arc in R form may exceed the radius.
+    /// Amount in mm by which half the chord of an arc given by R may exceed R.
     pub short_radius: f64,
     /// Whether P is the number of turns.
     pub turns: bool,
@@ -161,7 +161,7 @@ pub enum RadiusTolerance {
         /// Tolerance in mm for programs in inches.
         inch: f64,
     },
-    /// At most `most`, and no more than the greater of `least` and the given share of the radius.
+    /// The greater of `least` and the given share of the radius, but at most `most`.
     Relative {
         /// Upper limit in mm.
         most: f64,
@@ -258,7 +258,7 @@ const BASE: Rules = Rules {
     lengths: LengthRules { keeps_entry: false, keeps_length: false },
 };
 
-/// The lengths of RS274 and of the controls that follow it.
+/// How RS274, and the controls that follow it, retain tool lengths.
 const RS274_LENGTHS: LengthRules = LengthRules { keeps_entry: false, keeps_length: true };
 
 pub(super) static RS274: Rules = Rules {
@@ -394,9 +394,9 @@ pub(super) static MACH3: Rules = Rules {
     program_numbers: true,
     keeps_offsets: true,
     lifts_to_start: true,
-    // By memory of the same: G59 P selects one of 254 systems, of which the first six are G54 to G59.
+    // By memory of "Using Mach3Mill": G59 P selects one of 254 systems, of which the first six are G54 to G59.
     systems: Some(SystemNumbers { code: 590, regular: 6, most: 253 }),
-    // Vectric's post for it begins programs with `G00G21G17G90G40G49G80` and `G71G91.1`.
+    // Vectric's post for Mach3 begins programs with `G00G21G17G90G40G49G80` and `G71G91.1`.
     unit_synonyms: Some([700, 710]),
     ends_cycles_beside_motion: true,
     ..BASE
@@ -412,7 +412,7 @@ const ISO: Rules = Rules {
     // By memory of the operator's manual: operation 1 of a canned cycle is the positioning of X and Y, operation 2 the rapid move to R.
     rises_before_holes: false,
     lifts_to_start: true,
-    // G80 is in a group of its own.
+    // G80 is in a modal group of its own, so another motion word may stand beside it.
     ends_cycles_beside_motion: true,
     lengths: LengthRules { keeps_entry: true, keeps_length: false },
     ..BASE
@@ -423,7 +423,7 @@ pub(super) static FANUC: Rules = Rules {
     words: &codes::FANUC,
     dwell: DwellRules { p: DwellUnit::Milliseconds, seconds: b"X", counts_turns: false },
     repeats: b'K',
-    // By memory of the same: with K0 the drilling data are stored, and nothing is drilled.
+    // By memory of the operator's manual: with K0 the drilling data are stored, and nothing is drilled.
     stores_cycles: true,
     // By memory: G54.1 P1 to P48, or P300 with an option; G30 P2, P3 and P4 are the second to fourth reference points.
     systems: Some(SystemNumbers { code: 541, regular: 0, most: 247 }),
@@ -439,7 +439,7 @@ pub(super) static HAAS: Rules = Rules {
     stop_is_complete: true,
     // By memory of the operator's manual: L0 defines a cycle without drilling at the present position.
     stores_cycles: true,
-    // By memory of the same: G154 P1 to P99 selects work coordinates.
+    // By memory of the operator's manual: G154 P1 to P99 selects work coordinates.
     systems: Some(SystemNumbers { code: 1540, regular: 0, most: 99 }),
     ..ISO
 };
@@ -454,7 +454,7 @@ pub(super) static MARLIN: Rules = Rules {
         slash: Slash::Unknown,
         line_length: Some(LineLength::Whole(96)),
         block_numbers: Some(u32::MAX),
-        // queue.cpp: "No Checksum with line number", unless the file is on the SD card.
+        // Marlin's queue.cpp: "No Checksum with line number", unless the file is on the SD card.
         checksums: true,
         message_codes: &[0, 1, 117, 118],
         ..BASE_SPELLING
@@ -510,15 +510,15 @@ pub(super) static DIN: Rules = Rules {
 pub struct Spelling {
     /// Whether words may have lower-case letters.
     pub small_letters: bool,
-    /// `( )`.
+    /// Support for comments in `( )`.
     pub round_comments: Style,
     /// Whether `(` within a round comment is an ordinary character; otherwise it is an error.
     pub nested_comments: bool,
-    /// `;` to the end of the line.
+    /// Support for comments from `;` to the end of the line.
     pub semicolon_comments: Style,
-    /// `//` to the end of the line.
+    /// Support for comments from `//` to the end of the line.
     pub slash_comments: Style,
-    /// `!` to the end of the line.
+    /// Support for comments from `!` to the end of the line.
     pub bang_comments: Style,
     /// Meaning of blanks.
     pub blanks: Blanks,
@@ -542,7 +542,7 @@ pub struct Spelling {
     pub formulas: bool,
     /// Whether a number without a letter after M6 is the tool number.
     pub bare_tool_number: bool,
-    /// Whether `!`, `?`, `~` and all bytes above 127 act immediately, even in comments.
+    /// Whether `!`, `?`, `~` and all bytes above 127 act immediately, even inside comments.
     pub real_time_bytes: bool,
     /// Beginnings of comments that the control obeys: it writes files, runs programs or stops.
     pub active_comments: &'static [&'static str],
@@ -550,36 +550,36 @@ pub struct Spelling {
     pub message_codes: &'static [u16],
 }
 
-/// Whether a notation belongs to the dialect.
+/// How well a dialect supports a notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// It does.
+    /// The dialect supports the notation.
     Usual,
-    /// It is read with a warning, because the dialect is not known to support it.
+    /// The notation is read with a warning, because the dialect is not known to support it.
     Doubtful,
-    /// It is not supported.
+    /// The dialect does not support the notation.
     Unknown,
 }
 
 /// Meaning of blanks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Blanks {
-    /// They are ignored, even inside a number: `X1 2` is X12.
+    /// Blanks are ignored, even inside a number: `X1 2` is X12.
     Ignored,
-    /// They separate words: `M06 05` is M6 and 5.
+    /// Blanks separate words: `M06 05` is M6 and 5.
     Separate,
 }
 
 /// Meaning of a line that begins with `%`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Percent {
-    /// The first begins the program, the second ends it.
+    /// The first `%` begins the program, the second one ends it.
     Frame,
-    /// It begins the program.
+    /// `%` begins the program.
     Start,
-    /// The first begins the program, even after a block number, and the rest of its line is the name of the program.
+    /// The first `%` begins the program, even after a block number, and the rest of its line is the name of the program.
     Title,
-    /// The control rejects it.
+    /// The control rejects `%`.
     Refused,
 }
 
@@ -588,9 +588,9 @@ pub enum Percent {
 pub enum Slash {
     /// A switch on the machine decides whether the line is executed.
     Optional,
-    /// It is discarded and the line is executed.
+    /// The `/` is discarded, and the line is executed.
     Dropped,
-    /// It is not supported.
+    /// `/` is not supported.
     Unknown,
 }
 
@@ -608,11 +608,11 @@ pub enum LineLength {
 pub struct Grammar {
     /// The operators and their precedence.
     pub operators: Operators,
-    /// `#<name>`.
+    /// Whether there are named parameters, as in `#<name>`.
     pub names: bool,
     /// Whether a sign may precede `[`, `#` or a function.
     pub signs: bool,
-    /// Parameters are numbered from 1 to this.
+    /// Largest number of a parameter; the smallest is 1.
     pub parameters: u32,
     /// Whether there are O words (subroutines, branches).
     pub o_words: bool,
@@ -627,7 +627,8 @@ pub enum Operators {
     LinuxCnc,
 }
 
-/// Words obeyed by LinuxCNC: it writes files, runs programs or stops. A comma is included if the word only has an effect with it.
+/// First words of comments that LinuxCNC acts on: it writes files, runs programs or stops. A comma is included if the word only has an effect with
+/// it.
 pub(super) const OBEYED: &[&str] = &[
     "LOG,",
     "LOGOPEN,",

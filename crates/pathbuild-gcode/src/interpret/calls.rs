@@ -1,4 +1,4 @@
-//! Subprograms, which run wherever they are called, loops and branches. (book: program/reading, "Subprograms")
+//! Executes subprograms, loops and branches. (book: program/reading, "Subprograms")
 //!
 //! Only subprograms in the same file can be followed: `o100 sub`, `O100`, and for M97 the lines from a block number on.
 
@@ -21,12 +21,12 @@ const MAX_CALL_DEPTH: usize = 10;
 /// Maximum number of lines executed by all calls and loops of a file, so that a few bytes cannot describe hours of work.
 const MOST_LINES: u32 = 1_000_000;
 
-/// Why lines are no longer executed.
+/// The reason why the execution of consecutive lines ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
     Returned,
     Repeated,
-    /// A pass through the loop that [`Runner::left`] names has ended early.
+    /// A `break` or `continue` ended a pass of the loop that [`Runner::left`] names.
     Left(LoopExit),
     /// There are no more lines.
     NoLines,
@@ -38,7 +38,7 @@ enum Outcome {
 pub(super) struct Runner<'r, 'i> {
     interpreter: &'r mut Interpreter<'i>,
     each: &'r mut dyn FnMut(Step) -> ControlFlow<()>,
-    /// Where the subprograms of the file begin; searched for at the first call.
+    /// The start of each subprogram of the file; determined at the first call.
     definitions: Option<HashMap<SubprogramName, Definition>>,
     /// The subprograms that are being executed.
     active: Vec<SubprogramName>,
@@ -46,7 +46,7 @@ pub(super) struct Runner<'r, 'i> {
     loops: Vec<OpenLoop>,
     /// The name of the loop that `break` or `continue` leaves.
     left: Box<str>,
-    /// The flags that the last `break` and `continue` left behind in LinuxCNC.
+    /// Flags that LinuxCNC did not clear after the last `break` and `continue`.
     stale: StaleFlags,
     /// The number of calls and loops that are being executed.
     depth: usize,
@@ -56,11 +56,11 @@ pub(super) struct Runner<'r, 'i> {
     pub(super) has_words: bool,
 }
 
-/// Where a subprogram begins.
+/// The start of a subprogram.
 #[derive(Clone, Copy, Debug)]
 struct Definition {
     place: Place,
-    /// The line of a second one with the same name. Which of both the control runs depends on its settings.
+    /// The line of a second definition with the same name. Which of the two the control runs depends on its settings.
     second: Option<u32>,
 }
 
@@ -68,7 +68,7 @@ struct Definition {
 #[derive(Debug)]
 struct OpenLoop {
     name: Box<str>,
-    /// Whether it tests its condition after each pass.
+    /// Whether the loop tests its condition after each pass.
     is_do: bool,
 }
 
@@ -238,7 +238,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         }
         match outcome {
             Outcome::Repeated if times > 0 => self.end_after_continue(name, line),
-            // LinuxCNC begins this loop again, but runs no further pass.
+            // LinuxCNC restarts this loop, but runs no further pass.
             Outcome::Repeated => self.stale.continue_line = None,
             _ => {}
         }
@@ -246,7 +246,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         outcome
     }
 
-    /// Runs a loop whose condition is in the line after `condition`, and its lines after that.
+    /// Runs a loop whose condition is in the line after `condition`, followed by the lines of the loop.
     fn repeat_while(
         &mut self,
         reader: &mut BlockReader<'_>,
@@ -312,7 +312,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         outcome
     }
 
-    /// Whether another pass follows. Its condition is in the line after `condition`.
+    /// Whether another pass of the loop follows. Its condition is in the line after `condition`.
     fn goes_on(&mut self, reader: &BlockReader<'_>, name: &str, is_do: bool, condition: Place) -> bool {
         let mut reader = reader.again_from(condition);
         let Some(block) = reader.next_block() else { return false };
@@ -328,7 +328,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         holds
     }
 
-    /// Reports a loop that LinuxCNC begins again at its end.
+    /// Reports a loop that LinuxCNC restarts at its end because of an earlier `continue`.
     fn end_after_continue(&mut self, name: &str, line: u32) {
         if let Some(left) = self.stale.continue_line.take() {
             self.report_stale(&say::REPEATED_BY_EARLIER_CONTINUE, line, name, left);
@@ -368,7 +368,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         self.end(reader, name, end, line).map_or(Outcome::NoLines, |_| Outcome::Repeated)
     }
 
-    /// Skips the lines up to their end, and returns the place before that.
+    /// Skips the lines up to the end of a subroutine, a loop or branches, and returns the place before that end.
     fn end(&mut self, reader: &mut BlockReader<'_>, name: &str, end: OWordKind, line: u32) -> Option<Place> {
         loop {
             let before = reader.place();
@@ -392,7 +392,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         true
     }
 
-    /// The definition of a subprogram. `P30100` may mean three times O100.
+    /// Finds the definition of a subprogram. `P30100` may mean O100 three times.
     fn definition(
         &mut self,
         reader: &BlockReader<'_>,
@@ -417,7 +417,7 @@ impl<'r, 'i> Runner<'r, 'i> {
     }
 }
 
-/// The name of an O word, or its number without leading zeros.
+/// Returns the name of an O word, or its number without leading zeros.
 fn name_of_o_word(block: &Block<'_>, word: OWord) -> Box<str> {
     name_of(block, word.name).trim_start_matches('0').into()
 }
@@ -463,7 +463,7 @@ impl Interpreter<'_> {
             OWordKind::Return | OWordKind::EndSub => Some(Jump::Return),
             OWordKind::Repeat => self.repetitions(block, word, name)?,
             OWordKind::If => (!self.condition(block)).then_some(Jump::Branch(name)),
-            // The branch before it was executed.
+            // The preceding branch was executed, so this one is skipped.
             OWordKind::ElseIf | OWordKind::Else => Some(Jump::Pass(name, OWordKind::EndIf)),
             OWordKind::EndIf => None,
             OWordKind::While => Some(Jump::While(name)),
@@ -497,7 +497,7 @@ impl Interpreter<'_> {
         block.arguments.iter().map(value).collect()
     }
 
-    /// Whether the condition of a block's O word holds. One without a value is reported, and does not hold.
+    /// Evaluates the condition of a block's O word. A missing value is reported and counts as false.
     fn condition(&mut self, block: &Block<'_>) -> bool {
         let Some(word) = block.o_word else { return false };
         match self.arguments(block, word) {

@@ -1,4 +1,4 @@
-//! G codes by their effect.
+//! Classifies G codes by their effect.
 
 use pathbuild_motion::{Group, Plane, WordEffect, WorkSystem};
 
@@ -116,7 +116,7 @@ impl Command {
         }
     }
 
-    /// How far the interpreter follows the command. One that is reported as not followed needs no second report.
+    /// How far the interpreter follows the command. A command that was reported as not followed is not reported again.
     pub(super) fn effect(self) -> WordEffect {
         match self {
             Self::NoEffect(Group::ToolLength | Group::PathControl) => WordEffect::Followed,
@@ -127,7 +127,7 @@ impl Command {
         }
     }
 
-    /// Whether it consumes the coordinates of the line.
+    /// Whether the command consumes the coordinates of the line.
     pub(super) fn takes_coordinates(self) -> bool {
         match self {
             Self::SetOffsets
@@ -141,7 +141,7 @@ impl Command {
         }
     }
 
-    /// The effect of a G code (times ten). Unit words depend on the dialect and are looked up before.
+    /// Returns the effect of a G code (times ten). Unit words depend on the dialect and are looked up beforehand.
     pub(super) fn of(code: u16) -> Self {
         use Group::{CutterCompensation, LatheMode, PathControl, SpindleMode, ToolLength, Transform};
         let system =
@@ -174,7 +174,8 @@ impl Command {
                 additional.map_or(Self::NotFollowed(Group::System), Self::System)
             }
             90 | 610 | 611 | 640 => Self::NoEffect(PathControl),
-            // These switch polar coordinates, scaling, mirroring and rotation off, which is always the case.
+            // G15, G50 and G69 switch polar coordinates, scaling, mirroring and rotation off. They have no effect, since a program that switches
+            // these on is not followed.
             150 | 500 | 690 => Self::NoEffect(Transform),
             160 | 510 | 680 => Self::NotFollowed(Transform),
             70 => Self::NotFollowed(LatheMode),

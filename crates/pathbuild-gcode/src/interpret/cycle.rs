@@ -21,12 +21,12 @@ const MOST_MOVES: f64 = 100_000.0;
 #[derive(Clone, Copy, Debug)]
 struct Hole {
     cycle: Cycle,
-    /// End of the rapid descent above the material.
+    /// Height in mm at which the rapid descent above the material ends.
     r: f64,
     bottom: f64,
-    /// Final retraction height.
+    /// Height in mm of the final retraction.
     clear: f64,
-    /// Depth of a peck.
+    /// Depth of a peck in mm.
     step: f64,
     dwell: f64,
 }
@@ -77,7 +77,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Whether the line only defines the cycle. Whether the tool goes to coordinates in such a line is not known.
+    /// Whether the line only defines the cycle. Whether the tool moves to the coordinates of such a line is unknown.
     fn is_only_stored(&self, coordinates: &[Option<Slot>; 3]) -> bool {
         let repeats = self.words.values.peek(self.rules.repeats);
         let stays = self.state.plane.axes().iter().all(|axis| coordinates[*axis].is_none());
@@ -97,8 +97,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Stores R, Z, P and Q for this line and the following ones of the same cycle. R and Z are stored as heights, so that in relative mode
-    /// the next line drills to the same depth.
+    /// Stores R, Z, P and Q for this line and the following lines of the same cycle. R and Z are stored as heights, so that in relative mode the next
+    /// line drills to the same depth.
     fn remember(&mut self, block: &Block<'_>, z: Option<Slot>) {
         let shift = self.state.offsets.shift(self.state.plane.third());
         let old = self.old_height();
@@ -150,7 +150,7 @@ impl Interpreter<'_> {
         Some(Hole { cycle, r, bottom, clear: r, step, dwell })
     }
 
-    /// The retraction height: that at the start of the series (G98), or R (G99).
+    /// Returns the retraction height: the height at the start of the series (G98), or R (G99).
     fn old_height(&self) -> f64 {
         let axis = self.state.plane.third();
         if self.state.retract_to_r { self.state.position.at[axis] } else { self.state.cycle.initial[axis] }

@@ -1,4 +1,4 @@
-//! Parameters, and evaluation of expressions and correction formulas. (book: program/reading, book: language/probes)
+//! Evaluates parameters, expressions and correction formulas. (book: program/reading, book: language/probes)
 
 use std::collections::BTreeMap;
 
@@ -11,25 +11,26 @@ use crate::read::{Binary, Block, Code, Function, Op, Span};
 /// LinuxCNC considers numbers equal if they differ by less than this.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
-/// Why an expression cannot be evaluated.
+/// The reason why an expression cannot be evaluated.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fault(pub(super) &'static Text);
 
-/// The parameters of a program. What it never set has no value here: a control keeps numbered parameters from one program to the next.
+/// The parameters of a program. Parameters that it has not set have no value, because a control keeps numbered parameters from one program to the
+/// next.
 #[derive(Debug, Default)]
 pub(super) struct Parameters {
     numbered: BTreeMap<u32, f64>,
     named: BTreeMap<Box<str>, f64>,
     stack: Vec<f64>,
-    /// Parameters that were read although only the machine knows their values, as they are spelled.
+    /// Parameters, as they are written, that were read although only the machine knows their values.
     pub(super) machine_values: Vec<Box<str>>,
 }
 
-/// What expressions may refer to.
+/// The data to which expressions may refer.
 pub(super) struct Scope<'s> {
-    /// Parameters are numbered from 1 to this.
+    /// Largest number of a parameter; the smallest is 1.
     pub(super) most: u32,
-    /// Whether the control names values of the machine, such as `#<_x>`.
+    /// Whether the control has named parameters for values of the machine, such as `#<_x>`.
     pub(super) has_names: bool,
     /// The state of the machine.
     pub(super) state: &'s State,
@@ -41,7 +42,7 @@ pub(super) struct LocalParameters {
     named: BTreeMap<Box<str>, f64>,
 }
 
-/// The last numbered parameter of a subroutine.
+/// The last numbered parameter that is local to a subroutine.
 const LOCAL: u32 = 30;
 
 /// The last parameter that programs use. Those above hold positions, offsets and the state of the machine.
@@ -56,7 +57,7 @@ impl Parameters {
         self.named.insert(name, value);
     }
 
-    /// Sets the parameters that belong to a subroutine, and returns those of the caller.
+    /// Saves the caller's local parameters and sets those of a subroutine. Returns the saved ones.
     pub(super) fn enter(&mut self, values: &[f64]) -> LocalParameters {
         let own = (1..=LOCAL).zip(values.iter().copied().chain(std::iter::repeat(0.0)));
         let numbered = own.filter_map(|(number, value)| Some((number, self.numbered.insert(number, value)?)));
@@ -166,7 +167,7 @@ impl Parameters {
         Ok(known.unwrap_or_else(|| self.machine_value(format!("#<{name}>"))))
     }
 
-    /// The value assumed for a parameter that only the machine knows.
+    /// Records a parameter that only the machine knows, and returns the value assumed for it.
     fn machine_value(&mut self, parameter: String) -> f64 {
         self.machine_values.push(parameter.into());
         0.0
@@ -236,7 +237,7 @@ const PREDEFINED: &[&str] = &[
     "_z",
 ];
 
-/// Whether LinuxCNC defines a name itself: a state of the machine, or an entry of its configuration or of its signals.
+/// Whether LinuxCNC itself defines a name: a state of the machine, or an entry of its configuration or of its signals.
 fn is_predefined(name: &str) -> bool {
     let is_entry = ["_ini[", "_hal["].iter().any(|start| name.starts_with(start));
     is_entry || PREDEFINED.binary_search(&name).is_ok()
@@ -258,7 +259,7 @@ pub(super) fn parameter_number(index: f64, most: u32) -> Result<u32, Fault> {
     Ok(whole as u32)
 }
 
-/// The reader has compiled the code, so every operator has its operands.
+/// Removes the top value. The stack cannot be empty, because the reader has compiled the code, so every operator has its operands.
 fn pop(stack: &mut Vec<f64>) -> f64 {
     stack.pop().unwrap_or(0.0)
 }
@@ -337,19 +338,19 @@ pub(super) struct StatedProbes {
     /// Whether pathbuild wrote the program, so that every probe is listed in its header.
     pub(super) is_ours: bool,
     pub(super) has_begun: bool,
-    /// S0, the only height that is never corrected.
+    /// S0 of the drawing in mm, the only height that is never corrected.
     pub(super) start_height: Option<f64>,
     stack: Vec<f64>,
 }
 
-/// Which height of a probe to use for evaluating a formula.
+/// Which height of a probe is used to evaluate a formula.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum ProbeHeight {
     Drawn,
     Measured,
 }
 
-/// Why a formula cannot be evaluated.
+/// The reason why a formula cannot be evaluated.
 pub(super) enum NoValue {
     /// The program does not list this probe.
     UnknownProbe(u32),
@@ -401,7 +402,7 @@ impl StatedProbes {
         Ok(stack.pop().unwrap_or(f64::NAN))
     }
 
-    /// The height of a probe. In programs that do not list their probes, `[#51-2.000]` gives the height at which it was drawn.
+    /// Returns the height of a probe. In programs that do not list their probes, `[#51-2.000]` gives the height at which it was drawn.
     fn probe(&self, number: u32, height: ProbeHeight, behind: &[Op]) -> Result<f64, NoValue> {
         match (self.probes.get(&number), height) {
             (Some(probe), ProbeHeight::Drawn) => Ok(probe.height),

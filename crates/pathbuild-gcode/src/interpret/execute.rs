@@ -21,15 +21,15 @@ pub(super) struct Interpreter<'i> {
     pub(super) problems: Problems,
     pub(super) parameters: Parameters,
     pub(super) stated: StatedProbes,
-    /// The steps of the last block.
+    /// Steps produced by the last block.
     pub(super) out: Vec<Step>,
     /// Whether M2 or M30 has ended the program.
     pub(super) ended: bool,
-    /// Where execution continues after the last block, if not in the next line.
+    /// The place where execution continues after the last block, if not in the next line.
     pub(super) jump: Option<Jump>,
     /// Whether the next block is the first one of a subprogram.
     pub(super) begins_subprogram: bool,
-    /// O, the number of the program.
+    /// The number of the program, from its O word.
     pub(super) main_number: Option<u32>,
 }
 
@@ -51,7 +51,7 @@ impl<'i> Interpreter<'i> {
         }
     }
 
-    /// Returns the problems found, if the file ends in this line.
+    /// Completes the checks at the end of the file and returns the problems found.
     pub(super) fn finish(mut self, last_line: u32, is_framed: bool) -> Problems {
         if let Some((line, code)) = self.state.referenced.take() {
             self.report_reference(line, code, Severity::Warning);
@@ -68,7 +68,7 @@ impl<'i> Interpreter<'i> {
         self.problems
     }
 
-    /// Executes a block.
+    /// Executes a block and appends its steps to `out`.
     pub(super) fn block(&mut self, block: &Block<'_>) {
         for comment in block.comments {
             self.check_active(block, comment.text);
@@ -123,7 +123,7 @@ impl<'i> Interpreter<'i> {
         self.step(block, Action::Move(movement));
     }
 
-    /// Reports a move to the reference switches after the first cut. If no other cut follows, it may park the machine.
+    /// Reports a move to the reference switches after the first cut. If no other cut follows, the move may only park the machine.
     fn report_reference(&mut self, line: u32, code: u16, severity: Severity) {
         let dialect = self.rules.dialect.name();
         self.problems.add_at_line(&say::REFERENCED, line, |d| {
@@ -143,7 +143,7 @@ impl<'i> Interpreter<'i> {
         self.problems.add(message, At::block(block, span), |d| values(d).quoting("dialect", dialect));
     }
 
-    /// Reports what the dialect does not know; as a warning if it ignores such things.
+    /// Reports a word or notation that the dialect does not support; as a warning if the control ignores it.
     pub(super) fn report_unknown(
         &mut self,
         block: &Block<'_>,
@@ -197,7 +197,7 @@ impl<'i> Interpreter<'i> {
     }
 }
 
-/// Converts the number of a tool, a layer or repetitions.
+/// Converts a value to a whole number, which is that of a tool, a layer or repetitions.
 pub(super) fn whole(value: f64) -> Option<u32> {
     let nearest = libm::round(value);
     let fits = libm::fabs(value - nearest) < 0.0001 && (0.0..f64::from(u32::MAX)).contains(&nearest);
@@ -229,12 +229,12 @@ impl BlockWords {
         self.settings.clear();
     }
 
-    /// The command of the block that belongs to a group.
+    /// Returns the command of the block that belongs to a group.
     pub(super) fn of_group(&self, group: Group) -> Option<(Command, u16, Span)> {
         self.commands.iter().find(|(command, ..)| command.group() == group).copied()
     }
 
-    /// The M code of the block that is one of these.
+    /// Returns the M code of the block that is among `codes`.
     pub(super) fn m_code(&self, codes: &[u16]) -> Option<(u16, Span)> {
         self.m_codes.iter().find(|(code, _)| codes.contains(code)).copied()
     }
@@ -255,11 +255,11 @@ pub(super) struct Slot {
     /// Number of digits after the decimal point; for expressions as many as a double has.
     pub(super) decimals: u8,
     pub(super) span: Span,
-    /// The part of the value that is correction by the formula of the word.
+    /// Amount, in the program's unit, that the word's formula adds to the value as a correction.
     pub(super) correction: f64,
 }
 
-/// The bit of a letter.
+/// Returns the bit of an upper-case letter in a set of letters.
 const fn bit(letter: u8) -> u32 {
     1 << (letter - b'A')
 }
@@ -295,7 +295,7 @@ impl Values {
         self.take_slot(letter).map(|slot| slot.value)
     }
 
-    /// Like [`take`](Self::take), but returns everything known about the value.
+    /// Like [`take`](Self::take), but also returns the value's decimals, position and correction.
     pub(super) fn take_slot(&mut self, letter: u8) -> Option<Slot> {
         self.used |= bit(letter) & self.given;
         self.peek(letter)
@@ -327,7 +327,7 @@ impl Values {
         self.given & !self.used == 0
     }
 
-    /// Letters that have not been used.
+    /// Returns the letters that have not been used, with their positions.
     pub(super) fn unused(&self) -> impl Iterator<Item = (u8, Span)> + '_ {
         let remaining = self.given & !self.used;
         (b'A'..=b'Z')
@@ -339,25 +339,25 @@ impl Values {
 /// An error in a value, with its position in the line.
 pub(super) type ValueFault = (Fault, Span);
 
-/// How a control names a subprogram.
+/// The name by which a control calls a subprogram.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum SubprogramName {
-    /// `o100 sub`, `o<name> sub`.
+    /// The name in `o100 sub` or `o<name> sub`.
     Subroutine(Box<str>),
-    /// `O100`.
+    /// The number in `O100`.
     Program(u32),
-    /// `N100`.
+    /// The block number in `N100`.
     Line(u32),
 }
 
-/// Which line is executed after a block, unless it is the next one.
+/// The place where execution continues after a block, unless it is the next line.
 #[derive(Debug)]
 pub(super) enum Jump {
     /// Runs a subprogram several times, with values for its parameters.
     Call(SubprogramName, u32, Vec<f64>),
     /// Runs the lines up to the end of the loop several times.
     Repeat(Box<str>, u32),
-    /// Passes over the lines up to the O word of this name that ends them.
+    /// Skips the lines up to the O word of this name and kind.
     Pass(Box<str>, OWordKind),
     /// Continues with the next branch whose condition holds.
     Branch(Box<str>),
@@ -376,9 +376,9 @@ pub(super) enum Jump {
 /// The word that ends a pass through a loop early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LoopExit {
-    /// No other pass follows.
+    /// No other pass of the loop follows.
     Break,
-    /// Another pass may follow.
+    /// Another pass of the loop may follow.
     Continue,
 }
 
@@ -393,7 +393,7 @@ impl SubprogramName {
     }
 }
 
-/// Limits of values, as used in the messages of PB725. (book: reference/diagnostics)
+/// Texts of the limits that messages of PB725 contain. (book: reference/diagnostics)
 pub(super) mod limits {
     use pathbuild_diagnostic::Text;
 

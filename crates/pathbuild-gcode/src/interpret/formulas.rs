@@ -12,7 +12,7 @@ use crate::read::{Block, Formula, Span};
 const ROUNDING: f64 = 0.001 * (1.0 + 1e-6);
 
 impl Interpreter<'_> {
-    /// Stores the probes and the provenance listed before the first word of a native program.
+    /// Stores the probes and the provenance that comments state before the first word of a native program.
     pub(super) fn take_stated(&mut self, block: &Block<'_>, text: Span) {
         if !self.rules.spelling.formulas || self.stated.has_begun {
             return;
@@ -33,7 +33,7 @@ impl Interpreter<'_> {
         self.stated.has_begun |= !block.words.is_empty();
     }
 
-    /// The part of a number that is correction according to its formula. The machine executes the number, so a formula with a different
+    /// Returns the part of a number that is correction according to its formula. The machine executes the number, so a formula with a different
     /// result is reported.
     pub(super) fn correction(&mut self, block: &Block<'_>, formula: &Formula, number: f64) -> f64 {
         if self.stated.is_ours && self.stated.probes.is_empty() {
@@ -83,7 +83,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Reports a height without a formula. In a program with probes only S0 has none.
+    /// Reports a height without a formula. In a program with probes, only S0 has none.
     pub(super) fn height_without_formula(&mut self, block: &Block<'_>, span: Span, number: f64) {
         if self.stated.probes.is_empty() {
             return;

@@ -1,4 +1,4 @@
-//! Guesses the dialect of a file, and gives the reason. (book: program/reading, "Dialects")
+//! Guesses the dialect of a file and gives the evidence. (book: program/reading, "Dialects")
 
 use std::collections::BTreeMap;
 
@@ -29,13 +29,13 @@ pub struct Guess {
 pub struct Evidence {
     /// A phrase such as "it has correction formulas".
     pub reason: &'static Text,
-    /// The line that contains it, counted from 1.
+    /// The line that contains the evidence, counted from 1.
     pub line: Option<u32>,
-    /// What kind of evidence it is.
+    /// The kind of evidence, which determines how certain the guess is.
     pub kind: EvidenceKind,
 }
 
-/// How certain a guess is.
+/// Kinds of evidence for a dialect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EvidenceKind {
     /// The program's header names the dialect.
@@ -115,7 +115,8 @@ fn by_sign(head: &[u8]) -> Option<Guess> {
     })
 }
 
-/// Whether a program states units or distances by words that XpertMILL does not know. It would take its inches for millimetres.
+/// Whether a program states units or distances by words that XpertMILL does not know. XpertMILL would interpret the inches of such a program as
+/// millimetres.
 fn states_modes(head: &[u8]) -> bool {
     let mut reader = BlockReader::new(head, Dialect::Xpertmill.rules());
     while let Some(block) = reader.next_block() {
@@ -130,7 +131,7 @@ fn states_modes(head: &[u8]) -> bool {
     false
 }
 
-/// The dialect with the fewest unknown words; of several, the first.
+/// Guesses the dialect with the fewest unknown words; among equals, the first.
 fn by_words(head: &[u8]) -> Guess {
     let candidates = [Dialect::Rs274, Dialect::LinuxCnc, Dialect::Grbl];
     let strangers = candidates.map(|dialect| unknown_words(head, dialect));
@@ -163,7 +164,7 @@ fn without_round_comments(line: &[u8]) -> &[u8] {
     &line[..memchr::memchr(b'(', line).unwrap_or(line.len())]
 }
 
-/// `%NAME`, even after a block number.
+/// Whether a line is `%NAME`, even after a block number.
 fn is_title(line: &[u8]) -> bool {
     let digits = |line: &[u8]| line.iter().take_while(|byte| byte.is_ascii_digit()).count();
     let line = match line {
@@ -186,28 +187,28 @@ fn ends_in_keyword(line: &[u8]) -> bool {
     KEYWORDS.iter().any(|keyword| has(&lower, keyword))
 }
 
-/// How a word is interpreted if no dialect is named.
+/// The interpretation of a word if no dialect is named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnionWord {
-    /// As this code of LinuxCNC.
+    /// The word means the same as this code of LinuxCNC.
     Followed(u16),
-    /// Not at all: it switches off what is already off, or does not affect where the tool tip goes.
+    /// The word is ignored: it switches off something that is already off, or does not affect the position of the tool tip.
     Neutral,
-    /// Not at all: its effect is unknown.
+    /// The word is ignored because its effect is unknown.
     NotFollowed {
-        /// Whether it changes, on some controls, where the tool goes or which line is run next.
+        /// Whether the word changes the tool's path or the order of lines on some controls.
         is_dangerous: bool,
     },
 }
 
-/// How a word is interpreted if no dialect is named. `code` is ten times its number.
+/// Returns the interpretation of a word if no dialect is named. `code` is ten times its number.
 pub fn union_word(letter: char, code: u16) -> UnionWord {
     if letter == 'M' { union_m_word(code) } else { union_g_word(code) }
 }
 
 fn union_m_word(code: u16) -> UnionWord {
     match code {
-        // Overrides.
+        // M48 and M49 enable and disable overrides.
         480 | 490 => UnionWord::Neutral,
         _ if is_jump(code) || code == 190 => UnionWord::NotFollowed { is_dangerous: true },
         _ if is_followed_m(code) => UnionWord::Followed(code),
@@ -217,7 +218,7 @@ fn union_m_word(code: u16) -> UnionWord {
 
 fn union_g_word(code: u16) -> UnionWord {
     let code = match code {
-        // The units of DIN 66025.
+        // G70 and G71 select the units in DIN 66025.
         700 => 200,
         710 => 210,
         // "Skip" probes as G38.2 does.
@@ -247,11 +248,11 @@ fn union_g_word(code: u16) -> UnionWord {
 enum WordMeaning {
     Command(Command),
     Dwell(DwellUnit),
-    /// Something that no other dialect has.
+    /// A meaning that no other dialect has.
     Own,
 }
 
-/// Finds the G words of a program that have different meanings in those dialects that know all of its words.
+/// Collector of a program's G words whose meanings differ among the dialects that know all of its words.
 #[derive(Clone, Debug, Default)]
 pub struct Disputes {
     /// G and M words by letter and ten times their number, each with its first line.
@@ -264,7 +265,7 @@ impl Disputes {
         self.words.entry((letter, code)).or_insert(line);
     }
 
-    /// The names of the disputed words, with the first line of the first one.
+    /// Returns the first line of the first disputed word, and the names of all disputed words; `None` if there are none.
     pub fn finish(&self) -> Option<(u32, Vec<String>)> {
         let rules: Vec<&Rules> = Dialect::ALL.iter().map(|dialect| dialect.rules()).collect();
         let knows = |rules: &&&Rules| self.words.keys().all(|(letter, code)| is_known(rules, *letter, *code));
@@ -298,7 +299,7 @@ fn meaning(rules: &Rules, code: u16) -> Option<WordMeaning> {
         _ if code == inch || code == mm => WordMeaning::Command(Command::Inches(code == inch)),
         _ if rules.words.g_own.contains(&code) => WordMeaning::Own,
         Command::Dwell => WordMeaning::Dwell(match rules.dwell.p {
-            // The configuration tells which; the difference does not count as a dispute.
+            // The configuration selects the unit, so the difference does not count as a dispute.
             DwellUnit::BySetting => DwellUnit::Seconds,
             unit => unit,
         }),

@@ -40,20 +40,20 @@ pub struct Interpretation {
 }
 
 impl Interpretation {
-    /// Its moves, with their lines.
+    /// Returns the moves of the program, with their lines.
     pub fn moves(&self) -> Vec<(u32, Move)> {
         self.steps.iter().filter_map(Step::as_move).collect()
     }
 }
 
-/// Interprets a file and keeps all steps.
+/// Interprets a file and collects all steps.
 pub fn interpret(text: &[u8], dialect: Dialect, options: &Options) -> Interpretation {
     let mut steps = Vec::new();
     let problems = interpret_each(text, dialect, options, &mut |step| steps.push(step));
     Interpretation { steps, problems }
 }
 
-/// Interprets a file of any size and passes on each step.
+/// Interprets a file of any size and passes each step to `take`.
 pub fn interpret_each(
     text: &[u8],
     dialect: Dialect,
@@ -82,9 +82,9 @@ pub fn interpret_until(
     if is_other { vec![no_g_code(text)] } else { problems }
 }
 
-/// A program that gives its steps repeatedly, so that they need not be stored.
+/// A program that can pass on its steps repeatedly, so that they need not be stored.
 pub trait Program {
-    /// Passes on all steps, in order.
+    /// Passes all steps to `take`, in order.
     fn each(&self, take: &mut dyn FnMut(&Step));
 }
 
@@ -105,7 +105,7 @@ impl Program for Vec<Step> {
 pub struct Text<'t> {
     /// Content of the file.
     pub text: &'t [u8],
-    /// Its dialect.
+    /// Dialect of the file.
     pub dialect: Dialect,
     /// Options for the interpretation.
     pub options: Options,

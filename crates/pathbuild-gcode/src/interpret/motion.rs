@@ -1,4 +1,4 @@
-//! Moves: straight lines, arcs given by I J K or R, probing, named positions, and commands that use coordinates without moving. (book:
+//! Executes moves: straight lines, arcs given by I J K or R, probing, named positions, and commands that use coordinates without moving. (book:
 //! program/reading)
 
 use pathbuild_diagnostic::messages::gcode as say;
@@ -97,7 +97,7 @@ impl Interpreter<'_> {
         span.unwrap_or(Span::new(0, block.text.len()))
     }
 
-    /// Reports what should have been specified before a move.
+    /// Reports settings that the program should have specified before a move.
     fn check_stated(&mut self, block: &Block<'_>, motion_is_stated: bool, motion: Motion) {
         let span = self.coordinates_span(block);
         if !std::mem::replace(&mut self.state.stated.units, true) {
@@ -124,7 +124,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The target of coordinates, from the current position.
+    /// Returns the target of coordinates, starting from the current position.
     pub(super) fn target(&mut self, coordinates: [Option<Slot>; 3]) -> Position {
         let mut to = self.state.position;
         for (axis, slot) in coordinates.into_iter().enumerate() {
@@ -186,7 +186,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Determines the position after a motion that is not followed, as far as the words tell.
+    /// Determines the position after a motion that is not followed, as far as its words state it.
     fn jump(&mut self) {
         let coordinates = self.words.values.take_coordinates();
         self.state.position = self.target(coordinates);
@@ -226,7 +226,7 @@ impl Interpreter<'_> {
         true
     }
 
-    /// Whether G52 or G92 is active after a command.
+    /// Whether G52 or G92 shifts coordinates after a command; `None` if the command does not change that.
     fn are_shifted(&self, command: Command) -> Option<bool> {
         match command {
             Command::LocalOffset => {
@@ -309,7 +309,7 @@ impl Interpreter<'_> {
         self.emit_move(block, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named });
     }
 
-    /// Whether P of G30 names another reference point than the second one; where it is, is not known.
+    /// Whether P of G30 selects a reference point other than the second one. The position of such a point is unknown.
     fn is_other_reference(&mut self, block: &Block<'_>, code: u16) -> bool {
         if code != 300 || !self.rules.numbers_references {
             return false;
@@ -322,7 +322,7 @@ impl Interpreter<'_> {
         number != Some(2)
     }
 
-    /// Moves the axes in the line, or all of them, to their switches. Where they are in the program is unknown afterwards.
+    /// Moves the axes in the line, or all of them, to their reference switches. Their positions in the program are unknown afterwards.
     fn reference(&mut self, block: &Block<'_>, code: u16) {
         self.state.offsets.fix_base();
         let given = given_axes(&self.words.values.take_coordinates());
@@ -371,7 +371,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Sets the coordinate of the current position. If it was unknown, it becomes known, because the program counts from it.
+    /// Sets the coordinate of the current position. A position that was unknown becomes known, because the program counts from it.
     fn set_origin(&mut self, axis: usize, coordinate: f64) {
         self.state_axis(axis);
         let position = &mut self.state.position;
@@ -383,7 +383,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The system that P selects beside this word; the given one without P.
+    /// Returns the coordinate system that P selects in this block, or the given one if there is no P.
     pub(super) fn numbered_system(
         &mut self,
         block: &Block<'_>,
@@ -411,7 +411,7 @@ impl Interpreter<'_> {
         system
     }
 
-    /// The name of a system on this control: a word, or the number that P has for it.
+    /// Returns the name of a system on this control: its word, or the value of P that selects it.
     fn system_name(&self, system: WorkSystem) -> String {
         let regular = self.rules.systems.as_ref().map_or(0, |numbers| numbers.regular);
         match u32::from(system.number()).checked_sub(9) {
@@ -435,7 +435,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// The axes that have a coordinate.
+/// Returns the axes for which the block has a coordinate.
 fn given_axes(coordinates: &[Option<Slot>; 3]) -> Axes {
     let given = (0..3).filter(|axis| coordinates[*axis].is_some());
     given.fold(Axes::NONE, |axes, axis| axes.with(Axes::of(axis)))
@@ -482,13 +482,13 @@ impl Interpreter<'_> {
         self.emit_move(block, movement);
     }
 
-    /// Omits an impossible arc. The tool is assumed to be at its end.
+    /// Omits an impossible arc and continues as if the tool were at the arc's end.
     fn leave_out(&mut self, to: Position) {
         self.state.position = to;
         self.use_all_words();
     }
 
-    /// Number of full turns in addition to the arc, from P.
+    /// Reads P as the number of full turns in addition to the arc.
     fn turns(&mut self, block: &Block<'_>) -> u32 {
         if !self.rules.arcs.turns {
             return 0;
@@ -631,7 +631,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// Distance from the centre of an arc to its chord.
+/// Returns the distance from the centre of an arc to its chord.
 fn height_over_chord(radius: f64, half_chord: f64) -> f64 {
     libm::sqrt((radius * radius - half_chord * half_chord).max(0.0))
 }

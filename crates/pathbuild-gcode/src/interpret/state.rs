@@ -1,4 +1,4 @@
-//! The modal state of a control.
+//! The modal state of a control, and the options for interpreting a file.
 
 use pathbuild_motion::{Axes, Coolant, Plane, Position, Spindle, WorkSystem};
 
@@ -15,7 +15,7 @@ pub(super) struct State {
     pub(super) position: Position,
     /// The axes with a position specified since the last tool change; all of them before the first one.
     pub(super) stated_axes: Axes,
-    /// Line and code (times ten) of a move to a machine position, which is unknown.
+    /// Line and code (times ten) of a move to a machine position that is unknown in the program's coordinates.
     pub(super) lost: Option<(u32, u16)>,
     /// Whether a move at feed has been made.
     pub(super) has_cut: bool,
@@ -36,7 +36,7 @@ pub(super) struct State {
     pub(super) feed_cleared: Option<(u32, u16)>,
     pub(super) spindle: Spindle,
     pub(super) coolant: Coolant,
-    /// T.
+    /// The number of the last T word.
     pub(super) tool: Option<u32>,
     /// The layer (XpertMILL).
     pub(super) layer: u32,
@@ -55,14 +55,14 @@ pub(super) struct State {
 pub(super) struct CycleState {
     /// Position before the first cycle of the series.
     pub(super) initial: [f64; 3],
-    /// R and Z as heights, P and Q.
+    /// R and Z as heights in mm, P and Q as written.
     pub(super) r: Option<f64>,
     pub(super) z: Option<f64>,
     pub(super) p: Option<f64>,
     pub(super) q: Option<f64>,
 }
 
-/// What the program has specified, and which omissions have been reported.
+/// Which settings the program has specified, and which missing ones have been reported.
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 pub(super) struct StatedModes {
@@ -108,7 +108,7 @@ impl State {
 }
 
 impl State {
-    /// The coordinate of the tool along an axis in the program's system and unit, if the program determines it.
+    /// Returns the coordinate of the tool along an axis in the program's system and unit, if the program determines it.
     pub(super) fn coordinate(&self, axis: usize) -> Option<f64> {
         let is_known = self.position.known.and(self.stated_axes).has(Axes::of(axis));
         is_known.then(|| (self.position.at[axis] - self.offsets.shift(axis)) / self.unit)
@@ -120,19 +120,19 @@ impl State {
 pub(super) struct Offsets {
     systems: [System; WorkSystem::COUNT],
     pub(super) active: WorkSystem,
-    /// G92, which is added to the active system.
+    /// Offset of G92, which is added to the active system.
     origin: [f64; 3],
-    /// The G92 that G92.3 restores; `None` until the program says which, because the control keeps that of the program before.
+    /// The offset of G92 that G92.3 restores; `None` until the program sets it, because the control keeps the offset of the previous program.
     saved: Option<[f64; 3]>,
-    /// G52.
+    /// Offset of G52.
     local: [f64; 3],
     length: AppliedLength,
     /// The sum of all offsets at the first move; `None` until then.
     base: Option<[f64; 3]>,
-    /// Whether that sum is known in machine coordinates.
+    /// Whether `base` is known in machine coordinates.
     is_base_known: bool,
     home: [Option<[f64; 3]>; 2],
-    /// Whether the configuration contains the offsets.
+    /// Whether the offsets come from the configuration.
     is_configured: bool,
 }
 
@@ -142,14 +142,14 @@ struct System {
     origin: SystemOrigin,
 }
 
-/// How far the origin of a system is known.
+/// The coordinates in which the origin of a system is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum SystemOrigin {
     #[default]
     Unknown,
-    /// In machine coordinates, from the configuration or from G10 L2.
+    /// Known in machine coordinates, from the configuration or from G10 L2.
     Machine,
-    /// Beside the positions of the program, from G10 L20.
+    /// Known relative to the positions of the program, from G10 L20.
     Program,
 }
 
@@ -174,7 +174,7 @@ impl Offsets {
         }
     }
 
-    /// Fixes the current origin as that of all positions.
+    /// Makes the current origin the zero of all positions, unless one has been fixed.
     pub(super) fn fix_base(&mut self) {
         if self.base.is_none() {
             self.base = Some(self.sum());
@@ -182,7 +182,7 @@ impl Offsets {
         }
     }
 
-    /// The amount added to the program's number of an axis to get its position.
+    /// Returns the amount added to an axis value of the program to get its position.
     pub(super) fn shift(&self, axis: usize) -> f64 {
         self.sum()[axis] - self.base(axis) + self.length.shift(axis)
     }
@@ -192,29 +192,29 @@ impl Offsets {
         self.length.current = [length; 3];
     }
 
-    /// Sets the tool length along the axes that have a value here.
+    /// Sets the tool length along the axes whose entry is `Some`.
     pub(super) fn set_length_along(&mut self, lengths: [Option<f64>; 3]) {
         for (current, new) in self.length.current.iter_mut().zip(lengths) {
             *current = new.or(*current);
         }
     }
 
-    /// Whether the difference of a stated length from the one with which the tool first cut is unknown along an axis.
+    /// Whether it is unknown along an axis by how much the current tool length differs from the length at the tool's first cut.
     pub(super) fn is_length_unknown(&self, axis: usize) -> bool {
         self.length.at_cut.is_some_and(|lengths| lengths[axis].is_none())
     }
 
-    /// Whether the tool has cut with its length.
+    /// Whether the tool has cut with a stated length.
     pub(super) fn has_cut_with_length(&self) -> bool {
         self.length.at_cut.is_some()
     }
 
-    /// Fixes the current tool length as that of all positions of this tool.
+    /// Makes the current tool length the reference for all positions of this tool, unless one has been fixed.
     pub(super) fn fix_length(&mut self) {
         self.length.at_cut.get_or_insert(self.length.current);
     }
 
-    /// Another tool may be in the spindle, with a zero of its own.
+    /// Discards the reference length, because another tool with a length of its own may be in the spindle.
     pub(super) fn release_length(&mut self) {
         self.length.at_cut = None;
     }
@@ -231,8 +231,8 @@ impl Offsets {
         !is_other || self.base.is_none() || is_known
     }
 
-    /// G10 L2: sets the origin of a system in machine coordinates. Returns false if the positions before, which are in the same system, are
-    /// not known in machine coordinates.
+    /// Executes G10 L2: sets the origin of a system in machine coordinates. Returns false if the preceding positions, which are in the same system,
+    /// are not known in machine coordinates.
     pub(super) fn place(&mut self, system: Option<WorkSystem>, axis: usize, at: f64) -> bool {
         let system = system.unwrap_or(self.active);
         self.set_zero(system, axis, at, SystemOrigin::Machine);
@@ -245,7 +245,7 @@ impl Offsets {
         system.origin = origin;
     }
 
-    /// G10 L20: sets the coordinate of the tool in a system.
+    /// Executes G10 L20: sets the coordinate of the tool in a system.
     pub(super) fn place_here(&mut self, system: Option<WorkSystem>, axis: usize, coordinate: f64, here: f64) {
         let here = here - self.length.shift(axis);
         let zero = here + self.base(axis) - self.origin[axis] - self.local[axis] - coordinate;
@@ -253,7 +253,7 @@ impl Offsets {
         self.set_zero(system.unwrap_or(self.active), axis, zero, origin);
     }
 
-    /// G92: sets the coordinate of the tool at this position.
+    /// Executes G92: sets the coordinate of the tool at this position.
     pub(super) fn set_origin(&mut self, axis: usize, coordinate: f64, here: f64) {
         self.origin[axis] = here - self.length.shift(axis) + self.base(axis)
             - self.systems[self.active.index()].zero[axis]
@@ -262,7 +262,7 @@ impl Offsets {
         self.saved = Some(self.origin);
     }
 
-    /// G92.1, and G92.2 if it can be resumed.
+    /// Executes G92.1, or G92.2 if the offset can be resumed.
     pub(super) fn clear_origin(&mut self, resumable: bool) {
         if !resumable {
             self.saved = Some([0.0; 3]);
@@ -270,13 +270,13 @@ impl Offsets {
         self.origin = [0.0; 3];
     }
 
-    /// G92.3. Returns false if only the control knows what it restores.
+    /// Executes G92.3. Returns false if only the control knows the offset that it restores.
     pub(super) fn resume_origin(&mut self) -> bool {
         self.origin = self.saved.unwrap_or(self.origin);
         self.saved.is_some()
     }
 
-    /// G52.
+    /// Executes G52: sets the local offset of an axis.
     pub(super) fn set_local(&mut self, axis: usize, offset: f64) {
         self.local[axis] = offset;
     }
@@ -286,13 +286,13 @@ impl Offsets {
         self.is_configured.then(|| coordinate - self.base(axis))
     }
 
-    /// G28.1, G30.1: stores a position, if it is completely known.
+    /// Executes G28.1 or G30.1: stores a position, if it is completely known.
     pub(super) fn store_home(&mut self, which: usize, here: &Position) {
         self.home[which] =
             (here.known == Axes::ALL).then(|| std::array::from_fn(|axis| here.at[axis] + self.base(axis)));
     }
 
-    /// The target of G28 or G30, as far as it is known.
+    /// Returns the target of G28 or G30 along an axis, if it is known.
     pub(super) fn home(&self, which: usize, axis: usize) -> Option<f64> {
         self.home[which].map(|at| at[axis] - self.base(axis))
     }
@@ -316,7 +316,7 @@ struct AppliedLength {
 }
 
 impl AppliedLength {
-    /// How far the tip has been moved by changes of the length since the first cut, as far as that is known.
+    /// Returns the distance by which changes of the length have moved the tip since the first cut, as far as it is known.
     fn shift(&self, axis: usize) -> f64 {
         let at_cut = self.at_cut.and_then(|lengths| lengths[axis]);
         self.current[axis].zip(at_cut).map_or(0.0, |(current, at_cut)| current - at_cut)
@@ -341,21 +341,21 @@ pub struct Options {
 }
 
 impl Options {
-    /// The words for inches and for millimetres, times ten.
+    /// Returns the G codes (times ten) for inches and for millimetres.
     pub fn unit_words(&self, rules: &Rules) -> [u16; 2] {
         let [inch, mm] = rules.unit_words;
         if rules.layers && self.unit_codes == UnitCodes::Table { [mm, inch] } else { [inch, mm] }
     }
 }
 
-/// The height that `Z1.023(==1.000+0.5*[#51-2.000])` represents.
+/// Which height `Z1.023(==1.000+0.5*[#51-2.000])` represents.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Heights {
-    /// The number before the formula, which is where the tool goes.
+    /// The number before the formula, to which the tool moves.
     #[default]
     AsWritten,
-    /// That number minus the correction, which is the difference between the formula's values with the measured and with the drawn heights.
-    /// This is where the tool would go if the material were as thick as drawn.
+    /// That number minus the correction, which is the difference between the formula's values with the measured and with the drawn heights. The tool
+    /// would move to this height if the material were as thick as drawn.
     Nominal,
 }
 

@@ -1,4 +1,4 @@
-//! All words of a block that do not move: tools, spindle, coolant, dwells, modes, stops.
+//! Executes all words of a block that do not move: tools, spindle, coolant, dwells, modes, stops.
 
 use pathbuild_diagnostic::Text;
 use pathbuild_diagnostic::messages::gcode as say;
@@ -15,7 +15,7 @@ pub(super) const SPINDLE: &[u16] = &[30, 40, 50, 190];
 pub(super) const STOPS: &[u16] = &[0, 10, 20, 300, 600];
 pub(super) const TOOL: &[u16] = &[60, 610];
 pub(super) const COOLANT: &[u16] = &[70, 80, 90];
-/// M codes that change which line is executed next, or the meaning of G words.
+/// M codes that change the order of lines or the meaning of G words.
 const M_NOT_FOLLOWED: &[u16] = &[470, 610, 700, 710, 720, 730, 970, 980, 990, 2200];
 /// M codes that call and end subprograms.
 pub(super) const CALLS: &[u16] = &[970, 980, 990];
@@ -54,7 +54,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Changes the layer. The speed belongs to the layer, so that of another layer does not apply.
+    /// Changes the layer. Each layer has its own speed, so the speed of the previous layer no longer applies.
     fn enter_layer(&mut self, block: &Block<'_>, layer: u32) {
         self.state.layer = layer;
         let speeds = &self.state.layer_speeds;
@@ -115,7 +115,7 @@ impl Interpreter<'_> {
         is_jump(m_code) && !self.calls(m_code) || is_own
     }
 
-    /// The time in seconds of G4 in the block. Its letters are removed before F and S take effect.
+    /// Returns the time in seconds of G4 in the block. Its letters are removed before F and S take effect.
     pub(super) fn dwell_time(&mut self, block: &Block<'_>) -> Option<f64> {
         let (.., span) = self.words.of_group(Group::Dwell)?;
         let rules = &self.rules.dwell;
@@ -136,7 +136,7 @@ impl Interpreter<'_> {
         None
     }
 
-    /// The time that the spindle needs for a number of turns.
+    /// Returns the time in seconds that the spindle needs for a number of turns.
     fn seconds_of_turns(&mut self, block: &Block<'_>, turns: Slot) -> f64 {
         let speed = self.state.spindle.speed.filter(|speed| *speed > 0.0);
         if speed.is_none() {
@@ -147,7 +147,7 @@ impl Interpreter<'_> {
         speed.map_or(0.0, |speed| 60.0 * turns.value / speed)
     }
 
-    /// The time given by P in a dwell or a cycle.
+    /// Returns the time in seconds given by P in a dwell or a cycle.
     pub(super) fn seconds(&self, block: &Block<'_>, p: Slot) -> f64 {
         match self.rules.dwell.p {
             DwellUnit::BySetting if self.options.milliseconds => p.value / 1000.0,
@@ -221,7 +221,7 @@ impl Interpreter<'_> {
         self.tool_length(block, code, span);
         let motion = self.words.of_group(Group::Motion);
         if motion.is_some_and(|(command, ..)| command.takes_coordinates()) {
-            // The line is reported, because both words want its coordinates.
+            // The caller reports the line, because two of its words use the coordinates.
             return;
         }
         let given = self.words.values.take_coordinates();
@@ -301,7 +301,7 @@ impl Interpreter<'_> {
             }
             Some((code, _)) => {
                 if self.rules.one_command {
-                    // The maximum time the control waits.
+                    // S of M191 is the maximum time that the control waits.
                     self.words.values.take(b'S');
                     self.words.values.take(b'P');
                 }
@@ -315,7 +315,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Switches spindle and coolant off, as far as they are on.
+    /// Switches spindle and coolant off if they are on.
     fn switch_off(&mut self, block: &Block<'_>) {
         if self.state.spindle.turning.is_on() {
             self.state.spindle.turning = Turning::Off;
@@ -333,7 +333,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// Whether an M code changes which line is run next, or what G words mean.
+/// Whether an M code changes the order of lines or the meaning of G words.
 pub(super) fn is_jump(m_code: u16) -> bool {
     M_NOT_FOLLOWED.contains(&m_code)
 }
@@ -343,7 +343,7 @@ pub(super) fn is_followed_m(m_code: u16) -> bool {
     !is_other(m_code) && m_code != 190
 }
 
-/// Whether an M code has no step of its own.
+/// Whether an M code produces no step of its own kind.
 fn is_other(m_code: u16) -> bool {
     let has_step = [STOPS, TOOL, COOLANT].iter().any(|group| group.contains(&m_code));
     !has_step && !matches!(m_code, 30 | 40 | 50)
@@ -384,7 +384,7 @@ impl Interpreter<'_> {
         if slot.value < 0.0 {
             return self.out_of_range(block, "S", slot, &limits::NOT_NEGATIVE);
         }
-        // XpertMILL starts the spindle of a layer by its S, and has no M5: 0 would cut with the spindle at rest.
+        // XpertMILL starts the spindle of a layer by the layer's S, and has no M5: S0 would cut with the spindle at rest.
         if self.rules.layers && slot.value == 0.0 {
             return self.out_of_range(block, "S", slot, &limits::POSITIVE);
         }
@@ -406,7 +406,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The layer that the words of the block belong to; M6 takes effect before them.
+    /// Returns the layer to which the words of the block apply. M6 selects it before they take effect.
     fn layer_of_block(&self) -> u32 {
         let chosen = self.words.m_code(TOOL).and_then(|_| self.words.values.peek(b'T'));
         chosen.and_then(|slot| whole(slot.value)).unwrap_or(self.state.layer)
@@ -433,7 +433,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The feed of a cutting move in mm/min, or 0 with a report if there is none.
+    /// Returns the feed of a cutting move in mm/min; reports a missing feed and returns 0.
     pub(super) fn feed(&mut self, block: &Block<'_>, movement: &Move) -> f64 {
         let per_minute = match self.state.feed_unit {
             FeedUnit::PerMinute => self.state.feed,
@@ -441,7 +441,7 @@ impl Interpreter<'_> {
             FeedUnit::InverseTime if self.words.values.has(b'F') => self.state.feed * movement.length(),
             FeedUnit::InverseTime => 0.0,
         };
-        // The feeds of the layers apply, which are not in the file.
+        // With this option the feeds of the layers apply, which are not in the file.
         let is_layers = self.rules.layers && self.options.ignore_feed;
         if per_minute == 0.0 && !movement.is_nothing() && !is_layers {
             self.report_missing_feed(block);
@@ -472,7 +472,7 @@ fn unit_of(inches: bool) -> f64 {
     if inches { INCH } else { 1.0 }
 }
 
-/// Whether a comment of the block mentions inches (true) or millimetres (false).
+/// Returns whether a comment of the block mentions inches (true) or millimetres (false); `None` if none mentions a unit.
 fn unit_said(block: &Block<'_>) -> Option<bool> {
     block.comments.iter().find_map(|comment| {
         let text = block.text_of(comment.text).to_lowercase();

@@ -1,4 +1,4 @@
-//! Reads the words of a block: the kind of each, and whether the dialect accepts it. (book: program/reading)
+//! Reads the words of a block: determines the kind of each, and whether the dialect accepts it. (book: program/reading)
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Severity};
@@ -77,7 +77,7 @@ impl Interpreter<'_> {
         self.rules.spelling.grammar.as_ref().map_or(0, |grammar| grammar.parameters)
     }
 
-    /// Checks that the first word is a command, because the control only obeys that one and takes the others as its values.
+    /// Checks that the first word is a command, because the control obeys only the first word and takes the others as its values.
     fn check_command(&mut self, block: &Block<'_>) {
         let is_command = |word: &Word| matches!(word.letter, b'G' | b'M' | b'T');
         if let Some(first) = block.words.first().filter(|word| !is_command(word)) {
@@ -107,7 +107,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Checks for missing decimal points: `X10` is 10 mm on one machine and 0.010 mm on another of the same manufacturer.
+    /// Reports lengths without a decimal point: `X10` is 10 mm on one machine and 0.010 mm on another of the same manufacturer.
     fn check_point(&mut self, block: &Block<'_>, letter: u8, slot: Slot) {
         let is_length = matches!(letter, b'X' | b'Y' | b'Z' | b'I' | b'J' | b'R' | b'Q')
             || letter == b'K' && self.rules.repeats != b'K';
@@ -185,7 +185,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The number of a G or M word, times ten. Reports one that is no code.
+    /// Returns the number of a G or M word, times ten. Reports a number that is no code.
     fn code(&mut self, block: &Block<'_>, word: &Word, value: f64) -> Option<u16> {
         let code = code_of(value);
         if code.is_none() {
@@ -214,7 +214,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Passes on all G and M words of the block that are not motions.
+    /// Adds a step for each G and M word of the block that is not a motion.
     pub(super) fn state_words(&mut self, block: &Block<'_>) {
         let moves_beside = self.words.values.has_coordinates();
         for index in 0..self.words.commands.len() {
@@ -248,7 +248,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// A G or M number times ten, if it has at most one decimal. Controls disagree whether `G0.9999` is G0 or G1.
+/// Converts a G or M number to ten times its value; `None` if it has more than one decimal. Controls disagree whether `G0.9999` is G0 or G1.
 fn code_of(value: f64) -> Option<u16> {
     let tenths = value * 10.0;
     let nearest = libm::round(tenths);
@@ -315,7 +315,7 @@ impl Interpreter<'_> {
         });
     }
 
-    /// Takes the values of words that do not change the path, as far as their values are known to be harmless.
+    /// Marks the values of words that do not change the path as used, if these values are known to be harmless.
     pub(super) fn take_inert(&mut self, block: &Block<'_>) {
         let words = self.rules.words;
         if words.inert.is_empty() {

@@ -1,4 +1,4 @@
-//! Our own dialect: writes a program, its probing program and the file of probe values. (book: program/gcode, book: language/probes)
+//! Writes programs in the native dialect, with their probing program and the file of probe values. (book: program/gcode, book: language/probes)
 
 mod number;
 mod program;

@@ -6,15 +6,15 @@ use std::fmt::Write;
 use pathbuild_motion::turn;
 use pathbuild_toolpath::{Correction, Height, LAST_DIGIT, ProbePoint, Program, ProgramStep, Surface, Xy};
 
-/// The format "F3" of the specification: three decimals, rounding the exact binary value with ties to even. Zero has no sign.
+/// Formats a number as "F3" of the specification: three decimals, rounding the exact binary value with ties to even. Zero has no sign.
 pub fn f3(number: f64) -> String {
     let mut text = String::with_capacity(10);
     push_f3(&mut text, number);
     text
 }
 
-/// Appends a number. `{:.3}` takes a long division for numbers as close to a thousandth as those of drawings, which was a quarter of the
-/// time for compiling a project.
+/// Appends a number with three decimals. `{:.3}` needs a long division for numbers as close to a thousandth as those of drawings, which took a
+/// quarter of the time for compiling a project.
 pub(super) fn push_f3(text: &mut String, number: f64) {
     let Some(thousandths) = thousandths(number) else {
         _ = write!(text, "{number:.3}");
@@ -34,13 +34,13 @@ pub(super) fn push_f3(text: &mut String, number: f64) {
     text.push_str(&THOUSANDTHS[fraction..fraction + 4]);
 }
 
-/// The number represented by the printed text.
+/// Returns the value of a number as it is printed.
 pub(super) fn printed(number: f64) -> f64 {
     let rounded = |thousandths: u64| (thousandths as f64 / 1000.0).copysign(number) + 0.0;
     thousandths(number).map_or(number, rounded)
 }
 
-/// `.000.001.002` and so on to `.999`, so that neither the digits after the point nor those before it have to be computed.
+/// The texts `.000`, `.001` and so on to `.999` in a row, so that no digit, before or after the point, has to be computed.
 static THOUSANDTHS: &str = match str::from_utf8(&all_thousandths()) {
     Ok(text) => text,
     Err(_) => "",
@@ -59,13 +59,13 @@ const fn all_thousandths() -> [u8; 4000] {
     text
 }
 
-/// Offset of a number below a thousand in that text, with its point.
+/// Returns the offset of a number below a thousand, with its point, in [`THOUSANDTHS`].
 #[expect(clippy::cast_possible_truncation, reason = "below 4000")]
 fn place(number: u64) -> usize {
     4 * number as usize
 }
 
-/// The absolute value in thousandths, with ties to even; `None` for 2^53 and above, and if it is not finite.
+/// Returns the absolute value in thousandths, with ties to even; `None` if it is 2^53 or more, or not finite.
 fn thousandths(number: f64) -> Option<u64> {
     const FRACTION_BITS: u64 = 52;
     let bits = number.abs().to_bits();
@@ -94,21 +94,21 @@ pub(crate) fn push_exact(text: &mut String, number: f64) {
     }
 }
 
-/// An arc from the printed position of the tool.
+/// An arc from the printed position of the tool, with values rounded as they are printed.
 pub(super) struct PrintedArc {
     pub(super) from: Xy,
-    /// Relative to `from`.
+    /// Centre of the arc relative to `from`.
     pub(super) centre: Xy,
     pub(super) clockwise: bool,
 }
 
 impl PrintedArc {
-    /// Rounds the values as they are printed.
+    /// Creates an arc whose values are rounded as they are printed.
     pub(super) fn new(from: Xy, centre: Xy, clockwise: bool) -> Self {
         Self { from: rounded(from), centre: rounded(centre), clockwise }
     }
 
-    /// The end to print for an arc of this length in mm: `to`, or the printable point next to it with which the arc sweeps the required
+    /// Returns the end to print for an arc of this length in mm: `to`, or the printable point next to it with which the arc sweeps the required
     /// angle.
     pub(super) fn end(&self, to: Xy, length: f64) -> Xy {
         let angle = length / self.centre.coords.norm();
@@ -126,7 +126,7 @@ impl PrintedArc {
         candidates.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(to)
     }
 
-    /// The angle in radians that a controller sweeps to an end; 2 pi if it equals the start.
+    /// Returns the angle in radians that a controller sweeps to an end; 2 pi if the end equals the start.
     fn angle(&self, end: Xy) -> f64 {
         let (spoke, other) = (-self.centre.coords, end - (self.from + self.centre.coords));
         turn(spoke.into(), other.into(), self.clockwise)
@@ -140,11 +140,11 @@ fn rounded(at: Xy) -> Xy {
 /// Number of the parameter for the first probe.
 pub const FIRST_PARAMETER: usize = 51;
 
-/// Writes formulas for the heights of a program with probes.
+/// Writer of correction formulas for the heights of a program with probes.
 pub(super) struct Formulas<'a> {
     probes: &'a [ProbePoint],
     surface: Surface,
-    /// Whether weights have three decimals, as in the original tool; that distorts planes.
+    /// Whether weights have three decimals, as in the original tool. Such rounding distorts planes.
     is_rounded: bool,
 }
 
@@ -152,7 +152,7 @@ pub(super) struct Formulas<'a> {
 const ZERO_WEIGHT: f64 = 0.000_000_5;
 
 impl<'a> Formulas<'a> {
-    /// Returns `None` for a program without probes.
+    /// Creates the writer; `None` for a program without probes.
     pub(super) fn new(program: &'a Program, correction: Correction) -> Option<Self> {
         let places: Vec<_> = program.probes.iter().map(|probe| probe.at).collect();
         (!program.probes.is_empty()).then(|| Self {
@@ -181,14 +181,14 @@ impl<'a> Formulas<'a> {
         text.push(')');
     }
 
-    /// The formula of a height, without its brackets.
+    /// Returns the formula of a height, without its brackets.
     pub(super) fn text(&self, height: Height) -> String {
         let mut text = String::new();
         self.push(&mut text, height);
         text["(=".len()..text.len() - 1].to_owned()
     }
 
-    /// Indices of the probes that do not correct any height of the given steps.
+    /// Returns the indices of the probes that do not correct any height of the given steps.
     pub(super) fn unused(&self, steps: &[ProgramStep]) -> Vec<usize> {
         let mut is_used = vec![false; self.probes.len()];
         for height in steps.iter().filter_map(ProgramStep::height) {
@@ -204,7 +204,7 @@ impl<'a> Formulas<'a> {
     }
 }
 
-/// Indices of the probes of a program that do not correct any height, because four others are nearer everywhere.
+/// Returns the indices of the probes of a program that do not correct any height, because four others are nearer everywhere.
 pub fn unused_probes(program: &Program, correction: Correction) -> Vec<usize> {
     let formulas = Formulas::new(program, correction);
     formulas.map_or_else(Vec::new, |formulas| formulas.unused(&correction.steps(program)))

@@ -1,4 +1,4 @@
-//! Writes the program itself. (book: program/gcode)
+//! Writes the program itself, its probing program and its file of values. (book: program/gcode)
 
 use std::fmt::Write;
 
@@ -27,15 +27,15 @@ pub struct WriteOptions {
     pub correction: Correction,
 }
 
-/// The content of the first comments.
+/// The comments at the start of a file that do not depend on its moves.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Header {
-    /// One line that tells which program made it, and from what.
+    /// The line that states which program wrote the file, and from which drawing. Empty if it is left out.
     pub provenance: String,
 }
 
 impl Header {
-    /// The first comments of every file.
+    /// Returns the first comments of every file, without comment marks.
     pub(super) fn lines(&self, program: &Program) -> impl Iterator<Item = String> {
         let provenance = (!self.provenance.is_empty()).then(|| self.provenance.clone());
         provenance.into_iter().chain([title(&program.drawing, &program.path)])
@@ -48,13 +48,14 @@ impl WriteOptions {
     }
 }
 
-/// The comment that tells from which path of which drawing a file was made. Like every comment, it begins with a word of our own, because
-/// LinuxCNC acts on comments that begin with certain words.
+/// Formats the comment that states from which path of which drawing a file was made. Like every comment, it begins with a word chosen by pathbuild,
+/// because LinuxCNC acts on comments that begin with certain words.
 pub fn title(drawing: &str, path: &str) -> String {
     format!("{PATH}{path}{OF_DRAWING}{drawing}")
 }
 
-/// The comments that list what is drawn on the layers of the paths but missing from the program (PB111). `PathDxf2GCode` has none.
+/// Returns the comments that list elements drawn on the layers of the paths but missing from the program (PB111). Programs of `PathDxf2GCode` have
+/// none.
 pub fn left_out_lines(program: &Program, lang: Lang) -> Vec<String> {
     let left_out = program.left_out.iter().filter(|_| !program.compatible);
     let line = |left_out: &LeftOut| {
@@ -68,18 +69,18 @@ pub fn left_out_lines(program: &Program, lang: Lang) -> Vec<String> {
     left_out.map(line).collect()
 }
 
-/// The drawing in a [`title`].
+/// Returns the name of the drawing in a [`title`].
 pub fn drawing_of_title(title: &str) -> Option<&str> {
     title.split_once(OF_DRAWING).map(|(_, drawing)| drawing)
 }
 
-/// The path in a [`title`].
+/// Returns the name of the path in a [`title`].
 pub fn path_of_title(title: &str) -> Option<&str> {
     title.split_once(OF_DRAWING)?.0.strip_prefix(PATH)
 }
 
-/// A title, or the drawing's name in it, reduced to the characters that all dialects preserve, so that titles can be compared regardless of
-/// the post that wrote them.
+/// Reduces a title, or the drawing's name in it, to the characters that all dialects preserve, so that titles can be compared regardless of the post
+/// that wrote them.
 pub fn plain_title(text: &str) -> String {
     within_comment(text, None, Charset::Ascii).to_lowercase()
 }
@@ -97,7 +98,7 @@ pub fn is_title_of(found: &str, drawing: &str) -> bool {
 const PATH: &str = "Path ";
 const OF_DRAWING: &str = ", drawing ";
 
-/// The lines that set the machine up. LinuxCNC rejects F before G94.
+/// Returns the lines that set the machine up. LinuxCNC rejects F before G94.
 pub(super) fn setup(program: &Program) -> &'static str {
     if program.compatible {
         "F150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1\n"
@@ -106,24 +107,23 @@ pub(super) fn setup(program: &Program) -> &'static str {
     }
 }
 
-/// Whether a text has a title near its beginning, as our programs have.
+/// Whether a text has a title near its beginning, as programs of pathbuild have.
 pub fn has_title(text: &[u8]) -> bool {
     let first = text.split(|byte| *byte == b'\n').take(TITLE_LINES).map(<[u8]>::trim_ascii);
     let comments = first.filter_map(|line| line.strip_prefix(b"(")?.strip_suffix(b")"));
     comments.filter_map(|comment| str::from_utf8(comment).ok()).any(|title| path_of_title(title).is_some())
 }
 
-/// The title is within this number of lines.
+/// Number of lines at the start of a program that contain the title.
 const TITLE_LINES: usize = 4;
 
-/// Whether a native program is a compatible one, in which F comes first.
+/// Whether a native program is a compatible one, in which F comes before G94.
 pub fn is_compatible(text: &[u8]) -> bool {
     let mut lines = text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
     lines.find(|line| !matches!(line.first(), None | Some(b'(' | b'%' | b';'))) == Some(b"F150".as_slice())
 }
 
-/// Writes a program with LF as line ends. Statistics are those of the program before splitting: a move that is split for its correction
-/// counts as one.
+/// Writes a program with LF as line ends. Its statistics count a move that is split for its correction as one.
 pub fn write_program(program: &Program, header: &Header, options: &WriteOptions) -> String {
     write_program_within(program, header, options, usize::MAX).unwrap_or_default()
 }
@@ -165,7 +165,7 @@ pub fn write_program_within(
     if writer.text.len() <= most { Ok(writer.text) } else { Err(too_large(most)) }
 }
 
-/// PB005: a program exceeds the given number of bytes.
+/// Creates PB005: a program exceeds the given number of bytes.
 pub fn too_large(most: usize) -> Box<Diagnostic> {
     Box::new(Diagnostic::new(&files::OUTPUT_TOO_LARGE).with("limit", most).quoting("key", "output-size"))
 }
@@ -249,7 +249,7 @@ impl Writer<'_> {
         self.text.push('\n');
     }
 
-    /// The end that is printed for an arc.
+    /// Returns the end that is printed for an arc.
     fn arc_end(&self, to: Xy, centre: Xy, clockwise: bool, length: f64) -> Xy {
         if is_doubtful(centre, length) {
             PrintedArc::new(self.at, centre, clockwise).end(to, length)
@@ -258,7 +258,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The centre to print, relative to the position of the tool. Compatible programs print the nearest one.
+    /// Returns the centre to print, relative to the position of the tool. Compatible programs print the nearest one.
     fn arc_centre(&self, to: Xy, centre: Xy) -> Xy {
         if self.program.compatible {
             return centre;
@@ -320,7 +320,7 @@ impl Writer<'_> {
     }
 }
 
-/// A pause in seconds after each probe, so that the user can read the value.
+/// The dwell after each probe, P in seconds, so that the user can read the value.
 const DWELL: &str = "G04 P4";
 
 /// Writes the probing program.
@@ -359,14 +359,14 @@ pub fn values_file(program: &Program, options: &WriteOptions) -> String {
     text
 }
 
-/// The name of a probe in files: its position in the drawing, its label and the expected height.
+/// Formats the name of a probe in files: its position in the drawing, its label and the expected height.
 pub fn probe_name(probe: &ProbePoint) -> String {
     let label = probe.label.as_ref().map(|label| format!("/L:{label}")).unwrap_or_default();
     let (x, y) = (f3(probe.drawn_at.x), f3(probe.drawn_at.y));
     format!("[{x} {y}]{label}/T={}", f3(probe.height))
 }
 
-/// The name, and the position in the emitted drawing, because a path that is embedded twice has each of its probes twice.
+/// Formats the name of a probe and its position in the emitted drawing, because a path that is embedded twice has each of its probes twice.
 fn name_and_place(probe: &ProbePoint, program: &Program) -> String {
     let name = probe_name(probe);
     if program.compatible {
@@ -375,16 +375,16 @@ fn name_and_place(probe: &ProbePoint, program: &Program) -> String {
     format!("{name} @ [{}|{}]", f3(probe.at.x), f3(probe.at.y))
 }
 
-/// G38.2 is an alarm if the tool makes no contact. With G38.3, which the original tool writes, the machine continues.
+/// Returns the code for probing. G38.2 is an alarm if the tool makes no contact. With G38.3, which the original tool writes, the machine continues.
 fn code(program: &Program) -> &'static str {
     if program.compatible { "G38.3" } else { "G38.2" }
 }
 
-/// How comments are written.
+/// The settings with which comments are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Remarks {
     pub(super) charset: Charset,
-    /// Whether "(" is kept within a comment, as `PathDxf2GCode` does.
+    /// Whether `(` is kept within a comment, as `PathDxf2GCode` does.
     pub(super) compatible: bool,
 }
 
@@ -428,14 +428,14 @@ fn labels(lang: Lang) -> [&'static str; 5] {
     }
 }
 
-/// Label and length in mm of a comment with a length.
+/// Parses the label and the length in mm of a comment that states a length.
 pub(crate) fn stated_length(comment: &str) -> Option<(&str, f64)> {
     let (label, rest) = comment.split_once(':')?;
     let (length, _) = rest.split_once(" mm ")?;
     Some((label, length.trim().parse().ok()?))
 }
 
-/// The length denoted by a label, in either language: 0 milling, 1 drilling, 2 sweeps, 3 their sum.
+/// Returns the kind of length that a label denotes, in either language: 0 milling, 1 drilling, 2 sweeps, 3 their sum.
 pub(crate) fn kind_of_label(label: &str) -> Option<usize> {
     let is_meant = |known: &str| {
         let known = known.trim_end_matches(':');

@@ -16,13 +16,13 @@ use crate::native::number::{FIRST_PARAMETER, Formulas, f3};
 use crate::provenance::Provenance;
 use crate::verify::{Difference, Rules, Tolerance, compare, is_near, is_same_move};
 
-/// Number of decimals.
+/// Number of decimals of coordinates in native programs.
 const DECIMALS: i32 = 3;
 
-/// Checks that the text of a program makes the machine do what the program says. Heights are compared before correction.
+/// Checks that the text of a program makes the machine perform the steps of the program. Heights are compared before correction.
 ///
 /// # Errors
-/// PB006 if they differ, which is a bug.
+/// PB006 if they differ, which is a bug in pathbuild.
 pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
     if is_read_back([text], program) {
         return Ok(());
@@ -48,7 +48,7 @@ fn check_rules(text: &str) -> Result<(), Box<Diagnostic>> {
     broken.map_or(Ok(()), |broken| Err(told(&broken)))
 }
 
-/// Whether a finding of the rules shows that the text is not that of its program, which never starts the spindle without a speed.
+/// Whether a finding of the rules shows that the text does not match its program, which never starts the spindle without a speed.
 fn is_broken(problem: &Diagnostic) -> bool {
     problem.is_error() || problem.message == &say::SPINDLE_WITHOUT_SPEED
 }
@@ -72,7 +72,7 @@ pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: 
 /// Checks that the text of a probing program probes at the positions of the program's probes, in their order.
 ///
 /// # Errors
-/// PB006 if they differ, which is a bug.
+/// PB006 if they differ, which is a bug in pathbuild.
 pub fn read_probing_back(text: &str, probes: &[ProbePoint]) -> Result<(), Box<Diagnostic>> {
     let slack = Tolerance::of_decimals(DECIMALS).place;
     let mut found = moves(text)?;
@@ -84,7 +84,7 @@ pub fn read_probing_back(text: &str, probes: &[ProbePoint]) -> Result<(), Box<Di
     if is_same { Ok(()) } else { Err(internal("the probing run probes elsewhere")) }
 }
 
-/// Compares the moves found with those expected, one by one. Nearly all programs are as expected, and building both lists for comparison
+/// Comparison of the moves found with the expected ones, one by one. Nearly all programs are as expected, and building both lists for comparison
 /// takes as long as reading the program.
 struct LockstepComparison<E> {
     expected: E,
@@ -99,7 +99,7 @@ impl<E: Iterator<Item = (u32, motion::Move)>> LockstepComparison<E> {
     }
 
     fn step(&mut self, found: &motion::Move) {
-        // The position becomes known axis by axis, on the way to the start of the program.
+        // The position becomes known axis by axis, until the tool has reached the start of the program.
         if !self.is_same || found.from.known != Axes::ALL && !self.has_begun {
             return;
         }
@@ -114,13 +114,13 @@ impl<E: Iterator<Item = (u32, motion::Move)>> LockstepComparison<E> {
         self.has_begun = true;
     }
 
-    /// Whether all moves were equal. If not, they may still be equivalent but divided into different parts.
+    /// Whether all moves were equal. Unequal moves may still be equivalent but divided into different parts.
     fn end_together(mut self) -> bool {
         self.is_same && self.expected.next().is_none()
     }
 }
 
-/// The moves of a text, with their lines.
+/// Interprets a text and returns its moves, with their lines.
 fn moves(text: &str) -> Result<Vec<(u32, motion::Move)>, Box<Diagnostic>> {
     let mut moves = Vec::with_capacity(text.len() / SHORT_LINE);
     each_move(text, |line, movement| moves.push((line, movement)))?;
@@ -144,7 +144,7 @@ fn nominal() -> Options {
 /// Most lines have at least this number of bytes.
 const SHORT_LINE: usize = 20;
 
-/// Whether the writer may have moved the printed end of an arc.
+/// Whether the program has arcs whose printed end the writer may have moved.
 fn has_doubtful_arcs(program: &Program) -> bool {
     let is_one = |step: &ProgramStep| match step {
         ProgramStep::Move { to: PlannedMove::Arc { centre, .. }, count } => {
@@ -170,7 +170,7 @@ fn internal(reason: &str) -> Box<Diagnostic> {
     Box::new(Diagnostic::new(&files::INTERNAL).with("reason", Value::foreign(reason)))
 }
 
-/// The differences between the formulas and probes of a native text and those of the drawing: the first probe and the first formula that
+/// Returns the differences between the formulas and probes of a native text and those of the drawing: the first probe and the first formula that
 /// differ.
 ///
 /// Applied formulas differ only in their number, so adjusted programs can be compared too.
@@ -203,7 +203,7 @@ fn not_drawn(found: Option<FormulaText>, expected: Option<String>) -> Diagnostic
     line.map_or_else(|| problem.clone(), |line| problem.clone().at_line(line, None))
 }
 
-/// The first probe that differs between a text and the drawing.
+/// Returns the first probe that differs between a text and the drawing.
 fn probe_difference(text: &[u8], probes: &[ProbePoint]) -> Option<Diagnostic> {
     let mut stated = probe_entries(text).into_iter();
     let mut drawn = (FIRST_PARAMETER..).zip(probes).map(|(number, probe)| {
@@ -247,7 +247,7 @@ pub struct OtherLine {
     pub expected: String,
 }
 
-/// Which parts of a program are compared.
+/// The parts of a program that are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parts {
     /// The parts obeyed by the machine and `adjust`: words and formulas.
@@ -256,7 +256,7 @@ pub enum Parts {
     Comments,
 }
 
-/// The first line of a text that differs from the expected one, ignoring blanks and line breaks.
+/// Returns the first line of a text that differs from the expected one, ignoring blanks and line breaks.
 pub fn first_other_line(found: &[u8], expected: &[u8], parts: Parts) -> Option<OtherLine> {
     let (mut found, mut wanted) = (lines(found, parts), lines(expected, parts));
     let mut last = 0;
@@ -275,7 +275,7 @@ pub fn first_other_line(found: &[u8], expected: &[u8], parts: Parts) -> Option<O
     }
 }
 
-/// The lines to be compared, with their numbers.
+/// Returns the lines to be compared, with their numbers.
 fn lines(text: &[u8], parts: Parts) -> impl Iterator<Item = (u32, String)> {
     let text = String::from_utf8_lossy(text).into_owned();
     let plain = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -292,7 +292,7 @@ fn lines(text: &[u8], parts: Parts) -> impl Iterator<Item = (u32, String)> {
     all.into_iter().filter(|(_, line)| !line.is_empty())
 }
 
-/// The line without the version, if it is a provenance.
+/// Removes the version from a line that is a provenance.
 fn without_version(line: &str) -> String {
     let rest = line.strip_prefix("(pathbuild ").and_then(|rest| rest.split_once(' '));
     rest.map_or(line.to_owned(), |(_, rest)| format!("(pathbuild {rest}"))

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
-/// Bytes `start..end` of a line.
+/// The bytes `start..end` of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "a range")]
 pub struct Span {
@@ -14,19 +14,19 @@ pub struct Span {
 }
 
 impl Span {
-    /// Lines are short enough for 32 bits.
+    /// Creates a span from offsets, which fit into 32 bits because lines are short.
     pub(crate) fn new(start: usize, end: usize) -> Self {
         let index = |byte| u32::try_from(byte).unwrap_or(u32::MAX);
         Self { start: index(start), end: index(end) }
     }
 
-    /// Converts it to a range of indices.
+    /// Converts the span to a range of indices.
     pub fn range(self) -> Range<usize> {
         self.start as usize..self.end as usize
     }
 }
 
-/// A number as it was written: its text is given by the span of the word, its value is the nearest double.
+/// A number, whose value is the double nearest to its text; the text is in the span of its word.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number {
     /// Value in the unit of the program.
@@ -46,15 +46,15 @@ pub enum Value {
 /// A letter and its value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Word {
-    /// In upper case.
+    /// The letter in upper case.
     pub letter: u8,
-    /// The value.
+    /// The value after the letter.
     pub value: Value,
     /// Range of letter and value in the line.
     pub span: Span,
 }
 
-/// `#5=...` or `#<name>=...`.
+/// An assignment to a parameter: `#5=...` or `#<name>=...`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Assignment {
@@ -63,12 +63,12 @@ pub struct Assignment {
     pub span: Span,
 }
 
-/// The parameter that is set.
+/// The parameter that an assignment sets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
-    /// Its number is the result of the code.
+    /// A numbered parameter; the code calculates its number.
     Numbered(Code),
-    /// Range of its name in the line, without `<` and `>`.
+    /// A named parameter, by the range of its name in the line, without `<` and `>`.
     Named(Span),
 }
 
@@ -84,13 +84,13 @@ pub struct Comment {
 /// The notation of a comment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommentStyle {
-    /// `( )`
+    /// A comment in `( )`.
     Round,
-    /// `;`
+    /// A comment from `;` to the end of the line.
     Semicolon,
-    /// `//`
+    /// A comment from `//` to the end of the line.
     Slashes,
-    /// `!`
+    /// A comment from `!` to the end of the line.
     Bang,
     /// The text after `%`.
     Percent,
@@ -101,9 +101,9 @@ pub enum CommentStyle {
 /// The correction formula after a number: `Z1.000(=1.000+0.5*[#51-5.000])`. (book: language/probes)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Formula {
-    /// Index of the word it belongs to.
+    /// Index of the word to which the formula belongs.
     pub word: u32,
-    /// Whether it begins with `(==`, so that the number is already its result.
+    /// Whether the formula begins with `(==`, so that the number before it is already its result.
     pub applied: bool,
     /// The compiled formula.
     pub code: Code,
@@ -111,14 +111,14 @@ pub struct Formula {
     pub span: Span,
 }
 
-/// An O word: it defines or calls a subroutine, or controls which line is next.
+/// An O word: it defines or calls a subroutine, or determines which line is executed next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OWord {
     /// Range from the letter to its last value.
     pub span: Span,
-    /// Range of its number, or of its name without `<` and `>`.
+    /// Range of the word's number, or of its name without `<` and `>`.
     pub name: Span,
-    /// What it does.
+    /// The keyword of the word.
     pub kind: OWordKind,
 }
 
@@ -141,7 +141,7 @@ pub enum OWordKind {
     Do,
     Break,
     Continue,
-    /// An unknown keyword, or a name that is calculated. Its values are not read.
+    /// An unknown keyword, or any keyword after a name that is calculated. Its values are not read.
     Other,
 }
 
@@ -154,11 +154,11 @@ pub struct Block<'a> {
     pub text: &'a [u8],
     /// Block number (N).
     pub number: Option<Number>,
-    /// Whether it begins with `/`, so that a switch on the machine can skip it.
+    /// Whether the line begins with `/`, so that a switch on the machine can skip it.
     pub optional: bool,
     /// Words in the order of the text.
     pub words: &'a [Word],
-    /// Settings in the order of the text. They take effect after all values of the line have been read.
+    /// Assignments to parameters in the order of the text. They take effect after all values of the line have been read.
     pub settings: &'a [Assignment],
     /// Comments in the order of the text.
     pub comments: &'a [Comment],
@@ -172,22 +172,22 @@ pub struct Block<'a> {
 }
 
 impl<'a> Block<'a> {
-    /// The operations of an expression in this block, with operands first.
+    /// Returns the operations of an expression in this block, with operands first.
     pub fn code(&self, code: Code) -> &'a [Op] {
         &self.code[code.range()]
     }
 
-    /// A part of the line.
+    /// Returns a part of the line.
     pub fn slice(&self, span: Span) -> &'a [u8] {
         self.text.get(span.range()).unwrap_or_default()
     }
 
-    /// A part of the line as text, decoded as UTF-8 or else as Windows-1252.
+    /// Returns a part of the line as text, decoded as UTF-8 or else as Windows-1252.
     pub fn text_of(&self, span: Span) -> Cow<'a, str> {
         decode(self.slice(span))
     }
 
-    /// The formula of the word with this index.
+    /// Returns the formula of the word with this index.
     pub fn formula(&self, word: usize) -> Option<&'a Formula> {
         self.formulas.iter().find(|formula| formula.word as usize == word)
     }
@@ -213,15 +213,15 @@ pub enum Op {
     Number(f64),
     /// Replaces a number by the value of the parameter with that number.
     Parameter,
-    /// Pushes the value of the parameter with this part of the line as its name.
+    /// Pushes the value of the parameter whose name is this part of the line.
     Named(Span),
     /// Pushes 1 if there is a parameter with this name, otherwise 0.
     Exists(Span),
-    /// Replaces the topmost number.
+    /// Replaces the topmost number by the function's value.
     Function(Function),
     /// Replaces the two topmost numbers y, x by the angle of (x, y) in degrees.
     Atan,
-    /// Replaces the two topmost numbers.
+    /// Replaces the two topmost numbers by the operator's result.
     Binary(Binary),
 }
 
@@ -278,13 +278,13 @@ pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// The column of a byte, in characters counted from 1.
+/// Returns the column of a byte, in characters counted from 1.
 pub(crate) fn column(line: &[u8], byte: usize) -> u32 {
     let before = decode(&line[..byte.min(line.len())]).chars().count();
     u32::try_from(before + 1).unwrap_or(u32::MAX)
 }
 
-/// The line with its faulty part marked. Of a long line only the surroundings are kept.
+/// Returns the line with its faulty part marked. Of a long line only the surroundings are kept.
 pub(crate) fn fault(line: &[u8], span: Span) -> TextFault {
     let start = (span.start as usize).min(line.len());
     let end = (span.end as usize).clamp(start, line.len()).min(start + EXCERPT_BYTES);
@@ -330,7 +330,7 @@ pub fn quote<'d>(diagnostics: impl IntoIterator<Item = &'d mut Diagnostic>, file
     }
 }
 
-/// The character that ends the lines of a file: LF, or CR in files that contain only CR.
+/// Returns the character that ends the lines of a file: LF, or CR in files that contain only CR.
 pub(super) fn end_of_line(file: &[u8]) -> u8 {
     if memchr::memchr(b'\n', file).is_none() { b'\r' } else { b'\n' }
 }

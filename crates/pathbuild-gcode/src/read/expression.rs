@@ -57,7 +57,7 @@ impl Syntax {
         matches!(self, Self::Formula | Self::Dialect { signs: true, .. })
     }
 
-    /// Precedence of an operator; `None` if it does not exist in this syntax.
+    /// Returns the precedence of an operator; `None` if the operator does not exist in this syntax.
     fn level(self, operator: Binary) -> Option<u8> {
         use Binary::{And, Divide, Minus, Modulo, Or, Plus, Power, Times, Xor};
         let is_nist = matches!(self, Self::Dialect { operators: Operators::Nist, .. });
@@ -207,7 +207,7 @@ impl Line<'_> {
         Ok(())
     }
 
-    /// Reads `<name>`.
+    /// Reads `<name>` and returns the range of the name.
     pub(super) fn name(&mut self) -> Result<Span, UnreadableLine> {
         let start = self.at + 1;
         let Some(length) = self.bytes[start..].iter().position(|byte| *byte == b'>') else {

@@ -9,7 +9,7 @@ use super::number;
 use super::problems::{At, Problems};
 use crate::dialect::{Rules, Slash, Spelling};
 
-/// The line cannot be read, for a reason that has been reported.
+/// Error for a line that cannot be read, whose reason has been reported.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct UnreadableLine;
 
@@ -45,7 +45,7 @@ impl Parts {
     }
 }
 
-/// Reads words as long as they have the simplest form. Returns the offset at which that ends.
+/// Reads words as long as they have the simplest form. Returns the offset of the first byte that does not belong to such a word.
 #[inline]
 pub(super) fn plain_words(bytes: &[u8], start: usize, words: &mut Vec<Word>) -> usize {
     let mut at = start;
@@ -64,7 +64,7 @@ pub(super) fn plain_words(bytes: &[u8], start: usize, words: &mut Vec<Word>) -> 
     at
 }
 
-/// A line, and how far it has been read.
+/// A line that is being read, with the position reached.
 pub(super) struct Line<'l> {
     pub(super) bytes: &'l [u8],
     pub(super) at: usize,
@@ -114,7 +114,7 @@ impl Line<'_> {
         }
     }
 
-    /// The range of the next character.
+    /// Returns the range of the next character.
     pub(super) fn here(&self) -> Span {
         let length = self.bytes[self.at..]
             .iter()
@@ -124,7 +124,7 @@ impl Line<'_> {
         Span::new(self.at, (self.at + length).min(self.bytes.len()))
     }
 
-    /// Reports what makes the line unreadable.
+    /// Reports the problem that makes the line unreadable.
     pub(super) fn fault(
         &mut self,
         message: &'static Message,
@@ -146,7 +146,8 @@ impl Line<'_> {
         self.problems.add(message, at, |diagnostic| values(diagnostic).quoting("dialect", dialect));
     }
 
-    /// Reads a checksum that a host appended to a line for Marlin, as in `N5 G1 X2*98`: it is the exclusive or of all bytes before `*` and extends to the end of the line or to a comment.
+    /// Reads a checksum that a host appended to a line for Marlin, as in `N5 G1 X2*98`: it is the exclusive or of all bytes before `*` and extends to
+    /// the end of the line or to a comment.
     pub(super) fn checksum(&mut self) -> Result<(), UnreadableLine> {
         let star = self.at;
         let rest = &self.bytes[star + 1..];
@@ -178,7 +179,7 @@ impl Line<'_> {
         &self.rules.spelling
     }
 
-    /// Reports a lower-case letter if the control only reads upper case, but reads its word nevertheless.
+    /// Reports a lower-case letter if the control reads only upper case. The word is read nevertheless.
     fn small_letter(&mut self, letter: u8) -> Result<(), UnreadableLine> {
         let letter = letter.to_ascii_uppercase();
         self.report(&say::SMALL_LETTER, self.here(), |d| d.with("letter", char::from(letter)));

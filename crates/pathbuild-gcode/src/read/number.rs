@@ -1,4 +1,4 @@
-//! Numbers in G-code notation: sign, digits and one decimal point, but no exponent.
+//! Reads numbers in G-code notation: sign, digits and one decimal point, but no exponent.
 
 use super::block::{Number, decode};
 use crate::dialect::{Blanks, Spelling};
@@ -9,14 +9,14 @@ const POWERS: [f64; 23] = [
     1e19, 1e20, 1e21, 1e22,
 ];
 
-/// With at most this number of digits, an integer is exact as a double, so that one division gives the nearest double.
+/// Maximum number of digits of an integer that a double represents exactly, so that one division gives the nearest double.
 const EXACT_DIGITS: usize = 15;
 
 /// A number found in a line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ScannedNumber {
     pub(super) number: Number,
-    /// Offset after the number.
+    /// Offset of the first byte after the number.
     pub(super) end: usize,
     /// An unusual feature of its notation.
     pub(super) oddity: Option<Oddity>,
@@ -29,7 +29,7 @@ pub(super) enum Oddity {
     DecimalComma,
 }
 
-/// Not a valid number; `end` is the offset after it.
+/// Error for text that is not a valid number; `end` is the offset after it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MalformedNumber {
     pub(super) end: usize,
@@ -94,7 +94,7 @@ pub(super) fn plain(line: &[u8], start: usize) -> Option<(Number, usize)> {
     Some((Number { value, decimals: u8::try_from(decimals).unwrap_or(u8::MAX) }, at))
 }
 
-/// The longest run of a plain number at an offset.
+/// The longest run of sign, digits and points at an offset.
 struct Digits {
     negative: bool,
     mantissa: u64,
@@ -170,7 +170,7 @@ fn rewritten(line: &[u8], start: usize, oddity: Oddity) -> Result<ScannedNumber,
     Ok(ScannedNumber { number, end, oddity: Some(oddity) })
 }
 
-/// Offset after the last digit or point of a number that contains blanks.
+/// Returns the offset after the last digit or point of a number that contains blanks.
 fn last_digit(line: &[u8], start: usize) -> usize {
     let mut end = run_end(line, start, begins);
     while goes_on(line, end) {
@@ -180,7 +180,7 @@ fn last_digit(line: &[u8], start: usize) -> usize {
     end
 }
 
-/// Whether blanks and then more of a number follow.
+/// Whether blanks follow, and after them more of the number.
 fn goes_on(line: &[u8], at: usize) -> bool {
     let next = run_end(line, at, |byte| matches!(byte, b' ' | b'\t'));
     next > at && line.get(next).is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.')

@@ -10,7 +10,7 @@ use super::block::{Block, Span, column, fault};
 /// Maximum number of times that a message is reported per file, since a doubtful word in each of a million lines is a single problem.
 const MAX_REPORTS_PER_MESSAGE: u64 = 20;
 
-/// A position in a file.
+/// A position in a file, with the text of its line.
 #[derive(Clone, Copy, Debug)]
 pub struct At<'a> {
     /// Line number, counted from 1.
@@ -22,12 +22,12 @@ pub struct At<'a> {
 }
 
 impl<'a> At<'a> {
-    /// A part of a block.
+    /// Returns the position of a part of a block.
     pub fn block(block: &Block<'a>, span: Span) -> Self {
         Self { line: block.line, text: block.text, span }
     }
 
-    /// An entire block.
+    /// Returns the position of an entire block.
     pub fn line(block: &Block<'a>) -> Self {
         Self::block(block, Span::new(0, block.text.len()))
     }
@@ -42,7 +42,7 @@ impl<'a> At<'a> {
 #[derive(Clone, Debug, Default)]
 pub struct Problems {
     found: Vec<Diagnostic>,
-    /// By the key of the message: how often it was found, and the index of the last one kept.
+    /// Number of times that each message was found, and the index of its last diagnostic that was kept, by the message's key.
     counts: BTreeMap<&'static str, (u64, usize)>,
 }
 
@@ -57,7 +57,7 @@ impl Problems {
         self.push(message, || at.place(values(Diagnostic::new(message))));
     }
 
-    /// Adds a problem with a position that is only known by line.
+    /// Adds a problem of which only the line is known.
     pub fn add_at_line(
         &mut self,
         message: &'static Message,
@@ -67,7 +67,7 @@ impl Problems {
         self.push(message, || values(Diagnostic::new(message)).at_line(line, None));
     }
 
-    /// How often a message was found.
+    /// Returns the number of times that a message was found.
     pub fn count(&self, message: &'static Message) -> u64 {
         self.counts.get(message.key).map_or(0, |&(count, _)| count)
     }
@@ -83,7 +83,7 @@ impl Problems {
         }
     }
 
-    /// Returns the diagnostics in the order of lines. The last one of a limited message tells how many more there were.
+    /// Returns the diagnostics in the order of lines. If some of a message were only counted, its last diagnostic states how many more there were.
     pub fn into_diagnostics(mut self) -> Vec<Diagnostic> {
         for &(count, last) in self.counts.values().filter(|(count, _)| *count > MAX_REPORTS_PER_MESSAGE) {
             let message = if count - MAX_REPORTS_PER_MESSAGE == 1 { &ONE_MORE } else { &MORE };
@@ -100,7 +100,7 @@ impl Problems {
         let (count, last) = self.counts.entry(message.key).or_default();
         if *count < MAX_REPORTS_PER_MESSAGE {
             let diagnostic = diagnostic();
-            // A line that is executed repeatedly has its problem once.
+            // A line that is executed repeatedly reports its problem only once.
             if self.found.contains(&diagnostic) {
                 return;
             }

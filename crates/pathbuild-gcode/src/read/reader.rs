@@ -13,7 +13,7 @@ use crate::dialect::{LineLength, Percent, Rules};
 /// Maximum length of a line in bytes. No machine accepts lines of a comparable length.
 pub const LONGEST_LINE: usize = 65_536;
 
-/// Reads the blocks of a file.
+/// An iterator over the blocks of a file, which lends them one by one.
 ///
 /// ```
 /// # use pathbuild_gcode::{dialect::Dialect, read::BlockReader};
@@ -42,14 +42,14 @@ pub struct BlockReader<'t> {
 pub(crate) struct Place {
     /// Offset of the next line.
     at: usize,
-    /// The line before, counted from 1.
+    /// Number of the line before the place, counted from 1.
     line: u32,
 }
 
-/// The progress within the program.
+/// The part of the file that the reader has reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// All lines before were comments.
+    /// Nothing but comments and blank lines has been read.
     Leader,
     Program,
     /// The program ended in this line.
@@ -73,22 +73,22 @@ impl<'t> BlockReader<'t> {
         }
     }
 
-    /// The place after the line last read.
+    /// Returns the place after the line last read.
     pub(crate) fn place(&self) -> Place {
         Place { at: self.at, line: self.line }
     }
 
-    /// Another reader of the same file, from a place within its program.
+    /// Creates another reader of the same file, from a place within its program.
     pub(crate) fn again_from(&self, Place { at, line }: Place) -> Self {
         Self { at, line, state: State::Program, ..Self::new(self.text, self.rules) }
     }
 
-    /// Another reader of the same file, from its beginning.
+    /// Creates another reader of the same file, from its beginning.
     pub(crate) fn again(&self) -> Self {
         Self::new(self.text, self.rules)
     }
 
-    /// Whether a place lies ahead.
+    /// Whether a place is at or after the reader's position.
     pub(crate) fn is_before(&self, place: Place) -> bool {
         self.at <= place.at
     }
@@ -98,7 +98,7 @@ impl<'t> BlockReader<'t> {
         self.has_subprograms = true;
     }
 
-    /// Continues the same file with further bytes. The bytes before must have ended with a line break.
+    /// Continues the same file with further bytes. The bytes read so far must have ended with a line break.
     pub(crate) fn go_on(self, text: &[u8]) -> BlockReader<'_> {
         let Self { rules, line, state, parts, problems, has_subprograms, .. } = self;
         let end_of_line = end_of_line(text);
@@ -132,7 +132,7 @@ impl<'t> BlockReader<'t> {
         })
     }
 
-    /// Ends the program at this point (M2, M30). What follows is not read, and reported unless it is `%`, blank or a comment.
+    /// Ends the program at this point (M2, M30). The lines after it are not read; they are reported unless they are `%`, blank or a comment.
     pub fn end_program(&mut self) {
         if !matches!(self.state, State::Ended(_)) {
             self.state = State::Ended(self.line);
@@ -144,7 +144,7 @@ impl<'t> BlockReader<'t> {
         matches!(self.state, State::Ended(_))
     }
 
-    /// The line last read, counted from 1.
+    /// Returns the number of the line last read, counted from 1.
     pub fn line(&self) -> u32 {
         self.line
     }
@@ -219,7 +219,7 @@ impl<'t> BlockReader<'t> {
         at
     }
 
-    /// A length that satisfies every limit.
+    /// Returns a line length in bytes that satisfies the dialect's limit in any case.
     fn surely_short_enough(&self) -> usize {
         match self.rules.spelling.line_length {
             Some(LineLength::Whole(most) | LineLength::Bare(most)) => most,
@@ -343,7 +343,7 @@ impl<'t> BlockReader<'t> {
         }
     }
 
-    /// Length of the line without blanks and comments.
+    /// Returns the length of the line without blanks and comments.
     fn bare_length(&self, line: &[u8]) -> usize {
         let words: usize = self.parts.words.iter().map(|word| bare(&line[word.span.range()])).sum();
         let settings: usize =
@@ -377,7 +377,7 @@ enum PercentSign {
     Comment(Span),
 }
 
-/// Length of a block number before a program name, including the blanks after it.
+/// Returns the length of a block number before a program name, including the blanks after it.
 fn title_number(line: &[u8]) -> usize {
     let [b'N' | b'n', digits @ ..] = line else { return 0 };
     1 + digits.iter().take_while(|byte| matches!(byte, b'0'..=b'9' | b' ' | b'\t')).count()
@@ -401,7 +401,7 @@ fn trim_end(line: &[u8]) -> &[u8] {
     &line[..line.len() - blanks]
 }
 
-/// The first byte of a line that acts immediately, and its effect. Other bytes above 127 are only removed.
+/// Finds the first byte of a line that acts immediately, with its effect. Other bytes above 127 are only removed.
 pub(super) fn first(line: &[u8]) -> Option<(usize, &'static Text)> {
     line.iter().enumerate().find_map(|(at, &byte)| effect(byte).map(|effect| (at, effect)))
 }

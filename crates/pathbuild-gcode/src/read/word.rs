@@ -1,4 +1,4 @@
-//! Reads words and settings that do not have the simplest form.
+//! Reads words and assignments that do not have the simplest form.
 
 use memchr::{memchr, memchr2};
 use pathbuild_diagnostic::messages::gcode as say;
@@ -46,7 +46,7 @@ impl Line<'_> {
         self.skip_blanks();
     }
 
-    /// Whether it is an expression such as `-[`, `-#` or `-SIN[`.
+    /// Whether a signed expression such as `-[`, `-#` or `-SIN[` begins here.
     fn signed_expression(&self, byte: u8) -> bool {
         matches!(byte, b'+' | b'-')
             && self.bytes[self.at + 1..]
@@ -64,7 +64,7 @@ impl Line<'_> {
         self.compiled_value(syntax).map(Value::Expression)
     }
 
-    /// Whether the next letter begins a word instead of the name of a function.
+    /// Whether the next letter begins a word and not the name of a function.
     fn letter_follows_without_bracket(&self) -> bool {
         let letters = self.bytes[self.at..].iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
         letters == 1
@@ -177,7 +177,7 @@ impl Line<'_> {
     }
 }
 
-/// The O words that are followed, in lower case.
+/// The keywords of O words that are followed, in lower case.
 const O_WORDS: [(&[u8], OWordKind); 15] = [
     (b"sub", OWordKind::Sub),
     (b"endsub", OWordKind::EndSub),
@@ -197,7 +197,7 @@ const O_WORDS: [(&[u8], OWordKind); 15] = [
 ];
 
 impl Line<'_> {
-    /// Reads `o100 call [1] [2]`. Of an O word that is not followed, the rest of the line is passed over.
+    /// Reads `o100 call [1] [2]`. If the O word is not followed, the rest of its line is skipped.
     fn o_word(&mut self) -> Result<(), UnreadableLine> {
         let start = self.at;
         self.at += 1;
@@ -342,7 +342,7 @@ impl Line<'_> {
     }
 }
 
-/// The comment notation of a dialect.
+/// Returns the comment notation of a dialect.
 pub(super) fn comment_sign(spelling: &Spelling) -> &'static str {
     if spelling.slash_comments == Style::Usual { "//" } else { "(" }
 }

@@ -1,7 +1,7 @@
-//! Counts rapid moves whose way is not known. (book: program/reading)
+//! Counts rapid moves whose start is unknown and that may therefore pass through material. (book: program/reading)
 //!
-//! After a move to a machine position, a tool change or a probe, and at the beginning of a program, the start of a move is known only in
-//! part. Only its end is then compared with the map of the material. That suffices for a vertical move, and for one above the material.
+//! After a move to a machine position, a tool change or a probe, and at the beginning of a program, the start of a move is known only in part. Only
+//! its end is then compared with the map of the material. That suffices for a vertical move, and for a move above the material.
 
 use pathbuild_motion::{Action, Axes, Move, Pace, Position, Step};
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::height_map::RESIDUE;
 use super::material::Stock;
 
-/// Rapid moves that may pass through material on an unknown way.
+/// Number and first line of the rapid moves with unknown start that may pass through material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BlindRapids {
     /// Number of moves.
@@ -18,21 +18,21 @@ pub struct BlindRapids {
     pub line: u32,
 }
 
-/// Finds blind rapid moves: pass every step of a program, then call [`finish`](Self::finish).
+/// Rule that finds blind rapid moves: pass every step of a program, then call [`finish`](Self::finish).
 #[derive(Debug)]
 pub struct BlindRapidRules {
     /// The highest surface of the material, in mm.
     surface: f64,
     /// The axes that the program has stated since the last tool change.
     stated: Axes,
-    /// Whether an unknown height is above everything: the operator, a move to a machine position or a tool changer has raised the tool.
-    /// After a probe it is not.
+    /// Whether an unknown height is above everything, because the operator, a move to a machine position or a tool changer has raised the tool. False
+    /// after a probe.
     is_raised: bool,
     found: Option<BlindRapids>,
 }
 
 impl BlindRapidRules {
-    /// Rules for the beginning of a program; `None` if the height of the material is unknown.
+    /// Creates the rule for the beginning of a program; `None` if the height of the material is unknown.
     pub fn new(stock: &Stock) -> Option<Self> {
         let surface = stock.highest().filter(|surface| surface.is_finite())?;
         Some(Self { surface, stated: Axes::ALL, is_raised: true, found: None })
@@ -80,7 +80,7 @@ impl BlindRapidRules {
     }
 }
 
-/// The axes of a position that are known, and not changed by the machine since.
+/// Returns the axes of a position that are known and that the program has stated since the machine last changed them.
 fn known(at: &Position, stated: Axes) -> Axes {
     at.known.and(stated)
 }

@@ -3,19 +3,19 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_motion::{Action, ChipLoad, Pace, Step, Turning};
 
-/// Finds chip loads outside the limits of the tools: pass every step of a program, then call [`finish`](Self::finish). Each tool is
+/// Rule that finds chip loads outside the limits of the tools: pass every step of a program, then call [`finish`](Self::finish). Each tool is
 /// reported at most once for too small and once for too large a chip load.
 #[derive(Debug)]
 pub struct ChipLoadRules {
     /// The limits of the tools, each with the line from which it cuts, in the order of the lines.
     tools: Vec<(u32, Option<ChipLoad>)>,
-    /// The speed that the program has set; `None` if it has set none.
+    /// The spindle speed in 1/min that the program has set; `None` if it has set none.
     speed: Option<f64>,
     found: Vec<(usize, Diagnostic)>,
 }
 
 impl ChipLoadRules {
-    /// Rules for tools, each with the line from which it cuts, in the order of the lines.
+    /// Creates the rule for tools, each with the line from which it cuts, in the order of the lines.
     pub fn new(tools: Vec<(u32, Option<ChipLoad>)>) -> Self {
         Self { tools, speed: None, found: Vec::new() }
     }
@@ -31,7 +31,7 @@ impl ChipLoadRules {
             }
             Action::Move(motion) => {
                 let Pace::Feed(feed) = motion.pace else { return };
-                // Feeds into the material are lower on purpose.
+                // Moves that change the height are not checked, because feeds into the material are lower on purpose.
                 if feed > 0.0 && motion.axis_shares()[2] == 0.0 && motion.length() > 0.0 {
                     self.check(step.line, feed);
                 }

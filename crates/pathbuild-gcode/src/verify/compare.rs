@@ -1,6 +1,6 @@
-//! Checks whether two programs move identically: the same path in the plane and in Z, at the same feeds, in the same order.
+//! Checks whether two programs move identically: along the same path in the plane and in Z, at the same feeds, in the same order.
 //!
-//! They may be divided differently: a circle may consist of two halves, or of chords within a tolerance.
+//! Their moves may be divided differently: a circle may consist of two halves, or of chords within a tolerance.
 
 use std::borrow::Cow;
 
@@ -11,28 +11,28 @@ use pathbuild_motion::{Axes, Course, Move, MoveShape, Pace, Position};
 /// Tolerances in mm and mm/min within which two programs are equal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// For the coordinates of ends. Along a line, both of whose ends are rounded, twice that is permitted, and within an arc six times:
-    /// its centre is the sum of two rounded numbers, and the far side of a circle moves twice as far as the centre.
+    /// Tolerance in mm for the coordinates of ends. Along a line, both of whose ends are rounded, twice that is permitted, and within an arc six
+    /// times: its centre is the sum of two rounded numbers, and the far side of a circle moves twice as far as the centre.
     pub place: f64,
-    /// For feeds.
+    /// Tolerance in mm/min for feeds.
     pub feed: f64,
-    /// For the distance between an arc and the chords that replace it.
+    /// Greatest distance in mm between an arc and the chords that replace it.
     pub chord: f64,
-    /// Which moves are compared.
+    /// The rapid moves at the ends of programs that are compared.
     pub ends: Ends,
 }
 
-/// Which rapid moves at the ends of programs are compared.
+/// The rapid moves at the ends of programs that are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
-    /// All of them, once the position is known.
+    /// All rapid moves, once the position is known.
     All,
-    /// Those between the first and the last cut, because heads and feet written by a post depend on the machine.
+    /// Rapid moves between the first and the last cut, because the beginning and the end of a program written by a post depend on the machine.
     Cutting,
 }
 
 impl Tolerance {
-    /// Half a unit of the last digit for numbers with this number of decimals, plus the error of doubles.
+    /// Returns the tolerance for numbers with this number of decimals: half a unit of the last digit, plus the error of doubles.
     pub fn of_decimals(decimals: i32) -> Self {
         let half = 0.5 * libm::pow(10.0, f64::from(-decimals)) * (1.0 + 1e-6);
         Self { place: half, feed: half, chord: 0.0, ends: Ends::All }
@@ -53,16 +53,16 @@ pub struct Difference {
     pub expected: Option<(u32, Move)>,
 }
 
-/// What differs between two moves.
+/// The property in which two moves differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DifferenceKind {
-    /// They lead to different positions, or one is missing.
+    /// The moves lead to different positions, or one is missing.
     Place,
-    /// They differ between their ends.
+    /// The moves differ between their ends.
     Shape,
-    /// One is a rapid, the other is not.
+    /// One move is a rapid, the other is not.
     Pace,
-    /// Their feeds differ.
+    /// The feeds differ.
     Feed,
 }
 
@@ -131,7 +131,7 @@ impl Difference {
 }
 
 impl Difference {
-    /// The same for a comparison with a drawing, which has no lines.
+    /// Converts the difference to a diagnostic for a comparison with a drawing, whose moves have no lines.
     pub(super) fn diagnostic_against_drawing(&self) -> Diagnostic {
         let drawn = |message: &'static Message| Diagnostic::new(message);
         let diagnostic = match (&self.found, &self.expected) {
@@ -189,12 +189,12 @@ fn difference(kind: DifferenceKind, found: &Walker<'_>, expected: &Walker<'_>) -
     Difference { kind, found: shown(found, expected), expected: shown(expected, found) }
 }
 
-/// The moves to be compared: those to known positions, with those at the ends as required by the tolerance.
+/// Selects the moves to be compared: those to known positions, with those at the ends as required by the tolerance.
 fn counting(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
     let is_known = |(_, movement): &(u32, Move)| movement.to.known == Axes::ALL;
     let is_cut = |movement: &(u32, Move)| is_known(movement) && movement.1.pace != Pace::Rapid;
     let (first, end) = match ends {
-        // The position becomes known axis by axis; how does not matter.
+        // The position becomes known axis by axis, in an order that does not matter.
         Ends::All => {
             let begins = |movement: &(u32, Move)| is_known(movement) && movement.1.from.known == Axes::ALL;
             (moves.iter().position(begins), moves.len())
@@ -212,7 +212,7 @@ fn counting(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
     }
 }
 
-/// Advances to the first common position, over rapid moves of one of the programs.
+/// Advances both programs to their first common position, skipping rapid moves of one of them.
 fn begin_together(
     found: &mut Walker<'_>,
     expected: &mut Walker<'_>,
@@ -229,8 +229,8 @@ fn begin_together(
     Err(DifferenceKind::Place)
 }
 
-/// Skips a move that is too short to be anything but rounding, if it ends at the position reached in the other program. Returns whether it
-/// did.
+/// Skips a move that is too short to be anything but rounding, if it ends at the position reached in the other program. Returns whether a move was
+/// skipped.
 fn skip_standing(one: &mut Walker<'_>, other: &Walker<'_>, tolerance: &Tolerance) -> bool {
     let Some(stretch) = one.stretch() else { return false };
     let here = other.place().unwrap_or(stretch.end());
@@ -244,7 +244,7 @@ fn skip_standing(one: &mut Walker<'_>, other: &Walker<'_>, tolerance: &Tolerance
     is_standing
 }
 
-/// Advances both to the end of the move that ends first.
+/// Advances both programs to the end of the move that ends first.
 fn step(
     found: &mut Walker<'_>,
     ours: &Stretch,
@@ -271,7 +271,7 @@ fn step(
     Ok(())
 }
 
-/// The fraction of the longer stretch at which the shorter one ends.
+/// Returns the fraction of the longer stretch at which the shorter one ends.
 pub(super) fn meet(
     shorter: &Stretch,
     longer: &Stretch,
@@ -336,21 +336,21 @@ pub(crate) fn is_near(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
     a.iter().zip(b).all(|(a, b)| libm::fabs(a - b) <= slack)
 }
 
-/// A position in a list of moves.
+/// A position in a list of moves: a move, and the fraction of it that has been passed.
 pub(super) struct Walker<'m> {
     moves: &'m [(u32, Move)],
     index: usize,
-    /// The fraction of the current move that has been done.
+    /// The fraction of the current move that has been passed.
     done: f64,
 }
 
-/// The rest of a move.
+/// The remaining part of a move.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
     pub(super) movement: Move,
-    /// The fraction of the move at which it begins.
+    /// The fraction of the move at which the stretch begins.
     pub(super) begin: f64,
-    /// Its length in mm; 0 for a move from an unknown position.
+    /// Length of the stretch in mm; 0 for a move from an unknown position.
     pub(super) length: f64,
 }
 
@@ -359,28 +359,28 @@ impl<'m> Walker<'m> {
         Self { moves, index: 0, done: 0.0 }
     }
 
-    /// The current move with its line.
+    /// Returns the current move with its line.
     pub(super) fn current(&self) -> Option<(u32, Move)> {
         self.moves.get(self.index).copied()
     }
 
-    /// The last move of the list with its line.
+    /// Returns the last move of the list with its line.
     pub(super) fn last(&self) -> Option<(u32, Move)> {
         self.moves.last().copied()
     }
 
-    /// Whether a part of the current move has been done.
+    /// Whether a part of the current move has been passed.
     pub(super) fn is_within(&self) -> bool {
         self.done > 0.0
     }
 
-    /// The rest of the current move.
+    /// Returns the rest of the current move.
     pub(super) fn stretch(&self) -> Option<Stretch> {
         let (_, movement) = self.current()?;
         Some(Stretch { movement, begin: self.done, length: movement.length() * (1.0 - self.done) })
     }
 
-    /// The current position, unless there are no moves.
+    /// Returns the current position; `None` if there are no moves.
     pub(super) fn place(&self) -> Option<[f64; 3]> {
         match self.stretch() {
             Some(stretch) if stretch.movement.from.known == Axes::ALL => Some(stretch.point(stretch.begin)),
@@ -399,7 +399,7 @@ impl<'m> Walker<'m> {
         self.done = share;
     }
 
-    /// Advances over rapid moves to the first position that satisfies the condition. If there is none, it stays. Returns whether it moved.
+    /// Advances over rapid moves to the first position that satisfies the condition. Returns false, without advancing, if there is none.
     pub(super) fn skip_rapids_to(&mut self, will_do: impl Fn(&[f64; 3]) -> bool) -> bool {
         let rapids = self.moves[self.index..].iter().take_while(|(_, movement)| movement.pace == Pace::Rapid);
         let found = rapids.clone().position(|(_, movement)| will_do(&movement.to.at));
@@ -421,19 +421,19 @@ impl Stretch {
         matches!(self.movement.shape, MoveShape::Arc(_))
     }
 
-    /// The place at a share of the whole move.
+    /// Returns the position at a fraction of the whole move.
     pub(super) fn point(&self, share: f64) -> [f64; 3] {
         self.movement.point(share)
     }
 
-    /// Whether both end at the same position, and not one of them a full turn later.
+    /// Whether both stretches end at the same position, and not one of them a full turn later.
     pub(super) fn end_together(&self, other: &Self, slack: f64) -> bool {
         let from_unknown = self.movement.from.known != Axes::ALL || other.movement.from.known != Axes::ALL;
         is_near(&self.end(), &other.end(), slack)
             && (from_unknown || are_alike(self.length, other.length, slack))
     }
 
-    /// The fraction of the move at which it is nearest to a position about `along` mm ahead; `None` if the move has no length.
+    /// Returns the fraction of the move at which it is nearest to a position about `along` mm ahead; `None` if the move has no length.
     pub(super) fn nearest(&self, place: &[f64; 3], along: f64) -> Option<f64> {
         let whole = self.movement.length();
         if whole <= 0.0 {
@@ -455,7 +455,7 @@ impl Stretch {
         Some(share.clamp(self.begin, 1.0))
     }
 
-    /// Rise or fall of an arc per mm in its plane; 0 for a line.
+    /// Returns the rise or fall of an arc per mm in its plane; 0 for a line.
     pub(super) fn steepness(&self) -> f64 {
         let rise = libm::fabs(self.movement.to.z() - self.movement.from.z());
         let way = libm::sqrt((self.movement.length() * self.movement.length() - rise * rise).max(0.0));
@@ -468,7 +468,7 @@ pub(super) fn are_alike(one: f64, other: f64, slack: f64) -> bool {
     one.max(other) <= 1.25 * one.min(other) + 10.0 * slack
 }
 
-/// Whether the lines on which moves depend are equal in both programs: the same words, with numbers within one unit of the third decimal.
+/// Whether two programs have the same lines that determine moves: the same words, with numbers within one unit of the third decimal.
 ///
 /// Comments (including correction formulas), blanks, leading zeros, line breaks, and lines without X, Y, Z, G and M are ignored.
 pub fn same_move_lines(found: &str, expected: &str) -> bool {
@@ -485,10 +485,10 @@ pub fn same_move_lines(found: &str, expected: &str) -> bool {
 /// A letter and its number.
 type Word = (char, f64);
 
-/// One unit of the last printed digit, plus the error of doubles.
+/// One unit of the last printed digit in mm, plus the error of doubles.
 const UNIT: f64 = 0.001 * (1.0 + 1e-6);
 
-/// The words of each line that moves the tool or sets a mode; `None` for a line that cannot be read.
+/// Returns the words of each line that moves the tool or sets a mode; `None` for a line that cannot be read.
 fn moves(text: &str) -> impl Iterator<Item = Option<Vec<Word>>> {
     let is_move = |words: &Option<Vec<Word>>| {
         let counts = |(letter, _): &Word| matches!(letter, 'X' | 'Y' | 'Z' | 'G' | 'M');
@@ -511,7 +511,7 @@ fn words(line: &str) -> Option<Vec<Word>> {
     Some(words)
 }
 
-/// A line without blanks, parentheses and text after a semicolon.
+/// Removes blanks, comments in parentheses and text after a semicolon from a line.
 fn without_comments(line: &str) -> String {
     let mut plain = String::with_capacity(line.len());
     let mut is_comment = false;

@@ -1,7 +1,7 @@
 //! Finds rapid moves at cutting depth in programs whose material has an unknown surface. (book: program/reading)
 //!
-//! A program that cuts at some depth before or after a rapid move in the plane probably has material all along that move, except where it
-//! has cut to that depth before. It may also move beside the stock, as between the passes of facing, so this is a doubt and not an error.
+//! A program that cuts at some depth before or after a rapid move in the plane probably has material all along that move, except where it has cut to
+//! that depth before. It may also move beside the stock, as between the passes of facing, so such a move is reported as a doubt and not as an error.
 
 use std::collections::BTreeSet;
 
@@ -13,12 +13,12 @@ use super::material::{self, Stock};
 use crate::interpret::Program;
 use crate::read::Problems;
 
-/// Finds rapid moves with travel in the plane, at or below a height at which the program has just cut or cuts next: pass every step of a
+/// Rule that finds rapid moves with travel in the plane, at or below a height at which the program has just cut or cuts next: pass every step of a
 /// program, then call [`finish`](Self::finish).
 #[derive(Debug, Default)]
 pub struct DepthRules {
     depths: Depths,
-    /// Number of moves so far.
+    /// Number of moves passed so far.
     moves: usize,
 }
 
@@ -31,8 +31,8 @@ impl DepthRules {
         }
     }
 
-    /// Reports those moves that lead through points that the program does not cut to their depth. The surface of `stock` is
-    /// [unknown](Stock::with_unknown_surface). Without such moves the program is not processed again.
+    /// Reports the found moves that lead through points which the program does not cut to their depth. The surface of `stock` is
+    /// [unknown](Stock::with_unknown_surface). If no moves were found, the program is not processed again.
     pub fn finish(self, program: &(impl Program + ?Sized), stock: &Stock) -> Vec<Diagnostic> {
         let found = &self.depths.found;
         let mut problems = Problems::default();
@@ -43,7 +43,7 @@ impl DepthRules {
     }
 }
 
-/// Passes on the moves, counted from 0.
+/// Passes each move to `take` with its index, counted from 0.
 fn each_move(program: &(impl Program + ?Sized), take: &mut dyn FnMut(usize, &Step, &Move)) {
     let mut index = 0;
     program.each(&mut |step| {
@@ -53,7 +53,7 @@ fn each_move(program: &(impl Program + ?Sized), take: &mut dyn FnMut(usize, &Ste
     });
 }
 
-/// The cuts of a program, and the rapid moves at depth.
+/// A program reduced to its cuts and to the rapid moves that were found at cutting depth.
 struct CutsAndFound<'p, P: ?Sized> {
     program: &'p P,
     found: &'p BTreeSet<usize>,
@@ -69,14 +69,14 @@ impl<P: Program + ?Sized> Program for CutsAndFound<'_, P> {
     }
 }
 
-/// Follows the heights at which a program cuts.
+/// The heights at which a program cuts, updated move by move.
 #[derive(Debug, Default)]
 struct Depths {
-    /// Height from which the tool goes down by feed. Feed moves that are not below it are moves in the air.
+    /// Height in mm from which the tool goes down by feed. Feed moves that are not below it are moves in the air.
     top: Option<f64>,
-    /// Lowest point of the last cut.
+    /// Height in mm of the lowest point of the last cut.
     cut: Option<f64>,
-    /// Rapid moves in the plane since the last cut, with their heights.
+    /// Indices and heights in mm of the rapid moves in the plane since the last cut.
     pending: Vec<(usize, f64)>,
     found: BTreeSet<usize>,
 }

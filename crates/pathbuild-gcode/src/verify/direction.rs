@@ -1,11 +1,11 @@
-//! Checks that the spindle turns in the direction of the tools. (book: reference/configuration, `[tool]`)
+//! Checks that the spindle turns in the direction that each tool requires. (book: reference/configuration, `[tool]`)
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{Action, Pace, Step, Turning};
 
-/// Finds cuts during which the spindle turns against the direction of the tool, and programs that cut without ever starting it: pass every
-/// step of a program, then call [`finish`](Self::finish). Each tool is reported at most once.
+/// Rule that finds cuts during which the spindle turns against the direction of the tool, and programs that cut without ever starting the spindle:
+/// pass every step of a program, then call [`finish`](Self::finish). Each tool is reported at most once.
 #[derive(Debug)]
 pub struct DirectionRules {
     /// The directions of the tools, each with the line from which it cuts, in the order of the lines.
@@ -13,13 +13,13 @@ pub struct DirectionRules {
     turning: Turning,
     /// Whether the program sets a speed.
     has_speed: bool,
-    /// The first cut, and the first one of a tool with a direction, before the program switches the spindle.
+    /// The lines of the first cut, and of the first cut of a tool with a direction, before the program switches the spindle.
     unstarted: [Option<u32>; 2],
     found: Vec<(usize, Diagnostic)>,
 }
 
 impl DirectionRules {
-    /// Rules for tools, each with the line from which it cuts, in the order of the lines.
+    /// Creates the rule for tools, each with the line from which it cuts, in the order of the lines.
     pub fn new(tools: Vec<(u32, Option<Turning>)>) -> Self {
         Self { tools, turning: Turning::Unstated, has_speed: false, unstarted: [None; 2], found: Vec::new() }
     }
@@ -64,7 +64,7 @@ impl DirectionRules {
         self.found.into_iter().map(|(_, problem)| problem)
     }
 
-    /// The finding that the program, in a dialect that switches the spindle, never does so: a speed of the tool table or an S show that it
+    /// Reports a program that never switches the spindle, in a dialect that can do so, although a speed of the tool table or an S shows that it
     /// should. (A spindle that is switched later is reported by [`Rules`](super::Rules).)
     pub fn never_started(&self) -> Option<Diagnostic> {
         if self.turning != Turning::Unstated {

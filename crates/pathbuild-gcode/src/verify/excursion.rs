@@ -1,13 +1,13 @@
-//! Excursions below the material's surface that consist of rapid moves only. (book: program/reading)
+//! Finds excursions below the material's surface that consist of rapid moves only. (book: program/reading)
 //!
-//! Such moves have no purpose beside the stock: nothing is cut there, so the feed of the descent is missing.
+//! Such moves would be pointless beside the stock, where they cut nothing. Therefore the program probably lacks the feed of the descent.
 
 use pathbuild_diagnostic::Point;
 use pathbuild_motion::{Move, Pace};
 
 use super::height_map::RESIDUE;
 
-/// Follows the moves of a program to find such excursions.
+/// The excursion in progress while the moves of a program are processed.
 #[derive(Debug, Default)]
 pub(super) struct Excursions {
     open: Option<Excursion>,
@@ -54,17 +54,17 @@ impl Excursions {
 
 impl Excursion {
     fn continues_with(&self, movement: &Move) -> bool {
-        // Distant moves are left out where only some places are examined.
+        // If only some places are examined, distant moves are left out, so consecutive moves need not be connected.
         let follows = self.moves.last().is_some_and(|last| last.to == movement.from);
         follows && movement.pace == Pace::Rapid
     }
 
-    /// The height in mm to which the tool descends.
+    /// Returns the height in mm to which the tool descends.
     pub(super) fn z(&self) -> f64 {
         self.moves[0].to.z()
     }
 
-    /// Where it arrives there.
+    /// Returns the position in the plane at which the tool has descended.
     pub(super) fn place(&self) -> Point {
         let [x, y, _] = self.moves[0].to.at;
         Point::new(x, y)

@@ -5,14 +5,14 @@ mod tests;
 
 use std::collections::BTreeMap;
 
-/// Material less than this above the tip, in mm, is attributed to rounding.
+/// Height in mm above the tip up to which material is attributed to rounding.
 pub(super) const RESIDUE: f64 = 0.002;
 
 /// Number of cells along the side of a tile.
 const CELLS_PER_SIDE: i32 = 64;
 const CELLS: usize = (CELLS_PER_SIDE * CELLS_PER_SIDE) as usize;
 
-/// Cost of a row of a capsule, in cells; a capsule that meets nothing costs the same.
+/// Cost of each row of a capsule, in visited cells, even if the row contains no material.
 const ROW: u64 = 16;
 
 /// A sparse grid of heights. Each cell has a single height.
@@ -22,7 +22,7 @@ pub(super) struct HeightMap {
     resolution: f64,
     /// Tiles by row and column, with `NaN` where nothing is known.
     tiles: BTreeMap<(i32, i32), Box<[f32; CELLS]>>,
-    /// Number of cells that may still be visited.
+    /// Number of cells that may still be visited before the map is exhausted.
     left: u64,
 }
 
@@ -41,7 +41,7 @@ impl HeightMap {
         self.left == 0
     }
 
-    /// Adds material up to `surface` within the capsule. Where some is known already, the lower of both heights applies.
+    /// Adds material up to `surface` within the capsule. Where some is already known, the lower of both heights applies.
     pub(super) fn add(&mut self, capsule: &Capsule, surface: f64) {
         let surface = rounded(surface);
         let (first, last) = self.centres_within(capsule.rows());
@@ -73,7 +73,7 @@ impl HeightMap {
         }
     }
 
-    /// The highest material within the capsule that is above `z`, with its position.
+    /// Returns the height and the position of the highest material within the capsule that is above `z`.
     pub(super) fn highest_above(&mut self, capsule: &Capsule, z: f64) -> Option<(f64, [f64; 2])> {
         let mut highest = rounded(z);
         let mut place = None;
@@ -92,9 +92,9 @@ impl HeightMap {
         place.map(|place| (f64::from(highest), place))
     }
 
-    /// Divides the rows of a capsule by existing tiles: the key of each tile, the row, and its columns.
+    /// Divides the rows of a capsule by existing tiles. Returns the key of each tile, the row, and its columns.
     ///
-    /// It iterates over tiles, so that the cost of a long move depends on the known material and not on the length of the move.
+    /// The loop visits tiles, so that the cost of a long move depends on the known material and not on the length of the move.
     fn stretches(&mut self, capsule: &Capsule) -> Vec<Stretch> {
         let (first, last) = self.centres_within(capsule.rows());
         let mut found = Vec::new();
@@ -132,26 +132,26 @@ impl HeightMap {
         self.spend(0, (last - column).min(known));
     }
 
-    /// Counts a row from one column to another. Returns whether it may be visited.
+    /// Deducts the cells of a row from one column to another from the limit. Returns whether the row may be visited.
     fn spend(&mut self, column: i32, last: i32) -> bool {
         let cells = u64::try_from(i64::from(last) - i64::from(column)).unwrap_or(0);
         self.left = self.left.saturating_sub(ROW + cells);
         !self.is_exhausted()
     }
 
-    /// The first and last column of a row with cell centres inside the capsule.
+    /// Returns the first and last column of a row with cell centres inside the capsule.
     fn columns(&self, capsule: &Capsule, row: i32) -> Option<(i32, i32)> {
         capsule.row((f64::from(row) + 0.5) * self.resolution).map(|ends| self.centres_within(ends))
     }
 
-    /// The first and last index of cells with centres between two coordinates. If the last is less than the first, there are none.
+    /// Returns the first and last index of cells with centres between two coordinates. If the last is less than the first, there are none.
     fn centres_within(&self, (low, high): (f64, f64)) -> (i32, i32) {
         let index = |coordinate: f64| coordinate / self.resolution - 0.5;
         (whole(index(low).ceil()), whole(index(high).floor()))
     }
 }
 
-/// Indices within a tile of the cells of a row from one column to another, as far as they are in the tile.
+/// Returns the indices, within a tile, of a row's cells from one column to another. Cells outside the tile are omitted.
 fn cells(row: i32, column: i32, last: i32, tile_column: i32) -> std::ops::Range<usize> {
     let first = column.max(tile_column * CELLS_PER_SIDE);
     let last = last.min(tile_column * CELLS_PER_SIDE + CELLS_PER_SIDE - 1);
@@ -170,7 +170,7 @@ fn rounded(height: f64) -> f32 {
     rounded
 }
 
-/// Keeps indices away from the limits of their type.
+/// Maximum absolute value of a cell's index, far enough from the limits of its type to prevent overflow.
 const MOST_INDEX: f64 = 1e9;
 
 /// Converts an index to an integer, clamping extreme values.
@@ -180,13 +180,13 @@ fn whole(index: f64) -> i32 {
     whole
 }
 
-/// All points within a distance of a segment, which is the area covered by a cutter.
+/// The area covered by a cutter along a straight move: all points within a distance of a segment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Capsule {
     from: [f64; 2],
     to: [f64; 2],
     radius: f64,
-    /// Offset from the segment to one of the straight sides; NaN if the segment has no length.
+    /// Vector from the segment to one of the straight sides, in mm; NaN if the segment has no length.
     beside: [f64; 2],
 }
 
@@ -197,7 +197,7 @@ impl Capsule {
         Self { from, to, radius, beside: [-y * share, x * share] }
     }
 
-    /// Least and greatest y.
+    /// Returns the least and greatest y of the capsule.
     fn rows(&self) -> (f64, f64) {
         if self.radius < 0.0 {
             return (0.0, -1.0);
@@ -205,7 +205,7 @@ impl Capsule {
         (self.from[1].min(self.to[1]) - self.radius, self.from[1].max(self.to[1]) + self.radius)
     }
 
-    /// Least and greatest x at this y, if the capsule extends there.
+    /// Returns the least and greatest x of the capsule at this y; `None` if there are none.
     fn row(&self, y: f64) -> Option<(f64, f64)> {
         let ends = [self.from, self.to].into_iter().filter_map(|centre| disc_row(centre, self.radius, y));
         let sides = [1.0, -1.0].into_iter().filter_map(|side| {

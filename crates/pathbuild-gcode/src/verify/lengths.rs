@@ -1,8 +1,7 @@
-//! Cuts with the length of another tool, or without any length, and with a tool that was to be changed. (book: program/reading, "Tool
-//! lengths")
+//! Finds cuts with the length of another tool, or without any length, and with a tool that was to be changed. (book: program/reading, "Tool lengths")
 //!
-//! On every control with G43 the length in effect survives M6, so a program must set the length of each tool. A program that never uses G43
-//! works with one zero per tool and is not judged.
+//! On every control with G43 the length in effect survives M6, so a program must set the length of each tool. A program that never uses G43 works
+//! with one zero per tool and is not checked.
 
 use std::collections::BTreeSet;
 
@@ -16,29 +15,29 @@ use super::tool_state::{LengthFit, ToolState};
 use crate::dialect::Dialect;
 use crate::read::Problems;
 
-/// Finds cuts with a wrong tool length: pass every step of a program, then call [`finish`](Self::finish).
+/// Rule that finds cuts with a wrong tool length: pass every step of a program, then call [`finish`](Self::finish).
 #[derive(Debug)]
 pub struct LengthRules<'c> {
     stock: Option<&'c Stock>,
     tools: ToolState,
     /// The first line that applied a length.
     first: Option<u32>,
-    /// The first cut of a tool before any length was applied, with the tool.
+    /// The line and the tool of the first cut with a known tool before any length was applied.
     bare: Option<(u32, u32)>,
-    /// Tools that have cut with the H of another number.
+    /// Tools that have cut with a length from the H of another number.
     of_entries: Vec<OtherEntry>,
     /// The tools that have cut with their own length.
     tools_with_own_length: BTreeSet<u32>,
-    /// Whether the current tool and length have been judged.
+    /// Whether the current combination of tool and length has been checked.
     is_judged: bool,
     /// Whether M6 has inserted a tool.
     has_changed: bool,
-    /// A tool that T has selected after an M6, and M6 has not inserted yet.
+    /// The tool that T has selected after an M6, and that M6 has not inserted yet.
     waiting: Option<WaitingTool>,
     problems: Problems,
 }
 
-/// A tool that cuts with the H of another number.
+/// A tool that has cut with a length from the H of another number.
 #[derive(Clone, Copy, Debug)]
 struct OtherEntry {
     /// The line that set the length.
@@ -47,18 +46,18 @@ struct OtherEntry {
     entry: u32,
 }
 
-/// A tool that is selected but not inserted.
+/// A tool that T has selected but M6 has not inserted.
 #[derive(Clone, Copy, Debug)]
 struct WaitingTool {
-    /// The line that selects it.
+    /// The line of the T word.
     line: u32,
     number: u32,
-    /// Whether the program has cut since.
+    /// Whether the program has cut since the T word.
     has_cut: bool,
 }
 
 impl<'c> LengthRules<'c> {
-    /// Rules for the beginning of a program; `stock` is `None` if the material is unknown.
+    /// Creates the rule for the beginning of a program; `stock` is `None` if the material is unknown.
     pub fn new(dialect: Dialect, stock: Option<&'c Stock>) -> Self {
         Self {
             stock,
@@ -104,7 +103,7 @@ impl<'c> LengthRules<'c> {
         }
     }
 
-    /// Handles T, which on controls with a tool changer may only prepare the next change.
+    /// Handles a T word, which on controls with a tool changer may only prepare the next change.
     fn select(&mut self, line: u32, number: u32) {
         self.leave_waiting(Some(number));
         let is_new = self.has_changed && self.tools.inserted() != Some(number);

@@ -1,4 +1,4 @@
-//! Checks the capabilities of a machine. (book: reference/configuration, `[machine]`)
+//! Checks that a machine is capable of the moves and speeds of a program. (book: reference/configuration, `[machine]`)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
@@ -9,7 +9,7 @@ use crate::read::Problems;
 /// The limits of a machine. Unknown ones are not checked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Machine {
-    /// Travel of its axes.
+    /// Travel of the machine's axes.
     pub travel: Option<Travel>,
     /// Maximum cutting feed, in mm/min.
     pub feed: Option<f64>,
@@ -25,13 +25,13 @@ pub enum Travel {
     /// Least and greatest coordinates of X, Y, Z in program coordinates, for parts clamped at a fixed position. Unlimited ends are
     /// infinite.
     Placed([(f64, f64); 3]),
-    /// The size in X, Y, Z, wherever the part is clamped.
+    /// The length of travel in X, Y, Z, if the part may be clamped anywhere.
     Size([f64; 3]),
 }
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
 
-/// Finds what exceeds the capabilities of a machine: pass every step of a program, then call [`finish`](Self::finish).
+/// Rule that finds moves and speeds beyond the limits of a machine: pass every step of a program, then call [`finish`](Self::finish).
 #[derive(Debug)]
 pub struct MachineRules<'m> {
     machine: &'m Machine,
@@ -42,7 +42,7 @@ pub struct MachineRules<'m> {
 }
 
 impl<'m> MachineRules<'m> {
-    /// Starts at the beginning of a program.
+    /// Creates the rule for the beginning of a program.
     pub fn new(machine: &'m Machine) -> Self {
         Self {
             machine,
@@ -62,7 +62,7 @@ impl<'m> MachineRules<'m> {
                 }
                 self.check_feed(step.line, movement);
             }
-            // S and M3 may be in lines of their own.
+            // The speed is checked with M3 as well, because S and M3 may be in different lines.
             Action::Spindle(spindle)
                 if spindle.turning != Turning::Off
                     && std::mem::replace(&mut self.last_speed, spindle.speed) != spindle.speed =>
@@ -78,7 +78,7 @@ impl<'m> MachineRules<'m> {
         self.problems.into_diagnostics()
     }
 
-    /// Reports a feed with a component along an axis that is too high; once until the feed changes.
+    /// Reports a feed that exceeds the limit, or has a component that exceeds the limit of its axis. Reported once until the feed changes.
     fn check_feed(&mut self, line: u32, movement: &Move) {
         let Some(feed) = movement.pace.feed().filter(|feed| Some(*feed) != self.last_feed) else { return };
         if let Some(most) = self.machine.feed.filter(|most| feed > *most) {
@@ -107,7 +107,7 @@ impl<'m> MachineRules<'m> {
     }
 }
 
-/// The extent of the moves before, and the ends of axes that have been reported as exceeded.
+/// The extent of the moves so far, and the ends of axes that have been reported as exceeded.
 #[derive(Debug, Default)]
 struct ReportedExtent {
     extent: [Option<(f64, f64)>; 3],

@@ -1,7 +1,7 @@
-//! What is known about the material, and rapid moves through material that has not been removed. (book: program/reading)
+//! Keeps track of the known material, and finds rapid moves through material that has not been removed. (book: program/reading)
 //!
-//! No drawing contains the extent of the material. It is only known within O of the cuts of a program, up to the surface T that applies
-//! there. Nothing is known or reported elsewhere.
+//! No drawing contains the extent of the material. It is only known within O of the cuts of a program, up to the surface T that applies there.
+//! Nothing is known or reported elsewhere.
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Point};
@@ -17,7 +17,7 @@ use crate::read::Problems;
 /// Maximum number of cells in memory. If the resolution of the stock would require more, it is made coarser.
 const MOST_KEPT: f64 = 16e6;
 
-/// Minimum number of cells across the cutter for a useful result.
+/// Minimum number of cells across the cutter for a useful map.
 const FEWEST_ACROSS: f64 = 4.0;
 
 /// The distance of chords from their arc is at most the side of a cell divided by this.
@@ -26,10 +26,10 @@ const CHORDS: f64 = 4.0;
 /// Half the width of a centre line, as a share of the side of a cell: more than half the diagonal of a cell.
 const CENTRE_LINE: f64 = 0.75;
 
-/// Number of visits of a cell within O of a cut: when the material is added, when half of it is cut, and for each row.
+/// Maximum number of visits of a cell within O of a cut: when the material is added, when half of it is cut, and for each row.
 const VISITS_PER_CELL: f64 = 3.0;
 
-/// Applies the moves to the stock and reports rapid moves that hit material.
+/// Applies the moves of a program to the stock and reports rapid moves that hit material.
 pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
     follow(program, stock, problems, &mut |bench, line, movement, problems| {
         bench.excursion(line, movement, problems);
@@ -39,7 +39,7 @@ pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: 
     });
 }
 
-/// The lines of the rapid moves that hit material, in ascending order. Those of programs that are too large for the map are unknown.
+/// Returns the lines of the rapid moves that hit material, in ascending order; empty for programs that are too large for the map.
 pub fn rapid_hits(program: &(impl Program + ?Sized), stock: &Stock) -> Vec<u32> {
     let mut lines = Vec::new();
     follow(program, stock, &mut Problems::default(), &mut |bench, line, movement, _| {
@@ -50,8 +50,8 @@ pub fn rapid_hits(program: &(impl Program + ?Sized), stock: &Stock) -> Vec<u32> 
     lines
 }
 
-/// Applies the moves to the stock. Each move is passed on before it cuts. The program is processed three times: to find the size of the
-/// map, to find where there is material, and to remove it.
+/// Applies the moves of a program to the stock. Each move is passed to the caller before it cuts. The program is processed three times: to find the
+/// size of the map, to find where there is material, and to remove it.
 fn follow(
     program: &(impl Program + ?Sized),
     stock: &Stock,
@@ -95,8 +95,8 @@ fn too_large(line: u32, stock: &Stock, problems: &mut Problems) {
     });
 }
 
-/// Whether the given cuts, which are entirely below a rapid move, have made room for it, assuming material up to `surface` all around. Also
-/// `false` if the number of cells does not suffice.
+/// Whether the given cuts, which are entirely below a rapid move, have cleared its path, assuming material up to `surface` all around. Also `false`
+/// if the number of cells does not suffice.
 pub(super) fn has_room<'c>(
     line: u32,
     movement: &Move,
@@ -119,8 +119,8 @@ pub(super) fn has_room<'c>(
     problems.into_diagnostics().is_empty() && !bench.map.is_exhausted()
 }
 
-/// Passes on the moves; those whose end is not known only end an excursion. A rapid move whose start is not known is replaced by a
-/// vertical one to its end: whether that end is in the material does not depend on where the tool comes from.
+/// Passes each move to `take`. A move whose end is unknown only ends an excursion. A rapid move whose start is unknown is replaced by a vertical one
+/// to its end: whether that end is in the material does not depend on where the tool comes from.
 fn each_followed_move(program: &(impl Program + ?Sized), stock: &Stock, take: &mut dyn FnMut(u32, &Move)) {
     let highest = stock.highest().filter(|highest| highest.is_finite());
     program.each(&mut |step| {
@@ -143,16 +143,16 @@ fn each_followed_move(program: &(impl Program + ?Sized), stock: &Stock, take: &m
 /// The extent of the material that a program cuts.
 #[derive(Default)]
 struct Extent {
-    /// Upper bound of the area in mm² within O of cutting moves, counting repetitions.
+    /// Upper bound of the area in mm² within O of cutting moves; areas that are cut repeatedly count each time.
     area: f64,
-    /// The same for rapid moves below the highest surface, and their number.
+    /// The same for rapid moves below the highest surface. `passes` is the number of these moves.
     passed: f64,
     passes: f64,
-    /// Upper bound of the number of parts into which arcs and slopes that cut are divided.
+    /// Upper bound of the number of parts into which cutting arcs and slopes are divided.
     pieces: u64,
     /// Bounding box of all cuts in X and Y.
     sides: Option<[(f64, f64); 2]>,
-    /// The last line that cuts.
+    /// The last line with a cut.
     line: u32,
 }
 
@@ -173,7 +173,7 @@ impl Extent {
         }
     }
 
-    /// The side of a cell in mm; `None` if the program is too large for a useful map.
+    /// Returns the side of a cell in mm; `None` if the program is too large for a useful map.
     fn resolution(&self, stock: &Stock) -> Option<f64> {
         let in_box: f64 = self.sides.iter().flatten().map(|(low, high)| (high - low).max(0.0)).product();
         let kept = self.area.min(in_box);
@@ -200,7 +200,7 @@ impl<'s> Bench<'s> {
         Self { stock, resolution, map: HeightMap::new(resolution, cells), excursions: Excursions::default() }
     }
 
-    /// Adds material within O of a cutting move. Where the surface is unknown, material is only added along the rapid moves to check.
+    /// Adds the material within O of a cutting move. Where the surface is unknown, material is only added along the rapid moves to be checked.
     fn lay(&mut self, line: u32, movement: &Move) {
         let is_unknown = |piece: &StockSpan| piece.surface == f64::INFINITY;
         if self.stock.at(line).is_some_and(is_unknown) {
@@ -219,8 +219,8 @@ impl<'s> Bench<'s> {
         }
     }
 
-    /// Reports rapid moves down and up again without any other move between them, as if a hole were drilled or a slot milled with them. The
-    /// map decides where it knows the material.
+    /// Reports rapid moves down and up again without any other move between them, as if a hole were drilled or a slot milled with them. Where the map
+    /// knows the material, it decides instead.
     fn excursion(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
         let Some(piece) = self.stock.at(line) else { return };
         let is_unknown = |descent: &Move| {
@@ -259,7 +259,7 @@ impl<'s> Bench<'s> {
         });
     }
 
-    /// The first material along a rapid move. Cells that are only touched do not count.
+    /// Returns the first material that a rapid move hits. Cells that are only touched do not count.
     fn hit(&mut self, line: u32, movement: &Move) -> Option<Hit> {
         let piece = self.stock.at(line).filter(|_| is_low_rapid(movement, self.stock))?;
         let is_plunge = movement.keeps_xy();
@@ -270,14 +270,14 @@ impl<'s> Bench<'s> {
         };
         self.parts(movement).find_map(|part| {
             let z = if is_plunge { part.lowest() } else { part.highest() };
-            // The centre line touches at least one cell, and less than what a cut along it removes.
+            // The capsule of a centre line contains at least one cell centre, and is narrower than the area that a cut along it clears.
             let least = CENTRE_LINE * self.slack();
             let cutter = capsule(&part, (piece.cutter.colliding / 2.0 - self.slack()).max(least));
             self.map.highest_above(&cutter, z + RESIDUE).map(|(height, at)| Hit { message, z, height, at })
         })
     }
 
-    /// Upper bound of half the diagonal of a cell plus the distance of chords from their arc.
+    /// Returns the error of the map in mm: an upper bound of half the diagonal of a cell plus the distance of chords from their arc.
     fn slack(&self) -> f64 {
         self.resolution
     }
@@ -290,7 +290,7 @@ impl<'s> Bench<'s> {
 /// Material that a rapid move hits.
 struct Hit {
     message: &'static Message,
-    /// Height of the cutter, and of the material.
+    /// Height of the cutter's tip in mm. `height` is that of the material.
     z: f64,
     height: f64,
     at: [f64; 2],
@@ -301,21 +301,21 @@ fn capsule(part: &MovePiece, radius: f64) -> Capsule {
     Capsule::new(plane(&part.from), plane(&part.to), radius)
 }
 
-/// The stock at a cutting move; `None` if it is unknown or the move does not cut below the surface.
+/// Returns the stock at a cutting move; `None` if it is unknown or the move does not cut below the surface.
 pub(super) fn cutting_piece(line: u32, movement: &Move, stock: &Stock) -> Option<StockSpan> {
     let is_known = movement.is_known();
     let piece = stock.at(line).filter(|_| is_known && matches!(movement.pace, Pace::Feed(_)))?;
     (movement.from.z().min(movement.to.z()) < piece.surface).then_some(*piece)
 }
 
-/// Whether a rapid move can hit material, as far as is known: it is not above all of it, and not straight up.
+/// Whether a rapid move may hit known material: it is neither above all of it nor straight up.
 fn is_low_rapid(movement: &Move, stock: &Stock) -> bool {
     let is_above = stock.highest().is_none_or(|highest| movement.from.z().min(movement.to.z()) >= highest);
     let goes_up = movement.keeps_xy() && movement.to.z() >= movement.from.z();
     movement.pace == Pace::Rapid && movement.is_known() && !is_above && !goes_up
 }
 
-/// Upper bound of the area in mm² within O of a move. An arc with different radii at its ends extends to the larger one.
+/// Returns an upper bound of the area in mm² within O of a move. An arc with different radii at its ends extends to the larger one.
 fn covered_area(movement: &Move, cutter: f64) -> f64 {
     let widest = movement.extent().iter().take(2).flatten().map(|(low, high)| high - low).fold(0.0, f64::max);
     let tips = 2.0 * cutter * slopes(movement);
@@ -345,14 +345,14 @@ impl MovePiece {
     }
 }
 
-/// Number of parts required because a move is not level, at least 1.
+/// Returns the number of parts required because a move is not level, at least 1.
 pub(super) fn slopes(movement: &Move) -> f64 {
     let is_plunge = movement.keeps_xy() && matches!(movement.shape, MoveShape::Line);
     let rise = libm::fabs(movement.to.z() - movement.from.z());
     if is_plunge { 1.0 } else { (rise / STEP).ceil().clamp(1.0, MAX_PARTS_PER_MOVE) }
 }
 
-/// Number of parts into which a move is divided, at least 1.
+/// Returns the number of parts into which a move is divided, at least 1.
 pub(super) fn count(movement: &Move, sagitta: f64) -> u32 {
     let slope = slopes(movement);
     let count = match movement.shape {
@@ -369,7 +369,7 @@ pub(super) fn count(movement: &Move, sagitta: f64) -> u32 {
     count
 }
 
-/// The parts of a move. Arcs become chords at a distance of at most `sagitta` mm.
+/// Divides a move into straight parts. Arcs become chords at a distance of at most `sagitta` mm.
 pub(super) fn pieces(movement: &Move, sagitta: f64) -> impl Iterator<Item = MovePiece> + use<> {
     movement.split(count(movement, sagitta)).map(|piece| MovePiece { from: piece.from.at, to: piece.to.at })
 }
@@ -389,9 +389,9 @@ const CELLS_ACROSS: f64 = 12.0;
 /// The upper face of the material and the cutter, as they change over the lines of a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stock {
-    /// In the order of lines. Before the first, nothing is known.
+    /// The spans in the order of lines. Before the first one, the stock is unknown.
     pieces: Vec<StockSpan>,
-    /// The highest surface, which is needed for every rapid move.
+    /// Height of the highest surface in mm, cached because every rapid move is compared with it.
     highest: Option<f64>,
     /// Side of a cell of the height map, in mm.
     resolution: f64,
@@ -415,34 +415,33 @@ pub struct StockSpan {
 /// Widths of a cutter, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cutter {
-    /// The diameter. Material is assumed this far around a cut.
+    /// The diameter. Material is assumed within this distance of a cut.
     pub diameter: f64,
-    /// Width that a cut certainly clears to its full depth; if it is 0, only the centre line.
+    /// Width that a cut certainly clears to its full depth. 0 stands for the centre line only.
     pub removed: f64,
-    /// Width that collides with material at the height of the tip; if it is 0, only the centre line.
+    /// Width that collides with material at the height of the tip. 0 stands for the centre line only.
     pub colliding: f64,
 }
 
 impl Cutter {
-    /// A cutter that is flat over its whole diameter.
+    /// Creates a cutter that is flat over its whole diameter.
     pub fn flat(diameter: f64) -> Self {
         Self { diameter, removed: diameter, colliding: diameter }
     }
 
-    /// The width that the map of the material must resolve.
+    /// Returns the width in mm that the map of the material must resolve.
     fn smallest_detail(&self) -> f64 {
         if self.removed < self.colliding {
             self.removed.max(self.diameter / 4.0)
         } else if self.colliding == 0.0 {
-            // The diameter may be that of the point of a V-bit.
+            // The diameter that a program states for a V-bit may be that of its point.
             self.diameter.max(FINEST_POINT)
         } else {
             self.diameter
         }
     }
 
-    /// The cutter for a tool to which another source gives another diameter: the smaller diameter removes material, the larger one collides
-    /// with it.
+    /// Combines the cutter with another source's diameter: the smaller diameter removes material, the larger one collides with it.
     #[must_use]
     pub fn or_diameter(self, diameter: f64) -> Self {
         Self {
@@ -454,12 +453,12 @@ impl Cutter {
 }
 
 impl Stock {
-    /// Stock with a single surface and cutter for an entire program, both in mm.
+    /// Creates stock with a single surface and cutter for an entire program, both in mm.
     pub fn uniform(surface: f64, cutter: f64) -> Self {
         Self::of_pieces(vec![StockSpan { line: 0, surface, cutter: Cutter::flat(cutter) }])
     }
 
-    /// Stock whose surface or cutter changes; the pieces must be in the order of their lines.
+    /// Creates stock whose surface or cutter changes; the pieces must be in the order of their lines.
     pub fn of_pieces(pieces: Vec<StockSpan>) -> Self {
         let highest = pieces.iter().map(|piece| piece.surface).reduce(f64::max);
         let stock = Self { pieces, highest, resolution: FINEST, cells: MOST_VISITED, most_pieces: u64::MAX };
@@ -467,8 +466,8 @@ impl Stock {
         stock.with_resolution(resolution)
     }
 
-    /// Stock with an unknown surface, for [`DepthRules`](super::DepthRules); the cutters must be in the order of their lines. The
-    /// whole diameter removes material, but only the centre line collides with it, because the shape of the stock is unknown as well.
+    /// Creates stock with an unknown surface, for [`DepthRules`](super::DepthRules); the cutters must be in the order of their lines. The whole
+    /// diameter removes material, but only the centre line collides with it, because the shape of the stock is unknown as well.
     pub fn with_unknown_surface(cutters: &[(u32, Cutter)]) -> Self {
         let piece = |(line, cutter): &(u32, Cutter)| StockSpan {
             line: *line,
@@ -478,7 +477,7 @@ impl Stock {
         Self::of_pieces(cutters.iter().map(piece).collect())
     }
 
-    /// The stock of a program, for the moves returned by [`moves`](toolpath::Program::moves).
+    /// Creates the stock of a program, for the moves returned by [`moves`](toolpath::Program::moves).
     pub fn of(program: &toolpath::Program) -> Self {
         let piece = |line, surface, cutter| StockSpan { line, surface, cutter: Cutter::flat(cutter) };
         let elements = (1_u32..).zip(&program.steps).filter_map(|(number, step)| match step {
@@ -490,7 +489,7 @@ impl Stock {
         Self::of_pieces(std::iter::once(piece(0, program.thickness, program.tool)).chain(elements).collect())
     }
 
-    /// The stock of a native program whose drawing is not available. T is the height at which a downward move changes from rapid to feed
+    /// Derives the stock of a native program whose drawing is not available. T is the height at which a downward move changes from rapid to feed
     /// (book: program/gcode), separately for each embedded path. `None` if there is no such move.
     pub fn of_native_text(program: &(impl Program + ?Sized), cutter: Cutter) -> Option<Self> {
         let mut pieces = Vec::new();
@@ -512,7 +511,7 @@ impl Stock {
         (!pieces.is_empty()).then(|| Self::of_pieces(pieces))
     }
 
-    /// The stock, and material up to `surface` wherever it is lower or unknown.
+    /// Raises the surface to `surface` wherever it is lower or unknown.
     #[must_use]
     pub fn reaching(self, surface: f64) -> Self {
         let first = self.pieces.first().map(|first| StockSpan { line: 0, surface, ..*first });
@@ -522,7 +521,7 @@ impl Stock {
         Self::of_pieces(first.into_iter().chain(self.pieces.iter().copied().map(raised)).collect())
     }
 
-    /// The pieces, in the order of their lines.
+    /// Returns the spans, in the order of their lines.
     pub fn spans(&self) -> &[StockSpan] {
         &self.pieces
     }
@@ -532,7 +531,7 @@ impl Stock {
         self.pieces.iter().all(|piece| Some(piece.surface) == self.highest)
     }
 
-    /// The side of a cell of the height map, in mm.
+    /// Returns the side of a cell of the height map, in mm.
     pub fn resolution(&self) -> f64 {
         self.resolution
     }
@@ -557,7 +556,7 @@ impl Stock {
         self.cells
     }
 
-    /// The smallest width in mm that matters.
+    /// Returns the smallest width in mm that the map must resolve; `None` if there are no cutters.
     pub(super) fn narrowest(&self) -> Option<f64> {
         self.pieces.iter().map(|piece| piece.cutter.smallest_detail()).reduce(f64::min)
     }
@@ -572,14 +571,14 @@ impl Stock {
         self.highest
     }
 
-    /// The stock in a line.
+    /// Returns the stock in a line.
     pub(super) fn at(&self, line: u32) -> Option<&StockSpan> {
         let later = self.pieces.partition_point(|piece| piece.line <= line);
         later.checked_sub(1).map(|index| &self.pieces[index])
     }
 }
 
-/// A part of a native program that belongs to a single path.
+/// The lines of a native program that belong to a single path.
 struct Section {
     line: u32,
     surface: Option<f64>,

@@ -47,9 +47,9 @@ pub use words::{PostWords, WordRules};
 use crate::interpret::Program;
 use crate::read::Problems;
 
-/// Reports what is wrong with the effects of a program, ordered by line. If the material is known, rapid moves and tool changes in it are
-/// found too. Each step is also passed to `each`, so that the program need not be processed again for another purpose; only the map of
-/// the material requires further passes.
+/// Reports problems in the effects of a program, ordered by line. If the material is known, this includes rapid moves and tool changes in it. Each
+/// step is also passed to `each`, so that the program need not be processed again for another purpose; only the map of the material requires further
+/// passes.
 pub fn verify(
     program: &(impl Program + ?Sized),
     stock: Option<&Stock>,

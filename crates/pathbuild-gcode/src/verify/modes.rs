@@ -1,4 +1,4 @@
-//! Compares the modes of a program with those of another one by the same post: units, distances, plane, offsets, tool lengths and feed mode.
+//! Compares the modes of a program with those of another program by the same post: units, distances, plane, offsets, tool lengths and feed mode.
 //! (book: reference/commands, `emit --check --moves`)
 
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 //! Finds rapid moves into material in every program that is about to be written. (book: program/reading)
 //!
-//! The cost is proportional to the number of moves: only rapid moves below a surface are examined, and accepted if the preceding cuts have
-//! made room. Otherwise a map of the material near them decides.
+//! The cost is proportional to the number of moves: only rapid moves below a surface are examined, and accepted if the preceding cuts have cleared
+//! their path. Otherwise a map of the material near them decides.
 
 #[cfg(test)]
 mod tests;
@@ -22,23 +22,23 @@ use super::material::{Stock, StockSpan, cutting_piece};
 use crate::interpret::Program;
 use crate::read::Problems;
 
-/// Maximum number of cuts examined for a rapid move, such as the last turns of a helical circle or the end of a chain.
+/// Maximum number of preceding cuts examined for a rapid move. It covers the last turns of a helical circle and the end of a chain.
 const MOST_CUTS: usize = 64;
 
-/// With more doubtful rapid moves than this, all moves are examined.
+/// Number of suspect rapid moves above which all moves are examined.
 const MOST_SUSPECTS: usize = 16;
 
 /// Maximum number of cells visited for a rapid move.
 const MOST_CELLS: u64 = 1_000_000;
 
-/// What exceeds the capabilities of a machine in the program of a drawing, by step number.
+/// Returns the moves of a drawing's program that exceed the machine's capabilities, by step number.
 pub fn beyond_machine(drawn: &toolpath::Program, machine: &Machine) -> Vec<Diagnostic> {
     let mut rules = MachineRules::new(machine);
     Moves(drawn).each(&mut |step| rules.step(step));
     rules.finish()
 }
 
-/// The rapid moves into material in the program of a drawing, by step number.
+/// Returns the rapid moves into material in a drawing's program, by step number.
 pub fn rapids_into_material(drawn: &toolpath::Program) -> Vec<Diagnostic> {
     let stock = Stock::of(drawn);
     let suspects = suspects(drawn, &stock);
@@ -51,7 +51,7 @@ pub fn rapids_into_material(drawn: &toolpath::Program) -> Vec<Diagnostic> {
     problems.into_diagnostics()
 }
 
-/// The rapid moves for which the preceding cuts have not made room.
+/// Returns the rapid moves whose path the preceding cuts may not have cleared.
 fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
     let tops = LazyCell::new(|| CutGrid::of(drawn, stock));
     let mut recent: VecDeque<(u32, Move)> = VecDeque::with_capacity(MOST_CUTS);
@@ -84,7 +84,7 @@ fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
     found
 }
 
-/// The stock for a rapid move that goes below a surface nearby, with the highest of these surfaces.
+/// Returns the stock at a rapid move and the highest surface along it; `None` if the move stays above that surface.
 fn stock_below_surface<'s>(
     line: u32,
     movement: &Move,
@@ -101,14 +101,14 @@ fn stock_below_surface<'s>(
     (low < surface).then_some((piece, surface))
 }
 
-/// Whether a rapid move stays inside the circle milled by the preceding cuts, in which there is no core. This is the end of a
-/// helical circle.
+/// Whether a rapid move stays inside the circle milled by the preceding cuts, in which no core is left. This is the case at the end of a helical
+/// circle.
 fn is_in_circle(movement: &Move, cutter: f64, recent: &VecDeque<(u32, Move)>) -> bool {
     let Some(MoveShape::Arc(last)) = recent.back().map(|(_, cut)| cut.shape) else { return false };
     let from_centre = |at: &Position| libm::hypot(at.x() - last.centre[0], at.y() - last.centre[1]);
     let radius = from_centre(&movement.from);
     let low = movement.from.z().min(movement.to.z()) + RESIDUE;
-    // The angle of a cut on that circle, if it is deep enough to make room.
+    // The angle of a cut on that circle, if the cut is deep enough for the rapid move.
     let angle = |(_, cut): &(u32, Move)| match cut.shape {
         MoveShape::Arc(arc) => {
             let is_on_circle = [cut.from, cut.to].iter().all(|end| is_same(from_centre(end), radius));
@@ -131,7 +131,7 @@ fn is_same(one: f64, other: f64) -> bool {
     libm::fabs(one - other) < TOLERANCE
 }
 
-/// The program of a drawing as steps.
+/// The program of a drawing, which passes on its moves as steps.
 struct Moves<'d>(&'d toolpath::Program);
 
 impl Program for Moves<'_> {
@@ -143,10 +143,10 @@ impl Program for Moves<'_> {
 /// The sides of a box in the plane, as least and greatest coordinates in mm.
 type Sides = [(f64, f64); 2];
 
-/// The moves that affect the material at some positions; all others are irrelevant there.
+/// The moves that affect the material near some positions.
 struct NearbyMoves<'d> {
     drawn: &'d toolpath::Program,
-    /// `None` means everywhere.
+    /// The boxes that contain the positions; `None` means everywhere.
     places: Option<Vec<Sides>>,
     /// Distance in mm within which a move affects a position: material is known within O of a cut, and a passing cutter has a radius.
     reach: f64,
@@ -168,23 +168,23 @@ impl Program for NearbyMoves<'_> {
     }
 }
 
-/// The bounding box of a move. The moves of a drawing are known in all axes.
+/// Returns the bounding box of a move in the plane. The moves of a drawing are known in all axes.
 fn sides(movement: &Move) -> Sides {
     let [across, up, _] = movement.extent();
     [across, up].map(|side| side.unwrap_or((f64::NEG_INFINITY, f64::INFINITY)))
 }
 
-/// Number of cells along a side.
+/// Number of cells along a side of the grid.
 const CELLS_PER_SIDE: usize = 64;
 
-/// A grid over everything that is cut.
+/// A grid over the cut area with the highest surface of the stock in each cell.
 #[derive(Debug)]
 pub(super) struct CutGrid {
     /// The corner with the least X and Y, in mm.
     corner: [f64; 2],
     /// The sides of a cell, in mm.
     cell: [f64; 2],
-    /// By row, then column: the highest surface in mm; `-inf` where there is no material.
+    /// The highest surface in each cell in mm, row by row; `-inf` where there is no material.
     heights: Vec<f64>,
 }
 
@@ -209,7 +209,7 @@ impl CutGrid {
         tops
     }
 
-    /// The highest surface within `radius` mm of a straight move.
+    /// Returns the highest surface within `radius` mm of a straight move.
     pub(super) fn highest_along(&self, movement: &Move, radius: f64) -> f64 {
         let [(from_x, to_x), (from_y, to_y)] =
             [0, 1].map(|axis| (movement.from.at[axis], movement.to.at[axis]));
@@ -239,7 +239,7 @@ impl CutGrid {
         }
     }
 
-    /// The cells between two coordinates, inclusive; those outside the grid are omitted.
+    /// Returns the cells between two coordinates, inclusive; those outside the grid are omitted.
     fn indices(&self, axis: usize, (low, high): (f64, f64)) -> std::ops::Range<usize> {
         let index = |coordinate: f64| ((coordinate - self.corner[axis]) / self.cell[axis]).floor();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "negative ones become 0")]

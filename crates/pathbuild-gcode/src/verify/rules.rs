@@ -1,4 +1,4 @@
-//! Rules about the position of the tool and about what is switched on.
+//! Rules about the position of the tool and the state of the spindle.
 
 use std::fmt;
 
@@ -25,10 +25,10 @@ pub struct Rules<'c> {
     at: Position,
     /// The last line with a move.
     line: u32,
-    /// Whether the height has been known, or has been reported as unknown.
+    /// Whether the height has been known at some point, or has been reported as unknown.
     is_raised: bool,
     spindle: Spindle,
-    /// The first cut before any spindle word.
+    /// The line of the first cut before any spindle word.
     cut_before_spindle: Option<u32>,
     /// Whether it has been reported that the spindle does not turn.
     spindle_said: bool,
@@ -38,18 +38,18 @@ pub struct Rules<'c> {
     spindle_line: u32,
     /// Whether the last move probed downwards.
     has_probed: bool,
-    /// The height at which the last probe would have stopped without contact, until the program states a height.
+    /// The height in mm at which the last probe would have stopped without contact; `None` once the program states a height.
     probe_end: Option<f64>,
     /// Whether anything has been cut.
     has_cut: bool,
     /// Whether a cut at an unknown position has been reported.
     position_said: bool,
-    /// Whether the height is only known to be that of a machine position.
+    /// Whether the height is unknown except that it is that of a machine position.
     is_height_homed: bool,
     directions: ArcDirections,
-    /// Whether a tool was selected, and whether the program stopped, since the last move.
+    /// The words of a tool change by hand since the last move: T and a stop.
     by_hand: ChangeByHand,
-    /// Line and code of the active G52 or G92, and whether it came after the first cut.
+    /// Line and code (times ten) of the active G52 or G92, and whether it came after the first cut.
     shifted: Option<(u32, u16, bool)>,
 }
 
@@ -60,7 +60,7 @@ impl fmt::Debug for Rules<'_> {
 }
 
 impl<'c> Rules<'c> {
-    /// Rules for the beginning of a program; `stock` is `None` if the material is unknown.
+    /// Creates the rules for the beginning of a program; `stock` is `None` if the material is unknown.
     pub fn new(stock: Option<&'c Stock>) -> Self {
         Self {
             stock,
@@ -130,7 +130,7 @@ impl<'c> Rules<'c> {
         self.at = movement.to;
     }
 
-    /// Checks moves to machine positions, which lead there by a straight rapid from the position of the tool.
+    /// Checks moves to machine positions, which are straight rapid moves from the position of the tool.
     fn home(&mut self, line: u32, movement: &Move) {
         let stays = movement.to.known.has(Axes::XY) && movement.keeps_xy();
         if movement.named.is_none() || stays || !movement.from.known.has(Axes::Z) {
@@ -158,7 +158,7 @@ impl<'c> Rules<'c> {
         self.spindle_line = line;
     }
 
-    /// The surface above the tip of the tool.
+    /// Returns the surface of the material if it is above the tip of the tool.
     fn surface_above(&self, line: u32, z: f64) -> Option<f64> {
         let surface = self.stock?.at(line)?.surface;
         (z < surface - SAME_HEIGHT).then_some(surface)
@@ -170,7 +170,7 @@ impl<'c> Rules<'c> {
         if self.is_raised {
             return;
         }
-        // A move to a machine position in the plane alone says nothing about the height.
+        // A move to a machine position in the plane alone does not determine the height.
         let homed = movement.named.filter(|_| !movement.homes_z()).map_or(Axes::NONE, NamedPosition::axes);
         self.is_raised = movement.to.known.has(Axes::Z) || (movement.homes_z() && movement.keeps_xy());
         let moves_in_plane = !movement.to.known.and(Axes::XY).is_empty() || !homed.and(Axes::XY).is_empty();
@@ -194,7 +194,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    /// Checks that the spindle turns, but only in programs that switch it: on many machines the operator does that.
+    /// Checks that the spindle turns, but only in programs that switch it: on many machines the operator switches the spindle.
     fn cutting(&mut self, line: u32, movement: &Move) {
         if !is_cut(movement) {
             return;
@@ -213,7 +213,7 @@ impl<'c> Rules<'c> {
             (Turning::Clockwise | Turning::CounterClockwise, Some(0.0)) => {
                 (&say::SPINDLE_AT_ZERO, Severity::Error)
             }
-            // The control may know a speed from the program before.
+            // The control may have kept a speed from the previous program.
             (Turning::Clockwise | Turning::CounterClockwise, None) => {
                 (&say::SPINDLE_WITHOUT_SPEED, Severity::Warning)
             }
@@ -234,7 +234,7 @@ impl<'c> Rules<'c> {
 
     /// Reports the first cut at an unknown position in the plane, because other checks ignore such moves.
     fn position(&mut self, line: u32, movement: &Move) {
-        // Programs for a rotary axis have only one of both.
+        // Programs for a rotary axis use only X or Y, so one known axis suffices.
         let is_unknown = movement.from.known.and(movement.to.known).and(Axes::XY).is_empty();
         if is_unknown && movement.named.is_none() && !std::mem::replace(&mut self.position_said, true) {
             self.problems.add_at_line(&say::UNKNOWN_POSITION, line, |d| d);
@@ -261,7 +261,7 @@ impl<'c> Rules<'c> {
         self.has_probed = matches!(movement.pace, Pace::Probe { toward: true, .. }) && stays_in_plane;
     }
 
-    /// Checks rapid moves after a probe downwards: whatever the probe touched is not below the end of its move.
+    /// Checks rapid moves after a downward probe: the material that the probe touched cannot be below the end of its move.
     fn below_contact(&mut self, line: u32, movement: &Move) {
         let end = self.probe_end.take().filter(|_| !movement.from.known.has(Axes::Z) && !movement.homes_z());
         let is_probe = matches!(movement.pace, Pace::Probe { toward: true, .. });
@@ -278,7 +278,7 @@ impl<'c> Rules<'c> {
         };
     }
 
-    /// Checks the change of a tool by T and a stop, in any order, without a move between them.
+    /// Checks a tool change by hand: T and a stop, in any order, without a move between them.
     fn change_by_hand(&mut self, line: u32) {
         if self.by_hand.is_selected && self.by_hand.is_stopped {
             let ChangeByHand { spinning, .. } = std::mem::take(&mut self.by_hand);
@@ -332,13 +332,13 @@ struct ChangeByHand {
     spinning: Option<u32>,
 }
 
-/// Finds arcs between straight cuts that turn back at both ends. The arc the other way round would continue both cuts, so G2 and G3 are
+/// Rule that finds arcs between straight cuts that turn back at both ends. The arc in the other direction would continue both cuts, so G2 and G3 are
 /// probably exchanged.
 #[derive(Debug, Default)]
 struct ArcDirections {
     /// The direction of the straight cut at the current position.
     straight: Option<[f64; 2]>,
-    /// An arc that turns back from the cut before it, with its line and its direction at its end.
+    /// An arc that turns back from the cut before it, with its line and the direction at its end.
     arc: Option<(u32, Arc, [f64; 2])>,
 }
 
@@ -376,7 +376,7 @@ fn is_opposite(one: [f64; 2], other: [f64; 2]) -> bool {
     one[0] * other[0] + one[1] * other[1] < -0.985
 }
 
-/// Whether a move cuts, unless it stays above the material.
+/// Whether a move cuts, and does not stay above the material.
 pub(super) fn is_cut_in_stock(line: u32, movement: &Move, stock: Option<&Stock>) -> bool {
     is_cut(movement) && !is_above_stock(line, movement, stock)
 }
@@ -385,7 +385,7 @@ fn is_cut(movement: &Move) -> bool {
     matches!(movement.pace, Pace::Feed(_)) && !movement.is_nothing() && !is_first_height(movement)
 }
 
-/// Whether a move stays above the material, as far as that is known.
+/// Whether a move stays above the material; false if that is unknown.
 fn is_above_stock(line: u32, movement: &Move, stock: Option<&Stock>) -> bool {
     let surface = stock.and_then(|stock| stock.at(line)).map(|piece| piece.surface);
     movement.is_known() && surface.is_some_and(|surface| movement.from.z().min(movement.to.z()) >= surface)
@@ -411,13 +411,13 @@ fn probe(line: u32, movement: &Move, problems: &mut Problems) {
     }
 }
 
-/// Number of decimals required for millimetres.
+/// Number of decimals that arc centres in millimetres require.
 const FINE: u8 = 3;
 
 /// Radii are equal if they differ by less than this, in mm.
 const RADIUS_TOLERANCE: f64 = 1e-4;
 
-/// Reports the first arc of a program in millimetres if centres have decimals but never three of them. Numbers without decimals are
+/// Reports the first arc of a program in millimetres if its arc centres have decimals but never three of them. Numbers without decimals are
 /// considered to be written by hand and exact.
 pub fn coarse_arcs(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
     let mut reader = BlockReader::new(text, dialect.rules());
@@ -446,7 +446,7 @@ pub fn coarse_arcs(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
     problems.into_diagnostics().pop()
 }
 
-/// Whether some arc has different radii at its ends. Numbers that fit exactly were not rounded.
+/// Whether some arc has different radii at its ends. If all radii match exactly, the numbers were not rounded.
 fn has_rounded_arc(text: &[u8], dialect: Dialect) -> bool {
     let mut is_rounded = false;
     interpret_each(text, dialect, &Options::default(), &mut |step| {

@@ -14,12 +14,12 @@ const LENGTH_TOLERANCE: f64 = 1.0;
 /// Permitted relative difference of lengths.
 const RELATIVE_TOLERANCE: f64 = 0.01;
 
-/// Compares the statistics stated in a program with its moves: pass every step, then call [`finish`](Self::finish).
+/// Comparison of the statistics stated in a program with its moves: pass every step, then call [`finish`](Self::finish).
 #[derive(Debug, Default)]
 pub struct StatedStatistics {
     counting: LengthFilter,
     tally: Tally,
-    /// Line, label, and length in mm.
+    /// The stated lengths: line, label, and length in mm.
     stated: Vec<(u32, String, f64)>,
 }
 
@@ -37,7 +37,7 @@ impl StatedStatistics {
         }
     }
 
-    /// Returns the lengths stated incorrectly, ordered by line.
+    /// Reports the lengths stated incorrectly, ordered by line.
     pub fn finish(self) -> Vec<Diagnostic> {
         let Tally { rapid, milling, drilling, .. } = self.tally;
         let mut problems = Problems::default();

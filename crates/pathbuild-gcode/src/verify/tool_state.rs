@@ -1,12 +1,12 @@
-//! The tool in the spindle, its length, and the spindle at a cut. (book: program/reading, "verify")
+//! Tracks the tool in the spindle, its length, and the state of the spindle. (book: program/reading, "verify")
 //!
-//! `verify`, `verify --against` and the check of a post's output judge them by the same rules, which are defined here.
+//! `verify`, `verify --against` and the check of a post's output use the rules of this module.
 
 use pathbuild_motion::{Action, Change, Spindle, Step, ToolLength, Turning};
 
 use crate::dialect::Dialect;
 
-/// State that the tool words and spindle words of a program have set so far: pass every step.
+/// The state set so far by the tool words and spindle words of a program: pass every step to [`step`](Self::step).
 #[derive(Clone, Debug)]
 pub struct ToolState {
     dialect: Dialect,
@@ -14,7 +14,7 @@ pub struct ToolState {
     selected: Option<u32>,
     /// The tool inserted by M6; `None` before the first M6, and if none of the T words before it has a number.
     inserted: Option<u32>,
-    /// H of the last G43 that had one; some controls keep it.
+    /// H of the last G43 with an H, which some controls reuse for a G43 without H.
     entry: Option<u32>,
     length: Option<ActiveLength>,
     spindle: Spindle,
@@ -25,31 +25,31 @@ pub struct ToolState {
 struct ActiveLength {
     length: ToolLength,
     line: u32,
-    /// The tool that was inserted when it was set.
+    /// The tool that was inserted when the length was set.
     tool: Option<u32>,
-    /// Whether M6 was executed since.
+    /// Whether M6 was executed after the length was set.
     is_before_change: bool,
 }
 
-/// How the active tool length fits the tool in the spindle.
+/// Relation between the active tool length and the tool in the spindle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LengthFit {
     /// The program has not set any length.
     Unstated,
-    /// G49, or G43 H0.
+    /// The length was switched off by G49 or G43 H0.
     Off,
-    /// It is the length of the tool.
+    /// The active length is that of the tool.
     Fits,
-    /// It was set before M6 inserted the tool.
+    /// The length was set before M6 inserted the tool.
     Outdated,
-    /// It was set for this tool, with the H of another number.
+    /// The length was set for this tool, but with the H of another number, which is given.
     OfEntry(u32),
-    /// The tool or the length is not known.
+    /// The tool or the length is unknown.
     Unknown,
 }
 
 impl ToolState {
-    /// The state at the beginning of a program.
+    /// Creates the state at the beginning of a program.
     pub fn new(dialect: Dialect) -> Self {
         Self {
             dialect,
@@ -109,12 +109,12 @@ impl ToolState {
         self.length.map(|active| active.line)
     }
 
-    /// How the active length fits the tool that M6 inserted.
+    /// Returns how the active length fits the tool that M6 inserted.
     pub fn length_fit(&self) -> LengthFit {
         self.length_fit_for(self.inserted)
     }
 
-    /// How the active length fits a tool, which need not have been inserted by M6.
+    /// Returns how the active length fits a tool, which need not have been inserted by M6.
     pub fn length_fit_for(&self, tool: Option<u32>) -> LengthFit {
         let Some(active) = self.length else { return LengthFit::Unstated };
         let is_outdated = active.is_before_change && (active.tool.is_none() || active.tool != self.inserted);
@@ -132,9 +132,9 @@ impl ToolState {
         self.dialect.rules().lengths.keeps_entry
     }
 
-    /// Whether the spindle is in another state than expected, as far as that is known. Speeds may differ by `slack` in 1/min.
+    /// Whether the spindle is known to be in another state than expected. Speeds may differ by `slack` in 1/min.
     pub fn turns_otherwise(&self, turning: Option<Turning>, speed: Option<f64>, slack: f64) -> bool {
-        // XpertMILL switches the spindle by its own events, and the speed belongs to the layer.
+        // XpertMILL switches the spindle by events of its own, and the speed belongs to the layer.
         let is_tied = self.dialect.rules().layers;
         let differs = turning.is_some_and(|turning| turning != self.spindle.turning) && !is_tied;
         let speed = speed.filter(|_| turning != Some(Turning::Unstated));

@@ -1,7 +1,7 @@
-//! The words known for a program, which are a closed list. (book: program/reading, "Known words")
+//! Checks that a program contains only known words. (book: program/reading, "Known words")
 //!
-//! A word is known if the post of the program writes it, or if the interpreter follows its effect. Any other word may change where,
-//! how deep or how fast the tool cuts without being noticed.
+//! A word is known if the post of the program writes it, or if the interpreter follows its effect. Any other word may change where, how deep or how
+//! fast the tool cuts without being noticed.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,33 +19,33 @@ const NATIVE: &[u8] = b"G17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z5\nG00 X0 Y0\n
 /// The words that a post writes.
 #[derive(Clone, Debug, Default)]
 pub struct PostWords {
-    /// G and M words other than motions.
+    /// G and M words other than motions; codes are times ten.
     codes: BTreeSet<(char, u16)>,
-    /// The words that it writes before the first move, by group.
+    /// The words that the post writes before the first move: codes (times ten) by group.
     pub(super) lead: BTreeMap<Group, u16>,
-    /// Whether it writes T.
+    /// Whether the post writes T.
     pub(super) chooses_tools: bool,
-    /// The words with which it moves to machine positions before the first cut.
+    /// The words (codes times ten) with which the post moves to machine positions before the first cut.
     first_places: BTreeSet<u16>,
-    /// The greatest feed of its rapid moves in mm/min, if it depends on F.
+    /// The greatest feed of the post's rapid moves in mm/min, if it depends on F.
     pub(super) rapid_feed: Option<f64>,
     /// Words that the post writes but the translation by its definition omits.
     others: BTreeSet<String>,
-    /// The name of the definition, if no dialect is named.
+    /// The name of the post's definition, if it names no dialect.
     definition: Option<String>,
-    /// Whether it lets the control round corners without limit.
+    /// Whether the post lets the control round corners without limit.
     pub(super) rounds_freely: bool,
-    /// Whether its first move in the plane begins at a height specified by the program; `None` before that move.
+    /// Whether the post's first move in the plane begins at a height specified by the program; `None` before that move.
     raises_first: Option<bool>,
 }
 
-/// How far a program has progressed.
+/// The part of a program that has been reached.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Progress {
-    /// Before the first move.
+    /// The first move has not been reached.
     #[default]
     Head,
-    /// Before the first cut.
+    /// The first cut has not been reached.
     Approach,
     Cutting,
 }
@@ -61,7 +61,7 @@ impl Progress {
 }
 
 impl PostWords {
-    /// The words of the native program, for dialects that no post writes.
+    /// Returns the words of the native program, for dialects that no post writes.
     pub fn native(dialect: Dialect) -> Self {
         let words = Self::of_programs([NATIVE], Dialect::Native);
         if dialect == Dialect::Native {
@@ -71,7 +71,7 @@ impl PostWords {
         }
     }
 
-    /// The words of programs written by a post. The head is taken from the first one.
+    /// Collects the words of programs written by a post. The initial words are taken from the first program.
     pub fn of_programs<T: AsRef<[u8]>>(programs: impl IntoIterator<Item = T>, dialect: Dialect) -> Self {
         let mut words = Self::default();
         for (index, program) in programs.into_iter().enumerate() {
@@ -120,12 +120,12 @@ impl PostWords {
         self.definition.is_some()
     }
 
-    /// Whether a word that the translation omits is one that the post writes.
+    /// Whether a word omitted by the translation is one that the post writes.
     fn has_other(&self, word: &str) -> bool {
         self.others.contains(word)
     }
 
-    /// The message about an unknown word.
+    /// Creates the diagnostic about an unknown word.
     fn foreign(&self, word: String, dialect: Dialect, is_strict: bool) -> Diagnostic {
         let severity = if is_strict { Severity::Error } else { Severity::Warning };
         let found = match &self.definition {
@@ -151,7 +151,7 @@ fn moves_in_plane(movement: &Move) -> bool {
     !movement.to.known.and(Axes::XY).is_empty()
 }
 
-/// Whether a control keeps the state of a group from the previous program. Motions, tool lengths and corners are checked elsewhere.
+/// Whether a control keeps the state of a group from one program to the next. Motions, tool lengths and corners are checked elsewhere.
 fn is_kept(group: Group) -> bool {
     !matches!(
         group,
@@ -164,7 +164,7 @@ fn is_kept(group: Group) -> bool {
     )
 }
 
-/// Finds words that are not known: pass every step of a program, then call [`finish`](Self::finish).
+/// Rule that finds unknown words: pass every step of a program, then call [`finish`](Self::finish).
 #[derive(Debug)]
 pub struct WordRules<'w> {
     words: &'w PostWords,
@@ -173,10 +173,10 @@ pub struct WordRules<'w> {
     is_strict: bool,
     progress: Progress,
     has_moved_in_plane: bool,
-    /// Whether a move to a machine position has left X and Y unchanged.
+    /// Whether a move to a machine position has left X and Y unchanged, so that it is assumed to have raised the cutter.
     has_gone_home: bool,
-    /// Words before the first cut that lead to machine positions where the post's programs do not go before it. They are harmless in
-    /// programs that do not cut.
+    /// Words before the first cut that lead to machine positions to which the post's programs do not move before their first cut. They are harmless
+    /// in programs that do not cut.
     early_places: Vec<(u32, StatedWord)>,
     found: BTreeSet<(char, u16)>,
     problems: Problems,
@@ -245,9 +245,9 @@ impl<'w> WordRules<'w> {
         self.problems.add_at_line(&say::FOREIGN_WORD, line, |_| words.foreign(word, dialect, is_strict));
     }
 
-    /// Checks the first move in the plane. If it also changes the height, it is inclined and begins at an unknown height. This is a
-    /// problem if programs of the post raise the cutter first. An earlier move to a machine position is assumed to raise the cutter,
-    /// unless the post does not write such moves. (Moves at unknown height are checked in [`super::rules`].)
+    /// Checks the first move in the plane. If it also changes the height, it is inclined and begins at an unknown height. This is a problem if
+    /// programs of the post raise the cutter first. An earlier move to a machine position is assumed to raise the cutter, unless the post does not
+    /// write such moves. (Moves at unknown height are checked in [`super::rules`].)
     fn first_in_plane(&mut self, line: u32, movement: &Move) {
         let is_first = !std::mem::replace(&mut self.has_moved_in_plane, true);
         let is_aslant = movement.to.known.has(Axes::Z) && !movement.from.known.has(Axes::Z);

@@ -16,25 +16,26 @@ use crate::verify::compare::{
 };
 use crate::verify::is_near;
 
-/// Two roundings to the third decimal, and the unit by which an arc may be extended to keep it from becoming a full circle.
+/// Permitted difference of positions in mm: two roundings to the third decimal, and the unit by which an arc may be extended to keep it from becoming
+/// a full circle.
 pub(super) const PLACE: f64 = 0.0015 * (1.0 + 1e-6);
 
-/// One unit of the last printed digit.
+/// Permitted difference of feeds in mm/min: one unit of the last printed digit.
 const FEED: f64 = 0.001 * (1.0 + 1e-6);
 
-/// A centre is the sum of two rounded numbers, and its arc begins at the end of the previous one.
+/// Permitted difference of arc centres in mm: a centre is the sum of two rounded numbers, and its arc begins at the end of the previous one.
 const CENTRE: f64 = 3.0 * PLACE;
 
-/// Greatest distance in mm of chords from their arc, for controls that do not support helices; the same as in the post for them. The post
-/// writes as few chords as this permits, so if one is missing, the chord across the gap exceeds it.
+/// Greatest distance in mm of chords from their arc, for controls that do not support helices; the post for such controls uses the same value. The
+/// post writes as few chords as this permits, so if one is missing, the chord across the gap exceeds it.
 pub(super) const CHORD: f64 = 0.01;
 
 #[derive(Debug)]
 pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
     expected: Peekable<M>,
-    /// The fraction of the next expected move that has been done.
+    /// The fraction of the next expected move that the program has already made.
     done: f64,
-    /// The expected position before that move.
+    /// The expected position before the next expected move.
     at: Position,
     chain: Chain,
     clearance: f64,
@@ -67,7 +68,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         }
     }
 
-    /// Passes the next move of the program.
+    /// Compares the next move of the program.
     pub(super) fn take(&mut self, line: u32, movement: &Move) {
         if self.difference.is_some() {
             return;
@@ -97,7 +98,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         (difference.map(|difference| difference.diagnostic_against_drawing()), self.equal)
     }
 
-    /// Compares the rapid moves before this cut, or at the end, with the expected ones.
+    /// Compares the rapid moves before this cut, or at the end of the program, with the expected ones.
     fn rapids(&mut self, cut: Option<(u32, &Move)>) -> Result<(), Box<Difference>> {
         let chain = std::mem::replace(&mut self.chain, Chain::behind());
         let start = self.at;
@@ -138,8 +139,8 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         }
     }
 
-    /// Permitted difference in height within the next expected move. Its position is determined in the plane, where a rounding error on a
-    /// steep arc means a difference in height.
+    /// Returns the permitted difference in height within the next expected move. The position on that move is determined in the plane, where a
+    /// rounding error on a steep arc means a difference in height.
     fn slack_of_height(&mut self) -> f64 {
         let within = self.expected.peek().filter(|_| self.done > 0.0);
         let steepness = within.map_or(0.0, |(_, movement)| {
@@ -148,7 +149,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         2.0 * self.tolerance.place * (1.0 + steepness)
     }
 
-    /// The expected position of the tool.
+    /// Returns the expected position of the tool.
     fn place(&mut self) -> Position {
         match self.expected.peek() {
             Some((_, movement)) if self.done > 0.0 => {
@@ -210,7 +211,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
                 }
                 return Ok(());
             }
-            // The parts of a move are of the same kind. An arc that continues in a line is a different one.
+            // The parts of a move are of the same kind. An arc that is continued by a line is a different move.
             if ours.is_arc() != theirs.is_arc() {
                 return Err(differs(DifferenceKind::Place));
             }
@@ -252,7 +253,7 @@ fn check_chord(chord: &Stretch, rest: &Stretch) -> Result<f64, DifferenceKind> {
     }
     let sweep = course.sweep() * (share - rest.begin);
     let sagitta = course.radius() * (1.0 - libm::cos(sweep / 2.0));
-    // The ends of a chord are rounded. The longer the chord, the more it may leave the arc because of that.
+    // The ends of a chord are rounded. The longer the chord, the farther rounding may move it away from the arc.
     let rounding = PLACE * libm::sqrt(CHORD / (2.0 * course.radius()));
     if sweep < std::f64::consts::PI && sagitta <= CHORD + rounding {
         Ok(share)
@@ -261,7 +262,7 @@ fn check_chord(chord: &Stretch, rest: &Stretch) -> Result<f64, DifferenceKind> {
     }
 }
 
-/// Two arcs must have the same centre, because the points of a short one hardly determine it.
+/// Checks that two arcs have the same centre, because the points of a short arc hardly determine it.
 fn check_centres(found: &Move, expected: &Move) -> Result<(), DifferenceKind> {
     let (MoveShape::Arc(ours), MoveShape::Arc(theirs)) = (found.shape, expected.shape) else { return Ok(()) };
     let are_near = ours.centre.iter().zip(theirs.centre).all(|(a, b)| libm::fabs(a - b) <= CENTRE);
@@ -276,32 +277,32 @@ type Numbered = (u32, Move);
 #[derive(Debug)]
 pub(super) struct Chain {
     moves: Vec<Numbered>,
-    /// Whether it begins the program.
+    /// Whether the chain begins the program.
     is_head: bool,
 }
 
-/// The expected moves between two cuts.
+/// The expected rapid moves between two cuts.
 #[derive(Debug)]
 pub(super) struct ExpectedTraverse<'w> {
-    /// Start of the moves.
+    /// Position at which the moves start.
     pub(super) start: Position,
     pub(super) expected: &'w [Numbered],
-    /// Whether it ends the program.
+    /// Whether the moves end the program.
     pub(super) is_foot: bool,
-    /// Whether the program may go to machine positions, which the native one does not.
+    /// Whether the program may move to machine positions, as the native program does not.
     pub(super) may_go_home: bool,
-    /// S0.
+    /// The drawing's S0: the height in mm at and above which nothing is in the way.
     pub(super) clearance: f64,
     pub(super) slack: f64,
 }
 
 impl Chain {
-    /// The chain at the beginning of a program.
+    /// Creates the chain at the beginning of a program.
     pub(super) fn new() -> Self {
         Self { moves: Vec::new(), is_head: true }
     }
 
-    /// The chain after a cut.
+    /// Creates the chain after a cut.
     pub(super) fn behind() -> Self {
         Self { moves: Vec::new(), is_head: false }
     }
@@ -310,7 +311,7 @@ impl Chain {
         self.moves.push((line, *movement));
     }
 
-    /// Checks the chain against the expected moves. The error is the first move that deviates.
+    /// Checks the chain against the expected moves. The error is the first move that deviates; `None` if an expected move is missing.
     pub(super) fn check(&self, traverse: &ExpectedTraverse<'_>) -> Result<(), Option<Numbered>> {
         if !self.is_head {
             return Self::check_rest(&self.moves, traverse.expected, traverse);
@@ -346,9 +347,9 @@ impl Chain {
         }
     }
 
-    /// The moves after the program has reached `place`, where the expected moves may begin. The error is a move before that which is not
-    /// harmless. `None` if the program does not reach the place, or if it does so from an unknown height although the place `is_later` than
-    /// the start.
+    /// Returns the moves after the program has reached `place`, where the expected moves may begin. The error is an earlier move that is not
+    /// harmless. `None` if the program does not reach the place, or if it does so from an unknown height although the place `is_later` than the
+    /// start.
     fn arrived(
         &self,
         place: &Position,
@@ -364,7 +365,7 @@ impl Chain {
         let mut is_parked = false;
         for (line, movement) in head {
             is_parked |= movement.named.is_some();
-            // The position at the beginning is unknown, so the tool must be raised before it moves anywhere.
+            // The height at the beginning is unknown, so the tool must be raised before it moves in the plane.
             let is_raised = movement.from.known.has(Axes::Z) || movement.to.known.has(Axes::Z) || is_parked;
             if !is_raised || !traverse.is_harmless(movement) {
                 return Err(Some((*line, *movement)));
@@ -392,14 +393,14 @@ impl ExpectedTraverse<'_> {
         matches!(movement.shape, MoveShape::Line) && (is_raised || stays) && is_height && is_place
     }
 
-    /// The start of the expected moves, and the positions that they reach before they go below S0.
+    /// Returns the start of the expected moves, and the positions that they reach before they go below S0.
     fn clear_places(&self) -> impl Iterator<Item = Position> {
         let ends = self.expected.iter().map(|(_, it)| it.to);
         let is_clear = |at: &Position| at.known == Axes::ALL && self.is_clear(at.z());
         std::iter::once(self.start).chain(ends.take_while(is_clear))
     }
 
-    /// Whether a move is only due to rounding.
+    /// Whether a move is so short that it is only due to rounding.
     fn stands(&self, movement: &Move) -> bool {
         movement.is_known() && self.is_near(&movement.from, &movement.to)
     }
@@ -420,7 +421,7 @@ impl ExpectedTraverse<'_> {
         z >= self.clearance - self.slack
     }
 
-    /// Compares positions in the plane.
+    /// Whether two positions agree in the plane.
     fn is_at(&self, a: &Position, b: &Position) -> bool {
         libm::fabs(a.x() - b.x()) <= self.slack && libm::fabs(a.y() - b.y()) <= self.slack
     }
@@ -438,11 +439,11 @@ pub struct Clamps {
     radius: f64,
 }
 
-/// Compares the steps of a program with clamps: pass every step, then call [`finish`](Self::finish).
+/// Checker for collisions with clamps: pass every step of a program, then call [`finish`](Self::finish).
 #[derive(Debug)]
 pub struct PastClamps<'c> {
     clamps: &'c Clamps,
-    /// The effect of rounding in mm. A move that touches a clamp in the drawing may be written slightly inside it.
+    /// Maximum error due to rounding in mm. A move that touches a clamp in the drawing may be written slightly inside it.
     slack: f64,
     problems: Problems,
 }
@@ -456,7 +457,7 @@ impl Clamps {
 }
 
 impl<'c> PastClamps<'c> {
-    /// Starts at the beginning of a program in this dialect.
+    /// Creates the checker for a program in this dialect.
     pub fn new(clamps: &'c Clamps, dialect: Dialect) -> Self {
         let chord = if dialect.rules().arcs.helix { 0.0 } else { CHORD };
         Self { clamps, slack: PLACE + chord, problems: Problems::default() }

@@ -1,8 +1,7 @@
-//! Checks whether a program does what a drawing says, from its first line to its last. (book: program/reading, `verify --against`)
+//! Checks whether a program makes the moves of a drawing, from its first line to its last. (book: program/reading, `verify --against`)
 //!
-//! The program of the drawing defines where the tool goes, in one coordinate system, in the plane XY, with one tool at one spindle speed.
-//! Anything else in a program that could change where, how deep or how fast the tool cuts is a difference. The claims in the program's
-//! header are ignored.
+//! The program of the drawing defines where the tool goes, in one coordinate system, in the plane XY, with one tool at one spindle speed. Anything
+//! else in a program that could change where, how deep or how fast the tool cuts is a difference. The claims in the program's header are ignored.
 
 mod cuts;
 mod setup;
@@ -20,16 +19,16 @@ use cuts::Cuts;
 pub use cuts::{Clamps, PastClamps};
 use setup::Setup;
 
-/// What a drawing and the configuration specify about a program.
+/// The program that a drawing and the configuration require.
 #[derive(Debug)]
 pub struct Drawn<M> {
-    /// The moves that are expected, from `start` on.
+    /// The expected moves, beginning at `start`.
     pub moves: M,
-    /// Where they begin: above the path's zero at the height `clearance`, unless a definition begins elsewhere.
+    /// The position at which the moves begin: above the path's zero at the height `clearance`, unless a definition begins elsewhere.
     pub start: Position,
     /// S0: the height in mm at and above which nothing is in the way.
     pub clearance: f64,
-    /// The cutter as known to the machine.
+    /// Number, spindle and coolant of the cutter on the machine.
     pub tool: ToolUse,
     /// The program number by which a control identifies the program, if the post writes one.
     pub number: Option<u32>,
@@ -51,7 +50,7 @@ pub struct ToolUse {
 }
 
 impl ToolUse {
-    /// What all cuts of a program have in common.
+    /// Returns the properties that all cuts of a program have in common.
     pub fn of_cuts(steps: &[Step], dialect: Dialect) -> Self {
         let mut tools = ToolState::new(dialect);
         let mut common: Option<Self> = None;
@@ -71,7 +70,7 @@ impl ToolUse {
         Self { number: tools.inserted().or(tools.selected()), turning, speed, coolant: None }
     }
 
-    /// The properties in which both agree.
+    /// Keeps the properties in which two uses agree.
     fn and(self, other: Self) -> Self {
         Self {
             number: self.number.filter(|_| self.number == other.number),
@@ -81,7 +80,7 @@ impl ToolUse {
         }
     }
 
-    /// The properties of another use where this one has none.
+    /// Fills unknown properties from another use.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self {
@@ -93,7 +92,7 @@ impl ToolUse {
     }
 }
 
-/// How far a program agrees with a drawing.
+/// The result of comparing a program with a drawing.
 #[derive(Clone, Debug)]
 pub struct Agreement {
     /// All differences, ordered by line; for the moves only the first one.
@@ -102,7 +101,7 @@ pub struct Agreement {
     pub equal: usize,
 }
 
-/// Compares the steps of a program with a drawing: pass every step, then call [`finish`](Self::finish).
+/// Comparison of a program's steps with a drawing: pass every step, then call [`finish`](Self::finish).
 #[derive(Debug)]
 pub struct DrawingComparison<'w, M: Iterator<Item = (u32, Move)>> {
     setup: Setup<'w>,

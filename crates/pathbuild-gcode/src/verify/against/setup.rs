@@ -1,4 +1,4 @@
-//! Checks everything besides the moves: modes in the head, tool and tool length, spindle, coolant, corners, dwells.
+//! Checks everything besides the moves: initial modes, tool and tool length, spindle, coolant, corners, dwells.
 
 use std::collections::BTreeMap;
 
@@ -22,7 +22,7 @@ const CORNERS: f64 = 0.01 * (1.0 + 1e-6);
 /// Heights are equal if they differ by less than this, in mm.
 const SAME_HEIGHT: f64 = 0.002;
 
-/// Speeds are equal if they differ by less than this.
+/// Speeds in 1/min are equal if they differ by less than this.
 const SAME_SPEED: f64 = 0.01;
 
 #[derive(Debug)]
@@ -39,16 +39,16 @@ pub(super) struct Setup<'w> {
     tools: ToolState,
     coolant: Coolant,
     coolant_line: u32,
-    /// The behaviour at corners, if the program has specified it.
+    /// The control's behaviour at corners, if the program has specified it.
     corners: Option<Corners>,
     spindle_line: u32,
-    /// Seconds since the spindle was switched on.
+    /// Seconds that the spindle has been running since it was switched on.
     running: f64,
-    /// What has been reported about the current state.
+    /// The problems reported about the current state.
     reported: ReportedFaults,
 }
 
-/// Each problem is reported once, until the state changes.
+/// Problems that have been reported. Each is reported once, until the state changes.
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 struct ReportedFaults {
@@ -70,7 +70,7 @@ impl<'w> Setup<'w> {
         spin_up: f64,
     ) -> Self {
         let expected = if dialect == Dialect::Native {
-            // The native program contains T1 and leaves the spindle to the operator.
+            // The native program contains T1 and leaves switching the spindle to the operator.
             ToolUse { number: Some(1), turning: Some(Turning::Unstated), speed: None, coolant: None }
         } else {
             tool
@@ -146,7 +146,7 @@ impl<'w> Setup<'w> {
             Change::Corners(corners) => {
                 self.corners = Some(corners);
                 match corners {
-                    // P0 is no limit, as if there were no P.
+                    // G64 P0 sets no limit, as if there were no P.
                     Corners::Rounded(Some(most)) if !(most > 0.0 && most <= CORNERS) => {
                         extra(line, "G64 P".to_owned(), problems);
                     }
@@ -193,7 +193,7 @@ impl<'w> Setup<'w> {
             self.running = 0.0;
             self.reported.spindle = false;
         }
-        // If the drawing leaves the spindle alone, the program must not mention it at all: S0 would stop a running spindle.
+        // If the drawing does not control the spindle, the program must not mention it at all: even S0 would stop a running spindle.
         let is_left_alone = self.expected.turning == Some(Turning::Unstated);
         let is_foot = self.dialect != Dialect::Native
             && spindle.turning == Turning::Unstated
@@ -233,12 +233,12 @@ impl<'w> Setup<'w> {
         }
     }
 
-    /// Whether there is a post that writes such programs.
+    /// Whether pathbuild has a post that writes programs for this dialect.
     fn has_post(&self) -> bool {
         !self.words.lead.is_empty()
     }
 
-    /// Checks that what the post writes before the first move is present.
+    /// Checks that the words which the post writes before the first move are present.
     fn head(&mut self, line: u32, problems: &mut Problems) {
         for code in std::mem::take(&mut self.missing).into_values() {
             problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", code_name('G', code)));
@@ -249,7 +249,7 @@ impl<'w> Setup<'w> {
     fn cutting_tool(&mut self, line: u32, problems: &mut Problems) {
         // If the post inserts its tool by M6, T alone only selects the next tool.
         let chosen = self.tools.inserted().or(self.tools.selected().filter(|_| !self.words.has('M', 60)));
-        // On XpertMILL, the layer takes the place of the tool. On other controls, a wrong tool has been reported where it was selected.
+        // On XpertMILL, the layer takes the place of the tool. On other controls, a wrong tool has already been reported where it was selected.
         let fits = |chosen| {
             !self.dialect.rules().layers || self.expected.number.is_none_or(|number| number == chosen)
         };
@@ -275,7 +275,7 @@ impl<'w> Setup<'w> {
         }
     }
 
-    /// Checks the behaviour at corners, because a control keeps that of the previous program unless it is specified.
+    /// Checks the behaviour at corners, because a control keeps the previous program's behaviour unless the program specifies it.
     fn cutting_corners(&mut self, line: u32, problems: &mut Problems) {
         let is_stated = self.corners.is_some() || !self.words.has('G', 640);
         if !is_stated && !std::mem::replace(&mut self.reported.corners, true) {
@@ -315,7 +315,8 @@ impl<'w> Setup<'w> {
         });
     }
 
-    /// Checks that the active length is that of the tool in the spindle if M6 inserts tools. The native program and others apply no length.
+    /// Checks that the active length is that of the tool in the spindle if M6 inserts tools. Programs without M6, such as the native one, apply no
+    /// length.
     fn cutting_length(&mut self, line: u32, problems: &mut Problems) {
         let fit = self.tools.length_fit();
         if fit == LengthFit::Unstated
@@ -338,13 +339,13 @@ impl<'w> Setup<'w> {
         }
     }
 
-    /// Whether the control keeps the tool length of the previous program unless it is specified.
+    /// Whether the control keeps the tool length of the previous program unless the program sets one.
     fn keeps_lengths(&self) -> bool {
         self.dialect.rules().lengths.keeps_length
             && (!self.words.is_of_definition() || self.words.has('G', 490) || self.must_count())
     }
 
-    /// Whether the program must apply the length of the tool inserted by M6, because the post does.
+    /// Whether the program must apply the length of the tool inserted by M6, because programs of the post do.
     fn must_count(&self) -> bool {
         self.words.has('G', 430)
     }

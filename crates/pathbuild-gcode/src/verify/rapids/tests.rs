@@ -4,7 +4,7 @@ use pathbuild_motion::{Move, MoveShape, Pace, Position};
 
 use super::{CELLS_PER_SIDE, CutGrid};
 
-/// A post of 1 mm, 9 mm high, far from the origin.
+/// The sides in X and Y of an obstacle of 1 mm by 1 mm, 9 mm high, far from the origin.
 const POST: [(f64, f64); 2] = [(130.0, 131.0), (-20.0, -19.0)];
 
 fn rapid([x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) -> Move {
@@ -12,7 +12,7 @@ fn rapid([x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) -> Move {
     Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named: None }
 }
 
-/// In all directions, and passing on either side.
+/// Checks moves in all directions that pass the obstacle on either side.
 #[test]
 fn what_stands_within_the_radius_of_a_move_is_seen() {
     let mut tops = CutGrid {
