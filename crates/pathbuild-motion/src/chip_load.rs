@@ -1,9 +1,9 @@
-//! The thickness of the chip that a tooth takes.
+//! Checks the chip load: the thickness of the chip that each cutting edge takes.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as say;
 
-/// The chip load that a user allows for a tool. Nothing is recommended: without limits by the user there is no finding.
+/// The chip load that a user allows for a tool. pathbuild recommends no values: a tool without limits causes no finding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChipLoad {
     /// The number of cutting edges.
@@ -20,8 +20,7 @@ pub struct ChipLoad {
 const RELATIVE_TOLERANCE: f64 = 1e-9;
 
 impl ChipLoad {
-    /// The finding about a feed in mm/min and a spindle speed in 1/min, if the chip load is outside the limits. `None` stands for the speed
-    /// of the tool.
+    /// Reports a chip load outside the limits, for a feed in mm/min and a spindle speed in 1/min. Without a speed, that of the tool is used.
     pub fn check(&self, feed: f64, speed: Option<f64>) -> Option<Diagnostic> {
         let speed = speed.or(self.speed).filter(|speed| *speed > 0.0)?;
         let load = feed / (speed * f64::from(self.flutes));

@@ -5,14 +5,15 @@ use std::f64::consts::{PI, TAU};
 /// A position in the program's first coordinate system, in mm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Position {
-    /// X, Y, Z.
+    /// X, Y and Z in mm; the values of unknown axes are meaningless.
     pub at: [f64; 3],
-    /// The known axes. Positions are unknown at the start of the program, and after a move to a named position or a probe.
+    /// The axes whose coordinate is known. All are unknown at the start of the program; some become unknown after a move to a named position or a
+    /// probe.
     pub known: Axes,
 }
 
 impl Position {
-    /// A position with all axes known.
+    /// Creates a position with all axes known.
     pub fn known(x: f64, y: f64, z: f64) -> Self {
         Self { at: [x, y, z], known: Axes::ALL }
     }
@@ -68,27 +69,27 @@ impl Axes {
     /// Z.
     pub const Z: Self = Self(4);
 
-    /// The axis with index 0 (X), 1 (Y) or 2 (Z).
+    /// Returns the set of the axis with index 0 (X), 1 (Y) or 2 (Z).
     pub fn of(index: usize) -> Self {
         Self(1 << index)
     }
 
-    /// Whether it contains all of `other`.
+    /// Whether the set contains all of `other`.
     pub fn has(self, other: Self) -> bool {
         self.0 & other.0 == other.0
     }
 
-    /// The union of two sets.
+    /// Returns the union of two sets.
     pub fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
-    /// The axes that are not in `other`.
+    /// Returns the axes that are not in `other`.
     pub fn without(self, other: Self) -> Self {
         Self(self.0 & !other.0)
     }
 
-    /// The intersection of two sets.
+    /// Returns the intersection of two sets.
     pub fn and(self, other: Self) -> Self {
         Self(self.0 & other.0)
     }
@@ -99,20 +100,20 @@ impl Axes {
     }
 }
 
-/// The plane of arcs and cycles.
+/// The plane in which arcs and cycles work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Plane {
-    /// G17.
+    /// X and Y (G17).
     #[default]
     Xy,
-    /// G18.
+    /// Z and X (G18).
     Zx,
-    /// G19.
+    /// Y and Z (G19).
     Yz,
 }
 
 impl Plane {
-    /// Indices of the plane's first and second axis. Turning from the first to the second is counterclockwise.
+    /// Returns the indices of the plane's first and second axis. Turning from the first to the second is counterclockwise.
     pub fn axes(self) -> [usize; 2] {
         match self {
             Self::Xy => [0, 1],
@@ -121,7 +122,7 @@ impl Plane {
         }
     }
 
-    /// Index of the axis across the plane.
+    /// Returns the index of the axis perpendicular to the plane.
     pub fn third(self) -> usize {
         match self {
             Self::Xy => 2,
@@ -130,12 +131,12 @@ impl Plane {
         }
     }
 
-    /// The plane's axes as a set.
+    /// Returns the plane's axes as a set.
     pub fn axes_of_plane(self) -> Axes {
         Axes::ALL.without(Axes::of(self.third()))
     }
 
-    /// The coordinates of a position in the plane.
+    /// Returns the coordinates of a position in the plane.
     pub fn project(self, at: &[f64; 3]) -> [f64; 2] {
         self.axes().map(|axis| at[axis])
     }
@@ -150,21 +151,21 @@ pub struct Arc {
     pub plane: Plane,
     /// The centre in mm, along the plane's first and second axis.
     pub centre: [f64; 2],
-    /// As seen from the positive end of the third axis.
+    /// Whether the arc turns clockwise, as seen from the positive end of the third axis.
     pub clockwise: bool,
     /// Number of full turns in addition to the arc itself.
     pub extra_turns: u32,
 }
 
-/// Directions that differ by no more than this, in radians, are equal. An arc whose ends are in equal directions from its centre is a
-/// full circle, as in GRBL.
+/// Difference of directions, in radians, up to which they are equal. An arc whose ends are in equal directions from its centre is a full circle, as
+/// in GRBL.
 const SAME_DIRECTION: f64 = 5e-7;
 
-/// Rounding errors of angles that have been turned, in radians.
+/// Maximum rounding error of an angle after a rotation, in radians.
 const ROUNDING: f64 = 1e-12;
 
-/// Whether a drawn arc is a full circle. `ahead` is its end minus its start in its direction, in radians: for a full circle, 0 up to
-/// rounding, slightly less than a whole turn, or slightly more. The remnant of a trimmed arc, which has hardly any length, is not a full
+/// Whether a drawn arc is a full circle. `ahead` is the angle from its start to its end in the direction of the arc, in radians: for a full circle, 0
+/// up to rounding, slightly less than a whole turn, or slightly more. The remnant of a trimmed arc, which has hardly any length, is not a full
 /// circle.
 pub fn is_full_turn(ahead: f64) -> bool {
     let beyond = ahead - TAU * libm::round(ahead / TAU);
@@ -172,7 +173,8 @@ pub fn is_full_turn(ahead: f64) -> bool {
     beyond.abs() <= if is_whole { SAME_DIRECTION } else { ROUNDING }
 }
 
-/// The angle in radians from one direction to another in the direction of travel: greater than 0, and a full turn if they are equal.
+/// Returns the angle in radians from one direction to another in the direction of travel: greater than 0, and a full turn if the directions are
+/// equal.
 pub fn turn([a, b]: [f64; 2], [c, d]: [f64; 2], clockwise: bool) -> f64 {
     let counterclockwise = libm::atan2(a * d - b * c, a * c + b * d);
     let turn = if clockwise { -counterclockwise } else { counterclockwise };
@@ -180,25 +182,25 @@ pub fn turn([a, b]: [f64; 2], [c, d]: [f64; 2], clockwise: bool) -> f64 {
 }
 
 impl Arc {
-    /// The radius at a position, in mm.
+    /// Returns the distance of a position from the centre, in mm.
     pub fn radius(&self, end: &Position) -> f64 {
         let [a, b] = self.spoke(&end.at);
         libm::hypot(a, b)
     }
 
-    /// The swept angle in radians, including extra turns.
+    /// Returns the swept angle in radians, including extra turns.
     pub fn sweep(&self, from: &Position, to: &Position) -> f64 {
         turn(self.spoke(&from.at), self.spoke(&to.at), self.clockwise) + TAU * f64::from(self.extra_turns)
     }
 
-    /// The angle in radians from one position to another around the centre, in the direction of the arc, between -pi and pi.
+    /// Returns the angle in radians from one position to another around the centre, in the direction of the arc, between -pi and pi.
     pub fn angle_ahead(&self, from: &[f64; 3], to: &[f64; 3]) -> f64 {
         let ([a, b], [c, d]) = (self.spoke(from), self.spoke(to));
         let counterclockwise = libm::atan2(a * d - b * c, a * c + b * d);
         if self.clockwise { -counterclockwise } else { counterclockwise }
     }
 
-    /// The direction of travel at one of its ends, as a unit vector along the plane's axes.
+    /// Returns the direction of travel at an end of the arc, as a unit vector along the plane's axes.
     pub fn tangent(&self, at: &[f64; 3]) -> [f64; 2] {
         let [a, b] = self.spoke(at);
         let radius = libm::hypot(a, b);
@@ -208,13 +210,13 @@ impl Arc {
         if self.clockwise { [b / radius, -a / radius] } else { [-b / radius, a / radius] }
     }
 
-    /// The vector from the centre to a position, in the plane.
+    /// Returns the vector from the centre to a position, in the plane.
     fn spoke(&self, at: &[f64; 3]) -> [f64; 2] {
         let [a, b] = self.plane.project(at);
         [a - self.centre[0], b - self.centre[1]]
     }
 
-    /// Extends a box by the extreme points of the circle that the arc passes.
+    /// Extends a box by the points of the arc that are extreme along the plane's axes.
     pub(crate) fn widen(&self, from: &Position, to: &Position, extent: &mut [Option<(f64, f64)>; 3]) {
         if !from.known.and(to.known).has(self.plane.axes_of_plane()) {
             return;
@@ -235,7 +237,7 @@ impl Arc {
     }
 }
 
-/// The widest angle in radians of a chord whose distance from the circle is at most `tolerance` mm; never more than a quarter turn.
+/// Returns the widest angle in radians of a chord whose distance from the circle is at most `tolerance` mm; never more than a quarter turn.
 pub fn widest_chord(radius: f64, tolerance: f64) -> f64 {
     (2.0 * libm::acos(1.0 - tolerance / radius.max(tolerance))).min(PI / 2.0)
 }
@@ -247,7 +249,7 @@ pub struct Course {
     from: [f64; 3],
     to: [f64; 3],
     sweep: f64,
-    /// The radius at the start, and by how much it grows along the arc, as a fraction of it.
+    /// The radius in mm at the start. `growth` is its increase along the arc, as a fraction of it.
     radius: f64,
     growth: f64,
 }
@@ -260,12 +262,12 @@ impl Course {
         Self { arc, from: from.at, to: to.at, sweep: arc.sweep(from, to), radius, growth }
     }
 
-    /// The arc itself.
+    /// Returns the arc itself.
     pub fn arc(&self) -> Arc {
         self.arc
     }
 
-    /// The directions from the centre to both ends, in radians from the plane's first axis. The direction to the end is not reduced to the
+    /// Returns the directions from the centre to both ends, in radians from the plane's first axis. The direction to the end is not reduced to the
     /// first turn.
     pub fn directions(&self) -> [f64; 2] {
         let [a, b] = self.arc.spoke(&self.from);
@@ -283,28 +285,28 @@ impl Course {
         self.radius
     }
 
-    /// Length in space, in mm.
+    /// Returns the length in space, in mm.
     pub fn length(&self) -> f64 {
         let third = self.arc.plane.third();
         libm::hypot(self.length_in_plane(), self.to[third] - self.from[third])
     }
 
-    /// Length in the plane, in mm.
+    /// Returns the length in the plane, in mm.
     pub fn length_in_plane(&self) -> f64 {
         self.radius * self.sweep
     }
 
-    /// Greatest distance in mm between the arc and its chord from start to end.
+    /// Returns the greatest distance in mm between the arc and its chord from start to end.
     pub fn sagitta(&self) -> f64 {
         self.radius * (1.0 - libm::cos(self.sweep / 2.0))
     }
 
-    /// The position at a fraction (0 to 1) of the arc.
+    /// Returns the position at a fraction (0 to 1) of the arc.
     pub fn point(&self, share: f64) -> [f64; 3] {
         self.place(turned(self.arc.spoke(&self.from), self.turn(share)), share)
     }
 
-    /// The positions at a quarter, half and three quarters of the arc, each rotated from the previous one.
+    /// Returns the positions at a quarter, half and three quarters of the arc, each rotated from the previous one.
     pub fn quarters(&self) -> [[f64; 3]; 3] {
         let quarter = self.turn(0.25);
         let mut spoke = self.arc.spoke(&self.from);
@@ -314,13 +316,13 @@ impl Course {
         })
     }
 
-    /// Sine and cosine of the angle swept by a fraction of the arc.
+    /// Returns the sine and cosine of the angle swept by a fraction of the arc.
     fn turn(&self, share: f64) -> (f64, f64) {
         let angle = self.sweep * share;
         libm::sincos(if self.arc.clockwise { -angle } else { angle })
     }
 
-    /// The position at the end of a vector from the centre with the initial radius, which has been rotated by a fraction of the arc.
+    /// Returns the position at the end of a vector from the centre with the initial radius, which has been rotated by a fraction of the arc.
     fn place(&self, [a, b]: [f64; 2], share: f64) -> [f64; 3] {
         let stretch = 1.0 + share * self.growth;
         let [first, second] = self.arc.plane.axes();
@@ -337,13 +339,13 @@ fn turned([a, b]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 2] {
     [a * cos - b * sin, a * sin + b * cos]
 }
 
-// Arcs as a controller reads them, from rounded numbers. (book: program/gcode)
+// Adjusts arcs to the way in which a controller reads them, from rounded numbers. (book: program/gcode)
 //
-// A controller rejects an arc, or mills something unexpected, if its centre is not equidistant from its ends. Start, end and centre are
-// rounded separately, each by up to half a unit of the last digit. Together this may be too much even for a correct arc. Then a centre that
-// differs by one unit of the last digit from the correctly rounded one fits both ends.
+// A controller rejects an arc, or mills something unexpected, if its centre is not equidistant from its ends. Start, end and centre are rounded
+// separately, each by up to half a unit of the last digit. Together this may be too much even for a correct arc. Then a centre that differs by one
+// unit of the last digit from the correctly rounded one fits both ends.
 
-/// An arc in its plane, and the notation of its numbers.
+/// An arc as it is to be written: its points in the plane, and the notation of its numbers.
 pub struct WrittenArc<'r> {
     /// Start in mm.
     pub from: [f64; 2],
@@ -360,8 +362,8 @@ pub struct WrittenArc<'r> {
 }
 
 impl WrittenArc<'_> {
-    /// By how many mm to move the centre so that the written radii at both ends agree: by nothing, or by at most one unit of the third
-    /// decimal of a millimetre (the fourth of an inch) along each axis.
+    /// Returns the vector in mm by which to move the centre so that the written radii at both ends agree. Each coordinate is zero or at most one unit
+    /// of the third decimal of a millimetre (the fourth of an inch).
     ///
     /// # Errors
     /// The written radii at both ends, if no centre nearby makes them agree. An arc that is wrong before rounding is never adjusted.
@@ -381,7 +383,7 @@ impl WrittenArc<'_> {
         best.filter(|by| moved(by) <= self.tolerance()).ok_or(nearest)
     }
 
-    /// Permitted difference of the radii in the output unit, as in NIST's RS274/NGC.
+    /// Returns the permitted difference of the radii in the output unit, as in NIST's RS274/NGC.
     fn tolerance(&self) -> f64 {
         if self.unit == 1.0 { 0.002 } else { 0.000_2 }
     }
@@ -394,7 +396,7 @@ impl WrittenArc<'_> {
         })
     }
 
-    /// The radii at both ends in the output unit, after moving the centre and rounding.
+    /// Returns the radii at both ends in the output unit, after moving the centre and rounding.
     fn radii(&self, by: [f64; 2]) -> [f64; 2] {
         let centre = [0, 1].map(|axis| {
             let origin = if self.is_absolute { 0.0 } else { (self.length)(self.from[axis]) };

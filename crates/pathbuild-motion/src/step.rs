@@ -1,4 +1,4 @@
-//! The canonical steps of a program, and the moves of the tool tip.
+//! The steps of a program in canonical form, and the moves of the tool tip.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -14,8 +14,7 @@ pub struct Step {
     /// Line number, counted from 1, or the step number for a program that does not exist as text.
     pub line: u32,
     pub action: Action,
-    /// The axes for which the program has given a position since the last tool change. The machine may have moved the others during the
-    /// change.
+    /// The axes for which the program has stated a position since the last tool change. The machine may have moved the other axes during the change.
     pub stated: Axes,
 }
 
@@ -25,7 +24,7 @@ impl Step {
         Self { line, action: Action::Move(movement), stated: Axes::ALL }
     }
 
-    /// The move and its line, if the step is a move.
+    /// Returns the line and the move, if the step is a move.
     pub fn as_move(&self) -> Option<(u32, Move)> {
         match self.action {
             Action::Move(movement) => Some((self.line, movement)),
@@ -34,19 +33,19 @@ impl Step {
     }
 }
 
-/// What the machine does.
+/// An action of the machine.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
-    /// The tool moves to a position, unless it is there already.
+    /// Moves the tool to a position, which may be the current one.
     Move(Move),
-    /// O: the number by which the control knows the program.
+    /// O: states the number by which the control identifies the program.
     ProgramNumber(u32),
-    /// A dwell, in seconds.
+    /// G4: dwells for this time in seconds.
     Dwell(f64),
     /// T: selects the next tool.
     SelectTool(u32),
-    /// M6: inserts this tool, `None` if no T has selected one. In programs for XpertMILL, tools are layers: the moves from here on belong
-    /// to this one.
+    /// M6: inserts this tool, `None` if no T has selected one. In programs for XpertMILL, tools are layers: the moves from here on belong to this
+    /// layer.
     ChangeTool(Option<u32>),
     /// Changes the state of the spindle.
     Spindle(Spindle),
@@ -58,14 +57,14 @@ pub enum Action {
     Word(StatedWord),
     /// Another change that may affect where, how deep or how fast the tool goes.
     Change(Change),
-    /// A comment.
+    /// The text of a comment, without comment marks.
     Comment(Box<str>),
     /// M0, M60, or M1 if optional: waits for the operator.
     Stop {
         /// Whether a switch on the machine decides if the program stops here (M1).
         optional: bool,
     },
-    /// M2, M30.
+    /// M2, M30: ends the program.
     End,
 }
 
@@ -78,22 +77,22 @@ pub struct StatedWord {
     pub code: u16,
     /// Modal group of a G word.
     pub group: Option<Group>,
-    /// How much of its effect other steps show.
+    /// How much of the word's effect other steps show.
     pub effect: WordEffect,
 }
 
 /// How much of the effect of a word the other steps of a program show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WordEffect {
-    /// Other steps and positions reflect it.
+    /// Other steps and positions reflect the word.
     Followed,
-    /// It selects a coordinate system that the control may not have.
+    /// The word selects a coordinate system that the control may not have.
     System,
-    /// It goes to a machine position or refers to machine zero, neither of which a program states.
+    /// The word moves to a machine position or refers to machine zero, neither of which a program states.
     Place,
-    /// It runs a subprogram of the file; the subprogram's steps come next.
+    /// The word runs a subprogram of the file; the subprogram's steps come next.
     Call,
-    /// It is not followed.
+    /// The word's effect is not shown by other steps.
     NotFollowed,
 }
 
@@ -107,26 +106,26 @@ pub struct Spindle {
 }
 
 impl Spindle {
-    /// The state before the program says anything about it.
+    /// The state before the program sets it.
     pub const UNSTATED: Self = Self { turning: Turning::Unstated, speed: None };
 }
 
-/// Whether the spindle turns, and in which direction. The names are part of the hash of options in programs.
+/// The rotation of the spindle. The names are part of the hash of options in programs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Turning {
-    /// The program has not specified it.
+    /// The program has not set the state.
     #[default]
     Unstated,
-    /// M5.
+    /// The spindle stands still (M5).
     Off,
-    /// M3.
+    /// The spindle turns clockwise (M3).
     Clockwise,
-    /// M4.
+    /// The spindle turns counterclockwise (M4).
     CounterClockwise,
 }
 
 impl Turning {
-    /// Whether it is known to turn.
+    /// Whether the spindle is known to turn.
     pub fn is_on(self) -> bool {
         matches!(self, Self::Clockwise | Self::CounterClockwise)
     }
@@ -135,13 +134,13 @@ impl Turning {
 /// State of the coolant.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub struct Coolant {
-    /// M7.
+    /// Whether mist is on (M7).
     pub mist: bool,
-    /// M8.
+    /// Whether flood coolant is on (M8).
     pub flood: bool,
 }
 
-/// The names are part of the hash of options in programs: changing one makes existing programs stale.
+/// Formats the state for the hash of options in programs. Changing a name makes existing programs stale.
 impl fmt::Debug for Coolant {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match (self.flood, self.mist) {
@@ -154,11 +153,11 @@ impl fmt::Debug for Coolant {
 }
 
 impl Coolant {
-    /// M8.
+    /// Only flood coolant (M8).
     pub const FLOOD: Self = Self { mist: false, flood: true };
-    /// M7.
+    /// Only mist (M7).
     pub const MIST: Self = Self { mist: true, flood: false };
-    /// M9.
+    /// No coolant (M9).
     pub const OFF: Self = Self { mist: false, flood: false };
 
     /// Whether any coolant flows.
@@ -170,76 +169,76 @@ impl Coolant {
 /// Changes besides position, spindle, tool and coordinate system. Positions in steps reflect all of them except the tool length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
-    /// G43, G43.1, G43.2, G44, G49.
+    /// G43, G43.1, G43.2, G44, G49: sets the tool length.
     ToolLength(ToolLength),
-    /// G10, G52, G92 and others: moves the coordinate systems.
+    /// G10, G52, G92 and others: moves the origins of coordinate systems.
     Offsets {
         /// The number of the G code times ten.
         code: u16,
         /// Whether G52 or G92 is active from here on; `None` if the command does not change that.
         are_shifted: Option<bool>,
     },
-    /// G61, G64: behaviour at corners.
+    /// G61, G64: sets the behaviour at corners.
     Corners(Corners),
-    /// A plane of arcs other than XY.
+    /// G18, G19: selects a plane of arcs other than XY.
     Plane(Plane),
-    /// The feed of rapid moves in mm/min from here on, on controls where it is given by F; 0 before any F.
+    /// Sets the feed of rapid moves in mm/min from here on, on controls where F determines it; 0 before any F.
     RapidFeed(f64),
     /// `#5221=...`: sets a parameter.
     Parameter,
-    /// An M code without a step of its own, times ten.
+    /// Any M code without a step of its own, times ten.
     Switch(u16),
 }
 
 /// The active tool length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ToolLength {
-    /// G49: none.
+    /// No length (G49).
     Off,
-    /// G43 H: that of an entry in the tool table, or without H that of the tool in the spindle.
+    /// G43 H: the length of an entry in the tool table, or without H that of the tool in the spindle.
     OfTool(Option<u32>),
-    /// Others: G43.1, G43.2, G44, or G43 with only X or Y.
+    /// Any other length: G43.1, G43.2, G44, or G43 with only X or Y.
     Other,
 }
 
 /// Behaviour at corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Corners {
-    /// G61: stops there, or keeps to the path.
+    /// G61: the tool stops at corners, or keeps to the path.
     Exact,
-    /// G64: rounds them, by at most this many mm if P is given. (Q, the tolerance for joining lines, counts in the same way.)
+    /// G64: the control rounds corners, by at most this many mm if P is given. (Q, the tolerance for joining lines, counts in the same way.)
     Rounded(Option<f64>),
 }
 
-/// G54 (index 0) to G59 (5), G59.1 to G59.3 (8), and the additional systems that a control numbers by P (9 and up).
+/// A coordinate system by its index: G54 (0) to G59 (5), G59.1 to G59.3 (8), and the additional systems that a control numbers by P (9 and up).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WorkSystem(u8);
 
 impl WorkSystem {
-    /// The system with this number, from 1 (G54) to 9 (G59.3).
+    /// Returns the system with this number, from 1 (G54) to 9 (G59.3).
     pub fn from_number(number: u32) -> Option<Self> {
         u8::try_from(number).ok().filter(|number| (1..=9).contains(number)).map(|number| Self(number - 1))
     }
 
-    /// Number of systems.
+    /// Number of systems, including additional ones.
     pub const COUNT: usize = 256;
 
-    /// The additional system with this number, from 1 to 247.
+    /// Returns the additional system with this number, from 1 to 247.
     pub fn additional(number: u32) -> Option<Self> {
         u8::try_from(number.saturating_add(8)).ok().filter(|_| number > 0).map(Self)
     }
 
-    /// From 1 (G54) to 9 (G59.3); greater for an additional one.
+    /// Returns the number, from 1 (G54) to 9 (G59.3); greater for an additional system.
     pub fn number(self) -> u16 {
         u16::from(self.0) + 1
     }
 
-    /// From 0 (G54) to 8 (G59.3); greater for an additional one.
+    /// Returns the index, from 0 (G54) to 8 (G59.3); greater for an additional system.
     pub fn index(self) -> usize {
         usize::from(self.0)
     }
 
-    /// Such as `G54`, or `P1` for an additional one.
+    /// Returns the name of the system, such as `G54`, or `P1` for an additional one.
     pub fn name(self) -> Cow<'static, str> {
         const NAMES: [&str; 9] = ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"];
         match NAMES.get(self.index()) {
@@ -267,9 +266,9 @@ pub enum Group {
     PathControl,
     SpindleMode,
     LatheMode,
-    /// Scaling, mirroring, rotation, polar coordinates.
+    /// G words for scaling, mirroring, rotation and polar coordinates.
     Transform,
-    /// Look-ahead and smoothing of the control.
+    /// G words for look-ahead and smoothing by the control.
     LookAhead,
     /// G53, which accompanies a motion.
     MachineCoordinates,
@@ -287,7 +286,7 @@ pub struct Move {
     pub to: Position,
     pub shape: MoveShape,
     pub pace: Pace,
-    /// The named target of the move, if the program specifies it by name.
+    /// The position that the program names as the target, if it does so.
     pub named: Option<NamedPosition>,
 }
 
@@ -302,15 +301,15 @@ pub enum MoveShape {
 /// Speed and purpose of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
-    /// At full speed.
+    /// A rapid move, at full speed.
     Rapid,
-    /// Cutting, with the feed in mm/min; 0 if the program does not specify it, which is reported.
+    /// A cutting move, with the feed in mm/min; 0 if the program does not specify it, which is reported.
     Feed(f64),
-    /// Probing: the tool moves until the probe makes contact, at most to the end of the move.
+    /// A probing move: the tool moves until the probe makes contact, at most to the end of the move.
     Probe {
-        /// In mm/min.
+        /// Probing feed in mm/min.
         feed: f64,
-        /// Towards the material instead of away from it.
+        /// Whether the tool moves towards the material, and not away from it.
         toward: bool,
         /// Whether a missing contact is an alarm.
         must_answer: bool,
@@ -318,7 +317,7 @@ pub enum Pace {
 }
 
 impl Pace {
-    /// The feed in mm/min, unless it is a rapid.
+    /// Returns the feed in mm/min; `None` for a rapid move.
     pub fn feed(self) -> Option<f64> {
         match self {
             Self::Rapid => None,
@@ -326,12 +325,12 @@ impl Pace {
         }
     }
 
-    /// The feed in mm/min specified by the program.
+    /// Returns the feed in mm/min if the program specifies one.
     pub fn stated_feed(self) -> Option<f64> {
         self.feed().filter(|feed| *feed > 0.0)
     }
 
-    /// Sets the feed in mm/min, unless the move has one.
+    /// Sets the feed in mm/min unless the program specifies one or the move is a rapid.
     pub fn set_missing_feed(&mut self, missing: f64) {
         match self {
             Self::Feed(feed) | Self::Probe { feed, .. } if *feed == 0.0 => *feed = missing,
@@ -339,7 +338,7 @@ impl Pace {
         }
     }
 
-    /// The name of such a move in messages.
+    /// Returns the name for moves of this kind in messages.
     pub fn word(self) -> &'static Text {
         match self {
             Self::Rapid => &Text { en: "a rapid move", de: "ein Eilgang" },
@@ -349,19 +348,19 @@ impl Pace {
     }
 }
 
-/// Positions that a program specifies by name.
+/// Positions that a program specifies by name, with the axes that move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NamedPosition {
     /// G53: machine coordinates. If the machine's origin is unknown, the axes of the target that are not `known` hold machine coordinates.
     Machine(Axes),
-    /// G28.
+    /// The first stored position (G28).
     Home1(Axes),
-    /// G30.
+    /// The second stored position (G30).
     Home2(Axes),
 }
 
 impl NamedPosition {
-    /// The axes that go there.
+    /// Returns the axes that move to the named position.
     pub fn axes(self) -> Axes {
         let (Self::Machine(axes) | Self::Home1(axes) | Self::Home2(axes)) = self;
         axes
@@ -369,7 +368,7 @@ impl NamedPosition {
 }
 
 impl Move {
-    /// Length in space, in mm. Axes that are unknown at either end are ignored.
+    /// Returns the length in space, in mm. Axes that are unknown at either end are ignored.
     pub fn length(&self) -> f64 {
         let known = self.from.known.and(self.to.known);
         let step =
@@ -387,7 +386,7 @@ impl Move {
         self.from.known.and(self.to.known) == Axes::ALL
     }
 
-    /// Whether it takes the Z axis to a position that the program specifies by name, which is assumed to be above everything.
+    /// Whether the move takes the Z axis to a position that the program specifies by name, which is assumed to be above everything.
     pub fn homes_z(&self) -> bool {
         self.named.is_some_and(|named| named.axes().has(Axes::Z))
     }
@@ -409,7 +408,7 @@ impl Move {
         self.from.known.and(self.to.known).has(Axes::XY) && in_plane < 0.0005
     }
 
-    /// Bounding box, as least and greatest coordinates. Unknown ends are ignored; an axis without known ends is `None`.
+    /// Returns the bounding box, as least and greatest coordinates in mm. Unknown ends are ignored; an axis without known ends is `None`.
     pub fn extent(&self) -> [Option<(f64, f64)>; 3] {
         let mut extent = [0, 1, 2].map(|axis| {
             let known = |end: &Position| end.known.has(Axes::of(axis)).then(|| end.at[axis]);
@@ -424,7 +423,7 @@ impl Move {
         extent
     }
 
-    /// Maximum share of each axis in the speed of the move, from 0 to 1.
+    /// Returns the maximum share of each axis in the speed of the move, from 0 to 1.
     pub fn axis_shares(&self) -> [f64; 3] {
         let length = self.length();
         if length == 0.0 {
@@ -445,7 +444,7 @@ impl Move {
         shares
     }
 
-    /// Whether all its numbers are finite.
+    /// Whether all numbers of the move are finite.
     pub fn is_finite(&self) -> bool {
         let centre = match self.shape {
             MoveShape::Line => [0.0; 2],
@@ -455,12 +454,12 @@ impl Move {
         places.chain(centre).chain(self.pace.feed()).all(f64::is_finite)
     }
 
-    /// Whether it does not move.
+    /// Whether the tool stays where it is.
     pub fn is_nothing(&self) -> bool {
         matches!(self.shape, MoveShape::Line) && self.from == self.to
     }
 
-    /// Its arc, if it is one.
+    /// Returns the course of the arc, if the move is one.
     pub fn course(&self) -> Option<Course> {
         match self.shape {
             MoveShape::Line => None,
@@ -468,7 +467,7 @@ impl Move {
         }
     }
 
-    /// The position at a fraction (0 to 1) of the move.
+    /// Returns the position at a fraction (0 to 1) of the move.
     pub fn point(&self, share: f64) -> [f64; 3] {
         let (from, to) = (&self.from.at, &self.to.at);
         match self.shape {
@@ -478,7 +477,7 @@ impl Move {
         }
     }
 
-    /// Splits it into equal parts. The last one ends exactly at the end of the move.
+    /// Splits the move into equal parts. The last one ends exactly at the end of the move.
     pub fn split(&self, count: u32) -> impl Iterator<Item = Self> + use<> {
         let (movement, course) = (*self, self.course());
         let mut from = movement.from;
