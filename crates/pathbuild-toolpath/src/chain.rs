@@ -1,4 +1,4 @@
-//! Milling chains, milled pass by pass from the nearest edge. (book: program/gcode)
+//! Generates the moves of milling chains, pass by pass from the nearest edge. (book: program/gcode)
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,13 +15,13 @@ use crate::program::ElementKind;
 
 /// A segment of the chain in program coordinates, with the depths of its edges from top to bottom.
 pub(crate) struct Strand<'a> {
-    /// The comment (Q).
+    /// The drawing's comment for the operator (Q).
     comment: Option<&'a str>,
     pub(crate) curve: Curve,
     depths: Vec<f64>,
-    /// Depth of the segment: h + B, or h + D for a mark, where h is the height by which the path is raised.
+    /// Depth of the segment in mm: h + B, or h + D for a marking segment, where h is the height by which the path is raised.
     bottom: f64,
-    /// For segments with bars, h + D and the positions of the bars.
+    /// For segments with bars, the height h + D and the positions of the bars.
     bars: Option<PlannedBars>,
     feed: f64,
     /// Index into [`DrawnElements::elements`](pathbuild_path::DrawnElements::elements).
@@ -72,7 +72,7 @@ impl<P: Parts> Fold<'_, P> {
         }
     }
 
-    /// Mills the edge with the nearest end first; each edge only after the one above it.
+    /// Mills the edge whose end is nearest to the tool first; each edge only after the one above it.
     fn pass_by_pass(&mut self, place: &PlacedPath<'_>, strands: &[Strand<'_>]) {
         let mut open = OpenEdges::new(strands);
         let mut tip = Tip { at: strands[0].curve.start(), z: strands[0].depths[0] };
@@ -127,7 +127,7 @@ impl<P: Parts> Fold<'_, P> {
         self.edge(place, strand, z, run.is_backwards);
     }
 
-    /// The feed of the plunge to the start of an edge.
+    /// Returns the feed of the plunge to the start of an edge.
     fn entry_feed(&self, place: &PlacedPath<'_>, strand: &Strand<'_>) -> f64 {
         if self.compatible { place.feed } else { place.feed.min(strand.feed) }
     }
@@ -142,13 +142,13 @@ impl<P: Parts> Fold<'_, P> {
 }
 
 impl Strand<'_> {
-    /// Start and end of a run.
+    /// Returns the start and the end of the strand in this direction.
     fn ends(&self, is_backwards: bool) -> (Xy, Xy) {
         let (start, end) = (self.curve.start(), self.curve.end());
         if is_backwards { (end, start) } else { (start, end) }
     }
 
-    /// The height at which the tool arrives at the start of a run at depth `z`.
+    /// Returns the height at which the tool arrives at the start of a run at depth `z`.
     fn entry(&self, z: f64, compatible: bool) -> f64 {
         match &self.bars {
             Some((top, _)) if !compatible => z.max(*top),
@@ -172,7 +172,7 @@ impl Strand<'_> {
     }
 }
 
-/// The top and the plan of a segment's bars. The plan is `None` if nothing is milled below the top.
+/// The height of the bars' top in mm, and the plan of a segment's bars. The plan is `None` if nothing is milled below the top.
 type PlannedBars = (f64, Option<BarPlan>);
 
 fn planned_bars(cut: &CutParameters, tool: f64, curve: &Curve) -> Option<PlannedBars> {
@@ -180,7 +180,7 @@ fn planned_bars(cut: &CutParameters, tool: f64, curve: &Curve) -> Option<Planned
     Some((bars.top, BarPlan::new(bars, cut.bottom, tool, curve.length())))
 }
 
-/// The sections of a curve that is milled at a depth, except for its bars.
+/// Divides a curve into the sections milled at a depth, leaving its bars.
 fn sections(curve: &Curve, z: f64, bars: Option<&PlannedBars>) -> Vec<Section> {
     let whole = |z: f64| vec![Section { curve: *curve, from_z: z, to_z: z }];
     match bars {
@@ -190,7 +190,7 @@ fn sections(curve: &Curve, z: f64, bars: Option<&PlannedBars>) -> Vec<Section> {
     }
 }
 
-/// The sections of a segment as its last pass mills them, in the coordinates of its drawing. In compatible mode the tool plunges to the
+/// Returns the sections of a segment as its last pass mills them, in the coordinates of its drawing. In compatible mode the tool plunges to the
 /// bottom even at a bar, as in [`Strand::entry`].
 pub(crate) fn last_pass(path: &Path, member: &ChainSegment, is_compatible: bool) -> Vec<Section> {
     let (cut, curve) = (member.cut(path), member.curve(path));
@@ -203,7 +203,7 @@ pub(crate) fn last_pass(path: &Path, member: &ChainSegment, is_compatible: bool)
     sections
 }
 
-/// Depths from the first to the bottom, computed by repeated subtraction.
+/// Returns the depths from the first to the bottom, computed by repeated subtraction.
 fn depths(first: f64, infeed: f64, bottom: f64) -> Vec<f64> {
     let mut depths = Vec::new();
     let mut z = first;
@@ -226,7 +226,7 @@ fn depths(first: f64, infeed: f64, bottom: f64) -> Vec<f64> {
 /// The edges of a chain that have not been milled yet.
 pub(crate) struct OpenEdges<'a> {
     strands: &'a [Strand<'a>],
-    /// Number of edges of each strand that are done, counted from the top.
+    /// Number of milled edges of each strand, counted from the top.
     done: Vec<usize>,
     /// Both ends of each strand, as indices into `points`.
     ends: Vec<[usize; 2]>,
@@ -237,7 +237,7 @@ pub(crate) struct OpenEdges<'a> {
 /// An end point of one or more strands.
 struct Point {
     at: Xy,
-    /// The strands with edges left, by the depth of their next edge.
+    /// The strands with unmilled edges at this point, by the depth of their next edge.
     levels: BTreeMap<Coordinate, BTreeSet<usize>>,
 }
 
@@ -263,8 +263,8 @@ impl<'a> OpenEdges<'a> {
         open
     }
 
-    /// Takes the next edge: among those whose upper edges are done, the one with an end nearest to the tip, and the first of these if there
-    /// are several.
+    /// Takes the next edge: among those whose upper edges are milled, the one with an end nearest to the tip, and the first of these if there are
+    /// several.
     pub(crate) fn take_nearest(&mut self, tip: Tip) -> Option<Run> {
         let mut best: Option<(f64, Run)> = None;
         for index in self.contenders(tip) {
@@ -284,7 +284,7 @@ impl<'a> OpenEdges<'a> {
         Some(run)
     }
 
-    /// The next edge of a strand, and the distance to its nearer end.
+    /// Returns the distance to the nearer end of a strand's next edge, and that edge.
     fn run(&self, index: usize, tip: Tip) -> (f64, Run) {
         let (strand, edge) = (&self.strands[index], self.done[index]);
         let to = |at: Xy| distance(tip, Tip { at, z: strand.depths[edge] });
@@ -294,9 +294,9 @@ impl<'a> OpenEdges<'a> {
         (least, Run { strand: index, edge, is_backwards })
     }
 
-    /// The strands that can affect the scan, in segment order: the nearest one, and all that approximate comparison cannot tell from it,
-    /// directly or through others in between. Strands beyond the first distinguishable gap between distances never win, and neither do
-    /// those whose next edge begins at the same point and depth as that of an earlier strand.
+    /// Returns the strands that can affect the scan, in segment order: the nearest one, and all that approximate comparison cannot tell from it,
+    /// directly or through others in between. Strands beyond the first distinguishable gap between distances never win, and neither do those whose
+    /// next edge begins at the same point and depth as that of an earlier strand.
     fn contenders(&self, tip: Tip) -> Vec<usize> {
         let place = [tip.at.x, tip.at.y];
         let mut found: Vec<(f64, usize)> = Vec::new();
@@ -304,8 +304,8 @@ impl<'a> OpenEdges<'a> {
         if let Some(nearest) = self.tree.nearest_neighbor(place) {
             self.look(nearest.data, tip, &mut found, &mut reach);
         }
-        // The distance in space is at least the distance in the plane. Asking for points one by one would sort all those at equal
-        // distance.
+        // The distance in space is at least the distance in the plane, so this search misses nothing. Requesting points one by one would sort all
+        // those at equal distance.
         for point in self.tree.locate_within_distance(place, reach * reach) {
             self.look(point.data, tip, &mut found, &mut reach);
         }
@@ -378,7 +378,7 @@ impl<'a> OpenEdges<'a> {
     }
 }
 
-/// How far beyond the nearest edge to search, as a fraction of the distance and in mm: many times the tolerance of comparisons.
+/// Distance beyond the nearest edge to search, as a fraction of that edge's distance and in mm: many times the tolerance of comparisons.
 const MARGIN: f64 = 1e-4;
 
 impl PartialEq for Coordinate {

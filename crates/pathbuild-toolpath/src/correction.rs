@@ -1,4 +1,4 @@
-//! Which moves are corrected by probes, and how they are split for that. (book: language/probes)
+//! Decides which moves are corrected by probes, and splits them. (book: language/probes)
 
 use std::borrow::Cow;
 
@@ -8,7 +8,7 @@ use pathbuild_path::Xy;
 use crate::program::{Count, Height, MoveClass, PlannedMove, Program, ProgramStep};
 use crate::z_model::{Tin, ZModel};
 
-/// How the heights of a program with probes are corrected.
+/// The method by which the heights of a program with probes are corrected.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Correction {
     /// Model of the surface between the probes.
@@ -26,7 +26,7 @@ pub struct UnprobedPoint {
     pub distance: f64,
 }
 
-/// Milling less than this far outside the probes, in mm, is not reported. Numbers in programs are not more precise.
+/// Distance in mm outside the probes up to which milling is not reported. Numbers in programs are not more precise.
 const NEGLIGIBLE: f64 = 0.001;
 
 /// Part length used for [`Correction::outside`] if moves are not split.
@@ -39,7 +39,7 @@ impl Correction {
         self.model == ZModel::Idw4 && self.longest <= 0.0
     }
 
-    /// The steps of a program with probes, split and with each height corrected at the end of its move. Programs without probes, and those
+    /// Returns the steps of a program with probes, split and with each height corrected at the end of its move. Programs without probes, and those
     /// corrected as by the original tool, are returned unchanged.
     pub fn steps(self, program: &Program) -> Cow<'_, [ProgramStep]> {
         if program.probes.is_empty() || self.is_compatible() {
@@ -59,8 +59,7 @@ impl Correction {
         steps.fold(0, u64::saturating_add)
     }
 
-    /// The point at which the program mills farthest outside the probes, if there is one. Only for models whose values there are
-    /// unreliable.
+    /// Returns the point at which the program mills farthest outside the probes, if there is one. `None` for models whose values are reliable there.
     pub fn outside(self, program: &Program) -> Option<UnprobedPoint> {
         if program.probes.is_empty() || self.model == ZModel::Idw4 {
             return None;
@@ -75,7 +74,7 @@ impl Correction {
     }
 }
 
-/// The steps of a program after splitting.
+/// Returns the steps of a program after splitting.
 fn cut(program: &Program, longest: f64) -> impl Iterator<Item = ProgramStep> + '_ {
     walk(program, longest).flat_map(|(before, cut)| {
         let pieces = cut.into_iter().flat_map(|cut| (1..=cut.pieces()).map(move |number| cut.piece(number)));
@@ -83,7 +82,7 @@ fn cut(program: &Program, longest: f64) -> impl Iterator<Item = ProgramStep> + '
     })
 }
 
-/// Yields each step, either as it is or as a move to be split.
+/// Yields each step, either unchanged or as a move to be split.
 fn walk(program: &Program, longest: f64) -> impl Iterator<Item = (Option<ProgramStep>, Option<Cut>)> {
     let mut tool = Tool { at: Xy::origin(), z: program.start_height() };
     let mut is_settled = true;
@@ -100,14 +99,14 @@ fn walk(program: &Program, longest: f64) -> impl Iterator<Item = (Option<Program
     })
 }
 
-/// After a sweep the tool is still at the corrected height of its previous position. A step that mills at once, such as a helical
-/// circle, must begin at the height corrected for its own position.
+/// Creates a lift to the height corrected for the tool's current position: after a sweep the tool is still at the corrected height of its previous
+/// position, but a step that mills at once, such as a helical circle, must begin at the height corrected for its own position.
 fn settle(tool: Tool) -> ProgramStep {
     let count = Count { class: MoveClass::Sweep, length: 0.0, feed: None };
     ProgramStep::Move { to: PlannedMove::Lift { z: Height { z: tool.z, at: tool.at } }, count }
 }
 
-/// The point at which a step cuts material.
+/// Returns the point at which a step cuts material; `None` if it cuts nothing.
 fn milled(step: &ProgramStep) -> Option<Xy> {
     match step {
         ProgramStep::Move { to: PlannedMove::Line { to, .. } | PlannedMove::Arc { to, .. }, .. } => Some(*to),
@@ -116,7 +115,7 @@ fn milled(step: &ProgramStep) -> Option<Xy> {
     }
 }
 
-// Splits a move into parts, each of which ends at the height that the move has there.
+// Splits a move into parts, each of which ends at the height that the move has at that point.
 
 /// Position of the tool.
 #[derive(Clone, Copy, Debug)]
@@ -125,8 +124,9 @@ pub(crate) struct Tool {
     pub(crate) z: f64,
 }
 
-/// How far a part of an arc may deviate from its chord, as a fraction of the maximum length. Within a part the height changes linearly
-/// along the arc, whereas that of a tilted plate changes linearly along the chord. The error is at most the tilt times this deviation.
+/// Deviation of a part of an arc from its chord, as a fraction of the maximum length, up to which the part is not divided. Within a part the height
+/// changes linearly along the arc, whereas that of a tilted plate changes linearly along the chord. The error is at most the tilt times this
+/// deviation.
 const DEPARTURE: f64 = 0.01;
 
 /// Relative increase in length that rounding may cause for a move of an exact number of parts.
@@ -142,7 +142,7 @@ pub(crate) struct Cut {
 }
 
 impl Cut {
-    /// Splits a move from `from`; `longest` is in mm, with 0 for not splitting at all.
+    /// Divides a move from `from`; `longest` is the maximum length of a part in mm, with 0 for not splitting at all.
     pub(crate) fn new(from: Tool, to: PlannedMove, count: Count, longest: f64) -> Self {
         let parts = match to {
             _ if longest <= 0.0 => 1.0,
@@ -172,7 +172,7 @@ impl Cut {
         }
     }
 
-    /// A part, counted from 1, corrected at its end.
+    /// Returns a part, counted from 1, corrected at its end.
     pub(crate) fn piece(&self, number: u64) -> ProgramStep {
         let Tool { at: to, z } = self.after(number);
         let z = Height { z, at: to };
@@ -183,7 +183,7 @@ impl Cut {
             PlannedMove::Line { feed, .. } => PlannedMove::Line { feed, to, z },
             PlannedMove::Arc { feed, clockwise, centre, is_spiral, .. } => {
                 let centre = (self.from.at + centre.coords - self.after(number - 1).at).into();
-                // Half circles of a spiral are written with I0, but parts of them are not.
+                // The native dialect writes half circles of a spiral with I0, but parts of half circles with their real I.
                 let is_spiral = is_spiral && self.pieces == 1;
                 PlannedMove::Arc { feed, clockwise, centre, to, z, is_spiral }
             }
@@ -194,7 +194,7 @@ impl Cut {
         }
     }
 
-    /// Position of the tool after this number of parts.
+    /// Returns the position of the tool after this number of parts.
     fn after(&self, number: u64) -> Tool {
         let end = self.end();
         if number == self.pieces {

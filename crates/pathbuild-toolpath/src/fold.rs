@@ -1,4 +1,4 @@
-//! The fold: a single walk over a path and its embedded paths that keeps track of the position of the tool.
+//! Computes the program of a path in a single walk over it and its embedded paths, keeping track of the position of the tool.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -17,7 +17,7 @@ use crate::program::{
 
 /// Provides the paths to be joined: the emitted path and all paths it embeds.
 pub trait Parts {
-    /// Identifies a path with given values of its variables.
+    /// Identifier of a path with given values of its variables.
     type Id: Copy;
 
     /// Returns the path.
@@ -100,7 +100,7 @@ fn folded<P: Parts>(
     (program, trace)
 }
 
-/// Maximum number of steps for which memory is reserved in advance. Beyond that, growing is cheap compared with computing the steps.
+/// Maximum number of steps for which memory is reserved in advance. Beyond that, reallocation is cheap compared with computing the steps.
 pub(crate) const MOST_FORESEEN: usize = 1 << 16;
 
 /// Position of the tool tip.
@@ -113,24 +113,24 @@ pub(crate) struct Tip {
 pub(crate) struct Fold<'a, P: Parts> {
     parts: &'a P,
     options: PathOptions,
-    /// F for elements without a feed in paths without a feed.
+    /// Default feed F in mm/min, for elements without a feed in paths without a feed.
     feed: f64,
     pub(crate) compatible: bool,
-    /// S of the emitted path, above which there are no obstacles.
+    /// S of the emitted path in mm, above which there are no obstacles.
     clearance: f64,
-    /// F of the last move that had one.
+    /// Feed F in mm/min of the last move that had one.
     last_feed: f64,
     pub(crate) tip: Tip,
     steps: Vec<ProgramStep>,
     names: Names,
     probes: Vec<ProbePoint>,
-    /// The left-out curves, by name of the path.
+    /// Curves on the layers that are left out of the program, by name of the path.
     left_out: BTreeMap<Box<str>, LeftOut>,
-    /// Index of the last sweep as long as only comments follow it; another sweep replaces it.
+    /// Index of the last sweep as long as only comments follow it. A further sweep replaces that one.
     mergeable: Option<usize>,
-    /// The current element.
+    /// The path and element from which the current steps originate.
     here: StepOrigin,
-    /// Records the origin of the steps, if requested.
+    /// Trace to which the origin of each step is added, if requested.
     trace: Option<Trace<P::Id>>,
 }
 
@@ -141,11 +141,11 @@ pub(crate) struct PlacedPath<'a> {
     pub(crate) placement: Placement,
     /// Height h by which the path is raised.
     pub(crate) raised: f64,
-    /// h + T.
+    /// Height h + T of the material's upper face.
     pub(crate) surface: f64,
-    /// h + S.
+    /// Sweep height h + S.
     pub(crate) sweep_height: f64,
-    /// F of the path, or the default feed (--feed).
+    /// F of the path in mm/min, or the default feed (--feed).
     pub(crate) feed: f64,
 }
 
@@ -198,7 +198,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         self.here = outside;
     }
 
-    /// Records what the layers of the path contain besides its elements.
+    /// Records curves on the layers of the path that do not belong to its elements.
     fn note_left_out(&mut self, path: &Path) {
         if path.left_out.is_empty() {
             return;
@@ -303,7 +303,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         self.step(PlannedMove::Lift { z: Height { z: to, at } }, count, Tip { z: to, ..self.tip });
     }
 
-    /// Adds `G00 X Y`. Of several sweeps separated only by comments, the last one is kept, provided that there cannot be obstacles.
+    /// Adds `G00 X Y`. Of several sweeps separated only by comments, only the last one is kept, provided that there cannot be obstacles.
     pub(crate) fn sweep(&mut self, to: Xy, length: f64) {
         if let Some(index) = self.mergeable.take() {
             self.steps.remove(index);
@@ -372,7 +372,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         self.comment(Comment::Pass { number, z });
     }
 
-    /// The feed of a segment, or the default feed (--feed).
+    /// Returns the feed of a segment, or the default feed (--feed), in mm/min.
     pub(crate) fn feed(&self, own: Option<f64>) -> f64 {
         own.unwrap_or(self.feed)
     }
@@ -382,19 +382,18 @@ impl<'a, P: Parts> Fold<'a, P> {
     }
 }
 
-/// Distance in space.
+/// Returns the distance of two positions in space, in mm.
 pub(crate) fn distance(a: Tip, b: Tip) -> f64 {
     let (plane, height) = ((b.at - a.at).norm_squared(), b.z - a.z);
     libm::sqrt(plane + height * height)
 }
 
-// The order in which Z-probes are measured. (book: language/probes)
+// Determines the order in which Z-probes are measured. (book: language/probes)
 
 /// Distances in the tree with a smaller relative difference are considered equal and compared exactly.
 const ROUNDING: f64 = 1e-12;
 
-/// Starts at (0, 0) and repeatedly goes to the nearest probe not yet visited; the first of these if there are several. Returns the indices
-/// of the probes.
+/// Starts at (0, 0) and repeatedly visits the nearest remaining probe; the first of these if there are several. Returns the indices of the probes.
 fn in_order(found: &[ProbePoint]) -> Vec<usize> {
     let mut waiting = UnvisitedProbes::new(found);
     let mut at = Xy::origin();
@@ -408,7 +407,7 @@ fn in_order(found: &[ProbePoint]) -> Vec<usize> {
 
 /// Probes that have not been visited yet.
 struct UnvisitedProbes {
-    /// The probes of each place, by index.
+    /// Indices of the unvisited probes at each position.
     places: Vec<VecDeque<usize>>,
     tree: RTree<GeomWithData<[f64; 2], usize>>,
 }
@@ -448,7 +447,7 @@ mod tests {
         ProbePoint { at, drawn_at: at, height: 0.0, feed: 1.0, label: Some(number.to_string().into()) }
     }
 
-    /// Compares all remaining probes in each step.
+    /// Orders probes by comparing all remaining ones in each step.
     fn one_by_one(mut found: Vec<ProbePoint>) -> Vec<ProbePoint> {
         let (mut ordered, mut at) = (Vec::new(), Xy::origin());
         while !found.is_empty() {

@@ -1,4 +1,4 @@
-//! Milling along a curve, with support bars, and along the helix of a circle. (book: program/gcode)
+//! Generates the moves along a curve, with support bars, and along the helix of a circle. (book: program/gcode)
 
 use std::f64::consts::PI;
 
@@ -17,7 +17,7 @@ pub(crate) struct Section {
 }
 
 impl Section {
-    /// The section in the opposite direction.
+    /// Returns the section in the opposite direction.
     pub(crate) fn reversed(self) -> Self {
         Self { curve: self.curve.reversed(), from_z: self.to_z, to_z: self.from_z }
     }
@@ -44,19 +44,19 @@ impl<P: Parts> Fold<'_, P> {
 
 // Support bars along a segment. (book: program/gcode)
 
-/// The parts of a curve along which bars are left standing with a cutter of diameter `tool`; the whole curve if there is no room for gaps.
+/// Returns the parts of a curve along which bars are left standing with a cutter of diameter `tool`; the whole curve if there is no room for gaps.
 pub fn support_bars(bars: &Bars, bottom: f64, tool: f64, curve: &Curve) -> Vec<Curve> {
     let Some(plan) = BarPlan::new(bars, bottom, tool, curve.length()) else { return vec![*curve] };
     plan.bars().map(|(from, to)| curve.section(from, to)).collect()
 }
 
-/// How deep the parts of a segment with bars are milled, by position along the segment in mm.
+/// The levels of the parts of a segment with bars, by position along the segment in mm.
 #[derive(Clone, Debug)]
 pub(crate) struct BarPlan {
     pieces: Vec<BarSpan>,
 }
 
-/// A range of positions along the segment. A slope leads from one level to the other.
+/// A range of positions along the segment. If its ends are at different levels, it is a slope.
 #[derive(Clone, Copy, Debug)]
 struct BarSpan {
     from: f64,
@@ -74,7 +74,7 @@ impl BarPlan {
             return None;
         }
         let pitch = length / count;
-        // The slopes have 45 degrees if there is room for that, otherwise they are steeper.
+        // The slopes have 45 degrees if there is room for them, otherwise they are steeper.
         let room = ((pitch - bars.length - tool) / 2.0).max(0.0);
         let slope = (bars.top - bottom).min(bars.length / 2.0).min(room);
         let edge = bars.length / 2.0 + tool / 2.0;
@@ -98,13 +98,13 @@ impl BarPlan {
         Some(plan)
     }
 
-    /// The positions of the bars along the segment in mm, including half of O at each end.
+    /// Returns the positions of the bars along the segment in mm, including half of O at each end.
     pub(crate) fn bars(&self) -> impl Iterator<Item = (f64, f64)> {
         let tops = self.pieces.iter().filter(|piece| !piece.starts_low && !piece.ends_low);
         tops.map(|piece| (piece.from, piece.to))
     }
 
-    /// Adds a gap: down, along the bottom, and up. Returns its end position.
+    /// Adds a gap: down, along the bottom, and up. Returns the position of the gap's end.
     fn gap(&mut self, start: f64, slope: f64, between: f64) -> f64 {
         let (low, high) = (start + slope, start + slope + between);
         self.piece(start, low, false, true);
@@ -117,7 +117,7 @@ impl BarPlan {
         self.pieces.push(BarSpan { from, to, starts_low, ends_low });
     }
 
-    /// The sections along a curve in order from its start, with gaps at `low` and bars at `high`.
+    /// Returns the sections along a curve in order from its start, with gaps at `low` and bars at `high`.
     pub(crate) fn sections(&self, curve: &Curve, low: f64, high: f64) -> Vec<Section> {
         let level = |is_low| if is_low { low } else { high };
         let section = |piece: &BarSpan| Section {
@@ -143,7 +143,7 @@ struct Circle {
 }
 
 impl Circle {
-    /// The lowest point in the plane, where full circles begin and end.
+    /// Returns the point with the least Y, where full circles begin and end.
     fn low(&self) -> Xy {
         Xy::new(self.centre.x, self.centre.y - self.radius)
     }
@@ -152,7 +152,7 @@ impl Circle {
         Xy::new(self.centre.x, self.centre.y + self.radius)
     }
 
-    /// The full circle, clockwise from its lowest point.
+    /// Returns the full circle, clockwise from its lowest point.
     fn curve(&self) -> Curve {
         let low = self.low();
         Curve::Arc(Arc {
@@ -245,12 +245,12 @@ impl<P: Parts> Fold<'_, P> {
     }
 }
 
-/// The full circle on which the cutter's axis moves, in the coordinates of its drawing.
+/// Returns the full circle on which the cutter's axis moves, in the coordinates of its drawing.
 pub(crate) fn axis_circle(helix: &Helix, tool: f64) -> Curve {
     Circle { centre: helix.centre, radius: helix.axis_radius(tool), feed: 0.0 }.curve()
 }
 
-/// The last turns of a helix and its circle with bars, in the coordinates of its drawing, as if all were milled in a single pass.
+/// Returns the last turns of a helix and its circle with bars, in the coordinates of its drawing, as if all were milled in a single pass.
 pub(crate) fn last_turns(helix: &Helix, surface: f64, tool: f64) -> Vec<Section> {
     let curve = axis_circle(helix, tool);
     let half = curve.length() / 2.0;

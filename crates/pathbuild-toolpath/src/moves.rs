@@ -1,4 +1,4 @@
-//! The moves of a program, and the curves along which they are checked against clamps. (book: program/gcode)
+//! Converts the steps of a program to moves, and moves to the curves that are checked against clamps. (book: program/gcode)
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,7 +9,7 @@ use pathbuild_path::{Curve, Line, TipMove, Xy};
 use crate::program::{PlannedMove, Program, ProgramStep};
 
 impl Program {
-    /// The moves as an interpreter of the native text sees them, from (0, 0, S0) to the last lift to S0. Instead of a line, each has the
+    /// Returns the moves as an interpreter of the native text sees them, from (0, 0, S0) to the last lift to S0. Instead of a line, each has the
     /// number of its step, counted from 1.
     pub fn moves(&self) -> impl Iterator<Item = (u32, Move)> {
         let height = self.start_height();
@@ -23,7 +23,7 @@ impl Program {
         })
     }
 
-    /// The moves of the probing program, each with the index of the probe that it goes to or comes from. Empty without probes.
+    /// Returns the moves of the probing program, each with the index of the probe that it goes to or comes from. Empty without probes.
     pub fn probing_moves(&self) -> impl Iterator<Item = (usize, Move)> {
         let clearance = self.sweep_height;
         let mut tool = ToolTip::new(clearance);
@@ -41,7 +41,7 @@ impl Program {
     }
 }
 
-/// The tool tip on its way along the steps of a program.
+/// The position of the tool tip while the steps of a program are made.
 #[derive(Clone, Copy, Debug)]
 pub struct ToolTip {
     /// The current position.
@@ -49,12 +49,12 @@ pub struct ToolTip {
 }
 
 impl ToolTip {
-    /// Starts above (0, 0) at this height in mm.
+    /// Creates a tool tip above (0, 0) at this height in mm.
     pub fn new(height: f64) -> Self {
         Self { at: Position::known(0.0, 0.0, height) }
     }
 
-    /// Makes a move that is counted with this length in the statistics, in mm.
+    /// Makes a move to its target and returns it. `length` is the move's length in mm for the statistics.
     pub fn go(&mut self, to: &PlannedMove, length: f64) -> Move {
         match *to {
             PlannedMove::Sweep { to } => self.straight(place(to, self.at.z()), Pace::Rapid),
@@ -66,8 +66,8 @@ impl ToolTip {
                 let centre = [self.at.x() + centre.x, self.at.y() + centre.y];
                 let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
                 let to = place(to, z.z);
-                // Ends that coincide or almost coincide may stand for an arc of almost no length or for a full circle; the length tells
-                // which. Only ends that contradict the length are corrected; an arc that is not quite a full circle remains.
+                // An arc whose ends coincide, or almost coincide, may have almost no length or be a full circle; the length decides. Only ends that
+                // contradict the length are corrected; an arc that is not quite a full circle remains.
                 let (radius, sweep) = (arc.radius(&self.at), arc.sweep(&self.at, &to));
                 let is_whole = length > (sweep + PI) * radius && is_doubtful(relative, length);
                 let is_next_to_nothing = length < radius && sweep > PI || is_point(relative);
@@ -78,7 +78,7 @@ impl ToolTip {
         }
     }
 
-    /// A rapid move to a height.
+    /// Makes a rapid move to a height and returns it.
     pub fn lift(&mut self, z: f64) -> Move {
         self.straight(self.at_height(z), Pace::Rapid)
     }
@@ -101,7 +101,7 @@ fn place(at: Xy, z: f64) -> Position {
     Position::known(at.x, at.y, z)
 }
 
-/// Whether the radius of an arc is printed as zero. Controllers do not accept that, so the arc is written as a line.
+/// Whether the radius of an arc is printed as zero. Controllers do not accept such an arc, so it is written as a line.
 pub fn is_point(centre: Xy) -> bool {
     centre.coords.amax() < LAST_DIGIT / 2.0
 }
@@ -114,11 +114,12 @@ pub fn is_doubtful(centre: Xy, length: f64) -> bool {
 /// Unit of the last printed digit, in mm.
 pub const LAST_DIGIT: f64 = 0.001;
 
-/// Several times the distance in mm by which rounding moves an end along the arc.
+/// Difference in mm from an empty arc or a full circle up to which an arc is doubtful: several times the distance by which rounding moves an end
+/// along the arc.
 const DOUBTFUL_ARC_LENGTH: f64 = 10.0 * LAST_DIGIT;
 
-/// The [`TipMove`] of a move, as far as it is known. If only the end of the move is known, a way without length at that point; `None` if even
-/// the end is unknown.
+/// Returns the [`TipMove`] of a move. If only the end of the move is known, it is a curve without length at that point; `None` if even the end is
+/// unknown.
 pub fn way(movement: &Move) -> Option<TipMove> {
     let [from, to] = [movement.from, movement.to].map(|end| Xy::new(end.x(), end.y()));
     if !movement.to.known.has(Axes::ALL) {
@@ -133,7 +134,7 @@ pub fn way(movement: &Move) -> Option<TipMove> {
     let Some(course) = movement.course() else { return Some(TipMove { curve: straight, from_z, to_z }) };
     let (arc, radius) = (course.arc(), course.radius());
     if arc.plane != Plane::Xy {
-        // Seen from above the arc is a straight line. Use its lowest point for all of it.
+        // The arc is not in the plane XY, so it is a straight line as seen from above. Use its lowest point for all of it.
         let lowest = from_z.min(to_z).min(arc.centre[1] - radius).min(arc.centre[0] - radius);
         return Some(TipMove { curve: straight, from_z: lowest, to_z: lowest });
     }
@@ -146,7 +147,7 @@ pub fn way(movement: &Move) -> Option<TipMove> {
     Some(TipMove { curve, from_z, to_z })
 }
 
-/// The name of a move in findings about clamps.
+/// Returns the name of a move in findings about clamps.
 pub fn kind_of_move(movement: &Move) -> &'static Text {
     match movement.pace {
         Pace::Rapid => &words::RAPID_MOVE,

@@ -1,4 +1,4 @@
-//! The cuts of a single path, for the check of its part. (book: language/part)
+//! Collects the cuts of a single path, for the check of its part. (book: language/part)
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,8 @@ use pathbuild_path::{
 use crate::chain::last_pass;
 use crate::mill::{BarPlan, Section, axis_circle, last_turns};
 
-/// The cuts of a path without the paths that it embeds, in the coordinates of its drawing. `is_slot`: whether a slot cutter mills it.
+/// Returns the cuts of a path without those of embedded paths, in the coordinates of its drawing. `is_slot` states whether a slot cutter mills the
+/// path.
 pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible: bool) -> PathCuts {
     let mut found = CutCollector { path, numbers: BTreeMap::new(), elements: Vec::new(), cuts: Vec::new() };
     for item in &walked.items {
@@ -36,7 +37,7 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
             Item::Sweep(_) | Item::Subpath(_) => {}
         }
     }
-    // The cuts are kept as long as the drawing's index, so free the spare capacity.
+    // The cuts are stored as long as the drawing's index, so free the spare capacity.
     found.cuts.shrink_to_fit();
     PathCuts {
         name: path.name.clone(),
@@ -50,7 +51,7 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
     }
 }
 
-/// Collects the cuts of a path, element by element.
+/// Collector of the cuts of a path, element by element.
 struct CutCollector<'p> {
     path: &'p Path,
     /// The indices into `elements`, by index of the drawn element.
@@ -60,7 +61,7 @@ struct CutCollector<'p> {
 }
 
 impl CutCollector<'_> {
-    /// Adds those sections of an element that lie in the material. `supported`: its whole segment, if it has bars.
+    /// Adds those sections of an element that lie in the material. `supported` is the whole segment if it has bars.
     fn add(&mut self, drawn: u32, supported: Option<Curve>, sections: impl IntoIterator<Item = Section>) {
         for Section { curve, from_z, to_z } in sections {
             let way = TipMove { curve, from_z, to_z };
@@ -84,7 +85,7 @@ fn embedded(path: &Path, item: &Item) -> Option<EmbeddedPlace> {
     Some(EmbeddedPlace { segment: *segment, ends: (*start, *end), height: subpath.height })
 }
 
-/// An element that has not cut anything yet.
+/// Creates an element without cuts.
 fn cut_element(path: &Path, number: u32, supported: Option<Curve>) -> CutElement {
     let element = &path.drawn.elements[number as usize];
     CutElement {
@@ -95,7 +96,7 @@ fn cut_element(path: &Path, number: u32, supported: Option<Curve>) -> CutElement
     }
 }
 
-/// The support bars of a path.
+/// Returns the support bars of a path.
 fn bars(path: &Path) -> Vec<StandingBar> {
     let mut all = Vec::new();
     let mut halves = Vec::new();
@@ -128,7 +129,7 @@ fn bars(path: &Path) -> Vec<StandingBar> {
     all.into_iter().map(|bar: BarPlace| bar.standing(path.tool / 2.0, &goes_on)).collect()
 }
 
-/// The bars of a segment.
+/// The bars of a segment, and the segment that they lie on.
 struct BarsAlong<'b> {
     bars: &'b Bars,
     bottom: f64,
@@ -140,7 +141,7 @@ struct BarPlace {
     curve: Curve,
     from: f64,
     to: f64,
-    /// Upper bound on the length in mm of the slopes beside it.
+    /// Upper bound on the length in mm of the slopes beside the bar.
     slope: f64,
     top: f64,
 }
@@ -162,7 +163,7 @@ impl BarsAlong<'_> {
 }
 
 impl BarPlace {
-    /// The bar as the cuts beside it leave it.
+    /// Returns the bar as the cuts beside it leave it.
     fn standing(&self, radius: f64, goes_on: &dyn Fn(Xy) -> bool) -> StandingBar {
         let length = self.curve.length();
         let is_whole = |end: f64, at: Xy| approx::near(end, 0.0) && goes_on(at);
@@ -174,5 +175,5 @@ impl BarPlace {
     }
 }
 
-/// Length in mm up to which what is left of a bar does not count.
+/// Length in mm up to which the remnant of a bar does not count.
 const MIN_BAR_REST: f64 = 0.01;

@@ -1,4 +1,4 @@
-//! The finished program, the origins of its steps, its lengths and times, and an estimate of its size. (book: program/gcode)
+//! Defines the finished program, the origins of its steps, its lengths and times, and an estimate of its size. (book: program/gcode)
 
 use std::collections::BTreeMap;
 use std::ops::Add;
@@ -16,7 +16,7 @@ use pathbuild_path::{
 pub struct Program {
     /// Name of the emitted path, with dots, as the drawing spells its layer.
     pub path: Box<str>,
-    /// Suffix added to the names of its files (R).
+    /// Suffix added to the names of the program's files (R).
     pub output_suffix: Box<str>,
     /// File name of the drawing, without directory.
     pub drawing: Box<str>,
@@ -26,7 +26,7 @@ pub struct Program {
     pub sweep_height: f64,
     /// Upper face T of the material in mm.
     pub thickness: f64,
-    /// Whether it is to be written in the form of `PathDxf2GCode`. (book: program/compatible)
+    /// Whether the program is to be written in the form of `PathDxf2GCode`. (book: program/compatible)
     pub compatible: bool,
     /// Texts referred to by steps.
     pub names: Names,
@@ -34,7 +34,7 @@ pub struct Program {
     pub steps: Vec<ProgramStep>,
     /// Z-probes in the order in which they are measured, starting with #51.
     pub probes: Vec<ProbePoint>,
-    /// Elements on the layers of its paths that do not belong to them.
+    /// Curves on the layers of the program's paths that do not belong to these paths (PB111).
     pub left_out: Vec<LeftOut>,
 }
 
@@ -43,16 +43,16 @@ pub struct Program {
 pub struct LeftOut {
     /// Name of the path.
     pub path: Box<str>,
-    /// Their types, with the number of curves of each.
+    /// Types of the curves, with the number of curves of each.
     pub entities: Vec<(EntityKind, usize)>,
 }
 
 /// A point at which the real height is measured before milling. (book: language/probes)
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProbePoint {
-    /// In program coordinates.
+    /// Position in program coordinates.
     pub at: Xy,
-    /// In the coordinates of its drawing, where the user will look for it.
+    /// Position in the coordinates of the probe's drawing, where the user will look for it.
     pub drawn_at: Xy,
     /// Expected height in mm.
     pub height: f64,
@@ -63,12 +63,12 @@ pub struct ProbePoint {
 }
 
 impl Program {
-    /// O in mm, if the same cutter mills everything.
+    /// Returns O in mm, if the same cutter mills everything.
     pub fn cutter(&self) -> Option<f64> {
         self.elements().all(|(cutter, _)| cutter == self.tool).then_some(self.tool)
     }
 
-    /// Height of the upper face of the material in mm, if it is the same everywhere.
+    /// Returns the height of the upper face of the material in mm, if it is the same everywhere.
     pub fn surface(&self) -> Option<f64> {
         self.elements().all(|(_, surface)| surface == self.thickness).then_some(self.thickness)
     }
@@ -78,7 +78,7 @@ impl Program {
         self.elements().map(|(cutter, _)| cutter).fold(self.tool, f64::max)
     }
 
-    /// The cutter diameter of each element, and the upper face of its material.
+    /// Returns the cutter diameter of each element, and the upper face of its material, in mm.
     fn elements(&self) -> impl Iterator<Item = (f64, f64)> {
         self.steps.iter().filter_map(|step| match step {
             ProgramStep::Comment(Comment::Element { cutter, surface, .. }) => Some((*cutter, *surface)),
@@ -86,16 +86,16 @@ impl Program {
         })
     }
 
-    /// S0, which is slightly above S, so that the first sweep always writes its Z.
+    /// Returns S0 in mm, which is slightly above S, so that the first sweep always writes its Z.
     pub fn start_height(&self) -> f64 {
         self.sweep_height * (1.0 + 0.000_002)
     }
 }
 
-/// The feed in mm/min at the start of a compatible program: the header sets it, and plunges do not write a feed.
+/// The feed in mm/min at the start of a compatible program: its header sets this feed, and plunges do not write one.
 pub(crate) const FIRST_FEED: f64 = 150.0;
 
-/// A move or a comment.
+/// A move or a comment, as the writer of a program needs it.
 ///
 /// It carries what a step of the machine (`pathbuild_motion::Step`) cannot: how the original tool counts the move, the point for which its
 /// height is corrected, half circles of helices, and comments that name elements. [`Program::moves`] gives the machine's moves.
@@ -114,17 +114,17 @@ pub enum PlannedMove {
     Sweep { to: Xy },
     /// `G00 Z`: a rapid up or down.
     Lift { z: Height },
-    /// `G01 F Z`: down into the material.
+    /// `G01 F Z`: a straight cut down into the material.
     Drill { feed: f64, z: Height },
-    /// `G01 F X Y Z`.
+    /// `G01 F X Y Z`: a straight cut.
     Line { feed: f64, to: Xy, z: Height },
-    /// `G02`/`G03 F I J X Y Z`. `centre` is relative to the start of the arc, like I and J. `is_spiral` marks a half circle of a helical
+    /// `G02`/`G03 F I J X Y Z`: an arc. `centre` is relative to the start of the arc, like I and J. `is_spiral` marks a half circle of a helical
     /// circle, which the native dialect writes with a plain `I0`.
     Arc { feed: f64, clockwise: bool, centre: Xy, to: Xy, z: Height, is_spiral: bool },
 }
 
 impl ProgramStep {
-    /// The target height of a move, if it has one.
+    /// Returns the target height of a move; `None` for a sweep, which keeps its height.
     pub fn height(&self) -> Option<Height> {
         match *self {
             Self::Comment(_) | Self::Move { to: PlannedMove::Sweep { .. }, .. } => None,
@@ -145,7 +145,7 @@ impl ProgramStep {
 pub struct Height {
     /// Z in mm.
     pub z: f64,
-    /// The point for which the height is corrected: the start of the move or the centre of a helical circle.
+    /// The point in program coordinates for which the height is corrected: the start of the move or the centre of a helical circle.
     /// [`Correction::steps`](crate::Correction::steps) replaces it by the end of the move.
     pub at: Xy,
 }
@@ -153,7 +153,7 @@ pub struct Height {
 /// The contribution of a move to the statistics of the original tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Count {
-    /// The label it is counted under.
+    /// The label under which the move is counted.
     pub class: MoveClass,
     /// Length in mm as counted by the original tool: in the plane, but for sweeps including the difference in height.
     pub length: f64,
@@ -161,7 +161,7 @@ pub struct Count {
     pub feed: Option<f64>,
 }
 
-/// The labels of the statistics.
+/// The labels of the original tool's statistics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum MoveClass {
@@ -183,15 +183,15 @@ pub enum Comment {
     Element {
         /// Kind of the element.
         kind: ElementKind,
-        /// Its start in mm, in the coordinates of its drawing instead of those of the program.
+        /// Start of the element in mm, in the coordinates of its drawing instead of those of the program.
         at: Xy,
         /// Bottom of the hole or chain in mm, in program heights. Drilling cycles need it.
         bottom: f64,
-        /// Height of the upper face of the material there, in mm.
+        /// Height of the upper face of the material at the element, in mm.
         surface: f64,
         /// Cutter diameter O in mm, which may differ between embedded paths.
         cutter: f64,
-        /// Peck depth C of a hole.
+        /// Peck depth C of a hole in mm.
         peck: Option<f64>,
     },
     /// Start of a pass of a milling chain.
@@ -236,7 +236,7 @@ impl Names {
         number
     }
 
-    /// The text with an index returned by [`intern`](Self::intern) of the same table.
+    /// Returns the text with an index that [`intern`](Self::intern) of the same table returned.
     pub fn get(&self, id: NameId) -> &str {
         &self.texts[id.0 as usize]
     }
@@ -249,28 +249,28 @@ impl Names {
 pub struct Trace<Id> {
     /// The paths in the program, beginning with the emitted one. A path that is embedded twice occurs twice.
     pub occurrences: Vec<Occurrence<Id>>,
-    /// The element of each step of the program.
+    /// The element from which each step of the program originates.
     pub steps: Vec<StepOrigin>,
-    /// The origin of each of [`Program::probes`].
+    /// The origin of each element of [`Program::probes`].
     pub probes: Vec<ProbeOrigin>,
 }
 
 /// A path at its place in a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Occurrence<Id> {
-    /// Identifies the path and the values of its variables.
+    /// Identifier of the path and of the values of its variables.
     pub id: Id,
-    /// The element that embeds it, or `None` for the emitted path.
+    /// The element that embeds the path; `None` for the emitted path.
     pub parent: Option<StepOrigin>,
-    /// Placement of its drawing in the program.
+    /// Placement of the path's drawing in the program.
     pub placement: Placement,
-    /// Height by which it is raised, in mm.
+    /// Height in mm by which the path is raised.
     pub raised: f64,
-    /// S in mm, before it is raised.
+    /// Sweep height S of the path in mm, before it is raised.
     pub sweep_height: f64,
 }
 
-/// An element in a program.
+/// The element of a placed path from which a step originates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StepOrigin {
     /// Index into [`Trace::occurrences`].
@@ -279,7 +279,7 @@ pub struct StepOrigin {
     pub element: Option<u32>,
 }
 
-/// A Z-probe in a program.
+/// The probe of a placed path from which a probe of the program originates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ProbeOrigin {
     /// Index into [`Trace::occurrences`].
@@ -296,12 +296,12 @@ impl<Id> Default for Trace<Id> {
 
 // Estimates the number of moves of a path before they are computed, so that limits can be checked first.
 
-/// Approximate number of moves of a path without its embedded paths: never less than half the real number; saturates.
+/// Estimates the number of moves of a path without its embedded paths: never less than half the real number; saturates.
 pub fn own_moves(path: &Path, walked: &WalkedPath) -> u64 {
     walked.items.iter().map(|item| moves(path, walked, item)).fold(0, u64::saturating_add)
 }
 
-/// Approximate memory in bytes for this number of moves in a program, each with a comment.
+/// Estimates the memory in bytes for this number of moves in a program, each with a comment.
 pub fn memory(moves: u64) -> u64 {
     moves.saturating_mul(2 * size_of::<ProgramStep>() as u64)
 }
@@ -316,7 +316,7 @@ fn moves(path: &Path, walked: &WalkedPath, item: &Item) -> u64 {
 
 fn chain_moves(path: &Path, chain: &Chain, members: &[ChainSegment]) -> u64 {
     let first = chain.first_depth.unwrap_or(path.thickness);
-    // Consecutive segments usually share their parameters.
+    // Consecutive segments usually share their parameters, so the last result is cached.
     let mut last: Option<(&CutParameters, u64)> = None;
     let segments = members.iter().map(|member| {
         let cut = member.cut(path);
@@ -339,7 +339,7 @@ fn helix_moves(path: &Path, helix: &Helix) -> u64 {
     spiral.saturating_add(with_bars)
 }
 
-/// The sections of a segment with bars: each gap is a slope, a low section, a slope and the next bar.
+/// Returns the number of sections of a segment with bars: each gap is a slope, a low section, a slope and the next bar.
 fn sections(bars: &Bars, length: f64) -> u64 {
     whole(4.0 * bars.count(length) + 1.0)
 }
@@ -357,7 +357,7 @@ fn whole(number: f64) -> u64 {
     number as u64
 }
 
-/// The totals of a program.
+/// The totals of a program, by the labels of the original tool's statistics.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Statistics {
@@ -371,7 +371,7 @@ pub struct Statistics {
 /// Total length and time of moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Total {
-    /// In mm.
+    /// Length in mm.
     pub length: f64,
     /// Sum of length / feed in minutes, which ignores acceleration.
     pub time: f64,
@@ -381,8 +381,8 @@ pub struct Total {
 const SLOWDOWN: f64 = 1.4;
 
 impl Statistics {
-    /// The statistics that `PathDxf2GCode` writes for a program, with a rapid feed in mm/min. They use planned lengths, which can differ
-    /// from those of the moves. Only compatible programs have them.
+    /// Returns the statistics that `PathDxf2GCode` writes for a program, with a rapid feed in mm/min. They use planned lengths, which can differ from
+    /// those of the moves. Only compatible programs have such statistics.
     pub fn of_reference(program: &Program, rapid: f64) -> Self {
         let mut statistics = Self::default();
         for step in &program.steps {
@@ -396,7 +396,7 @@ impl Statistics {
         statistics
     }
 
-    /// The sum of all totals.
+    /// Returns the sum of milling, drilling and sweeps.
     pub fn sum(&self) -> Total {
         let totals = [self.milling, self.drilling, self.sweeps];
         totals.into_iter().fold(Total::default(), Add::add)
@@ -423,7 +423,7 @@ impl Add for Total {
 }
 
 impl Total {
-    /// Estimated real time in whole minutes, rounded up after discarding less than 0.0000001 s.
+    /// Returns the estimated real time in whole minutes, rounded up after discarding less than 0.0000001 s.
     pub fn minutes(&self) -> f64 {
         let seconds = SLOWDOWN * self.time * 60.0;
         ((seconds * 1e7).round() / 1e7 / 60.0).ceil()

@@ -1,8 +1,8 @@
 //! Models the height of the material between probes. (book: language/probes)
 //!
-//! The models describe the correction, that is, by how much the material is higher than drawn. At each point it is a linear combination of
-//! the corrections at the probes. Therefore a [`Surface`] depends only on their positions, and a program made with it is valid until they
-//! move.
+//! The models describe the correction, that is, by how much the material is higher than drawn. At each point it is a linear combination of the
+//! corrections at the probes. Therefore a [`Surface`] depends only on the probes' positions, and a program made with it remains valid until a probe
+//! is moved.
 
 use std::collections::BTreeMap;
 
@@ -12,18 +12,17 @@ use pathbuild_path::Xy;
 use rstar::primitives::{GeomWithData, Line, Rectangle};
 use rstar::{AABB, RTree};
 
-/// How heights between probes are interpolated.
+/// The method by which heights between probes are interpolated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ZModel {
-    /// The four nearest probes, weighted by the inverse of their distance. It distorts planes, and it is discontinuous where the selection
-    /// changes.
+    /// The four nearest probes, weighted by the inverse of their distance. This distorts planes, and it is discontinuous where the selection changes.
     #[default]
     Idw4,
     /// The best-fitting plane (least squares). One probe gives a constant height; two probes, or probes on a line, give no slope across the
     /// line.
     Plane,
-    /// Triangles between the probes (Delaunay); outside of them the value at the nearest edge. For probes on a line, the value at its
-    /// nearest point.
+    /// Triangles between the probes (Delaunay); outside of them the value at the nearest edge. If all probes are on a line, the value at the nearest
+    /// point of that line.
     Tin,
 }
 
@@ -51,7 +50,7 @@ impl Surface {
         Self { model }
     }
 
-    /// The weight of each probe at a point: indices of probes with weights whose sum is 1. Probes with weight 0 may be omitted. Empty if
+    /// Returns the weight of each probe at a point: indices of probes with weights whose sum is 1. Probes with weight 0 may be omitted. Empty if
     /// there are no probes.
     pub fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
         match &self.model {
@@ -62,11 +61,11 @@ impl Surface {
     }
 }
 
-/// If the extent of points across their main direction is less than this fraction of their extent along it, they are treated as collinear,
-/// because they say nothing reliable about the slope across.
+/// Ratio of the extent of points across their main direction to that along it, below which they are treated as collinear, because they do not
+/// determine the slope across reliably.
 const COLLINEAR_RATIO: f64 = 0.01;
 
-/// Points whose average distance from their mean is less than this, in mm, are treated as a single point.
+/// Average distance of points from their mean in mm, below which they are treated as a single point.
 const SINGLE_POINT_SPREAD: f64 = 0.001;
 
 /// The distribution of points around their mean, as a matrix of second moments in mm².
@@ -78,7 +77,7 @@ pub(super) struct Scatter {
 }
 
 impl Scatter {
-    /// The distribution of one or more points.
+    /// Computes the distribution of one or more points.
     pub(super) fn new(points: &[Xy]) -> Self {
         let count = points.len() as f64;
         let sum = points.iter().fold(Vector2::zeros(), |sum, point| sum + point.coords);
@@ -87,7 +86,7 @@ impl Scatter {
         Self { count, middle, moments }
     }
 
-    /// The distribution without one of the points.
+    /// Returns the distribution without one of the points.
     pub(super) fn without(&self, point: Xy) -> Self {
         let (d, count) = (point - self.middle, self.count - 1.0);
         let moments = self.moments - d * d.transpose() * (self.count / count);
@@ -100,7 +99,7 @@ impl Scatter {
         short > COLLINEAR_RATIO * COLLINEAR_RATIO * long && !self.is_point()
     }
 
-    /// The matrix that converts a position to the contribution of each point to the slope: the inverse of the moments. For collinear points
+    /// Returns the matrix that converts a position to the contribution of each point to the slope: the inverse of the moments. For collinear points
     /// it only has a component along the line, and for a single point it is zero.
     fn inverse(&self) -> Matrix2<f64> {
         if self.is_point() {
@@ -117,7 +116,7 @@ impl Scatter {
         self.moments.trace() <= self.count * SINGLE_POINT_SPREAD * SINGLE_POINT_SPREAD
     }
 
-    /// The moments along the main direction and across it.
+    /// Returns the moments along the main direction and across it, in mm².
     fn principal(&self) -> (f64, f64) {
         let half = self.moments.trace() / 2.0;
         let long = half + self.eccentricity();
@@ -133,10 +132,10 @@ impl Scatter {
         (self.moments.m11 - self.moments.m22) / 2.0
     }
 
-    /// The main direction.
+    /// Returns the main direction.
     fn direction(&self) -> Vector2<f64> {
         let (difference, eccentricity) = (self.difference(), self.eccentricity());
-        // Of the two forms of the eigenvector, use the one without cancellation.
+        // Of the two forms of the eigenvector, use the one without cancellation of digits.
         let along = if difference >= 0.0 {
             Vector2::new(eccentricity + difference, self.moments.m12)
         } else {
@@ -146,7 +145,7 @@ impl Scatter {
     }
 }
 
-/// The least-squares plane.
+/// The least-squares plane for probes at given positions. Its height at a point depends linearly on the heights at the probes.
 #[derive(Clone, Debug)]
 pub(super) struct Plane {
     middle: Xy,
@@ -172,7 +171,7 @@ impl Plane {
 /// Number of probes used for a point.
 const PROBES_PER_POINT: usize = 4;
 
-/// Weights with a smaller relative difference are considered equal by the tree and ordered by index.
+/// Relative difference of weights below which the tree may order them wrongly, so that they are ordered by index.
 const SAME_WEIGHT: f64 = 1e-12;
 
 /// The model of the original tool. (book: language/probes)
@@ -196,7 +195,7 @@ impl Nearest {
         Self { places: RTree::bulk_load(places.into_values().collect()) }
     }
 
-    /// The probes with the greatest weights in descending order; equal weights are ordered by index.
+    /// Returns the probes with the greatest weights in descending order; equal weights are ordered by index.
     fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
         let mut weights: Vec<(usize, f64)> = Vec::new();
         for place in self.places.nearest_neighbor_iter([at.x, at.y]) {
@@ -227,10 +226,10 @@ impl Nearest {
 /// Distance in mm below which a probe is never odd, however well the others fit.
 const MIN_ODD_DISTANCE: f64 = 0.1;
 
-/// Minimum ratio of the distance to the scatter of the others.
+/// Minimum ratio of a probe's distance from the plane to the scatter of the other probes.
 const FACTOR: f64 = 4.0;
 
-/// Degrees of freedom of a plane.
+/// Number of degrees of freedom of a plane.
 const PLANE_FREEDOM: f64 = 3.0;
 
 /// A probe that does not fit its neighbours.
@@ -238,7 +237,7 @@ const PLANE_FREEDOM: f64 = 3.0;
 pub struct OddProbe {
     /// Index of the probe, in the given order.
     pub probe: usize,
-    /// Height above the plane through the others, in mm.
+    /// Height of the probe above the plane through the others, in mm.
     pub off: f64,
 }
 
@@ -282,8 +281,8 @@ impl Fit {
         off - self.mean - self.slope.dot(&(place - self.scatter.middle))
     }
 
-    /// The distance of a probe from the plane through the others, if it is odd. That plane need not be fitted: the influence of a probe on
-    /// the plane through all of them tells how far it has pulled that plane.
+    /// Returns the distance of a probe from the plane through the others, if the probe is odd. That plane need not be fitted: it follows from the
+    /// influence of the probe on the plane through all probes.
     fn odd(&self, probe: (Xy, f64)) -> Option<f64> {
         let place = probe.0 - self.scatter.middle;
         if !self.scatter.without(probe.0).is_wide() {
@@ -307,7 +306,7 @@ pub(crate) struct Tin {
     border: Vec<[usize; 2]>,
     /// Bounding boxes of the triangles, with their indices.
     boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
-    /// The edges with their indices.
+    /// The edges of the border, with their indices.
     edges: RTree<GeomWithData<Line<[f64; 2]>, usize>>,
 }
 
@@ -318,10 +317,10 @@ struct ProbedPoint {
     probes: Vec<usize>,
 }
 
-/// How far outside a triangle, as a fraction of it, a point is still considered to be inside.
+/// Distance outside a triangle, as a fraction of its size, up to which a point counts as inside.
 const ROUNDING: f64 = 1e-9;
 
-/// Edges whose squared distances in mm² differ by less are considered equal by the tree and compared exactly.
+/// Difference of squared distances in mm² below which the tree may order edges wrongly, so that they are compared exactly.
 const AS_NEAR: f64 = 1e-12;
 
 impl Tin {
@@ -348,7 +347,7 @@ impl Tin {
         }
     }
 
-    /// Distance in mm from the triangles (or from the line or the single probe); 0 inside.
+    /// Returns the distance in mm from the triangles (or from the line or the single probe); 0 inside.
     pub(crate) fn distance(&self, at: Xy) -> f64 {
         if self.around(at).is_some() {
             return 0.0;
@@ -359,7 +358,7 @@ impl Tin {
         }
     }
 
-    /// The first triangle that contains a point, with the barycentric coordinates of the point.
+    /// Returns the first triangle that contains a point, with the barycentric coordinates of the point.
     fn around(&self, at: Xy) -> Option<(usize, [f64; 3])> {
         let near = self.boxes.locate_in_envelope_intersecting(AABB::from_point([at.x, at.y]));
         let around = near
@@ -367,14 +366,14 @@ impl Tin {
         around.min_by_key(|(number, _)| *number)
     }
 
-    /// Barycentric coordinates of a point with respect to a triangle, if the point is inside.
+    /// Returns the barycentric coordinates of a point with respect to a triangle, if the point is inside.
     fn inside(&self, corners: [usize; 3], at: Xy) -> Option<[f64; 3]> {
         let [a, b, c] = corners.map(|corner| self.places[corner].at);
         let (ab, ac, ap) = (b - a, c - a, at - a);
         let area = ab.perp(&ac);
         let (of_b, of_c) = (ap.perp(&ac) / area, ab.perp(&ap) / area);
         let parts = [1.0 - of_b - of_c, of_b, of_c];
-        // The coordinates are NaN for a triangle without area, so that nothing is inside.
+        // A triangle without area contains nothing, because the coordinates are NaN.
         parts.iter().all(|part| *part >= -ROUNDING).then_some(parts)
     }
 
@@ -385,7 +384,7 @@ impl Tin {
         }
     }
 
-    /// The nearest edge (the first if there are several), the fraction along it of its nearest point, and the distance.
+    /// Returns the nearest edge (the first if there are several), the fraction along it of its nearest point, and the distance in mm.
     fn nearest(&self, at: Xy) -> Option<([usize; 2], f64, f64)> {
         let mut near = self.edges.nearest_neighbor_iter_with_distance_2([at.x, at.y]).peekable();
         let (_, least) = *near.peek()?;
@@ -396,7 +395,7 @@ impl Tin {
         first.map(|((along, distance), edge)| (self.border[edge], along, distance))
     }
 
-    /// The fraction along an edge of its point nearest to `at`, and the distance.
+    /// Returns the fraction along an edge of its point nearest to `at`, and the distance in mm.
     fn along(&self, edge: usize, at: Xy) -> (f64, f64) {
         let [start, end] = self.border[edge].map(|place| self.places[place].at);
         let way = end - start;
@@ -431,7 +430,7 @@ fn numbered<T: rstar::RTreeObject>(shapes: impl Iterator<Item = T>) -> RTree<Geo
     RTree::bulk_load(shapes.enumerate().map(|(number, shape)| GeomWithData::new(shape, number)).collect())
 }
 
-/// The positions of probes. Probes whose positions would be written identically in a program are at the same position.
+/// Groups probes by position. Probes whose positions would be written identically in a program are at the same position.
 fn places(probes: &[Xy]) -> Vec<ProbedPoint> {
     let mut places: Vec<ProbedPoint> = Vec::new();
     let mut known = BTreeMap::new();
