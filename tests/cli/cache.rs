@@ -389,7 +389,7 @@ fn a_cache_that_is_a_link_is_not_used() {
     assert_eq!(fs::read_dir(place.path().join("other")).unwrap().count(), 1);
 }
 
-/// Such a cache is an error: otherwise the cache would silently be in another directory.
+/// A cache directory whose name is not UTF-8 is an error: otherwise the cache would silently be in another directory.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_cache_whose_name_is_no_utf_8_is_refused() {

@@ -137,7 +137,7 @@ fn a_file_that_is_not_there_is_named() {
     assert_says(&one_error(&Place::new(), NAME), "PB001", NAME);
 }
 
-/// The file is the beginning of a process's memory, which nobody can read. An ordinary file would be readable for tests that run as root.
+/// The file is the beginning of a process's memory, which no user can read. Tests that run as root could read an ordinary file.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_file_that_cannot_be_read_is_an_error_of_its_own() {

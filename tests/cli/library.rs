@@ -72,7 +72,7 @@ fn the_library_is_right() {
     assert!(said.starts_with("34 paths in 31 drawings: no errors, no warnings"), "{said}");
 }
 
-/// As written by the program.
+/// The Q-project in the library equals the one that the program writes.
 #[test]
 fn its_q_project_is_that_of_its_drawing() {
     let (status, said) = pathbuild(&["q-project", "components/2057.1-2057.2P.dxf"]);

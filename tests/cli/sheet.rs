@@ -84,7 +84,7 @@ fn a_page_has_picture_measures_checklist_and_facts() {
     assert_snapshot!(texts(&place.read("sheet.svg")).join("\n"));
 }
 
-/// Each number of the picture is explained, or listed as having no room; a table on a new page has its title there.
+/// Each number of the picture is explained, or listed as one that does not fit. A table that continues on a new page repeats its title.
 #[test]
 fn operations_are_listed_and_no_number_is_lost() {
     let place = library();

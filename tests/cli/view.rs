@@ -752,7 +752,7 @@ fn crowded() -> String {
     text + &format!("end {x},{y}\n")
 }
 
-/// With a tool as wide as the drawing is long, nothing is cut off, and a drilled hole is a disc.
+/// Even if the tool is as wide as the drawing is long, the picture is not cropped, and a drilled hole is a disc.
 #[test]
 fn what_the_cutter_takes_is_whole_in_a_picture() {
     let drawing = "layer 1236.1P\nstart 0,0 \"T5 O12 I1 B0 MPlate\"\nmill 0,0 30,0\nsweep 30,0 15,40\nmill circle 15,40 d 12\nsweep 15,40 30,0\nend 30,0\n";

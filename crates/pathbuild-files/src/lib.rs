@@ -40,7 +40,7 @@ pub trait System: Debug + Send + Sync {
     /// Reads a whole file of at most `limit` bytes.
     ///
     /// # Errors
-    /// As [`read_into`](Self::read_into).
+    /// The errors of [`read_into`](Self::read_into).
     fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
         let mut bytes = Vec::new();
         self.read_into(path, limit, &mut bytes)?;
@@ -50,7 +50,7 @@ pub trait System: Debug + Send + Sync {
     /// Reads the first `length` bytes of a file, or all of it if it is shorter.
     ///
     /// # Errors
-    /// As [`read`](Self::read).
+    /// The errors of [`read`](Self::read).
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
         let mut bytes = self.read(path, u64::MAX)?;
         bytes.truncate(length);
@@ -60,13 +60,13 @@ pub trait System: Debug + Send + Sync {
     /// Returns the names in a directory.
     ///
     /// # Errors
-    /// As [`read`](Self::read).
+    /// The errors of [`read`](Self::read).
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError>;
 
     /// Calls `take` for each entry of a directory, in no particular order, until it asks to stop. Links are not resolved.
     ///
     /// # Errors
-    /// As [`read`](Self::read), possibly after some entries.
+    /// The errors of [`read`](Self::read), possibly after some entries.
     fn each_entry(
         &self,
         directory: &Utf8Path,
@@ -83,7 +83,7 @@ pub trait System: Debug + Send + Sync {
     /// Reads the last `length` bytes of a file, or all of it if it is shorter.
     ///
     /// # Errors
-    /// As [`read`](Self::read).
+    /// The errors of [`read`](Self::read).
     fn tail(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
         let mut bytes = self.read(path, u64::MAX)?;
         Ok(bytes.split_off(bytes.len().saturating_sub(length)))

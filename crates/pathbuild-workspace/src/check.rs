@@ -129,7 +129,7 @@ impl Request<'_> {
         let Results { selection, named, each } =
             session.with_stable_files(|session| self.results(session, matches, memo));
         if self.changed.is_some() && !(selection.named.is_empty() && selection.paths.is_empty()) {
-            // Only for whole directories are all drawings found that depend on a changed one.
+            // A drawing that depends on a changed one is only found if whole directories are checked.
             let reason = session.workspace().choose(
                 "--changed-since is for directories or the library, not for single drawings or paths",
                 "--changed-since ist für Verzeichnisse oder die Bibliothek, nicht für einzelne Zeichnungen oder Pfade",

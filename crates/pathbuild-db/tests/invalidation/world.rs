@@ -29,7 +29,7 @@ pub(crate) struct World {
 /// The result for a target.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Outcome {
-    /// Not located, so they have no lines.
+    /// The findings, which are not located, so they have no lines.
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// The program as text, with every number.
     pub(crate) program: Option<String>,

@@ -61,7 +61,7 @@ fn a_line_that_closes_half_of_an_open_outline_makes_no_part() {
         |right: &str| messages(&beside(&format!("{rest}\n{right}\ncircle 10,15 d 3\ncircle 30,5 d 3")));
     let whole = plate("line 40,1 40,20");
     assert!(whole.len() == 2 && whole.iter().all(|found| found.starts_with("PB220")), "{whole:?}");
-    // Of the open half, a tenth may be missing.
+    // A tenth of the open half may be missing.
     for (from, to) in [("9", "9.3"), ("9", "11"), ("5", "10.3"), ("1", "3"), ("18", "20"), ("18", "19.9")] {
         let right = format!("line 40,1 40,{from}\nline 40,{to} 40,20");
         let found = plate(&right.replace("line 40,1 40,1\n", "").replace("\nline 40,20 40,20", ""));

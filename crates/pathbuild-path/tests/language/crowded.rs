@@ -68,7 +68,7 @@ proptest! {
     #[test]
     fn segments_are_taken_as_if_all_were_looked_at(lines in petals()) {
         let expected = plain_walk(&lines);
-        // As many lines lead from each tip as to it.
+        // As many lines lead from each tip as lead to it, so the walk reaches all of them.
         prop_assert_eq!(expected.len(), lines.len());
         check(&lines, &expected);
     }

@@ -286,7 +286,7 @@ fn literal_lengths_have_a_point_where_the_control_may_need_it() {
     assert_eq!(written("linuxcnc", "20"), Ok(()));
 }
 
-/// Block delete: the switch at the machine decides whether such a line is run.
+/// A switch at the machine decides whether a line that begins with `/` is run (block delete).
 #[test]
 fn lines_that_a_switch_can_skip_must_not_be_needed() {
     let written = |dialect: &str, elements: &str| {

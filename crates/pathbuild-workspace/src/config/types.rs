@@ -129,9 +129,9 @@ choice! {
         No = "none",
         /// Pages for printing.
         Pdf = "pdf",
-        /// The same content as a page for a browser.
+        /// The content of the PDF as a page for a browser.
         Html = "html",
-        /// The same content as a single picture.
+        /// The content of the PDF as a single picture.
         Svg = "svg",
     }
 }

@@ -48,7 +48,7 @@ use stale::{EarlierPrograms, StaleOutcome};
 pub struct Request<'a> {
     /// The drawings, paths and directories; if empty, the paths matched by `[emit] targets`.
     pub inputs: &'a Inputs,
-    /// What to do with the generated files.
+    /// The task that is performed with the generated files.
     pub task: Task,
     /// Name or file of the post-processor that replaces the configured one; `None` for the configured one.
     pub post: Option<&'a str>,

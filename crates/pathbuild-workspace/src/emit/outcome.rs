@@ -13,7 +13,7 @@ use crate::files::ExtraInput;
 use crate::memo::{GeneratedFile, OutputState};
 use crate::session::OutputKind;
 
-/// What to do with the generated files.
+/// A task that `emit` performs with the generated files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Task {
     /// Write the files.

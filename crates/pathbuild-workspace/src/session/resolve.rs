@@ -397,7 +397,7 @@ impl Session<'_> {
         let entries = self.entries(directory, is_drawing);
         let near = join(directory, nearest(name.as_str(), entries.iter().map(String::as_str))?);
         let whole = join(&near, missing.as_path());
-        // The components after the misspelled one may exist in the directory that was meant.
+        // The components after the misspelled one may exist in the directory with the similar name.
         Some(if self.db().system().kind(&whole) == FileKind::Missing { near } else { whole })
     }
 

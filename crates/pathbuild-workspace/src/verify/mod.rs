@@ -92,7 +92,7 @@ pub struct MoveComparison {
     pub drawing: Utf8PathBuf,
     /// Name of the dialect, or of the definition, by means of which the program was read.
     pub dialect: String,
-    /// The same name with the evidence for it, in the language of messages.
+    /// Name of the dialect or the definition with the evidence for it, in the language of messages.
     pub read_as: String,
     /// Number of moves in the drawing.
     pub moves: usize,

@@ -105,7 +105,7 @@ fn removed_before_the_check(removed: &[&str], events: &[&str]) {
     assert_eq!(library.counts().0, 3 - removed.len());
 }
 
-/// Regression test: drawings of a backlog that were removed kept PB001 for as long as the session ran.
+/// Regression test: if drawings that still had to be checked were removed, their PB001 remained for as long as the session ran.
 #[test]
 fn a_new_drawing_may_be_removed_before_it_is_checked() {
     let both = ["lib/new/3001.1P.dxf", "lib/new/3002.1P.dxf"];
