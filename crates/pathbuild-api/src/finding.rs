@@ -18,91 +18,91 @@ pub struct Finding {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Embedding {
-    /// The drawing that embeds it.
+    /// File of the drawing that embeds the path, relative to the library's directory if it lies below it.
     pub file: String,
-    /// The path of that drawing that embeds it.
+    /// Name of the path, in that drawing, that embeds the path.
     pub path: String,
     /// Position in that drawing, in mm.
     pub position: [f64; 2],
 }
 
 impl Finding {
-    /// The code, for example `PB107`; `pathbuild explain PB107` explains it.
+    /// Returns the code, for example `PB107`; `pathbuild explain PB107` explains it.
     pub fn code(&self) -> String {
         self.diagnostic.code().to_string()
     }
 
-    /// The readable name of the code, for example `unknown-letter`.
+    /// Returns the readable name of the code, for example `unknown-letter`.
     pub fn name(&self) -> &str {
         self.diagnostic.code().name()
     }
 
-    /// Whether it is an error; otherwise it is a warning. The configuration can change that for a code.
+    /// Whether the finding is an error; otherwise it is a warning. The configuration can change that for a code.
     pub fn is_error(&self) -> bool {
         self.diagnostic.is_error()
     }
 
-    /// The message: what is wrong.
+    /// Returns the message, which says what is wrong.
     pub fn message(&self, lang: Lang) -> String {
         self.diagnostic.text(lang)
     }
 
-    /// The help: what to do about it.
+    /// Returns the help, which says what to do; `None` if there is none.
     pub fn help(&self, lang: Lang) -> Option<String> {
         self.diagnostic.help(lang)
     }
 
-    /// Further facts, for example where else a name is defined.
+    /// Returns further facts, for example where else a name is defined.
     pub fn notes(&self, lang: Lang) -> Vec<String> {
         self.diagnostic.notes.iter().map(|note| note.text(lang)).collect()
     }
 
-    /// The file, relative to the directory of the library.
+    /// Returns the file, relative to the directory of the library if it lies below it; `None` if the finding concerns no file.
     pub fn file(&self) -> Option<&str> {
         self.diagnostic.file.as_ref().map(|file| file.as_str())
     }
 
-    /// The path.
+    /// Returns the name of the path; `None` if the finding concerns no single path.
     pub fn path(&self) -> Option<&str> {
         self.diagnostic.path.as_deref()
     }
 
-    /// The line in the file, counted from 1.
+    /// Returns the line in the file, counted from 1, if it is known.
     pub fn line(&self) -> Option<u32> {
         self.diagnostic.place.line
     }
 
-    /// The layer, as the drawing spells it.
+    /// Returns the layer, as the drawing spells it; `None` if the finding concerns no layer.
     pub fn layer(&self) -> Option<&str> {
         self.diagnostic.place.layer.as_deref()
     }
 
-    /// The handle of the element in the drawing, in hexadecimal digits.
+    /// Returns the handle of the element in the drawing, in hexadecimal digits, if it is known.
     pub fn handle(&self) -> Option<String> {
         self.diagnostic.place.handle.map(|handle| handle.to_string())
     }
 
-    /// The type of the element, for example `LINE`.
+    /// Returns the type of the element, for example `LINE`; `None` if the finding concerns no element.
     pub fn entity(&self) -> Option<&str> {
         self.diagnostic.place.entity.map(EntityKind::name)
     }
 
-    /// The point in the drawing, in mm.
+    /// Returns the point in the drawing, in mm, if there is one.
     pub fn position(&self) -> Option<[f64; 2]> {
         self.diagnostic.place.point.map(|point| [point.x.0, point.y.0])
     }
 
-    /// The text with the fault; an excerpt if it is long.
+    /// Returns the text with the fault, or an excerpt if it is long; `None` if the fault is not in a text.
     pub fn text(&self) -> Option<&str> {
         self.diagnostic.text.as_ref().map(|fault| &*fault.text)
     }
 
-    /// The faulty bytes of [`text`](Self::text).
+    /// Returns the range of the faulty bytes in [`text`](Self::text).
     pub fn span(&self) -> Option<Range<usize>> {
         self.diagnostic.text.as_ref().map(pathbuild_diagnostic::TextFault::span)
     }
 
-    /// The projects through which the path was reached, outermost first.
+    /// Returns the projects through which the path was reached, outermost first.
     pub fn trace(&self) -> Vec<Embedding> {
         let embedding = |step: &pathbuild_diagnostic::TraceStep| Embedding {
             file: step.file.to_string(),
@@ -117,7 +117,7 @@ impl Finding {
         workspace.findings(diagnostics).diagnostics.into_iter().map(Self::new).collect()
     }
 
-    /// The findings of a run that covered these files, and those that are accepted.
+    /// Returns the findings of a run that covered these files, and those that are accepted.
     pub(crate) fn settled(
         workspace: &Workspace,
         diagnostics: Vec<Diagnostic>,
@@ -135,18 +135,18 @@ impl Finding {
     }
 }
 
-/// The code, followed by the message in English.
+/// Formats the code, followed by the message in English.
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.code(), self.message(Lang::En))
     }
 }
 
-/// Why a request has no result.
+/// The reason why a request has no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The configuration, or an input of the request, has these errors; there may be warnings among them.
+    /// The configuration, or an input of the request, has these errors; warnings may be among them.
     Findings(Vec<Finding>),
     /// The request is invalid, for this reason in the language of the library.
     Refused(String),

@@ -1,6 +1,6 @@
 //! pathbuild as a library: checks drawings of milling paths and compiles them to G-code.
 //!
-//! A [`Library`] is a directory of drawings with the `pathbuild.toml` that applies there. It does what the program does: it checks the
+//! A [`Library`] is a directory of drawings with the `pathbuild.toml` that applies there. It offers what the command-line program does: it checks the
 //! drawings ([`check`](Library::check)), lists their paths ([`paths`](Library::paths)), returns the moves of a path
 //! ([`path`](Library::path)) and its G-code ([`program`](Library::program)), writes programs ([`emit`](Library::emit)), tells which path
 //! embeds which ([`embedders`](Library::embedders)), verifies programs of any origin ([`verify`](Library::verify)), and checks again
@@ -22,19 +22,20 @@
 //! # }
 //! ```
 //!
-//! Lengths are in mm, feeds in mm/min, angles in degrees, times in minutes. Names of files in results are relative to the directory that was
-//! opened if they lie below it, otherwise absolute; those in requests are relative to it or absolute. The letters of parameters (M for the material, T, O, F) and everything else that a drawing
-//! means are described in the book that comes with pathbuild; "(book: language/letters)" is its page `docs/en/src/language/letters.md`.
+//! Lengths are in mm, feeds in mm/min, angles in degrees, times in minutes. File names in results are relative to the directory that was
+//! opened if the files lie below it, otherwise absolute; file names in requests are relative to it or absolute. The letters of parameters
+//! (M for the material, T, O, F) and the rest of the drawing language are described in the book that comes with pathbuild;
+//! "(book: language/letters)" is its page `docs/en/src/language/letters.md`.
 //!
-//! A [`Finding`] is a result, like an error message of a compiler; [`Error`] says why a request has no result. Nothing here panics because
-//! of a drawing.
+//! A [`Finding`] is a result, like an error message of a compiler; an [`Error`] is the reason why a request has no result. No drawing makes
+//! this crate panic.
 //!
 //! Three programs in `examples/` show more: a report of feeds, moves as CSV, and a custom check.
 //!
 //! # Stability
 //!
 //! This is the only crate of pathbuild whose public items keep their meaning between versions; types that may grow are
-//! `#[non_exhaustive]`. `public-items.txt` lists them all. The crates below it change as they need to.
+//! `#[non_exhaustive]`. `public-items.txt` lists all public items. The crates that this one uses may change in any version.
 
 mod finding;
 mod library;

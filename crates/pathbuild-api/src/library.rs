@@ -1,4 +1,4 @@
-//! The library, and its thread.
+//! Implements the library, which answers requests in a thread of its own.
 
 use std::path::Path as FilePath;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -24,14 +24,14 @@ use crate::{
 
 /// A directory of drawings, opened with the configuration that applies there.
 ///
-/// It can be shared between threads. It answers one request after the other, each on all cores, and keeps its results: after an edit, only
-/// what depends on it is computed again. Report edits with [`changed`](Self::changed).
+/// It can be shared between threads. It answers one request after the other, each on all cores, and caches its results: after an edit, only results
+/// that depend on the edited files are computed again. Report edits with [`changed`](Self::changed).
 #[derive(Debug)]
 pub struct Library {
     requests: Sender<Request>,
 }
 
-/// A request to the session, which sends its answer itself.
+/// A request, which runs on the session in the library's thread and sends the answer itself.
 type Request = Box<dyn FnOnce(&mut Session<'_>) + Send>;
 
 /// Stack size of the library's thread in bytes, as large as that of a program's main thread.
@@ -47,11 +47,11 @@ impl Library {
         LibraryOptions::new().open(directory)
     }
 
-    /// Checks drawings, paths and directories as `pathbuild check` does; without any, the whole library, or the directory if the configuration
-    /// names none.
+    /// Checks drawings, paths and directories as `pathbuild check` does; without any, the whole library, or the directory if the configuration names
+    /// no library.
     ///
     /// # Errors
-    /// If the baseline has errors. What is wrong with the drawings is in the report.
+    /// If the baseline has errors. Errors in the drawings are in the report.
     pub fn check(&self, inputs: &[&str]) -> Result<CheckReport, Error> {
         let inputs = owned(inputs);
         self.ask(move |session| {
@@ -70,8 +70,8 @@ impl Library {
         })
     }
 
-    /// Lists paths with their figures, as `pathbuild list` does. Inputs are drawings, directories, and patterns for names of paths; without
-    /// any, all paths of the library.
+    /// Lists paths with their figures, as `pathbuild list` does. Inputs are drawings, directories, and patterns for names of paths; without any
+    /// inputs, all paths of the library are listed.
     ///
     /// # Errors
     /// If a pattern is invalid.
@@ -90,12 +90,12 @@ impl Library {
         })
     }
 
-    /// Returns a path with its elements, their parameters, and the moves of its program. The name is that of the path, or of a drawing with
-    /// no other path. Variables have the first of their values, as in `pathbuild check`; a path that embeds it may give them others. The
-    /// moves are those of the native program, whatever post-processor is configured.
+    /// Returns a path with its elements, their parameters, and the moves of its program. The name is that of the path, or of a drawing with no other
+    /// path. Variables have the first of their values, as in `pathbuild check`; a path that embeds this path may give them other values. The moves
+    /// are those of the native program, whatever post-processor is configured.
     ///
     /// # Errors
-    /// If there is no such path. What is wrong with the path is in [`Path::findings`]; a path with errors has no statistics.
+    /// If there is no such path. Errors in the path are in [`Path::findings`]; a path with errors has no statistics.
     pub fn path(&self, name: &str) -> Result<Path, Error> {
         let name = name.to_owned();
         self.ask(move |session| {
@@ -106,8 +106,8 @@ impl Library {
         })
     }
 
-    /// Like [`path`](Self::path), for the path of this name in a drawing. The name is spelt as in [`PathSummary::name`]; other drawings may
-    /// have a path of that name.
+    /// Like [`path`](Self::path), for the path of this name in a drawing. The name is written as in [`PathSummary::name`]; other drawings may have a
+    /// path of that name.
     ///
     /// # Errors
     /// If the drawing has no such path.
@@ -157,11 +157,10 @@ impl Library {
         })
     }
 
-    /// Writes the programs of drawings, paths and directories as `pathbuild emit` does; without any, of the paths that the configuration
-    /// names.
+    /// Writes the programs of drawings, paths and directories as `pathbuild emit` does; without any, those of the paths that the configuration names.
     ///
     /// # Errors
-    /// If the request is invalid, for example because a needed setting is missing. What is wrong with the drawings is in the report.
+    /// If the request is invalid, for example because a needed setting is missing. Errors in the drawings are in the report.
     pub fn emit(&self, inputs: &[&str], options: &EmitOptions) -> Result<EmitReport, Error> {
         let (inputs, options) = (owned(inputs), options.clone());
         let task = if options.compare {
@@ -178,11 +177,11 @@ impl Library {
         })
     }
 
-    /// Finds what drawings and paths embed, directly or through others, as `pathbuild deps` does. Without inputs, the whole library, or the
-    /// directory if the configuration names none.
+    /// Finds all paths that drawings and paths embed, directly or through others, as `pathbuild deps` does. Without inputs, the whole library, or the
+    /// directory if the configuration names no library.
     ///
     /// # Errors
-    /// If an internal error occurs. What is wrong with the inputs is in the report.
+    /// If an internal error occurs. Errors in the inputs are in the report.
     pub fn embedded(&self, inputs: &[&str]) -> Result<GraphReport, Error> {
         let inputs = owned(inputs);
         self.ask(move |session| {
@@ -191,10 +190,10 @@ impl Library {
         })
     }
 
-    /// Finds what embeds drawings and paths, directly or through others, among all paths of the library, as `pathbuild rdeps` does.
+    /// Finds all paths of the library that embed given drawings and paths, directly or through others, as `pathbuild rdeps` does.
     ///
     /// # Errors
-    /// If an internal error occurs. What is wrong with the inputs is in the report.
+    /// If an internal error occurs. Errors in the inputs are in the report.
     pub fn embedders(&self, inputs: &[&str]) -> Result<GraphReport, Error> {
         let inputs = owned(inputs);
         self.ask(move |session| Ok(GraphReport::new(session.workspace(), session.embedding_paths(&inputs))))
@@ -204,8 +203,7 @@ impl Library {
     /// programs in and below them (.nc, .ngc, .gcode, .tap, .cnc, .din).
     ///
     /// # Errors
-    /// If the post-processor, the path to compare with or the baseline does not exist, or has errors. What is wrong with the programs is in the
-    /// report.
+    /// If the post-processor, the path to compare with or the baseline does not exist, or has errors. Problems in the programs are in the report.
     pub fn verify(&self, programs: &[&str], options: &VerifyOptions) -> Result<VerifyReport, Error> {
         let places: Vec<Utf8PathBuf> = programs.iter().map(Utf8PathBuf::from).collect();
         let options = options.clone();
@@ -243,8 +241,8 @@ impl Library {
         })
     }
 
-    /// Checks the library, and after each change of a drawing what depends on it, until `seen` returns false. If the configuration names no
-    /// library, it is the directory. Other requests wait meanwhile. Only a library on disk can be watched.
+    /// Checks the library and, after each change of a drawing, everything that depends on it, until `seen` returns false. If the configuration names
+    /// no library, the directory is checked. Other requests wait meanwhile. Only a library on disk can be watched.
     ///
     /// # Errors
     /// If the system cannot report changes.
@@ -270,7 +268,8 @@ impl Library {
         })
     }
 
-    /// Starts the thread on which the session lives: it borrows its workspace, and its database works for one thread at a time.
+    /// Starts the library's thread. The session must stay in one thread, because it borrows its workspace, and its database works for one thread at a
+    /// time.
     pub(crate) fn start(source: Source, options: LibraryOptions) -> Result<Self, Error> {
         let (requests, waiting) = channel();
         let (opened, answer) = channel();
@@ -281,7 +280,7 @@ impl Library {
         Ok(Self { requests })
     }
 
-    /// Does some work on the session, and waits for its result.
+    /// Runs a closure on the session in the library's thread, and waits for its result.
     fn ask<R: Send + 'static>(
         &self,
         work: impl FnOnce(&mut Session<'_>) -> Result<R, Error> + Send + 'static,
@@ -289,7 +288,7 @@ impl Library {
         let (answer, answered) = channel();
         let request = move |session: &mut Session<'_>| {
             let result = catch_bugs(|| work(session)).unwrap_or_else(|problem| Err(Error::bug(*problem)));
-            // The caller waits for it.
+            // The receiver exists, because the caller waits for the result.
             _ = answer.send(result);
         };
         self.requests.send(Box::new(request)).map_err(|_| gone())?;
@@ -323,7 +322,7 @@ fn new_session(workspace: &Workspace) -> Session<'_> {
     if workspace.keeps_results() { Session::traced(workspace) } else { Session::new(workspace) }
 }
 
-/// The error if the thread has ended, which only an internal error can cause.
+/// Creates the error for a thread that has ended, which only an internal error can cause.
 fn gone() -> Error {
     Error::bug(bug("the library's thread has ended"))
 }
@@ -332,7 +331,7 @@ fn owned(inputs: &[&str]) -> Inputs {
     Inputs { inputs: inputs.iter().map(|input| (*input).to_owned()).collect() }
 }
 
-/// The inputs that stand for the configured library, or for the directory if none is configured.
+/// Returns the inputs that stand for the configured library, or for the directory if none is configured.
 fn whole_library(session: &Session<'_>) -> Inputs {
     let directory = (!session.has_library()).then_some(&session.workspace().working_directory);
     Inputs::places(directory)
@@ -354,7 +353,7 @@ fn named_path(session: &Session<'_>, argument: &str) -> Result<(SourceFile, Path
     }
 }
 
-/// The path of this name in this drawing.
+/// Finds the path of this name in this drawing.
 fn path_in(session: &Session<'_>, drawing: &str, name: &str) -> Result<(SourceFile, PathName), Error> {
     let file = session.file(Utf8Path::new(drawing));
     if let Some(name) = path_names(session.db(), file).iter().find(|known| known.as_str() == name) {

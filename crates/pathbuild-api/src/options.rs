@@ -14,7 +14,8 @@ use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 
 use crate::{Error, Library};
 
-/// Options for opening a library. By default, it is opened as the program opens it, but without the cache and the user's own configuration.
+/// Options for opening a library. By default, it is opened as the command-line program opens it, but without the cache and the user's own
+/// configuration.
 ///
 /// ```
 /// # use pathbuild_api::{Error, LibraryOptions};
@@ -43,7 +44,7 @@ pub struct EmitOptions {
 }
 
 impl LibraryOptions {
-    /// The default options.
+    /// Creates the default options.
     pub fn new() -> Self {
         Self::default()
     }
@@ -54,15 +55,15 @@ impl LibraryOptions {
         self
     }
 
-    /// Overrides a key of the configuration, by the name and value of the program's option: `setting("rapid", "2000")` is `--rapid 2000`.
-    /// The value of a switch is `"true"`. An option that may be repeated takes the values of all calls; of any other, the last call counts.
-    /// (book: reference/commands)
+    /// Overrides a key of the configuration, by the name and value of the command-line option: `setting("rapid", "2000")` is `--rapid 2000`.
+    /// The value of a switch is `"true"`. An option that may be repeated takes the values of all calls; of any other option, the last call
+    /// counts. (book: reference/commands)
     pub fn setting(mut self, name: impl Into<String>, value: impl Into<String>) -> Self {
         self.settings.push((name.into(), value.into()));
         self
     }
 
-    /// Treats the directory as untrusted: nothing is read or written outside of its repository because of what is written in it.
+    /// Treats the directory as untrusted: files in it cannot make the library read or write anything outside of its repository.
     pub fn untrusted(mut self) -> Self {
         self.untrusted = true;
         self
@@ -80,14 +81,14 @@ impl LibraryOptions {
         self
     }
 
-    /// The language of [`Error::Refused`] and of comments in programs, unless the configuration sets that of comments.
+    /// Sets the language of [`Error::Refused`] and of comments in programs. The configuration may set another language for comments.
     pub fn lang(mut self, lang: Lang) -> Self {
         self.lang = Some(lang);
         self
     }
 
-    /// Sets the date that waivers with an end are compared with, such as `2026-12-31`; without it, none of them holds. The program takes the
-    /// present day. (book: howto/ci)
+    /// Sets the date, such as `2026-12-31`, with which the end of waivers is compared. Without it, no waiver with an end is valid. (The command-line
+    /// program uses the present day.) (book: howto/ci)
     pub fn date(mut self, date: impl Into<String>) -> Self {
         self.date = Some(date.into());
         self
@@ -114,7 +115,7 @@ impl LibraryOptions {
         Library::start(Source::Files(files), self)
     }
 
-    /// The workspace with these options.
+    /// Creates the workspace with these options.
     pub(crate) fn workspace(self, source: Source) -> Result<Workspace, Error> {
         let settings = self.given()?;
         let utf8 = |path| utf8(path, self.lang);
@@ -139,7 +140,7 @@ impl LibraryOptions {
         if faults.is_empty() { Ok(workspace) } else { Err(Error::found(&workspace, faults)) }
     }
 
-    /// The overridden keys.
+    /// Returns the overridden keys of the configuration with their values.
     fn given(&self) -> Result<GivenOptions, Error> {
         let mut given: Vec<(&'static str, Vec<String>)> = Vec::new();
         for (name, value) in &self.settings {
@@ -171,13 +172,12 @@ impl LibraryOptions {
 }
 
 impl EmitOptions {
-    /// The default options.
+    /// Creates the default options.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Writes through this post-processor: the name of a built-in one, a definition's file, or `native`. Without it, the configuration
-    /// decides.
+    /// Sets the post-processor: the name of a built-in one, the file of a definition, or `native`. Without it, the configuration decides.
     pub fn post(mut self, post: impl Into<String>) -> Self {
         self.post = Some(post.into());
         self
@@ -189,14 +189,14 @@ impl EmitOptions {
         self
     }
 
-    /// Overwrites measured values.
+    /// Permits overwriting files with measured values.
     pub fn force(mut self) -> Self {
         self.force = true;
         self
     }
 }
 
-/// Where the files of a library are.
+/// The place of a library's files.
 #[derive(Clone, Debug)]
 pub(crate) enum Source {
     Directory(PathBuf),
@@ -204,7 +204,7 @@ pub(crate) enum Source {
 }
 
 impl Source {
-    /// The files, and the directory that relative names start from.
+    /// Returns the file system, and the directory to which names are relative.
     fn open(self, lang: Option<Lang>) -> Result<(Arc<dyn System>, Utf8PathBuf), Error> {
         match self {
             Self::Directory(directory) => {
@@ -238,7 +238,7 @@ fn run_date(text: &str, lang: Option<Lang>) -> Result<RunDate, Error> {
     Ok(RunDate { date, source: DateSource::Given })
 }
 
-/// A refusal before the configuration is read, which may set another language.
+/// Creates a refusal that occurs before the configuration is read, so that a language set there does not apply.
 fn refused(lang: Option<Lang>, en: &str, de: &str, value: &str) -> Error {
     Error::Refused(lang.unwrap_or_default().choose(en, de).replace("{}", value))
 }

@@ -1,19 +1,19 @@
-//! A path: what is drawn, and what the tool does.
+//! A path as it is drawn, and the moves of its program.
 
 use pathbuild_motion::{Axes, MoveShape, Position};
 use pathbuild_view::{self as view, SceneMove, ScenePath};
 
 use crate::Finding;
 
-/// A path with everything that it embeds.
+/// A path with all paths that it embeds.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Path {
-    /// Its name, as the layer spells it.
+    /// Name of the path, as the layer spells it.
     pub name: String,
-    /// Its drawing.
+    /// File of the drawing that contains the path.
     pub file: String,
-    /// Material (M), as the drawing writes it; `None` if it does not. A path that is embedded may have another one: see the parameters of its
+    /// Material (M), as the drawing writes it; `None` if it states none. An embedded path may have another material: see the parameters of its
     /// elements.
     pub material: Option<String>,
     /// Upper face of the material (T), in mm.
@@ -22,13 +22,13 @@ pub struct Path {
     pub tool: Option<f64>,
     /// Sweep height (S), in mm.
     pub sweep_height: Option<f64>,
-    /// Where the program's X0 Y0 lies in the drawing, in mm.
+    /// Position in the drawing of the program's X0 Y0, in mm.
     pub zero: [f64; 2],
     /// The elements on the layers of the path and of the paths that it embeds.
     pub elements: Vec<Element>,
-    /// The moves of the tool, in order. Empty if the path has errors, except for cuts into its part, so that they can be shown.
+    /// The moves of the tool, in order. If the path has errors, there are none, except for cuts into its own part, so that these can be shown.
     pub moves: Vec<Move>,
-    /// Lengths and times; `None` if the path has errors, and then there is no program.
+    /// Lengths and times; `None` if the path has errors, so that there is no program.
     pub statistics: Option<Statistics>,
     /// Findings about the path and the paths that it embeds.
     pub findings: Vec<Finding>,
@@ -38,31 +38,31 @@ pub struct Path {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Element {
-    /// The path on whose layer it lies.
+    /// Name of the path on whose layer the element lies.
     pub path: String,
-    /// The drawing of that path.
+    /// File of the drawing that contains that path.
     pub file: String,
-    /// Its type in the drawing, for example `LINE`.
+    /// Type of the element in the drawing, for example `LINE`.
     pub entity: String,
-    /// Its layer.
+    /// Layer of the element, as the drawing spells it.
     pub layer: String,
-    /// Its handle in the drawing, in hexadecimal digits.
+    /// Handle of the element in the drawing, in hexadecimal digits.
     pub handle: Option<String>,
-    /// The line of the drawing's file at which it begins, counted from 1.
+    /// The line of the drawing's file at which the element begins, counted from 1.
     pub line: Option<u32>,
-    /// The parameters in force for it.
+    /// The parameters that apply to the element.
     pub parameters: Vec<Parameter>,
 }
 
-/// A parameter in force for an element. (book: language/letters)
+/// A parameter that applies to an element. (book: language/letters)
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Parameter {
-    /// Its letter.
+    /// Letter of the parameter.
     pub letter: char,
-    /// Its value, as the drawing writes it, with variables replaced.
+    /// Value of the parameter, as the drawing writes it, with variables replaced.
     pub value: String,
-    /// Its source: `own`, `chain`, `path`, `lender`, `option` or `default`.
+    /// Source of the value: `own`, `chain`, `path`, `lender`, `option` or `default`.
     pub source: String,
 }
 
@@ -70,21 +70,21 @@ pub struct Parameter {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Move {
-    /// Its purpose.
+    /// Purpose of the move.
     pub kind: MoveKind,
-    /// Its start: x, y, z in mm; `None` for a coordinate that the program does not state.
+    /// Start of the move: x, y, z in mm; `None` for a coordinate that the program does not state.
     pub from: [Option<f64>; 3],
-    /// Its end.
+    /// End of the move, likewise.
     pub to: [Option<f64>; 3],
-    /// Its arc; `None` for a straight move.
+    /// Arc along which the tool moves; `None` for a straight move.
     pub arc: Option<Arc>,
-    /// The feed in mm/min, which is written in the program; `None` for a rapid move.
+    /// Feed in mm/min, as written in the program; `None` for a rapid move.
     pub feed: Option<f64>,
-    /// Its length in mm.
+    /// Length of the move in mm.
     pub length: f64,
-    /// The element that it mills or plunges into, as an index into [`Path::elements`]; `None` for moves between elements.
+    /// The element that the move mills or plunges into, as an index into [`Path::elements`]; `None` for moves between elements.
     pub element: Option<usize>,
-    /// Its line in the program, counted from 1.
+    /// Line of the move in the program, counted from 1.
     pub line: Option<u32>,
 }
 
@@ -98,9 +98,9 @@ pub enum MoveKind {
     Lift,
     /// A cut straight up or down.
     Plunge,
-    /// A cut along an element.
+    /// A cut along an element that is milled to its full depth.
     Mill,
-    /// A cut along an element that is only marked.
+    /// A cut along an element that is only marked, that is, milled to the height D.
     Mark,
     /// A move down until the probe makes contact.
     Probe,
@@ -114,21 +114,21 @@ pub struct Arc {
     pub axes: [usize; 2],
     /// The centre along these axes, in mm.
     pub centre: [f64; 2],
-    /// Whether it turns clockwise, seen from the positive end of the third axis.
+    /// Whether the arc turns clockwise, as seen from the positive end of the third axis.
     pub clockwise: bool,
-    /// The angle it covers, in degrees.
+    /// The swept angle, in degrees.
     pub degrees: f64,
 }
 
-/// Lengths in mm and time in minutes. (book: program/gcode)
+/// Lengths of moves in mm and time in minutes. (book: program/gcode)
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Statistics {
-    /// Cuts along elements.
+    /// Length of cuts along elements.
     pub milling: f64,
-    /// Cuts straight up or down.
+    /// Length of cuts straight up or down.
     pub drilling: f64,
-    /// Rapid moves.
+    /// Length of rapid moves.
     pub sweeps: f64,
     /// Estimated working time, in whole minutes; `None` if the rapid feed is not set.
     pub minutes: Option<f64>,
@@ -165,7 +165,7 @@ impl Path {
 }
 
 impl Element {
-    /// The parameter with this letter that is in force for the element.
+    /// Returns the parameter with this letter that applies to the element.
     pub fn parameter(&self, letter: char) -> Option<&Parameter> {
         self.parameters.iter().find(|parameter| parameter.letter == letter)
     }
@@ -216,7 +216,7 @@ impl MoveKind {
         }
     }
 
-    /// Whether it removes material: milling, marking and plunging, but not probing.
+    /// Whether such moves remove material: milling, marking and plunging do, probing does not.
     pub fn cuts(self) -> bool {
         matches!(self, Self::Plunge | Self::Mill | Self::Mark)
     }

@@ -7,17 +7,17 @@ use pathbuild_workspace::session::{End, Graph, GraphOutcome, Node};
 
 use crate::Finding;
 
-/// The outcome of a check.
+/// The result of a check.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CheckReport {
-    /// Errors and warnings, in the order of the program.
+    /// Errors and warnings, in the order in which `pathbuild check` prints them.
     pub findings: Vec<Finding>,
     /// Findings that the baseline or `severity-in` accepts for a stated reason. (book: howto/ci)
     pub accepted: Vec<Finding>,
-    /// Number of paths.
+    /// Number of paths that were checked.
     pub paths: usize,
-    /// Number of drawings.
+    /// Number of drawings that were checked.
     pub drawings: usize,
 }
 
@@ -29,7 +29,7 @@ pub struct PathListing {
     pub paths: Vec<PathSummary>,
     /// Number of drawings that were searched.
     pub drawings: usize,
-    /// Findings about directories, inputs, and drawings as a whole. Those about paths are in [`PathSummary::findings`];
+    /// Findings about directories, inputs, and drawings as a whole. Findings about paths are in [`PathSummary::findings`];
     /// [`Library::check`](crate::Library::check) gives all findings, without duplicates.
     pub findings: Vec<Finding>,
 }
@@ -38,11 +38,11 @@ pub struct PathListing {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PathSummary {
-    /// Its name, as the layer spells it.
+    /// Name of the path, as the layer spells it.
     pub name: String,
-    /// Its drawing.
+    /// File of the drawing that contains the path.
     pub file: String,
-    /// Material (M).
+    /// Material (M), as the drawing writes it; `None` if it states none.
     pub material: Option<String>,
     /// Upper face of the material (T).
     pub thickness: Option<f64>,
@@ -54,7 +54,7 @@ pub struct PathSummary {
     pub length: Option<f64>,
     /// Estimated working time in minutes; `None` if there is no program, or if the rapid feed is not set.
     pub minutes: Option<f64>,
-    /// The program on disk.
+    /// State of the path's program on disk.
     pub program: ProgramState,
     /// Findings about the path and the paths that it embeds: a fault of an embedded path is listed for each path that embeds it.
     pub findings: Vec<Finding>,
@@ -64,13 +64,13 @@ pub struct PathSummary {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ProgramState {
-    /// There is none.
+    /// There is no program.
     None,
-    /// It is what `emit` would write.
+    /// The program is what `emit` would write.
     Current,
-    /// It differs from that.
+    /// The program differs from what `emit` would write.
     Stale,
-    /// There is one, but the path has errors, so there is nothing to compare it with.
+    /// There is a program, but the path has errors, so the program cannot be compared.
     Unknown,
 }
 
@@ -78,21 +78,21 @@ pub enum ProgramState {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ProgramText {
-    /// The file that `emit` writes.
+    /// Name of the file that `emit` would write.
     pub file: String,
-    /// Its bytes, in the encoding and with the line ends that `emit` writes.
+    /// Content of the file in bytes, in the encoding and with the line ends that `emit` writes.
     pub text: Vec<u8>,
     /// Warnings about the path.
     pub findings: Vec<Finding>,
 }
 
-/// The outcome of writing or comparing programs.
+/// The result of writing or comparing programs.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct EmitReport {
     /// The files, in the order of the paths. A path with errors has none.
     pub files: Vec<OutputFile>,
-    /// Errors and warnings, in the order of the program.
+    /// Errors and warnings, in the order in which `pathbuild emit` prints them.
     pub findings: Vec<Finding>,
 }
 
@@ -100,11 +100,11 @@ pub struct EmitReport {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct OutputFile {
-    /// Its name.
+    /// Name of the file.
     pub file: String,
-    /// The path.
+    /// Name of the path whose program the file contains.
     pub path: String,
-    /// The outcome.
+    /// Outcome of writing or comparing the file.
     pub state: FileState,
     /// Length of the program in mm.
     pub length: f64,
@@ -112,19 +112,19 @@ pub struct OutputFile {
     pub minutes: f64,
 }
 
-/// The outcome for a file.
+/// The outcome of writing or comparing a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FileState {
-    /// It was written.
+    /// The file was written.
     Written,
-    /// It was current already, and was not touched.
+    /// The file was already current, and was not touched.
     Unchanged,
-    /// Compared: it is current.
+    /// The file was compared and is current.
     Current,
-    /// Compared: it is not.
+    /// The file was compared and is not current.
     Outdated,
-    /// Compared: it does not exist.
+    /// The file should be compared, but does not exist.
     Missing,
 }
 
@@ -169,31 +169,29 @@ impl OutputFile {
     }
 }
 
-// Which path embeds which.
-
-/// Which path embeds which.
+/// The embeddings of paths in other paths.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct GraphReport {
-    /// Each pair of paths once, sorted by the drawing and the path that embeds the other one.
+    /// The pairs of an embedding and an embedded path, each pair once, sorted by drawing and name of the embedding path.
     pub edges: Vec<GraphEdge>,
-    /// Number of paths with errors, which may embed more than is listed. [`Library::check`](crate::Library::check) finds these errors.
+    /// Number of paths with errors, which may embed more paths than are listed. [`Library::check`](crate::Library::check) finds these errors.
     pub incomplete: usize,
     /// Errors of directories, of the named drawings, and of the inputs.
     pub findings: Vec<Finding>,
 }
 
-/// A path that embeds another one directly.
+/// A path and another path that it embeds directly.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub struct GraphEdge {
-    /// The drawing of the path that embeds the other one.
+    /// File of the drawing that contains the embedding path.
     pub file: String,
-    /// The name of that path, as its layer spells it.
+    /// Name of the embedding path, as its layer spells it.
     pub path: String,
-    /// The drawing of the embedded path.
+    /// File of the drawing that contains the embedded path.
     pub embedded_file: String,
-    /// The name of the embedded path.
+    /// Name of the embedded path, as its layer spells it.
     pub embedded_path: String,
 }
 
@@ -211,7 +209,7 @@ impl GraphEdge {
     fn all(graph: &Graph) -> Vec<Self> {
         let names = |node: &Node| (node.file.to_string(), node.name.as_str().to_owned());
         let edge = |embedding: &pathbuild_workspace::session::Embedding| {
-            // A segment that embeds no path is a finding of `check`.
+            // Segments that embed no existing path are omitted: `check` reports them.
             let End::Node(to) = embedding.to else { return None };
             let (file, path) = names(&graph.nodes[embedding.from]);
             let (embedded_file, embedded_path) = names(&graph.nodes[to]);

@@ -1,4 +1,4 @@
-//! Verifying programs of any origin.
+//! Verifies programs of any origin.
 
 use camino::Utf8PathBuf;
 use pathbuild_workspace::Workspace;
@@ -21,7 +21,7 @@ pub struct VerifyOptions {
 }
 
 impl VerifyOptions {
-    /// The default options.
+    /// Creates the default options.
     pub fn new() -> Self {
         Self::default()
     }
@@ -32,7 +32,7 @@ impl VerifyOptions {
         self
     }
 
-    /// Sets the diameter of the cutter in mm. Without it, it is that of the drawing, of `[tool]`, or of comments.
+    /// Sets the diameter of the cutter in mm. Without it, the diameter is taken from the drawing, from `[tool]`, or from comments.
     pub fn cutter(mut self, diameter: f64) -> Self {
         self.cutter = Some(diameter);
         self
@@ -56,8 +56,8 @@ impl VerifyOptions {
         self
     }
 
-    /// Makes it an error if this check cannot be made: `rapids`, `rapids=assumed`, `envelope`, `feeds`, `spindle`, `drawing` or `clamps`.
-    /// Without any, the configuration decides.
+    /// Makes it an error if this check cannot be made: `rapids`, `rapids=assumed`, `envelope`, `feeds`, `spindle`, `drawing` or `clamps`. If this is
+    /// never called, the configuration decides.
     pub fn require(mut self, check: impl Into<String>) -> Self {
         self.required.push(check.into());
         self
@@ -89,7 +89,7 @@ impl VerifyOptions {
     }
 }
 
-/// The outcome of verifying programs.
+/// The result of verifying programs.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VerifyReport {
@@ -101,11 +101,11 @@ pub struct VerifyReport {
     pub programs: Vec<VerifiedProgram>,
 }
 
-/// A verified program.
+/// A verified program, with the checks that were made.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VerifiedProgram {
-    /// Its file.
+    /// Name of the program's file.
     pub file: String,
     /// The checks, whether made or not; empty if the program could not be read.
     pub checks: Vec<ProgramCheck>,
@@ -113,15 +113,15 @@ pub struct VerifiedProgram {
     pub comparison: Option<DrawingComparison>,
 }
 
-/// A check of a program.
+/// A check of a program, and whether it was made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ProgramCheck {
-    /// Its name, as in [`VerifyOptions::require`].
+    /// Name of the check, as in [`VerifyOptions::require`].
     pub name: String,
-    /// Whether it was made.
+    /// Whether the check was made.
     pub state: CheckState,
-    /// The values it was made with, or why it was not made, in the language of the library.
+    /// The values with which the check was made, or the reason why it was not made, in the language of the library.
     pub detail: String,
 }
 
@@ -129,25 +129,25 @@ pub struct ProgramCheck {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CheckState {
-    /// It was made.
+    /// The check was made.
     Made,
-    /// It was made with values that only comments of the program state, or that only the machine knows.
+    /// The check was made with values that only comments of the program state, or that only the machine knows.
     Assumed,
-    /// It was not made, or not for all moves.
+    /// The check was not made, or not for all moves.
     NotMade,
 }
 
-/// A comparison of a program with a drawing.
+/// A comparison of a program with the program of a drawing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct DrawingComparison {
-    /// The path.
+    /// Name of the path with which the program was compared.
     pub path: String,
-    /// Its drawing.
+    /// File of the drawing that contains the path.
     pub drawing: String,
-    /// Number of moves in the drawing.
+    /// Number of moves in the program of the drawing.
     pub moves: usize,
-    /// Number of moves that are equal, from the beginning of the program.
+    /// Number of equal moves before the first difference.
     pub equal: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Watching a library.
+//! Watches a library for changes.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -11,13 +11,13 @@ use pathbuild_workspace::{SilentReporter, Workspace};
 
 use crate::Finding;
 
-/// The findings after some drawings changed; the first report is about the whole library.
+/// The findings after changes of some files; the first report covers the whole library.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct WatchReport {
-    /// The files that changed. Empty in the first report.
+    /// Names of the files that changed. Empty in the first report.
     pub changed: Vec<String>,
-    /// Those of them that no longer exist.
+    /// Names of those changed files that no longer exist.
     pub removed: Vec<String>,
     /// The earlier findings about the drawings that depend on these files.
     pub before: Vec<Finding>,
@@ -25,15 +25,15 @@ pub struct WatchReport {
     pub now: Vec<Finding>,
 }
 
-/// Why watching ended.
+/// The reason why watching ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WatchEnd {
-    /// The caller stopped it.
+    /// The caller stopped watching.
     Stopped,
-    /// The configuration, or a file of the post-processor, has changed: the library must be opened again.
+    /// The configuration, or a file of the post-processor, has changed, so the library must be opened again.
     ConfigurationChanged,
-    /// A watched directory was replaced, or has appeared or disappeared: watch again.
+    /// A watched directory was replaced, or has appeared or disappeared, so [`watch`](crate::Library::watch) must be called again.
     DirectoriesChanged,
 }
 
@@ -47,7 +47,7 @@ pub(crate) fn absolute(workspace: &Workspace) -> Workspace {
     }
 }
 
-/// Passes reports on to the caller until the caller stops watching.
+/// Forwards reports to the caller until the caller stops watching.
 pub(crate) struct Reports<'w, F> {
     /// The workspace of the library, which names files relative to its directory.
     workspace: &'w Workspace,
