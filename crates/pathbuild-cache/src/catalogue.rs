@@ -1,4 +1,4 @@
-//! Results to be cached, the inputs that they depend on, and the encoding of both. (`postcard`)
+//! Data structures for cached results and the inputs that they depend on, and their encoding. (`postcard`)
 
 use camino::Utf8PathBuf;
 use pathbuild_files::Stamp;
@@ -7,22 +7,22 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 /// Results with all their inputs. Files, directories and lookups that several results share are stored once.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Catalogue {
-    /// Every file that was read or written.
+    /// Every file that was read or written to obtain the results.
     pub files: Vec<FileFact>,
-    /// Every directory that was listed.
+    /// Every directory that was listed to obtain the results.
     pub directories: Vec<DirectoryFact>,
     /// Sets of directories that are searched together, as indices into `directories`. Thousands of lookups search the same set.
     pub directory_lists: Vec<Vec<usize>>,
-    /// Every lookup.
+    /// Every lookup that was made to obtain the results.
     pub lookups: Vec<Lookup>,
     /// The results, sorted by subject once they are stored.
     pub records: Vec<Record>,
 }
 
-/// A file as it was read.
+/// A file as it was when it was read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FileFact {
-    /// Its path, spelled as in the run that read it.
+    /// Path of the file, spelled as in the run that read it.
     pub path: Utf8PathBuf,
     /// The file's metadata when it was read.
     pub stamp: Stamp,
@@ -30,12 +30,12 @@ pub struct FileFact {
     pub hash: Option<[u8; 32]>,
 }
 
-/// A directory as it was listed.
+/// A directory as it was when it was listed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DirectoryFact {
-    /// Its path, spelled as in the run that read it.
+    /// Path of the directory, spelled as in the run that listed it.
     pub path: Utf8PathBuf,
-    /// The names of its drawings, sorted.
+    /// The names of the drawings in the directory, sorted.
     pub names: Vec<Box<str>>,
     /// Canonical paths of the directory and of the target of each symbolic link in it, relative to the configuration's directory if inside
     /// it. They decide whether two files are the same.
@@ -44,7 +44,7 @@ pub struct DirectoryFact {
     pub is_doubtful: bool,
 }
 
-/// A result.
+/// A cached result with its inputs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// What the result is about, mostly a drawing. Unique among the records.
@@ -53,15 +53,15 @@ pub struct Record {
     pub files: Vec<usize>,
     /// The lookups that were made, as indices into [`Catalogue::lookups`].
     pub lookups: Vec<usize>,
-    /// The files that were written, as indices into [`Catalogue::files`]. If one is missing, the result still holds, but the file must be
-    /// written again.
+    /// The files that were written, as indices into [`Catalogue::files`]. If one is missing, the result is still valid, but the file must be written
+    /// again.
     pub outputs: Vec<usize>,
     /// The result itself; only the crate that stored it can decode it.
     #[serde(serialize_with = "serialize_bytes", deserialize_with = "deserialize_bytes")]
     pub payload: Vec<u8>,
 }
 
-/// A search in directories: which of their files may contain the path of this name?
+/// A search in directories for the files that may contain the path of this name.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Lookup {
     /// Index into [`Catalogue::directory_lists`].
@@ -71,7 +71,7 @@ pub struct Lookup {
 }
 
 impl Catalogue {
-    /// Index of the result about this subject, in a catalogue that was loaded. `hint` is tried first.
+    /// Returns the index of the result about this subject, in a catalogue that was loaded. `hint` is an index that is tried first.
     pub fn find(&self, subject: &str, hint: usize) -> Option<usize> {
         match self.records.get(hint) {
             Some(record) if &*record.subject == subject => Some(hint),
@@ -79,7 +79,7 @@ impl Catalogue {
         }
     }
 
-    /// Whether records are sorted, and every index refers to something that exists.
+    /// Whether records are sorted, and every index refers to an existing item.
     pub(crate) fn is_consistent(&self) -> bool {
         let are_below = |indices: &[usize], all: usize| indices.iter().all(|index| *index < all);
         let is_sound = |record: &Record| {
@@ -94,7 +94,7 @@ impl Catalogue {
     }
 }
 
-/// The bytes do not decode to a value of the expected type. The cached result is then ignored.
+/// Error for bytes that do not decode to a value of the expected type. The cached result is then ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CorruptPayload;
 
@@ -103,7 +103,7 @@ pub fn encode<T: Serialize + ?Sized>(value: &T) -> Option<Vec<u8>> {
     postcard::to_allocvec(value).ok()
 }
 
-/// Decodes what [`encode`] wrote.
+/// Decodes a value that [`encode`] encoded.
 ///
 /// # Errors
 /// If the bytes do not decode to this type, or if bytes remain.
@@ -122,8 +122,6 @@ fn deserialize_bytes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<u
     <&[u8]>::deserialize(deserializer).map(<[u8]>::to_vec)
 }
 
-// A results file: a header that identifies the results by their key and protects them by a checksum, and the encoded catalogue.
-
 /// Identifies a set of cached results: program build, settings, and query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
@@ -133,12 +131,12 @@ pub struct Key {
     pub question: [u8; 32],
 }
 
-/// Why a results file is not used.
+/// The reason why a results file is not used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CacheFault {
-    /// The file is incomplete or something else.
+    /// The file is incomplete, altered, or no results file.
     Damaged,
-    /// Written by another build of the program, or for another query.
+    /// The file was written by another build of the program, or for another query.
     Foreign,
 }
 
@@ -148,13 +146,13 @@ const MAGIC: &[u8; 16] = b"pathbuild cache\x05";
 const HEAD: usize = 16 + 32 + 32 + 32;
 
 impl Key {
-    /// Hashes the build and the query.
+    /// Creates the key by hashing the build and the query.
     pub fn new(build: &str, question: &str) -> Self {
         let hash = |text: &str| *blake3::hash(text.as_bytes()).as_bytes();
         Self { build: hash(build), question: hash(question) }
     }
 
-    /// Name of the file that holds the results of this key.
+    /// Returns the name of the file that holds the results of this key.
     pub fn file_name(&self) -> String {
         let digits = blake3::Hash::from_bytes(self.question).to_hex();
         format!("{}{SUFFIX}", &digits[..DIGITS])
@@ -195,7 +193,7 @@ pub(crate) fn decode_file(key: &Key, file: &[u8]) -> Result<Catalogue, CacheFaul
     if catalogue.is_consistent() { Ok(catalogue) } else { Err(CacheFault::Damaged) }
 }
 
-/// The key in a file's header.
+/// Returns the key in a file's header; `None` if there is no such header.
 pub(crate) fn key_of(file: &[u8]) -> Option<Key> {
     let rest = file.strip_prefix(MAGIC)?;
     let (build, rest) = rest.split_first_chunk()?;

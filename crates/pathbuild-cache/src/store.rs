@@ -1,6 +1,6 @@
-//! Where results are stored: in the user's cache directory, in a directory named after the tree's real path, so that no repository can
-//! bring its own cache; or in a directory that the user named. Any number of processes may read and write there: files are replaced
-//! atomically, so every file is complete, and the last writer wins. (book: reference/configuration)
+//! Stores results in a directory named after the tree's real path in the user's cache directory, so that no repository can bring its own cache; or in
+//! a directory that the user named. Any number of processes may read and write in this directory: files are replaced atomically, so every file is
+//! complete, and the last writer wins. (book: reference/configuration)
 
 #![expect(clippy::disallowed_methods, reason = "these are the cache's own files; no result depends on them")]
 
@@ -15,16 +15,16 @@ use pathbuild_files::{CLOCK, Clock, private};
 
 use crate::catalogue::{CacheFault, Catalogue, Key, decode_file, encode_file, is_file_name, key_of};
 
-/// Where the results of all trees are stored.
+/// The place where the results of all trees are stored.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Home {
     /// pathbuild's directory in the user's cache directory; each tree has a subdirectory.
     User(Utf8PathBuf),
-    /// A directory that the user named. It is trusted whichever tree it was made for, so that it also serves copies of that tree.
+    /// A directory that the user named. It is trusted regardless of the tree for which it was created, so that it also serves copies of that tree.
     Named(Utf8PathBuf),
 }
 
-/// Where the results of one tree are stored.
+/// The place where the results of one tree are stored.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TreeStore {
     directory: Utf8PathBuf,
@@ -42,7 +42,7 @@ const MAX_TAG_BYTES: u64 = 1 << 16;
 const TAG: &str = "CACHEDIR.TAG";
 
 impl TreeStore {
-    /// The store of the tree with this configuration directory. Creates nothing yet.
+    /// Returns the store of the tree with this configuration directory. Nothing is created yet.
     pub fn of_tree(home: &Home, tree: &Utf8Path) -> Self {
         match home {
             Home::Named(directory) => Self { directory: directory.clone(), tree: None },
@@ -53,12 +53,13 @@ impl TreeStore {
         }
     }
 
-    /// The directory of the results.
+    /// Returns the directory of the results.
     pub fn directory(&self) -> &Utf8Path {
         &self.directory
     }
 
-    /// Why the store must not be used: its directory is a symbolic link, belongs to another user, or holds other files.
+    /// Returns the reason why the store must not be used, if there is one: its directory is a symbolic link, belongs to another user, or holds other
+    /// files.
     pub fn refusal(&self) -> Option<&'static Text> {
         let holds_others = || entry_names(&self.directory).any(|name| !is_ours(&self.directory, &name));
         let is_right = || match private::read(&self.directory.join(TAG), MAX_TAG_BYTES) {
@@ -72,7 +73,7 @@ impl TreeStore {
     /// Loads the results of a key; `None` if there are none.
     ///
     /// # Errors
-    /// Why the results file cannot be used.
+    /// The reason why the results file cannot be used.
     pub fn load(&self, key: &Key) -> Result<Option<Catalogue>, CacheFault> {
         match private::read(&self.directory.join(key.file_name()), MAX_RESULTS_BYTES) {
             Ok(Some(file)) => decode_file(key, &file).map(Some),
@@ -84,7 +85,7 @@ impl TreeStore {
     /// Stores results under a key, replacing earlier ones.
     ///
     /// # Errors
-    /// If they cannot be written; the earlier ones remain.
+    /// If the results cannot be written; the earlier results remain.
     pub fn store(&self, key: &Key, mut catalogue: Catalogue) -> io::Result<()> {
         catalogue.records.sort_unstable_by(|a, b| a.subject.cmp(&b.subject));
         let too_much = || reasons::error(io::ErrorKind::Other, &reasons::TOO_MUCH_TO_KEEP);
@@ -96,10 +97,10 @@ impl TreeStore {
         private::replace(&self.directory, &key.file_name(), &bytes)
     }
 
-    /// Current time of the directory's file system.
+    /// Returns the current time of the directory's file system.
     ///
     /// # Errors
-    /// If nothing can be written there.
+    /// If no file can be written in the directory.
     pub fn clock(&self) -> io::Result<Clock> {
         Clock::of(&self.directory)
     }
@@ -107,7 +108,7 @@ impl TreeStore {
     /// Creates the directory, and the tag that keeps it out of backups. Returns whether the directory is new.
     ///
     /// # Errors
-    /// If it cannot be created.
+    /// If the directory cannot be created.
     pub fn make(&self) -> io::Result<bool> {
         let is_new = private::make_directory(&self.directory)?;
         let tag = private::read(&self.directory.join(TAG), MAX_TAG_BYTES);
@@ -121,7 +122,7 @@ impl TreeStore {
     }
 }
 
-/// Whether a cache tag was written by pathbuild: other programs use the same signature line.
+/// Whether pathbuild wrote a cache tag. The whole text is compared, because other programs use the same signature line.
 fn is_own_tag(tag: &[u8]) -> bool {
     tag == TAG_TEXT.as_bytes()
 }
@@ -131,13 +132,13 @@ fn is_own_tree(directory: &Utf8Path) -> bool {
     recorded_tree(directory).is_some_and(|tree| directory.file_name() == Some(&name_of(&tree)))
 }
 
-/// The tree that a directory's tree file names.
+/// Returns the tree that a directory's tree file names.
 fn recorded_tree(directory: &Utf8Path) -> Option<Utf8PathBuf> {
     let tree = private::read(&directory.join(TREE), MAX_TAG_BYTES).ok().flatten()?;
     String::from_utf8(tree).ok().map(Utf8PathBuf::from)
 }
 
-/// Name of a tree's subdirectory in the user's cache directory.
+/// Returns the name of a tree's subdirectory in the user's cache directory.
 fn name_of(tree: &Utf8Path) -> String {
     blake3::hash(tree.as_str().as_bytes()).to_hex()[..NAME_LENGTH].to_owned()
 }
@@ -149,33 +150,33 @@ const TAG_TEXT: &str = "Signature: 8a477f597d28d172789f06886806bc55\n\
     # This directory holds results that pathbuild can make again. It may be deleted at any time.\n\
     # https://bford.info/cachedir/\n";
 
-/// A results file.
+/// A results file in a store.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// Its path.
+    /// Path of the results file.
     pub path: Utf8PathBuf,
     /// Size in bytes.
     pub size: u64,
-    /// Why the file cannot be used; `None` if it can.
+    /// The reason why the file cannot be used; `None` if it can.
     pub fault: Option<CacheFault>,
 }
 
 /// A file or directory that could not be removed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RemoveError {
-    /// Its path.
+    /// Path of the file or directory.
     pub path: Utf8PathBuf,
-    /// Why it could not be removed.
+    /// The reason why it could not be removed.
     pub reason: Value,
 }
 
-/// Age after which pruning removes results that have not been rewritten.
+/// Age after which pruning removes results that have not been rewritten: 30 days.
 const UNUSED_AGE: Duration = Duration::from_hours(30 * 24);
-/// Age after which a temporary file must have been left by a killed process.
+/// Age after which a temporary file counts as abandoned by a process that was killed: one hour.
 const ABANDONED_AGE: Duration = Duration::from_hours(1);
 
 impl TreeStore {
-    /// All results files, sorted by name, each with whether this build of the program can use it.
+    /// Lists all results files, sorted by name, and checks whether this build of the program can use them.
     pub fn entries(&self, build: &Key) -> Vec<Entry> {
         let mut entries: Vec<Entry> = entry_names(self.directory())
             .filter(|name| is_file_name(name))
@@ -190,8 +191,8 @@ impl TreeStore {
         entries
     }
 
-    /// Removes useless files: those that cannot be used, those not rewritten for a month, and temporary files of killed processes. Returns
-    /// how many files were removed.
+    /// Removes useless files: those that cannot be used, those not rewritten for a month, and temporary files of killed processes. Returns the number
+    /// of removed files.
     ///
     /// # Errors
     /// If one of them cannot be removed, or if the directory is not a cache; then nothing is removed.
@@ -210,7 +211,7 @@ impl TreeStore {
     /// Removes the whole store. Returns whether it existed.
     ///
     /// # Errors
-    /// If it cannot be removed, or if it is not a cache; then nothing is removed.
+    /// If the store cannot be removed, or if its directory is not a cache; then nothing is removed.
     pub fn clean(&self) -> Result<bool, RemoveError> {
         let is_there = fs::symlink_metadata(self.directory()).is_ok();
         if is_there {
@@ -247,7 +248,7 @@ fn is_ours(directory: &Utf8Path, name: &str) -> bool {
     is_named_so || name == TREE && is_own_tree(directory)
 }
 
-/// Whether the name is that of a temporary file for one of ours.
+/// Whether the name is that of a temporary file for a file of pathbuild.
 fn is_temporary(name: &str) -> bool {
     let is_ours = |name: &str| is_file_name(name) || matches!(name, TAG | TREE | CLOCK);
     pathbuild_files::is_temporary(name, is_ours)
@@ -256,7 +257,7 @@ fn is_temporary(name: &str) -> bool {
 /// Removes pathbuild's files from a directory, and the directory itself if it is then empty.
 fn clean(directory: &Utf8Path) -> Result<(), RemoveError> {
     refuse_others(directory)?;
-    // The tag that marks the directory as a cache goes last.
+    // The tag that marks the directory as a cache is removed last.
     let ours: Vec<String> =
         entry_names(directory).filter(|name| name != TAG && is_ours(directory, name)).collect();
     for name in ours.into_iter().chain([TAG.to_owned()]) {
@@ -278,7 +279,7 @@ fn refuse_others(directory: &Utf8Path) -> Result<(), RemoveError> {
     }
     let tag = directory.join(TAG);
     let tag = private::read(&tag, MAX_TAG_BYTES).map_err(|reason| RemoveError { path: tag, reason })?;
-    // Another process may be about to write the tag, or may just have removed it; all other files must then be ours.
+    // Another process may be about to write the tag, or may just have removed it. All other files must then be pathbuild's.
     let is_cache = tag
         .map_or_else(|| entry_names(directory).all(|name| is_ours(directory, &name)), |tag| is_own_tag(&tag));
     if !is_cache {

@@ -1,5 +1,5 @@
-//! Decides which cached results still hold: their files must be unchanged, and their lookups must still give the same answers in the
-//! directories as they are now.
+//! Decides which cached results are still valid: their files must be unchanged, and their lookups must still give the same answers in the directories
+//! as they are now.
 
 #![expect(
     clippy::disallowed_methods,
@@ -15,41 +15,41 @@ use rayon::prelude::*;
 
 use crate::catalogue::{Catalogue, DirectoryFact, FileFact};
 
-/// Whether the file of the first name may contain the path of the second name.
+/// A test of whether the file of the first name may contain the path of the second name.
 pub type CoversFn<'a> = &'a (dyn Fn(&str, &str) -> bool + Sync);
 
 /// A file's bytes, and the stamp under which they were read.
 pub type StampedBytes = (Vec<u8>, Stamp);
 
-/// The outcome of verifying a catalogue.
+/// The result of verifying a catalogue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// For each record, whether it was requested and still holds; its outputs do not matter.
+    /// For each record, whether it was requested and is still valid; missing outputs do not matter.
     pub holds: Vec<bool>,
     /// For each record, requested or not, whether no input is known to have changed.
     pub is_sound: Vec<bool>,
-    /// State of each file.
+    /// State of each file of the catalogue.
     pub files: Vec<FileState>,
-    /// The current state of each directory.
+    /// The current state of each directory of the catalogue.
     pub directories: Vec<DirectoryFact>,
     /// Whether every stamp and every directory is unchanged, so that the catalogue need not be rewritten.
     pub is_current: bool,
 }
 
-/// How a catalogue is compared with the file system.
+/// The settings and callbacks with which a catalogue is compared with the file system.
 #[derive(Clone, Copy)]
 pub struct VerifyContext<'a> {
-    /// Directory that paths are relative to.
+    /// Directory to which paths are relative.
     pub base: &'a Utf8Path,
-    /// Decides which file may contain which path.
+    /// Decides whether a file may contain a path.
     pub covers: CoversFn<'a>,
     /// Decides which records are requested, by their subject.
     pub is_requested: &'a (dyn Fn(&str) -> bool + Sync),
     /// Whether a file may be accessed.
     pub is_allowed: &'a (dyn Fn(&Utf8Path) -> bool + Sync),
-    /// Reads a file; the flag tells whether it is an output. The stamp is unknown if it changed during the read.
+    /// Reads a file; the flag is true for outputs. The stamp is unknown if the file changed during the read.
     pub read: &'a (dyn Fn(&Utf8Path, bool) -> Option<StampedBytes> + Sync),
-    /// Hashes the content of an output; outputs may have parts that users edit.
+    /// Hashes the content of an output without those parts that users may edit.
     pub hash_output: &'a (dyn Fn(&Utf8Path, &[u8]) -> [u8; 32] + Sync),
 }
 
@@ -82,7 +82,7 @@ pub fn verify(catalogue: &Catalogue, context: VerifyContext<'_>, mut listings: L
     Verdict { holds, is_sound, files, directories, is_current }
 }
 
-/// States of the files of the requested records. Querying the metadata of ten thousand files dominates a run without changes.
+/// Determines the states of the files of the requested records. Querying the metadata of ten thousand files takes most of a run without changes.
 fn files(catalogue: &Catalogue, is_requested: &[bool], context: VerifyContext<'_>) -> Vec<FileState> {
     let mut roles = vec![Role::None; catalogue.files.len()];
     let requested = catalogue.records.iter().zip(is_requested).filter(|(_, is_requested)| **is_requested);
@@ -106,7 +106,7 @@ enum Role {
     Output,
 }
 
-/// For each record, whether none of its checked files has changed and all its lookups give the same answers.
+/// Determines for each record whether none of its checked files has changed and all its lookups give the same answers.
 fn sound_records(
     catalogue: &Catalogue,
     files: &[FileState],
@@ -139,7 +139,7 @@ pub enum FileState {
     Touched(Stamp),
     /// The bytes differ, or the file is gone.
     Changed,
-    /// No requested record uses it.
+    /// No requested record uses the file, so it was not compared.
     Unchecked,
 }
 
@@ -150,7 +150,7 @@ fn state(
     hash_of: &dyn Fn(&Utf8Path, &[u8]) -> [u8; 32],
 ) -> FileState {
     let path = &*file.path;
-    // Check first: a stamp is that of the target of symbolic links, which may be anywhere.
+    // Check permission first: the stamp would be that of a symbolic link's target, which may be anywhere.
     if !(context.is_allowed)(path) {
         return FileState::Changed;
     }
@@ -165,11 +165,11 @@ fn state(
     }
 }
 
-/// Difference between a directory and what is cached of it.
+/// Difference between a directory and its cached state.
 enum DirectoryChange {
     /// The names and the targets of links are the same.
     None,
-    /// Names that were added or removed.
+    /// The given names were added or removed.
     Names(Vec<Box<str>>),
     /// Symbolic links have other targets, or names may be missing: all lookups in this directory are repeated.
     Links,
@@ -202,33 +202,33 @@ impl DirectoryChange {
     }
 }
 
-/// An input of a result that has changed.
+/// A changed input because of which a result is no longer valid.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reason {
     /// A file has different bytes, or is gone.
     File {
-        /// Its path, spelled as in the run that read it.
+        /// Path of the file, spelled as in the run that read it.
         path: Utf8PathBuf,
-        /// Whether it is gone.
+        /// Whether the file no longer exists.
         is_gone: bool,
     },
     /// A file that may contain a path which was looked up has appeared or disappeared.
     Name {
-        /// The file.
+        /// Path of the file that has appeared or disappeared.
         file: Utf8PathBuf,
         /// Name of the path that was looked up.
         path: Box<str>,
         /// Whether the file disappeared.
         is_gone: bool,
     },
-    /// A symbolic link in a directory, or on the way to it, has another target, or the directory could not be listed completely.
+    /// A symbolic link in a directory or in its path has another target, or the directory could not be listed completely.
     Links {
-        /// The directory.
+        /// Path of the directory.
         directory: Utf8PathBuf,
     },
 }
 
-/// Lists why a record no longer holds, without duplicates; empty if it holds.
+/// Lists the reasons why a record is no longer valid, without duplicates; empty if it is valid.
 pub fn reasons(catalogue: &Catalogue, verdict: &Verdict, record: usize, covers: CoversFn<'_>) -> Vec<Reason> {
     let record = &catalogue.records[record];
     let changed = record.files.iter().filter(|file| verdict.files[**file] == FileState::Changed);
@@ -281,11 +281,11 @@ fn of_lookup(before: &DirectoryFact, now: &DirectoryFact, path: &str, covers: Co
 /// The names of drawings in a directory.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Listing {
-    /// The names; sorted once the listing is complete.
+    /// The names of the drawings; sorted once the listing is complete.
     pub names: Vec<Box<str>>,
-    /// Names that are symbolic links, in any order.
+    /// The names of drawings that are symbolic links, in any order.
     pub links: Vec<Box<str>>,
-    /// Whether some may be missing.
+    /// Whether names may be missing.
     pub is_doubtful: bool,
 }
 
@@ -318,7 +318,7 @@ impl Listing {
                 listing.is_doubtful = true;
                 continue;
             };
-            // `System` lists names that are not UTF-8 in the same lossy spelling.
+            // Convert names that are not UTF-8 lossily, as `System` does.
             if let Some(file_type) = entry.file_type().ok().filter(|file_type| !file_type.is_dir()) {
                 listing.add(&entry.file_name().to_string_lossy(), file_type.is_symlink());
             }
@@ -341,7 +341,7 @@ impl DirectoryFact {
         let mut canonical = canonical(place, base);
         links.sort_unstable();
         for link in links {
-            // A separator that occurs in no path.
+            // The separator is a character that occurs in no path.
             canonical.push('\0');
             canonical.push_str(&self::canonical(&place.join(&*link), base));
         }
@@ -349,7 +349,7 @@ impl DirectoryFact {
     }
 }
 
-/// Canonical path relative to `base` if inside it; empty if there is no such file.
+/// Returns the canonical path, relative to `base` if inside it; empty if there is no such file.
 fn canonical(place: &Utf8Path, base: &Utf8Path) -> String {
     let Ok(place) = place.canonicalize_utf8() else { return String::new() };
     let base = base.canonicalize_utf8().unwrap_or_else(|_| base.to_owned());
