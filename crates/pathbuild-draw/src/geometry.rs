@@ -12,40 +12,40 @@ pub struct Point {
 }
 
 impl Point {
-    /// A point in the plane of the drawing.
+    /// Creates a point in the plane of the drawing.
     pub const fn new(x: f64, y: f64) -> Self {
         Self { x, y, z: 0.0 }
     }
 
-    /// The same point at another height.
+    /// Returns the point moved to another height.
     pub const fn at(self, z: f64) -> Self {
         Self { z, ..self }
     }
 
-    /// The point at a distance in a direction (degrees, counterclockwise from the x axis).
+    /// Returns the point at a distance in a direction (degrees, counterclockwise from the x axis).
     pub fn polar(self, distance: f64, degrees: f64) -> Self {
         let (sin, cos) = sin_cos(degrees);
         Self { x: self.x + distance * cos, y: self.y + distance * sin, ..self }
     }
 
-    /// The horizontal distance to another point.
+    /// Returns the horizontal distance to another point.
     pub fn distance(self, other: Self) -> f64 {
         libm::hypot(other.x - self.x, other.y - self.y)
     }
 
-    /// The direction to another point, in degrees from -180 to 180.
+    /// Returns the direction to another point, in degrees from -180 to 180.
     pub fn direction(self, other: Self) -> f64 {
         libm::atan2(other.y - self.y, other.x - self.x).to_degrees()
     }
 
-    /// The vector rotated around the origin.
+    /// Returns the vector rotated around the origin, counterclockwise.
     pub fn turned(self, degrees: f64) -> Self {
         let (sin, cos) = sin_cos(degrees);
         Self { x: self.x * cos - self.y * sin, y: self.x * sin + self.y * cos, ..self }
     }
 }
 
-/// Sine and cosine of an angle in degrees, exact for multiples of 90 degrees, which most drawings consist of.
+/// Returns sine and cosine of an angle in degrees, exact for multiples of 90 degrees, which occur most often in drawings.
 pub fn sin_cos(degrees: f64) -> (f64, f64) {
     match degrees.rem_euclid(360.0) {
         0.0 => (0.0, 1.0),
@@ -113,12 +113,12 @@ pub struct Circle {
 }
 
 impl Arc {
-    /// The point at an angle in degrees.
+    /// Returns the point at an angle in degrees.
     pub fn point(&self, degrees: f64) -> Point {
         self.centre.polar(self.radius, degrees)
     }
 
-    /// The angle covered, greater than 0 and at most 360 degrees.
+    /// Returns the swept angle, greater than 0 and at most 360 degrees.
     pub fn sweep(&self) -> f64 {
         let sweep = (self.end - self.start).rem_euclid(360.0);
         if sweep == 0.0 { 360.0 } else { sweep }

@@ -1,9 +1,9 @@
-//! Pairs of DXF as the crate `dxf` writes them, and the correction of its errors and omissions.
+//! Reads the DXF pairs that the crate `dxf` writes, and corrects the crate's errors and omissions.
 //!
-//! The crate knows which groups an entity has. But it duplicates handles; omits the handles of tables, the owners, and model and paper
-//! space; writes an empty group 430; drops alignment points at the origin; does not know frozen layers; escapes carets and umlauts; and
-//! puts the time and a random number into each file. Strings are therefore passed as tickets and restored here, and handles are assigned
-//! anew.
+//! The crate knows which groups an entity has. But it duplicates handles; omits the handles of tables, the owners, and model and paper space; writes
+//! an empty group 430; drops alignment points at the origin; does not know frozen layers; escapes carets and umlauts; and puts the time and a random
+//! number into each file. Strings are therefore replaced by placeholders (tickets) while they pass through the crate and restored in this module, and
+//! handles are assigned anew.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -25,28 +25,28 @@ impl<'a> Pair<'a> {
         Self { code, value: value.into() }
     }
 
-    /// A pair for a handle or a pointer to one.
+    /// Creates a pair for a handle or a pointer to one.
     pub fn handle(code: i32, handle: u64) -> Self {
         Self::new(code, format!("{handle:X}"))
     }
 
-    /// A pair for an integer, aligned as CAD programs do.
+    /// Creates a pair for an integer, aligned as CAD programs do.
     pub fn integer(code: i32, number: i64) -> Self {
         Self::new(code, format!("{number:>6}"))
     }
 
-    /// The pair with its value borrowed.
+    /// Returns the pair with its value borrowed.
     pub fn borrowed(&self) -> Pair<'_> {
         Pair { code: self.code, value: Cow::Borrowed(&self.value) }
     }
 
-    /// The pair with its value cloned.
+    /// Returns the pair with its value cloned.
     pub fn owned(&self) -> Pair<'static> {
         Pair { code: self.code, value: Cow::Owned(self.value.clone().into_owned()) }
     }
 }
 
-/// The pairs from one group 0 to the next.
+/// An entity or other object of DXF: the pairs from one group 0 to the next.
 pub type Record<'a> = Vec<Pair<'a>>;
 
 /// Splits DXF into records.
@@ -63,12 +63,12 @@ pub fn records(text: &str) -> Vec<Record<'_>> {
     records
 }
 
-/// The type of a record: the value of group 0.
+/// Returns the type of a record: the value of group 0.
 pub fn kind<'r>(record: &'r [Pair<'_>]) -> &'r str {
     record.first().map_or("", |pair| pair.value.as_ref())
 }
 
-/// The value of the first pair of a code.
+/// Returns the value of the first pair with a group code.
 pub fn value<'r>(record: &'r [Pair<'_>], code: i32) -> Option<&'r str> {
     record.iter().find(|pair| pair.code == code).map(|pair| pair.value.as_ref())
 }
@@ -78,7 +78,7 @@ pub fn drop_codes(record: &mut Record<'_>, codes: &[i32]) {
     record.retain(|pair| !codes.contains(&pair.code));
 }
 
-/// Inserts the handle, and the owner if there is one, after group 0, in place of those that the crate wrote.
+/// Inserts the handle, and the owner if there is one, after group 0, in place of those that the crate wrote. `code` is the group code of the handle.
 pub fn identify(record: &mut Record<'_>, code: i32, handle: Option<u64>, owner: Option<u64>) {
     drop_codes(record, &[5, 105, 330]);
     let handle = handle.map(|handle| Pair::handle(code, handle));
@@ -95,11 +95,11 @@ pub fn tidy(record: &mut Record<'_>) {
     });
 }
 
-/// Groups of MTEXT to keep. The crate adds groups for columns and a background, which older programs cannot read.
+/// Groups of MTEXT that are written. The crate adds groups for columns and a background, which older programs cannot read.
 const MTEXT: [i32; 25] =
     [0, 5, 330, 100, 67, 8, 6, 62, 48, 60, 10, 20, 30, 40, 41, 71, 72, 3, 1, 7, 73, 44, 210, 220, 230];
 
-/// Reduces an MTEXT to its usual groups and those of its direction. The crate's second group 50 counts columns.
+/// Reduces an MTEXT to its usual groups and those of its direction. The crate writes a second group 50 for columns, which is dropped.
 pub fn reduce_mtext(record: &mut Record<'_>, direction: &[i32]) {
     let mut is_first = true;
     record.retain(|pair| {
@@ -125,7 +125,7 @@ pub struct Tickets {
 }
 
 impl Tickets {
-    /// The string itself if the crate leaves it unchanged, otherwise its ticket.
+    /// Returns the string itself if the crate leaves it unchanged, otherwise its ticket.
     pub fn ticket(&mut self, string: &str) -> String {
         let is_safe = |c: char| (' '..='~').contains(&c) && !matches!(c, '^' | '<');
         if string.chars().all(is_safe) {
@@ -154,7 +154,7 @@ impl Tickets {
     }
 }
 
-/// Writes ASCII DXF: one line for the code, one for the value. Without an encoding, texts are ASCII.
+/// Writes DXF in its ASCII form: one line for the code, one for the value. Without an encoding, texts are reduced to ASCII.
 pub fn ascii(pairs: &[Pair<'_>], encoding: Option<&'static Encoding>, line_end: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(pairs.len() * 16);
     for pair in pairs {

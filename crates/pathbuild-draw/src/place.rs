@@ -5,7 +5,7 @@ use crate::geometry::{Arc, Circle, Line, Point};
 /// Usual letter height in mm.
 pub const HEIGHT: f64 = 2.0;
 
-/// A letter height, followed by those to try if there is no room.
+/// Returns a letter height, followed by smaller ones to try if there is no room.
 pub fn reduced(height: f64) -> [f64; 7] {
     [1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1].map(|factor| factor * height)
 }
@@ -23,7 +23,7 @@ pub enum ElementPart {
 type Rank = u8;
 
 impl ElementPart {
-    /// Rank and distance if a text circle overlaps this part. (book: language/parameter-texts)
+    /// Returns rank and distance if a text circle overlaps this part. (book: language/parameter-texts)
     fn overlapped(&self, centre: Point, radius: f64) -> Option<(Rank, f64)> {
         match self {
             Self::Circle(circle) => {
@@ -42,7 +42,7 @@ impl ElementPart {
         }
     }
 
-    /// The distance of a point from the part; negative inside a circle.
+    /// Returns the distance of a point from the part in mm; negative inside a circle.
     fn clearance(&self, point: Point) -> f64 {
         let to_ends = |a: Point, b: Point| point.distance(a).min(point.distance(b));
         match self {
@@ -55,7 +55,7 @@ impl ElementPart {
         }
     }
 
-    /// Centres at which a text circle of this radius overlaps the part, the best looking first.
+    /// Returns centres at which a text circle of this radius overlaps the part, the best looking first.
     fn seats(&self, radius: f64) -> Vec<Point> {
         const ALONG: [f64; 11] = [0.5, 0.35, 0.65, 0.2, 0.8, 0.42, 0.58, 0.28, 0.72, 0.1, 0.9];
         const ASIDE: [f64; 3] = [0.6, -0.6, 0.0];
@@ -94,7 +94,7 @@ fn covers(arc: &Arc, point: Point) -> bool {
     (arc.centre.direction(point) - arc.start).rem_euclid(360.0) <= arc.sweep()
 }
 
-/// The foot of the perpendicular, if it lies on the line.
+/// Returns the foot of the perpendicular from a point to a line, if it lies on the line.
 fn foot(line: &Line, point: Point) -> Option<Point> {
     let (along, to) = (line.to - line.from, point - line.from);
     let length2 = along.x * along.x + along.y * along.y;
@@ -102,14 +102,14 @@ fn foot(line: &Line, point: Point) -> Option<Point> {
     (0.0..=1.0).contains(&t).then(|| line.from + along * t)
 }
 
-/// An element that a text may belong to.
+/// An element to which a text may belong.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// Its index among the entities; `None` if it comes from a block.
+    /// Index of the element among the entities; `None` if it comes from a block.
     pub entity: Option<usize>,
-    /// The layer in lower case.
+    /// Layer of the element in lower case.
     pub layer: String,
-    /// Whether it accepts a text; lines of type HIDDEN, end markers and turn markers do not.
+    /// Whether the element accepts a text; lines of type HIDDEN, end markers and turn markers do not.
     pub takes_text: bool,
     /// The parts that a text circle may overlap.
     pub pieces: Vec<ElementPart>,
@@ -125,13 +125,13 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// The extent of a TEXT.
+    /// Estimates the extent of a TEXT.
     pub fn of_text(value: &str, height: f64) -> Self {
         let width = 0.6 * height * value.chars().count() as f64;
         Self { width, height, radius: libm::hypot(width, height) / 2.0 }
     }
 
-    /// The extent of an MTEXT with these lines.
+    /// Estimates the extent of an MTEXT with these lines.
     pub fn of_mtext<S: AsRef<str>>(lines: &[S], letters: f64) -> Self {
         let longest = lines.iter().map(|line| line.as_ref().chars().count()).max().unwrap_or(0);
         let width = 0.6 * letters * longest as f64;
@@ -140,10 +140,10 @@ impl Extent {
     }
 }
 
-/// A test of whether a text circle with this centre and radius suits the target on this layer.
+/// A test of whether a text circle with this centre and radius suits the target element on this layer.
 type Rule<'a> = fn(&TextSeats<'a>, usize, &str, Point, f64) -> bool;
 
-/// The elements of a drawing, and which of them have a text already.
+/// The elements of a drawing; for each, whether it already has a text.
 #[derive(Debug)]
 pub struct TextSeats<'a> {
     candidates: &'a [Candidate],
@@ -151,20 +151,20 @@ pub struct TextSeats<'a> {
 }
 
 impl<'a> TextSeats<'a> {
-    /// Elements without texts.
+    /// Creates the state in which no element has a text.
     pub fn new(candidates: &'a [Candidate]) -> Self {
         Self { candidates, taken: vec![false; candidates.len()] }
     }
 
-    /// Marks the element that a text of the drawing belongs to.
+    /// Marks the element to which a text of the drawing belongs as having a text.
     pub fn take(&mut self, layer: &str, centre: Point, radius: f64) {
         if let Some(found) = self.found(layer, centre, radius) {
             self.taken[found] = true;
         }
     }
 
-    /// The centre and the extent of an entity's text, and the height of its letters: preferably far from all other elements, otherwise
-    /// anywhere that the rules assign to the entity. The heights are tried in this order.
+    /// Finds a position for an entity's text and returns its centre, its extent, and the height of its letters: preferably far from all other
+    /// elements, otherwise anywhere that the rules assign to the entity. The letter heights are tried in the given order.
     pub fn seat(
         &mut self,
         entity: usize,
@@ -202,7 +202,7 @@ impl<'a> TextSeats<'a> {
             && pieces.all(|piece| piece.clearance(centre) > 1.1 * radius + 0.05)
     }
 
-    /// Whether the rules assign the text to the target when its turn comes, even if the estimated size of the text is slightly off.
+    /// Whether the rules assign the text to the target in the order in which texts are read, even if the estimated size of the text is slightly off.
     fn is_given(&self, target: usize, layer: &str, centre: Point, radius: f64) -> bool {
         let near = |factor: f64| self.found(layer, centre, factor * radius);
         if self.candidates[target].takes_text {
@@ -212,7 +212,7 @@ impl<'a> TextSeats<'a> {
         }
     }
 
-    /// The element that a text circle matches among those that have no text yet.
+    /// Returns the element that a text circle matches among those that have no text yet.
     fn found(&self, layer: &str, centre: Point, radius: f64) -> Option<usize> {
         let free = self.candidates.iter().enumerate().filter(|(index, candidate)| {
             candidate.takes_text && !self.taken[*index] && candidate.layer == layer
@@ -229,7 +229,7 @@ fn overlaps(candidate: &Candidate, centre: Point, radius: f64) -> bool {
     candidate.pieces.iter().any(|piece| piece.overlapped(centre, radius).is_some())
 }
 
-/// Says that an element's text has no room.
+/// Formats the message that there is no room for an element's text.
 pub fn no_room(text: &str) -> String {
     format!(
         "no place found where the text {text:?} would belong to this element and to no other; \

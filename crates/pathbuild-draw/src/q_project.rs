@@ -1,4 +1,4 @@
-//! Q-projects: rows of subpath segments, each with its text. (book: language/q-projects)
+//! Draws Q-projects: rows of subpath segments, each with its text. (book: language/q-projects)
 
 use dxf::entities::{
     Arc as CrateArc, Circle as CrateCircle, Entity, EntityType, Line as CrateLine, MText as CrateMText,
@@ -25,22 +25,21 @@ const CIRCLE: f64 = 5.0;
 /// Vertical distance in mm between the starts of consecutive paths.
 const ROW: f64 = 60.0;
 
-/// A path that embeds others, to be drawn.
+/// A path to be drawn that embeds others.
 #[derive(Clone, Debug)]
 pub struct EmbeddingPath<'a> {
-    /// The layer, which is also the path's name.
+    /// Name of the layer, which is also the path's name.
     pub layer: &'a str,
-    /// The text at the start.
+    /// The parameter text at the start marker.
     pub parameters: &'a str,
-    /// The segments: length in mm, and text.
+    /// The subpath segments: length in mm, and parameter text.
     pub segments: Vec<(f64, &'a str)>,
 }
 
-/// Draws paths that embed others, as DXF. Each path is a row to the right; the first starts at (0, 0), and each further one below the one
-/// before.
+/// Draws paths that embed others, as DXF. Each path is a row to the right; the first starts at (0, 0), and each further one below the previous one.
 ///
 /// # Errors
-/// The texts that have no room beside their elements.
+/// The texts for which there is no room beside their elements.
 pub fn q_project(paths: &[EmbeddingPath<'_>]) -> Result<Vec<u8>, Vec<String>> {
     let mut elements = Vec::new();
     let mut start = Point::new(0.0, 0.0);
@@ -50,7 +49,7 @@ pub fn q_project(paths: &[EmbeddingPath<'_>]) -> Result<Vec<u8>, Vec<String>> {
     }
     let mut layers = vec!["0"];
     for path in paths {
-        // Names of layers ignore case.
+        // Names of layers are not case-sensitive.
         if !layers.iter().any(|layer| layer.to_lowercase() == path.layer.to_lowercase()) {
             layers.push(path.layer);
         }
@@ -63,16 +62,16 @@ struct Element<'a> {
     shape: ElementPart,
     layer: &'a str,
     line_type: &'static str,
-    /// Its parameter text, which may be empty; `None` if it takes none.
+    /// The element's parameter text, which may be empty; `None` if the element takes none.
     text: Option<&'a str>,
 }
 
 /// The text of an element with its position.
 struct PlacedText<'a> {
     text: &'a str,
-    /// The upper left corner.
+    /// The upper left corner of the text.
     corner: Point,
-    /// The height of the letters.
+    /// The height of the letters in mm.
     height: f64,
 }
 
@@ -95,7 +94,7 @@ fn add_row<'a>(elements: &mut Vec<Element<'a>>, path: &EmbeddingPath<'a>, start:
     add(ElementPart::Circle(Circle { centre: at, radius: 1.0 }), "PHANTOM", None);
 }
 
-/// A segment that begins at a point, and its end point. For a closed path it is a full circle.
+/// Creates a segment that begins at a point, and returns it with its end point. For a closed path the segment is a full circle.
 fn segment(from: Point, length: f64) -> (ElementPart, Point) {
     if length < CLOSED {
         let centre = from + Point::new(0.0, CIRCLE);
@@ -105,7 +104,7 @@ fn segment(from: Point, length: f64) -> (ElementPart, Point) {
     (ElementPart::Line(Line { from, to }), to)
 }
 
-/// Positions the texts, one entry for each element.
+/// Determines the positions of the texts, one entry for each element.
 fn seat_texts<'a>(elements: &[Element<'a>]) -> Result<Vec<Option<PlacedText<'a>>>, Vec<String>> {
     let candidate = |(index, element): (usize, &Element<'_>)| Candidate {
         entity: Some(index),
@@ -138,7 +137,7 @@ fn seat_texts<'a>(elements: &[Element<'a>]) -> Result<Vec<Option<PlacedText<'a>>
 /// of the entities, `#+n` the nth after those of entities and layers.
 const FRAME: &str = include_str!("frame.txt");
 
-/// The handle of the first entity.
+/// Handle of the first entity.
 const FIRST_HANDLE: u64 = 0x100;
 
 /// The number in [`FRAME`] of the handles of the first layer, of the plot style of layers, of the table of layers, and of model space,
@@ -181,7 +180,7 @@ fn to_dxf(layers: &[&str], elements: &[Element<'_>], texts: &[Option<PlacedText<
     ascii(&pairs, Some(WINDOWS_1252), b"\r\n")
 }
 
-/// The record of a visible layer, CONTINUOUS and white. `after_entities`: the first handle after those of the entities.
+/// Creates the record of a visible layer, CONTINUOUS and white. `after_entities` is the first handle after those of the entities.
 fn layer(name: &str, handle: u64, after_entities: u64) -> Record<'_> {
     vec![
         Pair::new(0, "LAYER"),
@@ -198,7 +197,7 @@ fn layer(name: &str, handle: u64, after_entities: u64) -> Record<'_> {
     ]
 }
 
-/// Lets the crate write the entities: each element is followed by its text.
+/// Writes the entities by means of the crate `dxf`: each element is followed by its text.
 fn entities(elements: &[Element<'_>], texts: &[Option<PlacedText<'_>>], tickets: &mut Tickets) -> String {
     let mut drawing = Drawing::new();
     drawing.clear();
@@ -246,7 +245,7 @@ fn mtext(placed: &PlacedText<'_>, tickets: &mut Tickets) -> EntityType {
     })
 }
 
-/// The entities in the crate's output, corrected, with handles and owner.
+/// Returns the entities in the crate's output, corrected, with handles and owner.
 fn entity_pairs<'a>(written: &'a str, tickets: &'a Tickets, owner: u64) -> Vec<Pair<'a>> {
     let records = records(written).into_iter();
     let entities = records
@@ -272,7 +271,7 @@ fn escaped(text: &str) -> String {
         match character {
             '\\' | '{' | '}' => escaped.extend(['\\', character]),
             '\u{a0}' => escaped.push_str("\\~"),
-            // Otherwise a caret would turn the next character into a control character.
+            // Without the blank, a caret would turn the next character into a control character.
             '^' => escaped.push_str("^ "),
             character => escaped.push(character),
         }
