@@ -2,7 +2,7 @@
 
 import { visible } from "./visible.js";
 
-/** The element with this id, which must exist. */
+/** Returns the element with this id, which must exist. */
 export const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 
 /** Creates an element with a text, which may be untrusted. */

@@ -16,7 +16,7 @@ export class TooMuch extends Error {
   }
 }
 
-/** Files given by the user, by their paths, and whether they are a folder. */
+/** Files given by the user, by their paths, and whether they form a folder. */
 export interface Given {
   isFolder: boolean;
   files: Files;
@@ -79,7 +79,7 @@ async function walk(entry: FileSystemEntry, into: Placed[]): Promise<void> {
   }
 }
 
-/** Whether a file is hidden, such as .git, which may be large; ignore files are not. */
+/** Whether a file is hidden, as in .git, which may be large. Ignore files (.gitignore) do not count as hidden. */
 function isHidden(place: string): boolean {
   const parts = place.split("/").filter((part) => part !== "");
   return parts.some((part, index) => part.startsWith(".") && !(index === parts.length - 1 && /^\.(git)?ignore$/.test(part)));
@@ -104,7 +104,7 @@ async function read(place: string, file: File): Promise<ArrayBuffer> {
   }
 }
 
-/** Adds drawings to the existing files. A drawing replaces the one with its name in any directory, if there is only one. */
+/** Adds drawings to the existing files. A drawing replaces the file with its name in any directory, if there is only one such file. */
 export function joined(before: Files, given: Given): Files {
   if (given.isFolder || before.size === 0) return given.files;
   const files = new Map(before);

@@ -5,7 +5,7 @@ import * as THREE from "three";
 
 import { Pieces } from "./model.js";
 
-/** Upper bounds on the number of pictures and on their total number of pixels. */
+/** Maximum number of pictures, and maximum total number of their pixels. */
 const [MOST_PICTURES, MOST_PIXELS] = [16, 24_000_000];
 
 interface Picture {
@@ -26,7 +26,7 @@ export class Kept {
   private view = new THREE.Matrix4();
   private size = new THREE.Vector2();
 
-  /** If a colour for pending strokes is given, they are visible beneath the others. */
+  /** If a colour for pending strokes is given, pending strokes are visible beneath the others. */
   constructor(
     pieces: Pieces,
     private ahead?: number,
@@ -41,7 +41,7 @@ export class Kept {
     this.object.frustumCulled = false;
   }
 
-  /** Sets the number of strokes to draw as done. */
+  /** Sets the number of strokes that are drawn as completed. */
   draw(count: number): void {
     this.wanted = count;
   }
@@ -93,7 +93,7 @@ export class Kept {
     this.lines.material = material;
   }
 
-  /** Goes back to a picture to which the remaining strokes can be added, or ahead to a later one that is nearer. */
+  /** Returns to a picture to which the remaining strokes can be added, or advances to a later one that is nearer. */
   private resume(renderer: THREE.WebGLRenderer, shown: Picture): void {
     const before = this.parts.filter((part) => part.count <= this.wanted).at(-1)!;
     if (shown.count >= before.count && shown.count <= this.wanted) return;

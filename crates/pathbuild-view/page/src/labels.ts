@@ -2,16 +2,16 @@
 
 import { Point } from "./scene.js";
 
-/** A label and its anchor. */
+/** A label, and the point to which it belongs. */
 export interface Spot {
   at: [number, number, number];
   node: HTMLElement;
 }
 
-/** Left, top, right, bottom in px. */
+/** Left, top, right and bottom side of a rectangle, in px. */
 type Box = [number, number, number, number];
 
-/** Classes in order of priority. The first ones are shown even without room. */
+/** Classes of labels in order of priority. Labels of the first ones are shown even if there is no room. */
 const RANKS = ["finding", "cross", "zero", "probe", "clamp", "text", "order", "name"];
 const ALWAYS = 5;
 
@@ -20,7 +20,7 @@ const CELL = 64;
 
 interface Label extends Spot {
   rank: number;
-  /** The space that it takes, relative to its anchor. */
+  /** The space that the label takes, relative to its anchor. */
   box: Box;
 }
 
@@ -28,7 +28,7 @@ export class Labels {
   private labels: Label[] = [];
   private isMeasured = false;
 
-  /** `legend` also covers a part of the picture. */
+  /** `legend` is the element that covers a part of the picture, so labels avoid it. */
   constructor(
     private host: HTMLElement,
     private legend: HTMLElement,
@@ -72,13 +72,13 @@ export class Labels {
   }
 }
 
-/** Offsets to try, the nearest first. */
+/** Returns the offsets from its anchor to try for a label, the nearest first. */
 function ways([left, top, right, bottom]: Box): Point[] {
   const [across, down] = [(right - left) / 2 + 4, bottom - top + 1];
   return [[0, 0], [0, down], [0, -down], [across, 0], [-across, 0], [across, down], [across, -down], [-across, down], [-across, -down], [0, 2 * down], [0, -2 * down]];
 }
 
-/** Moves a box into the picture. */
+/** Returns the box, moved into the picture. */
 function inside([left, top, right, bottom]: Box, width: number, height: number): Box {
   const dx = Math.max(0, -left) - Math.max(0, right - width);
   const dy = Math.max(0, -top) - Math.max(0, bottom - height);
@@ -89,7 +89,7 @@ function meets(a: Box, b: Box): boolean {
   return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
 }
 
-/** The cells that a box overlaps. */
+/** Returns the numbers of the cells that a box overlaps. */
 function cells([left, top, right, bottom]: Box): number[] {
   const all: number[] = [];
   for (let row = Math.floor(top / CELL); row * CELL < bottom; row++) {

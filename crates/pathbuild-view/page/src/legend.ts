@@ -13,7 +13,7 @@ const scale = $("scale");
 const depths = $("depths");
 const items = $("meanings");
 
-/** What the picture shows besides cuts. */
+/** The things besides cuts that the picture shows. */
 export interface Shown {
   rapids: boolean;
   stock: boolean;
@@ -23,7 +23,7 @@ export interface Shown {
   parts: FinishedPart[];
 }
 
-/** Renders the legend for what is visible. */
+/** Renders the legend for everything that is visible. */
 export function sayLegend(model: Model, shown: Shown, lang: Lang): void {
   const hasCuts = Number.isFinite(model.deepest);
   depths.hidden = !hasCuts;

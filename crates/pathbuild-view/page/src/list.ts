@@ -33,7 +33,7 @@ export class List {
     new ResizeObserver(() => this.fold()).observe(host);
   }
 
-  /** Sets the rows; `null` keeps them. Selects the row of the open path; of a whole drawing, its first row. */
+  /** Sets the rows; `null` keeps them. Selects the row of the open path or, if a whole drawing is open, the drawing's first row. */
   set(rows: LibraryRow[] | null, open: { file: string; path: string | null } | null): void {
     const chosen = open ?? this.rows[this.at];
     this.rows = rows ?? this.rows;
@@ -149,7 +149,7 @@ function name(row: LibraryRow): string {
   return row.path ?? say("wholeDrawing", lang);
 }
 
-/** The state as printed by `list`. */
+/** Creates the cell for the state of a path, in the words of `list`. */
 function state(row: LibraryRow): HTMLElement {
   if (!row.state) return part(say("unchecked", lang), "state");
   const counted = (count: number, one: Word, many: Word) => `${count} ${say(count === 1 ? one : many, lang)}`;

@@ -8,13 +8,13 @@ import { LibraryNews, LibraryRow, Refused, Source, Statistics } from "./source.j
 import { assume, hide, lang, onAssume, onSpeak, otherLang, show, speak, theme } from "./viewer.js";
 import { Word, say } from "./words.js";
 
-/** The path to show, or a whole drawing. */
+/** The path to show, or a whole drawing if `path` is `null`. */
 interface Wanted {
   file: string;
   path: string | null;
 }
 
-/** Which rows are listed. */
+/** The selection of rows that are listed. */
 type Filter = "all" | "errors" | "stale" | "current" | "ok" | "warnings";
 
 const FILTERS: [Filter, Word][] = [
@@ -26,7 +26,7 @@ const FILTERS: [Filter, Word][] = [
   ["warnings", "withWarnings"],
 ];
 
-/** Number of drawings fetched first: more than a window shows, and rendered before all of a large library has arrived. */
+/** Number of drawings fetched first: more than fit into a window, and rendered before all drawings of a large library have arrived. */
 const FIRST = 200;
 
 /** Starts the page with this source. Returns a function that opens a dropped program. */
@@ -125,7 +125,7 @@ class Page {
     }
   }
 
-  /** Fetches changes, and again if there were more in the meantime. */
+  /** Fetches changes, and fetches again if there were more in the meantime. */
   private async pull(): Promise<void> {
     this.isBehind = true;
     if (this.isPulling) return;
@@ -137,7 +137,7 @@ class Page {
         this.isBehind ||= !this.isWhole;
       }
     } catch {
-      // An event will show when another request is worthwhile.
+      // Ignore the error: the next event causes another request.
     }
     this.isPulling = false;
   }
@@ -198,7 +198,7 @@ class Page {
     const open = pending > 0 ? ` · ${count.format(pending)} ${say("unchecked", lang)}` : "";
     const nothing = rows.length > 0 || !this.isComplete ? "" : say(all.length === 0 ? "nothing" : "nothingFound", lang);
     $("count").textContent = nothing || `${shown}${count.format(all.length)} ${say(all.length === 1 ? "path" : "paths", lang)}${open}${this.isWhole ? "" : " …"}`;
-    // Last: the count takes a line of the room in which the list reveals its selected row.
+    // Set the rows last: the count takes a line of the space in which the list scrolls to its selected row.
     this.list.set(rows, this.open);
   }
 
@@ -311,7 +311,7 @@ class Page {
     this.follow();
   }
 
-  /** Shows the path named in the address. */
+  /** Shows the path that the page's address names. */
   private follow(): void {
     const from = new URLSearchParams(location.hash.slice(1));
     const file = from.get("file");
@@ -372,7 +372,7 @@ class Page {
   }
 }
 
-/** Whether a filter lets a row through. */
+/** Whether a filter accepts a row. */
 function isListed(row: LibraryRow, filter: Filter): boolean {
   return filter === "all" || (filter === "warnings" ? (row.warnings ?? 0) > 0 : row.state === filter);
 }

@@ -15,7 +15,7 @@ import { Word, say } from "./words.js";
 /** Interval in ms at which checked paths are shown. */
 const PAUSE = 100;
 
-/** The given library as a source. */
+/** The source of data for the files that the user has given. */
 class Local implements Source {
   files: Files = new Map();
   compiler: Compiler | null = null;
@@ -183,7 +183,7 @@ async function unpacked(id: string): Promise<ArrayBuffer> {
   return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
-/** Shows lines below the bar; none hides them. */
+/** Shows lines of text below the bar; an empty list hides them. */
 function tell(lines: string[]): void {
   $("said").replaceChildren(...lines.map((line) => node("p", line)));
   $("said").hidden = lines.length === 0;

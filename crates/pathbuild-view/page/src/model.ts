@@ -1,4 +1,4 @@
-// The moves of all paths in sequence, flattened once.
+// The moves of all paths in sequence, converted once into flat arrays.
 
 import { Color, color as named, depthColor, depths } from "./palette.js";
 import { Move, Path, Scene, isCut, pointsOfMove, pointsOfShape, toolOf } from "./scene.js";
@@ -8,7 +8,7 @@ export interface Step {
   move: Move;
 }
 
-/** Pieces of moves with the same style: 6 numbers each, and their count up to each step. */
+/** Lines of moves in the same style: 6 numbers for each piece, and the number of pieces up to each step. */
 export interface Pieces {
   points: number[];
   colors: number[];
@@ -93,10 +93,10 @@ export function model(scene: Scene): Model {
   return made;
 }
 
-/** Diameter of a hole's disc where the cutter is unknown, as a share of the picture. */
+/** Diameter of a hole's disc if the cutter is unknown, as a share of the picture's size. */
 const DOT = 0.012;
 
-/** Whether an element consists of this plunge alone; without elements, whether nothing is milled from its end. */
+/** Whether an element consists of this plunge alone or, in a program without elements, whether no cut starts at its end. */
 function isHole({ elements }: Path, { kind, element, to }: Move, next: Move | undefined): boolean {
   const isAlone = element === undefined ? next?.kind !== "mill" : elements[element].shape.type === "circle";
   return kind === "plunge" && to[0] !== null && to[1] !== null && isAlone;

@@ -5,20 +5,20 @@ import { MoveKind, isCut, toolOf } from "./scene.js";
 import { Timeline } from "./timeline.js";
 
 export interface Operation {
-  /** Range of its moves, excluding the end. */
+  /** Range of the operation's moves, excluding the end. */
   moves: [number, number];
   kind: MoveKind;
-  /** Its origin: numbers of elements, or the comment above it. */
+  /** Name of the operation: numbers of elements, or the comment above it. */
   name: string;
-  /** Lowest Z in mm. */
+  /** Lowest Z of the operation in mm. */
   depth: number | null;
-  /** Length of its cuts in mm. */
+  /** Length of the operation's cuts in mm. */
   length: number;
   seconds: number;
   tool: number | null;
 }
 
-/** Upper bound on operations without names: a longer table of them is of no use. */
+/** Number of operations without names above which no table is shown, because it would be of no use. */
 export const MOST_OPERATIONS = 2000;
 
 export function operations(model: Model, timeline: Timeline): Operation[] {
@@ -59,7 +59,7 @@ export function operations(model: Model, timeline: Timeline): Operation[] {
   return found;
 }
 
-/** The comment above each move if comments divide the program into a few sections, otherwise `null`. */
+/** Returns the comment above each move if comments divide the program into a few sections, otherwise `null`. */
 function sectionsOf({ steps }: Model): string[] | null {
   if (steps.length === 0 || steps.some(({ path }) => path.elements.length > 0 || !path.gcode)) return null;
   const names: string[] = [];

@@ -33,11 +33,11 @@ export interface Check {
   text: { en: string; de: string };
 }
 
-/** Facts about a program besides its moves. */
+/** The data about a program besides its moves. */
 export interface ProgramRecord {
   dialect: string;
   dialects: string[];
-  /** The dialect in which it was read, with the reason. */
+  /** The dialect in which the program was read, with the reason for this choice. */
   read_as: { en: string; de: string };
   checks: Check[];
   /** Cutter diameters in mm that the program itself states. */
@@ -58,7 +58,7 @@ export function fragmentOf(settings: ProgramSettings): string {
   return `program${given.join("")}`;
 }
 
-/** Drawings and related files; any other file dropped on its own is treated as a program. */
+/** Names of drawings and related files; any other file dropped on its own is treated as a program. */
 const LIBRARY = /\.(dxf|toml|cbpp|zip)$|(^|\/)\.(git)?ignore$/i;
 
 export function isProgram(name: string): boolean {

@@ -49,7 +49,7 @@ export interface Parameter {
   value: string;
   from: "own" | "chain" | "path" | "lender" | "option" | "default";
   which?: string;
-  /** The line of pathbuild.toml that gives an option's value. */
+  /** The line of pathbuild.toml that contains an option's value. */
   line?: number;
 }
 
@@ -75,7 +75,7 @@ export interface Path {
   file: string;
   zero: Point;
   tool: number | null;
-  /** Cutters of a program with several, each with the line from which it is used. */
+  /** Cutters of a program that uses several, each with the line from which it is used. */
   tools?: { line: number; diameter: number }[];
   thickness: number | null;
   material: string | null;
@@ -111,7 +111,7 @@ export interface KeepOut {
   height: number;
 }
 
-/** The cutter of a move in mm. */
+/** Returns the cutter diameter of a move in mm. */
 export function toolOf(path: Path, move: Move): number | null {
   const own = path.tools?.filter(({ line }) => line <= (move.line ?? 0)).at(-1);
   return own?.diameter ?? path.tool;
@@ -134,12 +134,12 @@ export interface Scene {
 /** Largest angle in degrees of an arc that is approximated by one chord. */
 const STEP = 6;
 
-/** Angle in degrees of a chord that stays within `sagitta` of its arc. */
+/** Returns the angle in degrees of a chord that stays within `sagitta` mm of its arc. */
 function step(radius: number, sagitta: number): number {
   return Math.min(STEP, (360 / Math.PI) * Math.acos(Math.max(-1, 1 - sagitta / radius)) || STEP);
 }
 
-/** The points of a move from start to end; empty if its route is unknown. Chords stay within `sagitta` of an arc. */
+/** Returns the points of a move from start to end; empty if its route is unknown. Chords stay within `sagitta` mm of an arc. */
 export function pointsOfMove(move: Move, sagitta = Infinity): [number, number, number][] {
   const { from, to, arc } = move;
   const z = (place: Place) => place[2] ?? (from[2] ?? to[2] ?? 0);
@@ -169,7 +169,7 @@ export function pointsOfMove(move: Move, sagitta = Infinity): [number, number, n
   return points;
 }
 
-/** The points of a shape. Chords stay within `sagitta` of an arc. */
+/** Returns the points of a shape. Chords stay within `sagitta` mm of an arc. */
 export function pointsOfShape(shape: Shape, sagitta = Infinity): Point[] {
   if (shape.type === "line") return [shape.from, shape.to];
   const { centre, radius } = shape;

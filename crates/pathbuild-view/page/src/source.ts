@@ -34,18 +34,18 @@ export interface Statistics extends Total {
   cutters: (Total & { tool: number | null })[];
 }
 
-/** Changes since a revision. */
+/** Changes of a library since a revision. */
 export interface LibraryNews {
   revision: number;
-  /** Whether these are all drawings, not only changed ones. */
+  /** Whether the answer contains all drawings and not only changed ones. */
   all: boolean;
   /** Whether everything has been checked. */
   complete: boolean;
-  /** Reason why nothing is checked. */
+  /** The reason why nothing is checked; `null` if drawings are checked. */
   halted: string | null;
   problems: Finding[];
   statistics: Statistics | null;
-  /** Changed drawings; without rows, the drawing was removed. */
+  /** Changed drawings. A drawing whose `rows` are `null` was removed. */
   drawings: { file: string; rows: LibraryRow[] | null }[];
   /** Whether there are more drawings than requested. */
   more: boolean;

@@ -17,16 +17,16 @@ import { StockPicture } from "./stock/picture.js";
 import { Stock } from "./stock/stock.js";
 import { wayUpTo } from "./timeline.js";
 
-/** Strokes, of which a given number is drawn. */
+/** Lines of the picture, of which a given number is drawn. */
 interface Strokes {
   object: THREE.Object3D;
   draw(count: number): void;
-  /** Prepares the next picture. */
+  /** Draws everything that must be ready before the next picture. */
   prepare?(renderer: THREE.WebGLRenderer, camera: THREE.Camera): void;
   dispose?(): void;
 }
 
-/** Number of pieces beyond which lines are thin: thick ones are too slow without a graphics card. */
+/** Number of pieces above which lines are thin: thick ones are too slow without a graphics card. */
 const MOST_THICK = 20_000;
 
 /** Whether moves are drawn as thick lines. */
@@ -72,7 +72,7 @@ export class Stage {
   private bars!: LineSegments2;
   private stock: StockPicture | null = null;
   private labels: Labels;
-  /** Camera and picture size for which the labels were placed; `null` if they were not. */
+  /** Camera and picture size for which the labels were placed; `null` if none were placed. */
   private labelled: [THREE.Matrix4, number, number] | null = null;
   private isDue = false;
   /** Width and height of the picture in px. */
@@ -86,7 +86,7 @@ export class Stage {
     labels: HTMLElement,
     legend: HTMLElement,
     readonly isThick: boolean,
-    /** Receives the scale in px per mm of the plane; `null` if it depends on the direction. */
+    /** Called with the scale in px per mm of the plane; `null` if it depends on the direction. */
     private hearScale: (perMm: number | null) => void,
   ) {
     this.labels = new Labels(labels, legend);
@@ -230,7 +230,7 @@ export class Stage {
     this.draw();
   }
 
-  /** The zoom at which the whole drawing is visible from above. */
+  /** Returns the zoom at which the whole drawing is visible from above. */
   private whole(): number {
     const { low, high } = this.model;
     const [width, height] = this.size;
@@ -290,13 +290,13 @@ export class Stage {
     this.placeLabels();
   }
 
-  /** Places the labels again after something else covers the picture. */
+  /** Places the labels again after another element has covered the picture. */
   placeLabels(): void {
     this.labelled = null;
     this.draw();
   }
 
-  /** The visible move nearest to a point of the picture. */
+  /** Returns the index of the visible move nearest to a point of the picture. */
   pick(x: number, y: number, count: number): number | null {
     let [best, found] = [REACH, null as number | null];
     const a = new THREE.Vector3();
@@ -317,7 +317,7 @@ export class Stage {
     return found;
   }
 
-  /** The point of the plane Z = 0 under a point of the picture, snapped to the end of a move nearby. */
+  /** Returns the point of the plane Z = 0 under a point of the picture, snapped to the end of a move nearby. */
   plane(x: number, y: number, count: number): Point {
     const [width, height] = this.size;
     const step = this.pick(x, y, count);
@@ -350,7 +350,7 @@ export class Stage {
     });
   }
 
-  /** Draws the picture at once: before printing, because Firefox keeps it only until it is on the screen. */
+  /** Draws the picture at once. Needed before printing, because Firefox keeps the picture only until it is on the screen. */
   render(): void {
     this.camera.updateMatrixWorld();
     this.stock?.prepare(this.renderer, this.camera);
@@ -373,7 +373,7 @@ export class Stage {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.host;
     this.size = [width, height];
-    // Labels are placed for this size; on paper the window has another one.
+    // Labels are placed for this size; on paper the window has another size.
     this.host.style.setProperty("--width", `${width}px`);
     this.host.style.setProperty("--height", `${height}px`);
     if (width === 0 || height === 0) return;
@@ -395,7 +395,7 @@ export class Stage {
     return kept;
   }
 
-  /** Pending cuts: faint, and behind all completed ones. If there are very many, the picture of the cuts contains them. */
+  /** Creates the lines of pending cuts: faint, and behind all completed ones. Very many are part of the picture of the cuts instead. */
   private strokesAhead(pieces: Pieces): Strokes {
     const lines = this.thin(pieces.step.length > MOST_THICK ? [] : pieces.points, hex("ahead"));
     lines.material.depthTest = lines.material.depthWrite = false;
@@ -435,7 +435,7 @@ export class Stage {
   }
 }
 
-/** Pieces of one colour. */
+/** Creates pieces of a single colour. */
 function colored(points: number[], name: string): Pieces {
   const parts = color(name);
   return { points, colors: points.map((_, index) => parts[index % 3]), until: [], step: [] };
@@ -465,7 +465,7 @@ function otherShapes(scene: Scene): number[] {
   return scene.other_layers.flatMap((it) => (it.type === "shape" ? strokes(it.shape, [0, 0], 0) : []));
 }
 
-/** The outlines of clamps, on the plate or at their heights. */
+/** Returns the outlines of clamps, on the plate or at their heights. */
 function keepOuts(scene: Scene, high: boolean): number[] {
   return scene.keep_outs.flatMap((it) => it.outline.flatMap((shape) => strokes(shape, [0, 0], high ? it.height : 0)));
 }
@@ -478,7 +478,7 @@ function clamp(it: KeepOut): THREE.Mesh {
   return new THREE.Mesh(body, material);
 }
 
-/** Shapes of elements that are not moves: all elements of a path without a program, otherwise those that embed paths. */
+/** Returns the shapes of elements that are not moves: all elements of a path without a program, otherwise those that embed paths. */
 function elementShapes(scene: Scene): number[] {
   const always = ["subpath", "skipped-subpath", "turn", "probe", "start", "end"];
   return scene.paths.flatMap((path) =>
@@ -488,7 +488,7 @@ function elementShapes(scene: Scene): number[] {
   );
 }
 
-/** The outlines of finished parts on their upper faces. */
+/** Returns the outlines of finished parts on their upper faces. */
 function outlines(scene: Scene): Pieces {
   const ofPart = (path: Path) => (path.parts ?? []).flatMap(({ rings, top }) => rings.flat().flatMap((shape) => strokes(shape, path.zero, top)));
   const points = scene.paths.flatMap(ofPart);

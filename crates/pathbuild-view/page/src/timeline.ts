@@ -3,10 +3,10 @@
 import { Model, Step } from "./model.js";
 import { pointsOfMove } from "./scene.js";
 
-/** Speeds in mm/min used for unknown ones while the tool runs. Times that depend on them are not shown. */
+/** Speeds in mm/min assumed while the tool is animated, if a program states none. Times that depend on them are not shown. */
 const [ASSUMED_RAPID, ASSUMED_FEED] = [3000, 300];
 
-/** Factor by which machines are slower than length / speed: SLOWER of pathbuild-toolpath. */
+/** Factor by which machines are slower than length / speed: SLOWDOWN of pathbuild-toolpath. */
 const SLOWER = 1.4;
 
 export class Timeline {
@@ -14,7 +14,7 @@ export class Timeline {
   readonly ends: Float64Array;
   /** Whether the speeds of all moves are known. */
   readonly isKnown: boolean;
-  /** Seconds without rapid moves; `null` if any feed is unknown. */
+  /** Cutting time in seconds; `null` if any feed is unknown. */
   readonly cutting: number | null;
 
   /** `rapid` is the speed of rapid moves in mm/min if a program does not state it. */
@@ -36,18 +36,18 @@ export class Timeline {
     [this.isKnown, this.cutting] = [isKnown, cutting];
   }
 
-  /** Seconds for all moves. */
+  /** Returns the time of all moves in seconds. */
   get total(): number {
     return this.ends.at(-1) ?? 0;
   }
 
-  /** Seconds until `count` moves and a share of the next one are done. */
+  /** Returns the time in seconds until `count` moves and a share of the next one are made. */
   seconds(count: number, share = 0): number {
     const begin = count === 0 ? 0 : this.ends[count - 1];
     return share === 0 ? begin : begin + share * (this.ends[count] - begin);
   }
 
-  /** Number of moves done after this many seconds, and the share of the next one. */
+  /** Returns the number of moves made after this many seconds, and the share of the next one. */
   at(seconds: number): [count: number, share: number] {
     let [low, high] = [0, this.ends.length];
     while (low < high) {
@@ -63,7 +63,7 @@ export class Timeline {
 
 type Place = [number, number, number];
 
-/** The way of a move up to a share of its length, in coordinates of the drawing. Empty where its ends are unknown. */
+/** Returns the points of a move up to a share of its length, in coordinates of the drawing. Empty if its ends are unknown. */
 export function wayUpTo({ path, move }: Step, share: number): Place[] {
   const points = pointsOfMove(move).map(([x, y, z]): Place => [x + path.zero[0], y + path.zero[1], z]);
   const lengths = points.slice(1).map((to, index) => Math.hypot(...to.map((part, axis) => part - points[index][axis])));
@@ -78,7 +78,7 @@ export function wayUpTo({ path, move }: Step, share: number): Place[] {
   return way;
 }
 
-/** Hours, minutes and seconds. */
+/** Formats seconds as hours, minutes and seconds. */
 export function clock(seconds: number): string {
   const whole = Math.round(seconds);
   const two = (part: number) => String(part).padStart(2, "0");

@@ -26,7 +26,7 @@ const details = $("details");
 
 /** Height in px of a row of G-code, larger on touch screens. */
 const ROW = innerWidth > 700 ? 18 : 44;
-/** Upper bound on numbers and texts: more would cover the picture. */
+/** Maximum number of labels with numbers and texts: more would cover the picture. */
 const MOST_SPOTS = 600;
 
 export let lang: Lang = document.documentElement.lang === "de" ? "de" : "en";
@@ -37,7 +37,7 @@ let timeline = new Timeline(made, null);
 let work: Operation[] = [];
 /** Index of the current operation. */
 let working: number | null = null;
-/** Whether a scene is shown; otherwise keys are not handled here. */
+/** Whether a scene is shown; otherwise this module ignores keys. */
 let isOpen = false;
 /** Draws the still picture if WebGL is not available. */
 let drawStill: () => void = () => {};
@@ -54,15 +54,15 @@ let chosen: number | null = null;
 /** Handle of the next animation frame; 0 while paused. */
 let frame = 0;
 let measured: [number, number][] | null = null;
-/** On a phone, texts would cover the picture. */
+/** The parts of the picture that are shown. On a phone, texts would cover it. */
 const shown = { stock: true, rapids: true, arrows: true, order: true, texts: innerWidth > 700, other: true, explain: innerWidth > 700 };
 /** Whether the native program is listed although a post writes another one. */
 let isNative = false;
 let lines: string[] = [];
 let linesOf: number | null = null;
-/** Range of rendered rows, excluding the end. */
+/** Range of G-code rows that are rendered, excluding the end. */
 let listedRows: [number, number] = [0, 0];
-/** Steps by line of G-code, for each path. */
+/** Index of the step by line of G-code, for each path. */
 let byLine: Map<number, number>[] = [];
 let pathOf: number[] = [];
 /** Line of each step in the listed text. */
@@ -425,7 +425,7 @@ function middle(shape: { from: [number, number]; centre: [number, number]; clock
 function go(to: number, part = 0): void {
   count = Math.min(Math.max(to, 0), made.steps.length);
   share = count < made.steps.length ? part : 0;
-  // Called first because it reads the layout, which would have to be recomputed after a change of the page.
+  // Update the listing first: it reads the layout, which would have to be recomputed after a change of the page.
   listing(true);
   slider.value = String(count);
   stage?.show(count, share);
@@ -589,7 +589,7 @@ function fill(list: [string, string][]): void {
   details.replaceChildren(
     ...list.flatMap(([name, value]) => {
       const said = node("dd", "");
-      // Keeps a number on one line with its sign and its letter.
+      // Keep a number on one line with its sign and its letter.
       value.split(" ").forEach((word, index) => said.append(index > 0 ? " " : "", node("span", word, word.length <= 24 ? "whole" : "")));
       return [node("dt", name), said];
     }),

@@ -2,13 +2,13 @@
 
 import { type Instance, instantiate } from "../../../../packaging/npm/index.js";
 
-/** A question: a line of JSON, and bytes. */
+/** A question to the compiler: a line of JSON, and bytes. */
 export interface Asked {
   head: string;
   bytes?: ArrayBuffer;
 }
 
-/** An answer, or the trap that ended the instance. */
+/** The compiler's answer, or the trap that ended the instance. */
 export type Answered = { head: string; bytes: Uint8Array<ArrayBuffer> } | { trap: string };
 
 let begun: Promise<Instance> | null = null;

@@ -5,22 +5,22 @@
 
 import { Blank, Box, Cutting, EMPTY, WIDTH, joined } from "./pieces.js";
 
-/** Texels of the longer side, and of the whole map. */
+/** Maximum number of texels along the longer side, and of the whole map. */
 const [MOST_LONG, MOST_TEXELS] = [2048, 1_200_000];
-/** Memory for keyframes in bytes. */
+/** Maximum memory for keyframes in bytes. */
 const MOST_BYTES = 64_000_000;
-/** Height of a texel without stock. */
+/** Value that stands for a texel without stock, instead of its height in mm. */
 export const NOTHING = -1e9;
-/** A rapid move is held this much higher in mm, so that one along the floor of a cut does not count as cutting. */
+/** Height in mm by which rapid moves are raised, so that a move along the floor of a cut does not count as cutting. */
 const RAPID_RAISE = 0.002;
 
-/** Texels: first column, first row, and the column and row behind the last ones. */
+/** A rectangle of texels: first column, first row, and the column and row after the last ones. */
 export type Texels = Box;
 
 interface Keyframe {
   heights: Float32Array;
   rapid: Uint8Array;
-  /** Number of pieces that are cut. */
+  /** Number of pieces that are cut in the keyframe. */
   count: number;
 }
 
@@ -30,16 +30,16 @@ export class Heights {
   /** Side of a texel in mm. */
   readonly texel: number;
   readonly heights: Float32Array;
-  /** Heights of the uncut stock. */
+  /** Heights of the uncut stock in mm. */
   readonly tops: Float32Array;
-  /** Heights at or below which the stock is cut through. */
+  /** Heights in mm at or below which the stock is cut through. */
   readonly through: Float32Array;
-  /** 255 where a rapid move has cut. */
+  /** 255 for each texel cut by a rapid move, otherwise 0. */
   readonly rapid: Uint8Array;
   /** Whether any rapid move so far has cut. */
   hasRapidCut = false;
   private count = 0;
-  /** Texels of a move that is cut in part, beyond the pieces that count. */
+  /** Texels touched by the last move, if only a part of it is cut. */
   private partial: Texels | null = null;
   private keyframes: Keyframe[] = [];
   private mostKeyframes: number;
@@ -61,7 +61,7 @@ export class Heights {
     return [0, 0, this.columns, this.rows];
   }
 
-  /** Cuts the first so many moves, and a share of the next one. Returns the texels that may have changed. */
+  /** Cuts the first `moves` moves, and a share of the next one. Returns the texels that may have changed. */
   seek(moves: number, share = 0): Texels | null {
     const wanted = this.until(moves);
     const undone = this.partial;
@@ -71,7 +71,7 @@ export class Heights {
     return [undone, changed, this.partial].reduce((all, texels) => (all && texels ? joined(all, texels) : (all ?? texels)), null);
   }
 
-  /** Number of pieces of so many moves. */
+  /** Returns the number of pieces of the first `moves` moves. */
   private until(moves: number): number {
     return moves === 0 ? 0 : this.cutting.until[moves - 1];
   }
@@ -91,14 +91,14 @@ export class Heights {
     return changed;
   }
 
-  /** Takes back the move that was cut in part. */
+  /** Restores the texels of the move that was cut only in part. */
   private undo(texels: Texels): void {
     const keyframe = this.keyframes.filter((it) => it.count <= this.count).at(-1);
     this.restore(keyframe, texels);
     this.cut(this.cutting.pieces, keyframe?.count ?? 0, this.count, texels);
   }
 
-  /** Cuts a share of a move, which has these pieces. */
+  /** Cuts a share of the move that consists of these pieces. */
   private cutShare(from: number, to: number, share: number): Texels | null {
     const pieces = this.cutting.pieces.slice(from * WIDTH, to * WIDTH);
     const lengths = Array.from({ length: to - from }, (_, index) => Math.hypot(...[0, 1, 2].map((axis) => pieces[index * WIDTH + 3 + axis] - pieces[index * WIDTH + axis])));
@@ -115,7 +115,7 @@ export class Heights {
     return texels;
   }
 
-  /** Height at a place in mm. */
+  /** Returns the height at a point, whose coordinates are in mm. */
   at(x: number, y: number): number {
     const [left, lower] = this.cutting.box;
     const [column, row] = [Math.floor((x - left) / this.texel), Math.floor((y - lower) / this.texel)];
@@ -123,7 +123,7 @@ export class Heights {
     return isInside ? this.heights[row * this.columns + column] : NOTHING;
   }
 
-  /** Cuts onwards, and keeps a keyframe after each equal part of the pieces. */
+  /** Cuts pieces up to `wanted`, and stores a keyframe after each equal part of all pieces. */
   private advance(wanted: number): void {
     const part = Math.ceil(this.cutting.pieces.length / WIDTH / (this.mostKeyframes + 1));
     while (this.count < wanted) {
@@ -137,7 +137,7 @@ export class Heights {
     }
   }
 
-  /** Lays stock into the uncut map. Where several overlap, the highest counts. */
+  /** Adds a rectangle of stock to the uncut map. If several overlap, the highest upper face counts. */
   private lay({ box, top, through }: Blank): void {
     const { columns, rows, texel } = this;
     const [left, lower] = this.cutting.box;
@@ -164,11 +164,11 @@ export class Heights {
     }
   }
 
-  /** Texels that pieces may touch. */
+  /** Returns the texels that pieces may touch. */
   private touched(pieces: Float32Array, from: number, to: number): Texels | null {
     const { top } = this.cutting;
     const [left, lower] = this.cutting.box;
-    // Plain numbers: a jump asks for hundreds of thousands of pieces.
+    // Plain numbers instead of arrays, because a jump visits hundreds of thousands of pieces.
     let [x0, y0, x1, y1] = EMPTY;
     for (let at = from * WIDTH; at < to * WIDTH; at += WIDTH) {
       if (Math.min(pieces[at + 2], pieces[at + 5]) >= top) continue;
@@ -194,7 +194,7 @@ export class Heights {
       const raise = isRapid ? RAPID_RAISE : 0;
       const [begin, end] = [pieces[at + 2] + raise, pieces[at + 5] + raise];
       if (Math.min(begin, end) >= top) continue;
-      // In texels, whose centres have whole numbers.
+      // Coordinates in texels, whose centres are at integers.
       const ax = (pieces[at] - box[0]) * scale - 0.5;
       const ay = (pieces[at + 1] - box[1]) * scale - 0.5;
       const bx = (pieces[at + 3] - box[0]) * scale - 0.5;
@@ -209,7 +209,7 @@ export class Heights {
       const low = Math.min(begin, end);
       const last = Math.min(y1 - 1, Math.floor(Math.max(ay, by) + radius));
       for (let row = Math.max(y0, Math.ceil(Math.min(ay, by) - radius)); row <= last; row++) {
-        // The row's least and greatest column: those of the discs at both ends and of the two sides between them.
+        // The least and greatest column of this row: those of the discs at both ends and of the two sides between them.
         let [least, most] = [Infinity, -Infinity];
         const [va, vb] = [row - ay, row - by];
         if (va * va <= square) {
@@ -238,7 +238,7 @@ export class Heights {
         for (let cell = first; cell <= final; cell++) {
           let z = low;
           if (slope !== 0) {
-            // The cutter is over this texel from `along - half` to `along + half`, and lowest at one of both ends.
+            // The cutter covers this texel from `along - half` to `along + half`, and is lowest at one of these ends.
             const across = cell - row * columns - ax;
             const along = across * ux + va * uy;
             const beside = va * ux - across * uy;

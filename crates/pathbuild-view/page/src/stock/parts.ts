@@ -1,18 +1,18 @@
-// What is wrong about finished parts, as regions of the map of heights: the same regions that still pictures fill.
+// Errors of finished parts, as regions of the map of heights. Still pictures fill the same regions.
 
 import { FinishedPart, Path, Point, Scene, Shape, pointsOfShape } from "../scene.js";
 import { Heights } from "./heights.js";
 import { SAGITTA } from "./pieces.js";
 
-/** Marks of a texel: a cut through it is wrong; stock that stands there is left at a part, or belongs to a part that nothing holds. */
+/** Marks of a texel: a wrong cut through it; stock left over beside a part; stock of a part that nothing holds. */
 export const [FORBIDDEN, BESIDE, LOOSE] = [1, 2, 4];
 
-/** Width in texels on either side of an outline that belongs to neither side, since a texel's height is that of its centre. */
+/** Width in texels on either side of an outline that counts as neither side, since a texel's height is that of its centre. */
 const BAND = 0.75;
 
 type Segment = [Point, Point];
 
-/** The marks of each texel. */
+/** Returns the marks of each texel. */
 export function marks(map: Heights, scene: Scene): Uint8Array {
   const marked = new Uint8Array(map.columns * map.rows);
   for (const path of scene.paths) for (const part of path.parts ?? []) mark(map, path, part, marked);
@@ -22,7 +22,7 @@ export function marks(map: Heights, scene: Scene): Uint8Array {
 function mark(map: Heights, path: Path, part: FinishedPart, marked: Uint8Array): void {
   const segments = (shapes: Shape[]) => shapes.flatMap((shape) => segmentsOf(map, shape, path.zero));
   const inside = new Uint8Array(marked.length);
-  // Rings inside an opening never make a part: they leave it open.
+  // A ring inside an opening never belongs to a part: its area remains open.
   part.rings.forEach((ring, number) => fill(map, segments(ring), inside, number === 0 ? 1 : 0));
   const put = (mark: number, isInside: number) => (at: number) => {
     if (inside[at] === isInside) marked[at] |= mark;
@@ -34,7 +34,7 @@ function mark(map: Heights, path: Path, part: FinishedPart, marked: Uint8Array):
   if (part.is_loose) inside.forEach((_, at) => put(LOOSE, 1)(at));
 }
 
-/** A shape in texels, whose centres have whole numbers. */
+/** Converts a shape to segments in texels, whose centres have integer coordinates. */
 function segmentsOf({ cutting: { box }, texel }: Heights, shape: Shape, zero: Point): Segment[] {
   const points = pointsOfShape(shape, SAGITTA).map(([x, y]): Point => [(x + zero[0] - box[0]) / texel - 0.5, (y + zero[1] - box[1]) / texel - 0.5]);
   return points.slice(1).map((point, index) => [points[index], point]);
@@ -56,7 +56,7 @@ function fill({ columns, rows }: Heights, ring: Segment[], into: Uint8Array, val
   });
 }
 
-/** Calls back for each texel within a distance, in texels, of segments; beyond their ends only if these are round. */
+/** Calls `found` for each texel within a distance, in texels, of segments; beyond their ends only if `isRound` is set. */
 function near({ columns, rows }: Heights, segments: Segment[], reach: number, found: (at: number) => void, isRound = true): void {
   for (const [[ax, ay], [bx, by]] of segments) {
     const [dx, dy] = [bx - ax, by - ay];

@@ -1,5 +1,5 @@
-// The stock in the WebGL picture. Script finds heights and colours. From above the GPU shows the colours; in space it follows a ray for each
-// pixel through the texels.
+// The stock in the WebGL picture. The script computes heights and colours. From above the GPU shows the colours; in space it follows a ray
+// through the texels for each pixel.
 
 import * as THREE from "three";
 
@@ -7,16 +7,16 @@ import { Heights, Texels } from "./heights.js";
 import { Color } from "./shading.js";
 import { Stock } from "./stock.js";
 
-/** Part of a texel by which rays may lean over the whole depth and still count as vertical. */
+/** Share of a texel by which a ray may deviate over the whole depth and still count as vertical. */
 const VERTICAL = 0.01;
 
-/** Draws what a ray through each pixel of the stock's box meets first. */
+/** Draws, for each pixel of the stock's box, the first surface that a ray through the pixel meets. */
 export class StockPicture {
   readonly object: THREE.Mesh<THREE.BoxGeometry, THREE.ShaderMaterial>;
   private above: THREE.ShaderMaterial;
   private space: THREE.ShaderMaterial;
   private textures: THREE.DataTexture[];
-  /** The same memory, of which parts are uploaded into the textures. */
+  /** Textures that share the memory of the map. Parts of them are uploaded into the textures on the graphics card. */
   private sources: THREE.DataTexture[];
   private changed: Texels[] = [];
 
@@ -54,7 +54,7 @@ export class StockPicture {
       wrongColor: { value: vector(paints.wrong) },
     };
     const material = (fragmentShader: string) =>
-      // Of a box, the faces turned away cover each of its pixels once.
+      // Draw only the back faces of the box, because they cover each of its pixels exactly once.
       new THREE.ShaderMaterial({ glslVersion: THREE.GLSL3, uniforms, vertexShader: VERTEX, fragmentShader: HEAD + fragmentShader, side: THREE.BackSide, depthTest: false, depthWrite: false });
     [this.above, this.space] = [material(FROM_ABOVE), material(IN_SPACE)];
     const [wide, tall] = [columns * texel, rows * texel];
@@ -64,12 +64,12 @@ export class StockPicture {
     this.object.renderOrder = -1;
   }
 
-  /** These texels have other heights and colours now. */
+  /** Reports that heights or colours of these texels have changed. */
   change(texels: Texels): void {
     this.changed.push(texels);
   }
 
-  /** Uploads what has changed, and sets from where it is seen. */
+  /** Uploads changed texels, and sets the position of the camera. */
   prepare(renderer: THREE.WebGLRenderer, camera: THREE.OrthographicCamera): void {
     for (const [x0, y0, x1, y1] of this.changed.splice(0)) {
       const region = new THREE.Box2(new THREE.Vector2(x0, y0), new THREE.Vector2(x1, y1));
@@ -79,7 +79,7 @@ export class StockPicture {
     const toward = new THREE.Vector3();
     camera.matrixWorld.extractBasis(across.value, upwards.value, toward);
     way.value.copy(toward).negate();
-    // The eye lies on the upper face: numbers stay small, so that single precision is enough for them.
+    // Move the eye along its line of sight to the upper face, so that coordinates stay small and single precision suffices.
     const away = way.value.z === 0 ? 0 : (range.value.y - camera.position.z) / way.value.z;
     eye.value.copy(camera.position).addScaledVector(way.value, away);
     across.value.multiplyScalar(camera.right / camera.zoom);

@@ -2,26 +2,26 @@
 
 import { Move, Path, Scene, isCut, pointsOfMove, toolOf } from "../scene.js";
 
-/** Numbers of a piece: from x y z, to x y z, the cutter's radius, and 1 for a rapid move. */
+/** Number of values of a piece: from x y z, to x y z, the cutter's radius, and 1 for a rapid move. */
 export const WIDTH = 8;
 
-/** A rectangle in mm: left, lower, right, upper side. */
+/** A rectangle in mm: left, lower, right and upper side. */
 export type Box = [number, number, number, number];
 
-/** Stock of paths with the same heights, as large as their cuts need. */
+/** A rectangle of stock with the upper face and plate of one or more paths, as large as the cuts of these paths need. */
 export interface Blank {
   box: Box;
   /** Z of the upper face in mm. */
   top: number;
-  /** Z in mm at or below which a cut goes through; with Z = 0 on the upper face, none does. */
+  /** Z in mm at or below which a cut goes through the stock. If Z = 0 is the upper face, no cut does. */
   through: number;
 }
 
-/** Values that a program read from a file does not give. */
+/** Values entered by the user that a program read from a file does not state. */
 export interface Assumed {
   tool: number | null;
   thickness: number | null;
-  /** Z of the upper face. */
+  /** Z of the upper face in mm. */
   surface: number | null;
 }
 
@@ -36,7 +36,7 @@ export interface Cutting {
   low: number;
 }
 
-/** Distance in mm by which a chord may miss its arc. */
+/** Maximum distance in mm between an arc and its chords. */
 export const SAGITTA = 0.004;
 
 export function joined(a: Box, b: Box): Box {
@@ -45,7 +45,7 @@ export function joined(a: Box, b: Box): Box {
 
 export const EMPTY: Box = [Infinity, Infinity, -Infinity, -Infinity];
 
-/** The pieces of all moves; `null` if no cutter is known or nothing is cut. */
+/** Returns the pieces of all moves; `null` if no cutter is known or nothing is cut. */
 export function cutting(scene: Scene, assumed: Assumed): Cutting | null {
   const numbers: number[] = [];
   const until: number[] = [];
@@ -84,7 +84,7 @@ export function cutting(scene: Scene, assumed: Assumed): Cutting | null {
   };
 }
 
-/** Z of the upper face and of the plate where a move cuts: components may be raised. */
+/** Returns Z of the upper face and of the plate where a move cuts, in mm: components may be raised. */
 function faces(path: Path, move: Move, assumed: Assumed): [number, number] {
   const element = move.element === undefined ? undefined : path.elements[move.element];
   const component = path.embedded[element?.path ?? 0];

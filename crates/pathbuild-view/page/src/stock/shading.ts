@@ -6,14 +6,14 @@ import { BESIDE, FORBIDDEN, LOOSE } from "./parts.js";
 /** Red, green and blue from 0 to 255. */
 export type Color = [number, number, number];
 
-/** The colours of the stock: uncut, cut a little, cut deep, cut through; and of what is wrong about it. */
+/** The colours of the stock: uncut, cut a little, cut deep, cut through, and the colours of its errors. */
 export type StockColors = Record<"uncut" | "shallow" | "deep" | "plate" | "wrong" | "leftover" | "loose", Color>;
 
 /** Direction of the light. */
 const LIGHT = normal(-0.42, 0.55, 0.72);
 /** Steps steeper than this, in texels, and higher than this, in mm, are walls: they get a dark edge and no slope. */
 const [WALL_STEEP, WALL_HIGH] = [1.8, 0.02];
-/** A texel's colour depends on neighbours this far away. */
+/** Distance in texels up to which neighbours affect a texel's colour. */
 const REACH = 1;
 
 function normal(x: number, y: number, z: number): Color {
@@ -21,7 +21,7 @@ function normal(x: number, y: number, z: number): Color {
   return [x / length, y / length, z / length];
 }
 
-/** The height beside a texel. Beyond the edge of the stock there is no wall to draw. */
+/** Returns the height beside a texel. Beyond the edge of the stock there is no wall to draw. */
 function beside(neighbour: number, height: number): number {
   return neighbour === NOTHING ? height : neighbour;
 }

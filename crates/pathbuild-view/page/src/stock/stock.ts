@@ -18,7 +18,7 @@ export class Stock {
     shade(map, marked, paints, map.whole(), this.colors);
   }
 
-  /** The uncut stock; `null` if no cutter is known or nothing is cut. */
+  /** Creates the uncut stock; `null` if no cutter is known or nothing is cut. */
   static of(scene: Scene, assumed: Assumed, paints: StockColors): Stock | null {
     const cuts = cutting(scene, assumed);
     if (!cuts) return null;
@@ -26,7 +26,7 @@ export class Stock {
     return new Stock(map, marks(map, scene), paints);
   }
 
-  /** Cuts the first so many moves, and a share of the next one. Returns the texels that were painted anew. */
+  /** Cuts the first `moves` moves, and a share of the next one. Returns the texels that were painted again. */
   seek(moves: number, share = 0): Texels | null {
     const changed = this.map.seek(moves, share);
     return changed && shade(this.map, this.marked, this.paints, changed, this.colors);
