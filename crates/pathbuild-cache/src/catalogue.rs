@@ -47,7 +47,7 @@ pub struct DirectoryFact {
 /// A cached result with its inputs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
-    /// What the result is about, mostly a drawing. Unique among the records.
+    /// Subject of the result, mostly the path of a drawing. Unique among the records.
     pub subject: Box<str>,
     /// The files that were read, as indices into [`Catalogue::files`].
     pub files: Vec<usize>,
@@ -66,7 +66,7 @@ pub struct Record {
 pub struct Lookup {
     /// Index into [`Catalogue::directory_lists`].
     pub directories: usize,
-    /// Name of the path.
+    /// Name of the path to be found.
     pub name: Box<str>,
 }
 

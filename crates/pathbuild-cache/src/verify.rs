@@ -98,7 +98,7 @@ fn files(catalogue: &Catalogue, is_requested: &[bool], context: VerifyContext<'_
     roles.par_iter().zip(&catalogue.files).with_min_len(256).map(state).collect()
 }
 
-/// How the requested records use a file.
+/// The use of a file by the requested records.
 #[derive(Clone, Copy)]
 enum Role {
     None,
@@ -246,7 +246,7 @@ pub fn reasons(catalogue: &Catalogue, verdict: &Verdict, record: usize, covers: 
     }
     reasons.sort();
     reasons.dedup();
-    // For a file that was read and is gone, one reason is enough.
+    // If a file that was read no longer exists, report only that, and not its name as well.
     let gone: Vec<Utf8PathBuf> = reasons.iter().filter_map(Reason::gone_file).cloned().collect();
     reasons.retain(|reason| !matches!(reason, Reason::Name { file, .. } if gone.contains(file)));
     reasons

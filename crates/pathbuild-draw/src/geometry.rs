@@ -86,7 +86,7 @@ impl Mul<f64> for Point {
     }
 }
 
-/// A straight line.
+/// A straight line between two points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Line {
@@ -104,7 +104,7 @@ pub struct Arc {
     pub end: f64,
 }
 
-/// A whole circle.
+/// A circle in the plane of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Circle {

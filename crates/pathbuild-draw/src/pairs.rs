@@ -20,7 +20,7 @@ pub struct Pair<'a> {
 }
 
 impl<'a> Pair<'a> {
-    /// Creates a pair.
+    /// Creates a pair from a group code and its value as text.
     pub fn new(code: i32, value: impl Into<Cow<'a, str>>) -> Self {
         Self { code, value: value.into() }
     }

@@ -88,7 +88,7 @@ impl TimedMove {
     }
 }
 
-/// Speed in mm/s at which the axes of an arc's plane can still keep the tool on it.
+/// Returns the speed in mm/s at which the axes of an arc's plane can still keep the tool on the arc.
 fn turning_speed(movement: &Move, kinematics: &Kinematics) -> f64 {
     let MoveShape::Arc(arc) = movement.shape else { return f64::INFINITY };
     let weakest =
@@ -119,7 +119,7 @@ fn directions(movement: &Move, length: f64) -> ([f64; 3], [f64; 3]) {
     (tangent(&movement.from.at), tangent(&movement.to.at))
 }
 
-/// Time in seconds for consecutive moves from standstill to standstill.
+/// Returns the time in seconds for consecutive moves from standstill to standstill.
 fn seconds_of(moves: &[TimedMove], kinematics: &Kinematics) -> f64 {
     let squares = entry_squares(moves, kinematics);
     moves.iter().zip(squares.windows(2)).map(|(way, ends)| duration(way, ends[0], ends[1])).sum()
@@ -141,8 +141,8 @@ fn entry_squares(moves: &[TimedMove], kinematics: &Kinematics) -> Vec<f64> {
     squares
 }
 
-/// Squared speed permitted in the corner between two moves: that of a circle which touches both and passes the corner at the junction
-/// deviation.
+/// Returns the squared speed permitted in the corner between two moves. It is the speed permitted on a circle that touches both moves and passes the
+/// corner at the junction deviation.
 fn corner_square(before: &TimedMove, behind: &TimedMove, kinematics: &Kinematics) -> f64 {
     if before.stops {
         return 0.0;

@@ -40,7 +40,7 @@ pub enum Tip {
     Flat,
     /// The corners are rounded with this radius, in the unit of the diameter.
     BullNose(f64),
-    /// Nothing is known about the tip, or it is pointed, tapered or round.
+    /// The tip is unknown, pointed, tapered or round.
     Unknown,
 }
 
@@ -71,7 +71,7 @@ pub struct StatedTool {
 /// Corners of the stock in program coordinates; a corner that the comment does not state is `None`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedStock {
-    /// The lower corner.
+    /// The corner with the least coordinates.
     pub low: Option<[f64; 3]>,
     /// The upper corner. Its height is the surface.
     pub high: Option<[f64; 3]>,
@@ -173,7 +173,7 @@ enum Event {
     Insert(u32),
     /// A G code for the unit, times ten.
     Unit(u16),
-    /// One or more cuts.
+    /// One or more consecutive cuts.
     Cut,
     Statement(Statement),
 }
@@ -268,7 +268,7 @@ pub struct Header {
     pub problems: Vec<Diagnostic>,
 }
 
-/// A tool that cuts.
+/// A tool that cuts, and the line from which it is in use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CuttingTool {
     /// The line from which the tool is in use.
@@ -284,9 +284,9 @@ pub struct CuttingTool {
 pub struct StatedCutter {
     /// The line of the comment.
     pub line: u32,
-    /// The diameter.
+    /// The diameter in mm.
     pub diameter: f64,
-    /// The width of the flat part of the tip, if it is known.
+    /// The width in mm of the flat part of the tip, if it is known.
     pub flat: Option<f64>,
     /// Maximum difference in mm at which another diameter counts as equal to this one.
     tolerance: f64,
@@ -311,7 +311,7 @@ impl StatedCutter {
         libm::fabs(self.diameter - diameter) <= self.tolerance
     }
 
-    /// The widths for the check of rapid moves. If the tip is not known to be flat, only the centre line of the moves counts, both for
+    /// Returns the widths for the check of rapid moves. If the tip is not known to be flat, only the centre line of the moves counts, both for
     /// removing material and for collisions, so that the tool always fits into its own cut.
     pub fn widths(&self) -> Cutter {
         let flat = self.flat.unwrap_or(0.0);
@@ -522,7 +522,7 @@ fn fusion(comment: &str) -> Option<Statement> {
     let radius = not_negative(words.next()?.strip_prefix("CR=")?)?;
     let is_tapered = words.any(|word| word.starts_with("TAPER="));
     let kind = parts.find(|part| !part.starts_with("ZMIN=")).unwrap_or_default().to_ascii_lowercase();
-    // V-bits also have CR=0: only the name of the type tells that a tool is flat.
+    // V-bits also have CR=0, so only the name of the tool's type shows that the tool is flat.
     let tip = match &*kind {
         "flat end mill" if radius == 0.0 && !is_tapered => Tip::Flat,
         "bullnose end mill" | "bull nose end mill" if !is_tapered => Tip::BullNose(radius),

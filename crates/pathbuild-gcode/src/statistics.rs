@@ -7,7 +7,8 @@ use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Spindle, Step};
 use pathbuild_toolpath::{Program, Statistics, Total};
 
-/// Calculates the statistics of a program from its moves, with a rapid feed in mm/min. A compatible program gets those of the original tool.
+/// Calculates the statistics of a program from its moves, with a rapid feed in mm/min. A compatible program gets the statistics that the original
+/// tool writes.
 pub fn statistics(program: &Program, rapid: f64) -> Statistics {
     if program.compatible {
         return Statistics::of_reference(program, rapid);
@@ -63,7 +64,7 @@ pub struct Tally {
 /// The totals of one kind of move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MoveTotals {
-    /// Number of moves, including those of unknown length.
+    /// Number of moves, including moves of unknown length.
     pub moves: u64,
     /// Length in mm, and length / feed in minutes, which is infinite if some feed is unknown.
     pub total: Total,
@@ -91,7 +92,7 @@ impl Tally {
         Total { length, time: if length > 0.0 { length / rapid } else { 0.0 } }
     }
 
-    /// Adds a move. `has_length` tells whether its length is known and counts.
+    /// Adds a move. `has_length` states whether its length is known and counts.
     pub(crate) fn add(&mut self, movement: &Move, has_length: bool) {
         self.arcs += u64::from(matches!(movement.shape, MoveShape::Arc(_)));
         let kind = match movement.pace {

@@ -60,13 +60,13 @@ impl From<[f64; 3]> for Position {
 pub struct Axes(u8);
 
 impl Axes {
-    /// No axis.
+    /// The empty set.
     pub const NONE: Self = Self(0);
-    /// X, Y and Z.
+    /// The set of X, Y and Z.
     pub const ALL: Self = Self(7);
-    /// X and Y.
+    /// The set of X and Y.
     pub const XY: Self = Self(3);
-    /// Z.
+    /// The set of Z alone.
     pub const Z: Self = Self(4);
 
     /// Returns the set of the axis with index 0 (X), 1 (Y) or 2 (Z).
@@ -275,12 +275,12 @@ impl Course {
         [start, start + if self.arc.clockwise { -self.sweep } else { self.sweep }]
     }
 
-    /// The swept angle in radians, including extra turns.
+    /// Returns the swept angle in radians, including extra turns.
     pub fn sweep(&self) -> f64 {
         self.sweep
     }
 
-    /// The radius at the start, in mm.
+    /// Returns the radius at the start, in mm.
     pub fn radius(&self) -> f64 {
         self.radius
     }

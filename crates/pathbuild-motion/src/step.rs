@@ -81,7 +81,7 @@ pub struct StatedWord {
     pub effect: WordEffect,
 }
 
-/// How much of the effect of a word the other steps of a program show.
+/// The extent to which the other steps of a program show the effect of a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WordEffect {
     /// Other steps and positions reflect the word.

@@ -48,7 +48,7 @@ impl Correction {
         Cow::Owned(cut(program, self.longest).collect())
     }
 
-    /// Number of steps returned by [`steps`](Self::steps), without computing them; saturates.
+    /// Returns the number of steps returned by [`steps`](Self::steps), without computing them; saturates.
     pub fn count(self, program: &Program) -> u64 {
         if program.probes.is_empty() || self.is_compatible() {
             return program.steps.len() as u64;
@@ -158,12 +158,12 @@ impl Cut {
         Self { from, to, count, pieces: whole(parts - ROUNDING) }
     }
 
-    /// Number of parts, at least 1.
+    /// Returns the number of parts, at least 1.
     pub(crate) fn pieces(&self) -> u64 {
         self.pieces
     }
 
-    /// End of the move.
+    /// Returns the position of the tool at the end of the move.
     pub(crate) fn end(&self) -> Tool {
         match self.to {
             PlannedMove::Sweep { to } => Tool { at: to, ..self.from },

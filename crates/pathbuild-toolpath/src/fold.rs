@@ -20,7 +20,7 @@ pub trait Parts {
     /// Identifier of a path with given values of its variables.
     type Id: Copy;
 
-    /// Returns the path.
+    /// Returns the path with this identifier.
     fn path(&self, id: Self::Id) -> &Path;
 
     /// Returns the walk along the path.
@@ -318,7 +318,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         self.mergeable = is_clear.then_some(index);
     }
 
-    /// Adds a move.
+    /// Adds a move, after which the tool is at `tip`.
     pub(crate) fn step(&mut self, to: PlannedMove, count: Count, tip: Tip) {
         self.mergeable = None;
         if let PlannedMove::Line { feed, .. } | PlannedMove::Arc { feed, .. } = to {

@@ -41,7 +41,7 @@ pub struct Program {
 /// Curves on the layers of a path that do not belong to its program (PB111).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeftOut {
-    /// Name of the path.
+    /// Name of the path on whose layers the curves lie.
     pub path: Box<str>,
     /// Types of the curves, with the number of curves of each.
     pub entities: Vec<(EntityKind, usize)>,
@@ -58,7 +58,7 @@ pub struct ProbePoint {
     pub height: f64,
     /// Probing feed in mm/min.
     pub feed: f64,
-    /// Label (L).
+    /// The drawing's label for the probe (L).
     pub label: Option<Box<str>>,
 }
 
@@ -73,7 +73,7 @@ impl Program {
         self.elements().all(|(_, surface)| surface == self.thickness).then_some(self.thickness)
     }
 
-    /// The largest cutter diameter O in mm.
+    /// Returns the largest cutter diameter O in mm.
     pub fn largest_cutter(&self) -> f64 {
         self.elements().map(|(cutter, _)| cutter).fold(self.tool, f64::max)
     }

@@ -74,7 +74,7 @@ pub(crate) struct FormulaText {
     pub(crate) is_applied: bool,
 }
 
-/// The formulas of a program, in order.
+/// Returns the formulas of a program, in order.
 pub(crate) fn formula_texts(program: &[u8]) -> impl Iterator<Item = FormulaText> {
     (1..).zip(program.split(|byte| *byte == b'\n')).flat_map(|(line, content)| {
         spots(content).map(move |spot| {
@@ -85,7 +85,7 @@ pub(crate) fn formula_texts(program: &[u8]) -> impl Iterator<Item = FormulaText>
     })
 }
 
-/// The probes listed in the header of a program, without measured heights.
+/// Returns the probes listed in the header of a program, without measured heights.
 pub(crate) fn probe_entries(program: &[u8]) -> Vec<FormulaText> {
     let program = &program[mark(program).len()..];
     let lines = (1..).zip(program.split(|byte| *byte == b'\n')).take_while(|(_, line)| is_header(line));

@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 
 use super::Source;
 
-/// A line of a file.
+/// A line of a file, with its number.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line<'a> {
     pub(super) source: Source<'a>,
@@ -18,13 +18,13 @@ pub(super) struct Line<'a> {
     pub(super) bytes: &'a [u8],
 }
 
-/// The byte order mark that some editors write at the start of a file; empty if there is none.
+/// Returns the byte order mark that some editors write at the start of a file; empty if there is none.
 pub(super) fn mark(bytes: &[u8]) -> &[u8] {
     let mark = b"\xef\xbb\xbf";
     if bytes.starts_with(mark) { &bytes[..mark.len()] } else { &[] }
 }
 
-/// The lines of a file, without the byte order mark.
+/// Returns the lines of a file, without the byte order mark.
 pub(super) fn lines(source: Source<'_>) -> impl Iterator<Item = Line<'_>> {
     let bytes = &source.bytes[mark(source.bytes).len()..];
     let lines = bytes.split_inclusive(|byte| *byte == b'\n');
@@ -32,7 +32,7 @@ pub(super) fn lines(source: Source<'_>) -> impl Iterator<Item = Line<'_>> {
 }
 
 impl<'a> Line<'a> {
-    /// The line without its line break.
+    /// Returns the line without its line break.
     pub(super) fn content(self) -> &'a [u8] {
         let content = self.bytes.strip_suffix(b"\n").unwrap_or(self.bytes);
         content.strip_suffix(b"\r").unwrap_or(content)
@@ -69,7 +69,7 @@ pub(super) struct Spot {
     pub(super) is_closed: bool,
 }
 
-/// The formulas of a line, in order. Formulas within comments are ignored.
+/// Returns the formulas of a line, in order. Formulas within comments are ignored.
 pub(super) fn spots(line: &[u8]) -> impl Iterator<Item = Spot> {
     let mut rest = 0;
     std::iter::from_fn(move || {
@@ -99,7 +99,7 @@ fn number_before(line: &[u8], end: usize) -> Range<usize> {
     start..end
 }
 
-/// Position of the bracket that closes the one at `open`.
+/// Returns the position of the bracket that closes the one at `open`.
 fn closing(line: &[u8], open: usize) -> Option<usize> {
     let mut depth = 0_usize;
     line.iter().enumerate().skip(open).find_map(|(at, byte)| {

@@ -72,7 +72,7 @@ impl Words {
     }
 }
 
-/// An inert word that is harmless with all values of these letters.
+/// Creates an inert word that is harmless with all values of these letters.
 const fn inert(letter: char, code: u16, values: &'static [u8]) -> InertWord {
     InertWord { letter, code, values, harmless: &[] }
 }
@@ -113,7 +113,7 @@ pub(super) static LINUXCNC: Words = Words {
         0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 300, 480, 490, 500, 510, 520, 530, 600, 610, 620, 630,
         640, 650, 660, 670, 680, 700, 710, 720, 730, 980, 990,
     ],
-    // By memory of LinuxCNC's page "M-Codes": M19 R Q P orients the spindle; M50 to M53 P switch overrides, adaptive feed and feed stop; M62 to M65 P switch
+    // From memory of LinuxCNC's page "M-Codes": M19 R Q P orients the spindle; M50 to M53 P switch overrides, adaptive feed and feed stop; M62 to M65 P switch
     // digital outputs, M67 and M68 E Q set analogue ones; M66 P or E, L, Q waits for an input.
     inert: &[
         inert('M', 190, b"RQP"),
@@ -205,7 +205,7 @@ pub(super) static HAAS: Words = Words {
         920, 930, 940, 950, 980, 990, 1030, 1100, 1110, 1120, 1130, 1140, 1150, 1160, 1170, 1180, 1190, 1200,
         1210, 1220, 1230, 1240, 1250, 1260, 1270, 1280, 1290, 1540, 1870,
     ],
-    // G103 P limits the look-ahead (gcodes.net/haas-g103-limit-block-buffering). By memory: G187 P E sets the accuracy at corners.
+    // G103 P limits the look-ahead (gcodes.net/haas-g103-limit-block-buffering). From memory: G187 P E sets the accuracy at corners.
     inert: &[inert('G', 1030, b"P"), inert('G', 1870, b"PE")],
     m: &[
         0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 290, 300, 310, 330, 410, 420, 830, 840, 880, 890, 970,

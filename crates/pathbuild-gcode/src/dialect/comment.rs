@@ -92,7 +92,7 @@ pub fn ascii(text: &str) -> String {
     ascii
 }
 
-/// The ASCII replacement of a character.
+/// Returns the ASCII replacement of a character.
 fn transliterated(character: char) -> &'static str {
     match character {
         'ä' | 'æ' => "ae",
@@ -131,7 +131,7 @@ pub fn is_active_comment(text: &str) -> bool {
     beginning_of(text, OBEYED).or_else(|| beginning_of(text, DISPLAY_WORDS)).is_some()
 }
 
-/// The word with which a comment begins, ignoring blanks and case.
+/// Returns the word from `words` with which a comment begins, ignoring blanks and case.
 pub(crate) fn beginning_of(text: &str, words: &[&'static str]) -> Option<&'static str> {
     let begins = |word: &str| {
         let mut letters = text.chars().filter(|c| !c.is_whitespace());

@@ -30,7 +30,7 @@ macro_rules! dialects {
             /// All dialects, in the order in which they are listed to users.
             pub const ALL: &[Self] = &[$(Self::$dialect,)*];
 
-            /// Name on the command line.
+            /// Returns the name of the dialect on the command line.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$dialect => $name,)*

@@ -13,7 +13,7 @@ pub struct Rules {
     pub spelling: Spelling,
     /// The accepted words.
     pub words: &'static Words,
-    /// How arcs are read.
+    /// Rules for reading arcs.
     pub arcs: ArcRules,
     /// The effect of G93, G94 and G95 on the previous feed.
     pub feed_mode: FeedMode,
@@ -27,7 +27,7 @@ pub struct Rules {
     pub layers: bool,
     /// Whether a motion word applies only to its own line; coordinates alone repeat it, with a warning.
     pub motion_is_stated: bool,
-    /// How G4 specifies its time.
+    /// Rules for the time of G4.
     pub dwell: DwellRules,
     /// Whether the control obeys only the first G, M or T word of a line, which must be its first word. All other words are values of that command.
     pub one_command: bool,
@@ -37,7 +37,7 @@ pub struct Rules {
     pub stop_is_complete: bool,
     /// Whether the control runs the lines after M2 and M30, because it has no program memory and takes each line as it is sent.
     pub runs_past_end: bool,
-    /// How the machine is referenced.
+    /// Rules for words that reference the machine.
     pub reference: ReferenceRules,
     /// G codes (times ten), and P of arcs, that only builds with a special setting obey; others ignore them.
     pub unusual: OptionalWords,
@@ -57,7 +57,7 @@ pub struct Rules {
     pub repeats: u8,
     /// Whether a drilling cycle with 0 repetitions is only stored, for the lines after it.
     pub stores_cycles: bool,
-    /// How P selects coordinate systems besides G54 to G59.
+    /// Rules by which P selects coordinate systems besides G54 to G59; `None` if P does not select any.
     pub systems: Option<SystemNumbers>,
     /// Whether P of G30 numbers the reference point, from 2.
     pub numbers_references: bool,
@@ -67,11 +67,11 @@ pub struct Rules {
     pub lifts_to_start: bool,
     /// Whether G80 may stand beside a motion word, which then applies.
     pub ends_cycles_beside_motion: bool,
-    /// Which tool length is in effect where the program does not state one.
+    /// Rules for the tool length in effect where the program does not set one.
     pub lengths: LengthRules,
 }
 
-/// Which tool length a control retains from earlier lines and programs.
+/// Rules for the tool length that a control retains from earlier lines and programs.
 #[derive(Clone, Copy, Debug)]
 pub struct LengthRules {
     /// Whether G43 without H uses the last H, even one of the previous program; otherwise it uses the number of the tool in the spindle.
@@ -80,7 +80,7 @@ pub struct LengthRules {
     pub keeps_length: bool,
 }
 
-/// How a program references the machine.
+/// Rules for words that reference the machine, that is, move it to its reference switches.
 #[derive(Debug)]
 pub struct ReferenceRules {
     /// G codes (times ten) that move axes to their reference switches.
@@ -98,7 +98,7 @@ pub struct OptionalWords {
     pub turns: bool,
 }
 
-/// How P numbers coordinate systems besides G54 to G59.
+/// Rules by which P numbers coordinate systems besides G54 to G59.
 #[derive(Debug)]
 pub struct SystemNumbers {
     /// G code, times ten, with which P selects a system.
@@ -109,7 +109,7 @@ pub struct SystemNumbers {
     pub most: u32,
 }
 
-/// How G4 specifies its time.
+/// Rules for the time of a dwell (G4).
 #[derive(Debug)]
 pub struct DwellRules {
     /// Unit of the time in P.
@@ -120,7 +120,7 @@ pub struct DwellRules {
     pub counts_turns: bool,
 }
 
-/// Unit of P in G4.
+/// Unit of the time P in G4.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DwellUnit {
     /// Seconds.
@@ -133,7 +133,7 @@ pub enum DwellUnit {
     BySetting,
 }
 
-/// How a dialect reads arcs. (book: program/reading)
+/// Rules by which a dialect reads arcs. (book: program/reading)
 #[derive(Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 pub struct ArcRules {
@@ -175,7 +175,7 @@ pub enum RadiusTolerance {
 /// The effect of a feed mode word (G93, G94, G95) on F.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FeedMode {
-    /// F is kept.
+    /// F keeps its value.
     KeepsFeed,
     /// F is 0 until the next F, even if the mode does not change.
     ClearsFeed,
@@ -184,9 +184,9 @@ pub enum FeedMode {
 /// The meaning of coordinates before the first motion word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StartMotion {
-    /// A rapid move.
+    /// Coordinates are a rapid move.
     Rapid,
-    /// An error.
+    /// Coordinates are an error.
     None,
 }
 
@@ -258,7 +258,7 @@ const BASE: Rules = Rules {
     lengths: LengthRules { keeps_entry: false, keeps_length: false },
 };
 
-/// How RS274, and the controls that follow it, retain tool lengths.
+/// Rules of RS274, and of the controls that follow it, for retaining tool lengths.
 const RS274_LENGTHS: LengthRules = LengthRules { keeps_entry: false, keeps_length: true };
 
 pub(super) static RS274: Rules = Rules {
@@ -375,7 +375,7 @@ pub(super) static NATIVE: Rules = Rules {
 
 pub(super) static MACH3: Rules = Rules {
     dialect: Dialect::Mach3,
-    // By memory of "Using Mach3Mill": parameters and expressions are those of RS274/NGC, with 10320 parameters. O numbers a subprogram.
+    // From memory of "Using Mach3Mill": parameters and expressions are those of RS274/NGC, with 10320 parameters. O numbers a subprogram.
     spelling: Spelling {
         grammar: Some(Grammar {
             operators: Operators::Nist,
@@ -394,7 +394,7 @@ pub(super) static MACH3: Rules = Rules {
     program_numbers: true,
     keeps_offsets: true,
     lifts_to_start: true,
-    // By memory of "Using Mach3Mill": G59 P selects one of 254 systems, of which the first six are G54 to G59.
+    // From memory of "Using Mach3Mill": G59 P selects one of 254 systems, of which the first six are G54 to G59.
     systems: Some(SystemNumbers { code: 590, regular: 6, most: 253 }),
     // Vectric's post for Mach3 begins programs with `G00G21G17G90G40G49G80` and `G71G91.1`.
     unit_synonyms: Some([700, 710]),
@@ -409,7 +409,7 @@ const ISO: Rules = Rules {
     program_numbers: true,
     least_increments: true,
     keeps_offsets: true,
-    // By memory of the operator's manual: operation 1 of a canned cycle is the positioning of X and Y, operation 2 the rapid move to R.
+    // From memory of the operator's manual: operation 1 of a canned cycle is the positioning of X and Y, operation 2 the rapid move to R.
     rises_before_holes: false,
     lifts_to_start: true,
     // G80 is in a modal group of its own, so another motion word may stand beside it.
@@ -423,9 +423,9 @@ pub(super) static FANUC: Rules = Rules {
     words: &codes::FANUC,
     dwell: DwellRules { p: DwellUnit::Milliseconds, seconds: b"X", counts_turns: false },
     repeats: b'K',
-    // By memory of the operator's manual: with K0 the drilling data are stored, and nothing is drilled.
+    // From memory of the operator's manual: with K0 the drilling data are stored, and nothing is drilled.
     stores_cycles: true,
-    // By memory: G54.1 P1 to P48, or P300 with an option; G30 P2, P3 and P4 are the second to fourth reference points.
+    // From memory: G54.1 P1 to P48, or P300 with an option; G30 P2, P3 and P4 are the second to fourth reference points.
     systems: Some(SystemNumbers { code: 541, regular: 0, most: 247 }),
     numbers_references: true,
     ..ISO
@@ -437,9 +437,9 @@ pub(super) static HAAS: Rules = Rules {
     dwell: DwellRules { p: DwellUnit::ByPoint, seconds: b"", counts_turns: false },
     // Haas Mill Operator's Manual, M00: "It stops the axes, spindle, and turns off the coolant".
     stop_is_complete: true,
-    // By memory of the operator's manual: L0 defines a cycle without drilling at the present position.
+    // From memory of the operator's manual: L0 defines a cycle without drilling at the present position.
     stores_cycles: true,
-    // By memory of the operator's manual: G154 P1 to P99 selects work coordinates.
+    // From memory of the operator's manual: G154 P1 to P99 selects work coordinates.
     systems: Some(SystemNumbers { code: 1540, regular: 0, most: 99 }),
     ..ISO
 };
@@ -460,7 +460,7 @@ pub(super) static MARLIN: Rules = Rules {
         ..BASE_SPELLING
     },
     words: &codes::MARLIN,
-    // G28 sets the position to that of the switches, and the shift by G92 to 0 (set_axis_is_at_home).
+    // G28 sets the position to the position of the switches, and the shift by G92 to 0 (set_axis_is_at_home).
     reference: ReferenceRules { g: &[280], loses_zero: true },
     // Configuration_adv.h: `//#define INCH_MODE_SUPPORT`, `//#define CNC_WORKSPACE_PLANES`, `//#define ARC_P_CIRCLES`.
     unusual: OptionalWords { g: &[180, 190, 200], turns: true },
@@ -522,7 +522,7 @@ pub struct Spelling {
     pub bang_comments: Style,
     /// Meaning of blanks.
     pub blanks: Blanks,
-    /// Meaning of `%`.
+    /// Meaning of a line that begins with `%`.
     pub percent: Percent,
     /// Meaning of `/` at the beginning of a line.
     pub slash: Slash,
@@ -550,7 +550,7 @@ pub struct Spelling {
     pub message_codes: &'static [u16],
 }
 
-/// How well a dialect supports a notation.
+/// Degree to which a dialect supports a notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
     /// The dialect supports the notation.

@@ -56,7 +56,7 @@ pub(super) enum Motion {
 pub(super) enum Cycle {
     /// G73: in pecks, with a small retraction to break the chip.
     ChipBreaking,
-    /// G81.
+    /// G81: drills to the bottom in one move.
     Plain,
     /// G82: dwells at the bottom.
     Dwelling,
@@ -68,7 +68,7 @@ pub(super) enum Cycle {
     BoringDwelling,
 }
 
-/// Unit of F.
+/// Unit of the feed F.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum FeedUnit {
     /// G94: mm or inches per minute.
@@ -116,7 +116,7 @@ impl Command {
         }
     }
 
-    /// How far the interpreter follows the command. A command that was reported as not followed is not reported again.
+    /// Returns how far the interpreter follows the command. A command that was reported as not followed is not reported again.
     pub(super) fn effect(self) -> WordEffect {
         match self {
             Self::NoEffect(Group::ToolLength | Group::PathControl) => WordEffect::Followed,
@@ -227,7 +227,7 @@ pub(super) fn is_cycle(code: u16) -> bool {
     matches!(code, 730 | 740 | 760 | 810 | 820 | 830 | 840 | 850 | 860 | 870 | 880 | 890)
 }
 
-/// The name of a G or M code, given ten times its number: `G1`, `G38.2`.
+/// Returns the name of a G or M code, given ten times its number: `G1`, `G38.2`.
 pub fn name(letter: char, code: u16) -> String {
     match code % 10 {
         0 if letter == 'O' => letter.to_string(),

@@ -204,7 +204,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// Approximate number of moves for a hole.
+/// Estimates the number of moves for a hole.
 fn moves_of(hole: &Hole) -> f64 {
     5.0 + 3.0 * (hole.r - hole.bottom) / hole.step
 }

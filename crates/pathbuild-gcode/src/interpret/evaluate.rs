@@ -343,7 +343,7 @@ pub(super) struct StatedProbes {
     stack: Vec<f64>,
 }
 
-/// Which height of a probe is used to evaluate a formula.
+/// The height of a probe with which a formula is evaluated.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum ProbeHeight {
     Drawn,

@@ -197,7 +197,7 @@ impl<'i> Interpreter<'i> {
     }
 }
 
-/// Converts a value to a whole number, which is that of a tool, a layer or repetitions.
+/// Converts the number of a tool, a layer or repetitions; `None` if it is not a whole number from 0.
 pub(super) fn whole(value: f64) -> Option<u32> {
     let nearest = libm::round(value);
     let fits = libm::fabs(value - nearest) < 0.0001 && (0.0..f64::from(u32::MAX)).contains(&nearest);

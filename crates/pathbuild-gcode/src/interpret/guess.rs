@@ -42,7 +42,7 @@ pub enum EvidenceKind {
     Header,
     /// A line has a sign that only this dialect has.
     Sign,
-    /// Other dialects know the program's words as well.
+    /// The dialect knows the program's words, but other dialects may know them as well.
     Words,
 }
 

@@ -67,7 +67,7 @@ pub fn interpret_each(
     interpret_until(text, dialect, options, &mut all)
 }
 
-/// Like [`interpret_each`], but stops when the receiver of the steps returns `Break`. Nothing is reported about the lines after that.
+/// Like [`interpret_each`], but stops when `take` returns `Break`. Nothing is reported about the lines after that.
 pub fn interpret_until(
     text: &[u8],
     dialect: Dialect,

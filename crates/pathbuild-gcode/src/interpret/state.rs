@@ -8,7 +8,7 @@ use crate::dialect::{Rules, StartMotion};
 /// Length of an inch in mm.
 pub(super) const INCH: f64 = 25.4;
 
-/// The modal state.
+/// The modal state of the control at a point of the program.
 #[derive(Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "independent modes")]
 pub(super) struct State {
@@ -62,7 +62,7 @@ pub(super) struct CycleState {
     pub(super) q: Option<f64>,
 }
 
-/// Which settings the program has specified, and which missing ones have been reported.
+/// The settings that the program has specified, and the missing ones that have been reported.
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 pub(super) struct StatedModes {
@@ -348,7 +348,7 @@ impl Options {
     }
 }
 
-/// Which height `Z1.023(==1.000+0.5*[#51-2.000])` represents.
+/// The height that is read from `Z1.023(==1.000+0.5*[#51-2.000])`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Heights {
     /// The number before the formula, to which the tool moves.
@@ -362,10 +362,10 @@ pub enum Heights {
 /// Meaning of G70 and G71. (book: program/reading)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UnitCodes {
-    /// As in DIN 66025 and in the examples of XpertMILL's import filter: G70 inches, G71 millimetres.
+    /// G70 is inches and G71 millimetres, as in DIN 66025 and in the examples of XpertMILL's import filter.
     #[default]
     Din,
-    /// As in the filter's table of codes: G70 millimetres, G71 inches.
+    /// G70 is millimetres and G71 inches, as in the filter's table of codes.
     Table,
 }
 

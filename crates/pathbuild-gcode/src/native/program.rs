@@ -23,7 +23,7 @@ pub struct WriteOptions {
     pub charset: Charset,
     /// Rapid feed (--rapid) in mm/min, for calculating times.
     pub rapid: f64,
-    /// How heights are corrected if there are probes.
+    /// Method by which heights are corrected if there are probes.
     pub correction: Correction,
 }
 
@@ -85,7 +85,7 @@ pub fn plain_title(text: &str) -> String {
     within_comment(text, None, Charset::Ascii).to_lowercase()
 }
 
-/// Whether a title found in a program is that of the given path and drawing.
+/// Whether a title found in a program names the given path and drawing.
 pub fn is_title(found: &str, drawing: &str, path: &str) -> bool {
     plain_title(found) == plain_title(&title(drawing, path))
 }

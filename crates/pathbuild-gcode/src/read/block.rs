@@ -72,7 +72,7 @@ pub enum Target {
     Named(Span),
 }
 
-/// A comment.
+/// A comment, with its notation and position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Comment {

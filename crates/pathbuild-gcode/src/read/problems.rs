@@ -38,7 +38,7 @@ impl<'a> At<'a> {
     }
 }
 
-/// Diagnostics of a file in the order in which they are found. The first few of each message are kept, the others only counted.
+/// Collector for diagnostics of a file in the order in which they are found. The first few of each message are stored, the others only counted.
 #[derive(Clone, Debug, Default)]
 pub struct Problems {
     found: Vec<Diagnostic>,

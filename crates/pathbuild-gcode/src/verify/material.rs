@@ -187,7 +187,7 @@ impl Extent {
     }
 }
 
-/// The material on the machine, as far as it is known.
+/// The known material on the machine.
 struct Bench<'s> {
     stock: &'s Stock,
     resolution: f64,
@@ -551,7 +551,7 @@ impl Stock {
         Self { most_pieces: most, ..self }
     }
 
-    /// Maximum number of visited cells.
+    /// Returns the maximum number of visited cells.
     pub(super) fn cells(&self) -> u64 {
         self.cells
     }
@@ -561,12 +561,12 @@ impl Stock {
         self.pieces.iter().map(|piece| piece.cutter.smallest_detail()).reduce(f64::min)
     }
 
-    /// Diameter of the widest cutter in mm; 0 if nothing is known.
+    /// Returns the diameter of the widest cutter in mm; 0 if there are no cutters.
     pub(super) fn widest(&self) -> f64 {
         self.pieces.iter().map(|piece| piece.cutter.diameter).fold(0.0, f64::max)
     }
 
-    /// Height in mm of the highest surface.
+    /// Returns the height in mm of the highest surface; `None` if there is no stock.
     pub fn highest(&self) -> Option<f64> {
         self.highest
     }

@@ -44,7 +44,7 @@ pub struct Rules<'c> {
     has_cut: bool,
     /// Whether a cut at an unknown position has been reported.
     position_said: bool,
-    /// Whether the height is unknown except that it is that of a machine position.
+    /// Whether the tool is at the height of a machine position, which is otherwise unknown.
     is_height_homed: bool,
     directions: ArcDirections,
     /// The words of a tool change by hand since the last move: T and a stop.

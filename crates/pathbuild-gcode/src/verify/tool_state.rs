@@ -89,12 +89,12 @@ impl ToolState {
         self.length = Some(ActiveLength { length, line, tool: self.inserted, is_before_change: false });
     }
 
-    /// The tool selected by T.
+    /// Returns the tool selected by T.
     pub fn selected(&self) -> Option<u32> {
         self.selected
     }
 
-    /// The tool inserted by M6.
+    /// Returns the tool inserted by M6.
     pub fn inserted(&self) -> Option<u32> {
         self.inserted
     }
@@ -104,7 +104,7 @@ impl ToolState {
         self.spindle
     }
 
-    /// The line that set the active tool length.
+    /// Returns the line that set the active tool length.
     pub fn length_line(&self) -> Option<u32> {
         self.length.map(|active| active.line)
     }

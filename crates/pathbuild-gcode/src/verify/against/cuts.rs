@@ -291,7 +291,7 @@ pub(super) struct ExpectedTraverse<'w> {
     pub(super) is_foot: bool,
     /// Whether the program may move to machine positions, as the native program does not.
     pub(super) may_go_home: bool,
-    /// The drawing's S0: the height in mm at and above which nothing is in the way.
+    /// The drawing's S0: the height in mm at and above which there are no obstacles.
     pub(super) clearance: f64,
     pub(super) slack: f64,
 }

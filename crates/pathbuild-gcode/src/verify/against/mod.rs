@@ -26,7 +26,7 @@ pub struct Drawn<M> {
     pub moves: M,
     /// The position at which the moves begin: above the path's zero at the height `clearance`, unless a definition begins elsewhere.
     pub start: Position,
-    /// S0: the height in mm at and above which nothing is in the way.
+    /// The drawing's S0: the height in mm at and above which there are no obstacles.
     pub clearance: f64,
     /// Number, spindle and coolant of the cutter on the machine.
     pub tool: ToolUse,
@@ -36,7 +36,7 @@ pub struct Drawn<M> {
     pub spin_up: f64,
 }
 
-/// How the cutter of a drawing is used. Unknown properties are not compared.
+/// Number, spindle and coolant with which the cutter of a drawing is used. Unknown properties are not compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ToolUse {
     /// Tool number (T).

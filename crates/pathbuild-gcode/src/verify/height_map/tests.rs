@@ -11,7 +11,7 @@ fn distance([from, to]: [[f64; 2]; 2], [x, y]: [f64; 2]) -> f64 {
     libm::hypot(x - from[0] - share * along[0], y - from[1] - share * along[1])
 }
 
-/// Both ends of each row are at a distance of one radius from the segment and points beyond them are farther, in all directions.
+/// Checks in all directions that both ends of each row are at a distance of one radius from the segment, and that points beyond them are farther.
 #[test]
 fn rows_of_a_capsule_reach_as_far_as_its_radius() {
     const RADIUS: f64 = 1.5;
