@@ -351,12 +351,38 @@ fn an_argument_under_another_configuration_is_wrong() {
     let lines = [
         "config show --format concise a/x.dxf b/x.dxf b/y.dxf c/x.dxf",
         "config show --format concise c/x.dxf a/x.dxf",
+        "config show --format concise a/x.dxf c/x.dxf c",
         "config show --format concise --config a/pathbuild.toml a/x.dxf b/x.dxf",
     ];
     let shown = runs(&place, lines);
     assert_snapshot!(
         shown.lines().take_while(|line| !line.starts_with("path-pattern")).collect::<Vec<_>>().join("\n")
     );
+}
+
+/// Each is reported once, however many drawings lie beside it.
+#[test]
+fn configurations_below_that_of_the_run_are_warnings() {
+    let place = Place::new().file("a/pathbuild.toml", "").file("a/b/pathbuild.toml", "").file("c/none", "");
+    let place = ["a/b/1.dxf", "a/b/2.dxf", "a/3.dxf"].iter().fold(place, |place, file| place.file(file, ""));
+    let found = |line: &str| {
+        let stderr = place.run(&format!("check --format concise {line}")).stderr;
+        let lines = stderr.lines().filter(|line| line.contains("[PB526]"));
+        lines.map(|line| line.split(':').next().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(found("a"), ["a/b/pathbuild.toml"]);
+    assert_eq!(found("."), ["a/b/pathbuild.toml", "a/pathbuild.toml"]);
+    assert_eq!(found("a/b"), [""; 0]);
+    assert_eq!(found("a/b/1.dxf"), [""; 0]);
+    assert_eq!(found("a --config c/other.toml"), [""; 0]);
+}
+
+/// A program may lie outside of the tree whose configuration applies to it.
+#[test]
+fn a_program_without_a_configuration_of_its_own_takes_that_of_the_drawing() {
+    let place = Place::new().file("a/pathbuild.toml", "feed = 3").file("c/x.nc", "");
+    assert_eq!(line(&place.run("config show a/x.dxf c/x.nc"), "feed"), "feed = 3");
+    assert_eq!(line(&place.run("config show c/x.nc a/x.dxf"), "feed"), "feed = 3");
 }
 
 #[test]

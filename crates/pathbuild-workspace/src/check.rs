@@ -11,6 +11,7 @@ use pathbuild_db::{
     Database, Db, Role, SourceFile, Target, Trace, check_file, combinations, definitions_trace, locate,
     path_names,
 };
+use pathbuild_diagnostic::messages::configuration;
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Place, TextFault, Value};
 use pathbuild_path::{Bindings, PathName};
@@ -26,7 +27,7 @@ use crate::session::{
 };
 use crate::workspace::Failure;
 use crate::workspace::{Workspace, relative};
-use crate::{Input, Inputs, waivers};
+use crate::{Input, Inputs, files, waivers};
 
 /// A request to check drawings.
 #[derive(Clone, Debug)]
@@ -143,6 +144,7 @@ impl Request<'_> {
         let filter = ChangeFilter::new(session, memo, past, each.iter().chain(&q_projects));
         let mut checked = CheckOutcome { diagnostics: matches.problems.clone(), ..CheckOutcome::default() };
         checked.diagnostics.extend(selection.problems);
+        checked.diagnostics.extend(unused_configurations(session, &selection.below));
         if !session.is_compatible() {
             let named = each.iter().skip(selection.drawings.len()).take(selection.named.len());
             checked.diagnostics.extend(named.filter_map(|answer| {
@@ -265,6 +267,30 @@ fn compare_q_projects(
     };
     let subject = |[drawing, q_project]: &[&Utf8PathBuf; 2]| format!("{drawing}\0{q_project}").into();
     memo.get_or(&pairs, subject, |_, result| Some(result), compare)
+}
+
+/// Warns about each configuration in the searched directories that does not apply to the run. One that `--config` names from another tree
+/// is meant for all of them.
+fn unused_configurations(session: &Session<'_>, directories: &[Utf8PathBuf]) -> Vec<Diagnostic> {
+    let system = session.db().system();
+    let used = session.workspace().settings.file.as_deref().map(|file| session.normal(file));
+    let tree = used.as_deref().and_then(Utf8Path::parent);
+    let files = directories.iter().map(|directory| join(directory, files::FILE_NAME));
+    let is_unused = |file: &Utf8PathBuf| {
+        tree.is_none_or(|tree| file.starts_with(tree))
+            && used.as_ref() != Some(file)
+            && system.kind(file) != FileKind::Missing
+    };
+    let warning = |file: Utf8PathBuf| {
+        let problem = match &used {
+            Some(used) => {
+                Diagnostic::new(&configuration::UNUSED_CONFIGURATION).quoting("used", used.as_str())
+            }
+            None => Diagnostic::new(&configuration::UNUSED_WITHOUT_ANY),
+        };
+        problem.in_file(&file)
+    };
+    files.filter(is_unused).map(warning).collect()
 }
 
 /// Leaks a value instead of dropping it: freeing a million values takes longer than process exit.

@@ -209,6 +209,27 @@ messages! {
         help_en: "run once for each, or name the intended configuration with --config",
         help_de: "für jedes einen eigenen Lauf machen oder die gemeinte Konfiguration mit --config nennen",
     }
+    /// An argument without a configuration, although the first argument has one.
+    NO_CONFIGURATION: InvalidConfiguration {
+        en: "no pathbuild.toml applies to {argument}, but this run uses {used}",
+        de: "für {argument} gilt keine pathbuild.toml, dieser Lauf verwendet aber {used}",
+        help_en: "run once for each, or name the intended configuration with --config",
+        help_de: "für jedes einen eigenen Lauf machen oder die gemeinte Konfiguration mit --config nennen",
+    }
+    /// A configuration below the one of the run.
+    UNUSED_CONFIGURATION: UnusedConfiguration {
+        en: "this configuration does not apply: the run uses {used} for the drawings here, too",
+        de: "diese Konfiguration gilt nicht: der Lauf verwendet {used} auch für die Zeichnungen hier",
+        help_en: "check this directory in a run of its own, or remove the file",
+        help_de: "dieses Verzeichnis in einem eigenen Lauf prüfen oder die Datei entfernen",
+    }
+    /// A configuration below the searched directories of a run without one.
+    UNUSED_WITHOUT_ANY: UnusedConfiguration {
+        en: "this configuration does not apply: the run has none, because there is none in its directory or above",
+        de: "diese Konfiguration gilt nicht: der Lauf hat keine, weil in seinem Verzeichnis und darüber keine liegt",
+        help_en: "check this directory in a run of its own, or name the intended configuration with --config",
+        help_de: "dieses Verzeichnis in einem eigenen Lauf prüfen oder die gemeinte Konfiguration mit --config nennen",
+    }
     /// An unreadable baseline.
     BASELINE_UNREADABLE: InvalidConfiguration {
         en: "cannot read the baseline: {reason}",

@@ -192,11 +192,15 @@ impl Discovery<'_> {
             Input::Place(place) => Some(place.to_owned()),
             Input::Name(name) => self.is_directory(name.into()).then(|| name.into()),
         };
-        let stranger = |place: Utf8PathBuf| {
-            let other = self.above(&clean(&self.working_directory.join(&place)))?;
-            (Some(&*other) != used).then(|| misplaced_input(&place, &other, used))
+        let stranger = |input: Input<'_>| {
+            let place = place(input)?;
+            match self.above(&clean(&self.working_directory.join(&place))) {
+                Some(other) => (Some(&*other) != used).then(|| misplaced_input(&place, &other, used)),
+                None if input.is_program(|place| self.is_directory(place)) => None,
+                None => used.map(|used| unconfigured_input(&place, used)),
+            }
         };
-        self.inputs.iter().filter_map(place).filter_map(stranger).collect()
+        self.inputs.iter().filter_map(stranger).collect()
     }
 
     /// Whether an argument is a directory. This is looked up, because a directory's name need not contain a separator.
@@ -233,6 +237,11 @@ fn misplaced_input(place: &Utf8Path, other: &Utf8Path, used: Option<&Utf8Path>) 
         Some(used) => diagnostic.quoting("used", used.as_str()),
         None => diagnostic,
     }
+}
+
+fn unconfigured_input(place: &Utf8Path, used: &Utf8Path) -> Diagnostic {
+    let diagnostic = Diagnostic::new(&messages::NO_CONFIGURATION);
+    diagnostic.quoting("argument", place.as_str()).quoting("used", used.as_str())
 }
 
 /// Settings of the user for all trees.
