@@ -58,8 +58,11 @@ fn the_environment_comes_between_the_option_and_the_configurations() {
     assert!(said("de", "").contains("1 Pfad in 1 Zeichnung"));
     assert!(said("de_AT.UTF-8", "").contains("1 Pfad in 1 Zeichnung"));
     assert!(said("de", "--lang en").contains("1 path in 1 drawing"));
-    for other in ["", "fr", "C"] {
-        assert!(said(other, "").contains("1 path in 1 drawing"), "{other}");
+    assert!(said("", "").contains("1 path in 1 drawing"));
+    assert!(said("en_GB", "").contains("1 path in 1 drawing"));
+    for other in ["fr", "C"] {
+        let refusal = format!("PATHBUILD_LANG={other}: the language must be en or de");
+        assert!(said(other, "").contains(&refusal), "{other}");
     }
 }
 

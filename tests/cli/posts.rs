@@ -264,7 +264,7 @@ fn what_a_post_cannot_do_is_refused() {
             "emit 1234.1P --post lossy.cbpp",
             "emit 1234.1P --post open.cbpp --dialect grbl --format concise",
             "emit 1234.1P --post open.cbpp -o out",
-            "emit 1234.1P --date 2026",
+            "emit 1234.1P --date 2026-11-21",
             "emit 1234.1P --run-post-build --check --post grbl",
         ]
     ));
@@ -292,7 +292,7 @@ fn the_provenance_tells_posts_tools_and_macros_apart() {
         provenance(&place, "--post haas"),
         provenance(&place, "--post my.cbpp"),
         provenance(&place, "--post other.cbpp"),
-        provenance(&place, "--post grbl --date 2026"),
+        provenance(&place, "--post grbl --date 2026-11-21"),
         provenance(&library("cycles = true"), "--post grbl"),
         provenance(&Place::of(&LIBRARY.replace("number = 4", "number = 5")), "--post grbl"),
         provenance(

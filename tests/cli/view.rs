@@ -629,6 +629,37 @@ fn without_cutter_or_surface_there_is_no_stock() {
     }
 }
 
+/// A drawing states its cutter and material itself.
+#[test]
+fn options_for_programs_are_refused_for_drawings() {
+    let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0\nend 40,0";
+    let place = Place::new().file("1234.1P.dxf", sheet(drawn).unwrap().to_dxf());
+    for option in ["--cutter 2", "--surface 5", "--dialect grbl", "--ignore-feed"] {
+        for what in ["1234.1P", "1234.1P.dxf"] {
+            let run = place.run(&format!("view {what} --stock -o a.svg {option}"));
+            assert!(run.status == Some(2) && run.stderr.contains("only for G-code programs"), "{run}");
+        }
+    }
+    assert_eq!(place.run("view 1234.1P --stock -o a.svg").status, Some(0));
+}
+
+/// As in `verify`: the picture shows the larger cutter.
+#[test]
+fn a_cutter_other_than_that_of_the_header_is_a_warning() {
+    let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0\nend 40,0";
+    let place = Place::new().file("1234.1P.dxf", sheet(drawn).unwrap().to_dxf());
+    place.run("emit 1234.1P --rapid 1000 --sweep-height 20");
+    let view = |options: &str| {
+        let run = place.run(&format!("view 1234.1P_Milling.gcode --stock -o a.svg {options}"));
+        assert_eq!(run.status, Some(0), "{run}");
+        run.stderr.matches("[PB777]").count()
+    };
+    assert_eq!(view(""), 0);
+    assert_eq!(view("--cutter 2 --surface 5"), 0);
+    assert_eq!(view("--cutter 6"), 1);
+    assert_eq!(view("--surface 4"), 1);
+}
+
 /// A name from a drawing is never interpreted as markup.
 #[test]
 fn hostile_names_are_escaped() {

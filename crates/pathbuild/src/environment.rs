@@ -10,7 +10,7 @@ use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{OsSystem, spelt};
-use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_diagnostic::{Diagnostic, Lang, shown};
 use pathbuild_workspace::config::{self, Overrides, UserSettings, clean};
 use pathbuild_workspace::waivers::{Date, DateSource, RunDate};
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
@@ -18,6 +18,9 @@ use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 /// Environment variable with the time, in seconds since 1970, to use as the current one, so that results can be reproduced
 /// (reproducible-builds.org).
 const EPOCH: &str = "SOURCE_DATE_EPOCH";
+
+/// Environment variable for the language of messages.
+const OWN_LANG: &str = "PATHBUILD_LANG";
 
 /// Environment variable that names the cache directory, like `--cache-dir`.
 const CACHE_DIR: &str = "PATHBUILD_CACHE_DIR";
@@ -70,7 +73,7 @@ pub(crate) fn user_configuration() -> Option<Utf8PathBuf> {
 
 /// Returns the language chosen by `PATHBUILD_LANG`: `de`, `en`, or the name of a locale such as `de_AT.UTF-8`.
 fn lang() -> Option<Lang> {
-    named_lang(&env::var("PATHBUILD_LANG").ok()?)
+    named_lang(&env::var(OWN_LANG).ok()?)
 }
 
 /// Returns the language of the system's locale: from the POSIX variables on every system, or else the user's language on Windows and
@@ -108,13 +111,21 @@ fn epoch() -> Option<Date> {
 }
 
 /// Returns an error for an environment variable that is set but invalid. Ignoring it would put the cache in another place than the user
-/// expects, or compare waivers with another date.
+/// expects, compare waivers with another date, or answer in another language.
 pub(crate) fn refusal(workspace: &Workspace) -> Option<String> {
     if env::var_os(EPOCH).is_some() && epoch().is_none() {
         return Some(workspace.phrase(
             "{} is not a number of seconds since 1970",
             "{} ist keine Anzahl von Sekunden seit 1970",
             EPOCH,
+        ));
+    }
+    if let Some(name) = env::var_os(OWN_LANG).filter(|name| !name.is_empty() && lang().is_none()) {
+        let name = format!("{OWN_LANG}={}", shown::line(&name.to_string_lossy()));
+        return Some(workspace.phrase(
+            "{}: the language must be en or de",
+            "{}: die Sprache muss en oder de sein",
+            &name,
         ));
     }
     let is_unreadable = matches!(env::var(CACHE_DIR), Err(VarError::NotUnicode(_)));

@@ -173,11 +173,12 @@ impl<'w> Verifier<'w> {
     }
 
     /// Returns the material that a program cuts, if its cutters and its surface are known.
-    pub fn stock(&self, program: &Program) -> Option<Stock> {
+    pub fn stock(&self, program: &Program) -> (Option<Stock>, Vec<Diagnostic>) {
         let mut header = HeaderReader::default();
         program.read.steps.iter().for_each(|step| header.step(step));
         let header = header.finish(program.inch_word());
-        Sources::new(self, program, &header).stock().cloned()
+        let sources = Sources::new(self, program, &header);
+        (sources.stock().cloned(), sources.disagreements())
     }
 
     /// Returns the words that programs of this dialect may contain.

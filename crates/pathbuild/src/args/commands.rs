@@ -10,9 +10,10 @@ use pathbuild_workspace::Inputs;
 use pathbuild_workspace::config::types::Requirement;
 use pathbuild_workspace::machine::LengthUnit;
 use pathbuild_workspace::program::ReadingOptions;
+use pathbuild_workspace::waivers::Date;
 
 use super::completions;
-use super::shared::{Address, InputArgs, WaiverArgs};
+use super::shared::{Address, InputArgs, WaiverArgs, date};
 
 /// Arguments of `pathbuild check`.
 #[derive(Clone, Debug, Default, Args)]
@@ -78,9 +79,9 @@ pub struct EmitArgs {
     /// G-code dialect for checking the post's output, if the post names none
     #[arg(long, value_name = "DIALECT", add = completions::dialects())]
     pub dialect: Option<String>,
-    /// Date for posts that write one
-    #[arg(long, value_name = "DATE")]
-    pub date: Option<String>,
+    /// Date for posts that write one, and for waivers that end
+    #[arg(long, value_name = "DATE", value_parser = date)]
+    pub date: Option<Date>,
     /// After writing, run the command that the post names
     #[arg(long, conflicts_with_all = ["check", "output"])]
     pub run_post_build: bool,
@@ -287,9 +288,9 @@ pub struct PostArgs {
     /// G-code dialect for checking the post's output, if the post names none
     #[arg(long, value_name = "DIALECT", add = completions::dialects())]
     pub target: Option<String>,
-    /// Date for posts that write one
-    #[arg(long, value_name = "DATE")]
-    pub date: Option<String>,
+    /// Date for posts that write one, and for waivers that end
+    #[arg(long, value_name = "DATE", value_parser = date)]
+    pub date: Option<Date>,
     /// After writing, run the command that the post names
     #[arg(long, requires = "output")]
     pub run_post_build: bool,
@@ -343,6 +344,22 @@ pub struct ViewArgs {
     /// Options for reading a program.
     #[command(flatten)]
     pub reading: ReadingArgs,
+}
+
+impl ViewArgs {
+    /// Returns the first given option that only programs can use.
+    pub fn program_option(&self) -> Option<&'static str> {
+        let ReadingArgs { dialect, unit_codes, absolute_arc_centres, ignore_feed } = &self.reading;
+        let options = [
+            ("--cutter", self.cutter.is_some()),
+            ("--surface", self.surface.is_some()),
+            ("--dialect", dialect.is_some()),
+            ("--unit-codes", unit_codes.is_some()),
+            ("--absolute-arc-centres", *absolute_arc_centres),
+            ("--ignore-feed", *ignore_feed),
+        ];
+        options.into_iter().find_map(|(name, is_given)| is_given.then_some(name))
+    }
 }
 
 /// Arguments of `pathbuild sheet`.
@@ -562,7 +579,8 @@ german! {
         "Löscht Programme, die pathbuild früher geschrieben hat und nicht mehr schreiben würde";
     "G-code dialect for checking the post's output, if the post names none",
         "G-Code-Dialekt, in dem die Ausgabe des Postprozessors geprüft wird, wenn er keinen nennt";
-    "Date for posts that write one", "Datum für Postprozessoren, die eines schreiben";
+    "Date for posts that write one, and for waivers that end",
+        "Datum für Postprozessoren, die eines schreiben, und für Ausnahmen, die enden";
     "After writing, run the command that the post names", "Führt nach dem Schreiben den Befehl aus, den der Postprozessor nennt";
     "Post-processor: a built-in name or a file", "Postprozessor: ein eingebauter Name oder eine Datei";
     "File to write; without it standard output", "Zieldatei; sonst die Standardausgabe";

@@ -122,13 +122,13 @@ impl Command {
         matches!(self, Self::Verify(_) | Self::Import(_) | Self::Post(_) | Self::View(_) | Self::Adjust(_))
     }
 
-    /// Returns the date that waivers are compared with, if the command line states one. A date for a post in another form is ignored.
+    /// Returns the date that waivers are compared with, if the command line states one.
     pub fn date(&self) -> Option<Date> {
         match self {
             Self::Check(args) => args.waivers.date,
             Self::Verify(args) => args.waivers.date,
-            Self::Emit(args) => args.date.as_deref()?.parse().ok(),
-            Self::Post(args) => args.date.as_deref()?.parse().ok(),
+            Self::Emit(args) => args.date,
+            Self::Post(args) => args.date,
             _ => None,
         }
     }

@@ -184,7 +184,7 @@ fn code(text: &str) -> Result<Code, &'static str> {
     text.parse().map_err(|()| "there is no such diagnostic: `pathbuild explain` lists all of them")
 }
 
-fn date(text: &str) -> Result<Date, &'static str> {
+pub(super) fn date(text: &str) -> Result<Date, &'static str> {
     text.parse().map_err(|()| "expected a date such as 2026-12-31")
 }
 

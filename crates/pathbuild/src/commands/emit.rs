@@ -21,7 +21,7 @@ pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
         task: task(args),
         post: args.post.as_deref(),
         post_arguments: PostArguments {
-            date: args.date.as_deref().map(Into::into),
+            date: args.date.map(|date| date.to_string().into()),
             dialect: args.dialect.as_deref().map(Into::into),
             run_post_build: args.run_post_build,
         },

@@ -70,7 +70,7 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
         ));
     }
     let arguments = PostArguments {
-        date: args.date.as_deref().map(Into::into),
+        date: args.date.map(|date| date.to_string().into()),
         dialect: args.target.as_deref().map(Into::into),
         run_post_build: args.run_post_build,
     };

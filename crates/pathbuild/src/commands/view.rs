@@ -64,6 +64,13 @@ fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failu
     if !is_drawing(file) && is_there(file) {
         return program(context, file, args);
     }
+    if let Some(option) = args.program_option() {
+        return Err(Failure::Usage(context.phrase(
+            "view: {} is only for G-code programs",
+            "view: {} ist nur für G-Code-Programme",
+            option,
+        )));
+    }
     Session::new(context).with_stable_files(|session| drawing(session, &args.what))
 }
 
@@ -72,15 +79,19 @@ fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<Target
     let program = Program::open(context, file, args.reading.options()).map_err(found)?;
     let mut scene = Scene::new(file.file_name().unwrap_or_default());
     let mut path = program.scene_path(context);
+    let mut disagreements = Vec::new();
     if args.stock {
         let options = VerifyOptions { reading: args.reading.options(), ..VerifyOptions::default() };
         let options = options.with_stock(args.cutter.as_deref(), args.surface.as_deref()).map_err(found)?;
         let mut session = Session::new(context);
         let verifier = Verifier::new(&mut session, options)?;
-        path.tools = verifier.stock(&program).iter().flat_map(Stock::spans).map(tool_span).collect();
+        let (stock, found) = verifier.stock(&program);
+        path.tools = stock.iter().flat_map(Stock::spans).map(tool_span).collect();
+        disagreements = found.into_iter().map(|problem| problem.in_file(file)).collect();
     }
     scene.paths.push(path);
-    let report = SceneReport { scene, diagnostics: program.read.problems };
+    let diagnostics = program.read.problems.into_iter().chain(disagreements).collect();
+    let report = SceneReport { scene, diagnostics };
     Ok(TargetScene { report, file: file.to_string() })
 }
 
