@@ -127,7 +127,7 @@ fn deserialize_bytes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<u
 pub struct Key {
     /// Hash of the program's build.
     pub build: [u8; 32],
-    /// Hash of everything else that a result depends on and that is in no file.
+    /// Hash of the query, the settings, and all other inputs of a result that are in no file.
     pub question: [u8; 32],
 }
 

@@ -154,7 +154,8 @@ impl Tickets {
     }
 }
 
-/// Writes DXF in its ASCII form: one line for the code, one for the value. Without an encoding, texts are reduced to ASCII.
+/// Writes DXF in its ASCII form: one line for the code, one for the value. Without an encoding, texts
+/// are ASCII, with all other characters as `\U+XXXX`.
 pub fn ascii(pairs: &[Pair<'_>], encoding: Option<&'static Encoding>, line_end: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(pairs.len() * 16);
     for pair in pairs {

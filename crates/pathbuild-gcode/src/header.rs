@@ -543,7 +543,7 @@ fn cut_viewer_tool(comment: &str) -> Option<Statement> {
     Some(tool(Scope::Following, diameter, tip, StatedUnit::OfProgram))
 }
 
-/// Parses the stock of CutViewer. The origin is the position of program zero, measured from the lower corner of the block. Without it, the position
+/// Parses the stock of `CutViewer`. The origin is the position of program zero, measured from the lower corner of the block. Without it, the position
 /// of the stock is unknown.
 fn cut_viewer_stock(comment: &str) -> Option<Statement> {
     let fields: [f64; 6] = numbers(after_key(comment, "STOCK/BLOCK")?)?.try_into().ok()?;

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 /// A position in the program's first coordinate system, in mm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Position {
-    /// X, Y and Z in mm; the values of unknown axes are meaningless.
+    /// X, Y and Z in mm. The value of an axis that is not in `known` is no position.
     pub at: [f64; 3],
     /// The axes whose coordinate is known. All are unknown at the start of the program; some become unknown after a move to a named position or a
     /// probe.

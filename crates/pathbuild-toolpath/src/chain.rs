@@ -180,7 +180,7 @@ fn planned_bars(cut: &CutParameters, tool: f64, curve: &Curve) -> Option<Planned
     Some((bars.top, BarPlan::new(bars, cut.bottom, tool, curve.length())))
 }
 
-/// Divides a curve into the sections milled at a depth, leaving its bars.
+/// Returns the sections of a curve that are milled at depth `z`, which leave its bars standing.
 fn sections(curve: &Curve, z: f64, bars: Option<&PlannedBars>) -> Vec<Section> {
     let whole = |z: f64| vec![Section { curve: *curve, from_z: z, to_z: z }];
     match bars {

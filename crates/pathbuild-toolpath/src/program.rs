@@ -185,7 +185,7 @@ pub enum Comment {
         kind: ElementKind,
         /// Start of the element in mm, in the coordinates of its drawing instead of those of the program.
         at: Xy,
-        /// Bottom of the hole or chain in mm, in program heights. Drilling cycles need it.
+        /// Z of the bottom of the hole or chain in mm, in program coordinates. Posts need it for drilling cycles.
         bottom: f64,
         /// Height of the upper face of the material at the element, in mm.
         surface: f64,
@@ -198,7 +198,7 @@ pub enum Comment {
     Pass {
         /// Number of the pass, counted from 1.
         number: u32,
-        /// Depth in mm, in program heights.
+        /// Z of the pass in mm, in program coordinates.
         z: f64,
     },
 }

@@ -54,7 +54,7 @@ static VALUE_LINE: LazyLock<bytes::Regex> = LazyLock::new(|| {
         .expect("a constant pattern")
 });
 
-/// Reads the lines of probes in order; empty lines are skipped.
+/// Reads the file of values and returns its lines in order; empty lines are skipped.
 pub(super) fn read<'a>(values: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<ProbeLine<'a>> {
     let mut found: Vec<ProbeLine<'_>> = Vec::new();
     let mut known: BTreeMap<u32, u32> = BTreeMap::new();
