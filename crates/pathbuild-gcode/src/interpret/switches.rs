@@ -221,7 +221,7 @@ impl Interpreter<'_> {
         self.tool_length(block, code, span);
         let motion = self.words.of_group(Group::Motion);
         if motion.is_some_and(|(command, ..)| command.takes_coordinates()) {
-            // The caller reports the line, because two of its words use the coordinates.
+            // The line is reported elsewhere, because two of its words use the coordinates.
             return;
         }
         let given = self.words.values.take_coordinates();
@@ -301,7 +301,7 @@ impl Interpreter<'_> {
             }
             Some((code, _)) => {
                 if self.rules.one_command {
-                    // S of M191 is the maximum time that the control waits.
+                    // S and P of M0 and M1 are the maximum time that the control waits.
                     self.words.values.take(b'S');
                     self.words.values.take(b'P');
                 }

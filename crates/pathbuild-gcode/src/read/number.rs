@@ -94,7 +94,7 @@ pub(super) fn plain(line: &[u8], start: usize) -> Option<(Number, usize)> {
     Some((Number { value, decimals: u8::try_from(decimals).unwrap_or(u8::MAX) }, at))
 }
 
-/// The longest run of sign, digits and points at an offset.
+/// The sign, digits and decimal point that follow an offset, as far as they have the form of a plain number.
 struct Digits {
     negative: bool,
     mantissa: u64,

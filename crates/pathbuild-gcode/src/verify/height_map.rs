@@ -12,7 +12,7 @@ pub(super) const RESIDUE: f64 = 0.002;
 const CELLS_PER_SIDE: i32 = 64;
 const CELLS: usize = (CELLS_PER_SIDE * CELLS_PER_SIDE) as usize;
 
-/// Cost of each row of a capsule, in visited cells, even if the row contains no material.
+/// Cost of each row of a capsule, in cells, besides the cells that are visited in it. A capsule without material costs as much as one row.
 const ROW: u64 = 16;
 
 /// A sparse grid of heights. Each cell has a single height.
@@ -132,7 +132,7 @@ impl HeightMap {
         self.spend(0, (last - column).min(known));
     }
 
-    /// Deducts the cells of a row from one column to another from the limit. Returns whether the row may be visited.
+    /// Deducts a row and its cells, from one column to another, from the limit on visited cells. Returns whether the row may be visited.
     fn spend(&mut self, column: i32, last: i32) -> bool {
         let cells = u64::try_from(i64::from(last) - i64::from(column)).unwrap_or(0);
         self.left = self.left.saturating_sub(ROW + cells);
