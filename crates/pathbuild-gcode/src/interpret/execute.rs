@@ -197,7 +197,7 @@ impl<'i> Interpreter<'i> {
     }
 }
 
-/// Converts the number of a tool, a layer or repetitions; `None` if it is not a whole number from 0.
+/// Converts the number of a tool, a layer or repetitions; `None` if it is negative or not a whole number.
 pub(super) fn whole(value: f64) -> Option<u32> {
     let nearest = libm::round(value);
     let fits = libm::fabs(value - nearest) < 0.0001 && (0.0..f64::from(u32::MAX)).contains(&nearest);
