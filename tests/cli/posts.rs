@@ -408,6 +408,15 @@ fn numbers_have_a_point_where_the_control_may_need_it() {
     assert!(verified.stderr.contains("warning[PB707]"), "{verified}");
 }
 
+/// The radii of this arc differ by 0.002 mm, as four decimals in inches allow. The post writes a centre that suits both ends.
+#[test]
+fn arcs_of_inch_programs_are_compared_as_exactly_as_they_are_given() {
+    let program = "G17 G20 G90 G94\nM3 S1000\nG0 Z1.\nG0 X0. Y0.\nG1 Z-.04 F4.\nG3 X3.1087 Y-0.5694 I1.7658 J0.8700 F4.\nG0 Z1.\nM5\nM30\n";
+    let place = library("").file("inch.ngc", program);
+    let written = place.run("post inch.ngc --dialect linuxcnc --post linuxcnc --surface 0 -o mm.ngc");
+    assert_eq!(written.status, Some(0), "{written}");
+}
+
 /// If the words of a post are unknown, its programs are compared byte for byte.
 #[test]
 fn a_program_that_cannot_be_read_is_compared_as_it_is() {

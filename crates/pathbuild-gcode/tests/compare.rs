@@ -296,3 +296,17 @@ fn lines_are_alike_by_their_words() {
     assert!(!same("G01 X1.000 Y2.000\n", "G1 (to the left) X1\n"));
     assert!(same("G01 X1.000\n", "G1 X1.001\n") && !same("G01 X1.000\n", "G1 X1.0011\n"));
 }
+
+/// The radii of an arc of rounded numbers differ at its ends; its centre is known no better than that.
+#[test]
+fn an_arc_is_compared_as_exactly_as_its_radii_agree() {
+    let half_circle = |end: &str, centre: &str| moves(&format!("G0 X0 Y0 Z0\nG2 X{end} Y0 {centre} F100"));
+    let tolerance = Tolerance { place: 0.00005, ..Tolerance::of_decimals(3) };
+    let is_same =
+        |found: &[(u32, Move)], expected: &[(u32, Move)]| compare(found, expected, &tolerance).is_none();
+    let rounded = half_circle("20.002", "I10 J0");
+    assert!(is_same(&half_circle("20.002", "I10.001 J0.002"), &rounded));
+    assert!(!is_same(&half_circle("20.002", "I10.001 J0.01"), &rounded));
+    let exact = half_circle("20", "I10 J0");
+    assert!(!is_same(&half_circle("20", "I10 J0.002"), &exact));
+}

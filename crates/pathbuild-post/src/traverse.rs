@@ -34,11 +34,13 @@ pub(crate) fn check(
     let found = without_excursions(found, 2.0 * tolerance.place);
     let (mut found, mut expected) = (found.as_slice(), expected);
     let mut matched: Vec<MatchedCut> = Vec::new();
+    // Where the last cut so far ends.
+    let mut end = None;
     loop {
         let (rapids, cuts) = split(expected, is_rapid);
         let traverse = ExpectedTraverse::new(rapids, clearance, 2.0 * tolerance.place);
         let Some(next) = cuts.first() else {
-            traverse.is_last(found, !matched.is_empty())?;
+            traverse.is_last(found, end)?;
             return Ok(matched);
         };
         let length = traverse.length(found, next)?;
@@ -47,6 +49,7 @@ pub(crate) fn check(
         found = &found[length..];
         let (run_moves, after) = found.split_at(cut(found, run, tolerance)?);
         match_cuts(run_moves, run, tolerance, &mut matched);
+        end = run_moves.last().map(|(_, movement)| movement.to).or(end);
         found = after;
         expected = rest;
     }
@@ -285,17 +288,16 @@ impl<'m> ExpectedTraverse<'m> {
 
     /// Checks the moves after the last cut. There must be no further cuts, and the tool must end as high as in the job. As between two
     /// cuts, a rapid of the job may be written at feed.
-    fn is_last(&self, found: Moves<'_>, has_cut: bool) -> TraverseResult<()> {
+    fn is_last(&self, found: Moves<'_>, end: Option<Position>) -> TraverseResult<()> {
         let is_high = |movement: &Move| movement.from.z().min(movement.to.z()) >= self.clearance - self.slack;
         if let Some(cut) = found.iter().find(|(_, movement)| !is_rapid(movement) && is_high(movement)) {
             return Err(too_far(*cut));
         }
         self.check(found)?;
-        let Some((_, expected)) = self.expected.last().filter(|_| has_cut) else { return Ok(()) };
-        let is_high = found.last().is_some_and(|(_, movement)| {
-            !movement.to.known.has(Axes::Z)
-                || movement.to.z() >= expected.to.z().min(self.clearance) - self.slack
-        });
+        let Some((end, (_, expected))) = end.zip(self.expected.last()) else { return Ok(()) };
+        // A rapid that does not move is not in the output: the tool is there already.
+        let end = found.last().map_or(end, |(_, movement)| movement.to);
+        let is_high = !end.known.has(Axes::Z) || end.z() >= expected.to.z().min(self.clearance) - self.slack;
         if is_high { Ok(()) } else { Err(self.difference(found.last().copied(), None)) }
     }
 
@@ -340,6 +342,9 @@ impl<'m> ExpectedTraverse<'m> {
             return true;
         }
         if !movement.is_known() {
+            if self.comes_lower(movement, lowest) {
+                return true;
+            }
             // A descent from above everything must be vertical and end above a known position.
             return movement.to.known == Axes::ALL
                 && is_vertical
@@ -352,6 +357,21 @@ impl<'m> ExpectedTraverse<'m> {
             return self.floor(&movement.to.at).is_some_and(|floor| lowest >= floor - self.slack);
         }
         self.is_covered(&movement.from.at, &movement.to.at)
+    }
+
+    /// Whether the job itself comes to the same position from one that is as unknown, and no higher.
+    fn comes_lower(&self, movement: &Move, lowest: f64) -> bool {
+        let end = in_plane(&movement.to);
+        self.near([end, end]).any(|expected| {
+            let highest = expected.from.z().max(expected.to.z());
+            expected.named.is_none()
+                && expected.from.known.has(Axes::Z)
+                && expected.from.known == movement.from.known
+                && expected.to.known == Axes::ALL
+                && movement.to.known == Axes::ALL
+                && is_over(&expected.to.at, &movement.to.at, self.slack)
+                && highest <= lowest + self.slack
+        })
     }
 
     /// Returns the straight moves of the job between known positions that may pass over the rectangle between two corners.
@@ -560,6 +580,31 @@ mod tests {
         assert!(is_allowed([JOB[0], JOB[1], "G0 Z25, G0 X90"]));
         assert!(!is_allowed([JOB[0], JOB[1], "G0 Z19.9"]));
         assert!(!is_allowed([JOB[0], JOB[1], "G0 Z20, G1 X70"]));
+    }
+
+    /// The output leaves out a rapid that does not move.
+    #[test]
+    fn a_cut_may_end_as_high_as_the_last_rapid() {
+        let may_end = |found: &str, job: &str| {
+            let program = |away| format!("G21 G90 G17 G94\nG0 Z20\nG0 X0 Y0\nG1 Z0 F100\nX10\n{away}\nM2\n");
+            let [found, job] = [found, job].map(|away| moves(&program(away)));
+            check(&found, &job, CLEARANCE, &Tolerance::of_decimals(3)).is_ok()
+        };
+        assert!(may_end("G1 Z20", "G1 Z20\nG0 Z20"));
+        assert!(!may_end("G1 Z19.9", "G1 Z19.9\nG0 Z20"));
+    }
+
+    /// The job comes to (X0, Y0) from an unknown position at Z19.
+    #[test]
+    fn the_first_rapid_may_descend_to_the_height_of_the_jobs() {
+        let [_, between, away] = JOB;
+        let may_come = |to: &str| {
+            let [found, job] = [to, "G0 Z19, G0 X0 Y0, G0 Z5"].map(|to| moves(&program([to, between, away])));
+            check(&found, &job, CLEARANCE, &Tolerance::of_decimals(3)).is_ok()
+        };
+        assert!(may_come("G0 Z20, G0 X0 Y0 Z19, G0 Z5"));
+        assert!(!may_come("G0 Z20, G0 X0 Y0 Z18.9, G0 Z5"));
+        assert!(!may_come("G0 Z20, G0 X1 Y0 Z19, G0 X0, G0 Z5"));
     }
 
     /// A rapid straight up from a cut and back down is allowed.

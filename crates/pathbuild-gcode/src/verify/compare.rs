@@ -111,7 +111,7 @@ pub(crate) fn is_same_move(found: &Move, expected: &Move, tolerance: &Tolerance)
     let (ours, theirs) = (Stretch::whole(*found), Stretch::whole(*expected));
     ours.end_together(&theirs, tolerance.place)
         && check_pace(found, expected, tolerance).is_ok()
-        && check_shape(&ours, 1.0, &theirs, 1.0, tolerance).is_ok()
+        && check_shape(&ours, 1.0, &theirs, 1.0, 0.0, tolerance).is_ok()
 }
 
 impl Difference {
@@ -254,17 +254,17 @@ fn step(
 ) -> Result<(), DifferenceKind> {
     check_pace(&ours.movement, &theirs.movement, tolerance)?;
     if ours.end_together(theirs, tolerance.place) {
-        check_shape(ours, 1.0, theirs, 1.0, tolerance)?;
+        check_shape(ours, 1.0, theirs, 1.0, theirs.radius_error(), tolerance)?;
         found.finish_move();
         expected.finish_move();
         return Ok(());
     }
     if ours.length < theirs.length {
-        let share = meet(ours, theirs, tolerance)?;
+        let share = meet(ours, theirs, theirs.radius_error(), tolerance)?;
         found.finish_move();
         expected.go_to(share);
     } else {
-        let share = meet(theirs, ours, tolerance)?;
+        let share = meet(theirs, ours, theirs.radius_error(), tolerance)?;
         expected.finish_move();
         found.go_to(share);
     }
@@ -275,18 +275,20 @@ fn step(
 pub(super) fn meet(
     shorter: &Stretch,
     longer: &Stretch,
+    radius_error: f64,
     tolerance: &Tolerance,
 ) -> Result<f64, DifferenceKind> {
     let end = shorter.end();
     let share = longer.nearest(&end, shorter.length).ok_or(DifferenceKind::Place)?;
-    let slack = if longer.is_arc() { ARC_SLACK } else { 2.0 } * tolerance.place + tolerance.chord;
+    let slack =
+        if longer.is_arc() { ARC_SLACK } else { 2.0 } * tolerance.place + tolerance.chord + radius_error;
     let [x, y, z] = longer.point(share);
     // A position on an arc is determined in its plane; on a steep arc, a rounding error there means a difference in height.
     let height = slack + ARC_SLACK * tolerance.place * longer.steepness();
     if !is_near(&[x, y, 0.0], &[end[0], end[1], 0.0], slack) || libm::fabs(z - end[2]) > height {
         return Err(DifferenceKind::Place);
     }
-    check_shape(shorter, 1.0, longer, share, tolerance)?;
+    check_shape(shorter, 1.0, longer, share, radius_error, tolerance)?;
     Ok(share)
 }
 
@@ -306,18 +308,20 @@ pub(super) fn check_pace(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> R
 }
 
 /// Compares two stretches from their starts up to the given fractions.
+/// `radius_error` is that of the expected stretch, the centre of which is not known more exactly.
 pub(super) fn check_shape(
     one: &Stretch,
     one_end: f64,
     other: &Stretch,
     other_end: f64,
+    radius_error: f64,
     tolerance: &Tolerance,
 ) -> Result<(), DifferenceKind> {
     if !one.is_arc() && !other.is_arc() {
         return Ok(());
     }
     let chord = if one.is_arc() && other.is_arc() { 0.0 } else { tolerance.chord };
-    let slack = ARC_SLACK * tolerance.place + chord;
+    let slack = ARC_SLACK * tolerance.place + chord + radius_error;
     let agrees = |share: f64| {
         let at = |stretch: &Stretch, end: f64| stretch.point(stretch.begin + share * (end - stretch.begin));
         is_near(&at(one, one_end), &at(other, other_end), slack)
@@ -419,6 +423,16 @@ impl Stretch {
 
     pub(super) fn is_arc(&self) -> bool {
         matches!(self.movement.shape, MoveShape::Arc(_))
+    }
+
+    /// Difference between the radii of an arc at its ends, which rounded numbers cause; 0 for a line.
+    pub(super) fn radius_error(&self) -> f64 {
+        match self.movement.shape {
+            MoveShape::Arc(arc) if self.movement.from.known == Axes::ALL => {
+                libm::fabs(arc.radius(&self.movement.to) - arc.radius(&self.movement.from))
+            }
+            _ => 0.0,
+        }
     }
 
     /// Returns the position at a fraction of the whole move.

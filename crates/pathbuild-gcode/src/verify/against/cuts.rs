@@ -189,7 +189,8 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             let is_chord = is_helix && !self.takes_helices && !ours.is_arc();
             if ours.end_together(&theirs, slack) && !is_chord {
                 check_pace(movement, &expected, &self.tolerance).map_err(differs)?;
-                check_shape(&ours, 1.0, &theirs, 1.0, &self.tolerance).map_err(differs)?;
+                check_shape(&ours, 1.0, &theirs, 1.0, theirs.radius_error(), &self.tolerance)
+                    .map_err(differs)?;
                 check_centres(movement, &expected).map_err(differs)?;
                 self.pass(&expected);
                 return Ok(());
@@ -223,10 +224,10 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
                 return Err(differs(DifferenceKind::Place));
             }
             if splits {
-                self.done = meet(&ours, &theirs, &self.tolerance).map_err(differs)?;
+                self.done = meet(&ours, &theirs, theirs.radius_error(), &self.tolerance).map_err(differs)?;
                 return Ok(());
             }
-            begin = meet(&theirs, &ours, &self.tolerance).map_err(differs)?;
+            begin = meet(&theirs, &ours, theirs.radius_error(), &self.tolerance).map_err(differs)?;
             self.pass(&expected);
         }
     }
