@@ -103,6 +103,9 @@ pub(super) fn check(
                 }
             }
         }
+        if target.is_none() {
+            doubts.extend(unused_words(&read.problems));
+        }
         doubts.extend(translated.and_then(disputed));
         doubts.extend(translated.iter().flat_map(|translated| translated.unstated.iter().cloned()));
         let shortest = tolerance.place.max(SHORTEST_DWELL);
@@ -173,6 +176,20 @@ fn flat(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
         (*line, Move { from: level(movement.from), to: level(movement.to), ..*movement })
     });
     seen.filter(|(_, movement)| !movement.is_nothing() || movement.from.known != movement.to.known).collect()
+}
+
+/// One warning for each letter that nothing in its line uses. Other controls may use it.
+fn unused_words(problems: &[Diagnostic]) -> Vec<Diagnostic> {
+    let mut doubts: Vec<Diagnostic> = Vec::new();
+    for problem in problems.iter().filter(|problem| problem.message == &gcode::UNUSED) {
+        let Some((_, letter)) = problem.arguments.iter().find(|(name, _)| *name == "word") else { continue };
+        let is_told = doubts.iter().any(|doubt| doubt.arguments.iter().any(|(_, told)| told == letter));
+        if !is_told {
+            let doubt = Diagnostic::new(&posts::WORD_NOT_FOLLOWED).with("word", letter.clone());
+            doubts.push(doubt.at_line(problem.place.line, None));
+        }
+    }
+    doubts
 }
 
 /// Returns one warning for all words on which dialects disagree; `None` if there are none.

@@ -20,6 +20,10 @@ pub(crate) struct Rs274Translation {
     /// Whether the definition of a blank (workpiece) has begun in a Heidenhain program. It begins with G30 and ends with G31.
     is_blank_open: bool,
     modes: ModeWords,
+    /// Whether any line so far has words.
+    has_words: bool,
+    /// Whether a `%` stands after the first words, where some controls end the program.
+    has_ended: bool,
 }
 
 /// Facts about the lines so far: whether they state the unit, the distance mode and the plane, and whether they contain a G word of a
@@ -112,6 +116,8 @@ impl Rs274Translation {
             dwells: Vec::new(),
             is_blank_open: false,
             modes: ModeWords::default(),
+            has_words: false,
+            has_ended: false,
         }
     }
 
@@ -121,6 +127,7 @@ impl Rs274Translation {
         if self.is_blank(line) {
             return self.end_line();
         }
+        self.report_dangerous(line);
         self.modes.line(self.line, line, motion);
         if line.is_optional {
             // In the first line, the modes of the definition are already written, and `/` must precede them as well.
@@ -149,11 +156,37 @@ impl Rs274Translation {
                     'A' | 'B' | 'C' | 'U' | 'V' | 'W' => {
                         self.report(word.letter.to_string(), Doubt::Unknown);
                     }
+                    'D' | 'E' | 'O' if moves(line) => {
+                        self.report(word.letter.to_string(), Doubt::Unknown);
+                    }
                     _ => {}
                 }
             }
         }
         self.end_line();
+    }
+
+    /// Reports what may change where the tool goes, or which lines are run, without being a G or M word of its own.
+    fn report_dangerous(&mut self, line: &Words) {
+        if let Some(sign) = line.formula {
+            self.report(sign.to_string(), Doubt::Dangerous);
+        }
+        // As in `o100 call`.
+        if let Some(Word { letter: 'O', number }) = line.words.first().filter(|_| line.has_more) {
+            self.report(format!("O{number}"), Doubt::Dangerous);
+        }
+        let has = |letter: char, numbers: &[i64]| {
+            line.words.iter().any(|word| word.letter == letter && numbers.contains(&(tenths(word) / 10)))
+        };
+        // G10 L1, L10 and L11 write into the tool table.
+        if has('G', &[10]) && has('L', &[1, 10, 11]) {
+            self.report("G10 L".to_owned(), Doubt::Dangerous);
+        }
+        self.has_ended |= line.is_percent && self.has_words;
+        if self.has_ended && !line.words.is_empty() {
+            self.report("%".to_owned(), Doubt::Dangerous);
+        }
+        self.has_words |= !line.words.is_empty();
     }
 
     fn end_line(&mut self) {
@@ -221,6 +254,11 @@ impl Rs274Translation {
     }
 }
 
+/// Whether a line contains a coordinate.
+fn moves(line: &Words) -> bool {
+    line.words.iter().any(|word| matches!(word.letter, 'X' | 'Y' | 'Z'))
+}
+
 /// Returns the name of a code, such as `G38.2`, from ten times its number.
 fn name(letter: char, tenths: i64) -> String {
     u16::try_from(tenths).map_or_else(|_| letter.to_string(), |code| code_name(letter, code))
@@ -249,6 +287,10 @@ pub(crate) struct Words {
     pub(crate) has_more: bool,
     /// Whether the line begins with `/`, so that a switch at the machine (block delete) can skip it.
     pub(crate) is_optional: bool,
+    /// Whether the line begins with `%`.
+    pub(crate) is_percent: bool,
+    /// The first sign of a parameter or an expression: `#` or `[`.
+    pub(crate) formula: Option<char>,
 }
 
 /// The marks that begin and end a comment. If the end mark is empty, comments extend to the end of the line.
@@ -270,6 +312,8 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> Words {
             after
         } else {
             found.is_optional |= first == '/' && found.words.iter().all(|word| word.letter == 'N');
+            found.is_percent |= first == '%' && rest.len() == line.trim_start().len();
+            found.formula = found.formula.or(Some(first).filter(|sign| matches!(sign, '#' | '[')));
             found.has_more |= !matches!(first, '%' | '/' | ':' | ' ' | '\t');
             &rest[first.len_utf8()..]
         };

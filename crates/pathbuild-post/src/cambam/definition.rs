@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::posts;
-use pathbuild_diagnostic::{Diagnostic, nearest};
+use pathbuild_diagnostic::{Diagnostic, Text, nearest};
 use roxmltree::{Document, Node, ParsingOptions};
 
 use super::machine::{CODES, Form, Register};
@@ -229,11 +229,27 @@ impl<'a> CbppReader<'a> {
         self.notice_nested(element);
         if let Some(&section) = Section::ALL.iter().find(|section| section.name() == name) {
             let template = self.template(section, &text, line);
+            self.check_comment(section, template.as_ref(), line);
             self.definition.sections[section as usize] = template;
         } else if name == Section::UserMacro.name() {
             self.user_macros(&text, line);
         } else {
             self.option(name, &text, line);
+        }
+    }
+
+    /// Refuses `/` as the mark of comments: controls run such lines, unless a switch at the machine skips them.
+    fn check_comment(&mut self, section: Section, template: Option<&Template>, line: u32) {
+        let mark =
+            template.filter(|_| section == Section::Comment).map(Template::literal).unwrap_or_default();
+        let mark = mark.trim();
+        if mark == "/" {
+            let expected = &Text {
+                en: "a mark that controls take for a comment, such as ( or ;",
+                de: "ein Zeichen, das Steuerungen als Kommentar lesen, etwa ( oder ;",
+            };
+            let diagnostic = Diagnostic::new(&posts::POST_OPTION).quoting("option", section.name());
+            self.report(diagnostic.quoting("value", mark).with("expected", expected), line);
         }
     }
 

@@ -83,6 +83,17 @@ fn an_option_with_a_wrong_value_is_an_error_with_its_line() {
     assert_eq!(texts(&read(&text).unwrap_err()), expected);
 }
 
+/// `/` is no comment: controls skip such a line only while block delete is switched on.
+#[test]
+fn a_slash_is_no_mark_of_comments() {
+    let refused = |mark: &str| {
+        read(&definition(&format!("<Comment>{mark}</Comment>"))).map(drop).map_err(|it| texts(&it))
+    };
+    assert!(refused("/").unwrap_err()[0].contains("PB750 Comment is \"/\""));
+    assert_eq!(refused("//"), Ok(()));
+    assert_eq!(refused("("), Ok(()));
+}
+
 #[test]
 fn an_unknown_macro_is_an_error_with_its_line_and_the_nearest_name() {
     let text = definition(

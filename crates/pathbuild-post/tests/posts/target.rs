@@ -389,6 +389,10 @@ fn without_a_dialect_words_and_spindle_are_followed_too() {
         let message = refused(&format!("M3 S1000\n{word}"));
         assert!(message.starts_with("PB767"), "{word}: {message}");
     }
+    for line in ["G0 Z[#1+20]", "#5221=10", "o100 call", "G10 L1 P5 Z10", "G10 L11 P5 Z10", "%"] {
+        let message = refused(&format!("M3 S1000\n{line}"));
+        assert!(message.starts_with("PB767"), "{line}: {message}");
+    }
     for line in [
         "G0 G1 X5", "G0 X0 X5", "G17 G18", "G20 G21", "G90 G91", "G54 G55", "M3 M4", "M3 M5", "G54 P2",
         "G59.1 P2",
@@ -412,7 +416,16 @@ fn without_a_dialect_words_and_spindle_are_followed_too() {
     for words in ["M3 S1000", "G64 G40 G49 G54 G94 G80\nM8\nM3 S1000", "G61 M3 S1000"] {
         assert_eq!(doubts(words), Vec::<String>::new(), "{words}");
     }
-    for (words, word) in [("M3 S1000\nM110", "M110"), ("M3 S1000\nG55", "G55")] {
+    for (words, word) in [
+        ("M3 S1000\nM110", "M110"),
+        ("M3 S1000\nG55", "G55"),
+        ("M3 S1000\nG0 Z5 E1", "E"),
+        ("M3 S1000\nG0 Z5 D1", "D"),
+        ("M3 S1000\nG0 Z5 O5", "O"),
+        ("M3 S1000\nG0 Z5 R2", "R"),
+        ("M3 S1000\nG0 Z5 L3", "L"),
+        ("M3 S1000\nG0 Z5 H1", "H"),
+    ] {
         assert!(
             doubts(words)[0].starts_with("PB752") && doubts(words)[0].contains(word),
             "{:?}",
