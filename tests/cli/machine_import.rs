@@ -314,3 +314,55 @@ fn tools_of_several_files_are_combined_by_their_number() {
     );
     assert!(!run.stdout.contains("diameter = 6") && run.stdout.contains("+ diameter = 8 "), "{run}");
 }
+
+/// LinuxCNC takes the first line of a name.
+#[test]
+fn of_two_lines_the_one_in_force_is_imported() {
+    let import =
+        |ini: &str| Place::new().file("mill.ini", ini).run("machine import mill.ini --format concise");
+    let line = INCH.lines().find(|line| line.starts_with("MAX_LIMIT")).unwrap();
+    let travel = |run: &Run| run.stdout.lines().find(|line| line.contains("travel")).map(str::to_owned);
+    let once = import(INCH);
+    let equal = import(&INCH.replacen(line, &format!("{line}\n{line}"), 1));
+    assert!(!equal.stderr.contains("PB613") && travel(&equal) == travel(&once), "{equal}");
+    let other = import(&INCH.replacen(line, &format!("{line}\nMAX_LIMIT = 4000"), 1));
+    assert!(other.stderr.contains("warning[PB613]") && travel(&other) == travel(&once), "{other}");
+    assert!(other.stderr.contains("MAX_LIMIT` is `4000` here"), "{other}");
+    let included = import(&format!("{INCH}#INCLUDE traj.inc\n"));
+    assert!(included.stderr.contains("warning[PB613]"), "{included}");
+}
+
+#[test]
+fn units_must_not_contradict_the_ini_file() {
+    let place = Place::new().file("mill.ini", INCH).file("tool.tbl", TABLE);
+    let import = |options: &str| place.run(&format!("machine import tool.tbl mill.ini {options}"));
+    assert_eq!(import("").status, Some(0));
+    assert_eq!(import("--units inch").status, Some(0));
+    let refused = import("--units mm --write");
+    assert!(refused.status == Some(1) && refused.stderr.contains("PB612"), "{refused}");
+    assert!(!place.path().join("pathbuild.toml").exists());
+}
+
+#[test]
+fn comments_within_lists_are_kept() {
+    let multi = "[machine]\ntravel = [\n  300, # X, belt\n  200, # Y\n  60, # Z until the clamp\n]\n";
+    let place = Place::new().file("pathbuild.toml", multi).file("grbl.txt", GRBL);
+    assert_eq!(place.run("machine import grbl.txt --write").status, Some(0));
+    let text = place.read("pathbuild.toml");
+    for comment in ["# X, belt", "# Y", "# Z until the clamp"] {
+        assert!(text.contains(comment), "{text}");
+    }
+    assert!(!text.contains("300, # X"), "{text}");
+    assert!(place.run("machine import grbl.txt --write").stderr.contains("nothing differs"));
+}
+
+#[test]
+fn a_broken_line_of_a_tool_table_is_named() {
+    let import = |table: &str| {
+        Place::new().file("tool.tbl", table).run("machine import tool.tbl --units mm --format concise")
+    };
+    let small = import("T3 P1 D6 ;six\nt4 p2 d3 ;three\n");
+    assert!(small.status == Some(0) && small.stdout.contains("diameter = 3"), "{small}");
+    let broken = import("T3 P1 D6 ;six\nsix D6\n");
+    assert!(broken.status == Some(1) && broken.stderr.contains("tool.tbl:2: error[PB612]"), "{broken}");
+}

@@ -29,6 +29,13 @@ messages! {
         help_en: "name the machine's ini file as well, or give --units mm or --units inch",
         help_de: "auch die ini-Datei der Maschine nennen, oder --units mm bzw. --units inch angeben",
     }
+    /// Statements about the unit of lengths that contradict each other.
+    UNITS_CONTRADICT: UnreadableDescription {
+        en: "the unit of lengths in this ini file is not that of --units, or of another ini file",
+        de: "die Einheit der Längen in dieser ini-Datei ist nicht die von --units oder einer anderen ini-Datei",
+        help_en: "leave out --units: tool tables have the unit of the machine's ini file",
+        help_de: "--units weglassen: Werkzeugtabellen haben die Einheit der ini-Datei der Maschine",
+    }
     /// A tool whose corner radius is impossible for its diameter.
     CORNER_TOO_ROUND: UnreadableDescription {
         en: "the corner radius of tool {number} ({name}) is {radius} mm, which is more than half of its diameter, {diameter} mm",
@@ -56,6 +63,20 @@ messages! {
         de: "`{key}` braucht X, Y und Z, vorhanden ist aber nur {given}",
         help_en: "set the key in pathbuild.toml by hand",
         help_de: "den Schlüssel in pathbuild.toml von Hand setzen",
+    }
+    /// An entry that occurs twice with different values.
+    ENTRY_TWICE: UnusableValue {
+        en: "`{name}` is `{value}` here, but the controller takes `{taken}` from line {line}; that is imported",
+        de: "`{name}` ist hier `{value}`, die Steuerung nimmt aber `{taken}` aus Zeile {line}; das wird übernommen",
+        help_en: "remove one of the two lines",
+        help_de: "eine der beiden Zeilen entfernen",
+    }
+    /// An ini file that includes another one.
+    NOT_INCLUDED: UnusableValue {
+        en: "the values of the included file are not read: `{line}`",
+        de: "die Werte der eingefügten Datei werden nicht gelesen: `{line}`",
+        help_en: "put its lines in place of this one in a copy of the file, and import that",
+        help_de: "in einer Kopie der Datei ihre Zeilen an diese Stelle setzen und die Kopie importieren",
     }
     /// Spindle speeds that form no range, because the lowest is not below the highest.
     EMPTY_SPEEDS: UnusableValue {

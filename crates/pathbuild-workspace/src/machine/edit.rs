@@ -63,7 +63,7 @@ pub fn edit(
             continue;
         }
         match table.get_mut(value.key).and_then(Item::as_value_mut) {
-            Some(old) => *old = with_decor(new, old),
+            Some(old) => *old = replaced(new, old),
             None => _ = table.insert(value.key, Item::Value(new)),
         }
     }
@@ -98,10 +98,21 @@ fn table_mut<'d>(document: &'d mut DocumentMut, path: &[String]) -> Option<&'d m
     Some(table)
 }
 
-/// Gives a value the spaces and comments around the value that it replaces.
-fn with_decor(mut new: Value, old: &Value) -> Value {
-    *new.decor_mut() = old.decor().clone();
-    new
+/// Gives a value the spaces and comments around and within the value that it replaces.
+fn replaced(mut new: Value, old: &Value) -> Value {
+    match (&new, old) {
+        (Value::Array(numbers), Value::Array(old)) if numbers.len() == old.len() => {
+            let mut kept = old.clone();
+            for (slot, number) in kept.iter_mut().zip(numbers) {
+                *slot = replaced(number.clone(), slot);
+            }
+            Value::Array(kept)
+        }
+        _ => {
+            *new.decor_mut() = old.decor().clone();
+            new
+        }
+    }
 }
 
 /// Gives a text the line ends of the old one.

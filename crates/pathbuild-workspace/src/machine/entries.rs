@@ -30,16 +30,25 @@ pub(super) struct Reading {
 pub(super) struct Entries {
     list: Vec<Entry>,
     is_used: Vec<bool>,
-    /// Index of the last entry of each name, which overrides earlier ones.
+    /// Index of the entry of each name that is in force: the last, unless `is_first_in_force`.
     by_name: FxHashMap<String, usize>,
+    /// Whether the first entry of each name is in force, not the last.
+    is_first_in_force: bool,
     values: Vec<DescribedValue>,
     problems: Vec<Diagnostic>,
 }
 
 impl Entries {
+    /// Entries of a format in which the first entry of each name is in force.
+    pub(super) fn with_first_in_force() -> Self {
+        Self { is_first_in_force: true, ..Self::default() }
+    }
+
     pub(super) fn add(&mut self, name: impl Into<String>, value: impl Into<String>, line: usize) {
         let name = name.into();
-        self.by_name.insert(name.clone(), self.list.len());
+        if !(self.is_first_in_force && self.by_name.contains_key(&name)) {
+            self.by_name.insert(name.clone(), self.list.len());
+        }
         let line = u32::try_from(line).ok();
         self.list.push(Entry { name, value: value.into(), line });
         self.is_used.push(false);
@@ -54,10 +63,20 @@ impl Entries {
         self.list.iter()
     }
 
-    /// Returns the last entry of this name, and marks it as used.
+    /// Returns the entry of this name that is in force, and marks all of this name as used. Reports those with another value.
     pub(super) fn take(&mut self, name: &str) -> Option<&Entry> {
         let index = *self.by_name.get(name)?;
-        self.is_used[index] = true;
+        let taken = &self.list[index];
+        for (other, is_used) in self.list.iter().zip(&mut self.is_used) {
+            if other.name != name || std::mem::replace(is_used, true) || other.value == taken.value {
+                continue;
+            }
+            let problem = Diagnostic::new(&say::ENTRY_TWICE).quoting("name", name);
+            let problem =
+                problem.quoting("value", other.value.as_str()).quoting("taken", taken.value.as_str());
+            let problem = problem.with("line", u64::from(taken.line.unwrap_or_default()));
+            self.problems.push(problem.at_line(other.line, None));
+        }
         Some(&self.list[index])
     }
 

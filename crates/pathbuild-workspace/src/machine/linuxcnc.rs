@@ -91,7 +91,8 @@ fn travel(entries: &mut Entries, lower: &[String; 3], upper: &[String; 3], scale
 }
 
 fn entries(text: &str) -> Result<Entries, Box<Diagnostic>> {
-    let mut entries = Entries::default();
+    // `IniFile::Find` returns the first match.
+    let mut entries = Entries::with_first_in_force();
     let mut section = "";
     for (index, line) in text.lines().enumerate() {
         let line = line.trim();
@@ -106,6 +107,10 @@ fn entries(text: &str) -> Result<Entries, Box<Diagnostic>> {
         } else if let Some((name, value)) = line.split_once('=') {
             entries.add(format!("{section}/{}", name.trim()), without_comment(value), index + 1);
         } else {
+            if line.starts_with("#INCLUDE") {
+                let problem = Diagnostic::new(&say::NOT_INCLUDED).quoting("line", line);
+                entries.report(problem.at_line(u32::try_from(index + 1).ok(), None));
+            }
             entries.add(line, "", index + 1);
         }
     }

@@ -112,8 +112,26 @@ pub enum Quantity {
 }
 
 /// Returns the unit of lengths that a text names for other files as well: that of an ini file of `LinuxCNC`. `None` for other texts.
-pub fn machine_unit(text: &str) -> Option<LengthUnit> {
+fn machine_unit(text: &str) -> Option<LengthUnit> {
     if linuxcnc::is_ini(text) { linuxcnc::length_unit(text) } else { None }
+}
+
+/// Returns the unit of the tool tables among the texts: the one that is named, or that of an ini file among them.
+///
+/// # Errors
+/// An ini file has another unit than the one that is named, or than another ini file.
+pub fn table_unit(
+    named: Option<LengthUnit>,
+    texts: &[(&Utf8Path, String)],
+) -> Result<Option<LengthUnit>, Box<Diagnostic>> {
+    let mut unit = named;
+    for (file, text) in texts {
+        let Some(stated) = machine_unit(text) else { continue };
+        if *unit.get_or_insert(stated) != stated {
+            return Err(Box::new(Diagnostic::new(&say::UNITS_CONTRADICT).in_file(*file)));
+        }
+    }
+    Ok(unit)
 }
 
 /// Reads the text of a description, which may be in an archive of Fusion 360.

@@ -15,14 +15,17 @@ use crate::config::is_too_round;
 /// Function that returns the text of a tool bit named in a FreeCAD library.
 pub(super) type ReadBit<'r> = &'r dyn Fn(&str) -> Result<String, Shown>;
 
-/// Whether every line of the text describes a tool of `LinuxCNC` or is a comment.
+/// Whether the first line of the text that is not a comment describes a tool of `LinuxCNC`.
 pub(super) fn is_table(text: &str) -> bool {
-    let is_tool = |line: &str| {
-        let mut words = line.split_whitespace();
-        words.next().is_some_and(|word| number_after(word, 'T').is_some())
-    };
     let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with(';'));
-    lines.clone().next().is_some() && lines.all(is_tool)
+    lines.next().is_some_and(is_tool)
+}
+
+/// Whether a line begins with T and a number.
+fn is_tool(line: &str) -> bool {
+    let (words, _) = line.split_once(';').unwrap_or((line, ""));
+    let first = words.split_whitespace().next().unwrap_or("").to_ascii_uppercase();
+    number_after(&first, 'T').is_some()
 }
 
 /// Reads a `tool.tbl`. Its lengths are in the unit of the machine, which only the machine's ini file names.
@@ -34,6 +37,11 @@ pub(super) fn read_table(text: &str, unit: Option<LengthUnit>) -> Result<Descrip
         if words.trim().is_empty() {
             continue;
         }
+        if !is_tool(words) {
+            return Err(broken("a line of a tool table that does not begin with T and a number", index + 1));
+        }
+        // LinuxCNC reads small letters too.
+        let words = words.to_ascii_uppercase();
         let place = u32::try_from(index + 1).ok();
         let find = |letter| words.split_whitespace().find_map(|word| number_after(word, letter));
         let mut tool = ToolDescription::new(comment.trim(), place);

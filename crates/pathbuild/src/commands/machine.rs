@@ -27,7 +27,10 @@ pub fn run(context: &Context, args: &MachineArgs) -> ExitStatus {
             Err(reason) => diagnostics.push(unreadable(file, reason)),
         }
     }
-    let unit = units.or_else(|| texts.iter().find_map(|(_, text)| machine::machine_unit(text)));
+    let unit = machine::table_unit(*units, &texts).unwrap_or_else(|problem| {
+        diagnostics.push(*problem);
+        None
+    });
     let mut descriptions = Vec::new();
     for (file, text) in &texts {
         match machine::read(file, text, unit, &|name| bit(context, file, name)) {
