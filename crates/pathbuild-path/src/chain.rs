@@ -249,7 +249,7 @@ impl ChainSegment {
     fn letters_without_effect(&self, path: &Path) -> impl Iterator<Item = Diagnostic> {
         let own = path.drawn.text(self.cut(path).chain_letters).into_iter();
         let faults = own.flat_map(|text| {
-            [Letter::I, Letter::C, Letter::W]
+            [Letter::I, Letter::W]
                 .into_iter()
                 .filter_map(move |letter| Some((letter, text.fault_of(letter)?)))
         });

@@ -93,6 +93,8 @@ pub struct DoubtThresholds {
     pub mark_depth: f64,
     /// The machine's largest feed in mm/min.
     pub maximum_feed: Option<f64>,
+    /// Whether drilled holes may become canned cycles. Without these, C has no effect.
+    pub has_cycles: bool,
     /// Minimum difference in mm between the distances of a text from its element and from another one.
     pub text_margin: f64,
     /// Excess in mm over the cutter's diameter up to which a circle is suspected to be meant as a drilled hole.
@@ -112,6 +114,7 @@ impl DoubtThresholds {
         infeed: 1.0,
         mark_depth: 0.5,
         maximum_feed: None,
+        has_cycles: false,
         text_margin: 0.1,
         hole_margin: 0.05,
     };

@@ -125,7 +125,7 @@ impl Letters {
 }
 
 /// Letters that apply to a whole chain and are given by its first segment.
-pub(crate) const CHAIN_LETTERS: Letters = Letters::of(&[Letter::I, Letter::C, Letter::W]);
+pub(crate) const CHAIN_LETTERS: Letters = Letters::of(&[Letter::I, Letter::W]);
 
 /// The class of an element with respect to parameters: a row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -175,9 +175,9 @@ const COLUMNS: &str = "F B D I C W P U S N Q T O M A H Z L > : E R @";
 /// The rows of the table. (M of a path is only required if it is embedded; `>` and M of a subpath are checked together with the embedded path.)
 const ROWS: [(ElementClass, &str); 13] = [
     (ElementClass::PathStart, "o o o o o o o o o . . ! ! o o . o . . o o o o"),
-    (ElementClass::Mill, "o ! - C c c . . - o o p p p . . . . . . . . ."),
-    (ElementClass::Mark, "o - ! C c c . . - o o p p p . . . . . . . . ."),
-    (ElementClass::Support, "o ! ! C c c ! ! - o o p p p . . . . . . . . ."),
+    (ElementClass::Mill, "o ! - C - c . . - o o p p p . . . . . . . . ."),
+    (ElementClass::Mark, "o - ! C - c . . - o o p p p . . . . . . . . ."),
+    (ElementClass::Support, "o ! ! C - c ! ! - o o p p p . . . . . . . . ."),
     (ElementClass::Sweep, ". . . . . . . . o o . p p p . . . . . . . . ."),
     (ElementClass::DrilledHole, "o ! - . o . . . p . o p p p . . . . . . . . ."),
     (ElementClass::DrilledMark, "o - ! . o . . . p . o p p p . . . . . . . . ."),

@@ -153,8 +153,6 @@ pub struct CutParameters {
 pub struct ChainParameters {
     /// I: infeed per pass.
     pub infeed: Option<f64>,
-    /// C: peck depth.
-    pub peck: Option<f64>,
     /// W: first depth of sweepless milling.
     pub first_depth: Option<f64>,
 }

@@ -429,5 +429,9 @@ pub(crate) fn check_doubts(
         let problem = Diagnostic::new(&messages::LOWERED).with("value", height).with("depth", -height);
         own.underline(Letter::H, problem)
     });
-    [below, infeed, feed, chips, lowered].into_iter().flatten().collect()
+    let pecks = value(Letter::C).filter(|_| !limits.has_cycles).map(|_| {
+        let problem = Diagnostic::new(&messages::PECKS_WITHOUT_CYCLES).with("letter", Letter::C.as_char());
+        own.underline(Letter::C, problem)
+    });
+    [below, infeed, feed, chips, lowered, pecks].into_iter().flatten().collect()
 }

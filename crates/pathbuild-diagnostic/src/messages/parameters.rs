@@ -442,6 +442,13 @@ messages! {
         help_en: "write B{value} if the cut should end at that height; only a mark (line type DIVIDE) goes down to D",
         help_de: "B{value} schreiben, wenn bis dorthin gefräst werden soll; bis D geht nur eine Markierung (Linientyp DIVIDE)",
     }
+    /// C where no hole becomes a canned cycle.
+    PECKS_WITHOUT_CYCLES: ParameterWithoutEffect {
+        en: "{letter} has no effect: without `cycles = true` in pathbuild.toml, holes are drilled in one stroke",
+        de: "{letter} hat keine Wirkung: ohne `cycles = true` in pathbuild.toml werden Löcher in einem Zug gebohrt",
+        help_en: "to peck, set `cycles = true` and write the program with a post-processor; otherwise remove it",
+        help_de: "zum Bohren in Stufen `cycles = true` setzen und das Programm mit einem Postprozessor schreiben; sonst entfernen",
+    }
     /// A chain parameter on a segment other than the first.
     WITHOUT_EFFECT_IN_CHAIN: ParameterWithoutEffect {
         en: "{letter} has no effect here: the first segment's {letter} applies to the whole chain",

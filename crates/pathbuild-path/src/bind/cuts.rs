@@ -49,7 +49,6 @@ impl Binder<'_> {
             bars,
             chain: ChainParameters {
                 infeed: self.value(scope, Letter::I),
-                peck: self.value(scope, Letter::C),
                 first_depth: self.value(scope, Letter::W),
             },
             chain_letters: text.filter(|_| scope.values.letters().has_any(CHAIN_LETTERS)),

@@ -17,6 +17,12 @@ fn said(drawing: &str, doubts: DoubtThresholds) -> Vec<String> {
     found.collect()
 }
 
+/// The codes of all findings about a path.
+fn all_codes(drawing: &str, language: &Language) -> Vec<String> {
+    let (raw, _) = read_as(drawing, language).paths.into_iter().next().expect("there is a path");
+    codes(&compile_raw(&raw, &Bindings::check_values(&raw.definitions), language).found)
+}
+
 fn line(start: &str, text: &str) -> Vec<String> {
     let text = if text.is_empty() { String::new() } else { format!(" \"{text}\"") };
     said(&path(start, &format!("mill 0,0 40,0{text}\nend 40,0")), MACHINE)
@@ -100,6 +106,28 @@ fn a_feed_is_not_above_the_machines() {
     assert_eq!(line("T5 O2 I1 B0", "F1501"), ["PB211 F1501"]);
     let unknown = DoubtThresholds { maximum_feed: None, ..MACHINE };
     assert_eq!(said(&path("T5 O2 I1 B0 F9999", "mill 0,0 40,0\nend 40,0"), unknown), [""; 0]);
+}
+
+/// C protects a thin drill, so a single stroke must not come as a surprise.
+#[test]
+fn a_peck_depth_that_nothing_uses_is_told() {
+    let pecks = |start: &str, text: &str, has_cycles| {
+        let language = Language { doubts: DoubtThresholds { has_cycles, ..MACHINE }, ..language() };
+        let drawing = path(start, &format!("sweep 0,0 40,0\ncircle 40,0 d 2{text}\nend 40,0"));
+        all_codes(&drawing, &language)
+    };
+    for (start, text) in [("T5 O2 B0", " \"C2\""), ("T5 O2 B0 C2", "")] {
+        assert_eq!(pecks(start, text, true), [""; 0]);
+        assert_eq!(pecks(start, text, false), ["PB210 C"], "once, though the path's C holds for all holes");
+    }
+    assert_eq!(pecks("T5 O2 B0", "", false), [""; 0]);
+    let language = Language { doubts: DoubtThresholds { has_cycles: true, ..MACHINE }, ..language() };
+    for (line, more) in [("mill", ""), ("mark", " D4"), ("bars", " D2 P2 U5")] {
+        let chain =
+            |text: &str| path(&format!("T5 O2 I1 B0{more}"), &format!("{line} 0,0 40,0{text}\nend 40,0"));
+        assert_eq!(all_codes(&chain(""), &language), [""; 0], "{line}");
+        assert_eq!(all_codes(&chain(" \"C2\""), &language), ["PB210 C"], "{line}");
+    }
 }
 
 /// Returns the codes for a path with lines or circles and a text.

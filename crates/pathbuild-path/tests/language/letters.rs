@@ -135,17 +135,17 @@ fn path_start() {
 
 #[test]
 fn milling_segment() {
-    check_chain_row("F:o B:! D:- I:c! C:c W:c S:- N:o Q:o", "mill");
+    check_chain_row("F:o B:! D:- I:c! C:- W:c S:- N:o Q:o", "mill");
 }
 
 #[test]
 fn marking_segment() {
-    check_chain_row("F:o B:- D:! I:c! C:c W:c S:- N:o Q:o", "mark");
+    check_chain_row("F:o B:- D:! I:c! C:- W:c S:- N:o Q:o", "mark");
 }
 
 #[test]
 fn support_segment() {
-    check_chain_row("F:o B:! D:! I:c! C:c W:c P:! U:! S:- N:o Q:o", "bars");
+    check_chain_row("F:o B:! D:! I:c! C:- W:c P:! U:! S:- N:o Q:o", "bars");
 }
 
 #[test]

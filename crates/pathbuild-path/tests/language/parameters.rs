@@ -93,9 +93,9 @@ fn on_circle(circle: &'static str) -> impl Fn(&str) -> String {
 
 #[test]
 fn segments_of_chains() {
-    check("FBICW", on_line("mill"));
-    check("FDICW", on_line("mark"));
-    check("FBDICWPU", on_line("bars"));
+    check("FBIW", on_line("mill"));
+    check("FDIW", on_line("mark"));
+    check("FBDIWPU", on_line("bars"));
 }
 
 #[test]

@@ -33,6 +33,7 @@ const NO_DOUBTS: DoubtThresholds = DoubtThresholds {
     infeed: f64::INFINITY,
     mark_depth: f64::INFINITY,
     maximum_feed: None,
+    has_cycles: true,
     text_margin: 0.0,
     hole_margin: 0.0,
 };

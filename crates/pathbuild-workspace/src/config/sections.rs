@@ -179,7 +179,7 @@ pub mod general {
         /// tool (the tools' speeds, otherwise PB754) | manual (posts neither start nor stop the spindle)
         spindle: SpindleControl = "spindle", choice::<SpindleControl>(), SpindleControl::Tool, r#""tool""#, Emit;
         /// whether holes become canned cycles if the post has them
-        cycles: bool = "cycles", SWITCH, false, "false", Emit;
+        cycles: bool = "cycles", SWITCH, false, "false", Check;
         /// directory for written files; empty: beside the drawing
         out_dir: Option<Utf8PathBuf> = "out-dir", DIRECTORY, None, r#""""#, Emit,
             option 10 replaces: |option| Ok(Some(option.directory())), Directory, "Write into this directory instead of beside the drawing",

@@ -104,6 +104,7 @@ fn doubts(settings: &config::Settings) -> DoubtThresholds {
         infeed: warnings.infeed.value,
         mark_depth: warnings.mark_depth.value,
         maximum_feed: settings.machine.max_feed.value,
+        has_cycles: settings.general.cycles.value,
         text_margin: warnings.text_margin.value,
         hole_margin: warnings.hole_margin.value,
     }

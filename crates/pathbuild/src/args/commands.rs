@@ -282,7 +282,7 @@ pub struct PostArgs {
     /// File to write; without it standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
-    /// Height of the material's upper face, for posts that need it; programs by pathbuild contain it
+    /// Height of the material's upper face, for rapid moves and for posts that need it; programs by pathbuild contain it
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub surface: Option<String>,
     /// G-code dialect for checking the post's output, if the post names none
@@ -584,8 +584,8 @@ german! {
     "After writing, run the command that the post names", "Führt nach dem Schreiben den Befehl aus, den der Postprozessor nennt";
     "Post-processor: a built-in name or a file", "Postprozessor: ein eingebauter Name oder eine Datei";
     "File to write; without it standard output", "Zieldatei; sonst die Standardausgabe";
-    "Height of the material's upper face, for posts that need it; programs by pathbuild contain it",
-        "Höhe der Materialoberfläche, für Postprozessoren, die sie brauchen; in Programmen von pathbuild steht sie";
+    "Height of the material's upper face, for rapid moves and for posts that need it; programs by pathbuild contain it",
+        "Höhe der Materialoberfläche, für Eilgänge und für Postprozessoren, die sie brauchen; in Programmen von pathbuild steht sie";
     "Largest allowed difference between a measured and a drawn height",
         "Größte erlaubte Differenz zwischen gemessener und gezeichneter Höhe";
     "Print the lines of `DRAWING_Clean.gcode` that match", "Gibt die Zeilen von `ZEICHNUNG_Clean.gcode` aus, die passen";
