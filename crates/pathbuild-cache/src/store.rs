@@ -88,7 +88,7 @@ impl TreeStore {
     /// If the results cannot be written; the earlier results remain.
     pub fn store(&self, key: &Key, mut catalogue: Catalogue) -> io::Result<()> {
         catalogue.records.sort_unstable_by(|a, b| a.subject.cmp(&b.subject));
-        let too_much = || reasons::error(io::ErrorKind::Other, &reasons::TOO_MUCH_TO_KEEP);
+        let too_much = || reasons::error(io::ErrorKind::Other, &reasons::RESULT_TOO_LARGE);
         let bytes = encode_file(key, &catalogue).ok_or_else(too_much)?;
         if bytes.len() as u64 > MAX_RESULTS_BYTES {
             return Err(too_much());

@@ -274,7 +274,7 @@ impl Database {
     }
 
     /// Starts the clock for work on this handle.
-    pub fn underway(&self) -> WorkInProgress {
+    pub fn begin_work(&self) -> WorkInProgress {
         WorkInProgress { begun: self.system().now(), token: self.cancellation_token() }
     }
 

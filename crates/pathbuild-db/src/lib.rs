@@ -20,10 +20,10 @@ pub use pathbuild_files::System;
 pub use queries::{
     Closure, Collision, Destination, DrawnPath, Edge, Embedding, FileIndex, Instance, MissingOption, NameKey,
     NameLookup, Outcome, Part, PathIndex, PathPlace, PathSummary, PlacedKeepOut, PlacedPart, ReachedPath,
-    ResolvedPath, Trace, TracedProgram, assigned_texts, chains, check_file, check_target, closure,
-    combinations, content, content_hash, definitions_trace, drawing_names, drawn_path, embeds, embeds_others,
-    file_index, holders, in_force, keep_outs, likely_file, locate, may_hold, name_table, other_layers, path,
-    path_index, path_names, path_place, placed_keep_outs, placed_parts, prefetch, program, q_project,
-    q_project_findings, raw_file, resolve_path, search_path, second_definitions, summary, trace,
-    traced_program, uncut_rings, unlistable, unlisted,
+    ResolvedPath, Trace, TracedProgram, assigned_texts, candidate_files, chains, check_file, check_target,
+    closure, combinations, content, content_hash, defining_files, definitions_trace, drawing_names,
+    drawn_path, embeds, embeds_others, file_index, in_force, keep_outs, likely_file, locate, name_table,
+    other_layers, path, path_index, path_names, path_place, placed_keep_outs, placed_parts, prefetch,
+    program, q_project, q_project_findings, raw_file, resolve_path, search_path, second_definitions, summary,
+    trace, traced_program, uncut_rings, unlistable, unlisted,
 };

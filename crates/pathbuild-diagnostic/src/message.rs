@@ -4,13 +4,13 @@ use std::hash::{Hash, Hasher};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::place::{Number, Point, in_prose};
-use crate::words::{Lang, NONE, Text, kept_name, kept_text};
+use crate::words::{Lang, NONE, Text, interned_name, interned_text};
 use crate::{Code, shown};
 
 /// A [`Text`] with the values of its arguments, for use in another message: "it has 17219 bytes, the limit is 1000".
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Sentence {
-    #[serde(deserialize_with = "kept_text")]
+    #[serde(deserialize_with = "interned_text")]
     text: &'static Text,
     #[serde(deserialize_with = "kept_arguments")]
     arguments: Arguments,
@@ -87,7 +87,7 @@ pub enum Value {
     /// Names, displayed as a comma-separated list.
     List(Box<[Box<str>]>),
     /// Prose without arguments.
-    Prose(#[serde(deserialize_with = "kept_text")] &'static Text),
+    Prose(#[serde(deserialize_with = "interned_text")] &'static Text),
     /// Prose with arguments of its own.
     Sentence(Box<Sentence>),
     /// The error text of a library or of the operating system. It is English, so it is put in quotes in other languages.
@@ -242,5 +242,5 @@ fn is_placeholder(name: &str) -> bool {
 /// Deserializes the values in a message.
 pub(crate) fn kept_arguments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arguments, D::Error> {
     let arguments = Vec::<(&str, Value)>::deserialize(deserializer)?;
-    Ok(arguments.into_iter().map(|(name, value)| (kept_name(name), value)).collect())
+    Ok(arguments.into_iter().map(|(name, value)| (interned_name(name), value)).collect())
 }

@@ -52,19 +52,19 @@ words! {
     /// The cache directory is a file.
     NO_DIRECTORY_BUT_FILE: "it is not a directory", "es ist kein Verzeichnis";
     /// The cache directory belongs to another user.
-    SOMEBODY_ELSES: "it belongs to another user", "es gehört einem anderen Benutzer";
+    OF_OTHER_USER: "it belongs to another user", "es gehört einem anderen Benutzer";
     /// Every user may write to the cache directory.
     OPEN_TO_ALL: "every user may write to it", "jeder Benutzer darf hineinschreiben";
     /// The cache directory cannot be inspected.
-    NOT_LOOKED_AT: "it cannot be inspected", "es lässt sich nicht einsehen";
+    NOT_INSPECTED: "it cannot be inspected", "es lässt sich nicht einsehen";
     /// The cache directory contains files that are not pathbuild's.
     HOLDS_OTHERS: "it contains other files, and no CACHEDIR.TAG of pathbuild", "es enthält andere Dateien und keine CACHEDIR.TAG von pathbuild";
     /// The cache directory is in an untrusted repository.
-    IN_STRANGERS_TREE: "it lies in a directory tree that is not trusted", "es liegt in einem Verzeichnisbaum, dem nicht vertraut wird";
+    IN_UNTRUSTED_TREE: "it lies in a directory tree that is not trusted", "es liegt in einem Verzeichnisbaum, dem nicht vertraut wird";
     /// A directory that should be a cache is not one of pathbuild.
     NO_CACHE: "it has no CACHEDIR.TAG of pathbuild, so it is not a cache of pathbuild", "es hat keine CACHEDIR.TAG von pathbuild, ist also kein Cache von pathbuild";
     /// A result is too large for a cache file.
-    TOO_MUCH_TO_KEEP: "there is more to keep than a file can hold", "es ist mehr aufzuheben, als in eine Datei passt";
+    RESULT_TOO_LARGE: "there is more to keep than a file can hold", "es ist mehr aufzuheben, als in eine Datei passt";
     /// The tag file of the cache directory cannot be read.
     TAG_UNREADABLE: "its CACHEDIR.TAG cannot be read", "seine CACHEDIR.TAG ist nicht lesbar";
     /// No unused name for a temporary file was found.

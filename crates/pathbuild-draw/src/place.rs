@@ -141,16 +141,16 @@ impl Extent {
 }
 
 /// A test of whether a text circle with this centre and radius suits the target element on this layer.
-type Rule<'a> = fn(&TextSeats<'a>, usize, &str, Point, f64) -> bool;
+type Rule<'a> = fn(&TextPositions<'a>, usize, &str, Point, f64) -> bool;
 
 /// The elements of a drawing; for each, whether it already has a text.
 #[derive(Debug)]
-pub struct TextSeats<'a> {
+pub struct TextPositions<'a> {
     candidates: &'a [Candidate],
     taken: Vec<bool>,
 }
 
-impl<'a> TextSeats<'a> {
+impl<'a> TextPositions<'a> {
     /// Creates the state in which no element has a text.
     pub fn new(candidates: &'a [Candidate]) -> Self {
         Self { candidates, taken: vec![false; candidates.len()] }

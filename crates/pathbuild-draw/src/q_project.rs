@@ -11,7 +11,7 @@ use crate::geometry::{Arc, Circle, Line, Point};
 use crate::pairs::{
     CHUNK, Pair, Record, Tickets, ascii, chunks, identify, kind, records, reduce_mtext, tidy, value,
 };
-use crate::place::{Candidate, ElementPart, Extent, HEIGHT, TextSeats, no_room, reduced};
+use crate::place::{Candidate, ElementPart, Extent, HEIGHT, TextPositions, no_room, reduced};
 
 /// Distance in mm between the end of a segment and the start of the next.
 const SEGMENT_GAP: f64 = 20.0;
@@ -113,7 +113,7 @@ fn seat_texts<'a>(elements: &[Element<'a>]) -> Result<Vec<Option<PlacedText<'a>>
         pieces: vec![element.shape],
     };
     let candidates: Vec<Candidate> = elements.iter().enumerate().map(candidate).collect();
-    let mut seats = TextSeats::new(&candidates);
+    let mut seats = TextPositions::new(&candidates);
     let mut errors = Vec::new();
     let mut placed = Vec::new();
     for (index, element) in elements.iter().enumerate() {

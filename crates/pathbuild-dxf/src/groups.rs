@@ -269,7 +269,7 @@ pub(crate) struct CodeEnd {
     /// Length of a group-code line of three characters, including its line end.
     length: usize,
     /// The line end as it stands behind three characters, and the mask that covers the whole line.
-    behind_three: u64,
+    line_end_after_three: u64,
     mask: u64,
 }
 
@@ -285,7 +285,7 @@ impl CodeEnd {
         let has_cr = last != b'\r' && end.is_some_and(|end| rest[..end].ends_with(b"\r"));
         let (end, length) =
             if has_cr { (u64::from(last) << 8 | u64::from(b'\r'), 5) } else { (u64::from(last), 4) };
-        Self { last, length, behind_three: end << 24, mask: (1 << (8 * length)) - 1 }
+        Self { last, length, line_end_after_three: end << 24, mask: (1 << (8 * length)) - 1 }
     }
 
     /// The byte that ends a line.
@@ -330,7 +330,7 @@ impl Role {
         #[expect(clippy::cast_possible_truncation, reason = "the first characters")]
         let index = index(word as u32);
         // Nearly all programs pad codes to three characters and use one kind of line end.
-        if (word ^ code_end.behind_three) & code_end.mask == u64::from(USUAL[index]) {
+        if (word ^ code_end.line_end_after_three) & code_end.mask == u64::from(USUAL[index]) {
             return Some((code_end.length, ROLES[index]));
         }
         Self::of_unusual_line(line, code_end.last)

@@ -64,22 +64,24 @@ impl ConfinedSystem {
 
     /// Whether a path lies in the directory of the configuration, both as written and with links resolved.
     pub fn holds(&self, path: &Utf8Path) -> bool {
-        self.roots.first().is_some_and(|root| self.spells(path, root) && self.leads_into(path, root))
+        self.roots
+            .first()
+            .is_some_and(|root| self.contains_as_written(path, root) && self.leads_into(path, root))
     }
 
     /// Whether a path may lie in one of the directories: as written, with links resolved, or because its links cannot be resolved.
     pub fn may_hold(&self, path: &Utf8Path) -> bool {
-        let spells = |root: &Root| self.spells(path, root);
+        let contains_as_written = |root: &Root| self.contains_as_written(path, root);
         let leads = || match self.real(path) {
             Some(Ok(real)) => self.roots.iter().any(|root| real.starts_with(&root.real)),
             // A link that cannot be resolved may lead anywhere.
             Some(Err(_)) => true,
             None => false,
         };
-        self.roots.iter().any(spells) || leads()
+        self.roots.iter().any(contains_as_written) || leads()
     }
 
-    fn spells(&self, path: &Utf8Path, root: &Root) -> bool {
+    fn contains_as_written(&self, path: &Utf8Path, root: &Root) -> bool {
         let path = clean(&self.working_directory.join(path));
         path.starts_with(&root.spelt) || path.starts_with(&root.real)
     }
@@ -99,7 +101,7 @@ impl ConfinedSystem {
 
     /// Whether a path may be read or written: a path inside a directory must not lead out of it.
     pub fn allows(&self, path: &Utf8Path) -> bool {
-        self.roots.iter().all(|root| !self.spells(path, root) || self.leads_into(path, root))
+        self.roots.iter().all(|root| !self.contains_as_written(path, root) || self.leads_into(path, root))
     }
 
     fn allowed(&self, path: &Utf8Path) -> Result<&dyn System, ReadError> {

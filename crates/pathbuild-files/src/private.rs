@@ -7,7 +7,7 @@ use std::io::{self, Read};
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::reasons::{
-    IS_LINK, NEVER_SO_LARGE, NO_DIRECTORY_BUT_FILE, NO_OWN_FILE, NOT_LOOKED_AT, OPEN_TO_ALL, SOMEBODY_ELSES,
+    IS_LINK, NEVER_SO_LARGE, NO_DIRECTORY_BUT_FILE, NO_OWN_FILE, NOT_INSPECTED, OF_OTHER_USER, OPEN_TO_ALL,
     reason,
 };
 use pathbuild_diagnostic::{Text, Value};
@@ -34,11 +34,11 @@ pub fn refusal(directory: &Utf8Path) -> Option<&'static Text> {
     match fs::symlink_metadata(directory) {
         Ok(data) if data.is_symlink() => Some(&IS_LINK),
         Ok(data) if !data.is_dir() => Some(&NO_DIRECTORY_BUT_FILE),
-        Ok(data) if !is_own(&data) => Some(&SOMEBODY_ELSES),
+        Ok(data) if !is_own(&data) => Some(&OF_OTHER_USER),
         Ok(data) if is_open_to_all(&data) => Some(&OPEN_TO_ALL),
         Ok(_) => None,
         Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-        Err(_) => Some(&NOT_LOOKED_AT),
+        Err(_) => Some(&NOT_INSPECTED),
     }
 }
 

@@ -52,7 +52,7 @@ pub use names::{LayerPattern, PathLayer, PathName, PathPattern, PatternError, Sp
 pub use part::{
     CutElement, DrawnParts, EmbeddedPlace, LeftMaterial, LostBar, NeighbourCuts, NeighbourGouge, Part,
     PartCut, PartFindings, PartRing, PartSettings, PathCuts, PlacedCuts, SlotPaths, StandingBar, THROUGH,
-    check_parts, check_path, gouging_ways,
+    check_parts, check_path, gouging_moves,
 };
 pub use path::{
     Bars, ChainParameters, CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath,

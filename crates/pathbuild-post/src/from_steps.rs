@@ -200,7 +200,7 @@ impl Builder {
         operation.part.clone_from(&self.job.name);
         if !self.has_cut {
             let idle = self.job.operations.pop();
-            operation.steps = idle.into_iter().flat_map(|idle| idle.steps).filter(is_no_way).collect();
+            operation.steps = idle.into_iter().flat_map(|idle| idle.steps).filter(is_not_rapid).collect();
         }
         operation.clearance = self.clearance;
         operation.entry = self.entry();
@@ -284,7 +284,7 @@ impl Builder {
             self.update();
             let entry = self.entry();
             if let Some(operation) = self.job.operations.last_mut() {
-                operation.steps.retain(is_no_way);
+                operation.steps.retain(is_not_rapid);
                 operation.entry = entry;
             }
         }
@@ -383,7 +383,7 @@ impl Job {
 }
 
 /// Whether a step does something other than a rapid move.
-fn is_no_way(step: &JobStep) -> bool {
+fn is_not_rapid(step: &JobStep) -> bool {
     !matches!(step, JobStep::Move(Move { pace: Pace::Rapid, .. }))
 }
 

@@ -38,7 +38,7 @@ struct ModeWords {
 impl ModeWords {
     /// Reports modes that a line depends on if neither it nor an earlier line states them. Lines before the first motion word are ignored,
     /// because they are not in RS274.
-    fn line(&mut self, number: u32, line: &Words, motion: Option<u32>) {
+    fn line(&mut self, number: u32, line: &LineWords, motion: Option<u32>) {
         let mut codes: Vec<i64> = line.words.iter().filter(|word| word.letter == 'G').map(tenths).collect();
         codes.extend(motion.map(|code| 10 * i64::from(code)));
         let states = |known: &[i64]| codes.iter().any(|code| known.contains(code));
@@ -123,7 +123,7 @@ impl Rs274Translation {
 
     /// Translates a line with these words. `motion` is the G number of a code macro in the line. If `is_mirrored`, one axis of the plane
     /// is reversed, so the direction of arcs is reversed too.
-    pub(crate) fn line(&mut self, line: &Words, motion: Option<u32>, is_mirrored: bool) {
+    pub(crate) fn line(&mut self, line: &LineWords, motion: Option<u32>, is_mirrored: bool) {
         if self.is_blank(line) {
             return self.end_line();
         }
@@ -167,7 +167,7 @@ impl Rs274Translation {
     }
 
     /// Reports what may change where the tool goes, or which lines are run, without being a G or M word of its own.
-    fn report_dangerous(&mut self, line: &Words) {
+    fn report_dangerous(&mut self, line: &LineWords) {
         if let Some(sign) = line.formula {
             self.report(sign.to_string(), Doubt::Dangerous);
         }
@@ -196,7 +196,7 @@ impl Rs274Translation {
 
     /// Whether a line defines the blank (workpiece). On a Heidenhain control these are G30 with the plane and all axes, and the following
     /// G31. Other controls have no plane in the same line as G30.
-    fn is_blank(&mut self, line: &Words) -> bool {
+    fn is_blank(&mut self, line: &LineWords) -> bool {
         let has = |letter: char, number: i64| {
             line.words.iter().any(|word| word.letter == letter && tenths(word) == number)
         };
@@ -255,7 +255,7 @@ impl Rs274Translation {
 }
 
 /// Whether a line contains a coordinate.
-fn moves(line: &Words) -> bool {
+fn moves(line: &LineWords) -> bool {
     line.words.iter().any(|word| matches!(word.letter, 'X' | 'Y' | 'Z'))
 }
 
@@ -281,7 +281,7 @@ pub(crate) struct Word {
 
 /// The words of a line.
 #[derive(Debug, Default, PartialEq)]
-pub(crate) struct Words {
+pub(crate) struct LineWords {
     pub(crate) words: Vec<Word>,
     /// Whether the line contains something that is neither a word nor a comment.
     pub(crate) has_more: bool,
@@ -301,8 +301,8 @@ pub(crate) struct CommentMarks {
 }
 
 /// Parses the words of a line.
-pub(crate) fn words(line: &str, marks: &CommentMarks) -> Words {
-    let mut found = Words::default();
+pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
+    let mut found = LineWords::default();
     let mut rest = line.trim_start();
     while let Some(first) = rest.chars().next() {
         rest = if let Some(after) = after_comment(rest, marks) {

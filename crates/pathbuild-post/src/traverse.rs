@@ -28,7 +28,7 @@ pub(crate) fn check(
     clearance: f64,
     tolerance: &Tolerance,
 ) -> TraverseResult<Vec<MatchedCut>> {
-    if let Some(blind) = blind_cut(expected) {
+    if let Some(blind) = first_unknown_cut(expected) {
         return Err(Box::new(Diagnostic::new(&posts::CUT_AT_UNKNOWN_PLACE).with("step", u64::from(blind))));
     }
     let found = without_excursions(found, 2.0 * tolerance.place);
@@ -57,7 +57,7 @@ pub(crate) fn check(
 
 /// Number (line or step) of the first cut from or to an unknown position, which cannot be compared. Only the machine knows where a probe has
 /// stopped, so the move away from there is compared by its end alone.
-fn blind_cut(moves: Moves<'_>) -> Option<u32> {
+fn first_unknown_cut(moves: Moves<'_>) -> Option<u32> {
     let mut has_probed = false;
     for (number, movement) in moves {
         let is_known = movement.to.known == Axes::ALL && (movement.from.known == Axes::ALL || has_probed);

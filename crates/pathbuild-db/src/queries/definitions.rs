@@ -8,7 +8,7 @@ use crate::database::Db;
 use crate::inputs::SourceFile;
 use crate::queries::closures::{NameLookup, Trace};
 use crate::queries::index::{NameKey, path_names};
-use crate::queries::lookup::{may_hold, own_directory, resolve_path, search_path};
+use crate::queries::lookup::{candidate_files, own_directory, resolve_path, search_path};
 use crate::queries::raw::raw_path;
 
 /// Returns PB504 for each path of a drawing that two drawings define, if a project beside the drawing would find both by their file names.
@@ -61,5 +61,7 @@ fn others<'db>(
     name: &'db PathName,
 ) -> impl Iterator<Item = SourceFile> + 'db {
     let directories = search_path(db, own_directory(db, file)).iter();
-    directories.flat_map(move |directory| may_hold(db, *directory, name)).filter(move |other| *other != file)
+    directories
+        .flat_map(move |directory| candidate_files(db, *directory, name))
+        .filter(move |other| *other != file)
 }

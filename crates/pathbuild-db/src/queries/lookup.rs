@@ -150,13 +150,13 @@ pub(super) fn own_directory(db: &dyn Db, file: SourceFile) -> Directory {
 
 /// The files of a directory that define a path, for clients outside of queries. It takes a plain name, since a name interned outside a
 /// query is never reclaimed.
-pub fn holders(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
-    let files = may_hold(db, directory, name).into_iter();
+pub fn defining_files(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
+    let files = candidate_files(db, directory, name).into_iter();
     files.filter(|file| file_index(db, *file).path(name).is_some()).collect()
 }
 
 /// Returns the files of a directory that may define a path, judged by their names alone.
-pub fn may_hold(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
+pub fn candidate_files(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
     files_for(db, directory, name.as_str())
 }
 

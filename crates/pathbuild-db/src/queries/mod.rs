@@ -37,8 +37,8 @@ pub use index::{
 };
 pub use keep_outs::{Collision, PlacedKeepOut, placed_keep_outs};
 pub use lookup::{
-    ResolvedPath, drawing_names, embeds_others, holders, likely_file, may_hold, name_table, prefetch,
-    resolve_path, search_path, unlistable, unlisted,
+    ResolvedPath, candidate_files, defining_files, drawing_names, embeds_others, likely_file, name_table,
+    prefetch, resolve_path, search_path, unlistable, unlisted,
 };
 pub use neighbours::{PlacedPart, placed_parts};
 pub use part::uncut_rings;

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{
-    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PlacedCuts, Placement, TipMove, Xy, gouging_ways,
+    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PlacedCuts, Placement, TipMove, Xy, gouging_moves,
 };
 use pathbuild_toolpath::way;
 
@@ -272,7 +272,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
                 left: std::mem::take(&mut left),
                 lost_bars: std::mem::take(&mut lost_bars),
                 bars_lost_to_neighbours: std::mem::take(&mut foreign),
-                gouges: gouging_ways(drawn, &occurrence.placement, raised, ways, [radius, tolerance]),
+                gouges: gouging_moves(drawn, &occurrence.placement, raised, ways, [radius, tolerance]),
                 is_loose: findings.loose.contains(part),
                 radius,
                 placement: occurrence.placement,

@@ -25,7 +25,7 @@ messages! {
         help_de: "ist `{near}` gemeint?",
     }
     /// An unknown key that is not similar to any known one.
-    STRANGE_KEY: InvalidConfiguration {
+    UNLIKE_KEY: InvalidConfiguration {
         en: "unknown key `{key}`",
         de: "unbekannter Schlüssel `{key}`",
         help_en: "known here: {known}",
@@ -182,7 +182,7 @@ messages! {
         help_de: "ist {near} gemeint? `pathbuild explain` führt alle auf",
     }
     /// A severity for an unknown code that is not similar to any known one.
-    STRANGE_CODE: InvalidConfiguration {
+    UNLIKE_CODE: InvalidConfiguration {
         en: "there is no diagnostic {code}",
         de: "es gibt keine Meldung {code}",
         help_en: "`pathbuild explain` lists all of them",

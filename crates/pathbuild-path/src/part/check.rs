@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 
 use super::bars::lost_bars;
 use super::cuts::{CutIndex, PathCuts};
-use super::gouge::{Gouge, JudgedCut, gouges, judged};
+use super::gouge::{ClassifiedCut, Gouge, gouges, judged};
 use super::leftover::{LeftMaterial, Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
 use super::loose::is_cut_out;
 use super::prepared::PreparedPart;
@@ -111,7 +111,7 @@ struct PartCheck<'s> {
     /// For each path, whether it cuts the part out.
     contours: Vec<bool>,
     /// The cuts of the owners, by number.
-    judged: BTreeMap<usize, JudgedCut<'s>>,
+    judged: BTreeMap<usize, ClassifiedCut<'s>>,
 }
 
 impl<'s> PartCheck<'s> {

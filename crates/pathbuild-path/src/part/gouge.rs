@@ -12,7 +12,7 @@ use crate::geometry::{Curve, Placement, Xy};
 use crate::keep_out::{TipMove, around};
 
 /// A cut that may go into the part, or that may shape its outline.
-pub(super) struct JudgedCut<'c> {
+pub(super) struct ClassifiedCut<'c> {
     pub(super) cut: IndexedCut<'c>,
     /// The section that goes through the plate, or the whole curve if the cut ends above the plate.
     pub(super) curve: Curve,
@@ -40,7 +40,7 @@ pub(super) fn judged<'c>(
     index: &CutIndex<'c>,
     numbers: impl Iterator<Item = usize>,
     tolerance: f64,
-) -> BTreeMap<usize, JudgedCut<'c>> {
+) -> BTreeMap<usize, ClassifiedCut<'c>> {
     let mut judged = BTreeMap::new();
     // Most segments with bars touch no ring, and then all of their cuts are on one side.
     let mut last: Option<((usize, u32), Option<Side>)> = None;
@@ -58,7 +58,7 @@ pub(super) fn judged<'c>(
             None => part.passage(&curve, cut.radius, tolerance),
         };
         last = Some((cut.number(), clear));
-        judged.insert(number, JudgedCut { cut, curve, side, entered });
+        judged.insert(number, ClassifiedCut { cut, curve, side, entered });
     }
     judged
 }
@@ -66,7 +66,7 @@ pub(super) fn judged<'c>(
 /// The cuts into a part, one for each path and element.
 pub(super) fn gouges<'j>(
     part: &PreparedPart<'_>,
-    judged: impl Iterator<Item = &'j JudgedCut<'j>>,
+    judged: impl Iterator<Item = &'j ClassifiedCut<'j>>,
 ) -> BTreeMap<(usize, u32), Gouge> {
     let mut found: BTreeMap<(usize, u32), Gouge> = BTreeMap::new();
     for cut in judged.filter(|judged| judged.cut.through.is_some()) {
@@ -85,7 +85,7 @@ pub(super) fn gouges<'j>(
 
 /// Returns the stretches of moves on which a cutter goes into a part, for pictures. `ways` are the moves of the program in which the part is
 /// placed and raised.
-pub fn gouging_ways<'w>(
+pub fn gouging_moves<'w>(
     part: &Part,
     placement: &Placement,
     raised: f64,

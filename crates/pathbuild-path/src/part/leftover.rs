@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::boxes::square;
 use super::cuts::{CutIndex, IndexedCut, StandingBar, THROUGH};
-use super::gouge::JudgedCut;
+use super::gouge::ClassifiedCut;
 use super::intervals::{
     BETWEEN_CURVES, GAP, Stretch, at as at_along, beside, closed, common, joined, rest, within, without,
 };
@@ -78,7 +78,7 @@ pub(super) struct LeftoverSearch<'s> {
     part: &'s PreparedPart<'s>,
     cuts: &'s CutIndex<'s>,
     /// The cuts near the part that go through the plate or shape an outline, by number.
-    judged: &'s BTreeMap<usize, JudgedCut<'s>>,
+    judged: &'s BTreeMap<usize, ClassifiedCut<'s>>,
     /// The paths that cut the part out.
     contours: &'s [bool],
     tolerance: f64,
@@ -109,12 +109,13 @@ impl<'s> LeftoverSearch<'s> {
     pub(super) fn new(
         part: &'s PreparedPart<'s>,
         cuts: &'s CutIndex<'s>,
-        judged: &'s BTreeMap<usize, JudgedCut<'s>>,
+        judged: &'s BTreeMap<usize, ClassifiedCut<'s>>,
         contours: &'s [bool],
         tolerance: f64,
     ) -> Self {
-        let enters =
-            |judged: &&JudgedCut<'_>| !judged.entered.is_empty() && judged.cut.element(cuts).lowest > THROUGH;
+        let enters = |judged: &&ClassifiedCut<'_>| {
+            !judged.entered.is_empty() && judged.cut.element(cuts).lowest > THROUGH
+        };
         let grooves = judged.values().filter(enters).map(|judged| judged.cut.number());
         Self { part, cuts, judged, contours, tolerance, grooves: grooves.collect() }
     }
@@ -175,7 +176,7 @@ impl<'s> LeftoverSearch<'s> {
         let start = all.length;
         let shifted =
             |stretches: Vec<Stretch>| stretches.into_iter().map(move |(from, to)| (from + start, to + start));
-        let gaps = without(gaps, &self.bar_feet(curve));
+        let gaps = without(gaps, &self.beside_bars(curve));
         if gaps.is_empty() {
             return;
         }
@@ -191,7 +192,7 @@ impl<'s> LeftoverSearch<'s> {
     }
 
     /// The cuts near a curve that run beside the part, along this ring.
-    fn beside(&self, curve: &RingCurve<'_>) -> impl Iterator<Item = &'s JudgedCut<'s>> {
+    fn beside(&self, curve: &RingCurve<'_>) -> impl Iterator<Item = &'s ClassifiedCut<'s>> {
         let ring = curve.ring;
         let judged = curve.near.iter().filter_map(|number| self.judged.get(number));
         judged.filter(move |judged| {
@@ -263,7 +264,7 @@ impl<'s> LeftoverSearch<'s> {
     }
 
     /// The stretches beside support bars: there the path is to cut only down to the bar.
-    fn bar_feet(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
+    fn beside_bars(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         for (bar, radius) in self.bars() {
             within(curve.curve, &bar.foot, radius + self.tolerance, &mut found);
@@ -345,11 +346,11 @@ impl<'s> LeftoverSearch<'s> {
     }
 
     /// The cut beside the part whose edge is nearest to a point of a ring.
-    fn nearest(&self, ring: usize, at: Xy) -> Option<&'s JudgedCut<'s>> {
+    fn nearest(&self, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {
         let point = Curve::Line(crate::geometry::Line { start: at, end: at });
         let curve = RingCurve { ring, curve: &point, near: self.cuts.near(square(at, 0.0)) };
-        let distance = |judged: &JudgedCut<'_>| judged.curve.distance_to(at) - judged.cut.radius;
-        let element = |judged: &JudgedCut<'_>| (judged.cut.path, judged.cut.cut.element);
+        let distance = |judged: &ClassifiedCut<'_>| judged.curve.distance_to(at) - judged.cut.radius;
+        let element = |judged: &ClassifiedCut<'_>| (judged.cut.path, judged.cut.cut.element);
         self.beside(&curve).min_by(|one, other| {
             distance(one).total_cmp(&distance(other)).then_with(|| element(one).cmp(&element(other)))
         })

@@ -34,12 +34,12 @@ pub(super) fn is_cut_out<'b>(
         return false;
     }
     let sweeps: Vec<Sweep> = cuts.iter().flat_map(|(curve, radius)| sweeps(curve, *radius)).collect();
-    if beside().any(|(at, _)| has_way_out(at, &sweeps)) {
+    if beside().any(|(at, _)| can_escape(at, &sweeps)) {
         return false;
     }
     let boxes = BoxIndex::new(cuts.iter().map(|(curve, radius)| around(curve, *radius)));
     let Some(centre) = point_in_material(part, cuts, &boxes) else { return false };
-    !has_way_out(centre, &sweeps) && is_ring_closed(centre, &sweeps)
+    !can_escape(centre, &sweeps) && is_ring_closed(centre, &sweeps)
 }
 
 /// The points on both sides of a bar at which the part may begin, each with the middle of the bar.
@@ -67,7 +67,7 @@ fn leads_straight_out(at: Xy, bar: Xy, cuts: &[(Curve, f64)]) -> bool {
 }
 
 /// Whether a straight line leads from a point to the border of the plate without meeting a cut.
-fn has_way_out(at: Xy, sweeps: &[Sweep]) -> bool {
+fn can_escape(at: Xy, sweeps: &[Sweep]) -> bool {
     let Some(mut hidden) = sweeps.iter().map(|sweep| sweep.seen_from(at)).collect::<Option<Vec<_>>>() else {
         return false;
     };

@@ -26,7 +26,7 @@ pub(crate) use intervals::{Stretch, at as at_along, joined, within};
 pub use bars::LostBar;
 pub use check::{PartFindings, check_parts, check_path};
 pub use cuts::{CutElement, EmbeddedPlace, PartCut, PathCuts, StandingBar, THROUGH};
-pub use gouge::gouging_ways;
+pub use gouge::gouging_moves;
 pub use leftover::LeftMaterial;
 pub use neighbours::{NeighbourCuts, NeighbourGouge, PlacedCuts};
 

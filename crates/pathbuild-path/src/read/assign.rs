@@ -14,7 +14,7 @@ use crate::read::candidates::{
 };
 use crate::read::collect::PathCollector;
 use crate::read::entities::{FoundText, TextCircle};
-use crate::read::texts::{LayerTexts, MOST_ASKED, MOST_EXAMINED, Texts};
+use crate::read::texts::{LayerTexts, MAX_SEARCHED_LAYERS, MOST_EXAMINED, Texts};
 use crate::text::{ParameterText, ParameterTexts, TextId, without_percent_codes};
 
 /// Maximum number of layers to list on which a text would find an element.
@@ -172,7 +172,8 @@ impl<'d> LayerTexts<'d> {
                 ],
             );
         }
-        let takers = elsewhere.take(MOST_ASKED).filter_map(|layer| layer.would_take(&circle, budget));
+        let takers =
+            elsewhere.take(MAX_SEARCHED_LAYERS).filter_map(|layer| layer.would_take(&circle, budget));
         let note = |diagnostic: Diagnostic, taker| diagnostic.note(&messages::ELEMENT_ON_OTHER_LAYER, taker);
         let diagnostic = takers.take(MOST_NAMED).fold(diagnostic, note);
         self.origin(text.source, text.anchor()).at(diagnostic)

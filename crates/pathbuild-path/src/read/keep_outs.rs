@@ -500,11 +500,11 @@ impl<'p> RingBuilder<'p> {
 
     /// The curves that continue from an end, in that direction, and the final end.
     fn follow(&mut self, from: End) -> (Vec<Part>, End) {
-        let mut ring = vec![self.run_to(from)];
+        let mut ring = vec![self.take_towards(from)];
         let mut end = from;
         while let Some(next) = self.next(end).filter(|next| !self.is_done[next / 2]) {
             end = next ^ 1;
-            ring.push(self.run_to(end));
+            ring.push(self.take_towards(end));
         }
         (ring, end)
     }
@@ -516,7 +516,7 @@ impl<'p> RingBuilder<'p> {
     }
 
     /// Marks a curve as done and returns it in the direction towards this end.
-    fn run_to(&mut self, end: End) -> Part {
+    fn take_towards(&mut self, end: End) -> Part {
         let part = self.parts[end / 2];
         self.is_done[end / 2] = true;
         Part { curve: if end % 2 == 1 { part.curve } else { part.curve.reversed() }, ..part }

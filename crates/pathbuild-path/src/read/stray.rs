@@ -205,7 +205,7 @@ fn stray_text(
     let read = [drawn, meant].into_iter().find(|read| is_weighty(*read))?;
     let circle = text.circle();
     let (path, (layer, candidate)) = paths.iter().find_map(|path| {
-        let taker = path.texts.takers(&circle, budget).find(|(_, taker)| path.would_heed(read, taker))?;
+        let taker = path.texts.takers(&circle, budget).find(|(_, taker)| path.would_apply(read, taker))?;
         Some((path, taker))
     })?;
     let problem = Diagnostic::new(&messages::TEXT_ON_OTHER_LAYER)
@@ -232,7 +232,7 @@ fn is_weighty(text: ParameterText<'_>) -> bool {
 
 impl PathCollector<'_> {
     /// Whether all letters of a text would have an effect on an element without a text.
-    fn would_heed(&self, text: ParameterText<'_>, candidate: &Candidate) -> bool {
+    fn would_apply(&self, text: ParameterText<'_>, candidate: &Candidate) -> bool {
         let Owner::Element(element) = candidate.owner else { return false };
         let element = &self.elements[element];
         let class = element.class(self.tool());

@@ -32,7 +32,7 @@ pub(super) struct LayerTexts<'d> {
 
 /// Maximum number of other layers to search for an element. A usual path has a few; with thousands, each stray text would search all of
 /// them.
-pub(super) const MOST_ASKED: usize = 100;
+pub(super) const MAX_SEARCHED_LAYERS: usize = 100;
 
 /// Maximum number of elements examined for the texts of a path: enough for thousands of texts that each overlap thousands of elements.
 pub(super) const MOST_EXAMINED: usize = 50_000_000;
@@ -149,7 +149,7 @@ impl<'d> Texts<'d> {
             let found = find(circle, &layer.candidates, &layer.boxes, budget)?;
             Some((&*layer.name, &layer.candidates[found.candidate]))
         };
-        self.layers.iter().take(MOST_ASKED).filter_map(taker)
+        self.layers.iter().take(MAX_SEARCHED_LAYERS).filter_map(taker)
     }
 }
 

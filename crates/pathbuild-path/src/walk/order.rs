@@ -216,7 +216,7 @@ const SHIFT: f64 = 0.25;
 const SEARCH_DISTANCE: f64 = 0.22;
 /// Search distance in squares for points that coincide with a point only by way of others, each of which coincides with the next: slightly
 /// more than three times that distance.
-const WIDE_REACH: f64 = 0.5;
+const WIDE_SEARCH_DISTANCE: f64 = 0.5;
 /// Addend so large that adding it rounds to an integer: the low bits of the sum count whole numbers. (1.5 * 2^52)
 const ROUNDING_ADDEND: f64 = 6_755_399_441_055_744.0;
 
@@ -260,7 +260,7 @@ impl Ends {
     /// segments.
     pub(super) fn crowd(&self, point: Xy, is_wanted: impl Fn(usize) -> bool) -> Option<Crowd> {
         let ([mut low, mut high], mut segments, mut is_alone) = ([point; 2], Vec::new(), true);
-        for square in Squares::within(WIDE_REACH, point).each() {
+        for square in Squares::within(WIDE_SEARCH_DISTANCE, point).each() {
             self.each_in(square, |segment, end| {
                 let end = self.segments[segment].drawn[end];
                 if coincide(end, point) && is_wanted(segment) {

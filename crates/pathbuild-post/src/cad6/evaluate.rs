@@ -15,7 +15,7 @@ use crate::PostFiles;
 const MOST_DEPTH: usize = 64;
 
 /// The environment in which a text is evaluated.
-pub(super) struct Surroundings<'a> {
+pub(super) struct Environment<'a> {
     pub(super) variables: &'a mut Variables,
     /// Number of decimals to which numbers are rounded.
     pub(super) decimals: usize,
@@ -28,7 +28,7 @@ pub(super) struct Surroundings<'a> {
 pub(super) struct ResultLine {
     pub(super) text: String,
     /// Whether the line contained a statement or a variable. Such a line is dropped if it is blank.
-    pub(super) is_made: bool,
+    pub(super) has_statement: bool,
     /// Whether part of the line comes from a file.
     pub(super) is_inserted: bool,
     /// Offset in bytes at which the line begins in the expanded text.
@@ -46,7 +46,7 @@ pub(super) struct Outcome {
 }
 
 /// Evaluates the statements of an expanded text.
-pub(super) fn run(text: &Expanded, surroundings: Surroundings<'_>) -> Evaluated<Outcome> {
+pub(super) fn run(text: &Expanded, surroundings: Environment<'_>) -> Evaluated<Outcome> {
     let mut evaluator = Evaluator {
         text: &text.text,
         expanded: text,
@@ -68,7 +68,7 @@ pub(super) struct Evaluator<'a> {
     depth: usize,
     pub(super) lines: Vec<ResultLine>,
     doubts: Vec<(usize, Doubt)>,
-    pub(super) surroundings: Surroundings<'a>,
+    pub(super) surroundings: Environment<'a>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -100,11 +100,11 @@ impl<'a> Evaluator<'a> {
     }
 
     fn push(&mut self, c: char) {
-        let (is_made, begins) = (self.depth > 0, self.at);
+        let (has_statement, begins) = (self.depth > 0, self.at);
         let line = self.line();
         match c {
-            _ if is_mark(c) => line.is_made = true,
-            '\n' => self.lines.push(ResultLine { is_made, begins, ..ResultLine::default() }),
+            _ if is_mark(c) => line.has_statement = true,
+            '\n' => self.lines.push(ResultLine { has_statement, begins, ..ResultLine::default() }),
             _ => line.text.push(c),
         }
     }
@@ -166,7 +166,7 @@ impl<'a> Evaluator<'a> {
             return Err(self.fault(&posts::TEXT_DEPTH, 1).with("limit", MOST_DEPTH));
         }
         self.depth += 1;
-        self.line().is_made = true;
+        self.line().has_statement = true;
         let start = self.at;
         self.at += 1;
         self.skip_marks();

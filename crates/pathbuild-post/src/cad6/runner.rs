@@ -9,7 +9,7 @@ use pathbuild_gcode::native::too_large;
 
 use super::control_text::{ControlText, ControlTextKind};
 use super::definition::Definition;
-use super::evaluate::{Outcome, ResultLine, Surroundings, run};
+use super::evaluate::{Environment, Outcome, ResultLine, run};
 use super::expand::Expanded;
 use super::term::Doubt;
 use super::variables::{VARIABLES, Variable, Variables, byte_of};
@@ -91,7 +91,7 @@ impl<'a> Runner<'a> {
     fn line(&mut self, line: &ResultLine, kind: ControlTextKind) -> RunResult {
         let text =
             if self.definition.settings.trim { line.text.trim_end_matches([' ', '\t']) } else { &line.text };
-        if line.is_made && text.is_empty() {
+        if line.has_statement && text.is_empty() {
             return Ok(());
         }
         self.fuel.burn(if line.is_inserted { 0 } else { text.len() }, self.file)?;
@@ -145,7 +145,7 @@ impl<'a> Runner<'a> {
     ) -> Result<Vec<ResultLine>, Box<Diagnostic>> {
         let expanded =
             Expanded::new(&text.text, &self.variables).map_err(|fault| self.report(*fault, kind, text))?;
-        let surroundings = Surroundings {
+        let surroundings = Environment {
             variables: &mut self.variables,
             decimals: self.definition.settings.decimals,
             files: self.files,

@@ -5,7 +5,7 @@ use pathbuild_motion::{Coolant, Plane, Turning};
 use super::section::Section;
 use crate::VelocityMode;
 use crate::number::NumberFormat;
-use crate::shadow::{Word, Words};
+use crate::shadow::{LineWords, Word};
 
 /// State of the machine as far as it is known. `None` means unknown, as every field is at the beginning.
 #[derive(Debug, Default)]
@@ -63,7 +63,7 @@ impl Machine {
 
     /// Updates the state by a line. `code` is the motion of a macro in that line; it applies even if the macro's section writes other
     /// words.
-    pub(super) fn read(&mut self, line: &Words, code: Option<Code>, format: NumberFormat) {
+    pub(super) fn read(&mut self, line: &LineWords, code: Option<Code>, format: NumberFormat) {
         if let Some((number, _)) = code {
             self.motion = Some(number * 10);
         }

@@ -99,7 +99,7 @@ fn peck(hole: &Hole) -> Option<f64> {
 
 impl Writer<'_> {
     pub(super) fn register(&mut self, register: Register, form: Form) -> WriteResult {
-        self.line.asked = true;
+        self.line.has_register_macro = true;
         let Some(value) = self.move_values.get(register) else { return Ok(()) };
         let value = match form {
             Form::Always | Form::Changed => value,
@@ -114,7 +114,7 @@ impl Writer<'_> {
         if form == Form::Changed && self.machine.written(register) == Some(text.as_str()) {
             return Ok(());
         }
-        self.line.answered = true;
+        self.line.has_register_word = true;
         if form == Form::Reversed {
             self.line.turned.push(register);
         }

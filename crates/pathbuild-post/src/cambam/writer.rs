@@ -14,7 +14,7 @@ use crate::arcs::chords;
 use crate::findings::{EngineOutput, Fuel, LineOrigin, MOST_WARNINGS};
 use crate::job::{Feeds, JobStep, Operation, Tool};
 use crate::number::NumberFormat;
-use crate::shadow::{CommentMarks, Rs274Translation, Word, Words, words};
+use crate::shadow::{CommentMarks, LineWords, Rs274Translation, Word, words};
 use crate::target::Guard;
 
 /// Success, or the diagnostic that aborts writing.
@@ -333,7 +333,7 @@ impl<'a> Writer<'a> {
     pub(super) fn end_line(&mut self) {
         let line = std::mem::take(&mut self.line);
         let text = collapse(&line.text);
-        let is_idle = line.asked && !line.answered && self.is_motion_alone(&line.rest);
+        let is_idle = line.has_register_macro && !line.has_register_word && self.is_motion_alone(&line.rest);
         if text.is_empty() || is_idle || line.names_no_tool {
             return;
         }
@@ -345,7 +345,7 @@ impl<'a> Writer<'a> {
         self.check_replaced(&found, &text);
         self.machine.read(&found, line.code, self.number_format());
         let meant =
-            Words { words: found.words.iter().map(|word| self.meant(*word, &line)).collect(), ..found };
+            LineWords { words: found.words.iter().map(|word| self.meant(*word, &line)).collect(), ..found };
         let has_word = |(_, section): &Code| !self.plan.definition.section(*section).is_blank();
         self.shadow.line(
             &meant,
@@ -358,7 +358,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Checks that a line does not move an axis that the definition replaces by an angle.
-    fn check_replaced(&mut self, found: &Words, line: &str) {
+    fn check_replaced(&mut self, found: &LineWords, line: &str) {
         let rotary = self.plan.definition.options.rotary;
         let axis = Register::AXES[1 - rotary.along].letter();
         if rotary.wrap && self.fault.is_none() && found.words.iter().any(|word| word.letter == axis) {
@@ -421,9 +421,9 @@ pub(super) struct Line {
     /// Whether the text being added comes from a macro of a motion code.
     pub(super) is_in_code: bool,
     /// Whether a register macro was expanded in the line, even to nothing.
-    pub(super) asked: bool,
+    pub(super) has_register_macro: bool,
     /// Whether a register macro wrote a word. If none did although one was expanded, the line moves nothing.
-    pub(super) answered: bool,
+    pub(super) has_register_word: bool,
     /// Registers written with reversed sign.
     pub(super) turned: Vec<Register>,
     /// The motion of a code macro in this line.

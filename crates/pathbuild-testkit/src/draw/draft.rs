@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pathbuild_diagnostic::Handle;
 
 use super::model::{Block, DrawError, Entity, Layer, NoteKind, Options, Shape, Template, Version};
-use super::place::{candidates, seat_notes};
+use super::place::{candidates, position_notes};
 
 /// A drawing under construction, in which parameter texts have no positions yet.
 #[derive(Clone, Debug)]
@@ -82,12 +82,12 @@ impl Draft {
             errors.extend(self.fault(entity));
         }
         let found = candidates(&self.entities, &self.blocks, &self.layers);
-        self.entities = seat_notes(self.entities, &found, &self.options, &mut errors);
+        self.entities = position_notes(self.entities, &found, &self.options, &mut errors);
         let blocks = self.blocks.clone();
         for block in &mut self.blocks {
             let found = candidates(&block.entities, &blocks, &self.layers);
             let entities = std::mem::take(&mut block.entities);
-            block.entities = seat_notes(entities, &found, &self.options, &mut errors);
+            block.entities = position_notes(entities, &found, &self.options, &mut errors);
         }
         if errors.is_empty() { Ok(Sheet::new(self)) } else { Err(errors) }
     }

@@ -1,7 +1,7 @@
 //! Positions each text so that it belongs to its element by the rules of book: language/parameter-texts.
 
 use pathbuild_draw::geometry::sin_cos;
-use pathbuild_draw::place::{Candidate, ElementPart, Extent, TextSeats, no_room, reduced};
+use pathbuild_draw::place::{Candidate, ElementPart, Extent, TextPositions, no_room, reduced};
 
 use super::model::{
     Arc, Attachment, Block, Circle, Direction, DrawError, Ellipse, Entity, Horizontal, Insert, Layer, Line,
@@ -213,13 +213,13 @@ fn of_mtext(text: &MText) -> TextCircle {
 }
 
 /// Positions every note: each entity with a note is followed by its TEXT or MTEXT.
-pub(crate) fn seat_notes(
+pub(crate) fn position_notes(
     entities: Vec<Entity>,
     candidates: &[Candidate],
     options: &Options,
     errors: &mut Vec<DrawError>,
 ) -> Vec<Entity> {
-    let mut seats = TextSeats::new(candidates);
+    let mut seats = TextPositions::new(candidates);
     let mut texts: Vec<Option<Entity>> = entities.iter().map(|_| None).collect();
     for kind in [NoteKind::Text, NoteKind::MText] {
         for (index, entity) in entities.iter().enumerate() {
@@ -246,7 +246,7 @@ fn kind_of(note: &Note, options: &Options) -> NoteKind {
 }
 
 /// Marks the element that an ordinary text of the drawing belongs to.
-fn take_for_text(seats: &mut TextSeats<'_>, entity: &Entity, kind: NoteKind) {
+fn take_for_text(seats: &mut TextPositions<'_>, entity: &Entity, kind: NoteKind) {
     let is_kind = match entity.shape {
         Shape::Text(_) => kind == NoteKind::Text,
         Shape::MText(_) => kind == NoteKind::MText,

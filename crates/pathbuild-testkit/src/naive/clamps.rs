@@ -51,14 +51,14 @@ impl Model {
     pub(super) fn entered_clamps(&self, root: &Instance) -> Vec<Finding> {
         let mut unfolded = ExpandedPath { model: self, occurrences: Vec::new(), moves: Vec::new() };
         let place = Place { origin: [0.0; 2], turn: [1.0, 0.0], raised: 0.0 };
-        unfolded.unfold(root.clone(), None, |_| place);
+        unfolded.expand(root.clone(), None, |_| place);
         unfolded.findings()
     }
 }
 
 impl ExpandedPath<'_> {
     /// Adds a path, its moves, and everything it embeds.
-    fn unfold(
+    fn expand(
         &mut self,
         instance: Instance,
         parent: Option<(usize, Option<String>)>,
@@ -104,7 +104,7 @@ impl ExpandedPath<'_> {
                 let raised = place.raised + subpath.height;
                 let lies =
                     |inner: &Path| Place::from_to([inner.start, inner.end].map(pair), [start, end], raised);
-                self.unfold(child, Some((number, element)), lies);
+                self.expand(child, Some((number, element)), lies);
             }
             SegmentKind::Hole(_) | SegmentKind::Helix(_) => {}
         }

@@ -233,7 +233,7 @@ impl<'a> Table<'_, '_, 'a> {
     }
 
     /// Reports that the value of a key is incompatible with another key of the table.
-    pub(super) fn unsuited(&mut self, name: &'static str, expected: &'static Text) {
+    pub(super) fn report_incompatible(&mut self, name: &'static str, expected: &'static Text) {
         let Some(value) = self.content.get(name) else { return };
         self.reader.key = format!("{}{name}", self.prefix);
         _ = self.reader.expected::<()>(expected, value);
@@ -293,7 +293,7 @@ impl<'a> Table<'_, '_, 'a> {
         }
         match home {
             Some(home) => placed(fault, &home, &messages::NEAR_KEY_OF_TABLE, &messages::NEAR_KEY_OF_TOP),
-            None => fault(&messages::STRANGE_KEY).with("known", self.known.iter().collect::<Value>()),
+            None => fault(&messages::UNLIKE_KEY).with("known", self.known.iter().collect::<Value>()),
         }
     }
 }

@@ -231,7 +231,7 @@ fn severity((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option
     let Ok(code) = text.parse::<Code>() else {
         let fault = match nearest_code(text) {
             Some(near) => reader.fault(&messages::UNKNOWN_CODE, name.span()).quoting("near", near),
-            None => reader.fault(&messages::STRANGE_CODE, name.span()),
+            None => reader.fault(&messages::UNLIKE_CODE, name.span()),
         };
         reader.report(fault.quoting("code", text));
         return None;
@@ -328,7 +328,7 @@ fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
     let corner_radius = table.take("corner-radius", &NOT_NEGATIVE).map_or(0.0, |value| value.value);
     let length = table.take("length", &POSITIVE).and_then(|value| value.value);
     if diameter.is_some_and(|diameter| is_too_round(corner_radius, diameter)) {
-        table.unsuited("corner-radius", &messages::CORNER_RADIUS);
+        table.report_incompatible("corner-radius", &messages::CORNER_RADIUS);
         return None;
     }
     Some(Tool {

@@ -167,7 +167,7 @@ impl Emitter<'_> {
         let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
         diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());
         if let Some(file) = deps {
-            let jobs = plans.iter().filter_map(|plan| plan.value.clear_job());
+            let jobs = plans.iter().filter_map(|plan| plan.value.remaining_job());
             diagnostics.extend(deps::write(session, file, jobs, self.post_processor));
         }
         let drawings = selection.drawings().filter_map(Answer::fresh);
@@ -207,7 +207,8 @@ impl Emitter<'_> {
         let builder = JobBuilder { session, post_processor: self.post_processor, join, sheet };
         let mut plans = plan(&builder, task, memo, &selection.targets, &mut diagnostics)?;
         diagnostics.extend(plans.iter().flat_map(|plan| plan.value.problems()).cloned());
-        if is_printed && plans.iter().filter_map(|plan| plan.value.clear_job()).any(|job| job.files.len() > 1)
+        if is_printed
+            && plans.iter().filter_map(|plan| plan.value.remaining_job()).any(|job| job.files.len() > 1)
         {
             let reason = workspace.choose(
                 "`-o -` writes a single file: the program of this path has Z-probes and consists of several files",
@@ -233,7 +234,7 @@ impl Emitter<'_> {
     /// Adds the inputs of a plan's program, and the files that were generated from it, to the inputs of the plan.
     fn complete_inputs(&self, answer: &mut Answer<Plan>) {
         let Some(inputs) = &mut answer.inputs else { return };
-        let job = answer.value.clear_job();
+        let job = answer.value.remaining_job();
         let outcome = job.and_then(|job| job.outcome.as_ref());
         let problems = outcome.into_iter().flat_map(|outcome| &outcome.problems);
         inputs.is_transient |= answer.value.problems().chain(problems).any(is_transient);
@@ -325,10 +326,10 @@ pub fn write(
             plans.iter().flat_map(|plan| &plan.refusals).cloned().collect();
         mark_clashes(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), &mut diagnostics);
         for plan in &mut plans {
-            plan.bar_raised(context);
+            plan.leave_out_if_raised(context);
         }
-        for job in plans.iter_mut().filter_map(|plan| plan.job.as_mut()).filter(|job| !job.is_barred) {
-            job.is_barred = !job.claim(session, owners, &mut diagnostics);
+        for job in plans.iter_mut().filter_map(|plan| plan.job.as_mut()).filter(|job| !job.is_left_out) {
+            job.is_left_out = !job.claim(session, owners, &mut diagnostics);
         }
         deliver(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), task, post_processor);
         diagnostics.extend(plans.iter().filter_map(|plan| plan.lowered_error(context)));

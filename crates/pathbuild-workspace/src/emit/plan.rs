@@ -55,7 +55,7 @@ pub(super) struct Job {
     /// Whether the job is left out, and no files are generated, although the paths have no errors: another job writes one of these files, or the
     /// configuration counts a warning as an error.
     #[serde(skip)]
-    pub(super) is_barred: bool,
+    pub(super) is_left_out: bool,
     /// The outcome of the job; `None` until its files are generated.
     pub(super) outcome: Option<ProgramOutcome>,
 }
@@ -68,14 +68,14 @@ impl Plan {
 
     /// Returns the outcome of the job, unless the job is left out.
     pub(super) fn outcome(self) -> Option<ProgramOutcome> {
-        self.job.filter(|job| !job.is_barred)?.outcome
+        self.job.filter(|job| !job.is_left_out)?.outcome
     }
 
     /// Leaves out the job if the configuration counts a warning as an error.
-    pub(super) fn bar_raised(&mut self, workspace: &Workspace) {
+    pub(super) fn leave_out_if_raised(&mut self, workspace: &Workspace) {
         let is_wrong = workspace.has_error(self.problems());
         if let Some(job) = self.job.as_mut().filter(|_| is_wrong) {
-            job.is_barred = true;
+            job.is_left_out = true;
             // An earlier run may have written its files.
             job.outcome = None;
         }
@@ -91,8 +91,8 @@ impl Plan {
     }
 
     /// Returns the job, unless it is left out.
-    pub(super) fn clear_job(&self) -> Option<&Job> {
-        self.job.as_ref().filter(|job| !job.is_barred)
+    pub(super) fn remaining_job(&self) -> Option<&Job> {
+        self.job.as_ref().filter(|job| !job.is_left_out)
     }
 }
 
@@ -179,7 +179,7 @@ pub(super) fn plan(
     mark_clashes(session, plans.iter_mut().filter_map(|answer| answer.value.job.as_mut()), diagnostics);
     // An earlier run may have left out jobs because their files clashed with those of jobs that no longer exist.
     for (answer, targets) in plans.iter_mut().zip(&programs) {
-        let is_open = answer.value.clear_job().is_some_and(|job| job.outcome.is_none());
+        let is_open = answer.value.remaining_job().is_some_and(|job| job.outcome.is_none());
         if answer.inputs.is_none()
             && is_open
             && let Some((plan, inputs)) = check(&[targets]).pop()
@@ -188,7 +188,7 @@ pub(super) fn plan(
         }
     }
     for answer in &mut plans {
-        answer.value.bar_raised(workspace);
+        answer.value.leave_out_if_raised(workspace);
     }
     refusal.map_or(Ok(plans), Err)
 }
@@ -353,7 +353,7 @@ impl JobBuilder<'_> {
             files: kinds.map(|kind| (kind, name(&kind))).collect(),
             stem,
             sources: sources(db, checked),
-            is_barred: false,
+            is_left_out: false,
             outcome: None,
         }
     }
@@ -398,13 +398,13 @@ pub(super) fn mark_clashes<'p>(
     }
     for (path, owners) in owners.into_values().filter(|(_, owners)| owners.len() > 1) {
         // If two jobs share several files, reporting the first one is enough.
-        if owners.iter().any(|owner| !jobs[*owner].is_barred) {
+        if owners.iter().any(|owner| !jobs[*owner].is_left_out) {
             let [first, second] = [owners[0], owners[1]].map(|owner| jobs[owner].name(session));
             let drawing = jobs[owners[0]].drawing(session.db()).path(session.db());
             diagnostics.push(same_output(path.file_name(), first, second, drawing));
         }
         for owner in owners {
-            jobs[owner].is_barred = true;
+            jobs[owner].is_left_out = true;
         }
     }
 }

@@ -31,7 +31,7 @@ pub(super) fn deliver<'j>(
     task: Task,
     post_processor: Option<&PostProcessor>,
 ) {
-    let mut jobs: Vec<&mut Job> = jobs.filter(|job| !job.is_barred && job.outcome.is_none()).collect();
+    let mut jobs: Vec<&mut Job> = jobs.filter(|job| !job.is_left_out && job.outcome.is_none()).collect();
     let settings = &OutputSettings::new(session.workspace(), post_processor);
     let severities = session.workspace().severities();
     let system = session.db().shared_system();

@@ -101,12 +101,12 @@ impl Entries {
             return Some(Reading { number, line: entry.line });
         }
         let entry = entry.clone();
-        self.not_taken(&entry, expected);
+        self.report_invalid_value(&entry, expected);
         None
     }
 
     /// Reports an entry whose value is not of the kind that the key needs.
-    pub(super) fn not_taken(&mut self, entry: &Entry, expected: &'static Text) {
+    pub(super) fn report_invalid_value(&mut self, entry: &Entry, expected: &'static Text) {
         let problem = Diagnostic::new(&say::VALUE_NOT_TAKEN).quoting("name", entry.name.as_str());
         let problem = problem.quoting("value", entry.value.as_str()).with("expected", Shown::Prose(expected));
         self.report(problem.at_line(entry.line, None));

@@ -49,7 +49,7 @@ fn spindle(entries: &mut Entries) {
     };
     let Some(entry) = entries.take(map).cloned() else { return };
     let Some(points) = entry.value.split_whitespace().map(point).collect::<Option<Vec<_>>>() else {
-        return entries.not_taken(&entry, &SPEED_MAP);
+        return entries.report_invalid_value(&entry, &SPEED_MAP);
     };
     let first = points.first().map(|(speed, _)| *speed);
     let standing = points.iter().filter(|(_, power)| *power == 0.0).map(|(speed, _)| *speed);
@@ -57,7 +57,7 @@ fn spindle(entries: &mut Entries) {
     let to = points.iter().map(|(speed, _)| *speed).reduce(f64::max);
     match from.zip(to) {
         Some((from, to)) => entries.set_range(from, to, entry.line, &[map]),
-        None => entries.not_taken(&entry, &SPEED_MAP),
+        None => entries.report_invalid_value(&entry, &SPEED_MAP),
     }
 }
 

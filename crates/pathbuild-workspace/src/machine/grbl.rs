@@ -18,7 +18,7 @@ pub(super) fn read(text: &str) -> Description {
     for (index, line) in text.lines().enumerate() {
         if let Some((name, value)) = setting(line) {
             entries.add(name, value, index + 1);
-        } else if !is_furniture(line) {
+        } else if !is_surrounding_line(line) {
             entries.add(line.trim(), "", index + 1);
         }
     }
@@ -48,7 +48,7 @@ fn setting(line: &str) -> Option<(&str, &str)> {
 }
 
 /// Whether a line contains no setting, but is printed around the settings by a controller or a sender.
-fn is_furniture(line: &str) -> bool {
+fn is_surrounding_line(line: &str) -> bool {
     let line = line.trim().trim_start_matches('>').trim_start();
     line.is_empty()
         || matches!(line, "ok" | "$$")

@@ -69,7 +69,7 @@ fn unit(entries: &mut Entries) -> Option<f64> {
     };
     let unit = named_unit(&entry.value);
     if unit.is_none() {
-        entries.not_taken(&entry, &UNIT);
+        entries.report_invalid_value(&entry, &UNIT);
     }
     unit.map(LengthUnit::millimetres)
 }

@@ -11,7 +11,7 @@ use pathbuild_cache::{
 };
 use pathbuild_db::system::{FileKind, System};
 use pathbuild_db::{Database, Trace};
-use pathbuild_diagnostic::reasons::IN_STRANGERS_TREE;
+use pathbuild_diagnostic::reasons::IN_UNTRUSTED_TREE;
 use pathbuild_files::{Clock, Stamp};
 use pathbuild_path::{FilePattern, PathKey, PathPattern, RangeTable};
 use serde::Serialize;
@@ -133,7 +133,7 @@ impl Store {
         let place = context.cache_place()?;
         let confined = context.settings.confined.as_ref();
         let is_untrusted = confined.is_some_and(|confined| confined.may_hold(place.directory()));
-        if let Some(reason) = is_untrusted.then_some(&IN_STRANGERS_TREE).or_else(|| place.refusal()) {
+        if let Some(reason) = is_untrusted.then_some(&IN_UNTRUSTED_TREE).or_else(|| place.refusal()) {
             let phrase =
                 context.choose("no results are cached there", "dort werden keine Ergebnisse gespeichert");
             let reason = reason.in_lang(context.lang());

@@ -11,7 +11,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Listings;
 use pathbuild_db::system::{FileKind, is_drawing, join};
 use pathbuild_db::{
-    Db as _, Directory, PendingListing, SourceFile, check_file, drawing_names, likely_file, may_hold,
+    Db as _, Directory, PendingListing, SourceFile, candidate_files, check_file, drawing_names, likely_file,
     prefetch, search_path,
 };
 use pathbuild_diagnostic::Diagnostic;
@@ -218,7 +218,7 @@ impl Session<'_> {
         let path = PathName::new(name);
         let mut candidates = Vec::new();
         for directory in directories {
-            match self.query_directory(directory, |directory| may_hold(&self.db, directory, &path)) {
+            match self.query_directory(directory, |directory| candidate_files(&self.db, directory, &path)) {
                 Ok(files) => candidates.extend(files),
                 Err(problem) => found.problems.push(*problem),
             }

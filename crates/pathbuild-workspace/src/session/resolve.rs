@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{Entry, EntryKind, FileKind, is_drawing, join};
-use pathbuild_db::{Db, Role, SourceFile, Target, catch_bugs, check_file, holders, path_names};
+use pathbuild_db::{Db, Role, SourceFile, Target, catch_bugs, check_file, defining_files, path_names};
 use pathbuild_diagnostic::messages::{configuration, files, outputs, outputs as messages, paths};
 use pathbuild_diagnostic::{Diagnostic, Message, Value, nearest};
 use pathbuild_path::{PathName, with_near_names};
@@ -156,10 +156,10 @@ impl Session<'_> {
     /// Returns the distinct drawings in these directories that define a path. Directories whose query triggers a bug are skipped: for arguments the
     /// bug was already reported, and hints are not essential.
     pub fn definitions(&self, name: &PathName, directories: &[Utf8PathBuf]) -> Vec<SourceFile> {
-        let holders = |directory: &Utf8PathBuf| {
-            self.query_directory(directory, |directory| holders(&self.db, directory, name))
+        let defining_files = |directory: &Utf8PathBuf| {
+            self.query_directory(directory, |directory| defining_files(&self.db, directory, name))
         };
-        self.distinct(directories.iter().flat_map(holders).flatten())
+        self.distinct(directories.iter().flat_map(defining_files).flatten())
     }
 
     /// Removes drawings that occur again under another file name.

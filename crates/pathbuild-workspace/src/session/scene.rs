@@ -57,7 +57,7 @@ impl Session<'_> {
         let hashed = |(((file, name), checked), hash): ((_, CheckedTarget), Result<_, Box<Diagnostic>>)| {
             let target = checked.target;
             let mut problems: Vec<Diagnostic> =
-                checked.diagnostics.into_iter().filter(stops_making).collect();
+                checked.diagnostics.into_iter().filter(prevents_program).collect();
             let moves = hash.unwrap_or_else(|problem| {
                 let problem = about(&self.db, target, *problem);
                 // The check may have reported the same timeout already.
@@ -71,7 +71,7 @@ impl Session<'_> {
 }
 
 /// Whether a limit or a bug kept a program from being built, which does not mean that the drawing is wrong.
-fn stops_making(problem: &Diagnostic) -> bool {
+fn prevents_program(problem: &Diagnostic) -> bool {
     matches!(problem.code(), Code::LimitReached | Code::InternalError) && problem.is_error()
 }
 

@@ -88,7 +88,7 @@ struct SharedState {
 
 #[derive(Debug, Default)]
 struct WorkList {
-    underway: Vec<Option<WorkInProgress>>,
+    begin_work: Vec<Option<WorkInProgress>>,
     is_over: bool,
 }
 
@@ -110,12 +110,12 @@ impl Watchdog {
 
     pub(super) fn begin<'a>(&'a self, db: &'a Database) -> WatchGuard<'a> {
         let mut state = self.0.state();
-        let free = state.underway.iter().position(Option::is_none);
+        let free = state.begin_work.iter().position(Option::is_none);
         let place = free.unwrap_or_else(|| {
-            state.underway.push(None);
-            state.underway.len() - 1
+            state.begin_work.push(None);
+            state.begin_work.len() - 1
         });
-        state.underway[place] = Some(db.underway());
+        state.begin_work[place] = Some(db.begin_work());
         WatchGuard { watchdog: self, db, place }
     }
 }
@@ -129,7 +129,7 @@ impl Drop for Watchdog {
 
 impl Drop for WatchGuard<'_> {
     fn drop(&mut self) {
-        self.watchdog.0.state().underway[self.place] = None;
+        self.watchdog.0.state().begin_work[self.place] = None;
         // Clear a cancellation that arrived at the very moment when the work ended.
         self.db.clear_cancellation();
     }
@@ -143,8 +143,8 @@ impl SharedState {
         while !state.is_over {
             let waited = self.changed.wait_timeout(state, pause).unwrap_or_else(PoisonError::into_inner);
             state = waited.0;
-            for underway in state.underway.iter().flatten() {
-                underway.stop_after(self.limit);
+            for begin_work in state.begin_work.iter().flatten() {
+                begin_work.stop_after(self.limit);
             }
         }
     }

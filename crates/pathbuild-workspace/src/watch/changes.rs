@@ -35,7 +35,7 @@ pub(super) struct Watcher {
     /// Time at which these changes are due, if no more arrive.
     due: Instant,
     /// Whether a wake-up was requested and not yet handled.
-    is_rung: bool,
+    is_woken: bool,
     /// Whether the end of watching was requested.
     is_over: bool,
     /// Incomplete drawings, each with the time after which it is read although it is incomplete.
@@ -49,7 +49,7 @@ pub(super) enum Batch {
     /// Watching must start again, for this reason.
     Restart(Restart),
     /// A wake-up was requested through the `Bell`.
-    Rung,
+    WokenUp,
     /// The end of watching was requested.
     Over,
 }
@@ -103,7 +103,7 @@ impl Watcher {
             directories,
             pending: Changes::default(),
             due: Instant::now(),
-            is_rung: false,
+            is_woken: false,
             is_over: false,
             system: Arc::clone(&workspace.system),
             unfinished: BTreeMap::new(),
@@ -142,7 +142,7 @@ impl Watcher {
                 return batch;
             }
             if self.has_been_rung() {
-                return Batch::Rung;
+                return Batch::WokenUp;
             }
             match self.wait(self.patience(library)) {
                 Ok(signal) => self.add(signal, library.session()),
@@ -187,7 +187,7 @@ impl Watcher {
 
     /// Whether a wake-up was requested since the last call.
     pub(super) fn has_been_rung(&mut self) -> bool {
-        std::mem::take(&mut self.is_rung)
+        std::mem::take(&mut self.is_woken)
     }
 
     /// Processes pending signals without waiting.
@@ -221,7 +221,7 @@ impl Watcher {
 
     fn add(&mut self, signal: Signal, session: &Session<'_>) {
         match signal {
-            Signal::Rung => self.is_rung = true,
+            Signal::WokenUp => self.is_woken = true,
             Signal::Over => self.is_over = true,
             Signal::Changed(Ok(event)) if !event.need_rescan() => self.add_event(event, session),
             // The system reports that events were lost.

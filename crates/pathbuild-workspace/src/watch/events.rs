@@ -113,7 +113,7 @@ pub enum WatchEnd {
 /// Messages to the watching thread.
 pub(super) enum Signal {
     Changed(notify::Result<Event>),
-    Rung,
+    WokenUp,
     Over,
 }
 
@@ -124,7 +124,7 @@ pub struct Bell(pub(super) Sender<Signal>);
 impl Bell {
     /// Requests a call of [`Listener::woken`] as soon as the session is idle. Has no effect once watching has ended.
     pub fn ring(&self) {
-        _ = self.0.send(Signal::Rung);
+        _ = self.0.send(Signal::WokenUp);
     }
 
     /// Ends watching as soon as the current work is done.

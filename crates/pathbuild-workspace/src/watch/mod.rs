@@ -78,7 +78,7 @@ impl WatchLoop<'_> {
                 Batch::Restart(Restart::Configuration) => return WatchEnd::ConfigurationChanged,
                 Batch::Restart(Restart::Directories) => return WatchEnd::DirectoriesChanged,
                 Batch::Over => return WatchEnd::Over,
-                Batch::Rung => self.listener.woken(self.library.session_mut()),
+                Batch::WokenUp => self.listener.woken(self.library.session_mut()),
                 Batch::Changes(changes) => self.update(&changes),
             }
         }
