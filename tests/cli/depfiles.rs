@@ -15,7 +15,7 @@ const DRAWING: &str = "layer 1301.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,
 /// Path with special characters that both make and Ninja support: a space; the beginnings of comments, variables and rules; backslashes, even
 /// before a space; and characters that are escaped for display.
 const FOR_BOTH: &str = "a\\b\\ c\\\\ d\u{85}/1301.1P a  b#c$d$$e:f::g \u{2028}\u{202e}ä";
-/// Path with special characters that only make supports.
+/// Path with special characters that `make` supports, but Ninja does not.
 const FOR_MAKE: &str = "a\\#b\\:c\\;d/1301.1P a;touch$IFS$9b;\"'`&<>";
 
 /// A place with a drawing of that name, its program and its rule.

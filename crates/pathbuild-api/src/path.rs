@@ -26,7 +26,8 @@ pub struct Path {
     pub zero: [f64; 2],
     /// The elements on the layers of the path and of the paths that it embeds.
     pub elements: Vec<Element>,
-    /// The moves of the tool, in order. If the path has errors, there are none, except for cuts into its own part, so that these can be shown.
+    /// The tool's moves, in order. Empty if the path has errors, unless the only errors are cuts into its own part: those moves are kept so that
+    /// they can be displayed.
     pub moves: Vec<Move>,
     /// Lengths and times; `None` if the path has errors, so that there is no program.
     pub statistics: Option<Statistics>,

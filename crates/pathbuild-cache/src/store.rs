@@ -248,7 +248,7 @@ fn is_ours(directory: &Utf8Path, name: &str) -> bool {
     is_named_so || name == TREE && is_own_tree(directory)
 }
 
-/// Whether the name belongs to a temporary file for a file of pathbuild.
+/// Whether this is the name of a temporary file for one of pathbuild's own files.
 fn is_temporary(name: &str) -> bool {
     let is_ours = |name: &str| is_file_name(name) || matches!(name, TAG | TREE | CLOCK);
     pathbuild_files::is_temporary(name, is_ours)

@@ -119,12 +119,12 @@ pub fn chunks(value: &str, size: usize) -> Vec<String> {
 
 /// Placeholders for strings while they pass through the crate `dxf`, which would change some of their characters.
 #[derive(Debug, Default)]
-pub struct Tickets {
+pub struct StringPlaceholders {
     numbers: BTreeMap<String, usize>,
     strings: Vec<String>,
 }
 
-impl Tickets {
+impl StringPlaceholders {
     /// Returns the string itself if the crate leaves it unchanged, otherwise its ticket.
     pub fn ticket(&mut self, string: &str) -> String {
         let is_safe = |c: char| (' '..='~').contains(&c) && !matches!(c, '^' | '<');

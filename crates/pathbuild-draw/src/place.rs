@@ -3,7 +3,7 @@
 use crate::geometry::{Arc, Circle, Line, Point};
 
 /// Usual letter height in mm.
-pub const HEIGHT: f64 = 2.0;
+pub const LETTER_HEIGHT: f64 = 2.0;
 
 /// Returns a letter height, followed by smaller ones to try if there is no room.
 pub fn reduced(height: f64) -> [f64; 7] {

@@ -9,9 +9,10 @@ use encoding_rs::WINDOWS_1252;
 
 use crate::geometry::{Arc, Circle, Line, Point};
 use crate::pairs::{
-    CHUNK, Pair, Record, Tickets, ascii, chunks, identify, kind, records, reduce_mtext, tidy, value,
+    CHUNK, Pair, Record, StringPlaceholders, ascii, chunks, identify, kind, records, reduce_mtext, tidy,
+    value,
 };
-use crate::place::{Candidate, ElementPart, Extent, HEIGHT, TextPositions, no_room, reduced};
+use crate::place::{Candidate, ElementPart, Extent, LETTER_HEIGHT, TextPositions, no_room, reduced};
 
 /// Distance in mm between the end of a segment and the start of the next.
 const SEGMENT_GAP: f64 = 20.0;
@@ -121,7 +122,7 @@ fn seat_texts<'a>(elements: &[Element<'a>]) -> Result<Vec<Option<PlacedText<'a>>
         placed.push(text.and_then(|text| {
             let lines: Vec<&str> = text.split('\n').collect();
             let extent = |height| Extent::of_mtext(&lines, height);
-            let seat = seats.seat(index, &candidates[index].layer, &reduced(HEIGHT), extent);
+            let seat = seats.seat(index, &candidates[index].layer, &reduced(LETTER_HEIGHT), extent);
             if seat.is_none() {
                 errors.push(no_room(&escaped(text)));
             }
@@ -148,7 +149,7 @@ const LAYER_TABLE: u64 = 30;
 const MODEL_SPACE: u64 = 40;
 
 fn to_dxf(layers: &[&str], elements: &[Element<'_>], texts: &[Option<PlacedText<'_>>]) -> Vec<u8> {
-    let mut tickets = Tickets::default();
+    let mut tickets = StringPlaceholders::default();
     let written = entities(elements, texts, &mut tickets);
     let after_entities = FIRST_HANDLE + (elements.len() + texts.iter().flatten().count()) as u64;
     let after_layers = after_entities + layers.len() as u64;
@@ -198,7 +199,11 @@ fn layer(name: &str, handle: u64, after_entities: u64) -> Record<'_> {
 }
 
 /// Writes the entities by means of the crate `dxf`: each element is followed by its text.
-fn entities(elements: &[Element<'_>], texts: &[Option<PlacedText<'_>>], tickets: &mut Tickets) -> String {
+fn entities(
+    elements: &[Element<'_>],
+    texts: &[Option<PlacedText<'_>>],
+    tickets: &mut StringPlaceholders,
+) -> String {
     let mut drawing = Drawing::new();
     drawing.clear();
     drawing.header.version = AcadVersion::R2000;
@@ -231,7 +236,7 @@ fn shape(shape: &ElementPart) -> EntityType {
     }
 }
 
-fn mtext(placed: &PlacedText<'_>, tickets: &mut Tickets) -> EntityType {
+fn mtext(placed: &PlacedText<'_>, tickets: &mut StringPlaceholders) -> EntityType {
     let mut chunks = chunks(&escaped(placed.text), CHUNK);
     let last = chunks.pop().unwrap_or_default();
     EntityType::MText(CrateMText {
@@ -246,7 +251,7 @@ fn mtext(placed: &PlacedText<'_>, tickets: &mut Tickets) -> EntityType {
 }
 
 /// Returns the entities in the crate's output, corrected, with handles and owner.
-fn entity_pairs<'a>(written: &'a str, tickets: &'a Tickets, owner: u64) -> Vec<Pair<'a>> {
+fn entity_pairs<'a>(written: &'a str, tickets: &'a StringPlaceholders, owner: u64) -> Vec<Pair<'a>> {
     let records = records(written).into_iter();
     let entities = records
         .skip_while(|record| kind(record) != "SECTION" || value(record, 2) != Some("ENTITIES"))

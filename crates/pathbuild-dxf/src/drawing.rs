@@ -75,7 +75,7 @@ impl Drawing {
     }
 }
 
-/// A layer with wanted entities.
+/// A layer with entities that the caller asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layer {
     /// The name as first spelt by an entity: trimmed, decoded, without xref prefix.

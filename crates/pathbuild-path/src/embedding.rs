@@ -459,7 +459,7 @@ impl<'a> Judge<'a> {
         Some(self.at(call, problem, Some(&given.text)))
     }
 
-    /// Returns PB201, PB505, PB506, PB510: mismatches between a segment and the path it embeds in M, T, O and the size.
+    /// Returns the mismatches in M, T, O and size between a segment and the path that it embeds (PB201, PB505, PB506, PB510).
     pub fn misfits(&self, call: &SubpathCall, inner: &PathSignature) -> Vec<Diagnostic> {
         let subpath = &call.subpath;
         let mut problems: Vec<Diagnostic> = self.material(call, inner).into_iter().collect();

@@ -70,7 +70,7 @@ impl PathTools {
 }
 
 impl Default for PathTools {
-    /// Finds no tools.
+    /// Creates a lookup that finds no tools.
     fn default() -> Self {
         Self::new(|_, _| None)
     }

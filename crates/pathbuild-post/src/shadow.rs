@@ -324,7 +324,7 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
 impl CommentMarks {
     /// Returns the length of the comment mark at the beginning of a text, and the mark that ends the comment. Both the definition's marks
     /// and the usual ones are recognised.
-    pub(crate) fn at(&self, text: &str) -> Option<(usize, &str)> {
+    pub(crate) fn opening_mark(&self, text: &str) -> Option<(usize, &str)> {
         let own = (self.open.as_str(), self.close.as_str());
         let (open, close) = [own, ("(", ")"), (";", "")]
             .into_iter()
@@ -363,12 +363,12 @@ fn opening<'l>(line: &'l str, marks: &CommentMarks) -> Option<&'l str> {
     let line = line.trim();
     let found = words(line, marks);
     let is_comment = found.words.is_empty() && !found.has_more && !line.contains('\r');
-    let (length, _) = marks.at(line).filter(|_| is_comment)?;
+    let (length, _) = marks.opening_mark(line).filter(|_| is_comment)?;
     Some(&line[..length])
 }
 
 fn after_comment<'a>(text: &'a str, marks: &CommentMarks) -> Option<&'a str> {
-    let (open, close) = marks.at(text)?;
+    let (open, close) = marks.opening_mark(text)?;
     let inside = &text[open..];
     match inside.find(close).filter(|_| !close.is_empty()) {
         Some(end) => Some(&inside[end + close.len()..]),

@@ -352,7 +352,7 @@ impl<'a> Guard<'a> {
     fn marks_at(&self, text: &str) -> Option<(usize, &str)> {
         match self.target {
             Some(target) => target.comment_marks(text),
-            None => self.marks.at(text).or_else(|| text.starts_with("//").then_some((2, ""))),
+            None => self.marks.opening_mark(text).or_else(|| text.starts_with("//").then_some((2, ""))),
         }
     }
 }

@@ -250,7 +250,8 @@ pub(crate) fn axis_circle(helix: &Helix, tool: f64) -> Curve {
     Circle { centre: helix.centre, radius: helix.axis_radius(tool), feed: 0.0 }.curve()
 }
 
-/// Returns the last turns of a helix and its circle with bars, in the coordinates of its drawing, as if all were milled in a single pass.
+/// Returns the last turns of a helix and, if it has support bars, the circle that leaves them, as if each were milled in a single pass. Uses the
+/// coordinates of the helix's drawing.
 pub(crate) fn last_turns(helix: &Helix, surface: f64, tool: f64) -> Vec<Section> {
     let curve = axis_circle(helix, tool);
     let half = curve.length() / 2.0;

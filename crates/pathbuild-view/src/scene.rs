@@ -82,7 +82,7 @@ pub struct ScenePath {
     pub parts: Vec<FinishedPart>,
     /// Z-probes of the program, in measuring order.
     pub probes: Vec<ProbeMark>,
-    /// The moves of the tool, in order. Empty if the path has errors.
+    /// The tool's moves, in order. Empty if the path has errors, unless the only errors are cuts into its own part.
     pub moves: Vec<SceneMove>,
     /// Lengths and times of the program; `None` if the path has no program.
     pub totals: Option<Totals>,

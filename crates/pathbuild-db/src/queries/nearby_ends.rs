@@ -30,7 +30,7 @@ struct AllLayers {
 }
 
 /// Largest distance in mm at which an end on another layer is worth a hint.
-const WORTH_NAMING: f64 = 1.0;
+const MAX_HINT_DISTANCE: f64 = 1.0;
 
 impl<'a> LayerEnds<'a> {
     pub(super) fn new(read: &'a dyn Fn() -> Drawing) -> Self {
@@ -95,7 +95,7 @@ impl<'a> LayerEnds<'a> {
         let point = Xy::new(x, y);
         let is_other =
             |layer: &str| language.path_pattern.layer(layer).is_none_or(|layer| layer.path != *path);
-        let near = self.all().near(point, WORTH_NAMING).filter(|(layer, _)| is_other(layer));
+        let near = self.all().near(point, MAX_HINT_DISTANCE).filter(|(layer, _)| is_other(layer));
         let ends = near.flat_map(|(layer, entity)| {
             ends_of(&entity.geometry).into_iter().flatten().map(move |end| (layer, entity.kind, end))
         });
@@ -109,7 +109,7 @@ impl<'a> LayerEnds<'a> {
             ("distance", distance.into()),
         ];
         let note = Note { message: &paths::END_ON_OTHER_LAYER, arguments };
-        (distance <= WORTH_NAMING).then_some((note, distance))
+        (distance <= MAX_HINT_DISTANCE).then_some((note, distance))
     }
 
     /// A start or end marker on a layer without a path.
@@ -151,7 +151,7 @@ impl<'a> LayerEnds<'a> {
         }
         let text = TextCircle { centre: Xy::new(centre.x.0, centre.y.0), radius: diameter / 2.0 };
         let own = problem.place.layer.as_deref();
-        let near = self.all().near(text.centre, text.radius + WORTH_NAMING);
+        let near = self.all().near(text.centre, text.radius + MAX_HINT_DISTANCE);
         let is_drawn_for_paths = |layer: &str| !language.is_part(layer) && !language.is_keep_out(layer);
         let others = near.filter(|(layer, _)| Some(*layer) != own && is_drawn_for_paths(layer));
         let distances =
@@ -163,7 +163,8 @@ impl<'a> LayerEnds<'a> {
             ("element", Value::quoted(entity.kind.name())),
             ("distance", gap.into()),
         ];
-        (gap <= WORTH_NAMING).then_some((Note { message: &drawing::NEAR_ON_OTHER_LAYER, arguments }, gap))
+        (gap <= MAX_HINT_DISTANCE)
+            .then_some((Note { message: &drawing::NEAR_ON_OTHER_LAYER, arguments }, gap))
     }
 }
 
@@ -194,7 +195,7 @@ impl LayerEnds<'_> {
                 && LineType::of(&entity.line_type, &language.line_types) == Some(LineType::Dashdot)
                 && ends_of(&entity.geometry).is_some_and(|[begin, _]| coincide(begin, start))
         };
-        let (_, segment) = self.all().near(start, WORTH_NAMING).find(is_subpath)?;
+        let (_, segment) = self.all().near(start, MAX_HINT_DISTANCE).find(is_subpath)?;
         let extent = box_of(&segment.geometry);
         let names = self.all().texts_in(AABB::from_corners(extent.lower(), extent.upper()));
         let mut names = names.filter(|(_, circle, string)| {

@@ -1,7 +1,7 @@
 //! Messages about files: reading, writing, limits. (PB001 to PB008, PB113)
 
 messages! {
-    /// An unreadable file.
+    /// A file that the system refuses to open or read.
     UNREADABLE: UnreadableFile {
         en: "cannot read the file: {reason}",
         de: "die Datei ist nicht lesbar: {reason}",

@@ -481,15 +481,15 @@ messages! {
     FEED_TOO_HIGH: FeedTooHigh {
         en: "feed {feed} mm/min exceeds the machine's maximum of {most} in {axis}",
         de: "der Vorschub {feed} mm/min überschreitet in {axis} das Maximum der Maschine von {most}",
-        help_en: "the control slows down, and times are longer; change F, or the rate under [machine]",
-        help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern oder die Geschwindigkeit unter [machine]",
+        help_en: "lower F, or correct the rate under [machine]; otherwise the control limits the feed, and the program takes longer",
+        help_de: "F senken oder die Geschwindigkeit unter [machine] berichtigen; sonst begrenzt die Steuerung den Vorschub, und das Programm dauert länger",
     }
     /// A feed that exceeds the maximum feed of the machine.
     FEED_ABOVE_MOST: FeedTooHigh {
         en: "feed {feed} mm/min exceeds the machine's maximum of {most}",
         de: "der Vorschub {feed} mm/min überschreitet das Maximum der Maschine von {most}",
-        help_en: "the control slows down, and times are longer; change F, or `maximum-feed` under [machine]",
-        help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern oder `maximum-feed` unter [machine]",
+        help_en: "lower F, or correct `maximum-feed` under [machine]; otherwise the control limits the feed, and the program takes longer",
+        help_de: "F senken oder `maximum-feed` unter [machine] berichtigen; sonst begrenzt die Steuerung den Vorschub, und das Programm dauert länger",
     }
     /// A program that leaves the working area of the machine.
     OUTSIDE_MACHINE: OutsideMachine {

@@ -35,7 +35,7 @@ fn is_mirrored<'a>(fields: &Fields<'a>) -> Result<bool, EntityError<'a>> {
     Ok(z < 0.0)
 }
 
-/// Maps a shape from object coordinates to those of the space.
+/// Converts a shape from object coordinates to world coordinates.
 fn from_object_coordinates<'a>(
     mut geometry: Geometry,
     fields: &Fields<'a>,

@@ -49,7 +49,7 @@ impl Interpreter<'_> {
         self.remember(block, coordinates[axis]);
         let Some(hole) = self.hole(block, cycle) else { return };
         let mut old = self.old_height();
-        self.state_axis(axis);
+        self.mark_axis_stated(axis);
         if old < hole.r && self.rules.rises_before_holes {
             self.lift_to(block, hole.r);
             old = hole.r;

@@ -134,14 +134,14 @@ impl Interpreter<'_> {
             } else {
                 to.at[axis] = self.millimetres(slot) + self.state.offsets.shift(axis);
                 to.known = to.known.with(Axes::of(axis));
-                self.state_axis(axis);
+                self.mark_axis_stated(axis);
             }
         }
         to
     }
 
     /// Records that the program has specified the position of an axis.
-    pub(super) fn state_axis(&mut self, axis: usize) {
+    pub(super) fn mark_axis_stated(&mut self, axis: usize) {
         self.state.stated_axes = self.state.stated_axes.with(Axes::of(axis));
     }
 
@@ -149,7 +149,7 @@ impl Interpreter<'_> {
         let mut to = self.state.position;
         for (axis, slot) in coordinates.into_iter().enumerate() {
             let Some(slot) = slot else { continue };
-            self.state_axis(axis);
+            self.mark_axis_stated(axis);
             if let Some(at) = self.state.offsets.of_machine(axis, self.millimetres(slot)) {
                 to.at[axis] = at;
                 to.known = to.known.with(Axes::of(axis));
@@ -293,7 +293,7 @@ impl Interpreter<'_> {
         let axes = if given.is_empty() { Axes::ALL } else { given };
         let mut to = from;
         for axis in (0..3).filter(|axis| axes.has(Axes::of(*axis))) {
-            self.state_axis(axis);
+            self.mark_axis_stated(axis);
             match self.state.offsets.home(which, axis).filter(|_| !is_other) {
                 Some(at) => {
                     to.at[axis] = at;
@@ -373,7 +373,7 @@ impl Interpreter<'_> {
 
     /// Sets the coordinate of the current position. A position that was unknown becomes known, because the program counts from it.
     fn set_origin(&mut self, axis: usize, coordinate: f64) {
-        self.state_axis(axis);
+        self.mark_axis_stated(axis);
         let position = &mut self.state.position;
         if position.known.has(Axes::of(axis)) {
             self.state.offsets.set_origin(axis, coordinate, position.at[axis]);

@@ -92,7 +92,8 @@ impl HeightMap {
         place.map(|place| (f64::from(highest), place))
     }
 
-    /// Divides the rows of a capsule by existing tiles. Returns the key of each tile, the row, and its columns.
+    /// Splits the rows of a capsule into stretches, one for each existing tile that a row may cross. A stretch is the tile's key, the row, and the
+    /// capsule's columns in that row.
     ///
     /// The loop visits tiles, so that the cost of a long move depends on the known material and not on the length of the move.
     fn stretches(&mut self, capsule: &Capsule) -> Vec<Stretch> {

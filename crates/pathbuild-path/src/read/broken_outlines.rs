@@ -218,7 +218,9 @@ fn open_halves(rings: &[Chain], hanging: &[Chain]) -> Vec<OpenHalf> {
     let half = |(number, side): (usize, &OpenSide<'_>)| {
         side.closed_at_ring(&nodes).or_else(|| side.closed_by_other(number, &sides, &ends))
     };
-    sides.iter().enumerate().filter_map(half).collect()
+    let mut known = BTreeSet::new();
+    let halves = sides.iter().enumerate().filter_map(half);
+    halves.filter(|half| half.curves.iter().all(|curve| known.insert(*curve))).collect()
 }
 
 fn numbered(at: Xy, number: usize) -> NumberedPoint {

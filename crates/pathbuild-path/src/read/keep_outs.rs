@@ -498,7 +498,7 @@ impl<'p> RingBuilder<'p> {
         Ring::Open { part, curves: back.chain(ring.iter().map(|part| part.curve)).collect() }
     }
 
-    /// The curves that continue from an end, in that direction, and the final end.
+    /// Follows the sequence of curves that leaves through this end. Returns its curves, beginning with that of `from`, and the end at which it stops.
     fn follow(&mut self, from: End) -> (Vec<Part>, End) {
         let mut ring = vec![self.take_towards(from)];
         let mut end = from;

@@ -215,7 +215,7 @@ impl<'a> Builder<'a> {
     /// Adds a straight cut.
     fn feed(&mut self, to: Point, feed: Option<f64>) -> CallResult {
         let way_end = self.end();
-        let is_plunge = same_plane(way_end, to) && to[2] < way_end[2];
+        let is_plunge = same_xy(way_end, to) && to[2] < way_end[2];
         let is_start = !self.is_open || !self.ways.is_empty();
         self.land(is_plunge.then_some((to, feed)))?;
         if is_plunge && is_start && self.at == to {
@@ -226,7 +226,7 @@ impl<'a> Builder<'a> {
 
     fn line(&mut self, to: Point, feed: Option<f64>) -> CallResult {
         if to[2] != self.at[2] && !self.abilities.line_z {
-            if !(same_plane(self.at, to) && self.abilities.lift_between_passes) {
+            if !(same_xy(self.at, to) && self.abilities.lift_between_passes) {
                 return Err(self.no_z(to, ControlTextKind::Line));
             }
             let (clearance, working) = (self.present().clearance, self.at[2].max(to[2]));
@@ -326,7 +326,7 @@ impl<'a> Builder<'a> {
         let surface = self.present().surface;
         let (mut before, mut count) = (self.at, 0);
         for (index, &way) in self.ways.iter().enumerate().take_while(|(_, way)| !at_least(way[2], surface)) {
-            if !same_plane(before, way) {
+            if !same_xy(before, way) {
                 count = index + 1;
             }
             before = way;
@@ -414,7 +414,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-fn same_plane(a: Point, b: Point) -> bool {
+fn same_xy(a: Point, b: Point) -> bool {
     a[..2] == b[..2]
 }
 

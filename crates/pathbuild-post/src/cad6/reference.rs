@@ -60,6 +60,6 @@ fn statements(lang: Lang) -> Vec<Row> {
 const SHORTEST: Text =
     Text { en: "the number with all its decimals", de: "die Zahl mit allen Nachkommastellen" };
 const AS_IN_C: Text = Text {
-    en: "as in C, also with `g`, `d`, `x`, `b` or `s`; flags, width and precision come before the letter (pathbuild's own)",
+    en: "as in C, also with `g`, `d`, `x`, `b` or `s`; flags, width and precision come before the letter (an extension of pathbuild)",
     de: "wie in C, auch mit `g`, `d`, `x`, `b` oder `s`; Schalter, Breite und Genauigkeit stehen vor dem Buchstaben (Zusatz von pathbuild)",
 };

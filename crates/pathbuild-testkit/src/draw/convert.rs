@@ -11,7 +11,7 @@ use dxf::enums::{
 };
 use dxf::tables::{AppId, DimStyle, Layer as CrateLayer, LineType, Style, ViewPort};
 use dxf::{Block as CrateBlock, Color, Drawing, Handle, LwPolylineVertex, Point as CratePoint, Vector};
-use pathbuild_draw::pairs::{CHUNK, Tickets, chunks};
+use pathbuild_draw::pairs::{CHUNK, StringPlaceholders, chunks};
 
 use super::draft::Sheet;
 use super::model::{
@@ -39,7 +39,7 @@ pub const LINE_TYPES: [(&str, &[f64]); 11] = [
 ];
 
 /// Converts a sheet to a drawing of the crate `dxf`. Tags are counted through the entities of the drawing, then those of the blocks.
-pub(crate) fn drawing(sheet: &Sheet, tickets: &mut Tickets) -> Drawing {
+pub(crate) fn drawing(sheet: &Sheet, tickets: &mut StringPlaceholders) -> Drawing {
     let mut drawing = Drawing::new();
     drawing.clear();
     drawing.header.version = version(sheet.options().version);
@@ -76,7 +76,7 @@ fn version(version: Version) -> AcadVersion {
     }
 }
 
-fn add_tables(drawing: &mut Drawing, sheet: &Sheet, tickets: &mut Tickets) {
+fn add_tables(drawing: &mut Drawing, sheet: &Sheet, tickets: &mut StringPlaceholders) {
     drawing.add_view_port(ViewPort { name: "*ACTIVE".to_owned(), ..Default::default() });
     drawing.add_app_id(AppId { name: "ACAD".to_owned(), ..Default::default() });
     drawing.add_dim_style(DimStyle { name: "STANDARD".to_owned(), ..Default::default() });
@@ -104,7 +104,7 @@ fn line_type(name: String, pattern: &[f64]) -> LineType {
     }
 }
 
-fn crate_layer(layer: &Layer, tickets: &mut Tickets) -> CrateLayer {
+fn crate_layer(layer: &Layer, tickets: &mut StringPlaceholders) -> CrateLayer {
     CrateLayer {
         name: tickets.ticket(&layer.name),
         color: Color::from_index(layer.colour),
@@ -114,7 +114,7 @@ fn crate_layer(layer: &Layer, tickets: &mut Tickets) -> CrateLayer {
     }
 }
 
-fn add_blocks(drawing: &mut Drawing, sheet: &Sheet, tickets: &mut Tickets) {
+fn add_blocks(drawing: &mut Drawing, sheet: &Sheet, tickets: &mut StringPlaceholders) {
     if sheet.options().version >= Version::R13 {
         for name in ["*Model_Space", "*Paper_Space"] {
             drawing.add_block(CrateBlock { name: name.to_owned(), ..Default::default() });
@@ -130,7 +130,12 @@ fn add_blocks(drawing: &mut Drawing, sheet: &Sheet, tickets: &mut Tickets) {
     }
 }
 
-fn crate_entity(entity: &Entity, sheet: &Sheet, drawing: &mut Drawing, tickets: &mut Tickets) -> CrateEntity {
+fn crate_entity(
+    entity: &Entity,
+    sheet: &Sheet,
+    drawing: &mut Drawing,
+    tickets: &mut StringPlaceholders,
+) -> CrateEntity {
     let version = sheet.options().version;
     let mut converted = CrateEntity::new(entity_type(entity, version, drawing, tickets));
     let layer = entity.layer.as_deref().unwrap_or("0");
@@ -155,7 +160,7 @@ fn entity_type(
     entity: &Entity,
     version: Version,
     drawing: &mut Drawing,
-    tickets: &mut Tickets,
+    tickets: &mut StringPlaceholders,
 ) -> EntityType {
     let plane = entity.orientation;
     match &entity.shape {
@@ -294,7 +299,7 @@ fn spline(spline: &Spline, plane: Orientation) -> CrateSpline {
     }
 }
 
-fn insert(insert: &Insert, plane: Orientation, tickets: &mut Tickets) -> CrateInsert {
+fn insert(insert: &Insert, plane: Orientation, tickets: &mut StringPlaceholders) -> CrateInsert {
     let sign = if is_mirrored(plane) { -1.0 } else { 1.0 };
     CrateInsert {
         name: tickets.ticket(&insert.block),
@@ -312,7 +317,7 @@ fn insert(insert: &Insert, plane: Orientation, tickets: &mut Tickets) -> CrateIn
     }
 }
 
-fn dimension(dimension: &Dimension, tickets: &mut Tickets) -> RotatedDimension {
+fn dimension(dimension: &Dimension, tickets: &mut StringPlaceholders) -> RotatedDimension {
     let dimension_base = DimensionBase {
         block_name: tickets.ticket(&dimension.block),
         definition_point_1: point(dimension.line),
@@ -339,7 +344,7 @@ fn solid(corners: &[Point; 4], plane: Orientation) -> CrateSolid {
     converted
 }
 
-pub(crate) fn text(text: &Text, entity: &Entity, tickets: &mut Tickets) -> CrateText {
+pub(crate) fn text(text: &Text, entity: &Entity, tickets: &mut StringPlaceholders) -> CrateText {
     let plane = entity.orientation;
     let (location, alignment) = points(text, entity);
     CrateText {
@@ -372,7 +377,7 @@ fn lower_left(text: &Text, entity: &Entity) -> Point {
     text_circle(entity).map_or(text.anchor, |circle| circle.centre + corner)
 }
 
-fn style(entity: &Entity, tickets: &mut Tickets) -> String {
+fn style(entity: &Entity, tickets: &mut StringPlaceholders) -> String {
     tickets.ticket(entity.style.as_deref().unwrap_or("STANDARD"))
 }
 
@@ -396,7 +401,7 @@ fn vertical(vertical: Vertical) -> VerticalTextJustification {
     }
 }
 
-pub(crate) fn mtext(text: &MText, entity: &Entity, tickets: &mut Tickets) -> CrateMText {
+pub(crate) fn mtext(text: &MText, entity: &Entity, tickets: &mut StringPlaceholders) -> CrateMText {
     let mut chunks = chunks(&text.value, text.chunk.unwrap_or(CHUNK));
     let last = chunks.pop().unwrap_or_default();
     let (rotation, direction) = match text.direction {

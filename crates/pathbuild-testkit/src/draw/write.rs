@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use pathbuild_draw::pairs::{
-    self, Pair, Record, Tickets, drop_codes, identify, kind, records, reduce_mtext, value,
+    self, Pair, Record, StringPlaceholders, drop_codes, identify, kind, records, reduce_mtext, value,
 };
 
 use super::convert;
@@ -38,7 +38,7 @@ fn with_pairs(sheet: &Sheet, write: impl FnOnce(&[Pair<'_>]) -> Vec<u8>) -> Vec<
 
 /// Writes a sheet without its template through the crate `dxf`, and passes the output to `next`.
 fn with_written<T>(sheet: &Sheet, next: impl FnOnce(CrateOutput<'_>) -> T) -> T {
-    let mut tickets = Tickets::default();
+    let mut tickets = StringPlaceholders::default();
     let drawing = convert::drawing(sheet, &mut tickets);
     let mut text = Vec::new();
     // Saving to memory without a thumbnail cannot fail.
@@ -171,7 +171,7 @@ struct CrateOutput<'a> {
 
 impl<'a> CrateOutput<'a> {
     /// Splits the output of the crate and replaces the tickets by their strings.
-    pub(crate) fn of(text: &'a str, tickets: &'a Tickets) -> Self {
+    pub(crate) fn of(text: &'a str, tickets: &'a StringPlaceholders) -> Self {
         let mut written = Self::default();
         let mut section = String::new();
         for mut record in records(text) {

@@ -218,7 +218,7 @@ pub struct Finding {
     pub path: Option<String>,
     /// The handle of the element, if the finding is about one.
     pub handle: Option<String>,
-    /// Words of the message.
+    /// Words that the program's message must contain.
     pub words: Vec<String>,
 }
 

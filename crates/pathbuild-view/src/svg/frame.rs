@@ -190,7 +190,7 @@ pub(super) struct Room {
 /// Width and height of a cell in px.
 const CELL: f64 = 4.0;
 
-/// Maximum distance at which a text is placed, in multiples of its height.
+/// Maximum vertical distance of a text from its preferred position, in multiples of its height.
 const MAX_TEXT_DISTANCE: u32 = 6;
 
 /// Number of the first candidate positions of a label. They are so near to the symbol that the label cannot be mistaken for another's.

@@ -156,7 +156,7 @@ impl Discovery<'_> {
         first.map_or_else(|| clean(self.working_directory), |first| self.search_start_of(first))
     }
 
-    /// Returns the directories of all arguments.
+    /// Returns, for each argument, the directory in which the search for its configuration starts.
     pub(super) fn search_starts(&self) -> impl Iterator<Item = Utf8PathBuf> + '_ {
         self.inputs.iter().map(|input| self.search_start_of(input))
     }

@@ -218,7 +218,7 @@ impl CheckRecord {
                 return Some(problem.with("count", blind.count).with("line", line).at_line(blind.line, None));
             }
             Outcome::Assumed(..) if may_be_assumed => return None,
-            Outcome::Assumed(_, Assumption::Stock) => (&ONLY_COMMENTS, &GIVEN),
+            Outcome::Assumed(_, Assumption::Stock) => (&ONLY_COMMENTS, &STOCK_OPTIONS),
             Outcome::Assumed(_, Assumption::MachineValues) => (&MACHINE_VALUES, &NUMBERS),
             Outcome::NotMade(reason) => (reason.text(), self.option(*reason)),
         };
@@ -362,7 +362,7 @@ static CUTTER: Text = Text { en: "--cutter or --against PATH", de: "--cutter ode
 static SURFACE: Text = Text { en: "--surface or --against PATH", de: "--surface oder --against PFAD" };
 static LIMITS: Text =
     Text { en: "[limits] verify-cells and verify-pieces", de: "[limits] verify-cells und verify-pieces" };
-static GIVEN: Text = Text {
+static STOCK_OPTIONS: Text = Text {
     en: "--cutter and --surface, --against PATH, or rapids=assumed",
     de: "--cutter und --surface, --against PFAD oder rapids=assumed",
 };

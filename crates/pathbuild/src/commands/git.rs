@@ -47,8 +47,8 @@ const LONGEST_LINE: u64 = 4096;
 const MOST_BYTES: u64 = 4 << 30;
 
 static TOO_MANY_FILES: Text = Text {
-    en: "the revision has more than {} files: `library-entries` of [limits] is exceeded",
-    de: "die Revision hat mehr als {} Dateien: `library-entries` von [limits] ist überschritten",
+    en: "the revision has more than {} files; if that is intended, raise `library-entries` under [limits] in pathbuild.toml",
+    de: "die Revision hat mehr als {} Dateien; ist das gewollt, `library-entries` unter [limits] in pathbuild.toml erhöhen",
 };
 
 static LONG_NAME: Text = Text {
