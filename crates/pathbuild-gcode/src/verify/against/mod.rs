@@ -17,6 +17,7 @@ use crate::read::Problems;
 
 use cuts::Cuts;
 pub use cuts::{Clamps, PastClamps};
+pub use setup::CORNERS;
 use setup::Setup;
 
 /// The program that a drawing and the configuration require.
