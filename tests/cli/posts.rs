@@ -244,6 +244,18 @@ fn holes_become_cycles_when_asked() {
 }
 
 #[test]
+fn holes_drilled_in_pecks_are_as_drawn() {
+    for post in ["linuxcnc", "fanuc", "grbl"] {
+        let place = library("cycles = true");
+        let program = place.run(&format!("emit 1500.1P --post {post} -o -")).stdout;
+        let place = place.file(&format!("{post}.nc"), program);
+        let verified =
+            place.run(&format!("verify {post}.nc --against 1500.1P --post {post} --format concise"));
+        assert_eq!(verified.status, Some(0), "{verified}");
+    }
+}
+
+#[test]
 fn macros_of_the_configuration_win_over_the_posts() {
     let post = "<PostProcessor><PostProcessorMacros>$who=bert</PostProcessorMacros><PostFile>({$who})\n{$mops}\n{$footer}</PostFile></PostProcessor>";
     let place = library("").file("my.cbpp", post);

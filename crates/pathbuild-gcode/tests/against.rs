@@ -86,3 +86,27 @@ fn heights_of_chords_are_those_of_their_places_on_a_steep_helix() {
     assert_eq!(middle(-2.5205), ["4 moves-differ"]);
     assert_eq!(middle(-2.4795), ["4 moves-differ"]);
 }
+
+/// Returns the differences of a program that drills a hole from Z2 to Z-1 in these moves.
+fn drilled(moves: &str) -> Vec<String> {
+    let program = format!("G17 G21 G40 G49 G80 G90 G94\nG0 Z5\nG0 X3 Y0\nG0 Z2\n{moves}\nG0 Z5");
+    differences(Dialect::LinuxCnc, &program, "G0 X3 Y0\nG0 Z2\nG1 Z-1 F100\nG0 Z5")
+}
+
+#[test]
+fn a_hole_may_be_drilled_in_pecks() {
+    assert_eq!(drilled("G1 Z-1 F100"), FINE);
+    assert_eq!(drilled("G1 Z1 F100\nG0 Z2\nG0 Z1.01\nG1 Z0\nG0 Z5\nG0 Z0.3\nG1 Z-1"), FINE);
+    assert_eq!(drilled("G1 Z1 F100\nG1 Z-1"), FINE);
+}
+
+#[test]
+fn pecks_stay_in_the_hole_and_reach_its_bottom() {
+    let differs = |moves: &str| assert_ne!(drilled(moves), FINE, "{moves}");
+    differs("G1 Z1 F100\nG0 Z2\nG0 Z0.9\nG1 Z-1");
+    differs("G1 Z1 F100\nG0 Z2\nG0 X3.01\nG0 X3\nG0 Z1.1\nG1 Z-1");
+    differs("G1 Z1 F100\nG0 Z2\nG0 Z1.1\nG1 Z-0.9");
+    differs("G1 Z1 F100\nG0 Z2\nG0 Z1.1\nG1 Z-1.1");
+    differs("G1 Z1 F100\nG0 Z2\nG0 Z1.1\nG1 Z-1 F200");
+    differs("G1 Z1 F100\nG0 Z5");
+}

@@ -100,7 +100,10 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
 
     /// Compares the rapid moves before this cut, or at the end of the program, with the expected ones.
     fn rapids(&mut self, cut: Option<(u32, &Move)>) -> Result<(), Box<Difference>> {
-        let chain = std::mem::replace(&mut self.chain, Chain::behind());
+        let mut chain = std::mem::replace(&mut self.chain, Chain::behind());
+        if let Some(share) = cut.and_then(|_| chain.peck(&self.begun_plunge()?)) {
+            (self.done, chain) = (share, Chain::behind());
+        }
         let start = self.at;
         let mut expected = Vec::new();
         if self.done == 0.0 {
@@ -137,6 +140,13 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             }
             Ok(()) => Err(Box::new(Difference { kind: DifferenceKind::Place, found, expected: next })),
         }
+    }
+
+    /// Returns the expected plunge of which the program has made a part. It may go on in pecks.
+    fn begun_plunge(&mut self) -> Option<Plunge> {
+        let (done, slack) = (self.done, self.tolerance.place);
+        let (_, movement) = self.expected.peek().filter(|_| done > 0.0)?;
+        is_plunge(movement).then_some(Plunge { movement: *movement, done, slack })
     }
 
     /// Returns the permitted difference in height within the next expected move. The position on that move is determined in the plane, where a
@@ -220,7 +230,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             check_centres(movement, &expected).map_err(differs)?;
             let are_lines = !ours.is_arc() && !theirs.is_arc();
             let splits = ours.length < theirs.length;
-            if are_lines && !(splits && self.may_split) {
+            if are_lines && !(splits && (self.may_split || is_plunge(&expected))) {
                 return Err(differs(DifferenceKind::Place));
             }
             if splits {
@@ -271,6 +281,44 @@ fn check_centres(found: &Move, expected: &Move) -> Result<(), DifferenceKind> {
     if are_near && turn_alike { Ok(()) } else { Err(DifferenceKind::Shape) }
 }
 
+/// Whether a move goes straight down while it cuts.
+fn is_plunge(movement: &Move) -> bool {
+    let is_straight = movement.from.x() == movement.to.x() && movement.from.y() == movement.to.y();
+    movement.is_known()
+        && movement.pace != Pace::Rapid
+        && matches!(movement.shape, MoveShape::Line)
+        && is_straight
+        && movement.to.z() < movement.from.z()
+}
+
+/// An expected plunge of which the program has made a part.
+#[derive(Clone, Copy, Debug)]
+struct Plunge {
+    movement: Move,
+    /// The fraction that the program has made.
+    done: f64,
+    slack: f64,
+}
+
+impl Plunge {
+    /// Returns the fraction of the plunge at a height; `None` outside of it, or below what the program has cut so far.
+    fn share_at(&self, z: f64) -> Option<f64> {
+        let (top, bottom) = (self.movement.from.z(), self.movement.to.z());
+        let share = (top - z) / (top - bottom);
+        let slack = self.slack / (top - bottom);
+        (-slack..=self.done + slack).contains(&share).then(|| share.clamp(0.0, self.done))
+    }
+
+    /// Whether a rapid move stays in or above what the program has cut of the hole.
+    fn is_in_hole(&self, movement: &Move) -> bool {
+        let [x, y, _] = self.movement.from.at;
+        let deepest = self.movement.from.z() + self.done * (self.movement.to.z() - self.movement.from.z());
+        let is_above =
+            |at: &Position| is_near(&at.at, &[x, y, at.z()], self.slack) && at.z() >= deepest - self.slack;
+        movement.is_known() && movement.named.is_none() && is_above(&movement.from) && is_above(&movement.to)
+    }
+}
+
 /// A move and its line.
 type Numbered = (u32, Move);
 
@@ -310,6 +358,14 @@ impl Chain {
 
     pub(super) fn push(&mut self, line: u32, movement: &Move) {
         self.moves.push((line, *movement));
+    }
+
+    /// Returns the fraction of a plunge at which these moves end, if they are those between two pecks: up in the hole and down again, no deeper
+    /// than the program has cut.
+    fn peck(&self, plunge: &Plunge) -> Option<f64> {
+        let (_, last) = self.moves.last()?;
+        let stays = self.moves.iter().all(|(_, movement)| plunge.is_in_hole(movement));
+        plunge.share_at(last.to.z()).filter(|_| stays)
     }
 
     /// Checks the chain against the expected moves. The error is the first move that deviates; `None` if an expected move is missing.
