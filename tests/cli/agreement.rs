@@ -10,7 +10,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::MemorySystem;
 use pathbuild_db::{
     Database, Db, Role, Settings, SourceFile, Target, check_file, check_target, closure, locate, path_names,
-    q_project_findings, second_definitions,
+    q_project_findings,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{FilePattern, PathOptions, Restriction};
@@ -161,8 +161,7 @@ impl Asked {
         let mut found = Vec::new();
         for path in &files {
             let file = self.db.file(Utf8Path::new(path));
-            found
-                .extend(check_file(&self.db, file).iter().chain(second_definitions(&self.db, file)).cloned());
+            found.extend(check_file(&self.db, file).iter().cloned());
             let names: Vec<String> =
                 path_names(&self.db, file).iter().map(|name| name.as_str().to_owned()).collect();
             for name in names {

@@ -154,7 +154,6 @@ impl PostDefinition {
         let target = self.target(options)?;
         if !options.unchecked {
             self.check_points(target.as_ref()).map_err(|error| vec![*error])?;
-            self.check_motions().map_err(|error| vec![*error])?;
         }
         let rounding = self.check_rounding(job, options.unchecked).map_err(|error| vec![*error])?;
         let options = &self.within(options, target.as_ref());
@@ -279,14 +278,6 @@ impl PostDefinition {
             }
             _ => Ok(()),
         }
-    }
-
-    /// Checks that the texts for rapid moves and cuts are more than comments.
-    fn check_motions(&self) -> Result<(), Box<Diagnostic>> {
-        let Engine::CamBam(definition) = &self.engine else { return Ok(()) };
-        let Some(section) = definition.empty_motion() else { return Ok(()) };
-        let problem = Diagnostic::new(&posts::MOTION_EMPTY).quoting("section", section);
-        Err(Box::new(problem.in_file(&self.file)))
     }
 
     /// Checks how far coordinates are rounded. If the user takes responsibility for the moves, even the coarsest rounding is a warning.

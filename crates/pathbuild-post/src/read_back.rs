@@ -5,10 +5,9 @@ use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options};
-use pathbuild_gcode::verify::{CORNERS, Machine, MachineRules, Rules, Stock, Tolerance};
+use pathbuild_gcode::verify::{Machine, MachineRules, Rules, Stock, Tolerance};
 use pathbuild_motion::{
-    Action, Axes, Change, Corners, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength,
-    WorkSystem,
+    Action, Axes, Change, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength, WorkSystem,
 };
 
 use crate::ambiguous;
@@ -108,8 +107,6 @@ pub(super) fn check(
             doubts.extend(unused_words(&read.problems));
         }
         doubts.extend(translated.and_then(disputed));
-        let has_limit = target.is_some_and(|target| target.reader == Dialect::LinuxCnc);
-        doubts.extend(rounded_corners(&read.steps, has_limit));
         doubts.extend(translated.iter().flat_map(|translated| translated.unstated.iter().cloned()));
         let shortest = tolerance.place.max(SHORTEST_DWELL);
         problems.extend(dwells::check(&read.steps, *translated, job, shortest).map(as_post_s));
@@ -193,25 +190,6 @@ fn unused_words(problems: &[Diagnostic]) -> Vec<Diagnostic> {
         }
     }
     doubts
-}
-
-/// Returns one warning if corners are rounded by more than in the built-in posts. `has_limit` is whether the control takes G64 with P.
-fn rounded_corners(steps: &[Step], has_limit: bool) -> Option<Diagnostic> {
-    steps.iter().find_map(|step| {
-        let doubt = match step.action {
-            Action::Change(Change::Corners(Corners::Rounded(Some(most)))) if most > CORNERS => {
-                Diagnostic::new(&posts::CORNERS_ROUNDED).with("most", most)
-            }
-            // P0 is no limit, as if there were no P.
-            Action::Change(Change::Corners(Corners::Rounded(most)))
-                if has_limit && most.is_none_or(|most| most <= 0.0) =>
-            {
-                Diagnostic::new(&posts::CORNERS_ROUNDED_FREELY)
-            }
-            _ => return None,
-        };
-        Some(doubt.at_line(step.line, None))
-    })
 }
 
 /// Returns one warning for all words on which dialects disagree; `None` if there are none.

@@ -8,8 +8,7 @@ use std::ops::ControlFlow;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, is_drawing, join};
 use pathbuild_db::{
-    Database, Db, Role, SourceFile, Target, Trace, check_file, combinations, definitions_trace, locate,
-    path_names,
+    Database, Db, Role, SourceFile, Target, Trace, check_file, combinations, locate, path_names,
 };
 use pathbuild_diagnostic::messages::configuration;
 use pathbuild_diagnostic::messages::parameters as messages;
@@ -333,13 +332,10 @@ fn check_drawing(
     with_all_values: bool,
 ) -> (DrawingResult, Vec<Trace>) {
     let (db, file) = (checker.db(), *file);
-    let (mut diagnostics, mut traces) = match names {
-        None => (checker.second_definitions(file), own_trace(checker, || definitions_trace(db, file))),
-        // The argument that names a path reports a second definition.
-        Some(_) => (Vec::new(), own_trace(checker, || Trace { files: vec![file], lookups: Vec::new() })),
-    };
     let names = names.unwrap_or_else(|| path_names(db, file));
+    let mut diagnostics = Vec::new();
     let mut reached = vec![file];
+    let mut traces = own_trace(checker.is_traced(), file);
     for name in names {
         let (targets, warning) = if with_all_values {
             checker.combined_targets(file, name)
@@ -378,8 +374,8 @@ fn result(
 }
 
 /// Returns the inputs of a drawing's result that do not depend on its paths; nothing if inputs are not traced.
-fn own_trace(checker: &Checker<'_>, trace: impl FnOnce() -> Trace) -> Vec<Trace> {
-    if checker.is_traced() { vec![trace()] } else { Vec::new() }
+fn own_trace(is_traced: bool, file: SourceFile) -> Vec<Trace> {
+    if is_traced { vec![Trace { files: vec![file], lookups: Vec::new() }] } else { Vec::new() }
 }
 
 /// Upper bound on the combinations of values that are checked per path.

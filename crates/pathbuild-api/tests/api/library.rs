@@ -239,7 +239,8 @@ fn settings_override_the_configuration() {
     let added = LibraryOptions::new().setting("search", "components").setting("search", "mistakes");
     let added = added.open(project().join("fixtures/library")).unwrap();
     assert_eq!(added.check(&["projects"]).unwrap(), fixtures().check(&["projects"]).unwrap());
-    assert_eq!(codes(open("search", "none")), ["PB003"]);
+    let missing = open("search", "none").unwrap().check(&["projects"]).unwrap();
+    assert_eq!(missing.findings.iter().map(|finding| finding.code()).collect::<Vec<_>>(), ["PB003"]);
 }
 
 #[test]

@@ -12,7 +12,6 @@
 //! drawing again for programs, other values of variables, and the places of findings.
 
 mod closures;
-mod definitions;
 mod embedding;
 mod index;
 mod keep_outs;
@@ -28,7 +27,6 @@ mod results;
 pub use closures::{
     Closure, Destination, Edge, MissingOption, NameLookup, ReachedPath, Trace, closure, trace,
 };
-pub use definitions::{definitions_trace, second_definitions};
 pub use embedding::{Embedding, Outcome, embeds};
 pub use embedding::{Instance, chains, path, summary};
 pub use index::{

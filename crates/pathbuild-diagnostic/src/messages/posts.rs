@@ -162,13 +162,6 @@ messages! {
         help_en: "drawings do not contain it: write \"{name}\" = \"...\" under [macros] of pathbuild.toml, or ${name}=... in PostProcessorMacros",
         help_de: "Zeichnungen enthalten ihn nicht: \"{name}\" = \"...\" unter [macros] in pathbuild.toml oder ${name}=... in PostProcessorMacros schreiben",
     }
-    /// A text for moves that moves nothing.
-    MOTION_EMPTY: InvalidPost {
-        en: "{section} writes no move: its text is empty, or only a comment",
-        de: "{section} schreibt keine Bewegung: der Text ist leer oder nur ein Kommentar",
-        help_en: "write the move, as in the default text, or remove the element to get that",
-        help_de: "die Bewegung schreiben wie im vorgegebenen Text, oder das Element entfernen, dann gilt dieser",
-    }
     /// A hole for which nothing is written.
     DRILLING_LOST: LostDrilling {
         en: "the post writes nothing that drills the hole at {place}: {section} is empty",
@@ -728,20 +721,6 @@ messages! {
         de: "was {words} bewirkt, ist von Steuerung zu Steuerung verschieden, und kein Dialekt ist genannt",
         help_en: "name the dialect of the control in the definition, or with --dialect",
         help_de: "den Dialekt der Steuerung in der Definition oder mit --dialect nennen",
-    }
-    /// G64 with a P that is larger than in the built-in posts.
-    CORNERS_ROUNDED: DoubtfulPost {
-        en: "the output lets the controller round corners by up to {most} mm (G64)",
-        de: "die Ausgabe lässt die Steuerung Ecken um bis zu {most} mm verrunden (G64)",
-        help_en: "write G64 P0.01 in mm, or G61",
-        help_de: "G64 P0.01 in mm oder G61 schreiben",
-    }
-    /// G64 without P.
-    CORNERS_ROUNDED_FREELY: DoubtfulPost {
-        en: "the output lets the controller round corners without a limit (G64 without P)",
-        de: "die Ausgabe lässt die Steuerung Ecken ohne Grenze verrunden (G64 ohne P)",
-        help_en: "write G64 P0.01 in mm, or G61",
-        help_de: "G64 P0.01 in mm oder G61 schreiben",
     }
     /// A work offset in the output, such as G55.
     OFFSET_CHOSEN: DoubtfulPost {

@@ -143,17 +143,6 @@ impl Definition {
         self.options.number_format.most_decimals()
     }
 
-    /// Name of a section for moves whose text is empty or only a comment.
-    pub(crate) fn empty_motion(&self) -> Option<&'static str> {
-        let marks = self.comment_marks();
-        let is_empty = |section: &Section| {
-            let text = self.section(*section);
-            let found = words(&text.literal(), &marks);
-            text.macros().next().is_none() && found.words.is_empty() && !found.has_more
-        };
-        [Section::Rapid, Section::FeedMove].into_iter().find(is_empty).map(Section::name)
-    }
-
     /// Whether every number gets a decimal point.
     pub(crate) fn always_writes_point(&self) -> bool {
         self.options.number_format.always_has_point()

@@ -21,7 +21,7 @@ fn milled() -> Job {
 
 #[test]
 fn a_finding_names_the_text_that_wrote_the_line() {
-    let text = bare("<Rapid>{$_f}</Rapid>\n<FeedMove>\n{$_g1} {$_f}\n  {$_x} {$_y}\n</FeedMove>");
+    let text = bare("<Rapid/>\n<FeedMove>\n{$_g1} {$_f}\n  {$_x} {$_y}\n</FeedMove>");
     let found = read(&text).unwrap().write(&milled(), &PostOptions::default()).unwrap_err();
     assert!(
         notes(&found).iter().any(|note| note.starts_with("it is written by FeedMove, line ")),

@@ -312,43 +312,6 @@ fn lines_that_a_switch_can_skip_must_not_be_needed() {
     }
 }
 
-#[test]
-fn corners_are_rounded_within_a_limit() {
-    let warnings = |dialect: &str, words: &str| {
-        let elements = format!("<Header>{{$units}} {{$distancemode}} G17\n{words}</Header>{dialect}");
-        let steps = vec![feed(0.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)];
-        let text =
-            format!("<PostFile>{{$header}}\n{{$mops}}\nM30</PostFile><MOP>{{$blocks}}</MOP>{elements}");
-        let output = read(&definition(&text)).unwrap().write(&job(steps), &PostOptions::default());
-        output.map_or_else(|errors| texts(&errors), |output| texts(&output.warnings))
-    };
-    let linuxcnc = dialect("linuxcnc");
-    for (dialect, words, is_told) in [
-        (&*linuxcnc, "G64 P0.01", false),
-        (&*linuxcnc, "G64 P0.011", true),
-        (&*linuxcnc, "G64 P0.01 Q0.5", true),
-        (&*linuxcnc, "G64", true),
-        (&*linuxcnc, "G61", false),
-        ("", "G64 P5", true),
-        ("", "G64", false),
-    ] {
-        let found = warnings(dialect, words);
-        let is_found = found.iter().any(|text| text.contains("PB752") && text.contains("round corners"));
-        assert_eq!(is_found, is_told, "{dialect} {words}: {found:?}");
-    }
-}
-
-/// The cause is told, not what follows from it.
-#[test]
-fn texts_for_moves_must_move() {
-    let steps = vec![feed(0.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)];
-    for (section, text) in [("Rapid", ""), ("Rapid", "(up)"), ("FeedMove", " ")] {
-        let errors = read_back(&format!("<{section}>{text}</{section}>"), steps.clone()).unwrap_err();
-        assert!(errors[0].starts_with(&format!("{section} writes no move")), "{errors:?}");
-    }
-    assert_eq!(read_back("<Rapid>{$g0} {$_x} {$_y} {$_z}</Rapid>", steps), Ok(()));
-}
-
 /// Writes a cut to X10 at the speed of a tool, with these texts before and after it, for LinuxCNC on a machine.
 fn run_on(machine: Machine, before: &str, behind: &str) -> Result<(), Vec<String>> {
     let text = format!(

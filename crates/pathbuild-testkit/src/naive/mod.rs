@@ -84,30 +84,10 @@ impl Model {
             found.extend(self.drawings[*number].faults());
             for path in 0..self.drawings[*number].content.paths.len() {
                 found.extend(self.check_path(*number, path));
-                found.extend(self.second_definition(*number, path));
             }
         }
         found.extend(self.q_projects(&numbers));
         each_once(found)
-    }
-
-    /// Returns PB504, at the first definition, if a project beside a drawing finds two definitions of a path of that drawing.
-    fn second_definition(&self, from: usize, path: usize) -> Option<Finding> {
-        let name = &self.drawings[from].content.paths[path].0.name;
-        let mut defining = self.searched(from, name);
-        defining.retain(|number| self.defines(*number, name));
-        defining.sort_by_key(|number| &self.drawings[*number].path);
-        let [first, second, ..] = defining[..] else { return None };
-        let [first, second] = [first, second].map(|number| &self.drawings[number]);
-        let (raw, _) = first.content.paths.iter().find(|(raw, _)| *raw.name == **name)?;
-        let start = raw.start.as_ref().and_then(|start| first.handle(name, start.origin.id));
-        Some(Finding {
-            code: "PB504".to_owned(),
-            file: first.path.clone(),
-            path: Some(raw.name.to_string()),
-            handle: start,
-            words: [raw.name.as_str(), &first.path, &second.path].map(str::to_owned).to_vec(),
-        })
     }
 
     /// The findings of checking a single path; none if the drawing does not exist.

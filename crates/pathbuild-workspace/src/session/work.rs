@@ -7,7 +7,7 @@ use std::time::Duration;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{
     Closure, Database, Instance, MissingOption, Role, SourceFile, Target, Trace, check_target, closure,
-    file_index, locate, path_names, q_project_findings, second_definitions, summary, trace,
+    file_index, locate, path_names, q_project_findings, summary, trace,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{PathName, PathSignature, is_q_project, tested_by_q_project};
@@ -256,17 +256,6 @@ impl Checker<'_> {
             }
         }
         self.check(target(Role::Checked))
-    }
-
-    /// Returns PB504 for each path of a drawing that another drawing defines as well.
-    pub fn second_definitions(&self, file: SourceFile) -> Vec<Diagnostic> {
-        let watchdog = self.watchdog.get_or_init(|| Watchdog::start(self.limit));
-        let _watched = watchdog.begin(self.db);
-        let found = self.db.guarded(self.limit, || second_definitions(self.db, file).clone());
-        match found {
-            Ok(found) => found.into_iter().map(|problem| locate(self.db, problem)).collect(),
-            Err(problem) => vec![problem.in_file(file.path(self.db))],
-        }
     }
 
     /// Checks a target. A timeout or a bug becomes a diagnostic of the target.

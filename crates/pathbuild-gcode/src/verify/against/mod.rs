@@ -17,7 +17,6 @@ use crate::read::Problems;
 
 use cuts::Cuts;
 pub use cuts::{Clamps, PastClamps};
-pub use setup::CORNERS;
 use setup::Setup;
 
 /// The program that a drawing and the configuration require.

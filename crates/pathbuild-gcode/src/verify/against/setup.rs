@@ -17,7 +17,7 @@ use crate::verify::tool_state::{LengthFit, ToolState};
 use crate::verify::words::PostWords;
 
 /// Maximum rounding of corners in mm, as in the built-in posts.
-pub const CORNERS: f64 = 0.01 * (1.0 + 1e-6);
+const CORNERS: f64 = 0.01 * (1.0 + 1e-6);
 
 /// Heights are equal if they differ by less than this, in mm.
 const SAME_HEIGHT: f64 = 0.002;
