@@ -240,7 +240,7 @@ fn settings_override_the_configuration() {
     let added = added.open(project().join("fixtures/library")).unwrap();
     assert_eq!(added.check(&["projects"]).unwrap(), fixtures().check(&["projects"]).unwrap());
     let missing = open("search", "none").unwrap().check(&["projects"]).unwrap();
-    assert_eq!(missing.findings.iter().map(|finding| finding.code()).collect::<Vec<_>>(), ["PB003"]);
+    assert_eq!(missing.findings.iter().map(pathbuild_api::Finding::code).collect::<Vec<_>>(), ["PB003"]);
 }
 
 #[test]

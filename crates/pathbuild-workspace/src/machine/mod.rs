@@ -128,7 +128,7 @@ pub fn table_unit(
     for (file, text) in texts {
         let Some(stated) = machine_unit(text) else { continue };
         if *unit.get_or_insert(stated) != stated {
-            return Err(Box::new(Diagnostic::new(&say::UNITS_CONTRADICT).in_file(*file)));
+            return Err(Box::new(Diagnostic::new(&say::UNITS_CONTRADICT).in_file(file)));
         }
     }
     Ok(unit)
