@@ -246,8 +246,8 @@ messages! {
     POST_UNCHECKED: DoubtfulPost {
         en: "the output was not compared with the program, because unchecked = true is set",
         de: "die Ausgabe wurde nicht mit dem Programm verglichen, weil unchecked = true gesetzt ist",
-        help_en: "check the output on the control before milling, or remove unchecked from the post",
-        help_de: "die Ausgabe vor dem Fräsen an der Steuerung prüfen oder unchecked aus dem Postprozessor entfernen",
+        help_en: "check the output on the control before milling, or remove `unchecked` under [post] in pathbuild.toml",
+        help_de: "die Ausgabe vor dem Fräsen an der Steuerung prüfen oder `unchecked` unter [post] in pathbuild.toml entfernen",
     }
     /// A text that the control would execute, because it would be outside a comment.
     TEXT_AMONG_WORDS: RejectedWord {
@@ -319,22 +319,22 @@ messages! {
     }
     /// Note: the output does not switch the coolant.
     COOLANT_NOT_WRITTEN: DoubtfulPost {
-        en: "the output does not switch the coolant, which the program or the tool table sets: the post has no {macro}",
-        de: "die Ausgabe schaltet die Kühlung nicht, die das Programm oder die Werkzeugtabelle bestimmt: der Postprozessor hat kein {macro}",
-        help_en: "add {macro} to the post, or switch the coolant by hand",
-        help_de: "{macro} in den Postprozessor aufnehmen oder die Kühlung von Hand schalten",
+        en: "the post has no {macro}: the output does not follow the coolant that the program or the tool table sets",
+        de: "der Postprozessor hat kein {macro}: die Ausgabe richtet sich nicht nach der Kühlung, die das Programm oder die Werkzeugtabelle bestimmt",
+        help_en: "add {macro} to the post, or check how its texts switch the coolant",
+        help_de: "{macro} in den Postprozessor aufnehmen oder prüfen, wie seine Texte die Kühlung schalten",
     }
     /// Note: the output does not switch the spindle.
     SPINDLE_NOT_WRITTEN: DoubtfulPost {
-        en: "the output does not start the spindle, whose direction the program or the tool table sets: the post has no {macro}",
-        de: "die Ausgabe schaltet die Spindel nicht ein, deren Drehrichtung das Programm oder die Werkzeugtabelle bestimmt: der Postprozessor hat kein {macro}",
-        help_en: "add {macro} to the post, or start the spindle by hand",
-        help_de: "{macro} in den Postprozessor aufnehmen oder die Spindel von Hand einschalten",
+        en: "the post has no {macro}: the output does not follow the direction of the spindle that the program or the tool table sets",
+        de: "der Postprozessor hat kein {macro}: die Ausgabe richtet sich nicht nach der Drehrichtung, die das Programm oder die Werkzeugtabelle bestimmt",
+        help_en: "add {macro} to the post, or check how its texts start the spindle",
+        help_de: "{macro} in den Postprozessor aufnehmen oder prüfen, wie seine Texte die Spindel einschalten",
     }
     /// Note: the output does not wait until the spindle is up to speed.
     SPIN_UP_NOT_WRITTEN: DoubtfulPost {
-        en: "the output does not wait for the spindle: [machine] spin-up is set, but the post has no {macro}",
-        de: "die Ausgabe wartet nicht auf die Spindel: [machine] spin-up ist gesetzt, aber der Postprozessor hat kein {macro}",
+        en: "the post has no {macro}: the output does not wait for the spindle as long as [machine] spin-up says",
+        de: "der Postprozessor hat kein {macro}: die Ausgabe wartet nicht so lange auf die Spindel, wie [machine] spin-up angibt",
         help_en: "add {macro} to the post after it starts the spindle",
         help_de: "{macro} im Postprozessor nach dem Einschalten der Spindel aufnehmen",
     }
