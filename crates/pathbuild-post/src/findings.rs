@@ -106,8 +106,8 @@ impl Fuel {
     }
 
     pub(crate) fn burn(&mut self, cost: usize, file: &Utf8Path) -> Result<(), Box<Diagnostic>> {
-        let left = self.0.checked_sub(cost);
-        self.0 = left.ok_or_else(|| Box::new(Diagnostic::new(&posts::MACRO_SIZE).in_file(file)))?;
+        let rest = self.0.checked_sub(cost);
+        self.0 = rest.ok_or_else(|| Box::new(Diagnostic::new(&posts::MACRO_SIZE).in_file(file)))?;
         Ok(())
     }
 }

@@ -384,7 +384,7 @@ mod tests {
     const OTHER: &str = "G0 X20 Y0\nG1 Z-1 F150\nG1 X30 Y0 F150\nG0 Z5\n";
 
     /// Returns the phrases for the changes from one program to another, each with number of moves and length.
-    fn said(old: &str, new: &str) -> Vec<String> {
+    fn described(old: &str, new: &str) -> Vec<String> {
         let (old, new) = (moves(&format!("{BEGIN}{old}")), moves(&format!("{BEGIN}{new}")));
         let groups = groups(&compare(&old, &new), &old, &new);
         groups
@@ -395,55 +395,62 @@ mod tests {
 
     #[test]
     fn the_same_moves_are_no_change() {
-        assert_eq!(said(LINE, LINE), Vec::<String>::new());
+        assert_eq!(described(LINE, LINE), Vec::<String>::new());
         // Half a micrometre is below the precision of printed programs; two micrometres are a change.
-        assert_eq!(said(LINE, &LINE.replace("X10 Y0", "X10.0004 Y0")), Vec::<String>::new());
-        assert_eq!(said(LINE, &LINE.replace("X10 Y0", "X10.002 Y0")).len(), 2);
+        assert_eq!(described(LINE, &LINE.replace("X10 Y0", "X10.0004 Y0")), Vec::<String>::new());
+        assert_eq!(described(LINE, &LINE.replace("X10 Y0", "X10.002 Y0")).len(), 2);
     }
 
     #[test]
     fn depth_and_feed() {
-        assert_eq!(said(LINE, &LINE.replace("Z-1", "Z-1.5")), ["0.5 mm deeper 3 26.5"]);
-        assert_eq!(said(LINE, &LINE.replace("Z-1", "Z-0.5"))[0], "0.5 mm higher 3 25.5");
-        assert_eq!(said(LINE, &LINE.replace("Y10 F150", "Y10 F300")), ["faster: F300 instead of F150 1 10"]);
-        assert_eq!(said(LINE, &LINE.replace("Y10 F150", "Y10 F100")), ["slower: F100 instead of F150 1 10"]);
+        assert_eq!(described(LINE, &LINE.replace("Z-1", "Z-1.5")), ["0.5 mm deeper 3 26.5"]);
+        assert_eq!(described(LINE, &LINE.replace("Z-1", "Z-0.5"))[0], "0.5 mm higher 3 25.5");
+        assert_eq!(
+            described(LINE, &LINE.replace("Y10 F150", "Y10 F300")),
+            ["faster: F300 instead of F150 1 10"]
+        );
+        assert_eq!(
+            described(LINE, &LINE.replace("Y10 F150", "Y10 F100")),
+            ["slower: F100 instead of F150 1 10"]
+        );
     }
 
     #[test]
     fn arcs_between_the_same_ends_differ_by_their_way() {
         let arc = |words: &str| format!("G1 Z-1 F150\n{words} F150\nG0 Z5\n");
-        let said = |other: &str| said(&arc("G2 X10 Y0 I5 J0"), &arc(other)).len();
-        assert_eq!(said("G2 X10.0002 Y0 I5 J0"), 0);
-        assert_ne!(said("G3 X10 Y0 I5 J0"), 0, "the other half of the circle");
-        assert_ne!(said("G2 X10 Y0 I5 J-2"), 0, "another centre");
+        let described = |other: &str| described(&arc("G2 X10 Y0 I5 J0"), &arc(other)).len();
+        assert_eq!(described("G2 X10.0002 Y0 I5 J0"), 0);
+        assert_ne!(described("G3 X10 Y0 I5 J0"), 0, "the other half of the circle");
+        assert_ne!(described("G2 X10 Y0 I5 J-2"), 0, "another centre");
     }
 
     #[test]
     fn added_and_removed() {
         let both = format!("{LINE}{OTHER}");
-        assert_eq!(said(LINE, &both)[0], "added 2 16");
-        assert_eq!(said(&both, LINE)[0], "removed 2 16");
+        assert_eq!(described(LINE, &both)[0], "added 2 16");
+        assert_eq!(described(&both, LINE)[0], "removed 2 16");
     }
 
     #[test]
     fn shifted_by_as_much_everywhere_and_not_otherwise() {
         let both = |other: &str| format!("{LINE}{other}G0 X0 Y0\n");
         let shifted = OTHER.replace("Y0", "Y2");
-        assert_eq!(said(&both(OTHER), &both(&shifted))[0], "shifted by (0, 2) mm 2 16");
+        assert_eq!(described(&both(OTHER), &both(&shifted))[0], "shifted by (0, 2) mm 2 16");
         // If the line also gets longer, it is not shifted.
         let longer = shifted.replace("X30", "X31");
-        assert!(!said(&both(OTHER), &both(&longer))[0].contains("shifted"));
+        assert!(!described(&both(OTHER), &both(&longer))[0].contains("shifted"));
     }
 
     #[test]
     fn another_order() {
         let third = OTHER.replace("X20", "X50").replace("X30", "X60");
         let (before, after) = (format!("{OTHER}{third}"), format!("{third}{OTHER}"));
-        let said = said(&before, &after);
+        let described = described(&before, &after);
         assert!(
-            said.iter()
+            described
+                .iter()
                 .any(|line| line.starts_with("the same in the end, in another order or by other passes 2")),
-            "{said:?}"
+            "{described:?}"
         );
     }
 
@@ -453,13 +460,13 @@ mod tests {
             let pass = |z: &&str| format!("G0 X20 Y0\nG1 Z{z} F150\nG1 X30 Y0 F150\nG0 Z5\n");
             levels.iter().map(pass).collect::<String>()
         };
-        let passes = said(&groove(&["-1", "-2"]), &groove(&["-0.5", "-1", "-1.5", "-2"]));
+        let passes = described(&groove(&["-1", "-2"]), &groove(&["-0.5", "-1", "-1.5", "-2"]));
         assert_eq!(passes.len(), 2, "{passes:?}");
         assert!(passes[0].starts_with("passes: 4 instead of 2"), "{passes:?}");
-        let deeper = said(&groove(&["-1", "-2"]), &groove(&["-1", "-2.2"]));
+        let deeper = described(&groove(&["-1", "-2"]), &groove(&["-1", "-2.2"]));
         assert!(deeper[0].starts_with("0.2 mm deeper"), "{deeper:?}");
         // Other intermediate heights, but the same final depth.
-        let other = said(&groove(&["-1", "-2"]), &groove(&["-0.5", "-2"]));
+        let other = described(&groove(&["-1", "-2"]), &groove(&["-0.5", "-2"]));
         assert!(other[0].starts_with("the same in the end"), "{other:?}");
     }
 

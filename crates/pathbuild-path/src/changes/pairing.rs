@@ -210,7 +210,7 @@ impl<'i> Pairing<'i> {
         self.take(|new, old| {
             let ends = ends(old, Place::of(old, shift))?;
             let candidates = ends.iter().filter_map(|end| at_end.get(&(old.kind, *end)));
-            let open = candidates.flat_map(|there| there.iter().take(MOST_CANDIDATES));
+            let open = candidates.flat_map(|indices| indices.iter().take(MOST_CANDIDATES));
             let open = open.filter(|index| !is_taken[**index] && new[**index].role == old.role);
             let distance = |index: &&usize| length(middle(&new[**index].shape) - middle(&old.shape) - shift);
             let nearest = *open.min_by_key(distance)?;

@@ -244,13 +244,14 @@ fn gouge_problem(gouge: &Gouge, radius: f64) -> Diagnostic {
 
 /// Returns PB215 for the material left beside an element, at the longest of these stretches. `None` if there are none.
 fn leftover_problem(stretches: &[&Leftover]) -> Option<Diagnostic> {
-    let left = stretches.iter().reduce(|best, next| if best.is_exceeded_by(next) { next } else { best })?;
-    let problem = match left.height {
+    let longest =
+        stretches.iter().reduce(|best, next| if best.is_exceeded_by(next) { next } else { best })?;
+    let problem = match longest.height {
         Some(height) => Diagnostic::new(&messages::NOT_CUT_THROUGH).with("height", height),
-        None => Diagnostic::new(&messages::LEFTOVER).with("thickness", left.thickness),
+        None => Diagnostic::new(&messages::LEFTOVER).with("thickness", longest.thickness),
     };
-    let problem = problem.with("from", shown(left.from)).with("to", shown(left.to));
-    Some(problem.with("length", left.length).with("count", stretches.len()))
+    let problem = problem.with("from", shown(longest.from)).with("to", shown(longest.to));
+    Some(problem.with("length", longest.length).with("count", stretches.len()))
 }
 
 #[cfg(test)]

@@ -104,18 +104,18 @@ pub(crate) fn joined(mut stretches: Vec<Stretch>, gap: f64) -> Vec<Stretch> {
 /// The stretches of a range between joined stretches.
 pub(crate) fn rest(stretches: &[Stretch], (start, end): Stretch) -> Vec<Stretch> {
     let mut at = start;
-    let mut left = Vec::new();
+    let mut gaps = Vec::new();
     for (from, to) in stretches {
         if *from > at {
-            left.push((at, from.min(end)));
+            gaps.push((at, from.min(end)));
         }
         at = at.max(*to);
     }
     if at < end {
-        left.push((at, end));
+        gaps.push((at, end));
     }
-    left.retain(|(from, to)| to > from);
-    left
+    gaps.retain(|(from, to)| to > from);
+    gaps
 }
 
 /// The intersection of two sequences of joined stretches.

@@ -130,11 +130,12 @@ impl<'s> LeftoverSearch<'s> {
         let mut longest = 0.0;
         for members in nests.values() {
             let judged = members.iter().filter_map(|ring| Some((*ring, self.ring(*ring)?)));
-            let left =
+            let total =
                 |stretches: &RingStretches| stretches.left.iter().map(|(from, to)| to - from).sum::<f64>();
-            let best = judged.min_by(|one, other| left(&one.1).total_cmp(&left(&other.1)));
+            let best = judged.min_by(|one, other| total(&one.1).total_cmp(&total(&other.1)));
             let Some((ring, stretches)) = best else { continue };
-            let described = stretches.left.iter().filter_map(|left| self.leftover(ring, *left, &stretches));
+            let described =
+                stretches.left.iter().filter_map(|stretch| self.leftover(ring, *stretch, &stretches));
             found.stretches.extend(described);
             self.add_unreachable(ring, &stretches, &mut longest, &mut found.unreachable);
         }

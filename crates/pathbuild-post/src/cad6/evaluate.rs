@@ -327,21 +327,21 @@ macro_rules! statements {
 }
 
 statements! {
-    '=' "{=Name {…}}" |it, _| it.assignment(),
+    '=' "{=Name {…}}" |evaluator, _| evaluator.assignment(),
         "gives a variable the result of a statement; later calls see it",
         "gibt einer Variablen das Ergebnis einer Anweisung; spätere Aufrufe sehen es";
-    '?' "{?Term {…}{…}}" |it, _| it.conditional(),
+    '?' "{?Term {…}{…}}" |evaluator, _| evaluator.conditional(),
         "the first statement if the term is not 0, else the second, which may be missing",
         "die erste Anweisung, wenn der Term nicht 0 ist, sonst die zweite, die fehlen darf";
-    '"' "{\"{…}{…} {…}{…}}" |it, _| it.comparison(),
+    '"' "{\"{…}{…} {…}{…}}" |evaluator, _| evaluator.comparison(),
         "the third statement if the first two give the same text, else the fourth, which may be missing",
         "die dritte Anweisung, wenn die ersten zwei denselben Text ergeben, sonst die vierte, die fehlen darf";
-    '!' "{!Name {…}{…}}" |it, _| it.non_existence(),
+    '!' "{!Name {…}{…}}" |evaluator, _| evaluator.non_existence(),
         "the first statement if the variable has no value, else the second, which may be missing",
         "die erste Anweisung, wenn die Variable keinen Wert hat, sonst die zweite, die fehlen darf";
-    '$' "{$…}" |it, _| it.text(true), "the text, with statements in it", "der Text, mit Anweisungen darin";
-    '*' "{*…}" |it, start| it.remark(start), "nothing: a comment", "nichts: ein Kommentar";
-    '§' "{§…}" |it, start| Err(Fault::new(&posts::STATEMENT_UNKNOWN, start..it.at)),
+    '$' "{$…}" |evaluator, _| evaluator.text(true), "the text, with statements in it", "der Text, mit Anweisungen darin";
+    '*' "{*…}" |evaluator, start| evaluator.remark(start), "nothing: a comment", "nichts: ein Kommentar";
+    '§' "{§…}" |evaluator, start| Err(Fault::new(&posts::STATEMENT_UNKNOWN, start..evaluator.at)),
         "refused: its meaning is not known", "abgelehnt: Die Bedeutung ist nicht bekannt";
 }
 

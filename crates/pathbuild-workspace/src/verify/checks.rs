@@ -107,17 +107,18 @@ pub(super) fn records(
     references: References,
     states_speed: bool,
 ) -> Vec<CheckRecord> {
-    let made = |is_made: bool, reason| if is_made { Outcome::Made(None) } else { Outcome::NotMade(reason) };
+    let outcome =
+        |is_made: bool, reason| if is_made { Outcome::Made(None) } else { Outcome::NotMade(reason) };
     let with_drawing = |is_made, reason| {
-        made(
+        outcome(
             is_made && references.has_drawing,
             if references.has_drawing { reason } else { Reason::NoDrawing },
         )
     };
-    let limits = |is_limited: fn(&Machine) -> bool| made(machine.is_some_and(is_limited), Reason::NoLimit);
+    let limits = |is_limited: fn(&Machine) -> bool| outcome(machine.is_some_and(is_limited), Reason::NoLimit);
     let spindle = match limits(|machine| machine.spindle.is_some()) {
         Outcome::Made(_) if !states_speed => Outcome::NotMade(Reason::NoSpeed),
-        outcome => outcome,
+        other => other,
     };
     let all = [
         (Requirement::Rapids, rapids),
@@ -132,28 +133,28 @@ pub(super) fn records(
 
 /// Describes the checks of a program in one line.
 pub fn summary(records: &[CheckRecord], lang: Lang) -> String {
-    let mut made = vec![lang.choose("words", "Wörter").to_owned()];
-    let mut unmade = Vec::new();
+    let mut checked = vec![lang.choose("words", "Wörter").to_owned()];
+    let mut unchecked = Vec::new();
     for record in records {
         let name = shown(record.requirement).in_lang(lang);
         match &record.outcome {
-            Outcome::Made(_) | Outcome::Assumed(..) => made.push(record.text(lang)),
+            Outcome::Made(_) | Outcome::Assumed(..) => checked.push(record.text(lang)),
             Outcome::Incomplete(values, blind) => {
-                made.push(format!("{name} {}", with_cutter(values, lang)));
-                unmade.push(format!("{} ({})", blind_text(*blind, lang), ABOVE_FIRST.in_lang(lang)));
+                checked.push(format!("{name} {}", with_cutter(values, lang)));
+                unchecked.push(format!("{} ({})", blind_text(*blind, lang), ABOVE_FIRST.in_lang(lang)));
             }
             Outcome::NotMade(reason) => {
                 let option = record.option(*reason).in_lang(lang);
-                unmade.push(match record.requirement {
+                unchecked.push(match record.requirement {
                     Requirement::Rapids => format!("{name} ({}: {option})", reason.text().in_lang(lang)),
                     _ => format!("{name} ({option})"),
                 });
             }
         }
     }
-    let mut line = format!("{}: {}", lang.choose("checked", "geprüft"), made.join(", "));
-    if !unmade.is_empty() {
-        _ = write!(line, "; {}: {}", lang.choose("not checked", "nicht geprüft"), unmade.join(", "));
+    let mut line = format!("{}: {}", lang.choose("checked", "geprüft"), checked.join(", "));
+    if !unchecked.is_empty() {
+        _ = write!(line, "; {}: {}", lang.choose("not checked", "nicht geprüft"), unchecked.join(", "));
     }
     line
 }
