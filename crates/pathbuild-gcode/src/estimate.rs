@@ -5,7 +5,7 @@
 
 use pathbuild_motion::{Action, Move, MoveShape, Pace, Step};
 
-/// The limits of a machine.
+/// The speed and acceleration limits of a machine's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kinematics {
     /// Maximum speeds of X, Y and Z in mm/min, for rapid moves and for feeds.
@@ -46,7 +46,7 @@ pub fn seconds(steps: &[Step], kinematics: &Kinematics) -> f64 {
     seconds + seconds_of(&moves, kinematics)
 }
 
-/// A move without interruption, in mm and seconds.
+/// A move with the data that the planner needs; lengths are in mm and times in seconds.
 #[derive(Clone, Copy, Debug)]
 struct TimedMove {
     length: f64,
@@ -62,7 +62,7 @@ struct TimedMove {
 }
 
 impl TimedMove {
-    /// Converts a move; `None` if it does not move.
+    /// Converts a move; `None` if its length is zero or not finite.
     fn of(movement: &Move, kinematics: &Kinematics) -> Option<Self> {
         let length = movement.length();
         if !(length > 0.0 && length.is_finite()) {

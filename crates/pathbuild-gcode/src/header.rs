@@ -92,7 +92,7 @@ pub struct Statement {
     pub change: Option<u32>,
 }
 
-/// A form of comment.
+/// A form of comment that describes tools or the stock.
 #[derive(Debug)]
 pub struct HeaderForm {
     /// The software that writes comments of this form.
@@ -254,7 +254,7 @@ fn starts_in_inches(events: &[(u32, Event)], inch: u16) -> bool {
 /// The tools and the stock of a program, as its comments describe them.
 #[derive(Debug, Default)]
 pub struct Header {
-    /// The tools that the program inserts, or selects if it inserts none, each with its line.
+    /// Line and number of each tool that the program inserts (M6), or of each tool that it selects (T) if it inserts none.
     pub changes: Vec<(u32, u32)>,
     /// Whether lines are executed out of order.
     pub has_calls: bool,
@@ -279,7 +279,7 @@ pub struct CuttingTool {
     pub cutter: Option<StatedCutter>,
 }
 
-/// The widths of a tool, in mm.
+/// The widths of a tool in mm, as comments state them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedCutter {
     /// The line of the comment.
@@ -340,7 +340,7 @@ fn scale(unit: StatedUnit, in_inches: bool) -> f64 {
     }
 }
 
-/// Assigns statements to the tools that cut.
+/// Collector that assigns the statements in comments to the tools that cut.
 #[derive(Default)]
 struct Collector {
     in_inches: bool,
@@ -378,8 +378,8 @@ impl Collector {
         }
     }
 
-    /// Reports listed tools that the program never changes to; only the first one if it changes to none of them. A program without tool changes
-    /// leaves the choice of the tool to the operator.
+    /// Reports listed tools to which the program never changes; if it changes to none of them, only the first one. Nothing is reported for a program
+    /// without tool changes, which leaves the choice of the tool to the operator.
     fn never_selected(&mut self, changes: &[(u32, u32)]) {
         let is_used = |number: &u32| changes.iter().any(|(_, change)| change == number);
         let most = match changes {

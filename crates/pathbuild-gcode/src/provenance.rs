@@ -199,7 +199,7 @@ pub(super) fn hash<'a>(programs: impl Iterator<Item = &'a Program>) -> Hash {
 struct Bytes(Vec<u8>);
 
 impl Bytes {
-    /// Adds a number in thousandths.
+    /// Appends a number, rounded to thousandths.
     #[expect(clippy::cast_possible_truncation, reason = "saturates far beyond any machine")]
     fn number(&mut self, number: f64) {
         let thousandths = (number * 1000.0).round_ties_even() as i64;
@@ -211,7 +211,7 @@ impl Bytes {
         self.number(point.y);
     }
 
-    /// Adds a height, and the point for which its formula is calculated.
+    /// Appends a height, and the point for which its formula is calculated.
     fn height(&mut self, height: Height) {
         self.number(height.z);
         self.point(height.at);
@@ -264,7 +264,7 @@ impl Bytes {
         }
     }
 
-    /// Adds a probe without its feed, which only affects the probing program.
+    /// Appends a probe without its feed, which only affects the probing program.
     fn probe(&mut self, probe: &ProbePoint) {
         self.0.push(b'P');
         self.point(probe.at);

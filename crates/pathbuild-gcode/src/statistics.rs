@@ -7,8 +7,8 @@ use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Spindle, Step};
 use pathbuild_toolpath::{Program, Statistics, Total};
 
-/// Calculates the statistics of a program from its moves, with a rapid feed in mm/min. A compatible program gets the statistics that the original
-/// tool writes.
+/// Calculates the statistics of a program from its moves, with a rapid feed in mm/min. A compatible program gets the statistics that PathDxf2GCode
+/// writes.
 pub fn statistics(program: &Program, rapid: f64) -> Statistics {
     if program.compatible {
         return Statistics::of_reference(program, rapid);

@@ -14,7 +14,7 @@ use super::values::{EnteredValue, ProbeLine};
 use super::values::{ProbePoint, ProbeTable, ProgramProbe};
 use crate::native::{f3, push_exact};
 
-/// Measured heights by probe number.
+/// Measured heights in mm, by probe number.
 pub(super) type Values = BTreeMap<u32, f64>;
 
 /// Checks measured values against the program's formulas, its table of probes and the permitted correction.
@@ -59,7 +59,7 @@ impl Check<'_, '_> {
         Ok(Some(as_stated(value)))
     }
 
-    /// Checks that the program was made with this probe, if the program lists its probes.
+    /// Checks that the program lists this probe, at the same position and height. A program that lists no probes passes.
     fn check_made(&self, line: &ProbeLine<'_>) -> Result<(), Box<Diagnostic>> {
         if self.table.probes.is_empty() {
             return Ok(());
@@ -95,7 +95,8 @@ impl Check<'_, '_> {
         Ok(())
     }
 
-    /// Returns the heights at which the probe was drawn. If the line states none, as in the older form of the file, they are taken from the formulas.
+    /// Returns the heights at which the probe was drawn. If neither the line nor the program's list of probes states one, returns the least and the
+    /// greatest height in the formulas.
     fn expected(&self, line: &ProbeLine<'_>) -> Result<Vec<f64>, Box<Diagnostic>> {
         let program_probe = self.table.probes.get(&line.probe).map(|program_probe| program_probe.height);
         if let Some(height) = line.height.or(program_probe) {

@@ -64,7 +64,7 @@ pub fn first_open_formula(program: &[u8]) -> Option<u32> {
     (1..).zip(program.split(|byte| *byte == b'\n')).find(|(_, line)| is_open(line)).map(|(number, _)| number)
 }
 
-/// A formula, or a probe of the header, with its line counted from 1.
+/// Text of a formula, or of a probe listed in the header, with its line counted from 1.
 #[derive(Debug)]
 pub(crate) struct FormulaText {
     pub(crate) line: u32,
@@ -174,11 +174,11 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     Ok(adjusted)
 }
 
-/// Factor and amount in mm by which a corrected height may exceed the largest correction even if no probe does: weights with three decimals need not
-/// sum to 1.
+/// Tolerance of the limit for corrections: a factor, and an amount in mm. A formula's correction may exceed the limit by this much although no
+/// probe's does, because weights with three decimals need not sum to 1.
 const CORRECTION_SLACK: (f64, f64) = (1.002, 0.002);
 
-/// Evaluates all formulas. Everything else is preserved byte for byte.
+/// Evaluates all formulas and adds the measured heights to the header. Everything else is preserved byte for byte.
 ///
 /// # Errors
 /// Formulas that cannot be evaluated, or whose result is too large.

@@ -1,4 +1,5 @@
-//! Splits a program into lines and finds the formulas in them (numbers, `#51` and so on, + - * /, ( ) and [ ]) and the probes that the formulas use.
+//! Splits a program into lines, and finds their formulas and the probes that these use. A formula consists of numbers, probes such as `#51`, the
+//! operators + - * / and the brackets ( ) and [ ].
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -55,7 +56,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Number of bytes shown before the start of an error, and from there on.
+/// Maximum number of bytes shown before the start of an error, and also of those shown from there on.
 const EXCERPT_BYTES: usize = 500;
 
 /// A number with its formula, as byte ranges of the line.
@@ -189,7 +190,7 @@ impl Probes for ProbeReader<'_, '_> {
     fn value(&mut self, probe: u32, at: Range<usize>) -> f64 {
         let at = at.start + self.start..at.end + self.start;
         self.survey.probes.entry(probe).or_insert(ProbeUse { line: self.line, at, drawn: None });
-        // With NaN as height, results computed from it are not reported as errors yet.
+        // No height is known yet. Results computed from NaN are NaN, which this check does not report.
         f64::NAN
     }
 
@@ -204,7 +205,7 @@ impl Probes for ProbeReader<'_, '_> {
 /// Maximum nesting depth of brackets. Formulas written by pathbuild have depth one.
 pub(super) const DEPTH_LIMIT: usize = 100;
 
-/// Provides the probes for a formula.
+/// Source of the measured heights that a formula uses.
 pub(super) trait Probes {
     /// Returns the measured height of a probe. `at` is its position in the formula.
     fn value(&mut self, probe: u32, at: Range<usize>) -> f64;

@@ -26,7 +26,7 @@ pub(super) struct ProbeLine<'a> {
     /// The number after `#`.
     pub(super) probe: u32,
     pub(super) place: ProbePoint,
-    /// Position in the emitted drawing; missing in programs of the original tool and of old versions of pathbuild.
+    /// Position in the emitted drawing; missing in files of PathDxf2GCode and of old versions of pathbuild.
     pub(super) at: Option<Xy>,
     /// The expected height (th); missing in the older form.
     pub(super) height: Option<f64>,
@@ -113,7 +113,7 @@ pub(super) fn parse(text: &[u8]) -> Option<f64> {
     parse_number(str::from_utf8(text).ok()?)
 }
 
-/// The probes listed in a program's header. Programs of the original tool list none.
+/// The probes listed in a program's header. Programs of PathDxf2GCode list none.
 #[derive(Debug, Default)]
 pub(super) struct ProbeTable {
     pub(super) probes: BTreeMap<u32, ProgramProbe>,
@@ -278,8 +278,8 @@ fn read_log<'a>(log: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<LoggedHe
     measured
 }
 
-/// Reports the first result that was measured elsewhere than its probe. A displacement that all results share is ignored, because the log may lack
-/// the offset of the workpiece. Probes whose position in the program is not stated are not compared.
+/// Reports the first result that was measured at another position than that of its probe. A displacement that all results share is ignored, because
+/// the log may lack the offset of the workpiece. Probes whose position in the program is not stated are not compared.
 fn misplaced(probes: &[&mut ProbeLine<'_>], measured: &[LoggedHeight<'_>]) -> Option<Diagnostic> {
     let mut common: Option<[f64; 2]> = None;
     probes.iter().zip(measured).find_map(|(probe, measured)| {

@@ -7,7 +7,7 @@ pub struct Words {
     pub letters: Letters,
     /// Accepted G codes, in ascending order.
     pub g: &'static [u16],
-    /// Accepted G codes whose meaning differs from that in RS274; the interpreter does not follow them.
+    /// Accepted G codes whose meaning differs from that in RS274; the interpreter reports them and does not execute them.
     pub g_own: &'static [u16],
     /// Accepted M codes, in ascending order.
     pub m: &'static [u16],
@@ -30,7 +30,7 @@ pub struct InertWord {
     pub code: u16,
     /// The letters of the values that the word takes, in upper case.
     pub values: &'static [u8],
-    /// The values of the first of these letters that are known to be harmless; empty if all are.
+    /// Harmless values of the first letter in `values`; empty if every value is harmless.
     pub harmless: &'static [f64],
 }
 
@@ -153,7 +153,7 @@ pub(super) static XPERTMILL: Words = Words {
     ..COMMON_WORDS
 };
 
-/// The words that GRBL and RS274/NGC share, because the native program is written for senders of both.
+/// The words that GRBL and RS274/NGC share: the native program is written for senders that expect either of them.
 pub(super) static NATIVE: Words = Words {
     letters: Letters::new(b"ABCDFGHIJKLMNPQRSTXYZ"),
     g: &[
@@ -186,8 +186,8 @@ pub(super) static FANUC: Words = Words {
         900, 910, 920, 940, 950, 960, 970, 980, 990,
     ],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 290, 300, 980, 990],
-    // Look-ahead: G05 P10000 and P0 (P10001 and up run stored data), G05.1 Q1 and Q0 (Q2 and Q3 smooth the path), G08 P1 and P0. The table of
-    // codes of the 30i at cncschool.pl, and blog.csdn.net/sinat_26528193, article 126620736.
+    // Look-ahead: G05 P10000 and P0 (P10001 and up run stored data), G05.1 Q1 and Q0 (Q2 and Q3 smooth the path), G08 P1 and P0. Sources: the table
+    // of codes of the 30i at cncschool.pl, and blog.csdn.net/sinat_26528193, article 126620736.
     inert: &[
         InertWord { letter: 'G', code: 50, values: b"P", harmless: &[0.0, 10_000.0] },
         InertWord { letter: 'G', code: 51, values: b"Q", harmless: &[0.0, 1.0] },

@@ -11,7 +11,7 @@ use super::{Dialect, Percent, Style};
 /// The characters that may be written. (book: reference/configuration, `charset`)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Charset {
-    /// Umlauts and the like are transliterated, anything else becomes `?`, because some controllers take bytes above 127 for commands.
+    /// ASCII only, because some controllers take bytes above 127 for commands. Umlauts and the like are transliterated; anything else becomes `?`.
     #[default]
     Ascii,
     /// All characters are written as they are.
@@ -32,12 +32,13 @@ impl Dialect {
     }
 }
 
-/// Changes a text so that it neither ends a comment of the dialect nor makes the control act. Without a dialect it is safe in all of them.
+/// Changes a text so that it neither ends a comment of the dialect nor makes the control act. If `dialect` is `None`, the result is safe in all
+/// dialects.
 pub fn within_comment(text: &str, dialect: Option<Dialect>, charset: Charset) -> String {
     let spelling = dialect.map(|dialect| &dialect.rules().spelling);
     let acts_at_once = spelling.is_none_or(|spelling| spelling.real_time_bytes);
     let knows_percent = spelling.is_some_and(|spelling| spelling.percent != Percent::Refused);
-    // Senders cut lines at semicolons, even within round brackets. The native program remains as documented.
+    // Senders cut lines at semicolons, even within round brackets. Native programs keep semicolons, as documented.
     let keeps_semicolons = dialect == Some(Dialect::Native);
     let harmless = |c: char| match c {
         '(' => '[',

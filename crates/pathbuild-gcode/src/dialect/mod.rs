@@ -37,7 +37,7 @@ macro_rules! dialects {
                 }
             }
 
-            /// The rules of the dialect.
+            /// Returns the rules by which the dialect's programs are read and written.
             pub fn rules(self) -> &'static Rules {
                 match self {
                     $(Self::$dialect => &rules::$rules,)*
@@ -50,7 +50,7 @@ macro_rules! dialects {
 dialects! {
     /// The output of pathbuild and its predecessor (book: program/gcode), with correction formulas as data (book: language/probes).
     Native "native" NATIVE;
-    /// RS274/NGC version 3 of the NIST, the common ancestor.
+    /// RS274/NGC version 3 of the NIST, the common ancestor of most other dialects.
     Rs274 "rs274" RS274;
     /// LinuxCNC 2.9.
     LinuxCnc "linuxcnc" LINUXCNC;

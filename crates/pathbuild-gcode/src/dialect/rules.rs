@@ -39,7 +39,7 @@ pub struct Rules {
     pub runs_past_end: bool,
     /// Rules for words that reference the machine.
     pub reference: ReferenceRules,
-    /// G codes (times ten), and P of arcs, that only builds with a special setting obey; others ignore them.
+    /// Words that only controls built with a special setting obey; all others ignore them.
     pub unusual: OptionalWords,
     /// Whether M5 and M9 take effect after the move in the same line.
     pub stops_last: bool,
@@ -94,7 +94,7 @@ pub struct ReferenceRules {
 pub struct OptionalWords {
     /// G codes, times ten.
     pub g: &'static [u16],
-    /// Whether P, the number of turns of an arc, is such a word.
+    /// Whether P, the number of turns of an arc, needs such a setting too.
     pub turns: bool,
 }
 
@@ -462,7 +462,7 @@ pub(super) static MARLIN: Rules = Rules {
     words: &codes::MARLIN,
     // G28 sets the position to the position of the switches, and the shift by G92 to 0 (set_axis_is_at_home).
     reference: ReferenceRules { g: &[280], loses_zero: true },
-    // Configuration_adv.h: `//#define INCH_MODE_SUPPORT`, `//#define CNC_WORKSPACE_PLANES`, `//#define ARC_P_CIRCLES`.
+    // Options that Configuration_adv.h leaves off: `//#define INCH_MODE_SUPPORT`, `//#define CNC_WORKSPACE_PLANES`, `//#define ARC_P_CIRCLES`.
     unusual: OptionalWords { g: &[180, 190, 200], turns: true },
     arcs: ArcRules { axis_word: false, turns: true, ..BASE.arcs },
     start_motion: StartMotion::None,
@@ -520,7 +520,7 @@ pub struct Spelling {
     pub slash_comments: Style,
     /// Support for comments from `!` to the end of the line.
     pub bang_comments: Style,
-    /// Meaning of blanks.
+    /// Whether blanks separate words or are ignored.
     pub blanks: Blanks,
     /// Meaning of a line that begins with `%`.
     pub percent: Percent,
@@ -561,7 +561,7 @@ pub enum Style {
     Unknown,
 }
 
-/// Meaning of blanks.
+/// Meaning of blanks between words and within numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Blanks {
     /// Blanks are ignored, even inside a number: `X1 2` is X12.

@@ -1,6 +1,6 @@
 //! Executes subprograms, loops and branches. (book: program/reading, "Subprograms")
 //!
-//! Only subprograms in the same file can be followed: `o100 sub`, `O100`, and for M97 the lines from a block number on.
+//! Subprograms must be in the same file: `o100 sub`, `O100`, or, for M97, the lines from a block number on.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -46,11 +46,11 @@ pub(super) struct Runner<'r, 'i> {
     loops: Vec<OpenLoop>,
     /// The name of the loop that `break` or `continue` leaves.
     left: Box<str>,
-    /// Flags that LinuxCNC did not clear after the last `break` and `continue`.
+    /// Flags of earlier `break` and `continue` words that LinuxCNC has not cleared yet.
     stale: StaleFlags,
     /// The number of calls and loops that are being executed.
     depth: usize,
-    /// Lines executed by calls and loops.
+    /// Number of lines that calls and loops have executed.
     lines: u32,
     /// Whether any line contained a word.
     pub(super) has_words: bool,
@@ -64,7 +64,7 @@ struct Definition {
     second: Option<u32>,
 }
 
-/// A loop with a condition.
+/// A `while` or `do` loop that is being executed.
 #[derive(Debug)]
 struct OpenLoop {
     name: Box<str>,
@@ -72,8 +72,8 @@ struct OpenLoop {
     is_do: bool,
 }
 
-/// LinuxCNC notes in one flag that a loop is left by `break`, and in another that a pass is left by `continue`. Only the end of a `do` loop
-/// clears the first one, and only the end of a `while` or `repeat` loop the second one. Until then, it affects other loops as well: the
+/// Two flags of LinuxCNC: one notes that a loop was left by `break`, the other that a pass was left by `continue`. Only the end of a `do` loop
+/// clears the first one, and only the end of a `while` or `repeat` loop the second one. Until then, a flag affects other loops as well: the
 /// next `do` loop ends after its first pass, and the next `repeat` loop, or `while` loop left by `break`, runs again.
 #[derive(Clone, Copy, Debug, Default)]
 struct StaleFlags {
@@ -246,7 +246,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         outcome
     }
 
-    /// Runs a loop whose condition is in the line after `condition`, followed by the lines of the loop.
+    /// Runs the lines up to the end of a `while` loop as long as its condition holds. The condition is in the line after the place `condition`.
     fn repeat_while(
         &mut self,
         reader: &mut BlockReader<'_>,
@@ -269,7 +269,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         }
     }
 
-    /// Runs the lines from `start` on as long as the condition holds.
+    /// Runs the lines from `start` on as long as the condition holds. A `do` loop tests its condition only after the first pass.
     fn repeat_if(
         &mut self,
         reader: &BlockReader<'_>,
@@ -312,7 +312,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         outcome
     }
 
-    /// Whether another pass of the loop follows. Its condition is in the line after `condition`.
+    /// Tests the condition in the line after the place `condition`. Returns true if another pass of the loop follows.
     fn goes_on(&mut self, reader: &BlockReader<'_>, name: &str, is_do: bool, condition: Place) -> bool {
         let mut reader = reader.again_from(condition);
         let Some(block) = reader.next_block() else { return false };
@@ -322,7 +322,7 @@ impl<'r, 'i> Runner<'r, 'i> {
                 self.report_stale(&say::ENDED_BY_EARLIER_BREAK, block.line, name, earlier);
             }
         } else if !holds {
-            // The condition is tested once more, with the same result.
+            // Because of the flag, LinuxCNC tests the condition once more, with the same result.
             self.stale.continue_line = None;
         }
         holds
@@ -363,12 +363,12 @@ impl<'r, 'i> Runner<'r, 'i> {
         outcome
     }
 
-    /// Skips the lines up to the end of a subroutine, a loop or branches.
+    /// Skips the lines up to the end of a subroutine, a loop or an `if`.
     fn pass(&mut self, reader: &mut BlockReader<'_>, name: &str, end: OWordKind, line: u32) -> Outcome {
         self.end(reader, name, end, line).map_or(Outcome::NoLines, |_| Outcome::Repeated)
     }
 
-    /// Skips the lines up to the end of a subroutine, a loop or branches, and returns the place before that end.
+    /// Skips the lines up to the end of a subroutine, a loop or an `if`, and returns the place before that end.
     fn end(&mut self, reader: &mut BlockReader<'_>, name: &str, end: OWordKind, line: u32) -> Option<Place> {
         loop {
             let before = reader.place();
@@ -382,7 +382,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         None
     }
 
-    /// Begins a call or a loop, unless too many are being executed.
+    /// Counts a call or loop that begins. Reports an error and returns false if too many are being executed.
     fn enter(&mut self, line: u32) -> bool {
         if self.depth >= MAX_CALL_DEPTH {
             self.report(&say::CALLS_TOO_DEEP, line, "", MAX_CALL_DEPTH as u64);
@@ -392,7 +392,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         true
     }
 
-    /// Finds the definition of a subprogram. `P30100` may mean O100 three times.
+    /// Finds the definition of a subprogram. If there is no O30100, `P30100` calls O100 three times.
     fn definition(
         &mut self,
         reader: &BlockReader<'_>,
@@ -450,7 +450,7 @@ fn definitions(mut reader: BlockReader<'_>) -> HashMap<SubprogramName, Definitio
 }
 
 impl Interpreter<'_> {
-    /// Follows an O word, or reports that it is not followed.
+    /// Executes an O word, or reports it if its keyword is not supported.
     pub(super) fn o_word(&mut self, block: &Block<'_>, word: OWord) -> Result<(), ValueFault> {
         let call = StatedWord { letter: 'O', code: 0, group: None, effect: WordEffect::Call };
         self.step(block, Action::Word(call));
@@ -513,7 +513,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Follows M97, M98 and M99.
+    /// Executes M97, M98 and M99.
     pub(super) fn subprogram(&mut self, block: &Block<'_>) {
         let Some((code, span)) = self.words.m_code(CALLS).filter(|(code, _)| self.calls(*code)) else {
             return;

@@ -47,7 +47,7 @@ pub(super) enum Motion {
         must_answer: bool,
     },
     Cycle(Cycle),
-    /// A motion that is not followed and has been reported.
+    /// An unsupported motion, which has been reported.
     Unfollowed,
 }
 
@@ -74,7 +74,7 @@ pub(super) enum FeedUnit {
     /// G94: mm or inches per minute.
     #[default]
     PerMinute,
-    /// G93: moves per minute.
+    /// G93: the reciprocal of a move's duration, in 1/min.
     InverseTime,
     /// G95: mm or inches per spindle revolution.
     PerTurn,
@@ -116,7 +116,7 @@ impl Command {
         }
     }
 
-    /// Returns how far the interpreter follows the command. A command that was reported as not followed is not reported again.
+    /// Returns how far the interpreter executes the command. `NotFollowed` returns `Followed`, because it has been reported already.
     pub(super) fn effect(self) -> WordEffect {
         match self {
             Self::NoEffect(Group::ToolLength | Group::PathControl) => WordEffect::Followed,
@@ -174,8 +174,8 @@ impl Command {
                 additional.map_or(Self::NotFollowed(Group::System), Self::System)
             }
             90 | 610 | 611 | 640 => Self::NoEffect(PathControl),
-            // G15, G50 and G69 switch polar coordinates, scaling, mirroring and rotation off. They have no effect, since a program that switches
-            // these on is not followed.
+            // G15, G50 and G69 switch polar coordinates, scaling, mirroring and rotation off. They have no effect, because the words that switch
+            // these on are reported and not executed.
             150 | 500 | 690 => Self::NoEffect(Transform),
             160 | 510 | 680 => Self::NotFollowed(Transform),
             70 => Self::NotFollowed(LatheMode),

@@ -77,7 +77,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Whether the line only defines the cycle. Whether the tool moves to the coordinates of such a line is unknown.
+    /// Whether the line only defines the cycle. A line with coordinates does not count, because it is unknown whether the tool moves to them.
     fn is_only_stored(&self, coordinates: &[Option<Slot>; 3]) -> bool {
         let repeats = self.words.values.peek(self.rules.repeats);
         let stays = self.state.plane.axes().iter().all(|axis| coordinates[*axis].is_none());
@@ -150,7 +150,8 @@ impl Interpreter<'_> {
         Some(Hole { cycle, r, bottom, clear: r, step, dwell })
     }
 
-    /// Returns the retraction height: the height at the start of the series (G98), or R (G99).
+    /// Returns the height of the tool before the hole: with G98, its height at the start of the series, to which it retracts afterwards; with G99,
+    /// its current height.
     fn old_height(&self) -> f64 {
         let axis = self.state.plane.third();
         if self.state.retract_to_r { self.state.position.at[axis] } else { self.state.cycle.initial[axis] }

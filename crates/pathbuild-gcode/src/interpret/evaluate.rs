@@ -15,14 +15,14 @@ const EQUALITY_TOLERANCE: f64 = 1e-6;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fault(pub(super) &'static Text);
 
-/// The parameters of a program. Parameters that it has not set have no value, because a control keeps numbered parameters from one program to the
-/// next.
+/// The parameters of a program. A parameter that the program has not set has no value, because a control keeps numbered parameters from one program
+/// to the next.
 #[derive(Debug, Default)]
 pub(super) struct Parameters {
     numbered: BTreeMap<u32, f64>,
     named: BTreeMap<Box<str>, f64>,
     stack: Vec<f64>,
-    /// Parameters, as they are written, that were read although only the machine knows their values.
+    /// Names, such as `#5221` or `#<_x>`, of parameters that were read although only the machine knows their values.
     pub(super) machine_values: Vec<Box<str>>,
 }
 
@@ -343,7 +343,7 @@ pub(super) struct StatedProbes {
     stack: Vec<f64>,
 }
 
-/// The height of a probe with which a formula is evaluated.
+/// The height of each probe, as drawn or as measured, with which a formula is evaluated.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum ProbeHeight {
     Drawn,

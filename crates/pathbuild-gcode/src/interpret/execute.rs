@@ -12,7 +12,7 @@ use super::state::{Heights, Options, State};
 use crate::dialect::{Percent, Rules, beginning_of};
 use crate::read::{At, Block, OWordKind, Problems, Span};
 
-/// The state of a program, and the effects of its blocks.
+/// Interpreter of a program, with the modal state of the control and the effects of the last block.
 pub(super) struct Interpreter<'i> {
     pub(super) rules: &'static Rules,
     pub(super) options: &'i Options,

@@ -221,7 +221,7 @@ fn union_g_word(code: u16) -> UnionWord {
         // G70 and G71 select the units in DIN 66025.
         700 => 200,
         710 => 210,
-        // "Skip" probes as G38.2 does.
+        // G31 ("skip") probes; it counts as G38.2.
         310 => 382,
         other => other,
     };

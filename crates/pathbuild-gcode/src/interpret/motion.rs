@@ -124,7 +124,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the target of coordinates, starting from the current position.
+    /// Returns the position that these coordinates specify. Axes without a coordinate keep their current position.
     pub(super) fn target(&mut self, coordinates: [Option<Slot>; 3]) -> Position {
         let mut to = self.state.position;
         for (axis, slot) in coordinates.into_iter().enumerate() {
@@ -186,7 +186,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Determines the position after a motion that is not followed, as far as its words state it.
+    /// Updates the position after an unsupported motion, as far as the block's words state it.
     fn jump(&mut self) {
         let coordinates = self.words.values.take_coordinates();
         self.state.position = self.target(coordinates);
@@ -352,7 +352,7 @@ impl Interpreter<'_> {
             Origin::Clear => self.state.offsets.clear_origin(false),
             Origin::Suspend => self.state.offsets.clear_origin(true),
             Origin::Resume if self.state.offsets.resume_origin() => {}
-            // The offsets are stored in #5211 and the parameters after it, which outlive the program.
+            // The offsets are stored in #5211 and the parameters after it, which keep their values between programs.
             Origin::Resume => self.report(block, &say::MACHINE_VALUE, span, |d| {
                 d.quoting("parameter", "#5211").with("value", 0.0)
             }),
@@ -444,7 +444,8 @@ fn given_axes(coordinates: &[Option<Slot>; 3]) -> Axes {
 /// An arc of almost 180 degrees given by R is doubtful if the last digit of R moves its centre by more than this, in mm.
 const CENTRE_SHIFT: f64 = 0.05;
 
-/// If the ends are different but closer than this, in mm, an almost full circle is doubtful, because the last digit decides.
+/// Maximum distance in mm between different ends at which an almost full circle is doubtful: their last digit decides whether nearly all of it
+/// is milled or nearly nothing.
 const NEAR_ENDS: f64 = 0.002;
 
 /// Maximum number of turns of an arc, so that a few bytes cannot describe days of milling. The message for a greater P contains it.

@@ -38,9 +38,9 @@ pub(super) struct State {
     pub(super) coolant: Coolant,
     /// The number of the last T word.
     pub(super) tool: Option<u32>,
-    /// The layer (XpertMILL).
+    /// Number of the selected layer (XpertMILL).
     pub(super) layer: u32,
-    /// The speeds of the layers, by number.
+    /// Spindle speeds of the layers, each with the number of its layer.
     pub(super) layer_speeds: Vec<(u32, f64)>,
     /// Feed of the last rapid move in mm/min, if it depends on F.
     pub(super) rapid_feed: Option<f64>,
@@ -174,7 +174,7 @@ impl Offsets {
         }
     }
 
-    /// Makes the current origin the zero of all positions, unless one has been fixed.
+    /// Makes the current origin the zero of all positions, unless that zero has been fixed before.
     pub(super) fn fix_base(&mut self) {
         if self.base.is_none() {
             self.base = Some(self.sum());
@@ -209,7 +209,7 @@ impl Offsets {
         self.length.at_cut.is_some()
     }
 
-    /// Makes the current tool length the reference for all positions of this tool, unless one has been fixed.
+    /// Makes the current tool length the reference for all positions of this tool, unless a reference has been fixed before.
     pub(super) fn fix_length(&mut self) {
         self.length.at_cut.get_or_insert(self.length.current);
     }
@@ -262,7 +262,7 @@ impl Offsets {
         self.saved = Some(self.origin);
     }
 
-    /// Executes G92.1, or G92.2 if the offset can be resumed.
+    /// Executes G92.2, which keeps the offset for G92.3, if `resumable`; otherwise G92.1.
     pub(super) fn clear_origin(&mut self, resumable: bool) {
         if !resumable {
             self.saved = Some([0.0; 3]);

@@ -115,7 +115,7 @@ impl Interpreter<'_> {
         is_jump(m_code) && !self.calls(m_code) || is_own
     }
 
-    /// Returns the time in seconds of G4 in the block. Its letters are removed before F and S take effect.
+    /// Returns the time in seconds of the block's G4, if any. Removes the letters that state it, so that F and S do not set the feed and the speed.
     pub(super) fn dwell_time(&mut self, block: &Block<'_>) -> Option<f64> {
         let (.., span) = self.words.of_group(Group::Dwell)?;
         let rules = &self.rules.dwell;
@@ -215,7 +215,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Sets the tool length to the numbers in the line. Once the tool has cut, this moves its tip by the difference.
+    /// Sets the tool length to the numbers in the line. If the tool has cut before, a different length displaces its tip.
     fn length_by_number(&mut self, block: &Block<'_>, code: u16, span: Span) {
         self.check_length_axis(block, span);
         self.tool_length(block, code, span);
@@ -238,7 +238,7 @@ impl Interpreter<'_> {
         self.state.offsets.set_length_along(lengths);
     }
 
-    /// Reports G43.1 without Z, or with another axis, for GRBL: "G43.1 dynamic axis error". LinuxCNC takes all axes.
+    /// Reports G43.1 unless Z is its only axis. GRBL rejects it ("G43.1 dynamic axis error"); LinuxCNC accepts all axes.
     fn check_length_axis(&mut self, block: &Block<'_>, span: Span) {
         let axes = Values::AXES.map(|axis| self.words.values.has(axis));
         let takes_all = self.rules.words.has_g(432);
@@ -247,7 +247,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Sets the tool length by a word with H. The position of the tool's tip does not depend on it, unless G43.2 adds a second length.
+    /// Executes a word for the tool length, such as G43 or G49. The position of the tool's tip does not depend on the length in H, unless G43.2 adds
+    /// a second length.
     fn tool_length(&mut self, block: &Block<'_>, code: u16, span: Span) {
         if code == 432 {
             self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", "G43.2"));
@@ -286,7 +287,7 @@ impl Interpreter<'_> {
         self.step(block, Action::Change(Change::Corners(corners)));
     }
 
-    /// Marks all words as used, for a command that is not followed.
+    /// Marks the values of the letters D to W as used, so that those of an unsupported command are not reported separately.
     pub(super) fn use_all_words(&mut self) {
         for letter in b'D'..=b'W' {
             self.words.values.take(letter);
@@ -338,7 +339,7 @@ pub(super) fn is_jump(m_code: u16) -> bool {
     M_NOT_FOLLOWED.contains(&m_code)
 }
 
-/// Whether the effect of an M code is followed: stops, tools, spindle, coolant.
+/// Whether the interpreter executes an M code: stops, tools, spindle, coolant.
 pub(super) fn is_followed_m(m_code: u16) -> bool {
     !is_other(m_code) && m_code != 190
 }

@@ -214,7 +214,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Adds a step for each G and M word of the block that is not a motion.
+    /// Adds a step for each G or M word of the block, except for motions.
     pub(super) fn state_words(&mut self, block: &Block<'_>) {
         let moves_beside = self.words.values.has_coordinates();
         for index in 0..self.words.commands.len() {

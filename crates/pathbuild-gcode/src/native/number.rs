@@ -6,7 +6,7 @@ use std::fmt::Write;
 use pathbuild_motion::turn;
 use pathbuild_toolpath::{Correction, Height, LAST_DIGIT, ProbePoint, Program, ProgramStep, Surface, Xy};
 
-/// Formats a number as "F3" of the specification: three decimals, rounding the exact binary value with ties to even. Zero has no sign.
+/// Formats a number with three decimals. The exact binary value is rounded, with ties to even, and zero has no sign.
 pub fn f3(number: f64) -> String {
     let mut text = String::with_capacity(10);
     push_f3(&mut text, number);
@@ -108,8 +108,8 @@ impl PrintedArc {
         Self { from: rounded(from), centre: rounded(centre), clockwise }
     }
 
-    /// Returns the end to print for an arc of this length in mm: `to`, or the printable point next to it with which the arc sweeps the required
-    /// angle.
+    /// Returns the end to print for an arc of this length in mm: `to`, or, if rounding would make the controller mill almost a turn too much or too
+    /// little, the nearest printable point with which it does not.
     pub(super) fn end(&self, to: Xy, length: f64) -> Xy {
         let angle = length / self.centre.coords.norm();
         let fits = |end: &Xy| (self.angle(*end) - angle).abs() <= PI;
@@ -144,7 +144,7 @@ pub const FIRST_PARAMETER: usize = 51;
 pub(super) struct Formulas<'a> {
     probes: &'a [ProbePoint],
     surface: Surface,
-    /// Whether weights have three decimals, as in the original tool. Such rounding distorts planes.
+    /// Whether weights have three decimals, as in programs of PathDxf2GCode. Such rounding distorts planes.
     is_rounded: bool,
 }
 
@@ -162,7 +162,7 @@ impl<'a> Formulas<'a> {
         })
     }
 
-    /// Appends `(=z+w*[#51-th]...)`.
+    /// Appends the formula of a height, with its brackets: `(=z+w*[#51-th]...)`.
     pub(super) fn push(&self, text: &mut String, height: Height) {
         text.push_str("(=");
         self.push_number(text, height.z);

@@ -30,7 +30,7 @@ pub struct WriteOptions {
 /// The comments at the start of a file that do not depend on its moves.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Header {
-    /// The line that states which program wrote the file, and from which drawing. Empty if it is left out.
+    /// The line that states which program wrote the file, and from which drawing; empty to omit the line.
     pub provenance: String,
 }
 
@@ -98,7 +98,7 @@ pub fn is_title_of(found: &str, drawing: &str) -> bool {
 const PATH: &str = "Path ";
 const OF_DRAWING: &str = ", drawing ";
 
-/// Returns the lines that set the machine up. LinuxCNC rejects F before G94.
+/// Returns the lines that set the machine up. Only those of compatible programs have F before G94, which LinuxCNC rejects.
 pub(super) fn setup(program: &Program) -> &'static str {
     if program.compatible {
         "F150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1\n"
@@ -114,7 +114,7 @@ pub fn has_title(text: &[u8]) -> bool {
     comments.filter_map(|comment| str::from_utf8(comment).ok()).any(|title| path_of_title(title).is_some())
 }
 
-/// Number of lines at the start of a program that contain the title.
+/// Number of lines at the start of a program in which the title is searched for.
 const TITLE_LINES: usize = 4;
 
 /// Whether a native program is a compatible one, in which F comes before G94.
@@ -249,7 +249,7 @@ impl Writer<'_> {
         self.text.push('\n');
     }
 
-    /// Returns the end that is printed for an arc.
+    /// Returns the end to print for an arc: `to`, or a point near it if rounding would change the arc by almost a turn.
     fn arc_end(&self, to: Xy, centre: Xy, clockwise: bool, length: f64) -> Xy {
         if is_doubtful(centre, length) {
             PrintedArc::new(self.at, centre, clockwise).end(to, length)
@@ -375,7 +375,7 @@ fn name_and_place(probe: &ProbePoint, program: &Program) -> String {
     format!("{name} @ [{}|{}]", f3(probe.at.x), f3(probe.at.y))
 }
 
-/// Returns the code for probing. G38.2 is an alarm if the tool makes no contact. With G38.3, which the original tool writes, the machine continues.
+/// Returns the code for probing. If the tool makes no contact, G38.2 raises an alarm; with G38.3, which PathDxf2GCode writes, the machine continues.
 fn code(program: &Program) -> &'static str {
     if program.compatible { "G38.3" } else { "G38.2" }
 }

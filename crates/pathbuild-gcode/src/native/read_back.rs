@@ -40,7 +40,7 @@ pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
     }
 }
 
-/// Checks the rules of `verify` that do not depend on the material.
+/// Checks that the text follows those rules of `verify` that do not depend on the material.
 fn check_rules(text: &str) -> Result<(), Box<Diagnostic>> {
     let mut rules = Rules::new(None);
     interpret_each(text.as_bytes(), Dialect::Native, &nominal(), &mut |step| rules.step(&step));
@@ -203,7 +203,7 @@ fn not_drawn(found: Option<FormulaText>, expected: Option<String>) -> Diagnostic
     line.map_or_else(|| problem.clone(), |line| problem.clone().at_line(line, None))
 }
 
-/// Returns the first probe that differs between a text and the drawing.
+/// Reports the first probe that differs between a text and the drawing.
 fn probe_difference(text: &[u8], probes: &[ProbePoint]) -> Option<Diagnostic> {
     let mut stated = probe_entries(text).into_iter();
     let mut drawn = (FIRST_PARAMETER..).zip(probes).map(|(number, probe)| {
@@ -292,7 +292,7 @@ fn lines(text: &[u8], parts: Parts) -> impl Iterator<Item = (u32, String)> {
     all.into_iter().filter(|(_, line)| !line.is_empty())
 }
 
-/// Removes the version from a line that is a provenance.
+/// Removes the version from a line that states the provenance; other lines are returned unchanged.
 fn without_version(line: &str) -> String {
     let rest = line.strip_prefix("(pathbuild ").and_then(|rest| rest.split_once(' '));
     rest.map_or(line.to_owned(), |(_, rest)| format!("(pathbuild {rest}"))

@@ -193,7 +193,7 @@ impl<'a> Block<'a> {
     }
 }
 
-/// A range of operations in a block.
+/// A compiled expression: a range of the operations of its block.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Code {
     pub(super) first: u32,

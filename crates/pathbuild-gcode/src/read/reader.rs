@@ -209,7 +209,7 @@ impl<'t> BlockReader<'t> {
         Some(&rest[..length])
     }
 
-    /// Reads words, and formulas if there are any, as long as they are plain.
+    /// Reads words, and formulas if the dialect has them, as long as they have the simplest form. Returns the offset of the first other byte.
     fn plain_length(&mut self, line: &[u8]) -> usize {
         let mut at = plain_words(line, 0, &mut self.parts.words);
         while self.rules.spelling.formulas && line.get(at) == Some(&b'(') {
@@ -219,7 +219,7 @@ impl<'t> BlockReader<'t> {
         at
     }
 
-    /// Returns a line length in bytes that satisfies the dialect's limit in any case.
+    /// Returns a length in bytes up to which every line satisfies the dialect's limit.
     fn surely_short_enough(&self) -> usize {
         match self.rules.spelling.line_length {
             Some(LineLength::Whole(most) | LineLength::Bare(most)) => most,
@@ -227,7 +227,7 @@ impl<'t> BlockReader<'t> {
         }
     }
 
-    /// Reads a line into the parts. Returns whether it is a block.
+    /// Reads a line into the parts. Returns false if it cannot be read, or is an empty `%`.
     fn read(&mut self, line: &[u8]) -> bool {
         if line.len() > LONGEST_LINE {
             let shown = &line[..256];

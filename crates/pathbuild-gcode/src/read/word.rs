@@ -177,7 +177,7 @@ impl Line<'_> {
     }
 }
 
-/// The keywords of O words that are followed, in lower case.
+/// The supported keywords of O words, in lower case.
 const O_WORDS: [(&[u8], OWordKind); 15] = [
     (b"sub", OWordKind::Sub),
     (b"endsub", OWordKind::EndSub),
@@ -197,7 +197,7 @@ const O_WORDS: [(&[u8], OWordKind); 15] = [
 ];
 
 impl Line<'_> {
-    /// Reads `o100 call [1] [2]`. If the O word is not followed, the rest of its line is skipped.
+    /// Reads an O word, such as `o100 call [1] [2]`. If its keyword is not supported, the rest of the line is skipped.
     fn o_word(&mut self) -> Result<(), UnreadableLine> {
         let start = self.at;
         self.at += 1;
@@ -342,13 +342,13 @@ impl Line<'_> {
     }
 }
 
-/// Returns the comment notation of a dialect.
+/// Returns the mark that begins a comment in a dialect.
 pub(super) fn comment_sign(spelling: &Spelling) -> &'static str {
     if spelling.slash_comments == Style::Usual { "//" } else { "(" }
 }
 
-/// Reads `(=1.000+0.441*[#51-2.000]+...)` at `start` as the formula of the last word and returns the offset after it. Leaves anything else,
-/// without changing the parts, to the reader of expressions.
+/// Reads `(=1.000+0.441*[#51-2.000]+...)` at `start` as the formula of the last word and returns the offset after it. Returns `None` for any other
+/// notation, and leaves the parts unchanged, so that the reader of expressions can read it.
 ///
 /// In a program with probes, nearly all bytes belong to such formulas.
 #[inline]
@@ -383,7 +383,7 @@ fn sum(bytes: &[u8], start: usize, code: &mut Vec<Op>) -> Option<usize> {
     }
 }
 
-/// Reads `0.441*[#51-2.000]`.
+/// Reads the term of a probe: `0.441*[#51-2.000]`.
 fn term(bytes: &[u8], start: usize, code: &mut Vec<Op>) -> Option<usize> {
     let (weight, at) = number::plain(bytes, start)?;
     let at = passed(bytes, at, b"*[#")?;
