@@ -157,7 +157,7 @@ pub fn stated(comment: &str, is_signed: &dyn Fn(&str) -> bool) -> Option<(&'stat
     FORMS.iter().filter(signed).find_map(|form| Some((form, (form.read)(comment.trim())?)))
 }
 
-/// Collects tool changes and the data from comments, step by step.
+/// Collector of a program's tool changes and of the data in its comments. Its steps are added one by one.
 #[derive(Debug, Default)]
 pub struct HeaderReader {
     events: Vec<(u32, Event)>,

@@ -184,9 +184,9 @@ struct Collector {
     counting: LengthFilter,
 }
 
-/// A tool that was used.
+/// The speeds and feeds that have been recorded for a tool.
 struct KnownTool {
-    /// Index among the tools used.
+    /// Index of the tool in [`Summary::tools`].
     index: usize,
     feeds: HashSet<u64>,
     speeds: HashSet<u64>,

@@ -1,5 +1,5 @@
-//! Tests what is read about tools and stock from the comments of programs. All programs here follow the format of the CAM program that is named,
-//! but are not copied from it.
+//! Tests reading tools and stock from the comments of programs. All programs here follow the format of the CAM program that is named, but are
+//! not copied from it.
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{FORMS, Header, HeaderReader, stated};

@@ -1381,7 +1381,7 @@ fn ignored_feeds_are_not_missing() {
     );
 }
 
-/// Returns the directions of an arc at both ends as unit vectors; `None` if the arc has no radius.
+/// Tangents are unit vectors along the direction of travel; at the centre of the arc, the result is zero.
 #[test]
 fn an_arc_begins_and_ends_along_its_tangents() {
     for (code, ends) in [("G3", [[0.0, 1.0], [-1.0, 0.0]]), ("G2", [[0.0, -1.0], [1.0, 0.0]])] {

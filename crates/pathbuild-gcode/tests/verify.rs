@@ -358,7 +358,7 @@ fn from_unknown(program: &str) -> (Vec<String>, Option<(usize, u32)>) {
     (found, blind.finish().map(|blind| (blind.count, blind.line)))
 }
 
-/// Cuts a slot at Z-5 from the current position to X20.
+/// Lines that cut a slot at Z-5 from the current position to X20.
 const SLOT_AT_5: &str = "G1 Z-5\nG1 X20\nG0 Z5";
 
 #[test]

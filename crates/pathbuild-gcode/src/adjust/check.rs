@@ -17,7 +17,7 @@ use crate::native::{f3, push_exact};
 /// Measured heights in mm, by probe number.
 pub(super) type Values = BTreeMap<u32, f64>;
 
-/// Checks measured values against the program's formulas, its table of probes and the permitted correction.
+/// Checker for measured values: compares them with the program's formulas, its table of probes and the permitted correction.
 pub(super) struct Check<'c, 'a> {
     pub(super) inputs: &'c Inputs<'a>,
     pub(super) table: &'c ProbeTable,

@@ -34,7 +34,7 @@ enum Outcome {
     Ended,
 }
 
-/// Executes the lines of a file, with the subprograms that they call.
+/// Runner that executes the lines of a file, with the subprograms that they call.
 pub(super) struct Runner<'r, 'i> {
     interpreter: &'r mut Interpreter<'i>,
     each: &'r mut dyn FnMut(Step) -> ControlFlow<()>,

@@ -148,7 +148,7 @@ pub(super) struct Formulas<'a> {
     is_rounded: bool,
 }
 
-/// Weights below this are written as zero.
+/// Weight below which a probe is omitted from a formula, except in compatible programs.
 const ZERO_WEIGHT: f64 = 0.000_000_5;
 
 impl<'a> Formulas<'a> {

@@ -11,8 +11,8 @@ use pathbuild_motion::{Axes, Course, Move, MoveShape, Pace, Position};
 /// Tolerances in mm and mm/min within which two programs are equal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Tolerance in mm for the coordinates of ends. Along a line, both of whose ends are rounded, twice that is permitted, and within an arc six
-    /// times: its centre is the sum of two rounded numbers, and the far side of a circle moves twice as far as the centre.
+    /// Tolerance in mm for the coordinates of ends. Between the ends of a line, twice this is permitted, because both ends are rounded. Within an
+    /// arc, it is six times this: the centre is the sum of two rounded numbers, and the far side of a circle moves twice as far as the centre.
     pub place: f64,
     /// Tolerance in mm/min for feeds.
     pub feed: f64,
@@ -189,7 +189,7 @@ fn difference(kind: DifferenceKind, found: &Walker<'_>, expected: &Walker<'_>) -
     Difference { kind, found: shown(found, expected), expected: shown(expected, found) }
 }
 
-/// Selects the moves to be compared: those to known positions, with those at the ends as required by the tolerance.
+/// Selects the moves to be compared: those to known positions, and at both ends of the program only those that `ends` requires.
 fn counting(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
     let is_known = |(_, movement): &(u32, Move)| movement.to.known == Axes::ALL;
     let is_cut = |movement: &(u32, Move)| is_known(movement) && movement.1.pace != Pace::Rapid;
@@ -425,7 +425,7 @@ impl Stretch {
         matches!(self.movement.shape, MoveShape::Arc(_))
     }
 
-    /// Difference between the radii of an arc at its ends, which rounded numbers cause; 0 for a line.
+    /// Returns the difference in mm between the radii at both ends of an arc, which rounding causes; 0 for a line.
     pub(super) fn radius_error(&self) -> f64 {
         match self.movement.shape {
             MoveShape::Arc(arc) if self.movement.from.known == Axes::ALL => {

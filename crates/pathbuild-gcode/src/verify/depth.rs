@@ -31,7 +31,7 @@ impl DepthRules {
         }
     }
 
-    /// Reports the found moves that lead through points which the program does not cut to their depth. The surface of `stock` is
+    /// Reports the found moves that lead through a point at which the program never cuts as deep. The surface of `stock` is
     /// [unknown](Stock::with_unknown_surface). If no moves were found, the program is not processed again.
     pub fn finish(self, program: &(impl Program + ?Sized), stock: &Stock) -> Vec<Diagnostic> {
         let found = &self.depths.found;

@@ -24,7 +24,7 @@ pub struct LengthRules<'c> {
     first: Option<u32>,
     /// The line and the tool of the first cut with a known tool before any length was applied.
     bare: Option<(u32, u32)>,
-    /// Tools that have cut with a length from the H of another number.
+    /// Tools that have cut with the length in an H whose number is not that of the tool.
     of_entries: Vec<OtherEntry>,
     /// The tools that have cut with their own length.
     tools_with_own_length: BTreeSet<u32>,
@@ -37,7 +37,7 @@ pub struct LengthRules<'c> {
     problems: Problems,
 }
 
-/// A tool that has cut with a length from the H of another number.
+/// A tool that has cut with the length in an H whose number is not that of the tool.
 #[derive(Clone, Copy, Debug)]
 struct OtherEntry {
     /// The line that set the length.

@@ -26,7 +26,8 @@ const CHORDS: f64 = 4.0;
 /// Half the width of a centre line, as a share of the side of a cell: more than half the diagonal of a cell.
 const CENTRE_LINE: f64 = 0.75;
 
-/// Maximum number of visits of a cell within O of a cut: when the material is added, when half of it is cut, and for each row.
+/// Upper bound on the number of visits per cell within O of a cut: one when the material is added, half a visit when the cut, which is half as wide,
+/// removes it, and the cost of the rows.
 const VISITS_PER_CELL: f64 = 3.0;
 
 /// Applies the moves of a program to the stock and reports rapid moves that hit material.
@@ -145,7 +146,7 @@ fn each_followed_move(program: &(impl Program + ?Sized), stock: &Stock, take: &m
 struct Extent {
     /// Upper bound of the area in mm² within O of cutting moves; areas that are cut repeatedly count each time.
     area: f64,
-    /// The same for rapid moves below the highest surface. `passes` is the number of these moves.
+    /// Upper bound of the area in mm² within O of rapid moves below the highest surface. `passes` is the number of these moves.
     passed: f64,
     passes: f64,
     /// Upper bound of the number of parts into which cutting arcs and slopes are divided.
@@ -219,8 +220,8 @@ impl<'s> Bench<'s> {
         }
     }
 
-    /// Reports rapid moves down and up again without any other move between them, as if a hole were drilled or a slot milled with them. Where the map
-    /// knows the material, it decides instead.
+    /// Reports rapid moves down and up again without any other move between them, as if a hole were drilled or a slot milled with them. Where the
+    /// material is known, the map decides instead.
     fn excursion(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
         let Some(piece) = self.stock.at(line) else { return };
         let is_unknown = |descent: &Move| {
@@ -571,7 +572,7 @@ impl Stock {
         self.highest
     }
 
-    /// Returns the stock in a line.
+    /// Returns the stock that applies in a line; `None` before the first span.
     pub(super) fn at(&self, line: u32) -> Option<&StockSpan> {
         let later = self.pieces.partition_point(|piece| piece.line <= line);
         later.checked_sub(1).map(|index| &self.pieces[index])

@@ -44,7 +44,7 @@ pub struct Rules<'c> {
     has_cut: bool,
     /// Whether a cut at an unknown position has been reported.
     position_said: bool,
-    /// Whether the tool is at the height of a machine position, which is otherwise unknown.
+    /// Whether the last move in Z went to a machine position, whose height in the program's coordinates is unknown.
     is_height_homed: bool,
     directions: ArcDirections,
     /// The words of a tool change by hand since the last move: T and a stop.
@@ -332,8 +332,8 @@ struct ChangeByHand {
     spinning: Option<u32>,
 }
 
-/// Rule that finds arcs between straight cuts that turn back at both ends. The arc in the other direction would continue both cuts, so G2 and G3 are
-/// probably exchanged.
+/// Rule that finds arcs at both of whose ends the direction of travel is reversed, between straight cuts. The arc in the other direction would
+/// continue both cuts, so G2 and G3 are probably exchanged.
 #[derive(Debug, Default)]
 struct ArcDirections {
     /// The direction of the straight cut at the current position.

@@ -10,9 +10,9 @@ use crate::dialect::Dialect;
 #[derive(Clone, Debug)]
 pub struct ToolState {
     dialect: Dialect,
-    /// The tool selected by T.
+    /// Number of the tool selected by the last T.
     selected: Option<u32>,
-    /// The tool inserted by M6; `None` before the first M6, and if none of the T words before it has a number.
+    /// Number of the tool inserted by the last M6; `None` before the first M6, and if none of the T words before it has a number.
     inserted: Option<u32>,
     /// H of the last G43 with an H, which some controls reuse for a G43 without H.
     entry: Option<u32>,
@@ -42,7 +42,7 @@ pub enum LengthFit {
     Fits,
     /// The length was set before M6 inserted the tool.
     Outdated,
-    /// The length was set for this tool, but with the H of another number, which is given.
+    /// The length was set for this tool, but by the H with the given number instead of the tool's own.
     OfEntry(u32),
     /// The tool or the length is unknown.
     Unknown,
@@ -89,12 +89,12 @@ impl ToolState {
         self.length = Some(ActiveLength { length, line, tool: self.inserted, is_before_change: false });
     }
 
-    /// Returns the tool selected by T.
+    /// Returns the number of the tool selected by the last T; `None` before the first one.
     pub fn selected(&self) -> Option<u32> {
         self.selected
     }
 
-    /// Returns the tool inserted by M6.
+    /// Returns the number of the tool inserted by the last M6; `None` if it is unknown.
     pub fn inserted(&self) -> Option<u32> {
         self.inserted
     }
@@ -104,7 +104,7 @@ impl ToolState {
         self.spindle
     }
 
-    /// Returns the line that set the active tool length.
+    /// Returns the line that set the active tool length; `None` if the program has set none.
     pub fn length_line(&self) -> Option<u32> {
         self.length.map(|active| active.line)
     }

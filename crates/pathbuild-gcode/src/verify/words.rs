@@ -1,6 +1,6 @@
 //! Checks that a program contains only known words. (book: program/reading, "Known words")
 //!
-//! A word is known if the post of the program writes it, or if the interpreter follows its effect. Any other word may change where, how deep or how
+//! A word is known if the post of the program writes it, or if the interpreter executes it. Any other word may change where, how deep or how
 //! fast the tool cuts without being noticed.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -233,7 +233,7 @@ impl<'w> WordRules<'w> {
         self.report_name(line, code_name(word.letter, word.code));
     }
 
-    /// Handles a word that the translation of a program by its post's definition omits.
+    /// Checks a word that was omitted when the program was translated by the definition of its post.
     pub fn left_out(&mut self, line: u32, word: &str) {
         if !self.words.has_other(word) {
             self.report_name(line, word.to_owned());

@@ -142,7 +142,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         }
     }
 
-    /// Returns the expected plunge of which the program has made a part. It may go on in pecks.
+    /// Returns the next expected move if it is a plunge that the program has made in part, and may continue in pecks.
     fn begun_plunge(&mut self) -> Option<Plunge> {
         let (done, slack) = (self.done, self.tolerance.place);
         let (_, movement) = self.expected.peek().filter(|_| done > 0.0)?;
@@ -309,7 +309,7 @@ impl Plunge {
         (-slack..=self.done + slack).contains(&share).then(|| share.clamp(0.0, self.done))
     }
 
-    /// Whether a rapid move stays in or above what the program has cut of the hole.
+    /// Whether a rapid move stays on the axis of the hole and goes no deeper than the program has cut.
     fn is_in_hole(&self, movement: &Move) -> bool {
         let [x, y, _] = self.movement.from.at;
         let deepest = self.movement.from.z() + self.done * (self.movement.to.z() - self.movement.from.z());
@@ -338,7 +338,7 @@ pub(super) struct ExpectedTraverse<'w> {
     pub(super) expected: &'w [Numbered],
     /// Whether the moves end the program.
     pub(super) is_foot: bool,
-    /// Whether the program may move to machine positions, as the native program does not.
+    /// Whether the program may move to machine positions. The native program may not.
     pub(super) may_go_home: bool,
     /// The drawing's S0: the height in mm at and above which there are no obstacles.
     pub(super) clearance: f64,

@@ -70,7 +70,7 @@ impl ToolUse {
         Self { number: tools.inserted().or(tools.selected()), turning, speed, coolant: None }
     }
 
-    /// Keeps the properties in which two uses agree.
+    /// Returns the properties in which two uses agree; the others become unknown.
     fn and(self, other: Self) -> Self {
         Self {
             number: self.number.filter(|_| self.number == other.number),
@@ -139,7 +139,7 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
         }
     }
 
-    /// Handles a word that the translation of a program by its post's definition omits.
+    /// Checks a word that was omitted when the program was translated by the definition of its post.
     pub fn left_out(&mut self, line: u32, word: &str) {
         self.words.left_out(line, word);
     }
