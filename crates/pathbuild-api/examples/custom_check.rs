@@ -32,7 +32,7 @@ fn main() -> Result<ExitCode, Error> {
     Ok(if is_good { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// Asks for the element's own material: an embedded path may have another one than the path that embeds it.
+/// Whether the element's own material is aluminium. An embedded path may have another material than the path that embeds it.
 fn is_aluminium(element: &Element) -> bool {
     element.parameter('M').is_some_and(|material| material.value.starts_with("Al"))
 }

@@ -9,7 +9,7 @@ fn main() -> Result<(), Error> {
     let directory = std::env::args().nth(1).unwrap_or_else(|| ".".to_owned());
     let library = Library::open(directory)?;
     for listed in library.paths(&[])?.paths {
-        // A name alone could mean a path in several drawings.
+        // Several drawings may have a path with this name, so the drawing is given as well.
         let path = library.path_in(&listed.file, &listed.name)?;
         let mut lengths: BTreeMap<u64, f64> = BTreeMap::new();
         for it in path.moves.iter().filter(|it| it.kind.cuts()) {

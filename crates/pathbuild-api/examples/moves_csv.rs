@@ -27,7 +27,7 @@ fn main() -> Result<(), Error> {
     Ok(())
 }
 
-/// An unknown number is an empty cell.
+/// Formats a number. An unknown number becomes an empty cell.
 fn number(number: Option<f64>) -> String {
     number.map(|number| format!("{number:.3}")).unwrap_or_default()
 }

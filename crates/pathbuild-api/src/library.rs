@@ -177,8 +177,8 @@ impl Library {
         })
     }
 
-    /// Finds all paths that drawings and paths embed, directly or through others, as `pathbuild deps` does. Without inputs, the whole library, or the
-    /// directory if the configuration names no library.
+    /// Finds all paths that drawings and paths embed, directly or through others, as `pathbuild deps` does. Without inputs, searches the whole
+    /// library, or the directory if the configuration names no library.
     ///
     /// # Errors
     /// If an internal error occurs. Errors in the inputs are in the report.

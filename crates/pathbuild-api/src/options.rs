@@ -196,7 +196,7 @@ impl EmitOptions {
     }
 }
 
-/// The place of a library's files.
+/// Location of a library's files: a directory on disk, or names and contents in memory.
 #[derive(Clone, Debug)]
 pub(crate) enum Source {
     Directory(PathBuf),

@@ -22,7 +22,7 @@ pub struct Path {
     pub tool: Option<f64>,
     /// Sweep height (S), in mm.
     pub sweep_height: Option<f64>,
-    /// Position in the drawing of the program's X0 Y0, in mm.
+    /// Position in the drawing, in mm, of the program's zero point (X0 Y0).
     pub zero: [f64; 2],
     /// The elements on the layers of the path and of the paths that it embeds.
     pub elements: Vec<Element>,
@@ -75,7 +75,7 @@ pub struct Move {
     pub kind: MoveKind,
     /// Start of the move: x, y, z in mm; `None` for a coordinate that the program does not state.
     pub from: [Option<f64>; 3],
-    /// End of the move, likewise.
+    /// End of the move: x, y, z in mm; `None` for a coordinate that the program does not state.
     pub to: [Option<f64>; 3],
     /// Arc along which the tool moves; `None` for a straight move.
     pub arc: Option<Arc>,
@@ -125,11 +125,11 @@ pub struct Arc {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Statistics {
-    /// Length of cuts along elements.
+    /// Length of cuts along elements, in mm.
     pub milling: f64,
-    /// Length of cuts straight up or down.
+    /// Length of cuts straight up or down, in mm.
     pub drilling: f64,
-    /// Length of rapid moves.
+    /// Length of rapid moves, in mm.
     pub sweeps: f64,
     /// Estimated working time, in whole minutes; `None` if the rapid feed is not set.
     pub minutes: Option<f64>,

@@ -44,13 +44,13 @@ pub struct PathSummary {
     pub file: String,
     /// Material (M), as the drawing writes it; `None` if it states none.
     pub material: Option<String>,
-    /// Upper face of the material (T).
+    /// Upper face of the material (T), in mm.
     pub thickness: Option<f64>,
-    /// Cutter diameter (O).
+    /// Cutter diameter (O), in mm.
     pub tool: Option<f64>,
-    /// Lowest and highest x, y, z of the tool tip while it cuts.
+    /// Lowest and highest x, y, z of the tool tip while it cuts, in mm; `None` if nothing is cut.
     pub cutting_box: [Option<(f64, f64)>; 3],
-    /// Length of all moves; `None` if there is no program.
+    /// Length of all moves in mm; `None` if there is no program.
     pub length: Option<f64>,
     /// Estimated working time in minutes; `None` if there is no program, or if the rapid feed is not set.
     pub minutes: Option<f64>,
@@ -100,7 +100,7 @@ pub struct EmitReport {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct OutputFile {
-    /// Name of the file.
+    /// Name of the file, relative to the library's directory if it lies below it.
     pub file: String,
     /// Name of the path whose program the file contains.
     pub path: String,

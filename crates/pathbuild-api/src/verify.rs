@@ -44,7 +44,7 @@ impl VerifyOptions {
         self
     }
 
-    /// Sets the dialect of the programs, such as `grbl`; without it, it is guessed.
+    /// Sets the dialect of the programs, such as `grbl`. Without it, the dialect is guessed.
     pub fn dialect(mut self, dialect: impl Into<String>) -> Self {
         self.dialect = Some(dialect.into());
         self
@@ -125,7 +125,7 @@ pub struct ProgramCheck {
     pub detail: String,
 }
 
-/// Whether a check was made.
+/// State of a check: made, made with assumed values, or not made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CheckState {

@@ -47,7 +47,7 @@ pub(crate) fn absolute(workspace: &Workspace) -> Workspace {
     }
 }
 
-/// Forwards reports to the caller until the caller stops watching.
+/// Forwarder of reports to the caller, until the caller stops watching.
 pub(crate) struct Reports<'w, F> {
     /// The workspace of the library, which names files relative to its directory.
     workspace: &'w Workspace,

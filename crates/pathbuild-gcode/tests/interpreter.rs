@@ -1196,7 +1196,7 @@ fn percent_begins_a_program_for_xpertmill_and_stands_nowhere_else() {
     assert!(found("%\nG71\n%\nG00 X1 Y1 Z1\nM30\n"));
 }
 
-/// Returns the problems of a program that contains its own end, after a line.
+/// Returns the problems of a program, which contains its own end, after a line with its modes.
 fn wrong_of(dialect: Dialect, program: &str) -> Vec<String> {
     faults(dialect, &format!("G17 G21 G90\n{program}\n"))
 }

@@ -17,9 +17,9 @@ pub struct BuiltIn {
     pub name: &'static str,
     /// Language of the definition.
     pub language: Language,
-    /// One line saying which machines it is for.
+    /// One line that says for which machines the post is.
     pub description: &'static str,
-    /// Text of the definition, or for the native program a description of it.
+    /// Text of the definition. The native program has none; for it, a description.
     pub text: &'static str,
 }
 

@@ -63,7 +63,7 @@ impl PostDefinition {
     /// Reads a definition. `file` is its origin, for diagnostics.
     ///
     /// # Errors
-    /// All errors in it, with their lines.
+    /// All errors in the definition, with their lines.
     pub fn read(bytes: &[u8], file: &Utf8Path) -> Result<Self, Vec<Diagnostic>> {
         if bytes.len() > MAX_DEFINITION_BYTES {
             let diagnostic = Diagnostic::new(&posts::POST_TOO_LARGE).with("size", bytes.len());

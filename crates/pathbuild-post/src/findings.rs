@@ -69,7 +69,7 @@ impl LineStarts {
 /// Maximum number of warnings reported about the output of a post.
 pub(crate) const MOST_WARNINGS: usize = 50;
 
-/// The output of an engine: a text with what is known about it.
+/// The output of an engine: the text of a program, its translation, and findings about it.
 pub(crate) struct EngineOutput {
     pub(crate) text: Vec<u8>,
     /// The translation of the text to RS274.
@@ -94,7 +94,7 @@ impl EngineOutput {
 pub(crate) struct Fuel(usize);
 
 impl Fuel {
-    /// Creates a budget for a job with this number of steps. Part of it does not depend on the job.
+    /// Creates a budget for a job with this number of steps: a fixed part, and a share for each step.
     pub(crate) fn new(steps: usize) -> Self {
         let mut fuel = Self(1 << 20);
         fuel.add_steps(steps);

@@ -59,7 +59,7 @@ impl Job {
     }
 }
 
-/// Converts a program to operations.
+/// Builder that converts a program to operations.
 struct Builder<'a> {
     program: &'a Program,
     assignment: ToolAssignment,
@@ -269,7 +269,7 @@ pub(super) struct ToolAssignment {
     pub(super) coolant: Option<Coolant>,
 }
 
-/// Assigns a cutter to each path, and numbers to cutters that have none.
+/// Assignment of cutters to paths, and of numbers to cutters that have none.
 pub(super) struct Fitter<'a> {
     table: &'a ToolTable,
     /// Tool number of each entry of the table.
@@ -278,7 +278,7 @@ pub(super) struct Fitter<'a> {
     pub(super) warnings: Vec<Diagnostic>,
 }
 
-/// Identifies a cutter: an entry of the table, or a diameter that is not in the table.
+/// Identity of a cutter: an entry of the table, or a diameter that is not in the table.
 #[derive(Clone, Copy, Debug)]
 enum Key {
     Entry(usize),

@@ -67,7 +67,7 @@ pub(super) fn check(
     }
     let (mut broken, mut doubts) = broken_rules(&read.steps, job, *machine);
     if target.is_none() && (tolerance.is_none() || !is_started(&read.steps)) {
-        // The words found may not concern the spindle, or the operator switches it and the final M5 is only for safety.
+        // The text's words may mean something other than the spindle, or the operator switches it and the final M5 is only for safety.
         broken.retain(|problem| !is_rule_of_spindle(problem));
     }
     doubts.extend(chosen_offsets(&read.steps));
@@ -178,7 +178,7 @@ fn flat(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
     seen.filter(|(_, movement)| !movement.is_nothing() || movement.from.known != movement.to.known).collect()
 }
 
-/// One warning for each letter that nothing in its line uses. Other controls may use it.
+/// Returns one warning for each letter that nothing in its line uses, because other controls may use it.
 fn unused_words(problems: &[Diagnostic]) -> Vec<Diagnostic> {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for problem in problems.iter().filter(|problem| problem.message == &gcode::UNUSED) {

@@ -22,7 +22,7 @@ pub(crate) struct Rs274Translation {
     modes: ModeWords,
     /// Whether any line so far has words.
     has_words: bool,
-    /// Whether a `%` stands after the first words, where some controls end the program.
+    /// Whether a `%` follows the first words. Some controls end the program there.
     has_ended: bool,
 }
 
@@ -166,12 +166,12 @@ impl Rs274Translation {
         self.end_line();
     }
 
-    /// Reports what may change where the tool goes, or which lines are run, without being a G or M word of its own.
+    /// Reports constructs that may change where the tool goes, or which lines are run, without being G or M words.
     fn report_dangerous(&mut self, line: &LineWords) {
         if let Some(sign) = line.formula {
             self.report(sign.to_string(), Doubt::Dangerous);
         }
-        // As in `o100 call`.
+        // An O word followed by more calls or defines a subroutine, as in `o100 call`.
         if let Some(Word { letter: 'O', number }) = line.words.first().filter(|_| line.has_more) {
             self.report(format!("O{number}"), Doubt::Dangerous);
         }
@@ -247,7 +247,7 @@ impl Rs274Translation {
         write!(self.text, "{letter}{number} ").expect("a String takes everything");
     }
 
-    /// Returns the translation with everything that was noticed on the way.
+    /// Returns the translation, with the doubtful and disputed words, the dwells and the unstated modes of the program.
     pub(crate) fn finish(self) -> TranslatedText {
         let Self { text, doubtful, disputes, dwells, modes, .. } = self;
         TranslatedText { text, doubtful, disputed: disputes.finish(), dwells, unstated: modes.unstated }

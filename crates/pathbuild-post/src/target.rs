@@ -112,7 +112,7 @@ fn is_block_number(text: &str) -> bool {
         || text.strip_prefix('N').is_some_and(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
-/// A part of a line.
+/// A part of a line: code or a comment.
 #[derive(Clone, Copy, Debug)]
 enum LinePart<'a> {
     Code(&'a str),
@@ -297,7 +297,7 @@ fn harmless(comment: &str, target: &Target) -> String {
     comment.char_indices().map(replace).collect()
 }
 
-/// Inserts texts into the lines of a post in such a way that they cannot be executed. It knows which marks begin and end comments.
+/// Guard that inserts texts into the lines of a post in such a way that they cannot be executed. It knows which marks begin and end comments.
 #[derive(Debug)]
 pub(crate) struct Guard<'a> {
     target: Option<&'a Target>,

@@ -43,7 +43,7 @@ pub(super) fn check(
 }
 
 struct Checker<'j> {
-    /// The operation that each step of the job belongs to.
+    /// The operations to which the steps of the job belong, one for each step.
     operations: Vec<&'j Operation>,
     tools: ToolState,
     words: ToolWords,

@@ -34,7 +34,7 @@ pub(crate) fn check(
     let found = without_excursions(found, 2.0 * tolerance.place);
     let (mut found, mut expected) = (found.as_slice(), expected);
     let mut matched: Vec<MatchedCut> = Vec::new();
-    // Where the last cut so far ends.
+    // End of the last cut so far.
     let mut end = None;
     loop {
         let (rapids, cuts) = split(expected, is_rapid);
@@ -55,8 +55,8 @@ pub(crate) fn check(
     }
 }
 
-/// Number (line or step) of the first cut from or to an unknown position, which cannot be compared. Only the machine knows where a probe has
-/// stopped, so the move away from there is compared by its end alone.
+/// Returns the number (line or step) of the first cut from or to an unknown position, which cannot be compared. Only the machine knows where a
+/// probe has stopped, so the move away from there is compared by its end alone.
 fn first_unknown_cut(moves: Moves<'_>) -> Option<u32> {
     let mut has_probed = false;
     for (number, movement) in moves {
@@ -73,7 +73,7 @@ fn is_rapid(movement: &Move) -> bool {
     movement.pace == Pace::Rapid
 }
 
-/// Splits moves after those at the beginning that satisfy a condition.
+/// Splits moves into those at the beginning that satisfy a condition, and the rest.
 fn split(moves: Moves<'_>, is_wanted: impl Fn(&Move) -> bool) -> (Moves<'_>, Moves<'_>) {
     let length = moves.iter().take_while(|(_, movement)| is_wanted(movement)).count();
     moves.split_at(length)
@@ -323,7 +323,7 @@ impl<'m> ExpectedTraverse<'m> {
         (stays || is_unknown) && !movement.to.known.has(Axes::Z)
     }
 
-    /// Whether a straight move is free of obstacles. `is_home`: it begins at an unknown height above everything.
+    /// Whether a straight move is free of obstacles. `is_home` means that it begins at an unknown height above everything.
     fn is_free(&self, movement: &Move, is_home: bool) -> bool {
         let height = |at: &Position| {
             if at.known.has(Axes::Z) { Some(at.z()) } else { is_home.then_some(f64::INFINITY) }
@@ -359,7 +359,7 @@ impl<'m> ExpectedTraverse<'m> {
         self.is_covered(&movement.from.at, &movement.to.at)
     }
 
-    /// Whether the job itself comes to the same position from one that is as unknown, and no higher.
+    /// Whether the job itself has a move to the same position that is no higher and whose start is known in the same axes.
     fn comes_lower(&self, movement: &Move, lowest: f64) -> bool {
         let end = in_plane(&movement.to);
         self.near([end, end]).any(|expected| {

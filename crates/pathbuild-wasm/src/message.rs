@@ -5,7 +5,7 @@ use pathbuild_workspace::dropped::Assumptions;
 use serde::Deserialize;
 use serde_json::Value;
 
-/// A question of the page. File paths are relative to the folder that the page was given.
+/// A question from the page. File paths are relative to the folder that the page was given.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case")]
 pub enum Question {
@@ -14,7 +14,8 @@ pub enum Question {
         /// Path of the file, relative to the folder.
         file: String,
     },
-    /// Opens the files that were added: `{ halted, problems, drawings, posts, seconds }`. All further questions come after this one.
+    /// Opens the files that were added. The answer is `{ halted, problems, drawings, posts, seconds }`. The questions below are only answered
+    /// afterwards.
     Open {
         /// Options that override the configuration.
         #[serde(default)]
@@ -23,29 +24,29 @@ pub enum Question {
         #[serde(default)]
         lost: Vec<LostPath>,
     },
-    /// The paths of a drawing, without their states: `{ rows }`. A drawing with an error of its own has a row without a path.
+    /// Requests the paths of a drawing, without their states. The answer is `{ rows }`; a drawing with an error of its own has a row without a path.
     Index {
         /// Path of the drawing's file.
         file: String,
     },
-    /// Requests a path with its state, as in `list`: `{ row }`.
+    /// Requests a path with its state, as in `list`. The answer is `{ row }`.
     Check(Place),
-    /// Requests totals over all checked paths, as in `stats`: `{ statistics }`.
+    /// Requests totals over all checked paths, as in `stats`. The answer is `{ statistics }`.
     Statistics,
     /// Reads a G-code program, whose text follows the line of JSON. The answer is `{ seen }`, followed by the scene with the findings of `verify`.
     Program {
-        /// The name of its file.
+        /// Name of the program's file.
         name: String,
         /// Values assumed for what the program does not state.
         #[serde(flatten)]
         assumptions: Assumptions,
     },
-    /// Requests the scene of a path, or of all paths of a drawing. It follows the line of JSON.
+    /// Requests the scene of a path, or of all paths of a drawing. The answer is `{ seen }`, followed by the scene as JSON.
     Scene(Place),
-    /// Requests the picture of a path, or of all paths of a drawing. It follows the line of JSON, as SVG.
+    /// Requests the picture of a path, or of all paths of a drawing. The answer is `{ seen }`, followed by the picture as SVG.
     Picture(Place),
-    /// Writes the programs of paths as `emit` does: `{ refused, problems, files }`. Each file has a name and a size; the bytes of all files follow
-    /// in order.
+    /// Writes the programs of paths as `emit` does. The answer is `{ refused, problems, files }`, where each file has a name and a size, followed by
+    /// the bytes of all files in this order.
     Emit {
         /// Paths to write; a drawing without a path stands for all its paths.
         places: Vec<Place>,
@@ -79,7 +80,7 @@ pub struct Options {
     pub lang: Language,
 }
 
-/// The language of answers that exist in one language only.
+/// Language of those texts in answers that are given in one language only.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Language {

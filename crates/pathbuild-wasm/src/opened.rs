@@ -148,7 +148,7 @@ impl OpenedFiles {
         whole.into_iter().chain(rows).collect()
     }
 
-    /// Returns the row of a drawing that has errors of its own.
+    /// Returns the row of a drawing whose own diagnostics include errors; `None` if they do not.
     fn of_drawing(&self, found: Vec<Diagnostic>) -> Option<Value> {
         drawing_json(&self.session.workspace().findings(found))
     }
@@ -205,7 +205,7 @@ impl OpenedFiles {
         Some(seen.with_findings(workspace, &place.file).0)
     }
 
-    /// Emits the programs of paths.
+    /// Writes the programs of paths and returns them as files, with the problems of the paths.
     fn emit(&mut self, places: &[Place]) -> Answer {
         let workspace = self.session.workspace();
         let found: Vec<(SourceFile, PathName)> = places.iter().filter_map(|place| self.path(place)).collect();
@@ -241,7 +241,7 @@ fn seen(bytes: Option<Vec<u8>>) -> Answer {
     }
 }
 
-/// Answers the messages of a page.
+/// The compiler for a page: it answers the page's messages.
 #[derive(Debug, Default)]
 pub struct Compiler {
     files: Arc<Files>,

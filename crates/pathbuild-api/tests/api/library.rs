@@ -9,7 +9,7 @@ use pathbuild_api::{
 use pathbuild_testkit::{project, sheet};
 use tempfile::TempDir;
 
-/// The library of the fixtures, which no test writes to.
+/// Opens the library of the fixtures, which no test writes to.
 fn fixtures() -> Library {
     Library::open(project().join("fixtures/library")).unwrap()
 }

@@ -28,7 +28,7 @@ pub(super) struct ProbeLine<'a> {
     pub(super) place: ProbePoint,
     /// Position in the emitted drawing; missing in files of PathDxf2GCode and of old versions of pathbuild.
     pub(super) at: Option<Xy>,
-    /// The expected height (th); missing in the older form.
+    /// The expected height (th) in mm; missing in the older form of the file.
     pub(super) height: Option<f64>,
     pub(super) value: EnteredValue,
     /// Position of the value, or of the place where it is missing: in this line, or in a line of a log.
@@ -131,7 +131,7 @@ pub(crate) struct ProgramProbe {
     pub(crate) measured: Option<f64>,
 }
 
-/// Formats the position as in the drawing.
+/// Formats the position and the height of a probe as the header of a program lists them.
 impl fmt::Display for ProgramProbe {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [x, y] = self.place;

@@ -13,7 +13,7 @@ pub(super) const INCH: f64 = 25.4;
 #[expect(clippy::struct_excessive_bools, reason = "independent modes")]
 pub(super) struct State {
     pub(super) position: Position,
-    /// The axes with a position specified since the last tool change; all of them before the first one.
+    /// The axes whose position has been specified since the last tool change; all axes before the first tool change.
     pub(super) stated_axes: Axes,
     /// Line and code (times ten) of a move to a machine position that is unknown in the program's coordinates.
     pub(super) lost: Option<(u32, u16)>,

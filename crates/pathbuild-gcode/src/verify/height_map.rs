@@ -133,7 +133,8 @@ impl HeightMap {
         self.spend(0, (last - column).min(known));
     }
 
-    /// Deducts a row and its cells, from one column to another, from the limit on visited cells. Returns whether the row may be visited.
+    /// Deducts a row and its cells between two columns from the limit on visited cells. Returns false if the limit is reached, so that the row must
+    /// not be visited.
     fn spend(&mut self, column: i32, last: i32) -> bool {
         let cells = u64::try_from(i64::from(last) - i64::from(column)).unwrap_or(0);
         self.left = self.left.saturating_sub(ROW + cells);

@@ -455,7 +455,7 @@ pub(super) enum CallContent<'a> {
 /// The position of an element within its contour.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ContourPosition {
-    /// Whether it is the first element, or the first one after a change of feed.
+    /// Whether the element is the first one of the contour, or the first one after a change of feed.
     pub(super) is_first: bool,
     pub(super) is_last: bool,
 }

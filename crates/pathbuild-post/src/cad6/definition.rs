@@ -80,7 +80,7 @@ impl Definition {
         texts.into_iter().any(|text| names.iter().any(|name| text.text.contains(name)))
     }
 
-    /// Whether the definition writes the spindle speed only at tool changes, so that each tool must have a single speed.
+    /// Whether the definition writes the spindle speed only at tool changes, so that each tool must have a single speed throughout a job.
     pub(crate) fn has_one_speed_a_tool(&self) -> bool {
         let mut with_speed =
             self.texts().filter(|(kind, _)| self.names(*kind, &["MillingSpindleRate"])).peekable();
@@ -319,9 +319,9 @@ pub(super) struct Abilities {
     pub(super) has_absolute_centres: bool,
     /// Number of decimals to which numbers are rounded.
     pub(super) decimals: usize,
-    /// Whether lines may change Z.
+    /// Whether a straight cut may change Z.
     pub(super) line_z: bool,
-    /// Whether arcs may change Z.
+    /// Whether an arc may change Z, as in a helix.
     pub(super) arc_z: bool,
     /// Whether the tool is raised between two passes.
     pub(super) lift_between_passes: bool,

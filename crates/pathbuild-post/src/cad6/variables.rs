@@ -1,6 +1,6 @@
-//! The variables available in control texts, and their values. During evaluation, placeholder characters stand in the texts: at the
-//! positions of variables, for bytes that are not valid UTF-8, and for texts that must not be evaluated. These are private-use characters,
-//! which definitions must not contain.
+//! The variables available in control texts, and their values. During evaluation, texts contain placeholder characters: at the positions of
+//! variables, for bytes that are not valid UTF-8, and for texts that must not be evaluated. Placeholders are private-use characters, which
+//! definitions must not contain.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -44,7 +44,7 @@ impl Variable {
         VARIABLES.iter().find(|variable| variable.name == name)
     }
 
-    /// Returns the reason why the variable is not available in some places.
+    /// Returns the reason that a message gives if the variable has no value.
     pub(super) fn reason(&self) -> &'static Text {
         match self.presence {
             Presence::Speed => &Text {
@@ -266,7 +266,7 @@ pub(super) const MOST_TEXTS: usize = 0xFE00;
 /// First of the 256 placeholder characters that stand for bytes.
 const FIRST_BYTE: u32 = 0x0010_FE00;
 
-/// Whether a character is one of these placeholders.
+/// Whether a character is a placeholder, whether for a variable, a text or a byte.
 pub(super) fn is_private(c: char) -> bool {
     u32::from(c) >= FIRST_TEXT
 }

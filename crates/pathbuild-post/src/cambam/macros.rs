@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Text, nearest};
 use super::machine::{CODES, Code, Form, Register};
 use super::section::Section;
 
-/// The expansion of a macro.
+/// A parsed macro. Each variant says what the macro expands to.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Macro {
     /// The text of a section, regardless of the state.

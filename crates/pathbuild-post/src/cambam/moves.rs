@@ -129,7 +129,7 @@ impl Writer<'_> {
         self.wrap(to)
     }
 
-    /// Records the position of the tool that the program intends, next to the text written for it.
+    /// Records the intended position of the tool, and for each axis the text written for it.
     fn remember(&mut self, to: [Option<f64>; 3]) {
         for (axis, target) in to.into_iter().enumerate() {
             if let Some(target) = target {

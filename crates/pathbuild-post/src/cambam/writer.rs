@@ -23,7 +23,7 @@ pub(super) type WriteResult = Result<(), Box<Diagnostic>>;
 /// Maximum nesting depth of user macros, and also of sections.
 const MOST_DEPTH: usize = 16;
 
-/// Expands the templates of a plan to the text of a program.
+/// Writer that expands the templates of a plan to the text of a program.
 pub(super) struct Writer<'a> {
     pub(super) plan: &'a Plan<'a>,
     pub(super) machine: Machine,
@@ -37,7 +37,7 @@ pub(super) struct Writer<'a> {
     pub(super) tool: &'a Tool,
     /// Whether the tool is below the stock surface.
     pub(super) is_cutting: bool,
-    /// The section of the last code macro that was expanded although its section is empty, since this field was reset.
+    /// Section of the last code macro that wrote nothing because this section is empty; `None` if there was no such macro since the last reset.
     pub(super) empty_code: Option<Section>,
     warnings: Vec<Diagnostic>,
     pub(super) line: Line,
@@ -368,8 +368,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Restores the sign and axis that a word had in the program before the template reversed it. A definition must reverse an axis in
-    /// every line or in none, otherwise the machine would move to both sides.
+    /// Converts a word back to the axis and sign that it had in the program before the template wrapped or reversed it. A definition must reverse an
+    /// axis in every line or in none, otherwise the machine would move to both sides.
     fn meant(&mut self, word: Word, line: &Line) -> Word {
         let Some(register) = Register::of(word.letter) else { return word };
         let rotary = self.plan.definition.options.rotary;

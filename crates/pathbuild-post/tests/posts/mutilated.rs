@@ -177,7 +177,7 @@ fn elements_changed(text: &str) -> Vec<String> {
     variants
 }
 
-/// Returns such variants of a definition with control texts.
+/// Returns variants of a definition with control texts, in each of which one text is removed, emptied or reversed.
 fn texts_changed(text: &str) -> Vec<String> {
     let mut variants = Vec::new();
     let begin = text.find("[text]").unwrap();

@@ -135,7 +135,7 @@ fn what_a_job_cannot_say_is_an_error_with_its_line() {
     assert!(errors(&format!("{start}G2 X0 Y0 I5 P2 F60"))[0].starts_with("2: PB765 a move of this kind"));
 }
 
-/// Returns a step with a move of sufficient length, which is not used otherwise.
+/// Returns a step that makes a move. The length stated for it has no effect, as long as it exceeds that of arcs that become lines.
 fn go(to: PlannedMove) -> ProgramStep {
     ProgramStep::Move { to, count: Count { class: MoveClass::Milling, length: 99.0, feed: None } }
 }

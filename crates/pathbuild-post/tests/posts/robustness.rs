@@ -72,7 +72,7 @@ fn template() -> impl Strategy<Value = String> {
     prop::collection::vec(pieces, 0..12).prop_map(|pieces| pieces.concat())
 }
 
-/// Generates control texts in the same way.
+/// Generates control texts from valid parts and parts that break them.
 fn control_text() -> impl Strategy<Value = String> {
     let pieces = prop::sample::select(vec![
         "{",

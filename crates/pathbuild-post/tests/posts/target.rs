@@ -268,7 +268,7 @@ fn what_moves_otherwise_than_the_program_is_not_written() {
     );
 }
 
-/// A number that the definition itself contains.
+/// Lengths that the definition itself contains need a decimal point as well.
 #[test]
 fn literal_lengths_have_a_point_where_the_control_may_need_it() {
     let written = |target: &str, length: &str| {
