@@ -20,9 +20,9 @@ pub struct Finding {
 pub struct Embedding {
     /// File of the drawing that embeds the path, relative to the library's directory if it lies below it.
     pub file: String,
-    /// Name of the path, in that drawing, that embeds the path.
+    /// Name of the embedding path in that drawing.
     pub path: String,
-    /// Position in that drawing, in mm.
+    /// Position of the embedding in that drawing, in mm.
     pub position: [f64; 2],
 }
 
@@ -117,7 +117,7 @@ impl Finding {
         workspace.findings(diagnostics).diagnostics.into_iter().map(Self::new).collect()
     }
 
-    /// Returns the findings of a run that covered these files, and those that are accepted.
+    /// Returns the findings of a run, and separately those that are accepted. `coverage` states which files the run covered.
     pub(crate) fn settled(
         workspace: &Workspace,
         diagnostics: Vec<Diagnostic>,

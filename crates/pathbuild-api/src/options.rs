@@ -14,7 +14,7 @@ use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 
 use crate::{Error, Library};
 
-/// Options for opening a library. By default, it is opened as the command-line program opens it, but without the cache and the user's own
+/// Options for opening a library. By default, the library is opened as the command-line program opens it, but without the cache and the user's own
 /// configuration.
 ///
 /// ```
@@ -35,7 +35,7 @@ pub struct LibraryOptions {
     date: Option<String>,
 }
 
-/// Options for writing programs.
+/// Options for writing programs: the post-processor, and whether existing files are compared or overwritten.
 #[derive(Clone, Debug, Default)]
 pub struct EmitOptions {
     pub(crate) post: Option<String>,

@@ -59,7 +59,7 @@ pub struct Element {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Parameter {
-    /// Letter of the parameter.
+    /// Letter of the parameter, such as `B` or `F`.
     pub letter: char,
     /// Value of the parameter, as the drawing writes it, with variables replaced.
     pub value: String,

@@ -7,7 +7,7 @@ use pathbuild_workspace::session::{End, Graph, GraphOutcome, Node};
 
 use crate::Finding;
 
-/// The result of a check.
+/// The result of [`Library::check`](crate::Library::check).
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CheckReport {
@@ -74,7 +74,7 @@ pub enum ProgramState {
     Unknown,
 }
 
-/// The text of a program.
+/// The program of a path, as `emit` would write it.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ProgramText {

@@ -89,7 +89,7 @@ impl VerifyOptions {
     }
 }
 
-/// The result of verifying programs.
+/// The result of [`Library::verify`](crate::Library::verify).
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VerifyReport {
@@ -109,7 +109,7 @@ pub struct VerifiedProgram {
     pub file: String,
     /// The checks, whether made or not; empty if the program could not be read.
     pub checks: Vec<ProgramCheck>,
-    /// The comparison with the drawing, if one was named.
+    /// The comparison with the drawing; `None` if no drawing was named.
     pub comparison: Option<DrawingComparison>,
 }
 

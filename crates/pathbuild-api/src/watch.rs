@@ -19,9 +19,9 @@ pub struct WatchReport {
     pub changed: Vec<String>,
     /// Names of those changed files that no longer exist.
     pub removed: Vec<String>,
-    /// The earlier findings about the drawings that depend on these files.
+    /// The earlier findings about the drawings that depend on the changed files.
     pub before: Vec<Finding>,
-    /// The current findings about these drawings.
+    /// The current findings about the drawings that depend on the changed files.
     pub now: Vec<Finding>,
 }
 

@@ -13,7 +13,7 @@ use crate::provenance::{Provenance, head_remarks};
 use crate::read::Problems;
 use crate::verify::Cutter;
 
-/// Lengths in comments are rounded, often to two decimals. Two lengths count as equal if they differ by at most this, in mm.
+/// Maximum difference in mm at which two lengths in comments count as equal: they are rounded, often to two decimals.
 const ROUNDING_TOLERANCE: f64 = 0.01;
 
 /// Maximum difference in mm at which two lengths that are not rounded count as equal.
@@ -73,7 +73,7 @@ pub struct StatedTool {
 pub struct StatedStock {
     /// The corner with the least coordinates.
     pub low: Option<[f64; 3]>,
-    /// The upper corner. Its height is the surface.
+    /// The corner with the greatest coordinates. Its height is that of the surface.
     pub high: Option<[f64; 3]>,
     /// The unit of the coordinates.
     pub unit: StatedUnit,
@@ -157,7 +157,7 @@ pub fn stated(comment: &str, is_signed: &dyn Fn(&str) -> bool) -> Option<(&'stat
     FORMS.iter().filter(signed).find_map(|form| Some((form, (form.read)(comment.trim())?)))
 }
 
-/// Collector of a program's tool changes and of the data in its comments. Its steps are added one by one.
+/// Collector of a program's tool changes and of the data in its comments. The program's steps are passed to it one by one.
 #[derive(Debug, Default)]
 pub struct HeaderReader {
     events: Vec<(u32, Event)>,
@@ -179,7 +179,7 @@ enum Event {
 }
 
 impl HeaderReader {
-    /// Processes the next step.
+    /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let event = match &step.action {
             Action::Move(movement) if matches!(movement.pace, Pace::Feed(_)) => Event::Cut,
@@ -282,7 +282,7 @@ pub struct CuttingTool {
 /// The widths of a tool in mm, as comments state them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedCutter {
-    /// The line of the comment.
+    /// Line of the comment that describes the tool.
     pub line: u32,
     /// The diameter in mm.
     pub diameter: f64,
@@ -345,7 +345,7 @@ fn scale(unit: StatedUnit, in_inches: bool) -> f64 {
 struct Collector {
     in_inches: bool,
     numbered: BTreeMap<u32, StatedCutter>,
-    /// The description for the whole program.
+    /// The tool that a comment describes for all moves after it.
     of_program: Option<StatedCutter>,
     /// The description of the tool in use, and whether that tool has cut.
     of_current: Option<(StatedCutter, bool)>,

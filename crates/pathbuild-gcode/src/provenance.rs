@@ -23,7 +23,7 @@ use crate::dialect::Dialect;
 /// The origin of a program, as stated by its header line.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
-    /// Version of pathbuild.
+    /// Version of pathbuild that wrote the program.
     pub version: Box<str>,
     /// Hash of the program's moves and formulas, in hexadecimal digits.
     pub moves: Box<str>,
@@ -37,7 +37,7 @@ pub struct Provenance {
     pub thickness: Option<f64>,
 }
 
-/// This version of pathbuild.
+/// Version of pathbuild that is running.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// The first word of the header line.

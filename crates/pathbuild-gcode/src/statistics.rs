@@ -120,7 +120,7 @@ impl Tally {
 /// The statistics of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
-    /// The totals of the program.
+    /// The totals of all moves of the program.
     pub total: Tally,
     /// The totals of each tool in order of first use; for XpertMILL, of each layer.
     pub tools: Vec<ToolTotals>,

@@ -13,7 +13,7 @@ const FINE: [&str; 0] = [];
 /// Height of S0 in all programs, in mm.
 const CLEARANCE: f64 = 5.0;
 
-/// Returns the differences of a program from these moves, which begin above the zero of the path.
+/// Returns the differences of a program from a drawing's moves, given as G-code, which begin above the zero of the path.
 fn differences(dialect: Dialect, program: &str, drawn: &str) -> Vec<String> {
     let drawn = format!("G17 G21 G90 G94\nG0 X0 Y0 Z5\n{drawn}\nM30\n");
     let moves = interpret(drawn.as_bytes(), Native, &Options::default()).moves();
@@ -47,8 +47,8 @@ fn a_program_pauses_only_above_the_material() {
     assert!(!paused_at("X0"), "the height is unknown");
 }
 
-/// Returns chords instead of a helix, as for a control that accepts none. The helix has this radius and begins at (radius, 0); the chords end at
-/// these directions and heights.
+/// Returns the differences of a program with chords from a drawn helix, for a control that supports no helices. The helix has this radius and begins
+/// at (radius, 0); `ends` are the directions and heights at which the chords end.
 fn chords(radius: f64, [degrees, depth]: [f64; 2], ends: &[[f64; 2]]) -> Vec<String> {
     let place = |degrees: f64| {
         let (sin, cos) = libm::sincos(degrees.to_radians());
@@ -87,7 +87,7 @@ fn heights_of_chords_are_those_of_their_places_on_a_steep_helix() {
     assert_eq!(middle(-2.4795), ["4 moves-differ"]);
 }
 
-/// Returns the differences of a program that drills a hole from Z2 to Z-1 in these moves.
+/// Returns the differences of a program that drills a hole from Z2 to Z-1 with these moves.
 fn drilled(moves: &str) -> Vec<String> {
     let program = format!("G17 G21 G40 G49 G80 G90 G94\nG0 Z5\nG0 X3 Y0\nG0 Z2\n{moves}\nG0 Z5");
     differences(Dialect::LinuxCnc, &program, "G0 X3 Y0\nG0 Z2\nG1 Z-1 F100\nG0 Z5")

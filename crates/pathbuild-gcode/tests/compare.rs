@@ -297,7 +297,7 @@ fn lines_are_alike_by_their_words() {
     assert!(same("G01 X1.000\n", "G1 X1.001\n") && !same("G01 X1.000\n", "G1 X1.0011\n"));
 }
 
-/// The radii of an arc of rounded numbers differ at its ends; its centre is known no better than that.
+/// If an arc consists of rounded numbers, the radii at its ends differ, and its centre is known no better than this difference.
 #[test]
 fn an_arc_is_compared_as_exactly_as_its_radii_agree() {
     let half_circle = |end: &str, centre: &str| moves(&format!("G0 X0 Y0 Z0\nG2 X{end} Y0 {centre} F100"));

@@ -286,7 +286,7 @@ fn a_length_given_by_number_moves_the_tip_once_the_tool_has_cut() {
         assert_eq!(moves("G20 G43.1 Z1\nG21 G0 Z5")[2..], ["6 rapid to 1 0 30.4"]);
         assert_eq!(wrong(dialect, &format!("{cut}\nG43.1 Z-10")), FINE);
     }
-    // Another tool has a zero of its own, and so has a tool that has not cut yet.
+    // Another length does not move the tip of another tool, or of a tool that has not cut yet: each has a zero of its own.
     let fine = "T1 M6\nG49\nG0 X0 Y0 Z5\nG43.1 Z-9\nG0 Z5\nG1 X1 F100\nT2 M6\nG43.1 Z7\nG0 Z5\nG1 X2";
     assert_eq!(wrong(LinuxCnc, fine), FINE);
     assert_eq!(run(LinuxCnc, fine)[2], "6 rapid to 0 0 5");
@@ -1196,7 +1196,7 @@ fn percent_begins_a_program_for_xpertmill_and_stands_nowhere_else() {
     assert!(found("%\nG71\n%\nG00 X1 Y1 Z1\nM30\n"));
 }
 
-/// Returns the problems of a program, which contains its own end, after a line with its modes.
+/// Returns the problems of a program that ends itself, preceded by a line with its modes.
 fn wrong_of(dialect: Dialect, program: &str) -> Vec<String> {
     faults(dialect, &format!("G17 G21 G90\n{program}\n"))
 }

@@ -29,7 +29,7 @@ fn wrong(dialect: Dialect, program: &str) -> Vec<String> {
     rules.finish().iter().map(text).collect()
 }
 
-/// Returns these problems, after asserting that they are the same on every control.
+/// Returns the problems of a program, after asserting that they are the same on every control.
 #[track_caller]
 fn wrong_everywhere(program: &str) -> Vec<String> {
     let all = CONTROLS.map(|dialect| wrong(dialect, program));

@@ -81,7 +81,7 @@ fn program(sketches: &[Sketch]) -> Program {
         let count = Count { class: MoveClass::Milling, length, feed: None };
         steps.push(ProgramStep::Move { to, count });
         if matches!(to, PlannedMove::Arc { .. }) && length < 0.01 {
-            // Such arcs are beside support bars, so another part of the edge always follows.
+            // Arcs as short as this are beside support bars, so another part of the edge always follows.
             at += Xy::new(0.5, 0.5).coords;
             steps.push(ProgramStep::Move {
                 to: PlannedMove::Line { feed: 100.0, to: at, z: Height { z: height_now, at } },
@@ -127,7 +127,7 @@ proptest! {
     }
 }
 
-/// Returns the lines of a text without comments, and asserts that none of these is active, nested or unclosed.
+/// Returns the lines of a text without comments, and asserts that no comment is active, nested or unclosed.
 fn code_of(text: &str, compatible: bool) -> Vec<String> {
     let code = |line: &str| {
         let (mut code, mut rest) = (String::new(), line);
@@ -223,7 +223,7 @@ const GAPS: [f64; 12] =
 const BEGINNINGS: [[f64; 2]; 5] =
     [[0.0, 0.0], [3.0005, -2.0005], [0.000_499_9, 0.000_500_1], [-7.123_45, 1.0004], [12.0002, 0.0005]];
 
-/// Calls a function for arcs with these distances, with small and large radii in all directions.
+/// Calls a function for arcs whose ends are [`GAPS`] apart, with small and large radii in all directions.
 fn for_arcs_with_gaps(mut each: impl FnMut([f64; 2], f64, f64, bool, f64)) {
     for gap in GAPS {
         for radius in [0.05, 0.0731, 0.4, 5.0, 80.0] {
@@ -330,7 +330,7 @@ proptest! {
         let text = with_another_number(&text_of(&program), which, thousandths);
         let read = interpret(text.as_bytes(), Native, &Options::default());
         let expected: Vec<_> = program.moves().collect();
-        // When it is read back, an arc that would become a full circle may be longer by one unit of the last digit.
+        // An arc that would become a full circle may be longer by one unit of the last digit when it is read back.
         let differs = |place: f64| {
             let exactly = Tolerance::of_decimals(3);
             compare(&read.moves(), &expected, &Tolerance { place: exactly.place + place, ..exactly }).is_some()

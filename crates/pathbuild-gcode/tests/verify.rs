@@ -43,7 +43,7 @@ fn on_stock(program: &str) -> Vec<String> {
     wrong(program, Some(&Stock::uniform(5.0, 2.0)))
 }
 
-/// A slot from (0, 0) to (20, 0), down to Z 1, with the cutter at its end.
+/// Program that mills a slot from (0, 0) to (20, 0), down to Z 1, and leaves the cutter at the end of the slot.
 const SLOT: &str = "G0 X0 Y0 Z10\nG0 Z5\nG1 Z1\nG1 X20";
 
 fn behind_slot(program: &str) -> Vec<String> {
@@ -576,7 +576,7 @@ fn all_wrong(text: &[u8], cutter: f64) -> (Vec<Diagnostic>, bool) {
     (problems, stock.is_some())
 }
 
-/// Returns O of the drawings next to a recording; all drawings of a case have the same.
+/// Returns O of the drawings next to a recording; all drawings of a case have the same O.
 #[expect(clippy::disallowed_methods, reason = "recordings are files of the project")]
 fn cutter_of(recording: &Path) -> f64 {
     let case = recording.ancestors().nth(3).expect("CASE/expected/RUN/FILE");

@@ -134,7 +134,7 @@ fn a_line_of_probes_may_run_in_any_direction() {
 
 #[test]
 fn probes_within_a_hundredth_of_a_line_are_on_it_for_the_plane() {
-    // The extents along and across the line are those of (-100, 0), (100, 0), (0, d), (0, -d).
+    // The probes are 100 mm from the centre along the line, and d from it across the line.
     let across = |d: f64| {
         modelled(ZModel::Plane, &[(-100.0, 0.0), (100.0, 0.0), (0.0, d), (0.0, -d)], |_, y| y, (0.0, 50.0))
     };

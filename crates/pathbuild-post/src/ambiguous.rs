@@ -4,7 +4,7 @@
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Value};
 
-/// Converts those problems of a translation to errors that would make a control misread the line. The others are dropped: they only arise
+/// Returns, as errors, those problems of a translation that would make a control misread the line. The others are dropped: they only arise
 /// because the translation is read as RS274.
 pub(super) fn errors(problems: &[Diagnostic], translation: &[u8]) -> Vec<Diagnostic> {
     problems.iter().filter_map(|problem| error(problem, translation)).collect()

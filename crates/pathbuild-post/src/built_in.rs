@@ -17,9 +17,9 @@ pub struct BuiltIn {
     pub name: &'static str,
     /// Language of the definition.
     pub language: Language,
-    /// One line that says for which machines the post is.
+    /// One line that says which machines the post is for.
     pub description: &'static str,
-    /// Text of the definition. The native program has none; for it, a description.
+    /// Text of the definition; for the native program, which has no definition, a description.
     pub text: &'static str,
 }
 
@@ -62,7 +62,7 @@ const fn cambam(name: &'static str, description: &'static str, text: &'static st
     BuiltIn { name, language: Language::CamBam, description, text }
 }
 
-/// Loads the built-in post with this name. The native program is not among them, because it is not written through a definition.
+/// Loads the built-in post with this name. The native program cannot be loaded, because it is not written through a definition.
 ///
 /// # Errors
 /// Fails if no built-in post has this name.

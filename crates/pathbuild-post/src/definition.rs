@@ -35,7 +35,7 @@ enum Engine {
     Cad6(Box<cad6::Definition>),
 }
 
-/// The output of a post.
+/// The output of a post: the text of a file, with notes and warnings.
 #[derive(Clone, Debug)]
 pub struct Output {
     /// Content of the file.
@@ -50,10 +50,10 @@ pub struct Output {
     pub post_build: Option<Vec<String>>,
 }
 
-/// Maximum rounding error of coordinates in mm that causes no warning: the one of two decimals in mm.
+/// Maximum rounding error of coordinates in mm that causes no warning: that of numbers in mm with two decimals.
 const FINE_ROUNDING: f64 = 0.005 * (1.0 + 1e-6);
 
-/// Maximum rounding error of coordinates in mm that causes no error: the one of one decimal in mm.
+/// Maximum rounding error of coordinates in mm that causes no error: that of numbers in mm with one decimal.
 const LARGEST_ROUNDING: f64 = 0.05 * (1.0 + 1e-6);
 
 /// Maximum size in bytes of a definition. Larger ones are refused.
@@ -81,7 +81,7 @@ impl PostDefinition {
         Ok(Self { file: file.to_owned(), engine, warnings })
     }
 
-    /// The dialect that the definition declares for its output.
+    /// Name of the dialect that the definition declares for its output; `None` if it declares none.
     pub fn dialect(&self) -> Option<&str> {
         match &self.engine {
             Engine::CamBam(definition) => definition.dialect(),

@@ -46,7 +46,7 @@ impl Findings {
 pub(crate) struct LineStarts(Vec<usize>);
 
 impl LineStarts {
-    /// Finds the lines of a text.
+    /// Determines where the lines of a text begin.
     pub(crate) fn of(text: &str) -> Self {
         Self(std::iter::once(0).chain(text.match_indices('\n').map(|(end, _)| end + 1)).collect())
     }

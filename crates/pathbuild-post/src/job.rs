@@ -131,7 +131,7 @@ pub(super) struct Feeds {
     pub(super) cut: Option<f64>,
 }
 
-/// Unit of a program.
+/// Unit of lengths in a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Units {
@@ -445,7 +445,7 @@ impl Hole {
 
 /// Maximum number of pecks per hole. More are taken for an error.
 const MOST_PECKS: usize = 1_000;
-/// Height in mm above the depth already drilled at which the tool changes from rapid to feed. LinuxCNC's G83 uses the same.
+/// Height in mm above the depth already drilled at which the tool changes from rapid to feed. LinuxCNC's G83 uses the same height.
 const PECK_GAP: f64 = 0.254;
 
 impl Hole {

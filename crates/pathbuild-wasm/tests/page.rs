@@ -369,7 +369,7 @@ fn a_program_is_verified_with_what_is_assumed() {
     assert_eq!(known["surface"], Value::Null);
     assert_eq!(known["checks"][0]["outcome"], "not-made");
     assert!(known["dialects"].as_array().unwrap().contains(&json!("grbl")));
-    // Each cutter is shown from the line on in which it is selected.
+    // Each cutter is shown from the line in which it is selected.
     assert_eq!(scene["paths"][0]["tools"][1]["diameter"], 3.0);
     assert_eq!(scene["paths"][0]["tool"], Value::Null);
 

@@ -30,7 +30,7 @@ pub struct Source<'a> {
     pub bytes: &'a [u8],
 }
 
-/// The inputs for adjusting a program.
+/// The program and the measured values from which [`adjust`] makes an adjusted program.
 #[derive(Clone, Copy, Debug)]
 pub struct Inputs<'a> {
     /// The program with formulas, `DRAWING_Clean.gcode`.
@@ -43,7 +43,7 @@ pub struct Inputs<'a> {
     pub max_correction: f64,
 }
 
-/// A program with measured heights.
+/// The result of [`adjust`]: a program with measured heights, and findings about its probes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AdjustedProgram {
     /// Content of the adjusted program, `DRAWING_Milling.gcode`.

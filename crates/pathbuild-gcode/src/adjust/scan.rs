@@ -56,7 +56,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Maximum number of bytes shown before the start of an error, and also of those shown from there on.
+/// Maximum number of bytes of a line shown on either side of the start of an error.
 const EXCERPT_BYTES: usize = 500;
 
 /// A number with its formula, as byte ranges of the line.
@@ -122,7 +122,7 @@ pub(super) struct ProbeSurvey<'a> {
 /// The first use of a probe in formulas, and the heights at which the probe was drawn.
 #[derive(Debug)]
 pub(super) struct ProbeUse<'a> {
-    /// The line of its first use.
+    /// Line in which a formula first uses the probe.
     pub(super) line: Line<'a>,
     pub(super) at: Range<usize>,
     /// Least and greatest height in mm at which the probe was drawn, according to the formulas.

@@ -44,7 +44,7 @@ pub(super) enum EnteredValue {
     Wrong,
 }
 
-/// A line of the file of values. Bytes of any code page may surround the ASCII text that it matches.
+/// Pattern of a line in the file of values. Bytes of any code page may surround the ASCII text that the pattern matches.
 static VALUE_LINE: LazyLock<bytes::Regex> = LazyLock::new(|| {
     let number = r"\s*(-?[0-9]+(?:[.,][0-9]+)?)\s*";
     let at = format!(r"@\s*\[{number}\|{number}\]");
@@ -203,7 +203,8 @@ struct LoggedHeight<'a> {
     place: [f64; 3],
 }
 
-/// Assigns the values of the log, in their order, to the probes without a value, in the order of their numbers: the probing program uses that order.
+/// Assigns the values of a log, from first to last, to the probes without a value, in the order of their numbers: the probing program probes in
+/// this order.
 pub(super) fn fill_from_log<'a>(
     probes: &mut [ProbeLine<'a>],
     values: Source<'_>,

@@ -3,7 +3,7 @@
 /// The words of a dialect. G and M codes are multiplied by ten: `G38.2` is 382.
 #[derive(Debug)]
 pub struct Words {
-    /// Letters, in upper case.
+    /// The letters of accepted words, in upper case.
     pub letters: Letters,
     /// Accepted G codes, in ascending order.
     pub g: &'static [u16],
@@ -11,7 +11,7 @@ pub struct Words {
     pub g_own: &'static [u16],
     /// Accepted M codes, in ascending order.
     pub m: &'static [u16],
-    /// M codes that are ignored.
+    /// M codes that the control accepts but ignores.
     pub m_ignored: &'static [u16],
     /// Accepted words that change neither the tool's path nor the order of lines.
     pub inert: &'static [InertWord],
@@ -26,7 +26,7 @@ pub struct Words {
 pub struct InertWord {
     /// `G` or `M`.
     pub letter: char,
-    /// The code, times ten.
+    /// The number after the letter, times ten.
     pub code: u16,
     /// The letters of the values that the word takes, in upper case.
     pub values: &'static [u8],

@@ -58,7 +58,7 @@ pub fn within_comment(text: &str, dialect: Option<Dialect>, charset: Charset) ->
     }
     let mut all = String::with_capacity(text.len());
     for c in text.chars().map(harmless) {
-        // A program may be printed where a CI runner looks for `##[` anywhere in a line.
+        // CI runners take `##[` anywhere in a printed line for a command, and a program may be printed there.
         if c == '#' && all.ends_with('#') {
             all.push(' ');
         }

@@ -11,7 +11,7 @@ pub struct Rules {
     pub dialect: Dialect,
     /// Spelling of words and comments.
     pub spelling: Spelling,
-    /// The accepted words.
+    /// The words that the dialect accepts.
     pub words: &'static Words,
     /// Rules for reading arcs.
     pub arcs: ArcRules,
@@ -39,7 +39,7 @@ pub struct Rules {
     pub runs_past_end: bool,
     /// Rules for words that reference the machine.
     pub reference: ReferenceRules,
-    /// Words that only controls built with a special setting obey; all others ignore them.
+    /// Words that only controls built with a special setting obey; all other controls ignore them.
     pub unusual: OptionalWords,
     /// Whether M5 and M9 take effect after the move in the same line.
     pub stops_last: bool,
@@ -92,7 +92,7 @@ pub struct ReferenceRules {
 /// Words that a control supports only if it was built with a special setting.
 #[derive(Debug)]
 pub struct OptionalWords {
-    /// G codes, times ten.
+    /// G codes that need such a setting, times ten.
     pub g: &'static [u16],
     /// Whether P, the number of turns of an arc, needs such a setting too.
     pub turns: bool,
@@ -137,7 +137,7 @@ pub enum DwellUnit {
 #[derive(Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 pub struct ArcRules {
-    /// Permitted difference of the radii at both ends.
+    /// Permitted difference between the radii at both ends of an arc.
     pub radius: RadiusTolerance,
     /// Whether an axis word in the plane of the arc is required even if its value does not change.
     pub axis_word: bool,
@@ -526,7 +526,7 @@ pub struct Spelling {
     pub percent: Percent,
     /// Meaning of `/` at the beginning of a line.
     pub slash: Slash,
-    /// Maximum length of a line.
+    /// Maximum length of a line; `None` if the dialect has none.
     pub line_length: Option<LineLength>,
     /// Largest block number N; `None` if there are no block numbers.
     pub block_numbers: Option<u32>,

@@ -116,7 +116,7 @@ impl Command {
         }
     }
 
-    /// Returns how far the interpreter executes the command. `NotFollowed` returns `Followed`, because it has been reported already.
+    /// Returns how far the interpreter executes the command; `Followed` for a `NotFollowed` command, which has been reported already.
     pub(super) fn effect(self) -> WordEffect {
         match self {
             Self::NoEffect(Group::ToolLength | Group::PathControl) => WordEffect::Followed,

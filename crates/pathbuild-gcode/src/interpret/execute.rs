@@ -248,7 +248,7 @@ pub(super) struct Values {
     slots: [Slot; 26],
 }
 
-/// The value of a letter.
+/// The value that a block gives for a letter.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Slot {
     pub(super) value: f64,
@@ -311,7 +311,7 @@ impl Values {
         self.given &= !Self::COORDINATES;
     }
 
-    /// Removes a letter from the block.
+    /// Removes a letter from the block and returns its value, if any.
     pub(super) fn remove(&mut self, letter: u8) -> Option<Slot> {
         let slot = self.peek(letter);
         self.given &= !bit(letter);

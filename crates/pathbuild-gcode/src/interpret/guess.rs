@@ -24,7 +24,7 @@ pub struct Guess {
     pub evidence: Evidence,
 }
 
-/// Evidence for a dialect.
+/// Evidence for a dialect: the reason, and the line where it was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Evidence {
     /// A phrase such as "it has correction formulas".

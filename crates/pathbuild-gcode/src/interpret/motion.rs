@@ -448,7 +448,7 @@ const CENTRE_SHIFT: f64 = 0.05;
 /// is milled or nearly nothing.
 const NEAR_ENDS: f64 = 0.002;
 
-/// Maximum number of turns of an arc, so that a few bytes cannot describe days of milling. The message for a greater P contains it.
+/// Maximum number of turns of an arc, so that a few bytes cannot describe days of milling. The message for a greater P states this number.
 const MOST_TURNS: u32 = 100_000;
 
 impl Interpreter<'_> {

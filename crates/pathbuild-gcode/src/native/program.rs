@@ -323,7 +323,7 @@ impl Writer<'_> {
 /// The dwell after each probe, P in seconds, so that the user can read the value.
 const DWELL: &str = "G04 P4";
 
-/// Writes the probing program.
+/// Writes the probing program, which probes at one point after the other and dwells after each.
 pub fn probing_program(program: &Program, header: &Header, options: &WriteOptions) -> String {
     let clearance = f3(program.sweep_height);
     let remarks = options.remarks(program);

@@ -22,7 +22,7 @@ const DECIMALS: i32 = 3;
 /// Checks that the text of a program makes the machine perform the steps of the program. Heights are compared before correction.
 ///
 /// # Errors
-/// PB006 if they differ, which is a bug in pathbuild.
+/// PB006 if the moves differ, which is a bug in pathbuild.
 pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
     if is_read_back([text], program) {
         return Ok(());
@@ -72,7 +72,7 @@ pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: 
 /// Checks that the text of a probing program probes at the positions of the program's probes, in their order.
 ///
 /// # Errors
-/// PB006 if they differ, which is a bug in pathbuild.
+/// PB006 if the positions differ, which is a bug in pathbuild.
 pub fn read_probing_back(text: &str, probes: &[ProbePoint]) -> Result<(), Box<Diagnostic>> {
     let slack = Tolerance::of_decimals(DECIMALS).place;
     let mut found = moves(text)?;

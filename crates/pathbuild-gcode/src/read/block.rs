@@ -312,7 +312,7 @@ fn shown_after(bytes: &[u8]) -> Cow<'_, str> {
     format!("{}...", decode(&bytes[..cut])).into()
 }
 
-/// Adds the text of the line to diagnostics that only have its number.
+/// Adds the text of the line to each diagnostic that only has the number of its line.
 pub fn quote<'d>(diagnostics: impl IntoIterator<Item = &'d mut Diagnostic>, file: &[u8]) {
     let is_bare = |one: &&mut Diagnostic| one.text.is_none() && one.place.line.is_some();
     let mut bare: Vec<&mut Diagnostic> = diagnostics.into_iter().filter(is_bare).collect();

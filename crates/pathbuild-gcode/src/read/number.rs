@@ -18,7 +18,7 @@ pub(super) struct ScannedNumber {
     pub(super) number: Number,
     /// Offset of the first byte after the number.
     pub(super) end: usize,
-    /// An unusual feature of its notation.
+    /// Unusual feature of the number's notation, if any.
     pub(super) oddity: Option<Oddity>,
 }
 

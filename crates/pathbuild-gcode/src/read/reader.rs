@@ -401,7 +401,8 @@ fn trim_end(line: &[u8]) -> &[u8] {
     &line[..line.len() - blanks]
 }
 
-/// Finds the first byte of a line that acts immediately, with its effect. Other bytes above 127 are only removed.
+/// Finds the first byte on which the control acts immediately, even within a comment, and returns its offset in the line and its effect. The control
+/// discards other bytes above 127.
 pub(super) fn first(line: &[u8]) -> Option<(usize, &'static Text)> {
     line.iter().enumerate().find_map(|(at, &byte)| effect(byte).map(|effect| (at, effect)))
 }

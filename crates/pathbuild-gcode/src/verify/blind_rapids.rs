@@ -12,9 +12,9 @@ use super::material::Stock;
 /// Number and first line of the rapid moves with unknown start that may pass through material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BlindRapids {
-    /// Number of moves.
+    /// Number of blind rapid moves.
     pub count: usize,
-    /// The line of the first one.
+    /// Line of the first blind rapid move.
     pub line: u32,
 }
 

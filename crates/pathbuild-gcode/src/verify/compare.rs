@@ -307,8 +307,8 @@ pub(super) fn check_pace(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> R
     }
 }
 
-/// Compares two stretches from their starts up to the given fractions.
-/// `radius_error` is that of the expected stretch, the centre of which is not known more exactly.
+/// Compares two stretches from their starts up to the given fractions. `radius_error` is that of the expected stretch, whose centre is not known
+/// more exactly than this.
 pub(super) fn check_shape(
     one: &Stretch,
     one_end: f64,
@@ -329,7 +329,7 @@ pub(super) fn check_shape(
     if [0.25, 0.5, 0.75].into_iter().all(agrees) { Ok(()) } else { Err(DifferenceKind::Shape) }
 }
 
-/// Compares two entire arcs.
+/// Whether two whole arcs are equal, compared at a quarter, half and three quarters of their length.
 fn is_same_course(one: &Course, other: &Course, tolerance: &Tolerance) -> bool {
     let slack = ARC_SLACK * tolerance.place;
     one.quarters().iter().zip(&other.quarters()).all(|(ours, theirs)| is_near(ours, theirs, slack))

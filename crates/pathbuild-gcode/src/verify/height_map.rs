@@ -41,7 +41,7 @@ impl HeightMap {
         self.left == 0
     }
 
-    /// Adds material up to `surface` within the capsule. Where some is already known, the lower of both heights applies.
+    /// Adds material up to `surface` within the capsule. Where material is already known, the lower of the two heights applies.
     pub(super) fn add(&mut self, capsule: &Capsule, surface: f64) {
         let surface = rounded(surface);
         let (first, last) = self.centres_within(capsule.rows());
@@ -146,7 +146,7 @@ impl HeightMap {
         capsule.row((f64::from(row) + 0.5) * self.resolution).map(|ends| self.centres_within(ends))
     }
 
-    /// Returns the first and last index of cells with centres between two coordinates. If the last is less than the first, there are none.
+    /// Returns the first and last index of cells with centres between two coordinates. If the last is less than the first, there are no such cells.
     fn centres_within(&self, (low, high): (f64, f64)) -> (i32, i32) {
         let index = |coordinate: f64| coordinate / self.resolution - 0.5;
         (whole(index(low).ceil()), whole(index(high).floor()))
@@ -207,7 +207,7 @@ impl Capsule {
         (self.from[1].min(self.to[1]) - self.radius, self.from[1].max(self.to[1]) + self.radius)
     }
 
-    /// Returns the least and greatest x of the capsule at this y; `None` if there are none.
+    /// Returns the least and greatest x of the capsule at this y; `None` if the capsule does not extend to this y.
     fn row(&self, y: f64) -> Option<(f64, f64)> {
         let ends = [self.from, self.to].into_iter().filter_map(|centre| disc_row(centre, self.radius, y));
         let sides = [1.0, -1.0].into_iter().filter_map(|side| {

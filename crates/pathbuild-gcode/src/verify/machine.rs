@@ -6,7 +6,7 @@ use pathbuild_motion::{Action, Move, Step, Turning};
 
 use crate::read::Problems;
 
-/// The limits of a machine. Unknown ones are not checked.
+/// The limits of a machine. Unknown limits are not checked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Machine {
     /// Travel of the machine's axes.
@@ -78,7 +78,7 @@ impl<'m> MachineRules<'m> {
         self.problems.into_diagnostics()
     }
 
-    /// Reports a feed that exceeds the limit, or has a component that exceeds the limit of its axis. Reported once until the feed changes.
+    /// Reports a feed that exceeds the limit, or has a component that exceeds the limit of its axis. A feed is reported once, until it changes.
     fn check_feed(&mut self, line: u32, movement: &Move) {
         let Some(feed) = movement.pace.feed().filter(|feed| Some(*feed) != self.last_feed) else { return };
         if let Some(most) = self.machine.feed.filter(|most| feed > *most) {

@@ -14,20 +14,20 @@ use super::height_map::{Capsule, HeightMap, RESIDUE};
 use crate::interpret::Program;
 use crate::read::Problems;
 
-/// Maximum number of cells in memory. If the resolution of the stock would require more, it is made coarser.
+/// Maximum number of cells in memory. A resolution of the stock that would require more cells is made coarser.
 const MOST_KEPT: f64 = 16e6;
 
 /// Minimum number of cells across the cutter for a useful map.
 const FEWEST_ACROSS: f64 = 4.0;
 
-/// The distance of chords from their arc is at most the side of a cell divided by this.
+/// Divisor of the side of a cell that gives the greatest distance of chords from their arc.
 const CHORDS: f64 = 4.0;
 
 /// Half the width of a centre line, as a share of the side of a cell: more than half the diagonal of a cell.
 const CENTRE_LINE: f64 = 0.75;
 
-/// Upper bound on the number of visits per cell within O of a cut: one when the material is added, half a visit when the cut, which is half as wide,
-/// removes it, and the cost of the rows.
+/// Upper bound on the visits per cell within O of a cut: one to add the material, half a visit on average to cut it, because a cut is only half as
+/// wide, and the cost of the rows.
 const VISITS_PER_CELL: f64 = 3.0;
 
 /// Applies the moves of a program to the stock and reports rapid moves that hit material.
@@ -96,8 +96,8 @@ fn too_large(line: u32, stock: &Stock, problems: &mut Problems) {
     });
 }
 
-/// Whether the given cuts, which are entirely below a rapid move, have cleared its path, assuming material up to `surface` all around. Also `false`
-/// if the number of cells does not suffice.
+/// Whether the given cuts, which are entirely below a rapid move, have cleared its path, assuming material up to `surface` all around. Returns false
+/// as well if the number of cells does not suffice.
 pub(super) fn has_room<'c>(
     line: u32,
     movement: &Move,
@@ -309,7 +309,7 @@ pub(super) fn cutting_piece(line: u32, movement: &Move, stock: &Stock) -> Option
     (movement.from.z().min(movement.to.z()) < piece.surface).then_some(*piece)
 }
 
-/// Whether a rapid move may hit known material: it is neither above all of it nor straight up.
+/// Whether a rapid move may hit known material: it neither stays above all material nor goes straight up.
 fn is_low_rapid(movement: &Move, stock: &Stock) -> bool {
     let is_above = stock.highest().is_none_or(|highest| movement.from.z().min(movement.to.z()) >= highest);
     let goes_up = movement.keeps_xy() && movement.to.z() >= movement.from.z();

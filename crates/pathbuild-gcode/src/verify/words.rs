@@ -27,7 +27,7 @@ pub struct PostWords {
     pub(super) chooses_tools: bool,
     /// The words (codes times ten) with which the post moves to machine positions before the first cut.
     first_places: BTreeSet<u16>,
-    /// The greatest feed of the post's rapid moves in mm/min, if it depends on F.
+    /// The greatest feed of the post's rapid moves in mm/min, if rapid moves depend on F.
     pub(super) rapid_feed: Option<f64>,
     /// Words that the post writes but the translation by its definition omits.
     others: BTreeSet<String>,

@@ -167,7 +167,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds a call that neither moves the tool nor ends a contour. While rapids are pending, the call is kept back with them.
+    /// Adds a call that neither moves the tool nor ends a contour. While rapids are pending, the call is held back with them.
     fn add_aside(&mut self, content: CallContent<'a>) {
         if self.ways.is_empty() {
             self.call(content);
@@ -448,7 +448,7 @@ pub(super) enum CallContent<'a> {
     Dwell(f64),
     /// A stop that waits for the operator.
     Stop,
-    /// A comment.
+    /// A comment for the operator.
     Comment(&'a str),
 }
 

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, Text, TextFault};
 
 macro_rules! kinds {
     ($($variant:ident $name:literal $en:literal $de:literal;)*) => {
-        /// The kinds of control texts. Each is called on its own occasion.
+        /// The kinds of control texts, which differ in when they are called.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum ControlTextKind {
             $(#[doc = $en] $variant,)*
@@ -60,7 +60,7 @@ kinds! {
 pub(super) struct ControlText {
     /// The text without the line break before its closing quotes.
     pub(super) text: String,
-    /// Line and column of its first character in the file, counted from 1; `None` for built-in texts.
+    /// Line and column of the text's first character in the file, counted from 1; `None` for built-in texts.
     pub(super) begins: Option<(u32, u32)>,
 }
 

@@ -62,7 +62,7 @@ impl Definition {
         &self.settings.extension
     }
 
-    /// The dialect named in the definition.
+    /// Name of the dialect that the definition states; `None` if it states none.
     pub(crate) fn dialect(&self) -> Option<&str> {
         self.settings.dialect.as_deref()
     }

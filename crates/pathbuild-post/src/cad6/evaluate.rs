@@ -33,7 +33,7 @@ pub(super) struct ResultLine {
     pub(super) is_inserted: bool,
     /// Offset in bytes at which the line begins in the expanded text.
     pub(super) begins: usize,
-    /// Line of the definition's file that produced it, counted from 1; 0 if unknown.
+    /// Line of the definition's file that produced this line, counted from 1; 0 if unknown.
     pub(super) origin: u32,
 }
 
@@ -60,7 +60,7 @@ pub(super) fn run(text: &Expanded, surroundings: Environment<'_>) -> Evaluated<O
     Ok(Outcome { lines: evaluator.lines, doubts: evaluator.doubts })
 }
 
-/// The state of an evaluation.
+/// Evaluator of an expanded text, with the position reached and the lines produced so far.
 pub(super) struct Evaluator<'a> {
     pub(super) text: &'a str,
     expanded: &'a Expanded,

@@ -306,7 +306,7 @@ functions! {
     "max" Any |all| all.iter().copied().fold(f64::NEG_INFINITY, f64::max), "the largest", "das Größte";
 }
 
-/// Evaluates a function.
+/// Evaluates the function with this name.
 pub(super) fn call(name: &str, arguments: &[f64]) -> Result<f64, FunctionError> {
     let function = FUNCTIONS.iter().find(|function| function.name == name).ok_or(FunctionError::Name)?;
     match (function.rule, arguments) {

@@ -204,7 +204,7 @@ impl Variables {
         self.values.insert(name, text.into());
     }
 
-    /// Removes a variable.
+    /// Removes a variable, given by its own name and not by an alias.
     pub(super) fn remove(&mut self, name: &str) {
         self.values.remove(name);
     }

@@ -89,7 +89,7 @@ impl Definition {
         &self.options.extension
     }
 
-    /// The dialect named in the definition.
+    /// Name of the dialect that the definition states; `None` if it states none.
     pub(crate) fn dialect(&self) -> Option<&str> {
         self.options.dialect.as_deref()
     }
@@ -160,7 +160,7 @@ impl Definition {
         self.options.arc_tolerance * units.millimetres()
     }
 
-    /// Whether the definition writes holes with the word of a cycle.
+    /// Whether the definition has a word for the drilling cycle G81.
     pub(crate) fn writes_cycles(&self) -> bool {
         !self.section(Section::G81).is_blank()
     }

@@ -209,13 +209,13 @@ impl Register {
 /// The forms of a register macro, which decide when and how its number is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
-    /// `{$x}`: always.
+    /// `{$x}`: the number is always written.
     Always,
-    /// `{$_x}`: only if it differs from the last one written.
+    /// `{$_x}`: the number is only written if it differs from the last one written.
     Changed,
-    /// `{$-x}`: with reversed sign.
+    /// `{$-x}`: the number is written with reversed sign.
     Reversed,
-    /// `{$+x}`: without sign.
+    /// `{$+x}`: the number is written without its sign.
     Positive,
 }
 

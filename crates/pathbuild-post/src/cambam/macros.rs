@@ -26,7 +26,7 @@ pub(super) enum Macro {
     },
     /// The section selected by the unit of the program or an option of the definition.
     Choice(Choice),
-    /// The words for the state that the operation requires, if the machine is in another one.
+    /// The words for the state that the operation requires, if the machine is in another state.
     State(State),
     /// A block of entire lines, such as all operations.
     Block(Block),
@@ -247,7 +247,7 @@ fn register(name: &str) -> Option<Macro> {
     Register::of(last).map(|register| Macro::Register(register, form))
 }
 
-/// A macro with arguments.
+/// A built-in macro that takes arguments.
 pub(super) struct MacroWithArguments {
     pub(super) name: &'static str,
     pub(super) expected: &'static Text,

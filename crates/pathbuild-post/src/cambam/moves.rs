@@ -139,8 +139,8 @@ impl Writer<'_> {
         }
     }
 
-    /// Returns the current position of the tool in the output unit. It is derived from the moves of the program, because a template may
-    /// write them with reversed sign, unless a line of another kind has moved the tool since.
+    /// Returns the current position of the tool in the output unit: that of the program's moves, because a template may write them with reversed
+    /// sign; or the number last written, if a line of another kind has moved the tool since.
     fn present(&self, axis: usize) -> Option<f64> {
         let register = Register::AXES[axis];
         match &self.own[axis] {
@@ -198,7 +198,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Moves up to the clearance plane, unless the tool is already there.
+    /// Writes a move up to the clearance plane, unless the tool is already there.
     pub(super) fn clearance(&mut self) -> WriteResult {
         let clearance = self.operation().clearance;
         if self.is_at(2, clearance) {
@@ -226,7 +226,7 @@ impl Writer<'_> {
         self.check(to)
     }
 
-    /// Moves to a position via the clearance plane, unless the tool is already there.
+    /// Writes the moves to a position via the clearance plane, unless the tool is already there.
     pub(super) fn check(&mut self, target: [Option<f64>; 3]) -> WriteResult {
         let is_there =
             target.iter().enumerate().all(|(axis, target)| target.is_none_or(|at| self.is_at(axis, at)));

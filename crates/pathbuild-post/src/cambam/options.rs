@@ -65,7 +65,7 @@ pub(super) struct Rotary {
 pub(super) enum Refusal {
     /// No element has this name.
     Unknown,
-    /// The value is not permitted; these values are.
+    /// The value is not permitted. The text describes the permitted values.
     Expected(&'static Text),
 }
 
@@ -178,7 +178,7 @@ impl ElementOption {
 
     /// Permitted values, or `None` if any text is permitted.
     pub(super) fn expected(&self) -> Option<&'static Text> {
-        // No element that restricts its values permits this one.
+        // No element that restricts its values permits this value.
         match (self.set)(&mut Options::default(), "\u{1}") {
             Err(Refusal::Expected(expected)) => Some(expected),
             Ok(()) | Err(Refusal::Unknown) => None,

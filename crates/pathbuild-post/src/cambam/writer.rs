@@ -329,7 +329,8 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    /// Ends the line and reads it back, unless it is blank or a move that does not move anything.
+    /// Ends the current line. A line that is blank, requires a tool number that the program lacks, or is a move that moves nothing is dropped; any
+    /// other line is read back and added to the output.
     pub(super) fn end_line(&mut self) {
         let line = std::mem::take(&mut self.line);
         let text = collapse(&line.text);

@@ -74,7 +74,7 @@ fn a_program_begins_at_its_start_at_sweep_height_and_ends_there() {
     );
 }
 
-/// Such arcs are between support bars whose distance equals the diameter of the cutter.
+/// An arc that would be printed as a full circle occurs between support bars whose distance equals the diameter of the cutter.
 #[test]
 fn an_arc_that_would_be_printed_as_a_full_circle_is_a_line() {
     let arc = |length: f64| {

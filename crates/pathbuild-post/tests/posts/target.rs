@@ -477,7 +477,7 @@ fn dwells_are_compared() {
     assert!(written("linuxcnc", "G4 P0.501", 0.5005).is_ok(), "half a millisecond");
 }
 
-/// Without a dialect, the number of G4 may be in seconds or milliseconds, but must be one of them.
+/// Without a dialect, the time of G4 may be in seconds or milliseconds, but must equal that of the job in one of these units.
 #[test]
 fn dwells_of_texts_without_a_dialect_are_compared() {
     let steps = |seconds| {

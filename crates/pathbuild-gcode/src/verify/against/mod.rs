@@ -144,7 +144,7 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
         self.words.left_out(line, word);
     }
 
-    /// Returns the result.
+    /// Completes the comparison at the end of the program and returns its result.
     pub fn finish(mut self) -> Agreement {
         self.setup.finish(&mut self.problems);
         let mut differences = self.problems.into_diagnostics();
