@@ -47,8 +47,8 @@ impl Library {
         LibraryOptions::new().open(directory)
     }
 
-    /// Checks drawings, paths and directories as `pathbuild check` does; without any, the whole library, or the directory if the configuration names
-    /// no library.
+    /// Checks drawings, paths and directories as `pathbuild check` does. Without inputs, checks the whole library, or the directory if the
+    /// configuration names no library.
     ///
     /// # Errors
     /// If the baseline has errors. Errors in the drawings are in the report.
@@ -157,7 +157,8 @@ impl Library {
         })
     }
 
-    /// Writes the programs of drawings, paths and directories as `pathbuild emit` does; without any, those of the paths that the configuration names.
+    /// Writes the programs of drawings, paths and directories as `pathbuild emit` does. Without inputs, writes those of the paths that the
+    /// configuration names.
     ///
     /// # Errors
     /// If the request is invalid, for example because a needed setting is missing. Errors in the drawings are in the report.

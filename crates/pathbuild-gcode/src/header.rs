@@ -198,7 +198,7 @@ impl HeaderReader {
         }
     }
 
-    /// Processes the comments at the beginning of a text. Used for translated programs, whose steps contain no comments.
+    /// Processes the comments at the beginning of a text. Translated programs need this, because their steps contain no comments.
     pub fn head_of(&mut self, text: &[u8]) {
         let steps = std::mem::take(&mut self.events);
         head_remarks(text).for_each(|remark| self.comment(0, &remark));
@@ -256,7 +256,7 @@ fn starts_in_inches(events: &[(u32, Event)], inch: u16) -> bool {
 pub struct Header {
     /// Line and number of each tool that the program inserts (M6), or of each tool that it selects (T) if it inserts none.
     pub changes: Vec<(u32, u32)>,
-    /// Whether lines are executed out of order.
+    /// Whether the program has calls, loops or branches, so that its lines are executed out of order.
     pub has_calls: bool,
     /// The tools that cut, with the lines from which they apply.
     pub tools: Vec<CuttingTool>,

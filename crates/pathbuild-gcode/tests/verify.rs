@@ -98,7 +98,7 @@ fn rapid_moves_alone_mill_nothing_anywhere() {
     assert_eq!(far("G0 Z1\nG0 X60\nG0 Y60\nG0 X70 Y70 Z5"), ["8 rapid-plunge"]);
     assert_eq!(far("G0 Z1\nG0 X60\nG53 G0 Z0\nG0 Z10"), ["8 rapid-plunge"]);
     assert_eq!(far("G0 Z1\nG0 X60\nG0 Z4.9\nG0 X70"), ["8 rapid-plunge"]);
-    // The rapid move is beside the stock, and a cut or a probe follows.
+    // A cut or a probe follows the rapid moves, so they are not reported as a plunge.
     assert_eq!(far("G0 Z1\nG0 X60\nG1 X60.001\nG0 X70"), ["9 rapid-in-material", "11 rapid-in-material"]);
     assert_eq!(far("G0 Z1\nG0 Z2\nG0 X60\nG38.2 Z0"), FINE);
     // Within the slot, all material is removed.

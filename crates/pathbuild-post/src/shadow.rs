@@ -17,7 +17,7 @@ pub(crate) struct Rs274Translation {
     doubtful: Vec<DoubtfulWord>,
     disputes: Disputes,
     dwells: Vec<(u32, f64)>,
-    /// Whether the definition of a blank (workpiece) has begun in a Heidenhain program. It begins with G30 and ends with G31.
+    /// Whether the definition of the blank (workpiece) has begun in a Heidenhain program. Such a definition begins with G30 and ends with G31.
     is_blank_open: bool,
     modes: ModeWords,
     /// Whether any line so far has words.

@@ -354,8 +354,8 @@ pub enum Heights {
     /// The number before the formula, to which the tool moves.
     #[default]
     AsWritten,
-    /// That number minus the correction, which is the difference between the formula's values with the measured and with the drawn heights. The tool
-    /// would move to this height if the material were as thick as drawn.
+    /// The number before the formula minus the correction, which is the difference between the formula's values with the measured and with the drawn
+    /// heights. The tool would move to this height if the material were as thick as drawn.
     Nominal,
 }
 
@@ -365,7 +365,7 @@ pub enum UnitCodes {
     /// G70 is inches and G71 millimetres, as in DIN 66025 and in the examples of XpertMILL's import filter.
     #[default]
     Din,
-    /// G70 is millimetres and G71 inches, as in the filter's table of codes.
+    /// G70 is millimetres and G71 inches, as in the table of codes of XpertMILL's import filter.
     Table,
 }
 

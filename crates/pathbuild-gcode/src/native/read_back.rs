@@ -141,7 +141,7 @@ fn nominal() -> Options {
     Options { heights: Heights::Nominal, ..Options::default() }
 }
 
-/// Most lines have at least this number of bytes.
+/// Length in bytes that most lines reach, for estimating the number of moves in a text.
 const SHORT_LINE: usize = 20;
 
 /// Whether the program has arcs whose printed end the writer may have moved.

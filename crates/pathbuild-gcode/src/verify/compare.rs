@@ -18,11 +18,11 @@ pub struct Tolerance {
     pub feed: f64,
     /// Greatest distance in mm between an arc and the chords that replace it.
     pub chord: f64,
-    /// The rapid moves at the ends of programs that are compared.
+    /// Selection of the rapid moves that are compared at the ends of the programs.
     pub ends: Ends,
 }
 
-/// The rapid moves at the ends of programs that are compared.
+/// Selection of the rapid moves that are compared at the ends of programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
     /// All rapid moves, once the position is known.

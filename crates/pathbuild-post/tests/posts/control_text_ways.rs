@@ -41,7 +41,7 @@ fn a_way_round_something_goes_over_it_or_point_for_point() {
     let lines = written(DIN, &high(steps.clone()));
     let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");
     assert_eq!(lines[over - 1], "G00 Z+25", "{lines:?}");
-    // A rapid move that is higher than the path's clearance is made at the height that the program uses.
+    // A rapid move above the path's clearance is made at the height given in the program.
     steps[4] = rapid(10.0, 40.0, 30.0);
     let lines = written(DIN, &high(steps));
     let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");

@@ -35,7 +35,7 @@ pub(super) struct Setup<'w> {
     at: Position,
     /// Words that the post writes before the first move and that the program has not contained yet.
     missing: BTreeMap<Group, u16>,
-    /// Tool, tool length and spindle.
+    /// The state of the tool, its length and the spindle.
     tools: ToolState,
     coolant: Coolant,
     coolant_line: u32,
