@@ -113,8 +113,8 @@ pub(super) static LINUXCNC: Words = Words {
         0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 300, 480, 490, 500, 510, 520, 530, 600, 610, 620, 630,
         640, 650, 660, 670, 680, 700, 710, 720, 730, 980, 990,
     ],
-    // From memory of LinuxCNC's page "M-Codes": M19 R Q P orients the spindle; M50 to M53 P switch overrides, adaptive feed and feed stop; M62 to M65 P switch
-    // digital outputs, M67 and M68 E Q set analogue ones; M66 P or E, L, Q waits for an input.
+    // From memory of LinuxCNC's page "M-Codes": M19 R Q P orients the spindle; M50 to M53 P switch overrides, adaptive feed and feed stop;
+    // M62 to M65 P switch digital outputs, M67 and M68 E Q set analogue ones; M66 P or E, L, Q waits for an input.
     inert: &[
         inert('M', 190, b"RQP"),
         inert('M', 500, b"P"),

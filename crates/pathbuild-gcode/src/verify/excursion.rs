@@ -25,7 +25,8 @@ pub(super) struct Excursion {
 }
 
 impl Excursions {
-    /// Processes the next move, and returns the excursion that it ends. An excursion begins only at a place that `may_begin` accepts, below a known `surface`.
+    /// Processes the next move, and returns the excursion that it ends. An excursion begins only at a place that `may_begin` accepts, below a
+    /// known `surface`.
     pub(super) fn step(
         &mut self,
         line: u32,
