@@ -14,7 +14,7 @@ use pathbuild_db::{
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{FilePattern, PathOptions, Restriction};
-use pathbuild_testkit::Workshop;
+use pathbuild_testkit::RandomLibrary;
 use pathbuild_testkit::naive::{Finding, Model, Rules, differences, language};
 use pathbuild_workspace::config;
 use pathbuild_workspace::session::{limits, reading};
@@ -51,32 +51,32 @@ fn every_way_to_ask_finds_what_a_plain_model_finds() {
 
 /// Returns the findings in each state of a library.
 fn states(seed: u64) -> Vec<Vec<Finding>> {
-    let mut workshop = Workshop::new(seed);
+    let mut library = RandomLibrary::new(seed);
     let system = Arc::new(MemorySystem::default());
-    for (path, bytes) in workshop.files() {
+    for (path, bytes) in library.files() {
         system.put(path.as_str(), bytes.clone());
     }
-    let mut told = Asked::new(Arc::clone(&system), workshop.rules());
-    let place = seed.is_multiple_of(OF_PROGRAM).then(|| OnDisk::new(&workshop));
+    let mut incremental = TargetDatabase::new(Arc::clone(&system), library.rules());
+    let place = seed.is_multiple_of(OF_PROGRAM).then(|| OnDisk::new(&library));
     let mut seen = Vec::new();
     for step in 0..=EDITS {
         if step > 0 {
-            for path in workshop.edit() {
-                change(&workshop, &path, &system, &mut told, place.as_ref());
+            for path in library.edit() {
+                change(&library, &path, &system, &mut incremental, place.as_ref());
             }
         }
         let said = |what: &str| format!("library {seed}, edit {step}: {what}");
-        let model = Model::new(workshop.files(), workshop.rules());
+        let model = Model::new(library.files(), library.rules());
         let expected = model.check("lib");
-        let mut cold = Asked::new(Arc::clone(&system), workshop.rules());
-        let found = cold.library(&workshop);
+        let mut fresh = TargetDatabase::new(Arc::clone(&system), library.rules());
+        let found = fresh.library(&library);
         same(&expected, &findings(&found), &said("the model and a new database"));
-        let [again, found] = [told.library(&workshop), found].map(|found| in_order(&found));
+        let [again, found] = [incremental.library(&library), found].map(|found| in_order(&found));
         let differing = again.iter().zip(&found).find(|(a, b)| a != b);
         assert!(again == found, "{}: {differing:#?}", said("a database that was told of the edits"));
         let paths = model.paths("lib");
         let (file, name) = &paths[(usize::try_from(seed).unwrap() + step) % paths.len()];
-        let alone = Asked::new(Arc::clone(&system), workshop.rules()).path(file, name);
+        let alone = TargetDatabase::new(Arc::clone(&system), library.rules()).path(file, name);
         same_but_cycles(&model.check_alone(file, name), &findings(&alone), &said(&format!("{name} alone")));
         if let Some(place) = &place {
             same(&expected, &place.check(""), &said("the program with what it kept"));
@@ -117,26 +117,32 @@ fn in_order(found: &[Diagnostic]) -> Vec<String> {
     found
 }
 
-fn change(workshop: &Workshop, path: &str, system: &MemorySystem, told: &mut Asked, place: Option<&OnDisk>) {
+fn change(
+    library: &RandomLibrary,
+    path: &str,
+    system: &MemorySystem,
+    incremental: &mut TargetDatabase,
+    place: Option<&OnDisk>,
+) {
     let path = Utf8Path::new(path);
-    match workshop.files().get(path.as_str()) {
+    match library.files().get(path.as_str()) {
         Some(bytes) => system.put(path, bytes.clone()),
         None => _ = pathbuild_db::system::System::remove(system, path),
     }
-    told.db.touch_file(path);
-    told.db.touch_directory(path.parent().unwrap());
+    incremental.db.touch_file(path);
+    incremental.db.touch_directory(path.parent().unwrap());
     if let Some(place) = place {
-        place.put(workshop, path);
+        place.put(library, path);
     }
 }
 
 /// A database that is queried for targets.
-struct Asked {
+struct TargetDatabase {
     db: Database,
     targets: BTreeMap<(String, String), Target>,
 }
 
-impl Asked {
+impl TargetDatabase {
     fn new(system: Arc<MemorySystem>, rules: &Rules) -> Self {
         let db = Database::new(system);
         let search = rules.search.iter().map(Utf8PathBuf::from).collect();
@@ -156,8 +162,8 @@ impl Asked {
     }
 
     /// Returns the findings in the library, sorted and without duplicates.
-    fn library(&mut self, workshop: &Workshop) -> Vec<Diagnostic> {
-        let files: Vec<&String> = workshop.files().keys().filter(|path| path.starts_with("lib/")).collect();
+    fn library(&mut self, library: &RandomLibrary) -> Vec<Diagnostic> {
+        let files: Vec<&String> = library.files().keys().filter(|path| path.starts_with("lib/")).collect();
         let mut found = Vec::new();
         for path in &files {
             let file = self.db.file(Utf8Path::new(path));
@@ -200,8 +206,8 @@ impl Asked {
 struct OnDisk(Place);
 
 impl OnDisk {
-    fn new(workshop: &Workshop) -> Self {
-        let rules = workshop.rules();
+    fn new(library: &RandomLibrary) -> Self {
+        let rules = library.rules();
         let restrict: Vec<String> =
             rules.restrict.iter().map(|(parent, child)| format!("{parent}:{child}")).collect();
         let configuration = format!(
@@ -209,13 +215,13 @@ impl OnDisk {
             rules.search
         );
         let place = Place::new().file("pathbuild.toml", configuration).file("spare/nothing", "");
-        let files = workshop.files().iter();
+        let files = library.files().iter();
         Self(files.fold(place, |place, (path, bytes)| place.file(path, bytes)))
     }
 
-    fn put(&self, workshop: &Workshop, path: &Utf8Path) {
+    fn put(&self, library: &RandomLibrary, path: &Utf8Path) {
         let on_disk = self.0.path().join(path);
-        match workshop.files().get(path.as_str()) {
+        match library.files().get(path.as_str()) {
             Some(bytes) => fs::write(on_disk, bytes).unwrap(),
             None => _ = fs::remove_file(on_disk),
         }

@@ -56,7 +56,7 @@ fn library() -> Place {
 }
 
 /// Returns the output of a run, without its duration.
-fn said(run: &Run) -> (Option<i32>, String, String) {
+fn output(run: &Run) -> (Option<i32>, String, String) {
     let stderr: Vec<&str> = run.stderr.lines().filter(|line| !line.contains(" paths in ")).collect();
     (run.status, run.stdout.clone(), stderr.join("\n"))
 }
@@ -64,12 +64,12 @@ fn said(run: &Run) -> (Option<i32>, String, String) {
 #[track_caller]
 fn assert_same(place: &Place, what: &str) {
     let without = place.run("check --format json --no-cache");
-    assert_eq!(said(&place.run("check --format json")), said(&without), "first after {what}");
-    assert_eq!(said(&place.run("check --format json -j 1")), said(&without), "then after {what}");
+    assert_eq!(output(&place.run("check --format json")), output(&without), "first after {what}");
+    assert_eq!(output(&place.run("check --format json -j 1")), output(&without), "then after {what}");
 }
 
 /// Returns the number of drawings whose cached results still hold, with the number of all drawings.
-fn held(place: &Place) -> String {
+fn reused_drawings(place: &Place) -> String {
     let run = place.run("check -v");
     run.stderr
         .lines()
@@ -92,7 +92,7 @@ fn the_way_to_a_finding_is_the_same_with_what_was_kept() {
             .file("projects/8002.dxf", dxf(&[path("8002.1P", 5, &["8001.1P"])]));
         for format in ["json", "full", "concise", "github", "gitlab", "sarif", "junit"] {
             let [without, cold, warm] = ["--no-cache", "", ""]
-                .map(|option| said(&place.run(&format!("check --format {format} {option}"))));
+                .map(|option| output(&place.run(&format!("check --format {format} {option}"))));
             assert!(without.1.contains("PB") || without.2.contains("PB"), "{without:?}");
             assert_eq!(without, cold, "{library}, {format}");
             assert_eq!(without, warm, "{library}, {format}");
@@ -196,10 +196,10 @@ fn after_any_edits_programs_are_current_or_not_as_without_the_cache() {
             }
             _ => edit(&place, &mut chance),
         };
-        let without = said(&place.run(&format!("emit --check --no-cache {OPTIONS}")));
+        let without = output(&place.run(&format!("emit --check --no-cache {OPTIONS}")));
         ambiguous += usize::from([&without.1, &without.2].iter().any(|text| text.contains("PB504")));
         for time in ["first", "then"] {
-            let with = said(&place.run(&format!("emit --check {OPTIONS}")));
+            let with = output(&place.run(&format!("emit --check {OPTIONS}")));
             assert_eq!(with, without, "{time} after step {step}: {what}");
         }
     }
@@ -226,27 +226,27 @@ fn write(file: &PathBuf, paths: &[(String, u32, Vec<String>)]) -> String {
 #[test]
 fn only_what_depends_on_a_change_is_checked_again() {
     let place = library();
-    assert_eq!(held(&place), "0 / 5");
-    assert_eq!(held(&place), "5 / 5");
+    assert_eq!(reused_drawings(&place), "0 / 5");
+    assert_eq!(reused_drawings(&place), "5 / 5");
     write(&place.path().join("library/parts/1001.dxf"), &[path("1001.1P", 4, &[])]);
     // The results of 1001, of 1002-1003, and of 8001, which embeds one of them, no longer hold.
-    assert_eq!(held(&place), "2 / 5");
+    assert_eq!(reused_drawings(&place), "2 / 5");
     // The name of the new file admits a path that 8002 did not find.
     write(&place.path().join("spare/1009.dxf"), &[path("1009.2P", 5, &[])]);
-    assert_eq!(held(&place), "4 / 5");
+    assert_eq!(reused_drawings(&place), "4 / 5");
     write(&place.path().join("spare/7000.dxf"), &[path("7000.1P", 5, &[])]);
-    assert_eq!(held(&place), "5 / 5");
+    assert_eq!(reused_drawings(&place), "5 / 5");
     write(&place.path().join("spare/1004.dxf"), &[path("1004.1P", 4, &[])]);
-    assert_eq!(held(&place), "4 / 5");
+    assert_eq!(reused_drawings(&place), "4 / 5");
 }
 
 #[test]
 fn a_drawing_that_was_touched_is_not_checked_again() {
     let place = library();
-    assert_eq!(held(&place), "0 / 5");
+    assert_eq!(reused_drawings(&place), "0 / 5");
     let file = place.path().join("library/parts/1001.dxf");
     fs::write(&file, fs::read(&file).unwrap()).unwrap();
-    assert_eq!(held(&place), "5 / 5");
+    assert_eq!(reused_drawings(&place), "5 / 5");
 }
 
 /// If a path is 0.5 mm too far outside, material is left, unless its cutter is for slots.
@@ -270,13 +270,13 @@ fn the_shape_of_a_cutter_asks_another_question() {
 #[test]
 fn settings_that_matter_ask_another_question() {
     let place = library();
-    assert_eq!(held(&place), "0 / 5");
+    assert_eq!(reused_drawings(&place), "0 / 5");
     let place = place.file("pathbuild.toml", format!("{CONFIGURATION}restrict = [\"8*:9\"]\n"));
-    assert_eq!(held(&place), "0 / 5");
+    assert_eq!(reused_drawings(&place), "0 / 5");
     assert_same(&place, "forbidding an embedding");
     // The results do not depend on the severity of findings.
     let place = place.file("pathbuild.toml", format!("{CONFIGURATION}[severity]\nPB210 = \"ignore\"\n"));
-    assert_eq!(held(&place), "5 / 5");
+    assert_eq!(reused_drawings(&place), "5 / 5");
 }
 
 /// A drawing that was read in this run counts with its current content, even if earlier results did not depend on it.
@@ -312,7 +312,7 @@ fn results(place: &Place) -> Vec<PathBuf> {
 #[test]
 fn what_is_damaged_cut_short_or_foreign_is_made_anew_with_a_note() {
     let place = library();
-    let clean = said(&place.run("check --format json"));
+    let clean = output(&place.run("check --format json"));
     let [file] = results(&place).try_into().unwrap();
     let whole = fs::read(&file).unwrap();
     let mut damages: Vec<Vec<u8>> =
@@ -325,10 +325,10 @@ fn what_is_damaged_cut_short_or_foreign_is_made_anew_with_a_note() {
     for damaged in damages {
         fs::write(&file, &damaged).unwrap();
         let run = place.run("check --format json");
-        let (status, stdout, stderr) = said(&run);
+        let (status, stdout, stderr) = output(&run);
         assert_eq!((status, &stdout), (clean.0, &clean.1));
         assert!(stderr.contains("will be rebuilt"), "{stderr}");
-        assert_eq!(said(&place.run("check --format json")), clean);
+        assert_eq!(output(&place.run("check --format json")), clean);
     }
     fs::remove_file(&file).unwrap();
     fs::create_dir(&file).unwrap();
@@ -413,9 +413,9 @@ fn a_cache_whose_name_is_no_utf_8_is_refused() {
 #[test]
 fn several_processes_at_once_do_each_other_no_harm() {
     let place = library();
-    let expected = said(&place.run("check --format json --no-cache"));
+    let expected = output(&place.run("check --format json --no-cache"));
     std::thread::scope(|scope| {
-        let run = || (0..6).map(|_| said(&place.run("check --format json"))).collect::<Vec<_>>();
+        let run = || (0..6).map(|_| output(&place.run("check --format json"))).collect::<Vec<_>>();
         let threads: Vec<_> = (0..4).map(|_| scope.spawn(run)).collect();
         for thread in threads {
             for found in thread.join().unwrap() {
@@ -573,9 +573,9 @@ fn paths_and_drawings_that_are_named_are_checked_once() {
     for (arguments, all) in named {
         let run = place.run(&format!("check {arguments}"));
         let without = place.run(&format!("check --no-cache {arguments}"));
-        assert_eq!(said(&run), said(&without));
+        assert_eq!(output(&run), output(&without));
         assert_eq!(known(&place, arguments), all, "{arguments}");
-        assert_eq!(said(&place.run(&format!("check {arguments}"))), said(&without));
+        assert_eq!(output(&place.run(&format!("check {arguments}"))), output(&without));
     }
     // The results are for another path of the same drawing.
     assert_eq!(known(&place, "1002.1P"), "0 / 1");
@@ -585,6 +585,6 @@ fn paths_and_drawings_that_are_named_are_checked_once() {
     let place = place.file("library/parts/1000-1001.dxf", dxf(&[path("1001.1P", 5, &[])]));
     let without = place.run("check --no-cache 1001.1P");
     assert!(without.stderr.contains("PB504"), "{without}");
-    assert_eq!(said(&place.run("check 1001.1P")), said(&without));
+    assert_eq!(output(&place.run("check 1001.1P")), output(&without));
     assert_eq!(known(&place, "8001.1P"), "0 / 1");
 }

@@ -27,7 +27,7 @@ fn two(old: Vec<u8>, new: Vec<u8>) -> Place {
 }
 
 #[track_caller]
-fn told(run: &Run, status: i32, lines: &[&str]) {
+fn assert_prints(run: &Run, status: i32, lines: &[&str]) {
     assert_eq!(run.status, Some(status), "{run}");
     for line in lines {
         assert!(run.stdout.contains(line), "{line:?} not in {run}");
@@ -38,7 +38,7 @@ fn told(run: &Run, status: i32, lines: &[&str]) {
 fn nothing_has_changed() {
     let drawing = dxf("1001.1P", "1", LINE);
     let run = two(drawing.clone(), drawing).run("diff old new");
-    told(&run, 0, &["0 of 1 path changed\n"]);
+    assert_prints(&run, 0, &["0 of 1 path changed\n"]);
     assert_eq!(run.stdout.lines().count(), 1, "{run}");
 }
 
@@ -47,27 +47,31 @@ fn a_drawing_that_lies_elsewhere_on_its_sheet_mills_the_same() {
     let shifted =
         "layer 1001.1P\nstart 100,50 \"T5 O2 I9 B1 MPlate S10 F200\"\nmill 100,50 140,50\nend 140,50\n";
     let place = two(dxf("1001.1P", "1", LINE), sheet(shifted).unwrap().to_dxf());
-    told(&place.run("diff old new"), 0, &["0 of 1 path changed"]);
+    assert_prints(&place.run("diff old new"), 0, &["0 of 1 path changed"]);
 }
 
 #[test]
 fn deeper_faster_added_and_gone() {
     let old = dxf("1001.1P", "1", LINE);
     let deeper = two(old.clone(), dxf("1001.1P", "0.5", LINE)).run("diff old new");
-    told(&deeper, 0, &["1001.1P · parts/1001.1P.dxf: changed", "  0.5 mm deeper: ", "1 of 1 path changed"]);
+    assert_prints(
+        &deeper,
+        0,
+        &["1001.1P · parts/1001.1P.dxf: changed", "  0.5 mm deeper: ", "1 of 1 path changed"],
+    );
     let faster = two(old.clone(), dxf("1001.1P", "1", "mill 0,0 40,0 \"F300\"")).run("diff old new");
-    told(&faster, 0, &["faster: F300 instead of F200"]);
+    assert_prints(&faster, 0, &["faster: F300 instead of F200"]);
     let place = two(old.clone(), old.clone())
         .file("new/parts/1002.1P.dxf", dxf("1002.1P", "1", LINE))
         .file("old/parts/1003.1P.dxf", dxf("1003.1P", "1", LINE));
     let run = place.run("diff old new");
-    told(
+    assert_prints(
         &run,
         0,
         &["1002.1P · parts/1002.1P.dxf: new", "1003.1P · parts/1003.1P.dxf: gone", ", 1 new, 1 gone"],
     );
     let german = place.run("diff old new --lang de");
-    told(&german, 0, &["0 von 2 Pfaden geändert, 1 neu, 1 weg"]);
+    assert_prints(&german, 0, &["0 von 2 Pfaden geändert, 1 neu, 1 weg"]);
 }
 
 #[test]
@@ -80,15 +84,15 @@ fn what_embeds_a_changed_path_has_changed_as_well() {
     let place = two(part("1"), part("0.5"))
         .file("old/parts/8001.1P.dxf", project.clone())
         .file("new/parts/8001.1P.dxf", project);
-    told(&place.run("diff old new"), 0, &["1001.1P · ", "8001.1P · ", "2 of 2 paths changed"]);
+    assert_prints(&place.run("diff old new"), 0, &["1001.1P · ", "8001.1P · ", "2 of 2 paths changed"]);
 }
 
 #[test]
 fn errors_are_seen_and_make_the_status() {
     let (fine, broken) = (dxf("1001.1P", "1", LINE), dxf("1001.1P", "1", "mill 0,0 30,0"));
-    told(&two(fine.clone(), broken.clone()).run("diff old new"), 1, &["has errors now"]);
-    told(&two(broken.clone(), fine).run("diff old new"), 0, &["had errors, has none now"]);
-    told(&two(broken.clone(), broken).run("diff old new"), 1, &["has errors, before and now"]);
+    assert_prints(&two(fine.clone(), broken.clone()).run("diff old new"), 1, &["has errors now"]);
+    assert_prints(&two(broken.clone(), fine).run("diff old new"), 0, &["had errors, has none now"]);
+    assert_prints(&two(broken.clone(), broken).run("diff old new"), 1, &["has errors, before and now"]);
 }
 
 #[test]
@@ -97,7 +101,11 @@ fn a_path_that_moved_to_another_drawing() {
     let place = two(drawing.clone(), drawing.clone());
     fs::rename(place.path().join("new/parts/1001.1P.dxf"), place.path().join("new/parts/1001.1-1001.2P.dxf"))
         .unwrap();
-    told(&place.run("diff old new"), 0, &["parts/1001.1P.dxf → parts/1001.1-1001.2P.dxf: the same moves"]);
+    assert_prints(
+        &place.run("diff old new"),
+        0,
+        &["parts/1001.1P.dxf → parts/1001.1-1001.2P.dxf: the same moves"],
+    );
 }
 
 #[test]
@@ -111,7 +119,7 @@ fn what_is_not_there_is_an_error() {
 #[test]
 fn two_drawings() {
     let place = two(dxf("1001.1P", "1", LINE), dxf("1001.1P", "0.5", LINE));
-    told(&place.run("diff old/parts/1001.1P.dxf new/parts/1001.1P.dxf"), 0, &["0.5 mm deeper"]);
+    assert_prints(&place.run("diff old/parts/1001.1P.dxf new/parts/1001.1P.dxf"), 0, &["0.5 mm deeper"]);
 }
 
 #[test]
@@ -122,8 +130,8 @@ fn a_program_and_the_path_that_it_was_made_from() {
     let diff = |config: &str| {
         place.run(&format!("diff programs/1001.1P_Milling.gcode 1001.1P --config {config}/pathbuild.toml"))
     };
-    told(&diff("old"), 0, &["0 of 1 path changed"]);
-    told(&diff("new"), 0, &["0.5 mm deeper"]);
+    assert_prints(&diff("old"), 0, &["0 of 1 path changed"]);
+    assert_prints(&diff("new"), 0, &["0.5 mm deeper"]);
     assert_eq!(place.run("diff programs/1001.1P_Milling.gcode new").status, Some(2));
 }
 
@@ -144,7 +152,7 @@ fn what_a_post_rounds_is_no_change() {
         place.run(&format!("diff programs/{program} 1001.1P --config {config}/pathbuild.toml"))
     };
     assert_eq!(diff("old").stdout, "0 of 1 path changed\n");
-    told(&diff("new"), 0, &["removed", "1 of 1 path changed"]);
+    assert_prints(&diff("new"), 0, &["removed", "1 of 1 path changed"]);
 }
 
 fn git(place: &Place, arguments: &[&str]) {
@@ -163,14 +171,14 @@ fn revisions_are_compared_with_each_other_and_with_what_lies_there() {
     git(&place, &["add", "-A"]);
     git(&place, &["commit", "-q", "-m", "all"]);
     fs::write(place.path().join("parts/1001.1P.dxf"), dxf("1001.1P", "0.5", LINE)).unwrap();
-    told(&place.run("diff HEAD"), 0, &["1001.1P · parts/1001.1P.dxf: changed", "0.5 mm deeper"]);
-    told(&place.run("diff HEAD HEAD"), 0, &["0 of 1 path changed"]);
+    assert_prints(&place.run("diff HEAD"), 0, &["1001.1P · parts/1001.1P.dxf: changed", "0.5 mm deeper"]);
+    assert_prints(&place.run("diff HEAD HEAD"), 0, &["0 of 1 path changed"]);
     git(&place, &["commit", "-q", "-a", "-m", "deeper"]);
-    told(&place.run("diff HEAD~1 HEAD"), 0, &["0.5 mm deeper"]);
+    assert_prints(&place.run("diff HEAD~1 HEAD"), 0, &["0.5 mm deeper"]);
     // Each revision uses its own configuration.
     fs::write(place.path().join("pathbuild.toml"), "rapid = 1000\nlibrary = [\"gone\"]\n").unwrap();
     let run = place.run("diff HEAD~1 HEAD");
-    told(&run, 0, &["0.5 mm deeper"]);
+    assert_prints(&run, 0, &["0.5 mm deeper"]);
     let unknown = place.run("diff nothing");
     assert!(unknown.status == Some(2) && unknown.stderr.contains("neither a directory"), "{unknown}");
     assert_eq!(place.run("diff --output=x.html -- --help").status, Some(2));
@@ -190,7 +198,7 @@ fn json_markdown_and_a_page() {
     assert_eq!(of("path_change")["new_file"], "parts/1001.1P.dxf");
     assert_eq!(of("comparison")["changed"], 1);
     for name in ["d.md", "d.html"] {
-        told(&place.run(&format!("diff old new -o {name}")), 0, &[]);
+        assert_prints(&place.run(&format!("diff old new -o {name}")), 0, &[]);
     }
     let read = |name: &str| fs::read_to_string(place.path().join(name)).unwrap();
     let markdown = read("d.md");
@@ -216,7 +224,7 @@ fn changes_are_seen() {
     ]
     .map(|(depth, elements)| dxf("1001.1P", depth, elements));
     let place = two(old, new);
-    told(&place.run("diff old new -o d.html"), 0, &[]);
+    assert_prints(&place.run("diff old new -o d.html"), 0, &[]);
     let page = place.read("d.html");
     let pictures = page.split("<svg").skip(1).take(3).map(|text| text.split_once("</svg>").unwrap().0);
     assert_snapshot!(pictures.collect::<Vec<_>>().join("\n\n"));
@@ -227,7 +235,7 @@ fn changes_are_seen() {
 fn removed_moves_are_wider_and_beneath() {
     let drawing = |elements: &str| dxf("1001.1P", "1", elements);
     let place = two(drawing("mill 0,0 40,0"), drawing("mill 0,0 33.51,0\nsweep 33.51,0 40,0"));
-    told(&place.run("diff old new -o d.html --lang de"), 0, &[]);
+    assert_prints(&place.run("diff old new -o d.html --lang de"), 0, &[]);
     let page = place.read("d.html");
     let picture = page.split("<svg").nth(1).unwrap().split_once("</svg>").unwrap().0;
     let place_of = |style: &str| picture.find(style).unwrap_or_else(|| panic!("{style} in {picture}"));
@@ -252,7 +260,7 @@ fn alterations_differ_in_colour_or_dashes() {
         dxf("1001.1P", "1", &((0..6).map(piece).collect::<String>() + "mill 36,0 40,0"))
     };
     let place = two(drawing(0.0), drawing(0.1));
-    told(&place.run("diff old new -o d.html"), 0, &["0.6 mm deeper"]);
+    assert_prints(&place.run("diff old new -o d.html"), 0, &["0.6 mm deeper"]);
     let page = place.read("d.html");
     let picture = page.split("<svg").nth(1).unwrap().split_once("</svg>").unwrap().0;
     let legend = picture.lines().filter(|line| line.starts_with("<line x1=\"40\""));
@@ -268,7 +276,7 @@ fn alterations_differ_in_colour_or_dashes() {
 fn the_stock_shows_what_a_change_removes_or_leaves() {
     let stock = |[old, new]: [(&str, &str); 2]| {
         let place = two(dxf("1001.1P", old.0, old.1), dxf("1001.1P", new.0, new.1));
-        told(&place.run("diff old new -o d.html"), 0, &[]);
+        assert_prints(&place.run("diff old new -o d.html"), 0, &[]);
         let page = place.read("d.html");
         ["removed now, not before", "left now, removed before"].map(|text| page.contains(text))
     };
@@ -364,7 +372,7 @@ fn the_limits_of_a_revision_are_its_own() {
     let place = committed(place).file("1001.1P.dxf", dxf("1001.1P", "0.5", LINE));
     git(&place, &["commit", "-q", "-a", "-m", "deeper"]);
     let place = place.file("pathbuild.toml", format!("{configuration}[limits]\nfile-size = 100\n"));
-    told(&place.run("diff HEAD~1 HEAD"), 0, &["0.5 mm deeper"]);
+    assert_prints(&place.run("diff HEAD~1 HEAD"), 0, &["0.5 mm deeper"]);
 }
 
 /// A tree contains an empty Git object under so many names that these exceed 4 GiB together.
@@ -415,7 +423,7 @@ fn ignore_files_and_empty_directories_of_a_revision_hold() {
     git(&place, &["init", "-q"]);
     git(&place, &["add", "-f", "-A"]);
     git(&place, &["commit", "-q", "-m", "all"]);
-    told(&place.run("diff HEAD HEAD"), 0, &["0 of 1 path changed"]);
+    assert_prints(&place.run("diff HEAD HEAD"), 0, &["0 of 1 path changed"]);
 }
 
 /// Drawings are links: one to another file of the tree, and one to a file outside.

@@ -59,16 +59,16 @@ fn with(place: Place, file: &str, from: &str, to: &str) -> Place {
     place.file(file, bytes)
 }
 
-fn said(run: &Run) -> (Option<i32>, &str, &str) {
+fn output(run: &Run) -> (Option<i32>, &str, &str) {
     (run.status, &run.stdout, &run.stderr)
 }
 
 /// Returns the output of a check, after asserting that it is the same with the current cache, with the cache of that run, and without a cache.
 #[track_caller]
-fn answer(place: &Place, arguments: &str) -> Run {
+fn consistent_output(place: &Place, arguments: &str) -> Run {
     let without = place.run(&format!("emit --check --no-cache {arguments}"));
     for _ in 0..2 {
-        assert_eq!(said(&place.run(&format!("emit --check {arguments}"))), said(&without));
+        assert_eq!(output(&place.run(&format!("emit --check {arguments}"))), output(&without));
     }
     assert!(is_known(place, arguments), "what was found was not kept");
     without
@@ -93,7 +93,7 @@ fn known(run: &Run) -> ((u32, u32), (u32, u32)) {
 
 #[track_caller]
 fn assert_outdated(place: &Place, file: &str) {
-    let run = answer(place, "");
+    let run = consistent_output(place, "");
     assert_eq!(run.status, Some(1), "{run}");
     assert!(run.stdout.contains(&format!("{file}: not current\n")), "{run}");
 }
@@ -102,13 +102,13 @@ fn assert_outdated(place: &Place, file: &str) {
 fn after_emit_or_a_check_no_drawing_is_read() {
     let place = emitted();
     assert!(is_known(&place, ""));
-    let run = answer(&place, "");
+    let run = consistent_output(&place, "");
     assert_eq!((run.status, &*run.stdout), (Some(0), ""), "{run}");
     for part in ["./projects", "projects", "--moves"] {
         assert!(is_known(&place, part), "{part}");
     }
-    assert_eq!(answer(&place, "projects").stderr, ALL_CURRENT);
-    assert_eq!(answer(&place, "--moves").stderr, ALL_CURRENT.replace('4', "3"));
+    assert_eq!(consistent_output(&place, "projects").stderr, ALL_CURRENT);
+    assert_eq!(consistent_output(&place, "--moves").stderr, ALL_CURRENT.replace('4', "3"));
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn an_edited_drawing_is_noticed_and_its_mending_too() {
     );
     assert!(!is_known(&place, ""));
     // The component is thinner than the plate, which is an error, so its program is now older than the drawing.
-    let run = answer(&place, "");
+    let run = consistent_output(&place, "");
     assert_eq!(run.status, Some(1), "{run}");
     let rows = place.run("emit --check --format json").stdout;
     let row = rows.lines().find(|row| row.contains("8001_Milling.gcode")).unwrap_or_default();
@@ -134,7 +134,7 @@ fn an_edited_drawing_is_noticed_and_its_mending_too() {
         "subpath 0,0 40,0 \">1234.1P\"\nend 40,0\nlayer 8001.2P\nstart 0,50 \"T5 O2 MPlate I1 B4\"\nmill 0,50 40,50\nend 40,50",
     );
     // The drawing now has two paths, so the program has another name.
-    let run = answer(&place, "");
+    let run = consistent_output(&place, "");
     assert!(run.stdout.contains("missing"), "{run}");
 }
 
@@ -155,12 +155,12 @@ fn a_file_that_makes_a_path_ambiguous_is_noticed() {
     let bytes = fs::read(place.path().join("components/1234.dxf")).unwrap();
     let place = place.file("components/1230-1240.dxf", bytes);
     assert!(!is_known(&place, ""));
-    let run = answer(&place, "");
+    let run = consistent_output(&place, "");
     assert_eq!(run.status, Some(1), "{run}");
     assert!(run.stderr.contains("1230-1240.dxf"), "{run}");
     assert!(run.stdout.contains("8001_Milling.gcode: not current"), "{run}");
     fs::remove_file(place.path().join("components/1230-1240.dxf")).unwrap();
-    assert_eq!(answer(&place, "").stderr, ALL_CURRENT);
+    assert_eq!(consistent_output(&place, "").stderr, ALL_CURRENT);
 }
 
 #[test]
@@ -170,14 +170,14 @@ fn a_changed_setting_is_noticed() {
     let place = place.file("pathbuild.toml", configuration.replace("feed = 150", "feed = 160"));
     assert_outdated(&place, "projects/8001_Milling.gcode");
     let place = place.file("pathbuild.toml", configuration.replace("\"8*\"", "\"8*\", \"9*\""));
-    let run = answer(&place, "");
+    let run = consistent_output(&place, "");
     assert!(run.stderr.contains("9*") && run.status == Some(1), "{run}");
     // The line numbers in messages about the configuration have changed.
     let moved = format!("\n{}", place.read("pathbuild.toml"));
     let place = place.file("pathbuild.toml", moved);
-    answer(&place, "");
+    consistent_output(&place, "");
     let place = place.file("pathbuild.toml", configuration);
-    assert_eq!(answer(&place, "").stderr, ALL_CURRENT);
+    assert_eq!(consistent_output(&place, "").stderr, ALL_CURRENT);
 }
 
 #[test]
@@ -188,7 +188,7 @@ fn a_program_edited_by_hand_is_noticed_and_one_of_the_same_bytes_is_current() {
     let place = place.file("projects/8001_Milling.gcode", program.replacen("150", "151", 1));
     assert_outdated(&place, "projects/8001_Milling.gcode");
     let place = place.file("projects/8001_Milling.gcode", program);
-    assert_eq!(answer(&place, "").stderr, ALL_CURRENT);
+    assert_eq!(consistent_output(&place, "").stderr, ALL_CURRENT);
 }
 
 #[test]
@@ -196,10 +196,10 @@ fn a_removed_program_is_noticed_and_one_that_comes_back_too() {
     let place = emitted();
     let program = place.read("projects/8002_Probing.gcode");
     fs::remove_file(place.path().join("projects/8002_Probing.gcode")).unwrap();
-    let run = answer(&place, "");
+    let run = consistent_output(&place, "");
     assert!(run.stdout.contains("projects/8002_Probing.gcode: missing\n"), "{run}");
     let place = place.file("projects/8002_Probing.gcode", program);
-    assert_eq!(answer(&place, "").stderr, ALL_CURRENT);
+    assert_eq!(consistent_output(&place, "").stderr, ALL_CURRENT);
 }
 
 #[test]
@@ -207,10 +207,14 @@ fn measured_values_are_current_as_long_as_the_probes_are_the_same() {
     let place = emitted();
     let values = place.read("projects/8002_Z.txt");
     let place = place.file("projects/8002_Z.txt", values.replace("=\n", "=0.25\n"));
-    assert_eq!(answer(&place, "").stderr, ALL_CURRENT);
+    assert_eq!(consistent_output(&place, "").stderr, ALL_CURRENT);
     let place = place.file("projects/8002_Z.txt", "#1 = 0.1\n#2 = 0.2\n");
     assert_outdated(&place, "projects/8002_Z.txt");
-    assert_eq!(answer(&place, "--moves").stderr, ALL_CURRENT.replace('4', "3"), "values are no moves");
+    assert_eq!(
+        consistent_output(&place, "--moves").stderr,
+        ALL_CURRENT.replace('4', "3"),
+        "values are no moves"
+    );
 }
 
 #[test]
@@ -218,13 +222,13 @@ fn a_program_that_nothing_would_write_is_noticed_and_its_removal_too() {
     let place = emitted();
     let program = place.read("projects/8001_Milling.gcode").replace("8001", "8009");
     let place = place.file("projects/8009_Milling.gcode", program);
-    let run = answer(&place, "");
+    let run = consistent_output(&place, "");
     assert!(
         run.stderr.contains("PB520") && run.stdout.is_empty() && run.stderr.ends_with(ALL_CURRENT),
         "{run}"
     );
     fs::remove_file(place.path().join("projects/8009_Milling.gcode")).unwrap();
-    assert!(!answer(&place, "").stderr.contains("PB520"));
+    assert!(!consistent_output(&place, "").stderr.contains("PB520"));
 }
 
 #[test]
@@ -233,11 +237,11 @@ fn a_new_drawing_and_one_that_is_gone_are_noticed() {
     let bytes = fs::read(place.path().join("projects/8001.dxf")).unwrap();
     let place = place.file("projects/deep/8005.dxf", bytes);
     assert!(!is_known(&place, ""));
-    let run = answer(&place, "");
+    let run = consistent_output(&place, "");
     assert!(run.stdout.contains("projects/deep/8005_Milling.gcode: missing"), "{run}");
     fs::remove_file(place.path().join("projects/deep/8005.dxf")).unwrap();
     fs::remove_file(place.path().join("projects/8002.dxf")).unwrap();
-    let run = answer(&place, "");
+    let run = consistent_output(&place, "");
     assert!(run.stderr.contains("PB520") && !run.stdout.contains("8002"), "{run}");
 }
 
@@ -255,11 +259,11 @@ fn an_edited_post_is_noticed() {
     assert_eq!(run.status, Some(0), "{run}");
     assert!(is_known(&place, "--post my.cbpp"));
     assert!(!is_known(&place, ""));
-    let run = answer(&place, "--post my.cbpp");
+    let run = consistent_output(&place, "--post my.cbpp");
     assert!(run.stderr.contains(" 0 not current\n") && run.stderr.contains("was not run"), "{run}");
     let place = place.file("my.cbpp", post("anna"));
     assert!(!is_known(&place, "--post my.cbpp"));
-    let run = answer(&place, "--post my.cbpp");
+    let run = consistent_output(&place, "--post my.cbpp");
     assert!(run.stdout.contains(": not current\n") && run.status == Some(1), "{run}");
 }
 
@@ -277,12 +281,12 @@ fn an_edited_file_that_a_post_inserts_is_noticed() {
         let place = place.file("pathbuild.toml", configuration);
         let run = place.run("emit --post my.toml");
         assert_eq!(run.status, Some(0), "{run}");
-        assert!(answer(&place, "--post my.toml").stderr.contains(" 0 not current\n"));
+        assert!(consistent_output(&place, "--post my.toml").stderr.contains(" 0 not current\n"));
         let place = place.file("head.nc", "(b)\n");
-        let run = answer(&place, "--post my.toml");
+        let run = consistent_output(&place, "--post my.toml");
         assert!(run.stdout.contains(": not current\n") && run.status == Some(1), "{run}");
         let place = place.file("head.nc", "(a)\n");
-        assert!(answer(&place, "--post my.toml").stderr.contains(" 0 not current\n"));
+        assert!(consistent_output(&place, "--post my.toml").stderr.contains(" 0 not current\n"));
     }
 }
 
@@ -361,7 +365,7 @@ fn an_emit_with_nothing_changed_writes_nothing_and_says_the_same() {
     let without = place.run("emit --no-cache");
     assert!(without.stderr.contains("projects/8001_Milling.gcode: unchanged, "), "{without}");
     let run = place.run("emit");
-    assert_eq!(said(&run), said(&without));
+    assert_eq!(output(&run), output(&without));
     assert_eq!(known(&place.run("emit -v")), ((2, 2), (4, 4)));
     assert_eq!(programs(&place), before);
 }
@@ -421,7 +425,7 @@ fn errors_are_kept_and_no_old_program_hides_them() {
     let without = place.run("emit --no-cache");
     assert_eq!(without.status, Some(1), "{without}");
     for _ in 0..2 {
-        assert_eq!(said(&place.run("emit")), said(&without));
+        assert_eq!(output(&place.run("emit")), output(&without));
     }
     assert_eq!(known(&place.run("emit -v")).0, (2, 2));
 }
@@ -510,11 +514,11 @@ fn severities_are_those_of_the_run_that_shows_them() {
     let place = emitted();
     let program = place.read("projects/8001_Milling.gcode").replace("8001", "8009");
     let place = place.file("projects/8009_Milling.gcode", program);
-    assert_eq!(answer(&place, "").status, Some(0));
+    assert_eq!(consistent_output(&place, "").status, Some(0));
     let configuration = place.read("pathbuild.toml");
     let place = place.file("pathbuild.toml", format!("{configuration}[severity]\nPB520 = \"error\"\n"));
     assert!(is_known(&place, ""));
-    assert_eq!(answer(&place, "").status, Some(1));
+    assert_eq!(consistent_output(&place, "").status, Some(1));
 }
 
 #[test]
@@ -534,7 +538,7 @@ fn settles(place: &Place, arguments: &str) -> Run {
     let before = programs(place);
     let without = place.run(&format!("emit --no-cache {arguments}"));
     for _ in 0..2 {
-        assert_eq!(said(&place.run(&format!("emit {arguments}"))), said(&without));
+        assert_eq!(output(&place.run(&format!("emit {arguments}"))), output(&without));
         let (paths, drawings) = known(&place.run(&format!("emit -v {arguments}")));
         assert_eq!((paths.0, drawings.0), (paths.1, drawings.1), "{arguments}");
     }
@@ -766,7 +770,7 @@ fn a_program_may_be_larger_than_a_drawing() {
     let deep = deep.file("pathbuild.toml", configuration);
     assert_eq!(deep.run("emit").status, Some(0));
     assert!(deep.read("projects/8001_Milling.gcode").len() > limit);
-    assert!(answer(&deep, "").stderr.contains(" 0 not current\n"));
+    assert!(consistent_output(&deep, "").stderr.contains(" 0 not current\n"));
 }
 
 /// Moves can be compared without the rapid feed, but the cached result does not suffice for a run that reports times.
@@ -787,6 +791,6 @@ fn a_program_that_leads_to_itself_is_not_missing() {
     let program = place.path().join("projects/8001_Milling.gcode");
     fs::remove_file(&program).unwrap();
     std::os::unix::fs::symlink("8001_Milling.gcode", &program).unwrap();
-    let run = answer(&place, "");
+    let run = consistent_output(&place, "");
     assert!(run.stdout.contains("8001_Milling.gcode: not current\n"), "{run}");
 }

@@ -39,7 +39,7 @@ fn assert_german<S: AsRef<str>>(texts: impl IntoIterator<Item = S>) -> usize {
 }
 
 /// Returns the German findings of a fixture's commands, with their help.
-fn told(text: &str) -> Vec<String> {
+fn german_findings(text: &str) -> Vec<String> {
     let place = Place::of(text);
     let run = |arguments: Vec<&str>| {
         let run = place.run_with(&[&["--format=json", "--no-cache", "--lang=de"], &*arguments].concat());
@@ -67,7 +67,8 @@ fn the_catalogue_is_german() {
 
 #[test]
 fn the_examples_of_all_codes_are_told_in_german() {
-    let told: Vec<String> = Code::ALL.iter().filter_map(|code| code.example()).flat_map(told).collect();
+    let told: Vec<String> =
+        Code::ALL.iter().filter_map(|code| code.example()).flat_map(german_findings).collect();
     assert!(assert_german(told) > 300);
 }
 
@@ -103,12 +104,12 @@ fn configurations_that_are_wrong_are_told_in_german() {
     ];
     for keys in keys {
         let fixture = format!("$ check .\n$ emit .\n== pathbuild.toml ==\n{keys}\n{drawing}");
-        let texts = told(&fixture);
+        let texts = german_findings(&fixture);
         assert!(!texts.is_empty(), "{keys} is not wrong");
         assert_german(texts);
     }
     let long = "x".repeat(20_000);
-    let told = told(&format!("$ check .\n== .gitignore ==\n{long}\n{drawing}"));
+    let told = german_findings(&format!("$ check .\n== .gitignore ==\n{long}\n{drawing}"));
     assert!(!told.is_empty());
     assert_german(told);
 }

@@ -8,7 +8,7 @@ use crate::support::Place;
 const CONFIGURATION: &str = "sweep-height = 20\nfeed = 100\npart = 'Part'\nkeep-out = 'Clamp'\n";
 
 /// Returns the output of `check` for a drawing, in both languages.
-fn said(drawing: &str) -> String {
+fn check_output(drawing: &str) -> String {
     let drawing = sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
     let place = Place::new().file("pathbuild.toml", CONFIGURATION).file("1234.1P.dxf", drawing.to_dxf());
     ["en", "de"].map(|lang| place.run(&format!("check . --lang {lang}")).to_string()).join("\n")
@@ -44,11 +44,13 @@ fn numbers_and_letters() {
         ("unused_and_out_of_range", "S3"),
         ("name_on_groove", ">1234.2P"),
     ] {
-        assert_snapshot!(name, said(&groove(text)));
+        assert_snapshot!(name, check_output(&groove(text)));
     }
     assert_snapshot!(
         "start_without_spaces",
-        said("layer 1234.1P\nstart 0,0 \"O3T4I1F200B-0.3\"\nmill 0,0 40,0\nmill to 40,20\nend 40,20\n")
+        check_output(
+            "layer 1234.1P\nstart 0,0 \"O3T4I1F200B-0.3\"\nmill 0,0 40,0\nmill to 40,20\nend 40,20\n"
+        )
     );
 }
 
@@ -82,7 +84,7 @@ fn texts_in_the_wrong_place() {
         ("variable_apart", format!("{START}mill 0,0 40,0\nsubpath 40,0 60,0 \":B 1 >1234.2P\"\nend 60,0\n")),
         ("blank_text", format!("{START}mill 0,0 40,0\ntext 20,0 \"   \"\ntext 18,0.2 \"B1\"\nend 40,0\n")),
     ] {
-        assert_snapshot!(name, said(&drawing));
+        assert_snapshot!(name, check_output(&drawing));
     }
 }
 
@@ -119,7 +121,7 @@ fn layers_blocks_and_line_types() {
         ),
         ("no_end_there", format!("{START}mill 0,0 40,0\nmill 20,0 20,10\nend 40,0\n")),
     ] {
-        assert_snapshot!(name, said(&drawing));
+        assert_snapshot!(name, check_output(&drawing));
     }
 }
 
@@ -133,6 +135,6 @@ fn outlines_of_parts() {
         ("eight", "polyline 1,1 41,26 41,1 1,26 closed"),
         ("circle_across_rim", "polyline 1,1 41,1 41,26 1,26 closed\ncircle 41,13 d 4"),
     ] {
-        assert_snapshot!(name, said(&format!("{path}{outline}\n")));
+        assert_snapshot!(name, check_output(&format!("{path}{outline}\n")));
     }
 }

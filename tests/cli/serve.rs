@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use pathbuild_testkit::sheet;
 use serde_json::Value;
 
-use crate::support::{Place, Said, program};
+use crate::support::{Place, StderrLines, program};
 
 const CONFIGURATION: &str =
     "feed = 150\nrapid = 1000\nsweep-height = 20\nlibrary = [\"library\"]\nsearch = [\"library\"]\n";
@@ -39,7 +39,7 @@ fn library() -> Place {
 struct Served<'a> {
     place: &'a Place,
     child: Child,
-    lines: Said,
+    lines: StderrLines,
     /// The output up to the end of the first check.
     said: Vec<String>,
     link: String,
@@ -70,7 +70,7 @@ impl<'a> Served<'a> {
         let mut command = program();
         command.args(arguments.split_whitespace()).arg("--no-cache").current_dir(place.path());
         let mut child = command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
-        let lines = Said::by(&mut child);
+        let lines = StderrLines::by(&mut child);
         let mut served = Self { place, child, lines, said: Vec::new(), link: String::new(), port: 0 };
         served.said = served.until(until);
         let at = served.said.iter().find_map(|line| line.strip_prefix("serving at ")).unwrap();

@@ -9,19 +9,19 @@ mod code;
 mod diagnostic;
 pub mod drawn_changes;
 pub mod limits;
+mod location;
 mod message;
 pub mod messages;
 mod nearest;
-mod place;
 pub mod reasons;
 pub mod shown;
 pub mod words;
 
 pub use code::{Code, Severity};
 pub use diagnostic::{Diagnostic, Note, TraceStep};
+pub use location::{ElementId, EntityKind, Handle, Number, Place, Point, TextFault, in_prose};
 pub use message::{Message, Sentence, Value};
 pub use nearest::{is_slip, nearest};
-pub use place::{ElementId, EntityKind, Handle, Number, Place, Point, TextFault, in_prose};
 pub use words::{Lang, Text};
 
 /// Returns all texts of this crate that can be arguments of messages.

@@ -3,7 +3,7 @@ use std::hash::{Hash, Hasher};
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::place::{Number, Point, in_prose};
+use crate::location::{Number, Point, in_prose};
 use crate::words::{Lang, NONE, Text, interned_name, interned_text};
 use crate::{Code, shown};
 

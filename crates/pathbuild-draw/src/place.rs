@@ -118,13 +118,13 @@ pub struct Candidate {
 /// Width, height and circle radius of a text.
 #[derive(Clone, Copy, Debug)]
 #[expect(missing_docs, reason = "the names say it")]
-pub struct Extent {
+pub struct TextSize {
     pub width: f64,
     pub height: f64,
     pub radius: f64,
 }
 
-impl Extent {
+impl TextSize {
     /// Estimates the extent of a TEXT.
     pub fn of_text(value: &str, height: f64) -> Self {
         let width = 0.6 * height * value.chars().count() as f64;
@@ -170,8 +170,8 @@ impl<'a> TextPositions<'a> {
         entity: usize,
         layer: &str,
         heights: &[f64],
-        extent: impl Fn(f64) -> Extent,
-    ) -> Option<(Point, Extent, f64)> {
+        extent: impl Fn(f64) -> TextSize,
+    ) -> Option<(Point, TextSize, f64)> {
         let target = self.candidates.iter().position(|candidate| candidate.entity == Some(entity))?;
         if self.taken[target] {
             return None;

@@ -12,7 +12,7 @@ use crate::pairs::{
     CHUNK, Pair, Record, StringPlaceholders, ascii, chunks, identify, kind, records, reduce_mtext, tidy,
     value,
 };
-use crate::place::{Candidate, ElementPart, Extent, LETTER_HEIGHT, TextPositions, no_room, reduced};
+use crate::place::{Candidate, ElementPart, LETTER_HEIGHT, TextPositions, TextSize, no_room, reduced};
 
 /// Distance in mm between the end of a segment and the start of the next.
 const SEGMENT_GAP: f64 = 20.0;
@@ -121,7 +121,7 @@ fn seat_texts<'a>(elements: &[Element<'a>]) -> Result<Vec<Option<PlacedText<'a>>
         let text = element.text.filter(|text| !text.is_empty());
         placed.push(text.and_then(|text| {
             let lines: Vec<&str> = text.split('\n').collect();
-            let extent = |height| Extent::of_mtext(&lines, height);
+            let extent = |height| TextSize::of_mtext(&lines, height);
             let seat = seats.seat(index, &candidates[index].layer, &reduced(LETTER_HEIGHT), extent);
             if seat.is_none() {
                 errors.push(no_room(&escaped(text)));

@@ -15,7 +15,7 @@ use crate::faults::{EntityError, Fatal, not_ended, stopped};
 use crate::fields::{Fields, Want};
 use crate::groups::{Groups, Records};
 use crate::layers::LayerId;
-use crate::names::folded;
+use crate::names::case_folded;
 use crate::pairs::{Pair, Pairs, Stop};
 
 /// The blocks of a file.
@@ -98,7 +98,10 @@ impl<'a> Blocks<'a> {
 
     /// Finds a block by name, ignoring case. An external reference that the file does not contain is no block.
     pub(crate) fn find(&self, name: &str) -> Option<BlockId> {
-        self.by_name.get(&folded(name)).copied().filter(|block| !self.all[block.0].is_missing_reference())
+        self.by_name
+            .get(&case_folded(name))
+            .copied()
+            .filter(|block| !self.all[block.0].is_missing_reference())
     }
 
     /// The base point of a block.
@@ -246,7 +249,7 @@ impl<'a> Blocks<'a> {
 
     fn add(&mut self, fields: &Fields<'a>, pairs: Pairs<'a>, head: Pair<'a>, decoder: &mut Decoder<'_>) {
         if let Some(name) = fields.get(2) {
-            let name = folded(&decoder.decode(name.bytes, name.line));
+            let name = case_folded(&decoder.decode(name.bytes, name.line));
             self.by_name.entry(name).or_insert(BlockId(self.all.len()));
         }
         let base = if fields.get(10).is_some() { fields.point(10) } else { Ok(Point3::default()) };

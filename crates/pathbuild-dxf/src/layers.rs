@@ -12,7 +12,7 @@ use smol_str::SmolStr;
 use crate::encoding::Decoder;
 use crate::fields::{Fields, Value, Want};
 use crate::groups::Records;
-use crate::names::{Spellings, folded, without_xref};
+use crate::names::{Spellings, case_folded, without_xref};
 use crate::number::{real, whole};
 use crate::pairs::{LAYER, Pair, Pairs, Stop};
 
@@ -153,7 +153,7 @@ impl UsedLayer {
         let line_type = record.as_ref().and_then(LayerRecord::line_type);
         Ok(Self {
             name: name.into(),
-            folded: folded(name),
+            folded: case_folded(name),
             line_type: line_type.unwrap_or(CONTINUOUS),
             hidden: record.as_ref().is_some_and(LayerRecord::is_hidden),
             is_frozen: record.as_ref().is_some_and(LayerRecord::is_frozen),
@@ -217,7 +217,7 @@ impl<'a> LayerTable<'a> {
             && certain.len() >= MIN_SEARCHED_BYTES
             && !has_escapes()
         {
-            let some = reading.some(tables, certain, &folded(full_name))?;
+            let some = reading.some(tables, certain, &case_folded(full_name))?;
             return Ok(some.get(full_name).cloned());
         }
         let all = match &mut self.all {
@@ -238,7 +238,7 @@ impl<'a> KnownLayers<'a> {
     /// Adds a record from its groups, unless it has no name.
     fn add(&mut self, groups: &Fields<'a>, decoder: &mut Decoder<'_>) {
         let Some(name) = groups.get(2) else { return };
-        let name = folded(&decoder.decode(name.bytes, name.line));
+        let name = case_folded(&decoder.decode(name.bytes, name.line));
         let bytes = |code: i32| groups.get(code).map(|value| value.bytes);
         let line_type = groups.get(6).map(|name| decoder.decode_bytes(name.bytes, name.line));
         let record = LayerRecord { line_type, colour: bytes(62), flags: bytes(70) };
@@ -253,7 +253,7 @@ impl<'a> KnownLayers<'a> {
     /// Finds a record by its full name, else by the name without external-reference prefix.
     fn get(&self, full_name: &str) -> Option<&LayerRecord<'a>> {
         let find = |name: &str| {
-            let name = folded(name);
+            let name = case_folded(name);
             self.records.get(&name).or_else(|| self.referenced.get(&name))
         };
         find(full_name).or_else(|| find(without_xref(full_name)))
@@ -413,5 +413,5 @@ impl<'a> LineTypes<'a> {
 
 /// A line type's name folded for comparison: trimmed, without xref prefix, upper case.
 fn line_type_name(name: &str) -> SmolStr {
-    folded(without_xref(name))
+    case_folded(without_xref(name))
 }

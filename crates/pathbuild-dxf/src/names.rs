@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use smol_str::{SmolStr, StrExt};
 
 /// A name in upper case and without blanks around it, for comparison.
-pub(crate) fn folded(name: &str) -> SmolStr {
+pub(crate) fn case_folded(name: &str) -> SmolStr {
     let name = name.trim();
     if name.is_ascii() { name.to_ascii_uppercase_smolstr() } else { name.to_uppercase_smolstr() }
 }

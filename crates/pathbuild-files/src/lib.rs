@@ -1,8 +1,8 @@
 //! Access to files, of the operating system or in memory. Queries see them through a single trait, so that tests run in memory and all files that a
 //! result depends on are known; [`private`] files belong to the program itself.
 
-mod around;
 mod memory;
+mod wrappers;
 // The WebAssembly build has no operating system, only the files it is given.
 #[cfg(not(target_family = "wasm"))]
 mod os;
@@ -10,13 +10,13 @@ pub mod private;
 mod replace;
 mod spelling;
 mod stamp;
-pub use around::{BasedSystem, ConfinedSystem};
 pub use memory::{MemorySystem, OverlaySystem};
 #[cfg(not(target_family = "wasm"))]
 pub use os::OsSystem;
 pub use replace::is_temporary;
 pub use spelling::{clean, is_drawing, join, readable, spelt};
 pub use stamp::{CLOCK, Clock, Stamp};
+pub use wrappers::{BasedSystem, ConfinedSystem};
 
 use std::fmt::{self, Debug};
 use std::ops::ControlFlow;

@@ -243,16 +243,16 @@ static LISTED: LazyLock<Mutex<HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>>> = LazyLoc
 
 /// Records the temporary files found while listing a directory.
 fn record_debris(directory: &Utf8Path, temporary: Vec<Utf8PathBuf>) {
-    listed().entry(directory.to_owned()).or_insert(temporary);
+    listed_directories().entry(directory.to_owned()).or_insert(temporary);
 }
 
 /// Removes temporary files in a directory that were left by processes that no longer run.
 fn remove_debris(directory: &Utf8Path) {
-    if !listed().contains_key(directory) {
+    if !listed_directories().contains_key(directory) {
         // Nothing can be removed from a directory that cannot be listed.
         _ = OsSystem.list(directory);
     }
-    let leftovers = std::mem::take(listed().entry(directory.to_owned()).or_default());
+    let leftovers = std::mem::take(listed_directories().entry(directory.to_owned()).or_default());
     for debris in leftovers {
         let is_regular = debris.as_std_path().symlink_metadata().is_ok_and(|data| data.is_file());
         let is_left = || open(&debris).ok().filter(|file| file.try_lock().is_ok());
@@ -263,6 +263,6 @@ fn remove_debris(directory: &Utf8Path) {
     }
 }
 
-fn listed() -> MutexGuard<'static, HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>> {
+fn listed_directories() -> MutexGuard<'static, HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>> {
     LISTED.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     /// Simulates a file that is locked for this many attempts. Returns whether the operation succeeds, and the time waited.
-    fn held(times: u32) -> (bool, Duration) {
+    fn retry_locked(times: u32) -> (bool, Duration) {
         let (mut remaining, mut waited) = (times, Duration::ZERO);
         let attempt = || {
             if remaining == 0 {
@@ -122,10 +122,10 @@ mod tests {
 
     #[test]
     fn a_held_file_is_waited_for_two_seconds_and_no_longer() {
-        assert_eq!(held(0), (true, Duration::ZERO));
-        assert_eq!(held(3), (true, 3 * RETRY_PAUSE));
-        assert_eq!(held(PAUSES), (true, Duration::from_secs(2)));
-        assert_eq!(held(PAUSES + 1), (false, Duration::from_secs(2)));
+        assert_eq!(retry_locked(0), (true, Duration::ZERO));
+        assert_eq!(retry_locked(3), (true, 3 * RETRY_PAUSE));
+        assert_eq!(retry_locked(PAUSES), (true, Duration::from_secs(2)));
+        assert_eq!(retry_locked(PAUSES + 1), (false, Duration::from_secs(2)));
     }
 
     #[test]

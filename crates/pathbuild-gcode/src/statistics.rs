@@ -125,9 +125,9 @@ pub struct Summary {
     /// The totals of each tool in order of first use; for XpertMILL, of each layer.
     pub tools: Vec<ToolTotals>,
     /// Least and greatest X, Y, Z of all moves in mm; `None` for axes that never move to a known position.
-    pub extent: Extent,
+    pub extent: AxisRanges,
     /// Least and greatest X, Y, Z of cutting moves in mm; `None` for axes that never cut at a known position.
-    pub cut: Extent,
+    pub cut: AxisRanges,
     /// Total dwell time (G4) in seconds.
     pub dwell: f64,
     /// Number of stops for the operator.
@@ -137,7 +137,7 @@ pub struct Summary {
 }
 
 /// Least and greatest coordinate of each axis, in mm.
-pub type Extent = [Option<(f64, f64)>; 3];
+pub type AxisRanges = [Option<(f64, f64)>; 3];
 
 /// The totals of a tool.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -246,7 +246,7 @@ fn note(values: &mut Vec<f64>, known: &mut HashSet<u64>, value: f64) {
     }
 }
 
-fn widen(extent: &mut Extent, movement: &Move) {
+fn widen(extent: &mut AxisRanges, movement: &Move) {
     for (known, more) in extent.iter_mut().zip(movement.extent()) {
         *known = match (*known, more) {
             (Some((low, high)), Some((least, most))) => Some((low.min(least), high.max(most))),
@@ -256,8 +256,8 @@ fn widen(extent: &mut Extent, movement: &Move) {
 }
 
 /// Returns the least and greatest X, Y, Z of the cutter tip in the cutting moves of a drawn program, in mm; `None` if nothing is cut.
-pub fn cutting_box(program: &Program) -> Extent {
-    let mut extent = Extent::default();
+pub fn cutting_box(program: &Program) -> AxisRanges {
+    let mut extent = AxisRanges::default();
     for (_, movement) in program.moves().filter(|(_, movement)| matches!(movement.pace, Pace::Feed(_))) {
         widen(&mut extent, &movement);
     }

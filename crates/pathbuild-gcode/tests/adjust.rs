@@ -37,12 +37,12 @@ fn run_with_log(program: &str, values: &str, log: &str) -> Result<AdjustedProgra
 
 #[track_caller]
 fn adjusted(program: impl AsRef<[u8]>, values: impl AsRef<[u8]>) -> String {
-    let adjusted = run(program, values).unwrap_or_else(|problems| panic!("{:?}", told(&problems)));
+    let adjusted = run(program, values).unwrap_or_else(|problems| panic!("{:?}", placed_codes(&problems)));
     String::from_utf8(adjusted.program).unwrap()
 }
 
 /// Returns each problem as `file:line:column code`.
-fn told(problems: &[Diagnostic]) -> Vec<String> {
+fn placed_codes(problems: &[Diagnostic]) -> Vec<String> {
     let place = |it: &Diagnostic| match (it.place.line, it.place.column) {
         (Some(line), Some(column)) => format!(":{line}:{column}"),
         _ => String::new(),
@@ -53,7 +53,7 @@ fn told(problems: &[Diagnostic]) -> Vec<String> {
 
 #[track_caller]
 fn refused(result: Result<AdjustedProgram, Vec<Diagnostic>>) -> Vec<String> {
-    told(&result.expect_err("it was adjusted"))
+    placed_codes(&result.expect_err("it was adjusted"))
 }
 
 /// Returns the value of a formula.
@@ -212,7 +212,7 @@ fn a_malformed_formula_is_told_at_its_column() {
 #[test]
 fn columns_count_characters() {
     let problems = run("(\u{fc}\u{df}) Z5(=1+)", VALUES).unwrap_err();
-    assert_eq!(told(&problems), ["a_Clean.gcode:1:12 PB604"]);
+    assert_eq!(placed_codes(&problems), ["a_Clean.gcode:1:12 PB604"]);
     let text = problems[0].text.as_ref().unwrap();
     assert_eq!(&text.text[text.span()], ")");
 }
@@ -325,7 +325,7 @@ fn a_value_may_be_off_by_the_largest_correction_and_no_more() {
         let result = run("Z1.000(=1.000+0.000*[#51-2.000])", format!("([1.000 2.000]/T=2.000) #51={value}"));
         assert_eq!(result.is_ok(), is_right, "{value}");
         if let Err(problems) = result {
-            assert_eq!(told(&problems), ["a_Z.txt:1:29 PB602"]);
+            assert_eq!(placed_codes(&problems), ["a_Z.txt:1:29 PB602"]);
         }
     }
 }
@@ -404,7 +404,7 @@ fn a_value_file_must_be_of_the_same_probes_as_the_program() {
         let result = run(MADE, line);
         assert_eq!(result.is_ok(), is_right, "{line}");
         if let Err(problems) = result {
-            assert_eq!(told(&problems), ["a_Z.txt:1:1 PB603"], "{line}");
+            assert_eq!(placed_codes(&problems), ["a_Z.txt:1:1 PB603"], "{line}");
         }
     }
 }
@@ -514,7 +514,7 @@ fn grid(off: impl Fn(f64, f64) -> f64) -> (String, String) {
 #[track_caller]
 fn odd(off: impl Fn(f64, f64) -> f64) -> Vec<String> {
     let (program, values) = grid(off);
-    let adjusted = run(program, values).unwrap_or_else(|problems| panic!("{:?}", told(&problems)));
+    let adjusted = run(program, values).unwrap_or_else(|problems| panic!("{:?}", placed_codes(&problems)));
     adjusted.warnings.iter().map(|it| format!("{} {}", it.code(), it.text(Lang::En))).collect()
 }
 

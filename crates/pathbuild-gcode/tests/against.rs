@@ -5,7 +5,7 @@ mod common;
 use common::fault_text;
 use pathbuild_gcode::dialect::Dialect::{self, Native, Xpertmill};
 use pathbuild_gcode::interpret::{Options, interpret};
-use pathbuild_gcode::verify::{DrawingComparison, Drawn, PostWords, ToolUse};
+use pathbuild_gcode::verify::{DrawingComparison, ExpectedProgram, PostWords, ToolUse};
 use pathbuild_motion::Position;
 
 const FINE: [&str; 0] = [];
@@ -19,7 +19,7 @@ fn differences(dialect: Dialect, program: &str, drawn: &str) -> Vec<String> {
     let moves = interpret(drawn.as_bytes(), Native, &Options::default()).moves();
     let program = format!("{program}\nM30\n");
     let words = PostWords::of_programs([&program], dialect);
-    let drawn = Drawn {
+    let drawn = ExpectedProgram {
         moves: moves.into_iter().skip(1),
         start: Position::known(0.0, 0.0, CLEARANCE),
         clearance: CLEARANCE,

@@ -7,10 +7,10 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 /// Returns, as errors, those problems of a translation that would make a control misread the line. The others are dropped: they only arise
 /// because the translation is read as RS274.
 pub(super) fn errors(problems: &[Diagnostic], translation: &[u8]) -> Vec<Diagnostic> {
-    problems.iter().filter_map(|problem| error(problem, translation)).collect()
+    problems.iter().filter_map(|problem| misreading_error(problem, translation)).collect()
 }
 
-fn error(problem: &Diagnostic, translation: &[u8]) -> Option<Diagnostic> {
+fn misreading_error(problem: &Diagnostic, translation: &[u8]) -> Option<Diagnostic> {
     let line = problem.place.line?;
     let message = problem.message;
     let found = if message == &gcode::SAME_GROUP {

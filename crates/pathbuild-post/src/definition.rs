@@ -16,8 +16,9 @@ use crate::PostOptions;
 use crate::Row;
 use crate::findings::EngineOutput;
 use crate::job::{Job, Operation, Units};
+use crate::line_words::{CommentMarks, first_other_line};
 use crate::read_back::{self, ReadBackOptions};
-use crate::shadow::{CommentMarks, TranslatedText, first_other_line};
+use crate::rs274_translation::TranslatedText;
 use crate::target::{self, Target};
 use crate::{cad6, cambam};
 

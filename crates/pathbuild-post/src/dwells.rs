@@ -5,7 +5,7 @@ use pathbuild_diagnostic::messages::posts;
 use pathbuild_motion::{Action, Step};
 
 use crate::job::{HoleKind, Job, JobStep};
-use crate::shadow::TranslatedText;
+use crate::rs274_translation::TranslatedText;
 
 /// Finds the first dwell of the job that the text lacks. The text may contain further dwells, such as those that wait for the spindle.
 /// `slack` is the permitted deviation in seconds; shorter dwells need not be written.

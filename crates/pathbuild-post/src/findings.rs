@@ -4,7 +4,7 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Message, Note, Value};
 
-use crate::shadow::TranslatedText;
+use crate::rs274_translation::TranslatedText;
 
 /// Maximum number of findings reported per definition. After correcting these, the user sees the next ones.
 pub(crate) const MOST_FINDINGS: usize = 100;

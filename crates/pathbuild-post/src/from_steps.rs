@@ -418,7 +418,7 @@ pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     if first.line != second.line {
         return None;
     }
-    let mut moves = Moves { line: first.line, steps };
+    let mut moves = LineSteps { line: first.line, steps };
     let mut level = None;
     while let Some(way) = moves.take(|movement| movement.pace == Pace::Rapid && !rises(movement)) {
         level = Some(if way.to.z() < way.from.z() && way.keeps_xy() { way.from.z() } else { way.to.z() });
@@ -451,12 +451,12 @@ pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
 }
 
 /// The remaining steps of one line.
-struct Moves<'a> {
+struct LineSteps<'a> {
     line: u32,
     steps: &'a [Step],
 }
 
-impl<'a> Moves<'a> {
+impl<'a> LineSteps<'a> {
     /// Takes the next move if it is straight, leads to a known position and satisfies the condition.
     fn take(&mut self, is_wanted: impl Fn(&Move) -> bool) -> Option<Move> {
         let (step, rest) = self.next()?;

@@ -34,10 +34,11 @@ mod findings;
 mod from_program;
 mod from_steps;
 mod job;
+mod line_words;
 mod number;
 mod options;
 mod read_back;
-mod shadow;
+mod rs274_translation;
 mod target;
 mod tools;
 mod traverse;
@@ -48,7 +49,7 @@ pub use from_program::{ToolEntry, ToolTable};
 pub use from_steps::{Remark, is_of_head, native_remark};
 pub use job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, Units, VelocityMode, program_number};
 pub use options::{NoFiles, PostFiles, PostMacro, PostOptions};
-pub use shadow::{Doubt, DoubtfulWord, TranslatedText};
+pub use rs274_translation::{Doubt, DoubtfulWord, TranslatedText};
 
 /// Parses the extension of a file name and removes its dot; `None` if it is not a valid extension.
 fn extension(text: &str) -> Option<Box<str>> {

@@ -14,7 +14,7 @@ use crate::ambiguous;
 use crate::dwells;
 use crate::findings::LineOrigin;
 use crate::job::{Entry, Job, JobStep, Operation};
-use crate::shadow::{Doubt, TranslatedText};
+use crate::rs274_translation::{Doubt, TranslatedText};
 use crate::target::Target;
 use crate::tools;
 use crate::traverse;

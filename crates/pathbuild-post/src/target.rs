@@ -10,7 +10,7 @@ use pathbuild_gcode::dialect::{
 };
 use pathbuild_gcode::read::LONGEST_LINE;
 
-use crate::shadow::{CommentMarks, words};
+use crate::line_words::{CommentMarks, words};
 
 /// A control that posts write for. It accepts the words and notations that are usual in its dialect, but not those that the reader of this
 /// dialect accepts with a warning.

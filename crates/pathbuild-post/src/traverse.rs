@@ -13,7 +13,7 @@ use pathbuild_motion::{Axes, Move, MoveShape, Pace, Position};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-type Moves<'m> = &'m [(u32, Move)];
+type NumberedMoves<'m> = &'m [(u32, Move)];
 type TraverseResult<T> = Result<T, Box<Diagnostic>>;
 
 /// A cut that was found in the text: its line, and the number (from 1) of the job's step that it belongs to. All cuts of a line belong to
@@ -23,8 +23,8 @@ pub(crate) type MatchedCut = (u32, u32);
 /// Compares parsed moves with those of the job and returns the matched cuts in order. `clearance` is the height in mm of the clearance
 /// plane.
 pub(crate) fn check(
-    found: Moves<'_>,
-    expected: Moves<'_>,
+    found: NumberedMoves<'_>,
+    expected: NumberedMoves<'_>,
     clearance: f64,
     tolerance: &Tolerance,
 ) -> TraverseResult<Vec<MatchedCut>> {
@@ -40,7 +40,7 @@ pub(crate) fn check(
         let (rapids, cuts) = split(expected, is_rapid);
         let traverse = ExpectedTraverse::new(rapids, clearance, 2.0 * tolerance.place);
         let Some(next) = cuts.first() else {
-            traverse.is_last(found, end)?;
+            traverse.check_after_last_cut(found, end)?;
             return Ok(matched);
         };
         let length = traverse.length(found, next)?;
@@ -57,7 +57,7 @@ pub(crate) fn check(
 
 /// Returns the number (line or step) of the first cut from or to an unknown position, which cannot be compared. Only the machine knows where a
 /// probe has stopped, so the move away from there is compared by its end alone.
-fn first_unknown_cut(moves: Moves<'_>) -> Option<u32> {
+fn first_unknown_cut(moves: NumberedMoves<'_>) -> Option<u32> {
     let mut has_probed = false;
     for (number, movement) in moves {
         let is_known = movement.to.known == Axes::ALL && (movement.from.known == Axes::ALL || has_probed);
@@ -74,13 +74,16 @@ fn is_rapid(movement: &Move) -> bool {
 }
 
 /// Splits moves into those at the beginning that satisfy a condition, and the rest.
-fn split(moves: Moves<'_>, is_wanted: impl Fn(&Move) -> bool) -> (Moves<'_>, Moves<'_>) {
+fn split(
+    moves: NumberedMoves<'_>,
+    is_wanted: impl Fn(&Move) -> bool,
+) -> (NumberedMoves<'_>, NumberedMoves<'_>) {
     let length = moves.iter().take_while(|(_, movement)| is_wanted(movement)).count();
     moves.split_at(length)
 }
 
 /// Removes excursions: rapids that retract the tool and return it to the same position.
-fn without_excursions(moves: Moves<'_>, slack: f64) -> Vec<(u32, Move)> {
+fn without_excursions(moves: NumberedMoves<'_>, slack: f64) -> Vec<(u32, Move)> {
     let mut kept = Vec::with_capacity(moves.len());
     let mut rest = moves;
     while let Some((_, first)) = rest.first() {
@@ -110,7 +113,11 @@ fn is_over(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
 }
 
 /// Returns the number of moves at the beginning of `found` that make the expected cuts.
-fn cut(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance) -> TraverseResult<usize> {
+fn cut(
+    found: NumberedMoves<'_>,
+    expected: NumberedMoves<'_>,
+    tolerance: &Tolerance,
+) -> TraverseResult<usize> {
     // A move to an unknown position is not a cut of the job. The check of the moves between cuts decides whether it is allowed.
     let (run, _) = split(found, |movement| !is_rapid(movement) && movement.to.known == Axes::ALL);
     match compare(run, expected, tolerance) {
@@ -128,7 +135,12 @@ const MOST_JOINED: usize = 64;
 
 /// Finds the step of each move in a run of cuts that equals the expected one. The runs may be divided into moves differently, so moves are
 /// matched by their ends.
-fn match_cuts(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance, matched: &mut Vec<MatchedCut>) {
+fn match_cuts(
+    found: NumberedMoves<'_>,
+    expected: NumberedMoves<'_>,
+    tolerance: &Tolerance,
+    matched: &mut Vec<MatchedCut>,
+) {
     let mut rest = expected;
     for (line, movement) in found {
         let Some((step, _)) = rest.first().or(expected.last()) else { return };
@@ -194,7 +206,7 @@ fn place_of(at: &Position) -> Value {
 
 /// The rapids of the job between two consecutive cuts.
 struct ExpectedTraverse<'m> {
-    expected: Moves<'m>,
+    expected: NumberedMoves<'m>,
     clearance: f64,
     slack: f64,
     /// Spatial index of the moves. There may be thousands of them, and each parsed move is compared with those nearby.
@@ -202,7 +214,7 @@ struct ExpectedTraverse<'m> {
 }
 
 impl<'m> ExpectedTraverse<'m> {
-    fn new(expected: Moves<'m>, clearance: f64, slack: f64) -> Self {
+    fn new(expected: NumberedMoves<'m>, clearance: f64, slack: f64) -> Self {
         // Skip repeated moves: they add no information.
         let mut seen = HashSet::new();
         let mut is_new = |movement: &Move| {
@@ -229,7 +241,7 @@ impl<'m> ExpectedTraverse<'m> {
     }
 
     /// Returns the number of moves at the beginning of `found` that lead to the start of the next cut.
-    fn length(&self, found: Moves<'_>, next: &(u32, Move)) -> TraverseResult<usize> {
+    fn length(&self, found: NumberedMoves<'_>, next: &(u32, Move)) -> TraverseResult<usize> {
         let begin = &next.1.from;
         if begin.known != Axes::ALL {
             return Ok(split(found, is_rapid).0.len());
@@ -255,7 +267,7 @@ impl<'m> ExpectedTraverse<'m> {
     }
 
     /// Checks that each move is one of the job's own rapids, a retract, or free of obstacles.
-    fn check(&self, found: Moves<'_>) -> TraverseResult<()> {
+    fn check(&self, found: NumberedMoves<'_>) -> TraverseResult<()> {
         let mut is_home = false;
         for &(line, movement) in found {
             let is_fine = match movement.named {
@@ -288,7 +300,7 @@ impl<'m> ExpectedTraverse<'m> {
 
     /// Checks the moves after the last cut. There must be no further cuts, and the tool must end as high as in the job. As between two
     /// cuts, a rapid of the job may be written at feed.
-    fn is_last(&self, found: Moves<'_>, end: Option<Position>) -> TraverseResult<()> {
+    fn check_after_last_cut(&self, found: NumberedMoves<'_>, end: Option<Position>) -> TraverseResult<()> {
         let is_high = |movement: &Move| movement.from.z().min(movement.to.z()) >= self.clearance - self.slack;
         if let Some(cut) = found.iter().find(|(_, movement)| !is_rapid(movement) && is_high(movement)) {
             return Err(too_far(*cut));

@@ -3,8 +3,8 @@
 
 use crate::draw::model::{Entity, LineEnds, Point, Polyline, PolylineKind, Shape, Version, Vertex, bulged};
 use crate::draw::{Draft, Sheet};
-use crate::furniture::finish;
 use crate::random::Random;
+use crate::surroundings::finish;
 
 /// A library: `components` component drawings, `components / 10` projects with ten embeddings each, and `components / 50` variable projects
 /// with as many fixture projects. Drawings are generated on demand, on any thread.

@@ -5,19 +5,19 @@
 
 pub mod draw;
 mod fixture;
-mod furniture;
 pub mod generate;
 pub mod naive;
 mod parse;
 mod random;
-mod workshop;
+mod random_library;
+mod surroundings;
 pub use crate::draw::{
     Block, Draft, DrawError, Entity, Layer, Options, Point, Shape, Sheet, TextCircle, Version, model,
     text_circle,
 };
 pub use fixture::{Command, Content, Expect, Fixture, FixtureFile};
 pub use parse::sheet;
-pub use workshop::Workshop;
+pub use random_library::RandomLibrary;
 
 use std::fs::File;
 use std::io::Write;

@@ -35,7 +35,7 @@ pub trait Parts {
 
 /// Computes the program of a path. `moves` is an estimate of the number of moves. None of the paths may have errors.
 pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: PathOptions, moves: u64) -> Program {
-    folded(parts, root, drawing, options, moves, None).0
+    fold_with(parts, root, drawing, options, moves, None).0
 }
 
 /// Like [`fold`], but also returns the origin of each step.
@@ -45,11 +45,11 @@ pub fn fold_traced<P: Parts>(
     drawing: &str,
     options: PathOptions,
 ) -> (Program, Trace<P::Id>) {
-    let (program, trace) = folded(parts, root, drawing, options, 0, Some(Trace::default()));
+    let (program, trace) = fold_with(parts, root, drawing, options, 0, Some(Trace::default()));
     (program, trace.unwrap_or_default())
 }
 
-fn folded<P: Parts>(
+fn fold_with<P: Parts>(
     parts: &P,
     root: P::Id,
     drawing: &str,

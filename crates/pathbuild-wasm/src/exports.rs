@@ -10,18 +10,18 @@ use crate::Compiler;
 
 thread_local! {
     static COMPILER: RefCell<Compiler> = RefCell::default();
-    static QUESTION: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
-    static ANSWER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+    static REQUEST: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+    static RESPONSE: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
     static PANIC: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
 
-static BEGUN: Once = Once::new();
+static INITIALIZED: Once = Once::new();
 
 /// Provides a buffer of this size in bytes for a question, and returns its address.
 #[unsafe(no_mangle)]
 pub extern "C" fn room(length: usize) -> *mut u8 {
-    BEGUN.call_once(|| panic::set_hook(Box::new(keep)));
-    QUESTION.with_borrow_mut(|question| {
+    INITIALIZED.call_once(|| panic::set_hook(Box::new(store_panic_message)));
+    REQUEST.with_borrow_mut(|question| {
         *question = vec![0; length];
         question.as_mut_ptr()
     })
@@ -30,16 +30,16 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
 /// Answers the question in the buffer. Returns the length of the answer in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> usize {
-    let question = QUESTION.take();
+    let question = REQUEST.take();
     let answer = COMPILER.with_borrow_mut(|compiler| compiler.answer(&question));
-    ANSWER.replace(answer);
-    ANSWER.with_borrow(Vec::len)
+    RESPONSE.replace(answer);
+    RESPONSE.with_borrow(Vec::len)
 }
 
 /// Returns the address of the last answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn answered() -> *const u8 {
-    ANSWER.with_borrow(Vec::as_ptr)
+    RESPONSE.with_borrow(Vec::as_ptr)
 }
 
 /// Returns the length in bytes of the message of a panic that ended the call; 0 if it ended for another reason.
@@ -55,7 +55,7 @@ pub extern "C" fn panic_text() -> *const u8 {
 }
 
 /// Stores the message of a panic for the page, which can read memory even after the call has ended.
-fn keep(panic: &panic::PanicHookInfo<'_>) {
+fn store_panic_message(panic: &panic::PanicHookInfo<'_>) {
     let text = panic.payload_as_str().unwrap_or_default();
     PANIC.replace(text.as_bytes().to_vec());
 }

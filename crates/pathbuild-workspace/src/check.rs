@@ -355,11 +355,11 @@ fn check_drawing(
             traces.extend(checked.trace);
         }
     }
-    (result(db, names, diagnostics, reached), traces)
+    (combine_result(db, names, diagnostics, reached), traces)
 }
 
 /// Combines the diagnostics of a drawing's paths with those of all files that the paths reach.
-fn result(
+fn combine_result(
     db: &Database,
     names: &[PathName],
     mut diagnostics: Vec<Diagnostic>,

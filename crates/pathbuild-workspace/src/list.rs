@@ -6,7 +6,7 @@ use camino::Utf8PathBuf;
 use pathbuild_db::{Database, Role, SourceFile, Target, check_file, closure, path_names, program, summary};
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
-use pathbuild_gcode::statistics::{Extent, cutting_box, statistics};
+use pathbuild_gcode::statistics::{AxisRanges, cutting_box, statistics};
 use pathbuild_path::{PathName, PathSignature};
 use serde_json::{Value as Json, json};
 
@@ -271,7 +271,7 @@ pub struct Figures {
     #[expect(missing_docs, reason = "see above")]
     pub tool: Option<f64>,
     /// Bounding box of the tool tip while cutting, in mm.
-    pub cutting_box: Extent,
+    pub cutting_box: AxisRanges,
     /// Length of the program in mm; `None` if there is no program.
     pub length: Option<f64>,
     /// Machining time in minutes; `None` if there is no program, or if `rapid` is not set.

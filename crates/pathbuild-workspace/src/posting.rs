@@ -19,7 +19,7 @@ use pathbuild_post::{
 use regex::Regex;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::config::types::Extent;
+use crate::config::types::NumberRange;
 use crate::config::{Origin, Settings, is_file_name, types};
 use crate::files::ExtraInput;
 use crate::workspace::Workspace;
@@ -405,7 +405,7 @@ pub fn machine(settings: &Settings) -> Option<Machine> {
 }
 
 /// Returns the lower and upper end of an axis; infinite if not configured.
-fn ends(extent: Option<Extent>) -> (f64, f64) {
+fn ends(extent: Option<NumberRange>) -> (f64, f64) {
     extent.map_or((f64::NEG_INFINITY, f64::INFINITY), |extent| (extent.from, extent.to))
 }
 

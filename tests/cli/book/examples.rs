@@ -57,7 +57,8 @@ fn shown(of: Code, example: &str, lang: Lang) -> String {
         Content::Verbatim(content) => format!("\n{}:\n\n```text\n{}\n```\n", file.name, content.trim_end()),
     });
     let files: String = files.collect();
-    let said: String = runs.iter().map(|(command, findings)| said(of, command, findings, lang)).collect();
+    let said: String =
+        runs.iter().map(|(command, findings)| output_of_code(of, command, findings, lang)).collect();
     assert!(!said.is_empty(), "{of} is not said");
     let means = match lang {
         Lang::En => format!("\n{of} concerns the part in « ».\n"),
@@ -77,7 +78,7 @@ fn picture(of: Code, command: &str, lang: Lang) -> String {
 }
 
 /// Returns the output of a command that belongs to a code, without duplicates.
-fn said(of: Code, command: &str, findings: &[Value], lang: Lang) -> String {
+fn output_of_code(of: Code, command: &str, findings: &[Value], lang: Lang) -> String {
     let own = findings.iter().filter(|finding| finding["code"] == of.to_string());
     let items = own.map(|finding| {
         wrapped(&format!("{of}{}: {}", place_of(finding, lang), finding["message"].as_str().unwrap()))

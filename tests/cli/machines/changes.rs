@@ -12,7 +12,9 @@ use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_gcode::dialect::{Charset, Dialect};
 use pathbuild_gcode::interpret::{Heights, Options, guess, interpret, interpret_each};
 use pathbuild_gcode::native::{self, Header, WriteOptions};
-use pathbuild_gcode::verify::{DrawingComparison, Drawn, PostWords, Rules, Stock, ToolUse, coarse_arcs};
+use pathbuild_gcode::verify::{
+    DrawingComparison, ExpectedProgram, PostWords, Rules, Stock, ToolUse, coarse_arcs,
+};
 use pathbuild_motion::{Action, Change, Corners, Move, Pace, Position, Spindle, Step, Turning};
 use pathbuild_post::{BUILT_IN, Job, Language, PostOptions, ToolEntry, ToolTable, load, samples};
 use pathbuild_toolpath::{Correction, Program};
@@ -126,7 +128,7 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
     let mut found = Vec::new();
     let stock = Stock::uniform(program.thickness, program.tool);
     let mut rules = Rules::new(Some(&stock));
-    let drawn = Drawn {
+    let drawn = ExpectedProgram {
         moves: program.moves(),
         start: Position::known(0.0, 0.0, program.start_height()),
         clearance: program.start_height(),

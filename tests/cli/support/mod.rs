@@ -2,7 +2,7 @@
 #![allow(unreachable_pub, reason = "one binary's own module")]
 
 pub mod fixture;
-mod said;
+mod stderr_lines;
 
 use std::fmt;
 use std::fs;
@@ -14,7 +14,7 @@ use std::time::Duration;
 use pathbuild_testkit::Fixture;
 pub use pathbuild_testkit::{project, shared};
 use regex::Regex;
-pub use said::Said;
+pub use stderr_lines::StderrLines;
 use tempfile::TempDir;
 use wait4::Wait4 as _;
 
@@ -100,7 +100,7 @@ impl Place {
 
     /// Runs `pathbuild` in a subdirectory.
     pub fn run_in(&self, directory: &str, arguments: &[&str]) -> Run {
-        self.said(arguments, self.command(directory, arguments).output().unwrap())
+        self.to_run(arguments, self.command(directory, arguments).output().unwrap())
     }
 
     /// Runs `pathbuild` with arguments separated by spaces. Also returns the processor time of that run.
@@ -118,7 +118,7 @@ impl Place {
             bytes
         });
         let output = Output { status: used.status, stdout, stderr };
-        (self.said(&arguments, output), used.rusage.utime + used.rusage.stime)
+        (self.to_run(&arguments, output), used.rusage.utime + used.rusage.stime)
     }
 
     /// Runs `pathbuild` and returns whether it succeeded, and its peak memory in bytes. The memory in its resource usage is no less than
@@ -150,7 +150,7 @@ impl Place {
         program
     }
 
-    fn said(&self, arguments: &[&str], output: Output) -> Run {
+    fn to_run(&self, arguments: &[&str], output: Output) -> Run {
         let text = |bytes: Vec<u8>| {
             let text = String::from_utf8(bytes).unwrap().replace(&shown(self.path()), "<PLACE>");
             let text = text.replace(&shown(&self.cache()), "<CACHE>");

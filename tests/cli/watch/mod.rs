@@ -13,7 +13,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use crate::support::{Place, Said, program};
+use crate::support::{Place, StderrLines, program};
 use pathbuild_testkit::sheet;
 
 const CONFIGURATION: &str = "spindle = \"manual\"\nfeed = 150\nrapid = 1000\nsweep-height = 20\nlibrary = [\"library\"]\nsearch = [\"library/parts\"]\n\n[emit]\ntargets = [\"8*\"]\n";
@@ -44,7 +44,7 @@ fn library() -> Place {
 struct Watch<'a> {
     place: &'a Place,
     child: Child,
-    lines: Said,
+    lines: StderrLines,
     /// The output up to the line that says that it is watching.
     beginning: Vec<String>,
 }
@@ -58,7 +58,7 @@ impl<'a> Watch<'a> {
     fn begin_in(place: &'a Place, directory: &str, mut command: Command, arguments: &str) -> Self {
         command.args(arguments.split_whitespace()).current_dir(place.path().join(directory));
         let mut child = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-        let lines = Said::by(&mut child);
+        let lines = StderrLines::by(&mut child);
         let mut watch = Self { place, child, lines, beginning: Vec::new() };
         watch.beginning = watch.until("watching ");
         watch

@@ -11,7 +11,7 @@ fn limited(pairs: &str, max_entities: usize, max_text: usize) -> Drawing {
     )
 }
 
-fn said(pairs: &str, max_entities: usize, max_text: usize) -> String {
+fn file_findings(pairs: &str, max_entities: usize, max_text: usize) -> String {
     let drawing = limited(pairs, max_entities, max_text);
     assert!(drawing.diagnostics.is_empty() || drawing.entities.is_empty());
     file_faults(&drawing).join("; ")
@@ -24,8 +24,8 @@ fn entities_are_limited() {
     let left_out = "0 POLYLINE\n8 A\n70 8\n".repeat(3);
     let parts = "0 LWPOLYLINE\n8 A\n70 1\n10 0\n20 0\n10 1\n20 0\n10 1\n20 1\n";
     for pairs in [&sound, &broken, &left_out, parts] {
-        assert_eq!(said(pairs, 3, 100), "");
-        assert_eq!(said(pairs, 2, 100), "PB005 0 the number of entities exceeds the limit of 2");
+        assert_eq!(file_findings(pairs, 3, 100), "");
+        assert_eq!(file_findings(pairs, 2, 100), "PB005 0 the number of entities exceeds the limit of 2");
     }
 }
 
@@ -35,20 +35,23 @@ fn many_faults_count_as_more_than_entities() {
     let broken = "0 CIRCLE\n8 A\n10 x\n20 0\n40 1\n";
     let left_out = "0 POLYLINE\n8 A\n70 8\n";
     for pairs in [broken.repeat(10_002), broken.repeat(10_001) + left_out] {
-        assert_eq!(said(&pairs, 10_021, 100), "");
-        assert_eq!(said(&pairs, 10_020, 100), "PB005 0 the number of entities exceeds the limit of 10020");
+        assert_eq!(file_findings(&pairs, 10_021, 100), "");
+        assert_eq!(
+            file_findings(&pairs, 10_020, 100),
+            "PB005 0 the number of entities exceeds the limit of 10020"
+        );
     }
     let first = broken.repeat(10_000) + "0 CIRCLE\n8 A\n10 0\n20 0\n40 1\n";
-    assert_eq!(said(&first, 10_001, 100), "");
+    assert_eq!(file_findings(&first, 10_001, 100), "");
 }
 
 #[test]
 fn pieces_of_curves_are_limited() {
     let ellipse = "0 ELLIPSE\n8 A\n10 0\n20 0\n11 100\n21 0\n40 0.3";
     let count = limited(ellipse, 1000, 100).entities.len();
-    assert_eq!(said(ellipse, count, 100), "");
+    assert_eq!(file_findings(ellipse, count, 100), "");
     assert_eq!(
-        said(ellipse, count - 1, 100),
+        file_findings(ellipse, count - 1, 100),
         format!("PB005 0 the number of entities exceeds the limit of {}", count - 1)
     );
 }
@@ -56,23 +59,26 @@ fn pieces_of_curves_are_limited() {
 #[test]
 fn vertices_are_limited_even_if_they_make_no_entity() {
     let polyline = |corners: usize| format!("0 LWPOLYLINE\n8 A\n{}", "10 0\n20 0\n".repeat(corners));
-    assert_eq!(said(&polyline(20), 10, 10), "");
-    assert_eq!(said(&polyline(25), 10, 10), "PB005 0 the number of entities exceeds the limit of 10");
+    assert_eq!(file_findings(&polyline(20), 10, 10), "");
+    assert_eq!(
+        file_findings(&polyline(25), 10, 10),
+        "PB005 0 the number of entities exceeds the limit of 10"
+    );
 }
 
 #[test]
 fn texts_are_limited() {
     let too_long = "PB005 5 the length of a text in bytes exceeds the limit of 10";
     let text = |length: usize| format!("0 TEXT\n8 A\n10 0\n20 0\n40 1\n1 {}", "x".repeat(length));
-    assert_eq!(said(&text(10), 9, 10), "");
-    assert_eq!(said(&text(11), 9, 10), too_long);
+    assert_eq!(file_findings(&text(10), 9, 10), "");
+    assert_eq!(file_findings(&text(11), 9, 10), too_long);
     let mtext =
         |length: usize| format!("0 MTEXT\n8 A\n10 0\n20 0\n40 1\n3 xxxxx\n1 {}", "x".repeat(length - 5));
-    assert_eq!(said(&mtext(10), 9, 10), "");
-    assert_eq!(said(&mtext(11), 9, 10), too_long);
+    assert_eq!(file_findings(&mtext(10), 9, 10), "");
+    assert_eq!(file_findings(&mtext(11), 9, 10), too_long);
     let empty = |chunks: usize| format!("0 MTEXT\n8 A\n10 0\n20 0\n40 1\n{}", "3 \n".repeat(chunks));
-    assert_eq!(said(&empty(9), 2, 10), "");
-    assert_eq!(said(&empty(20), 2, 10), too_long);
+    assert_eq!(file_findings(&empty(9), 2, 10), "");
+    assert_eq!(file_findings(&empty(20), 2, 10), too_long);
 }
 
 #[test]

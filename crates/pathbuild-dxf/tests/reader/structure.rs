@@ -5,7 +5,7 @@ use crate::support::{entities, file_faults, only, read_all, section};
 const CIRCLE: &str = "0 CIRCLE\n8 A\n10 1\n20 2\n40 3";
 
 /// Returns the findings about a file as a whole.
-fn said(file: impl AsRef<[u8]>) -> String {
+fn file_findings(file: impl AsRef<[u8]>) -> String {
     let drawing = read_all(file);
     assert!(
         drawing.diagnostics.is_empty() || drawing.entities.is_empty() || !drawing.diagnostics[0].is_error()
@@ -15,15 +15,21 @@ fn said(file: impl AsRef<[u8]>) -> String {
 
 #[test]
 fn files_without_structure_are_no_dxf() {
-    assert_eq!(said(""), "PB002 0 the file is empty");
-    assert_eq!(said("   \r\n\n "), "PB002 1 this is not a DXF file: nothing but blanks");
+    assert_eq!(file_findings(""), "PB002 0 the file is empty");
+    assert_eq!(file_findings("   \r\n\n "), "PB002 1 this is not a DXF file: nothing but blanks");
     assert_eq!(
-        said("Dear Sir,\nthis is no drawing\n"),
+        file_findings("Dear Sir,\nthis is no drawing\n"),
         "PB002 1 this is not a DXF file: a text without sections"
     );
-    assert_eq!(said(b"AC1032\0\0\0\0\0\0rest"), "PB002 1 this is not a DXF file: a DWG drawing");
-    assert_eq!(said([0x89, b'P', b'N', b'G', 0, 1, 2, 3]), "PB002 1 this is not a DXF file: binary data");
-    assert_eq!(said("  0\nLINE\n  8\nA\n"), "PB002 1 this is not a DXF file: a text without sections");
+    assert_eq!(file_findings(b"AC1032\0\0\0\0\0\0rest"), "PB002 1 this is not a DXF file: a DWG drawing");
+    assert_eq!(
+        file_findings([0x89, b'P', b'N', b'G', 0, 1, 2, 3]),
+        "PB002 1 this is not a DXF file: binary data"
+    );
+    assert_eq!(
+        file_findings("  0\nLINE\n  8\nA\n"),
+        "PB002 1 this is not a DXF file: a text without sections"
+    );
 }
 
 #[test]
@@ -32,59 +38,59 @@ fn noise_is_refused_in_no_time() {
         (0..20_000_000_u32).map(|index| (index.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
     let blanks = vec![b' '; 20_000_000];
     let start = std::time::Instant::now();
-    assert!(said(noise).starts_with("PB002"));
-    assert!(said(blanks).starts_with("PB002"));
+    assert!(file_findings(noise).starts_with("PB002"));
+    assert!(file_findings(blanks).starts_with("PB002"));
     assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
 }
 
 #[test]
 fn a_file_of_other_sections_is_an_empty_drawing_if_it_ends() {
     let header = section("HEADER", "9 $ACADVER\n1 AC1015");
-    assert_eq!(said(format!("{header}  0\nEOF\n")), "");
-    assert_eq!(said(&header), "PB002 11 the file ends before the section ENTITIES");
-    assert_eq!(said("  0\nSECTION\n"), "PB002 3 the file ends before the section ENTITIES");
+    assert_eq!(file_findings(format!("{header}  0\nEOF\n")), "");
+    assert_eq!(file_findings(&header), "PB002 11 the file ends before the section ENTITIES");
+    assert_eq!(file_findings("  0\nSECTION\n"), "PB002 3 the file ends before the section ENTITIES");
 }
 
 #[test]
 fn the_end_of_file_must_be_there() {
     let sound = entities(CIRCLE);
     let without = sound.strip_suffix("  0\nEOF\n").expect("it ends so");
-    assert_eq!(said(&sound), "");
-    assert_eq!(said(sound.trim_end()), "");
-    assert_eq!(said(without), "PB007 0 the file does not end with EOF");
+    assert_eq!(file_findings(&sound), "");
+    assert_eq!(file_findings(sound.trim_end()), "");
+    assert_eq!(file_findings(without), "PB007 0 the file does not end with EOF");
     assert_eq!(read_all(without).entities.len(), 1);
-    assert_eq!(said(format!("{without}  1\nEOF\n")), "PB007 0 the file does not end with EOF");
-    assert_eq!(said(format!("{without}  0\nEOFX\n")), "PB007 0 the file does not end with EOF");
+    assert_eq!(file_findings(format!("{without}  1\nEOF\n")), "PB007 0 the file does not end with EOF");
+    assert_eq!(file_findings(format!("{without}  0\nEOFX\n")), "PB007 0 the file does not end with EOF");
 }
 
 #[test]
 fn bytes_after_the_end_of_file_are_ignored() {
-    assert_eq!(said(format!("{}\u{1a}\0\0rest", entities(CIRCLE))), "");
+    assert_eq!(file_findings(format!("{}\u{1a}\0\0rest", entities(CIRCLE))), "");
 }
 
 #[test]
 fn nothing_behind_the_entities_is_looked_at() {
     let sound = entities(CIRCLE);
     let objects = "  0\nSECTION\n  2\nOBJECTS\nnonsense\n  0\nENTITIES\nx\n";
-    assert_eq!(said(sound.replace("  0\nEOF", &format!("{objects}  0\nEOF"))), "");
+    assert_eq!(file_findings(sound.replace("  0\nEOF", &format!("{objects}  0\nEOF"))), "");
 }
 
 #[test]
 fn truncation_inside_entities_is_an_error_with_its_line() {
     let sound = entities(CIRCLE);
     let end = sound.find("  0\nENDSEC").expect("it is there");
-    assert_eq!(said(&sound[..end]), "PB002 15 the file is cut off in section ENTITIES");
+    assert_eq!(file_findings(&sound[..end]), "PB002 15 the file is cut off in section ENTITIES");
     let in_a_pair = sound.find(" 40\n3").expect("it is there");
-    assert_eq!(said(&sound[..in_a_pair + 3]), "PB002 14 the file is cut off in section ENTITIES");
-    assert_eq!(said(&sound[..in_a_pair + 4]), "PB002 14 the file is cut off in section ENTITIES");
+    assert_eq!(file_findings(&sound[..in_a_pair + 3]), "PB002 14 the file is cut off in section ENTITIES");
+    assert_eq!(file_findings(&sound[..in_a_pair + 4]), "PB002 14 the file is cut off in section ENTITIES");
     let in_the_end = sound.find("SEC\n  0\nEOF").expect("it is there");
-    assert_eq!(said(&sound[..in_the_end]), "PB002 17 the file is cut off in section ENTITIES");
+    assert_eq!(file_findings(&sound[..in_the_end]), "PB002 17 the file is cut off in section ENTITIES");
 }
 
 #[test]
 fn truncation_of_another_section_is_an_error() {
     assert_eq!(
-        said("  0\nSECTION\n  2\nBLOCKS\n  0\nBLOCK\n"),
+        file_findings("  0\nSECTION\n  2\nBLOCKS\n  0\nBLOCK\n"),
         "PB002 7 the file is cut off in section BLOCKS"
     );
 }
@@ -92,23 +98,29 @@ fn truncation_of_another_section_is_an_error() {
 #[test]
 fn a_section_must_end_before_the_next() {
     let text = section("TABLES", "").replace("  0\nENDSEC\n", "") + &entities(CIRCLE);
-    assert_eq!(said(text), "PB002 5 section TABLES has no end: \"SECTION\" stands where ENDSEC is missing");
+    assert_eq!(
+        file_findings(text),
+        "PB002 5 section TABLES has no end: \"SECTION\" stands where ENDSEC is missing"
+    );
     let text = entities(CIRCLE).replace("  0\nENDSEC\n", "");
-    assert_eq!(said(text), "PB002 15 section ENTITIES has no end: \"EOF\" stands where ENDSEC is missing");
+    assert_eq!(
+        file_findings(text),
+        "PB002 15 section ENTITIES has no end: \"EOF\" stands where ENDSEC is missing"
+    );
 }
 
 #[test]
 fn a_section_ends_with_a_pair_and_not_with_a_word() {
     let blocks = section("BLOCKS", "1 ENDSEC\n0 XENDSEC\n0 ENDSECX\n10 ENDSEC\n0 BLOCK");
-    assert_eq!(said(format!("{blocks}{}", entities(CIRCLE))), "");
+    assert_eq!(file_findings(format!("{blocks}{}", entities(CIRCLE))), "");
 }
 
 #[test]
 fn only_sections_follow_each_other() {
     let text = entities(CIRCLE).replacen("  0\nSECTION", "  0\nLINE\n  0\nSECTION", 1);
-    assert_eq!(said(&text), "PB002 1 this is not a DXF file: a text without sections");
+    assert_eq!(file_findings(&text), "PB002 1 this is not a DXF file: a text without sections");
     assert_eq!(
-        said(section("HEADER", "") + &text),
+        file_findings(section("HEADER", "") + &text),
         "PB002 7 expected a section or the end of the file here, not \"LINE\""
     );
 }

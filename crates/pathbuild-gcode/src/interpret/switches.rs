@@ -16,7 +16,7 @@ pub(super) const STOPS: &[u16] = &[0, 10, 20, 300, 600];
 pub(super) const TOOL: &[u16] = &[60, 610];
 pub(super) const COOLANT: &[u16] = &[70, 80, 90];
 /// M codes that change the order of lines or the meaning of G words.
-const M_NOT_FOLLOWED: &[u16] = &[470, 610, 700, 710, 720, 730, 970, 980, 990, 2200];
+const UNSUPPORTED_M_CODES: &[u16] = &[470, 610, 700, 710, 720, 730, 970, 980, 990, 2200];
 /// M codes that call and end subprograms.
 pub(super) const CALLS: &[u16] = &[970, 980, 990];
 
@@ -336,7 +336,7 @@ impl Interpreter<'_> {
 
 /// Whether an M code changes the order of lines or the meaning of G words.
 pub(super) fn is_jump(m_code: u16) -> bool {
-    M_NOT_FOLLOWED.contains(&m_code)
+    UNSUPPORTED_M_CODES.contains(&m_code)
 }
 
 /// Whether the interpreter executes an M code: stops, tools, spindle, coolant.

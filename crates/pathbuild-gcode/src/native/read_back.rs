@@ -45,7 +45,7 @@ fn check_rules(text: &str) -> Result<(), Box<Diagnostic>> {
     let mut rules = Rules::new(None);
     interpret_each(text.as_bytes(), Dialect::Native, &nominal(), &mut |step| rules.step(&step));
     let broken = rules.finish().into_iter().find(is_broken);
-    broken.map_or(Ok(()), |broken| Err(told(&broken)))
+    broken.map_or(Ok(()), |broken| Err(read_back_error(&broken)))
 }
 
 /// Whether a finding of the rules shows that the text does not match its program, which never starts the spindle without a speed.
@@ -134,7 +134,7 @@ fn each_move(text: &str, mut take: impl FnMut(u32, motion::Move)) -> Result<(), 
         }
     };
     let problems = interpret_each(text.as_bytes(), Dialect::Native, &nominal(), &mut each);
-    problems.iter().find(|problem| problem.is_error()).map_or(Ok(()), |problem| Err(told(problem)))
+    problems.iter().find(|problem| problem.is_error()).map_or(Ok(()), |problem| Err(read_back_error(problem)))
 }
 
 fn nominal() -> Options {
@@ -156,11 +156,11 @@ fn has_doubtful_arcs(program: &Program) -> bool {
 }
 
 fn differs(found: &Difference) -> Box<Diagnostic> {
-    told(&found.diagnostic())
+    read_back_error(&found.diagnostic())
 }
 
 /// Reports a problem in the text as an error of pathbuild.
-fn told(problem: &Diagnostic) -> Box<Diagnostic> {
+fn read_back_error(problem: &Diagnostic) -> Box<Diagnostic> {
     let line = problem.place.line.map(|line| format!(" (line {line})")).unwrap_or_default();
     let message = problem.text(pathbuild_diagnostic::Lang::En);
     internal(&format!("the program, read back, is not what it was made from: {message}{line}"))

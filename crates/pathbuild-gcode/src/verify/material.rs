@@ -57,9 +57,9 @@ fn follow(
     program: &(impl Program + ?Sized),
     stock: &Stock,
     problems: &mut Problems,
-    look: &mut dyn FnMut(&mut Bench<'_>, u32, &Move, &mut Problems),
+    look: &mut dyn FnMut(&mut KnownMaterial<'_>, u32, &Move, &mut Problems),
 ) {
-    let mut extent = Extent::default();
+    let mut extent = MaterialEstimate::default();
     each_followed_move(program, stock, &mut |line, movement| extent.add(line, movement, stock));
     if extent.pieces > stock.most_pieces {
         let (line, limit) = (extent.line, stock.most_pieces);
@@ -68,9 +68,9 @@ fn follow(
         });
     }
     let Some(resolution) = extent.resolution(stock) else { return too_large(extent.line, stock, problems) };
-    let mut bench = Bench::new(stock, resolution, stock.cells());
+    let mut bench = KnownMaterial::new(stock, resolution, stock.cells());
     let mut reached = 0;
-    let mut each = |take: &mut dyn FnMut(&mut Bench<'_>, u32, &Move)| {
+    let mut each = |take: &mut dyn FnMut(&mut KnownMaterial<'_>, u32, &Move)| {
         each_followed_move(program, stock, &mut |line, movement| {
             if !bench.map.is_exhausted() {
                 reached = line;
@@ -107,7 +107,7 @@ pub(super) fn has_room<'c>(
     cells: u64,
 ) -> bool {
     let Some(piece) = stock.at(line) else { return true };
-    let mut bench = Bench::new(stock, stock.resolution(), cells);
+    let mut bench = KnownMaterial::new(stock, stock.resolution(), cells);
     for part in bench.parts(movement) {
         bench.map.add(&capsule(&part, piece.cutter.diameter / 2.0), surface);
     }
@@ -143,7 +143,7 @@ fn each_followed_move(program: &(impl Program + ?Sized), stock: &Stock, take: &m
 
 /// The extent of the material that a program cuts.
 #[derive(Default)]
-struct Extent {
+struct MaterialEstimate {
     /// Upper bound of the area in mm² within O of cutting moves; areas that are cut repeatedly count each time.
     area: f64,
     /// Upper bound of the area in mm² within O of rapid moves below the highest surface. `passes` is the number of these moves.
@@ -157,7 +157,7 @@ struct Extent {
     line: u32,
 }
 
-impl Extent {
+impl MaterialEstimate {
     fn add(&mut self, line: u32, movement: &Move, stock: &Stock) {
         if let Some(piece) = stock.at(line).filter(|_| is_low_rapid(movement, stock)) {
             self.passed += covered_area(movement, piece.cutter.diameter);
@@ -189,14 +189,14 @@ impl Extent {
 }
 
 /// The known material on the machine.
-struct Bench<'s> {
+struct KnownMaterial<'s> {
     stock: &'s Stock,
     resolution: f64,
     map: HeightMap,
     excursions: Excursions,
 }
 
-impl<'s> Bench<'s> {
+impl<'s> KnownMaterial<'s> {
     fn new(stock: &'s Stock, resolution: f64, cells: u64) -> Self {
         Self { stock, resolution, map: HeightMap::new(resolution, cells), excursions: Excursions::default() }
     }

@@ -27,7 +27,7 @@ use pathbuild_motion::Step;
 
 pub use self::compare::same_move_lines;
 pub use self::rules::coarse_arcs;
-pub use against::{Agreement, Clamps, DrawingComparison, Drawn, PastClamps, ToolUse};
+pub use against::{Agreement, Clamps, DrawingComparison, ExpectedProgram, PastClamps, ToolUse};
 pub use blind_rapids::{BlindRapidRules, BlindRapids};
 pub use chip_load::ChipLoadRules;
 pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};

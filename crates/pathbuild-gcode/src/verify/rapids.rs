@@ -34,7 +34,7 @@ const MOST_CELLS: u64 = 1_000_000;
 /// Returns the moves of a drawing's program that exceed the machine's capabilities, by step number.
 pub fn beyond_machine(drawn: &toolpath::Program, machine: &Machine) -> Vec<Diagnostic> {
     let mut rules = MachineRules::new(machine);
-    Moves(drawn).each(&mut |step| rules.step(step));
+    ProgramMoves(drawn).each(&mut |step| rules.step(step));
     rules.finish()
 }
 
@@ -132,9 +132,9 @@ fn is_same(one: f64, other: f64) -> bool {
 }
 
 /// The program of a drawing, which passes on its moves as steps.
-struct Moves<'d>(&'d toolpath::Program);
+struct ProgramMoves<'d>(&'d toolpath::Program);
 
-impl Program for Moves<'_> {
+impl Program for ProgramMoves<'_> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
         self.0.moves().for_each(|(line, movement)| take(&Step::of_move(line, movement)));
     }

@@ -14,7 +14,8 @@ use crate::keep_out::Outline;
 use crate::part::{BoxIndex, at_along, square};
 use crate::read::outline_graph::{Graph, NEARLY_JOINED};
 use crate::read::rings::{
-    Chain, Crossing, JOINED, MOST_COMPARED, crossings, curves_of, nesting, rims_crossed, self_crossing,
+    Crossing, JOINED, MOST_COMPARED, NumberedCurves, crossings, curves_of, nesting, rims_crossed,
+    self_crossing,
 };
 
 /// Largest gap that counts as a mistake, relative to the length of the outline. Arcs that represent threads, leaders and letters have
@@ -41,7 +42,7 @@ struct Border(Outline);
 
 /// The outlines of a layer, sorted into those that can be compared with cuts and those that cannot.
 pub(super) struct SortedOutlines {
-    pub(super) rings: Vec<Chain>,
+    pub(super) rings: Vec<NumberedCurves>,
     pub(super) broken: Vec<BrokenOutline>,
     /// The boxes of the broken outlines.
     boxes: BoxIndex,
@@ -108,7 +109,7 @@ impl SortedOutlines {
 
 impl BrokenOutline {
     /// A ring that crosses itself or another one.
-    fn ring(message: &'static Message, ring: &Chain, crossing: &Crossing) -> Self {
+    fn ring(message: &'static Message, ring: &NumberedCurves, crossing: &Crossing) -> Self {
         Self {
             curve: ring[crossing.first.0].0,
             at: crossing.at,
@@ -119,17 +120,17 @@ impl BrokenOutline {
     }
 
     /// The half of an outline that a line closes, while the other half has a gap.
-    fn closed_half(ring: &Chain) -> Self {
+    fn closed_half(ring: &NumberedCurves) -> Self {
         let border = Border::new(&curves_of(ring));
         Self { curve: ring[0].0, at: ring[0].1.start(), problem: None, overlong: None, border }
     }
 
     /// The outline that an open chain was probably meant to be: its ends cross or almost meet, or it is drawn round a ring.
-    fn of_chain(chain: &Chain, rims: &Rims) -> Option<Self> {
+    fn of_chain(chain: &NumberedCurves, rims: &Rims) -> Option<Self> {
         Self::crossing(chain, rims).or_else(|| Self::with_gap(chain, rims))
     }
 
-    fn crossing(chain: &Chain, rims: &Rims) -> Option<Self> {
+    fn crossing(chain: &NumberedCurves, rims: &Rims) -> Option<Self> {
         let own = curves_of(chain);
         let crossing = self_crossing(&own)?;
         let between = crossing.between(&own);
@@ -142,7 +143,7 @@ impl BrokenOutline {
         })
     }
 
-    fn with_gap(chain: &Chain, rims: &Rims) -> Option<Self> {
+    fn with_gap(chain: &NumberedCurves, rims: &Rims) -> Option<Self> {
         let own = curves_of(chain);
         let (first, last) = (chain.first()?, chain.last()?);
         let (start, end) = (first.1.start(), last.1.end());
@@ -159,7 +160,7 @@ impl BrokenOutline {
 
 /// The outlines that open chains form between the points where they cross each other, if hardly any part of the chains lies beyond those
 /// points. An example are lines that overshoot all corners, as in `#`.
-fn overshooting(chains: &[Chain]) -> Vec<BrokenOutline> {
+fn overshooting(chains: &[NumberedCurves]) -> Vec<BrokenOutline> {
     let curves: Vec<(usize, usize, Curve)> = (0..)
         .zip(chains)
         .flat_map(|(chain, curves)| curves.iter().map(move |(number, curve)| (chain, *number, *curve)))
@@ -174,7 +175,7 @@ fn overshooting(chains: &[Chain]) -> Vec<BrokenOutline> {
         pieces.extend(ends.windows(2).map(|ends| (index, curve.section(ends[0], ends[1]))));
     }
     let graph = Graph::new(pieces.iter().map(|(_, curve)| *curve).collect());
-    let outline = |ring: Chain| {
+    let outline = |ring: NumberedCurves| {
         let own: BTreeSet<usize> = ring.iter().map(|(piece, _)| curves[pieces[*piece].0].0).collect();
         let whole: f64 = own.iter().map(|chain| length(&curves_of(&chains[*chain]))).sum();
         let inside = curves_of(&ring);
@@ -204,7 +205,7 @@ type NumberedPoint = GeomWithData<[f64; 2], usize>;
 
 /// Returns the open halves of outlines. They hang on the ring on both sides of the gap, and leave it outwards: inside, there are only lines
 /// across the part.
-fn open_halves(rings: &[Chain], hanging: &[Chain]) -> Vec<OpenHalf> {
+fn open_halves(rings: &[NumberedCurves], hanging: &[NumberedCurves]) -> Vec<OpenHalf> {
     if hanging.is_empty() {
         return Vec::new();
     }
@@ -229,8 +230,8 @@ fn numbered(at: Xy, number: usize) -> NumberedPoint {
 
 /// The chains that leave a ring outwards. `nodes` are the ends of the rings' curves, with the number of their ring.
 fn sides_outside<'c>(
-    rings: &[Chain],
-    hanging: &'c [Chain],
+    rings: &[NumberedCurves],
+    hanging: &'c [NumberedCurves],
     nodes: &RTree<NumberedPoint>,
 ) -> Vec<OpenSide<'c>> {
     let mut borders: BTreeMap<usize, Border> = BTreeMap::new();
@@ -250,7 +251,7 @@ const MOST_NEIGHBOURS: usize = 32;
 
 /// A chain that leaves a ring.
 struct OpenSide<'c> {
-    chain: &'c Chain,
+    chain: &'c NumberedCurves,
     ring: usize,
     begin: Xy,
     end: Xy,
@@ -259,7 +260,7 @@ struct OpenSide<'c> {
 
 impl<'c> OpenSide<'c> {
     /// `None` if the chain begins at no ring that `ring_at` finds.
-    fn new(chain: &'c Chain, ring_at: impl Fn(Xy) -> Option<usize>) -> Option<Self> {
+    fn new(chain: &'c NumberedCurves, ring_at: impl Fn(Xy) -> Option<usize>) -> Option<Self> {
         let (begin, end) = (chain.first()?.1.start(), chain.last()?.1.end());
         Some(Self { chain, ring: ring_at(begin)?, begin, end, length: length(&curves_of(chain)) })
     }

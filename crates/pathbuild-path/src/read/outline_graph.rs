@@ -7,7 +7,7 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::geometry::{Curve, Xy};
-use crate::read::rings::{Chain, JOINED, self_crossing};
+use crate::read::rings::{JOINED, NumberedCurves, self_crossing};
 
 /// Largest distance in mm of two loose ends that were probably meant to meet.
 pub(super) const NEARLY_JOINED: f64 = 0.5;
@@ -97,7 +97,7 @@ impl Graph {
 
     /// The outer rings of all connected curves, counterclockwise, each curve with its number. Curves with the same area on both sides are
     /// dropped: dangling chains, and lines from one ring to another. A ring that crosses itself may run either way round.
-    pub(super) fn rings(&self) -> Vec<Chain> {
+    pub(super) fn rings(&self) -> Vec<NumberedCurves> {
         let outer = self.faces(&self.dividing()).into_iter().filter(|face| {
             let area = self.area(face);
             area < -JOINED * JOINED || area <= JOINED * JOINED && self.is_figure_of_eight(face)
@@ -130,7 +130,7 @@ impl Graph {
 
     /// The longest chain of each connected group of curves that belong to no ring. Ends that almost meet count as joined, except for the
     /// two ends of a chain.
-    pub(super) fn open_chains(&self) -> Vec<Chain> {
+    pub(super) fn open_chains(&self) -> Vec<NumberedCurves> {
         let dividing = self.dividing().into_iter().collect();
         let mut forest = Forest::new(self, &dividing);
         let mut known = BTreeSet::new();
@@ -140,7 +140,7 @@ impl Graph {
     }
 
     /// The longest chain from a ring in each connected group of curves that belong to no ring. Ends that almost meet count as joined.
-    pub(super) fn hanging_chains(&self) -> Vec<Chain> {
+    pub(super) fn hanging_chains(&self) -> Vec<NumberedCurves> {
         let dividing: BTreeSet<usize> = self.dividing().into_iter().collect();
         let mut forest = Forest::new(self, &dividing);
         let ends = dividing.iter().flat_map(|number| [2 * number, 2 * number + 1]);
@@ -239,12 +239,12 @@ impl<'g> Forest<'g> {
     }
 
     /// The longest chain in the tree that contains a node.
-    fn longest_chain(&self, node: usize) -> Chain {
+    fn longest_chain(&self, node: usize) -> NumberedCurves {
         let one_end = self.way_to_farthest(self.nodes[node]).last().map_or(node, |last| last ^ 1);
         self.chain(self.way_to_farthest(self.nodes[one_end]))
     }
 
-    fn chain(&self, way: Vec<usize>) -> Chain {
+    fn chain(&self, way: Vec<usize>) -> NumberedCurves {
         way.into_iter().map(|half_edge| (half_edge / 2, self.graph.directed(half_edge))).collect()
     }
 

@@ -15,9 +15,9 @@ pub(super) const JOINED: f64 = 0.01;
 pub(super) const MOST_COMPARED: usize = 1_000_000;
 
 /// Consecutive curves, each with its number.
-pub(super) type Chain = Vec<(usize, Curve)>;
+pub(super) type NumberedCurves = Vec<(usize, Curve)>;
 
-pub(super) fn curves_of(chain: &Chain) -> Vec<Curve> {
+pub(super) fn curves_of(chain: &NumberedCurves) -> Vec<Curve> {
     chain.iter().map(|(_, curve)| *curve).collect()
 }
 
@@ -117,7 +117,7 @@ pub(super) fn crossings(curves: &[Curve]) -> Vec<Vec<f64>> {
 }
 
 /// The rings that cross the rim of a larger one, each with the crossing, which refers to the ring's own curves.
-pub(super) fn rims_crossed(rings: &[Chain], is_outermost: &[bool]) -> Vec<(usize, Crossing)> {
+pub(super) fn rims_crossed(rings: &[NumberedCurves], is_outermost: &[bool]) -> Vec<(usize, Crossing)> {
     let all: Vec<(usize, usize, Curve)> = (0..)
         .zip(rings)
         .flat_map(|(ring, chain)| (0..).zip(chain).map(move |(place, (_, curve))| (ring, place, *curve)))

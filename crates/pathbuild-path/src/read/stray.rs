@@ -72,19 +72,19 @@ pub struct NearNames {
 impl NearNames {
     /// Collects the names of a drawing's paths.
     pub fn new<'n>(paths: impl Iterator<Item = &'n PathName>) -> Self {
-        Self { by_folded: paths.map(|path| (folded(path.as_str()), path.clone())).collect() }
+        Self { by_folded: paths.map(|path| (case_folded(path.as_str()), path.clone())).collect() }
     }
 
     /// Returns the path whose name resembles that of another layer: the layer has the path's name, followed by a tilde and any text, by at most
     /// two more characters, or by a word for another version. Spaces, points and other separators, and case are ignored; letters that look like
     /// digits count as those digits.
     pub fn path(&self, layer: &str) -> Option<&PathName> {
-        let layer = folded(layer);
+        let layer = case_folded(layer);
         let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));
         let ends = layer.char_indices().rev().map(|(at, _)| at);
         let mut ends = std::iter::once(layer.len()).chain(ends).take(LONGEST_SLIP + 1);
         let version = || {
-            let before = |word: &&str| self.by_folded.get(layer.strip_suffix(&folded(word))?);
+            let before = |word: &&str| self.by_folded.get(layer.strip_suffix(&case_folded(word))?);
             VERSIONS.iter().find_map(before)
         };
         before_tilde.or_else(|| ends.find_map(|end| self.by_folded.get(&layer[..end]))).or_else(version)
@@ -92,7 +92,7 @@ impl NearNames {
 }
 
 /// Normalizes a name for comparison: upper case, without spaces and separators, with look-alikes replaced by plain characters and digits.
-fn folded(name: &str) -> String {
+fn case_folded(name: &str) -> String {
     let plain = look_alikes::with_digits(&look_alikes::replaced(name));
     let seen =
         plain.chars().filter(|letter| !letter.is_whitespace() && !matches!(letter, '.' | '_' | ',' | '-'));

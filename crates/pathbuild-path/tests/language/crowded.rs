@@ -8,7 +8,7 @@ use crate::support::{compile, path};
 
 /// A milled line of the drawing.
 #[derive(Clone, Copy, Debug)]
-struct Drawn {
+struct MilledLine {
     start: Xy,
     end: Xy,
 }
@@ -22,7 +22,7 @@ fn coincide(a: Xy, b: Xy) -> bool {
 }
 
 /// Returns the points of the walk, computed directly from the specification.
-fn plain_walk(lines: &[Drawn]) -> Vec<Xy> {
+fn plain_walk(lines: &[MilledLine]) -> Vec<Xy> {
     let (mut left, mut at, mut points) = ((0..lines.len()).collect::<Vec<_>>(), Xy::origin(), Vec::new());
     let length = |line: usize| (lines[line].end - lines[line].start).norm();
     loop {
@@ -41,7 +41,7 @@ fn plain_walk(lines: &[Drawn]) -> Vec<Xy> {
 }
 
 /// Generates pairs of lines between the centre and several tips, with lengths that are equal, nearly equal, or different.
-fn petals() -> impl Strategy<Value = Vec<Drawn>> {
+fn petals() -> impl Strategy<Value = Vec<MilledLine>> {
     let noise = || prop_oneof![Just(0.0), -1e-9..1e-9, -1e-5..1e-5];
     let rest = move || (noise(), any::<bool>());
     prop::collection::vec(((0..40, 0..6, 0..2), rest(), rest()), 1..45).prop_map(|petals| {
@@ -51,7 +51,7 @@ fn petals() -> impl Strategy<Value = Vec<Drawn>> {
             let (middle, tip) =
                 (Xy::new(noise, -noise), Xy::new(libm::cos(angle), libm::sin(angle)) * length);
             let [start, end] = if is_turned { [tip, middle] } else { [middle, tip] };
-            Drawn { start: start.map(written), end: end.map(written) }
+            MilledLine { start: start.map(written), end: end.map(written) }
         };
         petals.into_iter().flat_map(|(tip, one, other)| [drawn(tip, one), drawn(tip, other)]).collect()
     })
@@ -74,8 +74,9 @@ proptest! {
     }
 }
 
-fn check(lines: &[Drawn], expected: &[Xy]) {
-    let line = |it: &Drawn| format!("mill {:?},{:?} {:?},{:?}\n", it.start.x, it.start.y, it.end.x, it.end.y);
+fn check(lines: &[MilledLine], expected: &[Xy]) {
+    let line =
+        |it: &MilledLine| format!("mill {:?},{:?} {:?},{:?}\n", it.start.x, it.start.y, it.end.x, it.end.y);
     let end = expected.last().copied().unwrap_or(Xy::origin());
     let drawn = lines.iter().map(line).collect::<String>() + &format!("end {:?},{:?}", end.x, end.y);
     let compiled = compile(&path("T5 O3 I1 B0", &drawn));
@@ -91,6 +92,6 @@ fn check(lines: &[Drawn], expected: &[Xy]) {
 /// An even number of equal lines connects the centre and one tip: all are traversed, in the order drawn.
 #[test]
 fn lines_that_lie_on_each_other_are_taken_in_the_order_drawn() {
-    let line = Drawn { start: Xy::origin(), end: Xy::new(10.0, 0.0) };
+    let line = MilledLine { start: Xy::origin(), end: Xy::new(10.0, 0.0) };
     check(&[line; 40], &plain_walk(&[line; 40]));
 }

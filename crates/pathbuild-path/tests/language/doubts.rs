@@ -5,7 +5,7 @@ use pathbuild_path::{Bindings, DoubtThresholds, Language};
 use crate::support::{codes, compile_raw, language, path, read_as};
 
 /// Returns the findings about a path, with their values.
-fn said(drawing: &str, doubts: DoubtThresholds) -> Vec<String> {
+fn findings(drawing: &str, doubts: DoubtThresholds) -> Vec<String> {
     let language = Language { doubts, ..language() };
     let (raw, _) = read_as(drawing, &language).paths.into_iter().next().expect("there is a path");
     let compiled = compile_raw(&raw, &Bindings::check_values(&raw.definitions), &language);
@@ -25,7 +25,7 @@ fn all_codes(drawing: &str, language: &Language) -> Vec<String> {
 
 fn line(start: &str, text: &str) -> Vec<String> {
     let text = if text.is_empty() { String::new() } else { format!(" \"{text}\"") };
-    said(&path(start, &format!("mill 0,0 40,0{text}\nend 40,0")), MACHINE)
+    findings(&path(start, &format!("mill 0,0 40,0{text}\nend 40,0")), MACHINE)
 }
 
 const MACHINE: DoubtThresholds = DoubtThresholds { maximum_feed: Some(1500.0), ..DoubtThresholds::DEFAULT };
@@ -37,22 +37,22 @@ fn the_bottom_is_not_far_below_the_plate() {
     assert_eq!(line("T5 O2 I1 B0", "B-0.5"), [""; 0]);
     assert_eq!(line("T5 O2 I1 B0", "B-0.51"), ["PB211 B-0.51"]);
     let higher = DoubtThresholds { below_plate: 3.0, ..MACHINE };
-    assert_eq!(said(&path("T5 O2 I1 B-3", "mill 0,0 40,0\nend 40,0"), higher), [""; 0]);
+    assert_eq!(findings(&path("T5 O2 I1 B-3", "mill 0,0 40,0\nend 40,0"), higher), [""; 0]);
 }
 
 /// Shims raise the material: a negative H would mill into the plate.
 #[test]
 fn an_embedded_path_is_not_lowered() {
     let embedding =
-        |text: &str| said(&path("T5 O2 I1", &format!("subpath 0,0 40,0 \"{text}\"\nend 40,0")), MACHINE);
+        |text: &str| findings(&path("T5 O2 I1", &format!("subpath 0,0 40,0 \"{text}\"\nend 40,0")), MACHINE);
     assert_eq!(embedding(">2050.1P T5 O2 H0"), [""; 0]);
     assert_eq!(embedding(">2050.1P T5 O2 H-0.1"), ["PB211 H-0.1"]);
 }
 
 #[test]
 fn a_bottom_without_effect_is_no_doubt() {
-    assert_eq!(said(&path("T5 O2 I1 D4", "mark 0,0 40,0 \"B-3\"\nend 40,0"), MACHINE), [""; 0]);
-    assert_eq!(said(&path("T5 O2 I1 B0", "mill 0,0 40,0 \"B-3\"\nend 40,0"), MACHINE), ["PB211 B-3"]);
+    assert_eq!(findings(&path("T5 O2 I1 D4", "mark 0,0 40,0 \"B-3\"\nend 40,0"), MACHINE), [""; 0]);
+    assert_eq!(findings(&path("T5 O2 I1 B0", "mill 0,0 40,0 \"B-3\"\nend 40,0"), MACHINE), ["PB211 B-3"]);
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn a_mark_is_not_deeper_than_half_the_material() {
             format!("sweep 0,0 40,0\ncircle DIVIDE 40,0 d 2{text}\nend 40,0"),
             format!("sweep 0,0 40,0\ncircle DIVIDE 40,0 d 5{text}\nend 40,0"),
         ];
-        let [line, hole, ring] = texts.map(|drawing| said(&path(start, &drawing), MACHINE));
+        let [line, hole, ring] = texts.map(|drawing| findings(&path(start, &drawing), MACHINE));
         assert_eq!((&line, &line), (&hole, &ring));
         line
     };
@@ -75,16 +75,16 @@ fn a_mark_is_not_deeper_than_half_the_material() {
     assert_eq!(mark("T5 O2 I1 D2.49", ""), ["PB211 D2.49"]);
     assert_eq!(mark("T5 O2 I1 D2.49", " \"D4.8\""), [""; 0]);
     let through = DoubtThresholds { mark_depth: 1.0, ..MACHINE };
-    assert_eq!(said(&path("T5 O2 I1 D0", "mark 0,0 40,0\nend 40,0"), through), [""; 0]);
+    assert_eq!(findings(&path("T5 O2 I1 D0", "mark 0,0 40,0\nend 40,0"), through), [""; 0]);
 }
 
 #[test]
 fn the_path_s_depth_of_marks_is_said_once_and_not_of_bars() {
     let marks = "mark 0,0 20,0\nmark 20,0 40,0\nend 40,0";
-    assert_eq!(said(&path("T5 O2 I1 D1", marks), MACHINE), ["PB211 D1"]);
+    assert_eq!(findings(&path("T5 O2 I1 D1", marks), MACHINE), ["PB211 D1"]);
     let bars = "bars 0,0 40,0 \"B0 P2 U5\"\nend 40,0";
-    assert_eq!(said(&path("T5 O2 I1 D1", bars), MACHINE), [""; 0]);
-    assert_eq!(said(&path("T5 O2 I1", &bars.replace("B0", "B0 D1")), MACHINE), [""; 0]);
+    assert_eq!(findings(&path("T5 O2 I1 D1", bars), MACHINE), [""; 0]);
+    assert_eq!(findings(&path("T5 O2 I1", &bars.replace("B0", "B0 D1")), MACHINE), [""; 0]);
 }
 
 #[test]
@@ -94,8 +94,8 @@ fn an_infeed_is_not_above_the_thickness() {
     assert_eq!(line("T5 O2 I1 B0", "I5"), [""; 0]);
     assert_eq!(line("T5 O2 I1 B0", "I5.01"), ["PB211 I5.01"]);
     let twice = DoubtThresholds { infeed: 2.0, ..MACHINE };
-    assert_eq!(said(&path("T5 O2 I10 B0", "mill 0,0 40,0\nend 40,0"), twice), [""; 0]);
-    assert_eq!(said(&path("T5 O2 I10.01 B0", "mill 0,0 40,0\nend 40,0"), twice), ["PB211 I10.01"]);
+    assert_eq!(findings(&path("T5 O2 I10 B0", "mill 0,0 40,0\nend 40,0"), twice), [""; 0]);
+    assert_eq!(findings(&path("T5 O2 I10.01 B0", "mill 0,0 40,0\nend 40,0"), twice), ["PB211 I10.01"]);
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn a_feed_is_not_above_the_machines() {
     assert_eq!(line("T5 O2 I1 B0", "F1500"), [""; 0]);
     assert_eq!(line("T5 O2 I1 B0", "F1501"), ["PB211 F1501"]);
     let unknown = DoubtThresholds { maximum_feed: None, ..MACHINE };
-    assert_eq!(said(&path("T5 O2 I1 B0 F9999", "mill 0,0 40,0\nend 40,0"), unknown), [""; 0]);
+    assert_eq!(findings(&path("T5 O2 I1 B0 F9999", "mill 0,0 40,0\nend 40,0"), unknown), [""; 0]);
 }
 
 /// C protects a thin drill, so a single stroke must not come as a surprise.
@@ -173,7 +173,7 @@ fn an_element_that_has_its_text_is_no_rival() {
 #[test]
 fn markers_are_no_rivals_of_elements() {
     let (start, hole) = ("start 20,0 \"T5 O3 I1 B0 D2\"", "circle 20,0 d 3\nend 20,0");
-    let said = |text: &str| said(&format!("layer 1234.1P\n{start}\n{hole}{text}"), MACHINE);
+    let said = |text: &str| findings(&format!("layer 1234.1P\n{start}\n{hole}{text}"), MACHINE);
     assert_eq!(said(""), [""; 0]);
 }
 
@@ -215,7 +215,10 @@ fn a_depth_that_was_meant_from_the_surface_is_named() {
 #[test]
 fn a_circle_hardly_larger_than_the_cutter_was_meant_to_be_drilled() {
     let circle = |diameter: &str, doubts: DoubtThresholds| {
-        said(&path("T5 O3 I1 B0 D2", &format!("circle 0,0 d {diameter}\nmill 0,0 40,0\nend 40,0")), doubts)
+        findings(
+            &path("T5 O3 I1 B0 D2", &format!("circle 0,0 d {diameter}\nmill 0,0 40,0\nend 40,0")),
+            doubts,
+        )
     };
     // Up to a deviation of 0.001 mm, the circle is drilled.
     for (diameter, is_doubtful) in
@@ -231,7 +234,7 @@ fn a_circle_hardly_larger_than_the_cutter_was_meant_to_be_drilled() {
 /// Returns the findings about a ring of lines in which statements are replaced.
 fn ring(start: &str, change: (&str, &str)) -> Vec<String> {
     let ring = "mill 0,0 40,0\nmill 40,0 40,30\nmill 40,30 0,30\nmill 0,30 0,0\nend 0,0";
-    said(&path(start, &ring.replacen(change.0, change.1, 1)), MACHINE)
+    findings(&path(start, &ring.replacen(change.0, change.1, 1)), MACHINE)
 }
 
 #[test]
@@ -259,7 +262,7 @@ fn an_outline_that_has_lost_its_bars_is_doubtful() {
 #[test]
 fn rims_that_have_lost_their_bars_are_doubtful() {
     const BARS: &str = "T5 O2 I1 B-0.3 D2 P3 U15 A50";
-    let found = |start: &str, drawn: &str| said(&path(start, drawn), MACHINE);
+    let found = |start: &str, drawn: &str| findings(&path(start, drawn), MACHINE);
     let arcs = "mill arc 0,0 to 40,0 centre 20,0\nmill arc 40,0 to 0,0 centre 20,0\nend 0,0";
     assert_eq!(found(BARS, arcs), ["PB212 "]);
     let open = |gap: f64| found(BARS, &format!("mill 0,0 40,0 40,30 0,30 0,{gap}\nend 0,{gap}"));
@@ -273,7 +276,7 @@ fn rims_that_have_lost_their_bars_are_doubtful() {
 #[test]
 fn bars_are_thicker_than_nothing() {
     let bars = |start: &str, text: &str| {
-        said(&path(start, &format!("bars 0,0 40,0{text}\nbars 40,0 40,30\nend 40,30")), MACHINE)
+        findings(&path(start, &format!("bars 0,0 40,0{text}\nbars 40,0 40,30\nend 40,30")), MACHINE)
     };
     for (top, is_doubtful) in [("-0.2", true), ("0", true), ("0.09", true), ("0.1", false), ("1", false)] {
         let found = bars(&format!("T5 O2 I1 B-0.3 D{top} P3 U9"), "");
@@ -293,9 +296,9 @@ fn the_first_depth_lies_in_the_material_of_the_chain() {
     assert_eq!(line("T5 O2 I1 B1", "W6"), ["PB211 W6"]);
     // W of the first segment applies to the whole chain, and so does its greatest depth.
     let deeper = path("T5 O2 I1 B3 W1", "mill 0,0 20,0\nmill 20,0 40,0 \"B1\"\nend 40,0");
-    assert_eq!(said(&deeper, MACHINE), [""; 0]);
+    assert_eq!(findings(&deeper, MACHINE), [""; 0]);
     let chains = "mill 0,0 10,0\nsweep 10,0 20,0\nmill 20,0 30,0\nend 30,0";
-    assert_eq!(said(&path("T5 O2 I1 B1 W9", chains), MACHINE), ["PB211 "], "the path's is said once");
+    assert_eq!(findings(&path("T5 O2 I1 B1 W9", chains), MACHINE), ["PB211 "], "the path's is said once");
 }
 
 #[test]

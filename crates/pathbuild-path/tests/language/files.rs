@@ -12,33 +12,36 @@ fn holds(stem: &str, name: &str) -> bool {
 }
 
 /// Returns those of the given paths that a file of this name may define.
-fn held<'a>(stem: &str, names: &[&'a str]) -> Vec<&'a str> {
+fn definable_paths<'a>(stem: &str, names: &[&'a str]) -> Vec<&'a str> {
     names.iter().copied().filter(|name| holds(stem, name)).collect()
 }
 
 #[test]
 fn the_table_of_the_specification_holds() {
-    assert_eq!(held("8000", &["8000.1A", "8001.1A"]), ["8000.1A"]);
-    let range = held("8000-8002", &["8000.0A", "8001.99A", "8002.99A", "8003.1A", "7999.9A"]);
+    assert_eq!(definable_paths("8000", &["8000.1A", "8001.1A"]), ["8000.1A"]);
+    let range = definable_paths("8000-8002", &["8000.0A", "8001.99A", "8002.99A", "8003.1A", "7999.9A"]);
     assert_eq!(range, ["8000.0A", "8001.99A", "8002.99A"]);
-    assert_eq!(held("8000-8002,8004", &["8004.1A", "8003.0A"]), ["8004.1A"]);
-    assert_eq!(held("8000.4-8001,8000.1-8001.3", &["8000.2A", "8000.0A"]), ["8000.2A"]);
-    assert_eq!(held("8000.2-8000.3,8000.5", &["8000.4A", "8000.5A"]), ["8000.5A"]);
-    assert_eq!(held("1234.1-1234.10", &["1234.8A", "1234.5B", "1234.40A"]), ["1234.8A", "1234.5B"]);
+    assert_eq!(definable_paths("8000-8002,8004", &["8004.1A", "8003.0A"]), ["8004.1A"]);
+    assert_eq!(definable_paths("8000.4-8001,8000.1-8001.3", &["8000.2A", "8000.0A"]), ["8000.2A"]);
+    assert_eq!(definable_paths("8000.2-8000.3,8000.5", &["8000.4A", "8000.5A"]), ["8000.5A"]);
+    assert_eq!(
+        definable_paths("1234.1-1234.10", &["1234.8A", "1234.5B", "1234.40A"]),
+        ["1234.8A", "1234.5B"]
+    );
 }
 
 #[test]
 fn both_ends_of_a_range_are_in_it() {
     let names = ["1300.1A", "1300.2A", "1300.5A", "1300.9A", "1300.10A"];
-    assert_eq!(held("1300.2-1300.9", &names), ["1300.2A", "1300.5A", "1300.9A"]);
+    assert_eq!(definable_paths("1300.2-1300.9", &names), ["1300.2A", "1300.5A", "1300.9A"]);
 }
 
 #[test]
 fn anything_may_stand_between_and_around_names() {
     let names = ["1234.5A", "1300.1A", "1350.1A"];
-    assert_eq!(held("new 1234.1-1234.10,1300 gears", &names), ["1234.5A", "1300.1A"]);
-    assert_eq!(held("1234.5_1300", &names), ["1234.5A", "1300.1A"]);
-    assert_eq!(held("gears", &names), [""; 0]);
+    assert_eq!(definable_paths("new 1234.1-1234.10,1300 gears", &names), ["1234.5A", "1300.1A"]);
+    assert_eq!(definable_paths("1234.5_1300", &names), ["1234.5A", "1300.1A"]);
+    assert_eq!(definable_paths("gears", &names), [""; 0]);
 }
 
 #[test]
@@ -82,13 +85,13 @@ fn optional_groups_of_a_custom_pattern_end_the_comparison() {
 #[test]
 fn ranges_do_not_overlap() {
     let names = ["1001.1A", "1002.1A", "1003.1A", "1004.1A", "1005.1A"];
-    assert_eq!(held("1001-1003-1005", &names), ["1001.1A", "1002.1A", "1003.1A", "1005.1A"]);
+    assert_eq!(definable_paths("1001-1003-1005", &names), ["1001.1A", "1002.1A", "1003.1A", "1005.1A"]);
 }
 
 /// A range in the wrong order is not a range, but its ends are names.
 #[test]
 fn the_ends_of_a_range_are_names_too() {
-    assert_eq!(held("8002-8000", &["8000.1A", "8001.1A", "8002.1A"]), ["8000.1A", "8002.1A"]);
+    assert_eq!(definable_paths("8002-8000", &["8000.1A", "8001.1A", "8002.1A"]), ["8000.1A", "8002.1A"]);
 }
 
 #[test]
@@ -108,7 +111,7 @@ fn a_name_with_more_groups_than_the_file_is_in_it_and_not_the_other_way_round() 
 fn whole_numbers_compare_by_value() {
     assert!(holds("8999.01", "8999.1A"));
     assert!(!holds("8999.10", "8999.1A"));
-    assert_eq!(held("1234.9-1234.11", &["1234.10A", "1234.100A", "1234.8A"]), ["1234.10A"]);
+    assert_eq!(definable_paths("1234.9-1234.11", &["1234.10A", "1234.100A", "1234.8A"]), ["1234.10A"]);
     let long = format!("1234.{}", "9".repeat(50));
     assert!(holds(&format!("1234.1-{long}"), &format!("{long}A")));
     assert!(!holds(&format!("1234.1-{long}"), &format!("{long}0A")));

@@ -8,7 +8,7 @@ use crate::support::{compile, path};
 const P: &str = "T5 O3 I1 B0";
 
 /// Returns message and help of each error.
-fn said(found: &[Diagnostic]) -> Vec<String> {
+fn messages_with_help(found: &[Diagnostic]) -> Vec<String> {
     let with_help = |found: &Diagnostic| {
         format!("{} {}; {}", found.code(), found.text(Lang::En), found.help(Lang::En).unwrap_or_default())
     };
@@ -16,7 +16,7 @@ fn said(found: &[Diagnostic]) -> Vec<String> {
 }
 
 fn of_text(text: &str, class: ElementClass) -> Vec<String> {
-    said(&ParameterTexts::from(text).first().unwrap().problems(class))
+    messages_with_help(&ParameterTexts::from(text).first().unwrap().problems(class))
 }
 
 #[track_caller]
@@ -101,7 +101,7 @@ fn a_remark_is_no_parameter() {
 
 #[test]
 fn a_non_breaking_space_is_named() {
-    let found = said(&compile(&path(P, "mill 0,0 20,0 \"B1\u{a0}F100\"\nend 20,0")).found);
+    let found = messages_with_help(&compile(&path(P, "mill 0,0 20,0 \"B1\u{a0}F100\"\nend 20,0")).found);
     assert_one(
         &found,
         "PB205 B needs a number, not \"1\u{2423}F100\": \u{2423} is a non-breaking space",
@@ -111,13 +111,13 @@ fn a_non_breaking_space_is_named() {
 
 #[test]
 fn a_value_above_0_has_an_example() {
-    let found = said(&compile(&path(P, "mill 0,0 20,0 \"F0\"\nend 20,0")).found);
+    let found = messages_with_help(&compile(&path(P, "mill 0,0 20,0 \"F0\"\nend 20,0")).found);
     assert_one(&found, "PB203 F is 0", "for example F150");
 }
 
 #[test]
 fn a_line_drawn_twice_is_not_an_end_marker_out_of_place() {
-    let found = |drawn: &str| said(&compile(&path(P, drawn)).found);
+    let found = |drawn: &str| messages_with_help(&compile(&path(P, drawn)).found);
     assert_one(&found("mill 0,0 20,0\nmill 0,0 20,0\nend 20,0"), "PB403 ", "delete one of the two");
     assert_one(&found("mill 0,0 20,0\nmill 20,0 0,0\nend 20,0"), "PB403 ", "delete one of the two");
     assert_one(&found("mill 0,0 20,0\nmill 20,0 0,5\nend 20,0"), "PB403 ", "draw what is missing between");
@@ -125,7 +125,7 @@ fn a_line_drawn_twice_is_not_an_end_marker_out_of_place() {
 
 #[test]
 fn a_dead_end_wants_a_turn_marker() {
-    let found = |drawn: &str| said(&compile(&path(P, drawn)).found);
+    let found = |drawn: &str| messages_with_help(&compile(&path(P, drawn)).found);
     let branch = "mill 0,0 20,0\nmill 20,0 20,10\nmill 20,0 50,0\nend 50,0";
     assert_one(
         &found(branch),
@@ -144,7 +144,7 @@ fn a_dead_end_wants_a_turn_marker() {
 
 #[test]
 fn a_hole_along_a_line_wants_the_line_split() {
-    let found = |drawn: &str| said(&compile(&path(P, drawn)).found);
+    let found = |drawn: &str| messages_with_help(&compile(&path(P, drawn)).found);
     assert_one(
         &found("mill 0,0 40,0\ncircle 20,0 d 3\nend 40,0"),
         "PB402 ",
@@ -200,7 +200,7 @@ fn a_line_without_length_is_left_over() {
 #[test]
 fn a_cut_of_almost_no_length_is_left_over() {
     let found = |length: f64| {
-        said(
+        messages_with_help(
             &compile(&path(P, &format!("mill 0,0 20,0\nmill 20,0 {x},0\nend {x},0", x = 20.0 + length)))
                 .found,
         )
@@ -241,11 +241,11 @@ fn a_line_drawn_twice_is_milled_at_two_depths() {
 fn the_halves_of_a_ring_are_not_one_arc() {
     let ring =
         "mill 0,0 20,0\nmill arc 40,0 to 40,20 centre 40,10\nmill arc 40,20 to 40,0 centre 40,10\nend 20,0";
-    let found = said(&compile(&path(P, ring)).found);
+    let found = messages_with_help(&compile(&path(P, ring)).found);
     assert_one(&found, "PB402 the path ends here, but not all", "move them to another layer");
     let twice = ring.replace("40,20 to 40,0 centre 40,10", "40,20 to 40,0 centre 40,10 cw");
     assert_one(
-        &said(&compile(&path(P, &twice)).found),
+        &messages_with_help(&compile(&path(P, &twice)).found),
         "PB402 a milling segment at (40, 0) is drawn twice",
         "delete one of the two",
     );
@@ -258,7 +258,7 @@ fn a_subpath_drawn_twice_is_named() {
         "mill 0,0 20,0\nsubpath 20,0 40,0 \">1234.1P\"\nsubpath 20,0 40,0 \">1234.1P\"\nend 40,0",
     ))
     .found;
-    let found = said(&found);
+    let found = messages_with_help(&found);
     let begin = "PB403 the path stops at (20, 0), but its end marker is at (40, 0): a subpath at (20, 0) is drawn twice";
     assert!(found.iter().any(|found| found.starts_with(begin)), "{found:?}");
 }
@@ -273,25 +273,26 @@ fn a_circle_on_another_is_left_over() {
 
 #[test]
 fn a_segment_that_begins_on_another_is_named() {
-    let found = said(&compile(&path(P, "mill 0,0 20,0\nmill 15,0 40,0\nend 40,0")).found);
+    let found = messages_with_help(&compile(&path(P, "mill 0,0 20,0\nmill 15,0 40,0\nend 40,0")).found);
     assert_one(
         &found,
         "PB401 the path breaks off here: a milling segment begins at (15, 0), in the middle of another segment",
         "so that the two meet end to end",
     );
-    let found = said(&compile(&path(P, "mill 0,0 20,0\nmill 20.1,0 40,0\nend 40,0")).found);
+    let found = messages_with_help(&compile(&path(P, "mill 0,0 20,0\nmill 20.1,0 40,0\nend 40,0")).found);
     assert_one(&found, "PB401 the path breaks off here; segments", "move it to the path's layer");
 }
 
 #[test]
 fn a_sweep_drawn_twice_is_named() {
-    let found = said(
+    let found = messages_with_help(
         &compile(&path(P, "mill 0,0 20,0\nsweep 20,0 40,0\nsweep 40,0 20,0\nmill 40,0 60,0\nend 60,0")).found,
     );
     assert_one(&found, "PB402 a sweep at (40, 0) is drawn twice", "delete one of the two");
     let outline = "bars 0,0 40,0 40,30 0,30 0,0";
-    let found =
-        said(&compile(&path("T5 O3 I1 B0 D1 P4 U9", &format!("{outline}\n{outline}\nend 0,0"))).found);
+    let found = messages_with_help(
+        &compile(&path("T5 O3 I1 B0 D1 P4 U9", &format!("{outline}\n{outline}\nend 0,0"))).found,
+    );
     assert_one(&found, "PB402 a segment with support bars at ", "delete one of the two");
     // Milling there and sweeping back is how an infeed is drawn.
     assert_eq!(codes_of("mill 0,0 20,0\nsweep 20,0 0,0\nend 0,0"), [""; 0]);

@@ -27,10 +27,10 @@ use runner::Runner;
 
 use super::PostOptions;
 use super::job::{Job, Units};
-use super::shadow::{Rs274Translation, TranslatedText};
+use super::rs274_translation::{Rs274Translation, TranslatedText};
 use super::target::Target;
 use crate::findings::EngineOutput;
-use crate::shadow::{CommentMarks, words};
+use crate::line_words::{CommentMarks, words};
 use crate::target::Guard;
 
 /// Writes a job, which must have at least one operation.

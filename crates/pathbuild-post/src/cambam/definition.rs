@@ -14,8 +14,8 @@ use super::section::Section;
 use super::template::{Fault, Template, TemplateError};
 use crate::findings::{Findings, LineStarts, MOST_FINDINGS};
 use crate::job::{Job, Units};
+use crate::line_words::{CommentMarks, words};
 use crate::number::FormatOption;
-use crate::shadow::{CommentMarks, words};
 use crate::target::Target;
 use crate::{PostMacro, PostOptions};
 

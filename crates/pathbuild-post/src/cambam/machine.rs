@@ -4,8 +4,8 @@ use pathbuild_motion::{Coolant, Plane, Turning};
 
 use super::section::Section;
 use crate::VelocityMode;
+use crate::line_words::{LineWords, Word};
 use crate::number::NumberFormat;
-use crate::shadow::{LineWords, Word};
 
 /// State of the machine as far as it is known. `None` means unknown, as every field is at the beginning.
 #[derive(Debug, Default)]
@@ -67,7 +67,7 @@ impl Machine {
         if let Some((number, _)) = code {
             self.motion = Some(number * 10);
         }
-        let mut moves = Moves::default();
+        let mut moves = AxisWords::default();
         let tenths =
             |letter: char| line.words.iter().filter(move |word| word.letter == letter).filter_map(tenths);
         tenths('G').for_each(|code| self.apply_g_code(code, &mut moves));
@@ -78,11 +78,11 @@ impl Machine {
             self.selected = Some(tool / 10);
         }
         tenths('M').for_each(|code| self.apply_m_code(code));
-        moves.displaced |= self.incremental;
+        moves.is_position_unknown |= self.incremental;
         self.move_registers(&line.words, &moves, format);
     }
 
-    fn apply_g_code(&mut self, code: u32, moves: &mut Moves) {
+    fn apply_g_code(&mut self, code: u32, moves: &mut AxisWords) {
         match code {
             170 => self.plane = Some(Plane::Xy),
             180 => self.plane = Some(Plane::Zx),
@@ -91,9 +91,9 @@ impl Machine {
             640 => self.velocity = Some(VelocityMode::ConstantVelocity),
             900 => self.incremental = false,
             910 => self.incremental = true,
-            40 | 100 => moves.none = true,
-            280 | 300 => moves.everywhere = true,
-            520 | 530 | 920..=923 => moves.displaced = true,
+            40 | 100 => moves.is_no_position = true,
+            280 | 300 => moves.is_intermediate_point = true,
+            520 | 530 | 920..=923 => moves.is_position_unknown = true,
             800 => self.motion = None,
             0 | 10 | 20 | 30 | 382..=385 | 730 | 810..=890 => self.motion = Some(code),
             _ => {}
@@ -116,19 +116,19 @@ impl Machine {
         }
     }
 
-    fn move_registers(&mut self, words: &[Word], moves: &Moves, format: NumberFormat) {
-        if moves.everywhere {
+    fn move_registers(&mut self, words: &[Word], moves: &AxisWords, format: NumberFormat) {
+        if moves.is_intermediate_point {
             self.forget(&Register::AXES);
         }
         let mut moved = false;
         for word in words {
             let Some(register) = Register::of(word.letter) else { continue };
             let is_axis = Register::AXES.contains(&register);
-            if is_axis && moves.none {
+            if is_axis && moves.is_no_position {
                 continue;
             }
             moved |= is_axis;
-            let known = !(is_axis && (moves.displaced || moves.everywhere));
+            let known = !(is_axis && (moves.is_position_unknown || moves.is_intermediate_point));
             self.set(register, known.then(|| format.format(word.number)));
         }
         if moved && self.motion.is_some_and(|motion| motion == 730 || (810..=890).contains(&motion)) {
@@ -141,13 +141,13 @@ impl Machine {
 
 /// The meaning of the axis words in a line.
 #[derive(Default)]
-struct Moves {
+struct AxisWords {
     /// Whether the axis words are not coordinates of the tool (G4, G10).
-    none: bool,
+    is_no_position: bool,
     /// Whether the axis words are in another coordinate system or relative, so that the position afterwards is unknown.
-    displaced: bool,
+    is_position_unknown: bool,
     /// Whether the axis words are an intermediate point on the way to a fixed position (G28, G30).
-    everywhere: bool,
+    is_intermediate_point: bool,
 }
 
 /// Returns ten times the number of a word, or `None` if no code has such a number.

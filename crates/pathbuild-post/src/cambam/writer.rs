@@ -13,8 +13,9 @@ use super::template::{Template, TemplatePart};
 use crate::arcs::chords;
 use crate::findings::{EngineOutput, Fuel, LineOrigin, MOST_WARNINGS};
 use crate::job::{Feeds, JobStep, Operation, Tool};
+use crate::line_words::{CommentMarks, LineWords, Word, words};
 use crate::number::NumberFormat;
-use crate::shadow::{CommentMarks, LineWords, Rs274Translation, Word, words};
+use crate::rs274_translation::Rs274Translation;
 use crate::target::Guard;
 
 /// Success, or the diagnostic that aborts writing.

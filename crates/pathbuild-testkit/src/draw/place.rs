@@ -1,7 +1,7 @@
 //! Positions each text so that it belongs to its element by the rules of book: language/parameter-texts.
 
 use pathbuild_draw::geometry::sin_cos;
-use pathbuild_draw::place::{Candidate, ElementPart, Extent, TextPositions, no_room, reduced};
+use pathbuild_draw::place::{Candidate, ElementPart, TextPositions, TextSize, no_room, reduced};
 
 use super::model::{
     Arc, Attachment, Block, Circle, Direction, DrawError, Ellipse, Entity, Horizontal, Insert, Layer, Line,
@@ -184,7 +184,7 @@ pub fn text_circle(entity: &Entity) -> Option<TextCircle> {
 }
 
 fn of_text(text: &Text, mirrored: bool) -> TextCircle {
-    let extent = Extent::of_text(&text.value, text.height);
+    let extent = TextSize::of_text(&text.value, text.height);
     let (anchor, across) = match text.horizontal {
         Horizontal::Left => (text.anchor, 0.5),
         Horizontal::Right => (text.anchor, -0.5),
@@ -204,7 +204,7 @@ fn of_text(text: &Text, mirrored: bool) -> TextCircle {
 }
 
 fn of_mtext(text: &MText) -> TextCircle {
-    let extent = Extent::of_mtext(&lines(&text.value), text.height);
+    let extent = TextSize::of_mtext(&lines(&text.value), text.height);
     let index = text.attachment.number() - 1;
     let across = f64::from(1 - index % 3) / 2.0;
     let up = f64::from(index / 3 - 1) / 2.0;
@@ -261,10 +261,10 @@ fn layer_of(entity: &Entity) -> String {
     entity.layer.as_deref().unwrap_or("0").trim().to_lowercase()
 }
 
-fn extent(note: &Note, kind: NoteKind, height: f64) -> Extent {
+fn extent(note: &Note, kind: NoteKind, height: f64) -> TextSize {
     match kind {
-        NoteKind::Text => Extent::of_text(&note.value, height),
-        NoteKind::MText => Extent::of_mtext(&lines(&note.value), height),
+        NoteKind::Text => TextSize::of_text(&note.value, height),
+        NoteKind::MText => TextSize::of_mtext(&lines(&note.value), height),
     }
 }
 
@@ -273,7 +273,7 @@ fn note_entity(
     entity: &Entity,
     note: &Note,
     kind: NoteKind,
-    (centre, extent, height): (Point, Extent, f64),
+    (centre, extent, height): (Point, TextSize, f64),
 ) -> Entity {
     let corner = |up: f64| Point::new(centre.x - extent.width / 2.0, centre.y + up * extent.height / 2.0);
     let shape = match kind {

@@ -8,7 +8,7 @@ use crate::draw::model::{
     Change, Entity, Layer, LayerState, LineEnds, Options, Pair, Part, Point, Shape, TextEncoding, Version,
 };
 use crate::draw::{Block, Draft, DrawError, Sheet};
-use crate::furniture::finish;
+use crate::surroundings::finish;
 use cursor::{Cursor, Parsed, ParsedEntities, choice};
 use modifiers::note_kind;
 use shapes::{declare_line_type, required_line_type};

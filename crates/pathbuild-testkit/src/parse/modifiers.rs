@@ -134,7 +134,7 @@ fn raise(shape: &mut Shape, z: f64) {
 }
 
 /// Default letter height in mm.
-const HEIGHT: f64 = 2.5;
+const LETTER_HEIGHT: f64 = 2.5;
 
 /// Parses `text P "..." [height H] [rotate A] [align ...] [backwards] [upside-down]`.
 pub(crate) fn text(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
@@ -144,7 +144,7 @@ pub(crate) fn text(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let mut text = Text {
         value,
         anchor,
-        height: HEIGHT,
+        height: LETTER_HEIGHT,
         rotation: 0.0,
         horizontal: Horizontal::Left,
         vertical: Vertical::Baseline,
@@ -210,7 +210,7 @@ pub(crate) fn mtext(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let mut text = MText {
         value,
         anchor,
-        height: HEIGHT,
+        height: LETTER_HEIGHT,
         attachment: Attachment::TopLeft,
         direction: Direction::Rotation(0.0),
         chunk: None,

@@ -9,9 +9,9 @@ use pathbuild_testkit::sheet;
 use pathbuild_toolpath::{Comment, Count, Names, Parts, PlannedMove, Program, ProgramStep, fold, own_moves};
 
 /// The paths of a drawing, which may embed each other.
-struct Drawn(Vec<(Path, WalkedPath)>);
+struct PathsOfDrawing(Vec<(Path, WalkedPath)>);
 
-impl Parts for Drawn {
+impl Parts for PathsOfDrawing {
     type Id = usize;
 
     fn path(&self, id: usize) -> &Path {
@@ -49,12 +49,12 @@ pub(crate) fn program_with(drawing: &str, options: PathOptions) -> Program {
 /// Returns the estimated number of moves of the first path of a drawing.
 #[track_caller]
 pub(crate) fn estimate(drawing: &str) -> u64 {
-    let Drawn(paths) = drawn(drawing);
+    let PathsOfDrawing(paths) = drawn(drawing);
     own_moves(&paths[0].0, &paths[0].1)
 }
 
 #[track_caller]
-fn drawn(drawing: &str) -> Drawn {
+fn drawn(drawing: &str) -> PathsOfDrawing {
     let sheet = sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
     let language = Language {
         path_pattern: PathPattern::default(),
@@ -83,7 +83,7 @@ fn drawn(drawing: &str) -> Drawn {
         assert!(!walked.items.is_empty(), "{:?} in\n{drawing}", walked.diagnostics);
         (path, walked)
     };
-    Drawn(file.paths.iter().map(|(raw, _)| walked(raw)).collect())
+    PathsOfDrawing(file.paths.iter().map(|(raw, _)| walked(raw)).collect())
 }
 
 /// Returns a drawing of a path with these parameters and its start at (0, 0).

@@ -3,7 +3,7 @@
 import type { Finding, Opened } from "../../../../packaging/npm/index.js";
 import { ProgramSettings } from "./programs.js";
 import { LibraryRow } from "./source.js";
-import type { Answered } from "./worker.js";
+import type { CompilerResponse } from "./worker.js";
 
 /** Files by their paths relative to the given folder. */
 export type Files = Map<string, ArrayBuffer>;
@@ -167,7 +167,7 @@ export class Compiler {
       };
       const timer = setTimeout(() => ended({ why: "time" }), seconds * 1000);
       worker.onerror = (event) => ended({ why: "bug", reason: event.message });
-      worker.onmessage = ({ data }: MessageEvent<Answered>) => {
+      worker.onmessage = ({ data }: MessageEvent<CompilerResponse>) => {
         if ("trap" in data) return ended({ why: "bug", reason: data.trap });
         clearTimeout(timer);
         const head = JSON.parse(data.head) ?? {};

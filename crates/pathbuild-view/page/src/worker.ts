@@ -3,17 +3,17 @@
 import { type Instance, instantiate } from "../../../../packaging/npm/index.js";
 
 /** A question to the compiler: a line of JSON, and bytes. */
-export interface Asked {
+export interface CompilerRequest {
   head: string;
   bytes?: ArrayBuffer;
 }
 
 /** The compiler's answer, or the trap that ended the instance. */
-export type Answered = { head: string; bytes: Uint8Array<ArrayBuffer> } | { trap: string };
+export type CompilerResponse = { head: string; bytes: Uint8Array<ArrayBuffer> } | { trap: string };
 
 let begun: Promise<Instance> | null = null;
 
-self.addEventListener("message", async ({ data }: MessageEvent<ArrayBuffer | Asked>) => {
+self.addEventListener("message", async ({ data }: MessageEvent<ArrayBuffer | CompilerRequest>) => {
   if (data instanceof ArrayBuffer) {
     begun = instantiate(data);
     begun.catch((error) => tell({ trap: String(error) }));
@@ -27,6 +27,6 @@ self.addEventListener("message", async ({ data }: MessageEvent<ArrayBuffer | Ask
   }
 });
 
-function tell(answer: Answered): void {
+function tell(answer: CompilerResponse): void {
   postMessage(answer, "trap" in answer ? {} : { transfer: [answer.bytes.buffer] });
 }

@@ -2,7 +2,7 @@
 
 use super::canvas::{Anchor, Canvas, ERROR, INK, TEXT, WARNING, mm};
 use super::frame::VisibleParts;
-use super::frame::{Frame, PageTransform, Room, widen};
+use super::frame::{Frame, OccupiedSpace, PageTransform, widen};
 use super::stock::{self, MilledStock};
 use super::things;
 use crate::scene::{KeepOut, Label, OtherShape, Point, Scene, ScenePath, Shape};
@@ -49,7 +49,7 @@ pub struct Spot {
 pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
     drawn(spot, |canvas, frame, window| {
         let near = near(scene, window);
-        let mut room = Room::new([[0.0; 2], SIZE]);
+        let mut room = OccupiedSpace::new([[0.0; 2], SIZE]);
         things::under(canvas, &near, frame, &mut room);
         stock::uncut(canvas, &near, &frame.of_drawing());
         let shown = VisibleParts { rapids: false, order: false, arrows: false, ..VisibleParts::all(lang) };

@@ -180,7 +180,7 @@ pub(super) fn widen(corners: &mut Option<[Point; 2]>, [low, high]: [Point; 2]) {
 
 /// The occupied space of a picture, as cells of a grid, for placing texts that do not overlap. The cost of an operation depends on the
 /// size of the text, not on the number of texts.
-pub(super) struct Room {
+pub(super) struct OccupiedSpace {
     area: Rectangle,
     taken: BTreeSet<(i64, i64)>,
     /// Lines that labels should not cover.
@@ -199,7 +199,7 @@ const NEAR_CANDIDATES: usize = 13;
 /// Upper left and lower right corner of a rectangle in px.
 pub(super) type Rectangle = [Point; 2];
 
-impl Room {
+impl OccupiedSpace {
     /// Creates the space of a picture, with everything free.
     pub(super) fn new(area: Rectangle) -> Self {
         Self { area, taken: BTreeSet::new(), lines: Vec::new() }
@@ -352,6 +352,6 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
 }
 
 /// Returns the square around a point with this half width in px.
-pub(super) fn around([x, y]: Point, half: f64) -> Rectangle {
+pub(super) fn square_around([x, y]: Point, half: f64) -> Rectangle {
     [[x - half, y - half], [x + half, y + half]]
 }

@@ -16,7 +16,7 @@ use canvas::{Canvas, Depths};
 pub use changes::{Picture, changes_svg};
 pub use cutout::{Spot, cutout_svg, stock_cutout_svg};
 pub use frame::VisibleParts;
-use frame::{Frame, Room};
+use frame::{Frame, OccupiedSpace};
 #[cfg(not(feature = "pictures"))]
 pub use sheet::sheet_pdf;
 #[cfg(feature = "pictures")]
@@ -37,7 +37,7 @@ pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
     canvas.title(&scene.title);
     canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
     canvas.clip("frame", frame.area());
-    let mut room = Room::new(frame.area());
+    let mut room = OccupiedSpace::new(frame.area());
     let hidden = drawing(&mut canvas, scene, &frame, &depths, shown, &mut room);
     things::findings(&mut canvas, scene, &frame, &mut room, legend.listed);
     canvas.close();
@@ -52,7 +52,7 @@ fn drawing(
     frame: &Frame,
     depths: &Depths,
     shown: VisibleParts,
-    room: &mut Room,
+    room: &mut OccupiedSpace,
 ) -> Vec<u32> {
     things::under(canvas, scene, frame, room);
     let mut hidden = Vec::new();
@@ -76,7 +76,7 @@ fn stock_svg(scene: &Scene, shown: VisibleParts) -> String {
     canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
     canvas.clip("frame", frame.area());
     stock.draw(&mut canvas, &frame, "stock");
-    things::findings(&mut canvas, scene, &frame, &mut Room::new(frame.area()), legend.listed);
+    things::findings(&mut canvas, scene, &frame, &mut OccupiedSpace::new(frame.area()), legend.listed);
     canvas.close();
     legend.draw(&mut canvas, &[]);
     canvas.finish()

@@ -2,7 +2,7 @@
 
 use super::canvas::{Anchor, BAR, Canvas, ERROR, INK, OTHER, PROBE, RAPID, TEXT, WARNING, n};
 use super::frame::VisibleParts;
-use super::frame::{Frame, PageTransform, Rectangle, Room, around, width};
+use super::frame::{Frame, OccupiedSpace, PageTransform, Rectangle, square_around, width};
 use super::moves::{along, arc_pieces};
 use crate::scene::{
     ArcShape, Element, ElementKind, Label, MoveKind, OtherShape, Point, Scene, SceneMove, ScenePath, Shape,
@@ -19,7 +19,7 @@ const READABLE: f64 = 4.5;
 const HALO: &str = "stroke=\"#fff\" stroke-width=\"2.5\" stroke-opacity=\"0.8\" paint-order=\"stroke\"";
 
 /// Draws the shapes below the moves: other layers and clamps.
-pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mut Room) {
+pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mut OccupiedSpace) {
     let place = frame.of_drawing();
     canvas.open(&format!("id=\"other-layers\" fill=\"none\" stroke=\"{OTHER}\" stroke-width=\"0.7\""));
     for other in &scene.other_layers {
@@ -44,7 +44,7 @@ fn written([x, y]: Point, size: f64, text: &str) -> Rectangle {
 }
 
 /// Draws clamps, with their heights in the middle of each.
-fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &mut Room) {
+fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &mut OccupiedSpace) {
     canvas.open(&format!("id=\"keep-outs\" fill=\"none\" stroke=\"{ERROR}\" stroke-width=\"1.2\""));
     let style = format!("stroke-dasharray=\"8 2 2 2\" fill=\"{ERROR}\" fill-opacity=\"0.14\"");
     for clamp in &scene.keep_outs {
@@ -99,7 +99,7 @@ pub(super) fn over(
     path: &ScenePath,
     place: &PageTransform,
     shown: VisibleParts,
-    room: &mut Room,
+    room: &mut OccupiedSpace,
 ) -> Vec<u32> {
     elements(canvas, path, place);
     canvas.open(&format!(
@@ -150,7 +150,7 @@ fn style_without_program(element: &Element) -> &'static str {
     }
 }
 
-fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
+fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
     canvas.open(&format!("id=\"texts\" fill=\"{TEXT}\""));
     // Skip the text at the start of an embedded path: it only concerns that path's own drawing.
     let is_start = |index: &u32| path.elements[*index as usize].kind == ElementKind::Start;
@@ -208,7 +208,7 @@ fn nearest(shape: &Shape, at: Point) -> Point {
 }
 
 /// Draws the names of embedded paths at their starts, unless there is no space.
-fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
+fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
     canvas.open(&format!("id=\"embedded\" fill=\"{INK}\" font-style=\"italic\""));
     for inner in path.embedded.iter().skip(1) {
         if let Some(at) = room.find_beside(place.at(inner.ends[0]), [6.0, -6.0], 9.0, &inner.name) {
@@ -218,7 +218,7 @@ fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: 
     canvas.close();
 }
 
-fn probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
+fn probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
     canvas.open(&format!("id=\"probes\" stroke=\"{PROBE}\" fill=\"none\""));
     for probe in &path.probes {
         let at = place.at(probe.at);
@@ -275,12 +275,12 @@ pub(super) const SWEEP: &str = RAPID;
 const NUMBER: f64 = 7.0;
 
 /// Reserves the space of symbols with fixed positions.
-pub(super) fn reserve(path: &ScenePath, place: &PageTransform, room: &mut Room) {
+pub(super) fn reserve(path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
     for marker in markers(path).into_iter().flatten() {
-        room.take(around(place.at(marker.shape.start()), 5.0));
+        room.take(square_around(place.at(marker.shape.start()), 5.0));
     }
     for probe in &path.probes {
-        room.take(around(place.at(probe.at), probe_radius(place)));
+        room.take(square_around(place.at(probe.at), probe_radius(place)));
     }
 }
 
@@ -304,7 +304,7 @@ pub(super) fn order(
     canvas: &mut Canvas,
     path: &ScenePath,
     place: &PageTransform,
-    room: &mut Room,
+    room: &mut OccupiedSpace,
 ) -> Vec<u32> {
     let mut numbered: Vec<(u32, &Element)> =
         path.elements.iter().filter_map(|element| Some((element.order?, element))).collect();
@@ -343,8 +343,8 @@ pub(super) fn order(
 }
 
 /// Finds the first free position for a number, occupies it, and returns it.
-fn find_number(room: &mut Room, places: &[Point]) -> Option<Point> {
-    let taken: Vec<Rectangle> = places.iter().map(|at| around(*at, NUMBER + 1.0)).collect();
+fn find_number(room: &mut OccupiedSpace, places: &[Point]) -> Option<Point> {
+    let taken: Vec<Rectangle> = places.iter().map(|at| square_around(*at, NUMBER + 1.0)).collect();
     room.find(&taken).map(|found| places[found])
 }
 
@@ -398,7 +398,7 @@ pub(super) fn ends(
     path: &ScenePath,
     place: &PageTransform,
     shown: VisibleParts,
-    room: &mut Room,
+    room: &mut OccupiedSpace,
 ) {
     let [start, end] = markers(path);
     let known = room.lines.len();
@@ -446,14 +446,20 @@ fn lines<'a>(
 /// Number of straight lines that approximate an arc.
 const ARC_PIECES: u32 = 8;
 
-fn label(canvas: &mut Canvas, room: &mut Room, at: Point, offset: Point, text: &str, color: &str) {
+fn label(canvas: &mut Canvas, room: &mut OccupiedSpace, at: Point, offset: Point, text: &str, color: &str) {
     let halo = "stroke=\"#fff\" stroke-width=\"2.5\" paint-order=\"stroke\"";
     let at = room.beside(at, offset, 9.5, text);
     canvas.text(at, 9.5, Anchor::Start, &format!("fill=\"{color}\" {halo}"), text);
 }
 
 /// Circles the places of findings, and numbers the first `numbered` findings. Findings at the same place share a circle.
-pub(super) fn findings(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mut Room, numbered: usize) {
+pub(super) fn findings(
+    canvas: &mut Canvas,
+    scene: &Scene,
+    frame: &Frame,
+    room: &mut OccupiedSpace,
+    numbered: usize,
+) {
     let place = frame.of_drawing();
     let mut circles: Vec<(Point, Vec<usize>, bool)> = Vec::new();
     for (index, finding) in scene.findings.iter().enumerate() {

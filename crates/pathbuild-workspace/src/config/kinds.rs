@@ -14,7 +14,7 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use crate::config::reader::{LimitedKind, TomlReader, ValueType};
-use crate::config::types::{Choice, Directories, Extent, Pattern, Restriction};
+use crate::config::types::{Choice, Directories, NumberRange, Pattern, Restriction};
 
 /// An optional number greater than 0.
 pub(in crate::config) const POSITIVE: ValueType<Option<f64>> = ValueType {
@@ -110,7 +110,7 @@ pub(in crate::config) const DURATION: ValueType<Duration> = ValueType {
 };
 
 /// Two numbers, the smaller one first.
-pub(in crate::config) const EXTENT: ValueType<Option<Extent>> = ValueType {
+pub(in crate::config) const EXTENT: ValueType<Option<NumberRange>> = ValueType {
     read: |value, reader| reader.require(extent(value), &messages::EXTENT, value).map(Some),
     show: |extent| extent.map(|extent| format!("[{}, {}]", extent.from, extent.to)),
     schema: || json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }),
@@ -154,10 +154,10 @@ fn whole_number(value: &Spanned<DeValue<'_>>) -> Option<u64> {
     u64::from_str_radix(&integer.as_str().replace('_', ""), integer.radix()).ok()
 }
 
-fn extent(value: &Spanned<DeValue<'_>>) -> Option<Extent> {
+fn extent(value: &Spanned<DeValue<'_>>) -> Option<NumberRange> {
     let array = value.get_ref().as_array()?;
     match (array.len(), array.first().and_then(number), array.get(1).and_then(number)) {
-        (2, Some(from), Some(to)) if from < to => Some(Extent { from, to }),
+        (2, Some(from), Some(to)) if from < to => Some(NumberRange { from, to }),
         _ => None,
     }
 }

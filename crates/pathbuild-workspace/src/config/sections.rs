@@ -267,7 +267,7 @@ pub mod emit {
 /// `[machine]`: capabilities of the machine, for `emit`, `verify` and time estimates. (book: program/reading)
 pub mod machine {
     use crate::config::kinds::{AXES, EXTENT, NOT_NEGATIVE, POSITIVE, choice};
-    use crate::config::types::{DwellTime, Extent};
+    use crate::config::types::{DwellTime, NumberRange};
 
     section! {
         /// s: how long the spindle takes to reach its speed; posts wait this long after M3
@@ -275,17 +275,17 @@ pub mod machine {
         /// unit of P in G4 on a controller where it can be set (Mach3: Config > Logic): "seconds" or "milliseconds"
         dwell: DwellTime = "dwell", choice::<DwellTime>(), DwellTime::Seconds, r#""seconds""#, Emit;
         /// mm: smallest and largest X, in the program's coordinates; without it, X is not limited
-        x: Option<Extent> = "x", EXTENT, None, "[0, 300]", Emit;
+        x: Option<NumberRange> = "x", EXTENT, None, "[0, 300]", Emit;
         /// mm: the same for the Y axis
-        y: Option<Extent> = "y", EXTENT, None, "[0, 200]", Emit;
+        y: Option<NumberRange> = "y", EXTENT, None, "[0, 200]", Emit;
         /// mm: the same for the Z axis
-        z: Option<Extent> = "z", EXTENT, None, "[0, 60]", Emit;
+        z: Option<NumberRange> = "z", EXTENT, None, "[0, 60]", Emit;
         /// mm/min: largest feed
         max_feed: Option<f64> = "maximum-feed", POSITIVE, None, "1500", Check;
         /// mm: travel of X, Y and Z, wherever the part is clamped; x, y and z are more specific
         travel: Option<[f64; 3]> = "travel", AXES, None, "[300, 200, 60]", Emit;
         /// 1/min: the spindle's slowest and fastest speed
-        spindle_speeds: Option<Extent> = "spindle-speeds", EXTENT, None, "[3000, 24000]", Emit;
+        spindle_speeds: Option<NumberRange> = "spindle-speeds", EXTENT, None, "[3000, 24000]", Emit;
         /// mm/min: highest speeds of X, Y and Z; with accelerations, times are those of the machine
         rates: Option<[f64; 3]> = "rates", AXES, None, "[3000, 3000, 1000]", Neither;
         /// mm/s²: largest accelerations of X, Y and Z

@@ -263,7 +263,7 @@ pub struct Tool {
     /// Number of cutting edges.
     pub flutes: Option<u32>,
     /// Limits of the chip load in mm per tooth.
-    pub chip_load: Option<Extent>,
+    pub chip_load: Option<NumberRange>,
     /// Radius in mm of the corners of a bull nose or ball end mill.
     pub corner_radius: f64,
     /// Length in mm of the cutting edges.
@@ -273,7 +273,7 @@ pub struct Tool {
 impl Tool {
     /// Returns the limits of the chip load with the number of flutes, if both are known.
     pub fn chip_load(&self) -> Option<ChipLoad> {
-        let Extent { from, to } = self.chip_load?;
+        let NumberRange { from, to } = self.chip_load?;
         Some(ChipLoad { flutes: self.flutes?, speed: self.spindle, least: from, most: to })
     }
 
@@ -332,7 +332,7 @@ choice! {
 
 /// A range with a lower and an upper end, such as the travel of an axis in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extent {
+pub struct NumberRange {
     /// Lower end of the range.
     pub from: f64,
     /// Upper end of the range.

@@ -117,7 +117,7 @@ impl ReferenceProgram {
         });
         let is_native = written.is_none();
         let drawn_moves = is_native.then(|| self.drawn.moves()).into_iter().flatten();
-        let drawn = verify::Drawn {
+        let drawn = verify::ExpectedProgram {
             moves: drawn_moves.chain(written.into_iter().flatten()),
             start,
             clearance,

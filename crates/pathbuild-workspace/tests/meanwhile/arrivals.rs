@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_testkit::{Workshop, sheet};
+use pathbuild_testkit::{RandomLibrary, sheet};
 use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Request, Update, WatchEnd};
 use pathbuild_workspace::{Inputs, check};
 
@@ -217,7 +217,7 @@ fn a_component_that_arrives_after_another_drawing_is_found() {
 #[test]
 fn one_session_takes_over_edits_of_a_library() {
     for seed in 0..2 {
-        let mut workshop = Workshop::new(seed);
+        let mut workshop = RandomLibrary::new(seed);
         let place = OnDisk::new(&workshop);
         let mut left = crate::steps() / 3;
         let step = move |place: &OnDisk| {

@@ -9,7 +9,7 @@ use camino::Utf8Path;
 use pathbuild_db::system::OsSystem;
 use pathbuild_db::{Role, System};
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_testkit::Workshop;
+use pathbuild_testkit::RandomLibrary;
 use pathbuild_workspace::emit::Task;
 use pathbuild_workspace::posting::PostArguments;
 use pathbuild_workspace::session::Session;
@@ -39,7 +39,7 @@ fn trouble(event: Event, place: &OnDisk, victim: &str, time: i64, lasts: bool) -
 /// A bug triggered by one drawing is reported for that drawing. All others are checked, and the bug is not cached.
 #[test]
 fn a_bug_in_one_drawing_keeps_no_other_from_being_checked() {
-    let workshop = Workshop::new(3);
+    let workshop = RandomLibrary::new(3);
     for victim in workshop.files().keys().filter(|path| Utf8Path::new(path).extension() == Some("dxf")) {
         for jobs in [None, Some(1)] {
             // Nothing is cached yet, so every drawing is read.
@@ -59,7 +59,7 @@ fn a_bug_in_one_drawing_keeps_no_other_from_being_checked() {
 /// A bug triggered by listing a directory is reported for that directory, in the same way.
 #[test]
 fn a_bug_in_listing_a_directory_keeps_no_other_from_being_checked() {
-    let workshop = Workshop::new(3);
+    let workshop = RandomLibrary::new(3);
     for victim in ["lib/parts", "lib/projects"] {
         for jobs in [None, Some(1)] {
             let place = OnDisk::new(&workshop);
@@ -143,7 +143,7 @@ fn a_directory_that_cannot_be_listed_is_told() {
 }
 
 fn in_each_listing(event: Event, code: &str) {
-    let workshop = Workshop::new(3);
+    let workshop = RandomLibrary::new(3);
     let place = OnDisk::new(&workshop);
     let paths = paths(&place);
     let (name, drawing) = paths.iter().find(|(_, drawing)| drawing.contains("lib/projects/")).unwrap();
@@ -182,7 +182,7 @@ fn in_each_listing(event: Event, code: &str) {
 /// The drawings in a directory that cannot be listed are unknown, so programs that may belong to one of them are not removed.
 #[test]
 fn a_bug_in_listing_removes_no_program() {
-    let workshop = Workshop::new(3);
+    let workshop = RandomLibrary::new(3);
     let place = OnDisk::new(&workshop);
     let file = place.path().join("pathbuild.toml");
     let text = fs::read_to_string(&file).unwrap();

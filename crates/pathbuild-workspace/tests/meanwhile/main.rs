@@ -19,7 +19,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicI64;
 
 use pathbuild_db::system::OsSystem;
-use pathbuild_testkit::Workshop;
+use pathbuild_testkit::RandomLibrary;
 
 use mischief::{Event, Mischief};
 use on_disk::OnDisk;
@@ -46,7 +46,7 @@ fn steps() -> usize {
 
 /// Tests one library. Each step is an edit, a run during which an event happens, and two runs that must find the same as one without a cache.
 fn library(seed: u64) {
-    let mut workshop = Workshop::new(seed);
+    let mut workshop = RandomLibrary::new(seed);
     let place = OnDisk::new(&workshop);
     let mut chance = Chance(0x9e37_79b9_7f4a_7c15 ^ seed);
     let mut spoilt: Option<String> = None;

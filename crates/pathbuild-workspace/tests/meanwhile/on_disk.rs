@@ -9,7 +9,7 @@ use std::time::SystemTime;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_db::system::OsSystem;
-use pathbuild_testkit::{Workshop, sheet};
+use pathbuild_testkit::{RandomLibrary, sheet};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::emit::{self, Emission, Task};
 use pathbuild_workspace::posting::PostArguments;
@@ -26,7 +26,7 @@ pub(crate) struct OnDisk {
 }
 
 impl OnDisk {
-    pub(crate) fn new(workshop: &Workshop) -> Self {
+    pub(crate) fn new(workshop: &RandomLibrary) -> Self {
         let place = Self { directory: TempDir::new().unwrap(), caches: TempDir::new().unwrap() };
         let rules = workshop.rules();
         let restrict: Vec<String> =
@@ -79,7 +79,7 @@ impl OnDisk {
     }
 
     /// Brings a file on disk to its state in the workshop, or removes it.
-    pub(crate) fn put(&self, workshop: &Workshop, path: &str) {
+    pub(crate) fn put(&self, workshop: &RandomLibrary, path: &str) {
         let on_disk = self.path().join(path);
         match workshop.files().get(path) {
             Some(bytes) => {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use pathbuild_diagnostic::{Diagnostic, Lang, Number, in_prose, shown};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::estimate::{self, Kinematics};
-use pathbuild_gcode::statistics::{Extent, MoveTotals, Summary, Tally, ToolTotals, is_guess};
+use pathbuild_gcode::statistics::{AxisRanges, MoveTotals, Summary, Tally, ToolTotals, is_guess};
 use pathbuild_workspace::program::Program;
 use serde_json::{Value, json};
 
@@ -88,7 +88,8 @@ fn json(context: &Context, facts: &Facts<'_>) -> Value {
     let (program, summary) = (facts.program, &facts.summary);
     let taken =
         facts.taken.iter().map(|taken| json!({ "line": taken.place.line, "message": taken.text(Lang::En) }));
-    let whole = |extent: &Extent| if facts.unfollowed.is_some() { Extent::default() } else { *extent };
+    let whole =
+        |extent: &AxisRanges| if facts.unfollowed.is_some() { AxisRanges::default() } else { *extent };
     json!({
         "file": context.file(&program.file),
         "lines": program.lines(),
@@ -121,7 +122,7 @@ fn tally(tally: &Tally) -> Value {
     })
 }
 
-fn extent(extent: &Extent) -> Value {
+fn extent(extent: &AxisRanges) -> Value {
     let axis = |ends: &Option<(f64, f64)>| ends.map(|(low, high)| [low, high]);
     json!({ "x": axis(&extent[0]), "y": axis(&extent[1]), "z": axis(&extent[2]) })
 }
@@ -231,7 +232,7 @@ impl Formatter<'_> {
     }
 
     /// Formats an extent, such as `X 0.000 to 40.000, Y 0.000 to 20.000`; `None` if no axis moves to a known position.
-    fn extent(&self, extent: &Extent) -> Option<String> {
+    fn extent(&self, extent: &AxisRanges) -> Option<String> {
         let to = self.choose("to", "bis");
         let axis = |(axis, ends): (char, &Option<(f64, f64)>)| {
             ends.map(|(low, high)| format!("{axis} {low:.3} {to} {high:.3}"))

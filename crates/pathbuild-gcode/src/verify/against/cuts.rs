@@ -37,7 +37,7 @@ pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
     done: f64,
     /// The expected position before the next expected move.
     at: Position,
-    chain: Chain,
+    chain: RapidSequence,
     clearance: f64,
     tolerance: Tolerance,
     /// Whether the control supports helices; otherwise chords replace them.
@@ -57,7 +57,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             expected: expected.peekable(),
             done: 0.0,
             at: start,
-            chain: Chain::new(),
+            chain: RapidSequence::new(),
             clearance,
             tolerance: Tolerance { place: PLACE, feed: FEED, chord: 0.0, ends: Ends::All },
             takes_helices: dialect.rules().arcs.helix,
@@ -100,9 +100,9 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
 
     /// Compares the rapid moves before this cut, or at the end of the program, with the expected ones.
     fn rapids(&mut self, cut: Option<(u32, &Move)>) -> Result<(), Box<Difference>> {
-        let mut chain = std::mem::replace(&mut self.chain, Chain::behind());
+        let mut chain = std::mem::replace(&mut self.chain, RapidSequence::behind());
         if let Some(share) = cut.and_then(|_| chain.peck(&self.begun_plunge()?)) {
-            (self.done, chain) = (share, Chain::behind());
+            (self.done, chain) = (share, RapidSequence::behind());
         }
         let start = self.at;
         let mut expected = Vec::new();
@@ -324,7 +324,7 @@ type Numbered = (u32, Move);
 
 /// The rapid moves of a program since the last cut.
 #[derive(Debug)]
-pub(super) struct Chain {
+pub(super) struct RapidSequence {
     moves: Vec<Numbered>,
     /// Whether the chain begins the program.
     is_head: bool,
@@ -345,7 +345,7 @@ pub(super) struct ExpectedTraverse<'w> {
     pub(super) slack: f64,
 }
 
-impl Chain {
+impl RapidSequence {
     /// Creates the chain at the beginning of a program.
     pub(super) fn new() -> Self {
         Self { moves: Vec::new(), is_head: true }

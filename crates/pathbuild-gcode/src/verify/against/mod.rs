@@ -21,7 +21,7 @@ use setup::Setup;
 
 /// The program that a drawing and the configuration require.
 #[derive(Debug)]
-pub struct Drawn<M> {
+pub struct ExpectedProgram<M> {
     /// The expected moves, beginning at `start`.
     pub moves: M,
     /// The position at which the moves begin: above the path's zero at the height `clearance`, unless a definition begins elsewhere.
@@ -113,7 +113,7 @@ pub struct DrawingComparison<'w, M: Iterator<Item = (u32, Move)>> {
 
 impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
     /// Starts a comparison for a program in this dialect, written by a post with these words.
-    pub fn new(drawn: Drawn<M>, dialect: Dialect, words: &'w PostWords) -> Self {
+    pub fn new(drawn: ExpectedProgram<M>, dialect: Dialect, words: &'w PostWords) -> Self {
         Self {
             setup: Setup::new(dialect, words, drawn.clearance, drawn.tool, drawn.spin_up),
             words: WordRules::strict(words, dialect),

@@ -148,7 +148,7 @@ pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
         facts.fact("spindle", "Spindel", spindle(tool, words));
     }
     facts.heading("Feeds in mm/min", "Vorschübe in mm/min");
-    let feeds = |is_meant: fn(MoveKind) -> bool| listed(&feeds(sheet, is_meant));
+    let feeds = |is_meant: fn(MoveKind) -> bool| format_numbers(&feeds(sheet, is_meant));
     facts.fact("milling", "Fräsen", feeds(|kind| kind == MoveKind::Mill));
     facts.fact("marking", "Markieren", feeds(|kind| kind == MoveKind::Mark));
     facts.fact("plunging", "Eintauchen", feeds(|kind| kind == MoveKind::Plunge));
@@ -164,11 +164,11 @@ pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
     let rapids = rapid_heights(sheet);
     facts.fact("lowest rapid", "tiefster Eilgang", rapids.lowest().map(|z| format!("Z {}", mm(z))));
     let (inside, above) = rapids.across.split_at(rapids.inside);
-    facts.fact("rapid across", "Eilgang quer", listed(above).map(|heights| format!("Z {heights}")));
+    facts.fact("rapid across", "Eilgang quer", format_numbers(above).map(|heights| format!("Z {heights}")));
     facts.fact(
         "rapid across inside what is milled",
         "Eilgang quer in Gefrästem",
-        listed(inside).map(|heights| format!("Z {heights}")),
+        format_numbers(inside).map(|heights| format!("Z {heights}")),
     );
     facts.fact("rapid down to", "Eilgang hinab", rapids.down.map(|z| format!("Z {}", mm(z))));
     facts.fact("length", "Länge", Some(format!("{:.0} mm", sheet.length)));
@@ -349,7 +349,7 @@ fn materials(sheet: &Sheet) -> Option<String> {
 }
 
 fn thicknesses(sheet: &Sheet) -> Option<String> {
-    listed(&distinct(sheet.scene.paths.iter().filter_map(|path| path.thickness)))
+    format_numbers(&distinct(sheet.scene.paths.iter().filter_map(|path| path.thickness)))
 }
 
 /// Describes the size of the removed material in X and Y; `None` if nothing is removed.
@@ -359,7 +359,7 @@ fn size(sheet: &Sheet, words: Words) -> Option<String> {
 }
 
 /// Formats a list of numbers. If there are many, only the first and the last are written.
-fn listed(numbers: &[f64]) -> Option<String> {
+fn format_numbers(numbers: &[f64]) -> Option<String> {
     match numbers {
         [] => None,
         [first, .., last] if numbers.len() > 4 => Some(format!("{} … {}", mm(*first), mm(*last))),

@@ -14,12 +14,12 @@ use crate::svg::canvas::{breadth, wrapped};
 pub(super) const SIZE: Point = [PAPER[0] * UNITS, PAPER[1] * UNITS];
 pub(super) const LEFT: f64 = 39.0;
 pub(super) const RIGHT: f64 = SIZE[0] - 33.0;
-const TOP: f64 = 36.0;
+const TOP_MARGIN: f64 = 36.0;
 const FOOT: f64 = SIZE[1] - 30.0;
 const BOTTOM: f64 = FOOT - 16.0;
 
 /// Top of the text below the title, in units.
-const BELOW_TITLE: f64 = TOP + 32.0;
+const BELOW_TITLE: f64 = TOP_MARGIN + 32.0;
 
 /// Space between the columns of the first page, in units.
 const GUTTER: f64 = 18.0;
@@ -126,9 +126,9 @@ fn title(sheet: &Sheet, words: Words) -> Vec<Item> {
     let lines = wrapped(&drawings, RIGHT - beside, LETTERS);
     let first = if lines.len() > 1 { format!("{}…", lines[0]) } else { lines[0].clone() };
     vec![
-        Item::text([LEFT, TOP + 14.0], size, &name).bold(),
-        Item::text([beside, TOP + 14.0], LETTERS, &first),
-        Item::rule([LEFT, TOP + 21.0], [RIGHT, TOP + 21.0]),
+        Item::text([LEFT, TOP_MARGIN + 14.0], size, &name).bold(),
+        Item::text([beside, TOP_MARGIN + 14.0], LETTERS, &first),
+        Item::rule([LEFT, TOP_MARGIN + 21.0], [RIGHT, TOP_MARGIN + 21.0]),
     ]
 }
 

@@ -5,7 +5,7 @@ use pathbuild_diagnostic::Lang;
 use crate::scene::Point;
 use crate::svg::canvas::breadth;
 use crate::svg::canvas::{Anchor, Canvas, Depths, INK, PROBE, TEXT, mm, n};
-use crate::svg::frame::{Frame, PageTransform, Room, VisibleParts};
+use crate::svg::frame::{Frame, OccupiedSpace, PageTransform, VisibleParts};
 use crate::svg::legend;
 use crate::svg::stock::{MilledStock, has_stock};
 use crate::svg::{drawing, moves, things};
@@ -180,7 +180,7 @@ impl PlacedPicture {
         canvas.clip("frame", clip);
         let axes = axes(canvas, place.at([0.0; 2]), [[left - 6.0, top - 6.0], [right + 6.0, bottom + 6.0]]);
         // Reserve space: dimensions are to the left and below, and the name of the axis is above.
-        let mut room = Room::new([[left - 14.0, top - 6.0], [right + RIGHT_MARGIN, bottom + 20.0]]);
+        let mut room = OccupiedSpace::new([[left - 14.0, top - 6.0], [right + RIGHT_MARGIN, bottom + 20.0]]);
         room.lines.extend(axes);
         room.lines.extend(cleared(sheet).into_iter().flat_map(|corners| sides(corners, &place)));
         let hidden = drawing(canvas, &sheet.scene, &frame, &depths, shown, &mut room);

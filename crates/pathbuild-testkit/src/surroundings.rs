@@ -34,7 +34,7 @@ pub(crate) fn finish(mut draft: Draft, seed: Option<u64>) -> Result<Sheet, Vec<D
     let sheet = draft.finish()?;
     let mut random = Random::new(seed, 1);
     let variant = random.below(VARIANTS);
-    let room = Room::of(variant);
+    let room = Surroundings::of(variant);
     let blocks: Vec<&Block> = sheet.blocks().iter().chain(&room.blocks).collect();
     let inner = blocks.iter().flat_map(|block| &block.entities);
     let all = sheet.entities().iter().chain(&room.entities).chain(inner);
@@ -51,7 +51,7 @@ pub(crate) fn finish(mut draft: Draft, seed: Option<u64>) -> Result<Sheet, Vec<D
 /// The surroundings alone, with all hatch lines as the last entities. Entities are in the order in which a user draws: the frame first, then
 /// the path, then what was added to it.
 fn template(variant: usize, version: Version) -> Template {
-    let mut room = Room::of(variant);
+    let mut room = Surroundings::of(variant);
     hatch(&mut room);
     let mut draft = Draft::new();
     draft.options.version = version;
@@ -99,13 +99,13 @@ const MEASURES: &str = "MAßE";
 const NOTES: &str = "HINWEISE 1-4";
 
 /// The surroundings under construction.
-struct Room {
+struct Surroundings {
     random: Random,
     entities: Vec<Entity>,
     blocks: Vec<Block>,
 }
 
-impl Room {
+impl Surroundings {
     fn of(variant: usize) -> Self {
         let mut room =
             Self { random: Random::new(variant as u64, 2), entities: Vec::new(), blocks: Vec::new() };
@@ -151,7 +151,7 @@ const PARTS: [(&str, &str); 12] = [
 ];
 
 /// Draws an A3 sheet: border, title block, parts list, remarks.
-fn draw_frame(room: &mut Room) {
+fn draw_frame(room: &mut Surroundings) {
     let sheet = border();
     room.blocks.push(sheet);
     insert(room, "RAHMEN_A3", Point::new(0.0, 0.0), FRAME);
@@ -160,7 +160,7 @@ fn draw_frame(room: &mut Room) {
     remarks(room);
 }
 
-fn insert(room: &mut Room, block: &str, at: Point, layer: &str) {
+fn insert(room: &mut Surroundings, block: &str, at: Point, layer: &str) {
     let scale = Point::new(1.0, 1.0).at(1.0);
     let shape =
         Insert { block: block.to_owned(), at, scale, rotation: 0.0, count: (1, 1), spacing: (0.0, 0.0) };
@@ -196,7 +196,7 @@ fn border() -> Block {
     Block { name: "RAHMEN_A3".to_owned(), base: Point::default(), entities }
 }
 
-fn title_block(room: &mut Room) {
+fn title_block(room: &mut Surroundings) {
     let (low, high) = (Point::new(210.0, -10.0), Point::new(390.0, 30.0));
     room.rectangle(low, high, TITLE);
     for y in [0.0, 10.0, 20.0] {
@@ -223,7 +223,7 @@ fn title_block(room: &mut Room) {
     }
 }
 
-fn parts_list(room: &mut Room) {
+fn parts_list(room: &mut Surroundings) {
     let rows = 1 + room.random.below(3);
     let low = Point::new(210.0, 34.0);
     let high = Point::new(390.0, low.y + 6.0 * (rows + 1) as f64);
@@ -241,13 +241,13 @@ fn parts_list(room: &mut Room) {
     }
 }
 
-fn list_row(room: &mut Room, top: f64, columns: [&str; 4]) {
+fn list_row(room: &mut Surroundings, top: f64, columns: [&str; 4]) {
     for (value, x) in columns.into_iter().zip([212.0, 224.0, 239.0, 322.0]) {
         room.add(text(value, Point::new(x, top - 4.5), 2.5, Horizontal::Left), LIST);
     }
 }
 
-fn remarks(room: &mut Room) {
+fn remarks(room: &mut Surroundings) {
     let value = "{\\fArial|b0|i0;Alle Maße in mm\\PFreimaßtoleranz ISO 2768-m\\PKanten gebrochen 0,2 %%d45\\POberfläche \\U+2205 gefräst}";
     let shape = MText {
         value: value.to_owned(),
@@ -267,7 +267,7 @@ const PART_LOW: Point = Point::new(-5.0, 60.0);
 const PART_HIGH: Point = Point::new(200.0, 225.0);
 
 /// Draws the part in two views, with holes, screws, centre lines and dimensions.
-fn draw_part(room: &mut Room) {
+fn draw_part(room: &mut Surroundings) {
     let corner = room.random.between(5.0, 20.0, 2.5);
     outline(room, corner);
     side_view(room);
@@ -286,7 +286,7 @@ fn draw_part(room: &mut Room) {
 }
 
 /// Draws a polyline with rounded and chamfered corners.
-fn outline(room: &mut Room, corner: f64) {
+fn outline(room: &mut Surroundings, corner: f64) {
     let at = |x: f64, y: f64, bulge: f64| Vertex { point: Point::new(x, y), bulge };
     let vertices = vec![
         at(PART_LOW.x + corner, PART_LOW.y, 0.0),
@@ -308,7 +308,7 @@ fn outline(room: &mut Room, corner: f64) {
     room.add(Entity::arc((150.0, 110.0), 31.25, 15.0, 195.0), OUTLINE);
 }
 
-fn side_view(room: &mut Room) {
+fn side_view(room: &mut Surroundings) {
     let thickness = room.random.pick(&[2.0, 4.0, 5.0, 8.0, 10.0]);
     room.rectangle(Point::new(PART_LOW.x, 240.0), Point::new(PART_HIGH.x, 240.0 + thickness), OUTLINE);
     let step = room.random.between(15.0, 40.0, 2.5);
@@ -317,7 +317,7 @@ fn side_view(room: &mut Room) {
     }
 }
 
-fn holes(room: &mut Room) -> Vec<Point> {
+fn holes(room: &mut Surroundings) -> Vec<Point> {
     let count = 2 + room.random.below(2);
     (0..count)
         .map(|_| {
@@ -327,7 +327,7 @@ fn holes(room: &mut Room) -> Vec<Point> {
         .collect()
 }
 
-fn hole(room: &mut Room, at: Point, diameter: f64) {
+fn hole(room: &mut Surroundings, at: Point, diameter: f64) {
     room.add(Entity::circle(at, diameter), OUTLINE);
     let reach = diameter / 2.0 + 3.0;
     room.line(at.polar(reach, 180.0), at.polar(reach, 0.0), CENTRE);
@@ -344,7 +344,7 @@ fn screw() -> Block {
 }
 
 /// Draws a horizontal dimension with its block, as CAD programs write it.
-fn dimension(room: &mut Room, from: Point, to: Point, index: usize) {
+fn dimension(room: &mut Surroundings, from: Point, to: Point, index: usize) {
     let y = PART_LOW.y - 6.0 - 4.0 * index as f64;
     let (left, right) = (Point::new(from.x, y), Point::new(to.x, y));
     let length = to.x - from.x;
@@ -366,7 +366,7 @@ fn arrow(tip: Point, side: f64) -> Entity {
 }
 
 /// Draws hatching: slanted lines over a quarter of the part.
-fn hatch(room: &mut Room) {
+fn hatch(room: &mut Surroundings) {
     let (low, high) = (Point::new(112.5, 140.0), Point::new(197.5, 222.5));
     let (width, height) = (high.x - low.x, high.y - low.y);
     for index in 1..=HATCH_LINES {

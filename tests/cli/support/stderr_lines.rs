@@ -6,12 +6,12 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 /// The lines of a process's stderr as they arrive.
-pub struct Said(Receiver<String>);
+pub struct StderrLines(Receiver<String>);
 
 /// Maximum time to wait for a line. It is long because a machine that builds everything in parallel is slow.
 const PATIENCE: Duration = Duration::from_mins(1);
 
-impl Said {
+impl StderrLines {
     /// Starts reading the stderr of a process.
     pub fn by(child: &mut Child) -> Self {
         let stderr = BufReader::new(child.stderr.take().unwrap());

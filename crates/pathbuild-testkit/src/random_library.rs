@@ -8,7 +8,7 @@ use crate::random::Random;
 
 /// A library in the directory `lib`, with another search directory `spare`, edited step by step.
 #[derive(Debug)]
-pub struct Workshop {
+pub struct RandomLibrary {
     random: Random,
     files: Files,
     rules: Rules,
@@ -52,7 +52,7 @@ const SWEEP: u32 = 30;
 /// Number of paths in a chain: two more than may be nested.
 const CHAIN: u32 = 13;
 
-impl Workshop {
+impl RandomLibrary {
     /// Creates the library of a seed.
     pub fn new(seed: u64) -> Self {
         let mut random = Random::new(seed, 7);

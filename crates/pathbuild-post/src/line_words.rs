@@ -1,0 +1,146 @@
+//! Parses the lines of a post's output into words, and compares the lines of two programs.
+
+/// A letter and its number in a line of output. Lines are parsed leniently: anything that is not a word is skipped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Word {
+    /// The letter in upper case.
+    pub(crate) letter: char,
+    pub(crate) number: f64,
+}
+
+/// The words of a line.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct LineWords {
+    pub(crate) words: Vec<Word>,
+    /// Whether the line contains something that is neither a word nor a comment.
+    pub(crate) has_more: bool,
+    /// Whether the line begins with `/`, so that a switch at the machine (block delete) can skip it.
+    pub(crate) is_optional: bool,
+    /// Whether the line begins with `%`.
+    pub(crate) is_percent: bool,
+    /// The first sign of a parameter or an expression: `#` or `[`.
+    pub(crate) formula: Option<char>,
+}
+
+/// The marks that begin and end a comment. If the end mark is empty, comments extend to the end of the line.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct CommentMarks {
+    pub(crate) open: String,
+    pub(crate) close: String,
+}
+
+/// Parses the words of a line.
+pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
+    let mut found = LineWords::default();
+    let mut rest = line.trim_start();
+    while let Some(first) = rest.chars().next() {
+        rest = if let Some(after) = after_comment(rest, marks) {
+            after
+        } else if let Some((word, after)) = word(rest) {
+            found.words.push(word);
+            after
+        } else {
+            found.is_optional |= first == '/' && found.words.iter().all(|word| word.letter == 'N');
+            found.is_percent |= first == '%' && rest.len() == line.trim_start().len();
+            found.formula = found.formula.or(Some(first).filter(|sign| matches!(sign, '#' | '[')));
+            found.has_more |= !matches!(first, '%' | '/' | ':' | ' ' | '\t');
+            &rest[first.len_utf8()..]
+        };
+    }
+    found
+}
+
+impl CommentMarks {
+    /// Returns the length of the comment mark at the beginning of a text, and the mark that ends the comment. Both the definition's marks
+    /// and the usual ones are recognised.
+    pub(crate) fn opening_mark(&self, text: &str) -> Option<(usize, &str)> {
+        let own = (self.open.as_str(), self.close.as_str());
+        let (open, close) = [own, ("(", ")"), (";", "")]
+            .into_iter()
+            .find(|(open, _)| !open.is_empty() && text.starts_with(open))?;
+        Some((open.len(), close))
+    }
+}
+
+/// Returns the number, from 1, of the first line in which a program differs from the expected one, and the expected line.
+///
+/// Comment lines are ignored, but only if their opening mark also opens a comment line of the expected program, because another control
+/// may execute what looks like a comment.
+pub(crate) fn first_other_line(found: &[u8], expected: &[u8], marks: &CommentMarks) -> Option<(u32, String)> {
+    let (found, expected) = (String::from_utf8_lossy(found), String::from_utf8_lossy(expected));
+    let openings: Vec<&str> = expected.lines().filter_map(|line| opening(line, marks)).collect();
+    let lines = |text: &str| -> Vec<(u32, String)> {
+        let numbered = (1_u32..).zip(text.split('\n').map(str::trim_end));
+        let is_code = |line: &str| {
+            !line.is_empty() && opening(line, marks).is_none_or(|opening| !openings.contains(&opening))
+        };
+        numbered.filter(|(_, line)| is_code(line)).map(|(number, line)| (number, line.to_owned())).collect()
+    };
+    let (found, expected) = (lines(&found), lines(&expected));
+    let same =
+        found.iter().zip(&expected).take_while(|((_, found), (_, expected))| found == expected).count();
+    if same == found.len() && same == expected.len() {
+        return None;
+    }
+    let line = found.get(same).or(found.last()).map_or(1, |(line, _)| *line);
+    Some((line, expected.get(same).map(|(_, text)| text.clone()).unwrap_or_default()))
+}
+
+/// Returns the opening mark of a line that consists of a comment; `None` for any other line. A line that contains a CR is not a comment,
+/// because a control may end the line at the CR.
+fn opening<'l>(line: &'l str, marks: &CommentMarks) -> Option<&'l str> {
+    let line = line.trim();
+    let found = words(line, marks);
+    let is_comment = found.words.is_empty() && !found.has_more && !line.contains('\r');
+    let (length, _) = marks.opening_mark(line).filter(|_| is_comment)?;
+    Some(&line[..length])
+}
+
+fn after_comment<'a>(text: &'a str, marks: &CommentMarks) -> Option<&'a str> {
+    let (open, close) = marks.opening_mark(text)?;
+    let inside = &text[open..];
+    match inside.find(close).filter(|_| !close.is_empty()) {
+        Some(end) => Some(&inside[end + close.len()..]),
+        None => Some(""),
+    }
+}
+
+fn word(text: &str) -> Option<(Word, &str)> {
+    let letter = text.chars().next().filter(char::is_ascii_alphabetic)?;
+    let after = text[1..].trim_start_matches([' ', '\t']);
+    let length = after.find(|c: char| !matches!(c, '0'..='9' | '.' | '+' | '-')).unwrap_or(after.len());
+    let number = after[..length].parse().ok()?;
+    Some((Word { letter: letter.to_ascii_uppercase(), number }, &after[length..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(line: &str) -> (String, bool) {
+        let marks = CommentMarks { open: "'".into(), close: String::new() };
+        let found = words(line, &marks);
+        let text: Vec<String> =
+            found.words.iter().map(|word| format!("{}{}", word.letter, word.number)).collect();
+        (text.join(" "), found.has_more)
+    }
+
+    #[test]
+    fn words_need_no_blanks_and_may_have_them() {
+        assert_eq!(read("G1X-1.5y 2 Z.5"), ("G1 X-1.5 Y2 Z0.5".into(), false));
+        assert_eq!(read("%"), (String::new(), false));
+    }
+
+    #[test]
+    fn comments_say_nothing() {
+        assert_eq!(read("G0 (X1) Y2 ; Z3"), ("G0 Y2".into(), false));
+        assert_eq!(read("G0 'X1"), ("G0".into(), false));
+    }
+
+    #[test]
+    fn other_text_is_passed_over() {
+        assert_eq!(read("G0 TOUCHOFF-POINT"), ("G0".into(), true));
+        assert_eq!(read("<HEADER>"), (String::new(), true));
+        assert_eq!(read("G1 X#1"), ("G1".into(), true));
+    }
+}
