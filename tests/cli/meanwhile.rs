@@ -55,8 +55,8 @@ impl System for Changing {
         self.change(path, OsSystem.read_into(path, limit, room))
     }
 
-    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
-        OsSystem.head(path, length)
+    fn read_head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        OsSystem.read_head(path, length)
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {

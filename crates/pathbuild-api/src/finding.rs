@@ -113,19 +113,19 @@ impl Finding {
     }
 
     /// Converts the diagnostics of a run, with the configured severities, sorted and without duplicates.
-    pub(crate) fn all(workspace: &Workspace, diagnostics: Vec<Diagnostic>) -> Vec<Self> {
+    pub(crate) fn from_diagnostics(workspace: &Workspace, diagnostics: Vec<Diagnostic>) -> Vec<Self> {
         workspace.findings(diagnostics).diagnostics.into_iter().map(Self::new).collect()
     }
 
     /// Returns the findings of a run, and separately those that are accepted. `coverage` states which files the run covered.
-    pub(crate) fn settled(
+    pub(crate) fn from_settled(
         workspace: &Workspace,
         diagnostics: Vec<Diagnostic>,
         coverage: Coverage,
     ) -> Result<(Vec<Self>, Vec<Self>), Error> {
         let settled = workspace.settle(workspace.findings(diagnostics), None, |_| coverage);
         let Findings { diagnostics, waived, .. } =
-            settled.map_err(|faults| Error::found(workspace, faults))?;
+            settled.map_err(|faults| Error::from_findings(workspace, faults))?;
         let accepted = waived.into_iter().map(|waived| Self::new(waived.diagnostic));
         Ok((diagnostics.into_iter().map(Self::new).collect(), accepted.collect()))
     }
@@ -153,18 +153,18 @@ pub enum Error {
 }
 
 impl Error {
-    pub(crate) fn of(workspace: &Workspace, failure: Failure) -> Self {
+    pub(crate) fn from_failure(workspace: &Workspace, failure: Failure) -> Self {
         match failure {
             Failure::Usage(reason) => Self::Refused(reason),
-            Failure::Post(found) | Failure::Found(found) => Self::found(workspace, found),
+            Failure::Post(found) | Failure::Found(found) => Self::from_findings(workspace, found),
         }
     }
 
-    pub(crate) fn found(workspace: &Workspace, diagnostics: Vec<Diagnostic>) -> Self {
-        Self::Findings(Finding::all(workspace, diagnostics))
+    pub(crate) fn from_findings(workspace: &Workspace, diagnostics: Vec<Diagnostic>) -> Self {
+        Self::Findings(Finding::from_diagnostics(workspace, diagnostics))
     }
 
-    pub(crate) fn bug(diagnostic: Diagnostic) -> Self {
+    pub(crate) fn internal_error(diagnostic: Diagnostic) -> Self {
         Self::Findings(vec![Finding { diagnostic }])
     }
 }

@@ -16,7 +16,7 @@ use pathbuild_workspace::session::{NamedPaths, NotOnePath, Session, several_path
 use pathbuild_workspace::{Inputs, Workspace, verify, watch};
 
 use crate::options::Source;
-use crate::watch::{Reports, absolute};
+use crate::watch::{ReportForwarder, with_absolute_paths};
 use crate::{
     CheckReport, EmitOptions, EmitReport, Error, Finding, GraphReport, LibraryOptions, OutputFile, Path,
     PathListing, PathSummary, ProgramText, VerifyOptions, VerifyReport, WatchEnd, WatchReport,
@@ -53,14 +53,14 @@ impl Library {
     /// # Errors
     /// If the baseline has errors. Errors in the drawings are in the report.
     pub fn check(&self, inputs: &[&str]) -> Result<CheckReport, Error> {
-        let inputs = owned(inputs);
+        let inputs = to_inputs(inputs);
         self.ask(move |session| {
             let inputs = if inputs.inputs.is_empty() { whole_library(session) } else { inputs };
             let request = check::Request { inputs: &inputs, with_all_values: false, changed: None };
             let workspace = session.workspace();
-            let outcome = request.run(session).map_err(|failure| Error::of(workspace, failure))?;
+            let outcome = request.run(session).map_err(|failure| Error::from_failure(workspace, failure))?;
             let coverage = request.coverage(workspace, &outcome.files);
-            let (findings, accepted) = Finding::settled(workspace, outcome.diagnostics, coverage)?;
+            let (findings, accepted) = Finding::from_settled(workspace, outcome.diagnostics, coverage)?;
             Ok(CheckReport {
                 findings,
                 accepted,
@@ -76,16 +76,16 @@ impl Library {
     /// # Errors
     /// If a pattern is invalid.
     pub fn paths(&self, inputs: &[&str]) -> Result<PathListing, Error> {
-        let inputs = owned(inputs);
+        let inputs = to_inputs(inputs);
         self.ask(move |session| {
             let workspace = session.workspace();
             let listed = list::Request { inputs: &inputs, post: None }.run(session);
-            let listed = listed.map_err(|failure| Error::of(workspace, failure))?;
+            let listed = listed.map_err(|failure| Error::from_failure(workspace, failure))?;
             let paths = listed.paths.into_iter().map(|path| PathSummary::new(workspace, path));
             Ok(PathListing {
                 paths: paths.collect(),
                 drawings: listed.drawings,
-                findings: Finding::all(workspace, listed.diagnostics),
+                findings: Finding::from_diagnostics(workspace, listed.diagnostics),
             })
         })
     }
@@ -141,7 +141,7 @@ impl Library {
     /// # Errors
     /// If there is no such path, if it has errors, or if its program consists of several files because it has Z-probes.
     pub fn program(&self, path: &str, options: &EmitOptions) -> Result<ProgramText, Error> {
-        let (inputs, options) = (owned(&[path]), options.clone());
+        let (inputs, options) = (to_inputs(&[path]), options.clone());
         self.ask(move |session| {
             let emission = run_emit(session, &inputs, &options, Task::Print)?;
             let mut files = emission.delivered.into_iter().flat_map(|outcome| outcome.files);
@@ -150,9 +150,9 @@ impl Library {
                 Some((file, State::Printed(text))) => Ok(ProgramText {
                     file: file.into_string(),
                     text,
-                    findings: Finding::all(session.workspace(), found),
+                    findings: Finding::from_diagnostics(session.workspace(), found),
                 }),
-                _ => Err(Error::found(session.workspace(), found)),
+                _ => Err(Error::from_findings(session.workspace(), found)),
             }
         })
     }
@@ -163,7 +163,7 @@ impl Library {
     /// # Errors
     /// If the request is invalid, for example because a needed setting is missing. Errors in the drawings are in the report.
     pub fn emit(&self, inputs: &[&str], options: &EmitOptions) -> Result<EmitReport, Error> {
-        let (inputs, options) = (owned(inputs), options.clone());
+        let (inputs, options) = (to_inputs(inputs), options.clone());
         let task = if options.compare {
             Task::Compare { moves_only: false }
         } else {
@@ -172,8 +172,8 @@ impl Library {
         self.ask(move |session| {
             let emission = run_emit(session, &inputs, &options, task)?;
             Ok(EmitReport {
-                files: emission.delivered.into_iter().flat_map(OutputFile::of).collect(),
-                findings: Finding::all(session.workspace(), emission.diagnostics),
+                files: emission.delivered.into_iter().flat_map(OutputFile::from_outcome).collect(),
+                findings: Finding::from_diagnostics(session.workspace(), emission.diagnostics),
             })
         })
     }
@@ -184,7 +184,7 @@ impl Library {
     /// # Errors
     /// If an internal error occurs. Errors in the inputs are in the report.
     pub fn embedded(&self, inputs: &[&str]) -> Result<GraphReport, Error> {
-        let inputs = owned(inputs);
+        let inputs = to_inputs(inputs);
         self.ask(move |session| {
             let inputs = if inputs.inputs.is_empty() { whole_library(session) } else { inputs };
             Ok(GraphReport::new(session.workspace(), session.embedded_paths(&inputs)))
@@ -196,7 +196,7 @@ impl Library {
     /// # Errors
     /// If an internal error occurs. Errors in the inputs are in the report.
     pub fn embedders(&self, inputs: &[&str]) -> Result<GraphReport, Error> {
-        let inputs = owned(inputs);
+        let inputs = to_inputs(inputs);
         self.ask(move |session| Ok(GraphReport::new(session.workspace(), session.embedding_paths(&inputs))))
     }
 
@@ -212,7 +212,8 @@ impl Library {
             let workspace = session.workspace();
             let request =
                 verify::Request { places: &places, text: None, options: options.resolve(workspace)? };
-            let verification = request.run(session).map_err(|failure| Error::of(workspace, failure))?;
+            let verification =
+                request.run(session).map_err(|failure| Error::from_failure(workspace, failure))?;
             VerifyReport::new(workspace, verification)
         })
     }
@@ -252,14 +253,14 @@ impl Library {
             let workspace = session.workspace();
             let inputs = whole_library(session);
             let request = watch::Request { inputs: &inputs, emits: false, lists: false, polls: false };
-            let end = request.run(&absolute(workspace), &Reports::new(workspace, seen));
+            let end = request.run(&with_absolute_paths(workspace), &ReportForwarder::new(workspace, seen));
             // The session's results may be out of date.
             *session = new_session(workspace);
             match end {
                 watch::WatchEnd::Over => Ok(WatchEnd::Stopped),
                 watch::WatchEnd::ConfigurationChanged => Ok(WatchEnd::ConfigurationChanged),
                 watch::WatchEnd::DirectoriesChanged => Ok(WatchEnd::DirectoriesChanged),
-                watch::WatchEnd::BadPost(found) => Err(Error::found(workspace, found)),
+                watch::WatchEnd::BadPost(found) => Err(Error::from_findings(workspace, found)),
                 watch::WatchEnd::CannotWatch(reason) => Err(Error::Refused(reason)),
                 watch::WatchEnd::NothingNamed | watch::WatchEnd::NoTargets => {
                     let [en, de] = ["there is nothing to watch", "es gibt nichts zu überwachen"];
@@ -277,7 +278,7 @@ impl Library {
         let serve = move || serve(source, options, &opened, waiting);
         let thread = thread::Builder::new().name("pathbuild".to_owned()).stack_size(STACK).spawn(serve);
         thread.map_err(|error| Error::Refused(error.to_string()))?;
-        answer.recv().unwrap_or_else(|_| Err(gone()))?;
+        answer.recv().unwrap_or_else(|_| Err(thread_ended_error()))?;
         Ok(Self { requests })
     }
 
@@ -288,12 +289,13 @@ impl Library {
     ) -> Result<R, Error> {
         let (answer, answered) = channel();
         let request = move |session: &mut Session<'_>| {
-            let result = catch_bugs(|| work(session)).unwrap_or_else(|problem| Err(Error::bug(*problem)));
+            let result =
+                catch_bugs(|| work(session)).unwrap_or_else(|problem| Err(Error::internal_error(*problem)));
             // The receiver exists, because the caller waits for the result.
             _ = answer.send(result);
         };
-        self.requests.send(Box::new(request)).map_err(|_| gone())?;
-        answered.recv().unwrap_or_else(|_| Err(gone()))
+        self.requests.send(Box::new(request)).map_err(|_| thread_ended_error())?;
+        answered.recv().unwrap_or_else(|_| Err(thread_ended_error()))
     }
 }
 
@@ -324,11 +326,11 @@ fn new_session(workspace: &Workspace) -> Session<'_> {
 }
 
 /// Creates the error for a thread that has ended, which only an internal error can cause.
-fn gone() -> Error {
-    Error::bug(bug("the library's thread has ended"))
+fn thread_ended_error() -> Error {
+    Error::internal_error(bug("the library's thread has ended"))
 }
 
-fn owned(inputs: &[&str]) -> Inputs {
+fn to_inputs(inputs: &[&str]) -> Inputs {
     Inputs { inputs: inputs.iter().map(|input| (*input).to_owned()).collect() }
 }
 
@@ -343,9 +345,9 @@ fn named_path(session: &Session<'_>, argument: &str) -> Result<(SourceFile, Path
     let (workspace, db) = (session.workspace(), session.db());
     match session.one_path(argument, Role::Checked) {
         Ok(target) => Ok((target.file(db), PathName::new(target.name(db)))),
-        Err(NotOnePath::Wrong(found)) => Err(Error::found(workspace, found)),
+        Err(NotOnePath::Wrong(found)) => Err(Error::from_findings(workspace, found)),
         Err(NotOnePath::Several(NamedPaths { file, names })) => {
-            Err(Error::found(workspace, vec![several_paths(file.path(db), &names)]))
+            Err(Error::from_findings(workspace, vec![several_paths(file.path(db), &names)]))
         }
         Err(NotOnePath::Directory) => {
             let [en, de] = ["`{}` is a directory, not a path", "`{}` ist ein Verzeichnis, kein Pfad"];
@@ -362,7 +364,7 @@ fn path_in(session: &Session<'_>, drawing: &str, name: &str) -> Result<(SourceFi
     }
     let problems = check_file(session.db(), file);
     if problems.iter().any(Diagnostic::is_error) {
-        return Err(Error::found(session.workspace(), problems.to_vec()));
+        return Err(Error::from_findings(session.workspace(), problems.to_vec()));
     }
     let [en, de] = ["{} has no path of this name", "{} hat keinen Pfad dieses Namens"];
     Err(Error::Refused(format!("{name}: {}", session.workspace().phrase(en, de, drawing))))
@@ -370,7 +372,7 @@ fn path_in(session: &Session<'_>, drawing: &str, name: &str) -> Result<(SourceFi
 
 fn path(session: &Session<'_>, file: SourceFile, name: PathName) -> Result<Path, Error> {
     let report = scene(session, file, name)?;
-    let findings = Finding::all(session.workspace(), report.diagnostics);
+    let findings = Finding::from_diagnostics(session.workspace(), report.diagnostics);
     match report.scene.paths.into_iter().next() {
         Some(scene) => Ok(Path::new(scene, findings)),
         None => Err(Error::Findings(findings)),
@@ -380,7 +382,7 @@ fn path(session: &Session<'_>, file: SourceFile, name: PathName) -> Result<Path,
 fn scene(session: &Session<'_>, file: SourceFile, name: PathName) -> Result<SceneReport, Error> {
     let workspace = session.workspace();
     let post_processor = PostProcessor::for_run(workspace, None, PostArguments::default())
-        .map_err(|found| Error::found(workspace, found))?;
+        .map_err(|found| Error::from_findings(workspace, found))?;
     let report = session.scene(file, &[name], ShownText::Emitted(post_processor.as_ref()));
     Ok(SceneReport { diagnostics: session.with_hints(report.diagnostics), ..report })
 }
@@ -400,5 +402,5 @@ fn run_emit(
         deps: None,
         removes_stale: false,
     };
-    request.run(session).map_err(|failure| Error::of(session.workspace(), failure))
+    request.run(session).map_err(|failure| Error::from_failure(session.workspace(), failure))
 }

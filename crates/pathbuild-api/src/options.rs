@@ -117,7 +117,7 @@ impl LibraryOptions {
 
     /// Creates the workspace with these options.
     pub(crate) fn workspace(self, source: Source) -> Result<Workspace, Error> {
-        let settings = self.given()?;
+        let settings = self.given_options()?;
         let utf8 = |path| utf8(path, self.lang);
         let config = self.config.map(utf8).transpose()?;
         let cache = self.cache.map(utf8).transpose()?.map(CacheHome::Named);
@@ -137,16 +137,16 @@ impl LibraryOptions {
             cache,
             reporter: std::rc::Rc::new(SilentReporter),
         };
-        if faults.is_empty() { Ok(workspace) } else { Err(Error::found(&workspace, faults)) }
+        if faults.is_empty() { Ok(workspace) } else { Err(Error::from_findings(&workspace, faults)) }
     }
 
     /// Returns the overridden keys of the configuration with their values.
-    fn given(&self) -> Result<GivenOptions, Error> {
+    fn given_options(&self) -> Result<GivenOptions, Error> {
         let mut given: Vec<(&'static str, Vec<String>)> = Vec::new();
         for (name, value) in &self.settings {
             let option = OPTIONS.iter().find(|option| option.name == name);
             let option = option.ok_or_else(|| {
-                refused(self.lang, "there is no setting `{}`", "es gibt keine Einstellung `{}`", name)
+                refusal(self.lang, "there is no setting `{}`", "es gibt keine Einstellung `{}`", name)
             })?;
             let values = match option.values {
                 OptionValues::Switch if value == "true" => Vec::new(),
@@ -155,7 +155,7 @@ impl LibraryOptions {
                         "`{}` is a switch: its only value is `true`",
                         "`{}` ist ein Schalter: sein einziger Wert ist `true`",
                     ];
-                    return Err(refused(self.lang, en, de, name));
+                    return Err(refusal(self.lang, en, de, name));
                 }
                 OptionValues::Texts(_) | OptionValues::Directories => {
                     let earlier = given.iter().find(|(earlier, _)| *earlier == option.name);
@@ -212,7 +212,7 @@ impl Source {
                 let directory = clean(&utf8(directory, lang)?);
                 if OsSystem.kind(&directory) != FileKind::Directory {
                     let [en, de] = ["there is no directory {}", "es gibt kein Verzeichnis {}"];
-                    return Err(refused(lang, en, de, directory.as_str()));
+                    return Err(refusal(lang, en, de, directory.as_str()));
                 }
                 Ok((Arc::new(BasedSystem::new(OsSystem::shared(), directory.clone())), directory))
             }
@@ -229,16 +229,16 @@ impl Source {
 
 fn utf8(path: PathBuf, lang: Option<Lang>) -> Result<Utf8PathBuf, Error> {
     let [en, de] = ["{}: the name is not UTF-8", "{}: der Name ist nicht in UTF-8"];
-    Utf8PathBuf::from_path_buf(path).map_err(|path| refused(lang, en, de, &path.to_string_lossy()))
+    Utf8PathBuf::from_path_buf(path).map_err(|path| refusal(lang, en, de, &path.to_string_lossy()))
 }
 
 fn run_date(text: &str, lang: Option<Lang>) -> Result<RunDate, Error> {
     let [en, de] = ["`{}` is not a date such as 2026-12-31", "`{}` ist kein Datum wie 2026-12-31"];
-    let date = text.parse().map_err(|()| refused(lang, en, de, text))?;
+    let date = text.parse().map_err(|()| refusal(lang, en, de, text))?;
     Ok(RunDate { date, source: DateSource::Given })
 }
 
 /// Creates a refusal that occurs before the configuration is read, so that a language set there does not apply.
-fn refused(lang: Option<Lang>, en: &str, de: &str, value: &str) -> Error {
+fn refusal(lang: Option<Lang>, en: &str, de: &str, value: &str) -> Error {
     Error::Refused(lang.unwrap_or_default().choose(en, de).replace("{}", value))
 }

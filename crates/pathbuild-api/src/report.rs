@@ -145,13 +145,13 @@ impl PathSummary {
                 list::ProgramState::Stale => ProgramState::Stale,
                 list::ProgramState::Unknown => ProgramState::Unknown,
             },
-            findings: Finding::all(workspace, path.diagnostics),
+            findings: Finding::from_diagnostics(workspace, path.diagnostics),
         }
     }
 }
 
 impl OutputFile {
-    pub(crate) fn of(outcome: ProgramOutcome) -> Vec<Self> {
+    pub(crate) fn from_outcome(outcome: ProgramOutcome) -> Vec<Self> {
         let ProgramOutcome { path, files, length, minutes, .. } = outcome;
         let file = |(file, state): (camino::Utf8PathBuf, State)| {
             let state = match state {
@@ -198,15 +198,15 @@ pub struct GraphEdge {
 impl GraphReport {
     pub(crate) fn new(workspace: &Workspace, outcome: GraphOutcome) -> Self {
         let GraphOutcome { graph, diagnostics, incomplete } = outcome;
-        let mut edges = GraphEdge::all(&graph);
+        let mut edges = GraphEdge::from_graph(&graph);
         edges.sort();
         edges.dedup();
-        Self { edges, incomplete, findings: Finding::all(workspace, diagnostics) }
+        Self { edges, incomplete, findings: Finding::from_diagnostics(workspace, diagnostics) }
     }
 }
 
 impl GraphEdge {
-    fn all(graph: &Graph) -> Vec<Self> {
+    fn from_graph(graph: &Graph) -> Vec<Self> {
         let names = |node: &Node| (node.file.to_string(), node.name.as_str().to_owned());
         let edge = |embedding: &pathbuild_workspace::session::Embedding| {
             // Segments that embed no existing path are omitted: `check` reports them.

@@ -85,7 +85,7 @@ impl VerifyOptions {
         let [cutter, surface] =
             [self.cutter, self.surface].map(|number| number.map(|number| number.to_string()));
         let options = options.with_stock(cutter.as_deref(), surface.as_deref());
-        options.map_err(|fault| Error::found(workspace, vec![*fault]))
+        options.map_err(|fault| Error::from_findings(workspace, vec![*fault]))
     }
 }
 
@@ -164,7 +164,7 @@ impl VerifyReport {
             });
         }
         let coverage = Coverage { files, ..Coverage::default() };
-        let (findings, accepted) = Finding::settled(workspace, diagnostics, coverage)?;
+        let (findings, accepted) = Finding::from_settled(workspace, diagnostics, coverage)?;
         Ok(Self { findings, accepted, programs })
     }
 }

@@ -38,7 +38,7 @@ pub enum WatchEnd {
 }
 
 /// Makes all paths absolute, because the system watches directories relative to the working directory of the process.
-pub(crate) fn absolute(workspace: &Workspace) -> Workspace {
+pub(crate) fn with_absolute_paths(workspace: &Workspace) -> Workspace {
     Workspace {
         system_lang: None,
         working_directory: Utf8PathBuf::new(),
@@ -48,19 +48,19 @@ pub(crate) fn absolute(workspace: &Workspace) -> Workspace {
 }
 
 /// Forwarder of reports to the caller, until the caller stops watching.
-pub(crate) struct Reports<'w, F> {
+pub(crate) struct ReportForwarder<'w, F> {
     /// The workspace of the library, which names files relative to its directory.
     workspace: &'w Workspace,
     seen: RefCell<F>,
     bell: RefCell<Option<Bell>>,
 }
 
-impl<'w, F: FnMut(WatchReport) -> bool> Reports<'w, F> {
+impl<'w, F: FnMut(WatchReport) -> bool> ReportForwarder<'w, F> {
     pub(crate) fn new(workspace: &'w Workspace, seen: F) -> Self {
         Self { workspace, seen: RefCell::new(seen), bell: RefCell::default() }
     }
 
-    fn pass_on(&self, report: WatchReport) {
+    fn forward(&self, report: WatchReport) {
         let goes_on = (self.seen.borrow_mut())(report);
         if let Some(bell) = self.bell.borrow().as_ref().filter(|_| !goes_on) {
             bell.end();
@@ -73,7 +73,7 @@ impl<'w, F: FnMut(WatchReport) -> bool> Reports<'w, F> {
             let files = diagnostic.trace.iter_mut().map(|step| &mut step.file);
             files.chain(&mut diagnostic.file).for_each(|file| *file = self.relative(file));
         }
-        Finding::all(self.workspace, diagnostics)
+        Finding::from_diagnostics(self.workspace, diagnostics)
     }
 
     fn names(&self, files: &BTreeSet<Utf8PathBuf>) -> Vec<String> {
@@ -85,13 +85,13 @@ impl<'w, F: FnMut(WatchReport) -> bool> Reports<'w, F> {
     }
 }
 
-impl<F: FnMut(WatchReport) -> bool> Listener for Reports<'_, F> {
+impl<F: FnMut(WatchReport) -> bool> Listener for ReportForwarder<'_, F> {
     fn set_bell(&self, bell: Bell) {
         *self.bell.borrow_mut() = Some(bell);
     }
 
     fn first_check_done(&self, check: &FirstCheck) {
-        self.pass_on(WatchReport {
+        self.forward(WatchReport {
             changed: Vec::new(),
             removed: Vec::new(),
             before: Vec::new(),
@@ -100,7 +100,7 @@ impl<F: FnMut(WatchReport) -> bool> Listener for Reports<'_, F> {
     }
 
     fn batch_done(&self, update: &Update) {
-        self.pass_on(WatchReport {
+        self.forward(WatchReport {
             changed: self.names(&update.changed),
             removed: self.names(&update.removed),
             before: self.findings(&update.before),

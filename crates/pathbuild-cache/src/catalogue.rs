@@ -143,7 +143,7 @@ pub enum CacheFault {
 const MAGIC: &[u8; 16] = b"pathbuild cache\x05";
 
 /// Length of the header: magic, both halves of the key, checksum.
-const HEAD: usize = 16 + 32 + 32 + 32;
+const HEADER_BYTES: usize = 16 + 32 + 32 + 32;
 
 impl Key {
     /// Creates the key by hashing the build and the query.
@@ -155,23 +155,23 @@ impl Key {
     /// Returns the name of the file that holds the results of this key.
     pub fn file_name(&self) -> String {
         let digits = blake3::Hash::from_bytes(self.question).to_hex();
-        format!("{}{SUFFIX}", &digits[..DIGITS])
+        format!("{}{EXTENSION}", &digits[..NAME_DIGITS])
     }
 }
 
 /// Whether [`Key::file_name`] could have returned this name.
 pub(crate) fn is_file_name(name: &str) -> bool {
-    let digits = name.strip_suffix(SUFFIX);
+    let digits = name.strip_suffix(EXTENSION);
     digits.is_some_and(|digits| {
-        digits.len() == DIGITS
+        digits.len() == NAME_DIGITS
             && digits.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
     })
 }
 
 /// Extension of results files.
-const SUFFIX: &str = ".results";
+const EXTENSION: &str = ".results";
 /// Number of hexadecimal digits of the query's hash in a file name.
-const DIGITS: usize = 24;
+const NAME_DIGITS: usize = 24;
 
 /// Encodes a catalogue as a complete results file; `None` if that is impossible.
 pub(crate) fn encode_file(key: &Key, catalogue: &Catalogue) -> Option<Vec<u8>> {
@@ -185,7 +185,7 @@ pub(crate) fn decode_file(key: &Key, file: &[u8]) -> Result<Catalogue, CacheFaul
     if key_of(file).ok_or(CacheFault::Damaged)? != *key {
         return Err(CacheFault::Foreign);
     }
-    let (head, body) = file.split_at_checked(HEAD).ok_or(CacheFault::Damaged)?;
+    let (head, body) = file.split_at_checked(HEADER_BYTES).ok_or(CacheFault::Damaged)?;
     if !head.ends_with(blake3::hash(body).as_bytes()) {
         return Err(CacheFault::Damaged);
     }

@@ -14,6 +14,6 @@ mod verify;
 pub use catalogue::{
     CacheFault, Catalogue, CorruptPayload, DirectoryFact, FileFact, Key, Lookup, Record, decode, encode,
 };
-pub use store::{Entry, Home, RemoveError, TreeStore};
+pub use store::{CacheLocation, Entry, RemoveError, TreeStore};
 pub use verify::{CoversFn, FileState, Reason, StampedBytes, Verdict, VerifyContext, reasons, verify};
 pub use verify::{Listing, Listings};

@@ -17,7 +17,7 @@ use crate::catalogue::{CacheFault, Catalogue, Key, decode_file, encode_file, is_
 
 /// The place where the results of all trees are stored.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Home {
+pub enum CacheLocation {
     /// pathbuild's directory in the user's cache directory; each tree has a subdirectory.
     User(Utf8PathBuf),
     /// A directory that the user named. It is trusted regardless of the tree for which it was created, so that it also serves copies of that tree.
@@ -33,22 +33,22 @@ pub struct TreeStore {
 }
 
 /// Name of the file that records the tree's path.
-const TREE: &str = "tree";
+const TREE_FILE: &str = "tree";
 /// Size limit of results files in bytes: a planted file must not exhaust the memory.
 const MAX_RESULTS_BYTES: u64 = 1 << 30;
 /// Size limit of the other files in bytes.
 const MAX_TAG_BYTES: u64 = 1 << 16;
 /// Name of the file that marks a directory as a cache.
-const TAG: &str = "CACHEDIR.TAG";
+const TAG_FILE: &str = "CACHEDIR.TAG";
 
 impl TreeStore {
     /// Returns the store of the tree with this configuration directory. Nothing is created yet.
-    pub fn of_tree(home: &Home, tree: &Utf8Path) -> Self {
+    pub fn of_tree(home: &CacheLocation, tree: &Utf8Path) -> Self {
         match home {
-            Home::Named(directory) => Self { directory: directory.clone(), tree: None },
-            Home::User(caches) => {
+            CacheLocation::Named(directory) => Self { directory: directory.clone(), tree: None },
+            CacheLocation::User(caches) => {
                 let tree = tree.canonicalize_utf8().unwrap_or_else(|_| tree.to_owned());
-                Self { directory: caches.join(name_of(&tree)), tree: Some(tree) }
+                Self { directory: caches.join(tree_directory_name(&tree)), tree: Some(tree) }
             }
         }
     }
@@ -62,7 +62,7 @@ impl TreeStore {
     /// files.
     pub fn refusal(&self) -> Option<&'static Text> {
         let holds_others = || entry_names(&self.directory).any(|name| !is_ours(&self.directory, &name));
-        let is_right = || match private::read(&self.directory.join(TAG), MAX_TAG_BYTES) {
+        let is_right = || match private::read(&self.directory.join(TAG_FILE), MAX_TAG_BYTES) {
             Ok(Some(tag)) => is_own_tag(&tag),
             Ok(None) => !holds_others(),
             Err(_) => false,
@@ -88,12 +88,12 @@ impl TreeStore {
     /// If the results cannot be written; the earlier results remain.
     pub fn store(&self, key: &Key, mut catalogue: Catalogue) -> io::Result<()> {
         catalogue.records.sort_unstable_by(|a, b| a.subject.cmp(&b.subject));
-        let too_much = || reasons::error(io::ErrorKind::Other, &reasons::RESULT_TOO_LARGE);
+        let too_much = || reasons::text_error(io::ErrorKind::Other, &reasons::RESULT_TOO_LARGE);
         let bytes = encode_file(key, &catalogue).ok_or_else(too_much)?;
         if bytes.len() as u64 > MAX_RESULTS_BYTES {
             return Err(too_much());
         }
-        self.make()?;
+        self.create()?;
         private::replace(&self.directory, &key.file_name(), &bytes)
     }
 
@@ -109,13 +109,13 @@ impl TreeStore {
     ///
     /// # Errors
     /// If the directory cannot be created.
-    pub fn make(&self) -> io::Result<bool> {
+    pub fn create(&self) -> io::Result<bool> {
         let is_new = private::make_directory(&self.directory)?;
-        let tag = private::read(&self.directory.join(TAG), MAX_TAG_BYTES);
-        if tag.map_err(|_| reasons::error(io::ErrorKind::Other, &reasons::TAG_UNREADABLE))?.is_none() {
-            private::replace(&self.directory, TAG, TAG_TEXT.as_bytes())?;
+        let tag = private::read(&self.directory.join(TAG_FILE), MAX_TAG_BYTES);
+        if tag.map_err(|_| reasons::text_error(io::ErrorKind::Other, &reasons::TAG_UNREADABLE))?.is_none() {
+            private::replace(&self.directory, TAG_FILE, TAG_TEXT.as_bytes())?;
             if let Some(tree) = &self.tree {
-                private::replace(&self.directory, TREE, tree.as_str().as_bytes())?;
+                private::replace(&self.directory, TREE_FILE, tree.as_str().as_bytes())?;
             }
         }
         Ok(is_new)
@@ -129,17 +129,17 @@ fn is_own_tag(tag: &[u8]) -> bool {
 
 /// Whether the directory's tree file was written by pathbuild: the directory is named after that tree.
 fn is_own_tree(directory: &Utf8Path) -> bool {
-    recorded_tree(directory).is_some_and(|tree| directory.file_name() == Some(&name_of(&tree)))
+    recorded_tree(directory).is_some_and(|tree| directory.file_name() == Some(&tree_directory_name(&tree)))
 }
 
 /// Returns the tree that a directory's tree file names.
 fn recorded_tree(directory: &Utf8Path) -> Option<Utf8PathBuf> {
-    let tree = private::read(&directory.join(TREE), MAX_TAG_BYTES).ok().flatten()?;
+    let tree = private::read(&directory.join(TREE_FILE), MAX_TAG_BYTES).ok().flatten()?;
     String::from_utf8(tree).ok().map(Utf8PathBuf::from)
 }
 
 /// Returns the name of a tree's subdirectory in the user's cache directory.
-fn name_of(tree: &Utf8Path) -> String {
+fn tree_directory_name(tree: &Utf8Path) -> String {
     blake3::hash(tree.as_str().as_bytes()).to_hex()[..NAME_LENGTH].to_owned()
 }
 
@@ -183,7 +183,7 @@ impl TreeStore {
             .map(|name| self.directory().join(name))
             .map(|path| Entry {
                 size: fs::symlink_metadata(&path).map_or(0, |data| data.len()),
-                fault: fault(&path, build),
+                fault: cache_fault(&path, build),
                 path,
             })
             .collect();
@@ -221,7 +221,7 @@ impl TreeStore {
     }
 }
 
-impl Home {
+impl CacheLocation {
     /// Removes the results of trees that no longer exist. Returns the number of trees.
     ///
     /// # Errors
@@ -244,13 +244,13 @@ impl Home {
 
 /// Whether pathbuild creates files of this name in a results directory.
 fn is_ours(directory: &Utf8Path, name: &str) -> bool {
-    let is_named_so = is_file_name(name) || is_temporary(name) || name == TAG;
-    is_named_so || name == TREE && is_own_tree(directory)
+    let is_named_so = is_file_name(name) || is_temporary(name) || name == TAG_FILE;
+    is_named_so || name == TREE_FILE && is_own_tree(directory)
 }
 
 /// Whether this is the name of a temporary file for one of pathbuild's own files.
 fn is_temporary(name: &str) -> bool {
-    let is_ours = |name: &str| is_file_name(name) || matches!(name, TAG | TREE | CLOCK);
+    let is_ours = |name: &str| is_file_name(name) || matches!(name, TAG_FILE | TREE_FILE | CLOCK);
     pathbuild_files::is_temporary(name, is_ours)
 }
 
@@ -259,13 +259,13 @@ fn clean(directory: &Utf8Path) -> Result<(), RemoveError> {
     refuse_others(directory)?;
     // The tag that marks the directory as a cache is removed last.
     let ours: Vec<String> =
-        entry_names(directory).filter(|name| name != TAG && is_ours(directory, name)).collect();
-    for name in ours.into_iter().chain([TAG.to_owned()]) {
+        entry_names(directory).filter(|name| name != TAG_FILE && is_ours(directory, name)).collect();
+    for name in ours.into_iter().chain([TAG_FILE.to_owned()]) {
         remove(&directory.join(name))?;
     }
     match fs::remove_dir(directory) {
         Err(error) if !matches!(error.kind(), io::ErrorKind::DirectoryNotEmpty | io::ErrorKind::NotFound) => {
-            Err(not_removed(directory, &error))
+            Err(remove_error(directory, &error))
         }
         _ => Ok(()),
     }
@@ -277,7 +277,7 @@ fn refuse_others(directory: &Utf8Path) -> Result<(), RemoveError> {
     if let Some(word) = private::refusal(directory) {
         return Err(refused(word));
     }
-    let tag = directory.join(TAG);
+    let tag = directory.join(TAG_FILE);
     let tag = private::read(&tag, MAX_TAG_BYTES).map_err(|reason| RemoveError { path: tag, reason })?;
     // Another process may be about to write the tag, or may just have removed it. All other files must then be pathbuild's.
     let is_cache = tag
@@ -289,10 +289,10 @@ fn refuse_others(directory: &Utf8Path) -> Result<(), RemoveError> {
 }
 
 fn remove(path: &Utf8Path) -> Result<(), RemoveError> {
-    private::remove(path).map_err(|error| not_removed(path, &error))
+    private::remove(path).map_err(|error| remove_error(path, &error))
 }
 
-fn not_removed(path: &Utf8Path, error: &io::Error) -> RemoveError {
+fn remove_error(path: &Utf8Path, error: &io::Error) -> RemoveError {
     RemoveError { path: path.to_owned(), reason: reason(error) }
 }
 
@@ -301,7 +301,7 @@ fn entry_names(directory: &Utf8Path) -> impl Iterator<Item = String> + use<> {
     listed.map(|entry| entry.file_name().to_owned()).collect::<Vec<_>>().into_iter()
 }
 
-fn fault(path: &Utf8Path, build: &Key) -> Option<CacheFault> {
+fn cache_fault(path: &Utf8Path, build: &Key) -> Option<CacheFault> {
     let Ok(Some(file)) = private::read(path, MAX_RESULTS_BYTES) else { return Some(CacheFault::Damaged) };
     let Some(key) = key_of(&file) else { return Some(CacheFault::Damaged) };
     if key.build != build.build {

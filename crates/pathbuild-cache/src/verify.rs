@@ -10,7 +10,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::{fs, io};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_files::{Stamp, is_drawing, readable};
+use pathbuild_files::{Stamp, is_drawing, or_current_directory};
 use rayon::prelude::*;
 
 use crate::catalogue::{Catalogue, DirectoryFact, FileFact};
@@ -57,7 +57,7 @@ pub struct VerifyContext<'a> {
 pub fn verify(catalogue: &Catalogue, context: VerifyContext<'_>, mut listings: Listings) -> Verdict {
     let is_requested: Vec<bool> =
         catalogue.records.iter().map(|record| (context.is_requested)(&record.subject)).collect();
-    let files = files(catalogue, &is_requested, context);
+    let files = file_states(catalogue, &is_requested, context);
     let listed: Vec<Option<Listing>> =
         catalogue.directories.iter().map(|directory| listings.remove(&directory.path)).collect();
     let now = |(before, listed): (&DirectoryFact, Option<Listing>)| {
@@ -83,24 +83,24 @@ pub fn verify(catalogue: &Catalogue, context: VerifyContext<'_>, mut listings: L
 }
 
 /// Determines the states of the files of the requested records. Querying the metadata of ten thousand files takes most of a run without changes.
-fn files(catalogue: &Catalogue, is_requested: &[bool], context: VerifyContext<'_>) -> Vec<FileState> {
-    let mut roles = vec![Role::None; catalogue.files.len()];
+fn file_states(catalogue: &Catalogue, is_requested: &[bool], context: VerifyContext<'_>) -> Vec<FileState> {
+    let mut roles = vec![FileRole::None; catalogue.files.len()];
     let requested = catalogue.records.iter().zip(is_requested).filter(|(_, is_requested)| **is_requested);
     for (record, _) in requested {
-        record.outputs.iter().for_each(|file| roles[*file] = Role::Output);
-        record.files.iter().for_each(|file| roles[*file] = Role::Source);
+        record.outputs.iter().for_each(|file| roles[*file] = FileRole::Output);
+        record.files.iter().for_each(|file| roles[*file] = FileRole::Source);
     }
-    let state = |(role, file): (&Role, &FileFact)| match role {
-        Role::None => FileState::Unchecked,
-        Role::Source => state(file, context, false, &|_, bytes| *blake3::hash(bytes).as_bytes()),
-        Role::Output => state(file, context, true, context.hash_output),
+    let state = |(role, file): (&FileRole, &FileFact)| match role {
+        FileRole::None => FileState::Unchecked,
+        FileRole::Source => file_state(file, context, false, &|_, bytes| *blake3::hash(bytes).as_bytes()),
+        FileRole::Output => file_state(file, context, true, context.hash_output),
     };
     roles.par_iter().zip(&catalogue.files).with_min_len(256).map(state).collect()
 }
 
 /// The use of a file by the requested records.
 #[derive(Clone, Copy)]
-enum Role {
+enum FileRole {
     None,
     Source,
     Output,
@@ -119,7 +119,9 @@ fn sound_records(
     let changed: Vec<Vec<&DirectoryChange>> = catalogue.directory_lists.iter().map(changed).collect();
     let lookups = catalogue.lookups.iter();
     let stale: Vec<bool> = lookups
-        .map(|lookup| changed[lookup.directories].iter().any(|change| change.concerns(&lookup.name, covers)))
+        .map(|lookup| {
+            changed[lookup.directories].iter().any(|change| change.may_affect(&lookup.name, covers))
+        })
         .collect();
     let records = catalogue.records.iter();
     records
@@ -143,7 +145,7 @@ pub enum FileState {
     Unchecked,
 }
 
-fn state(
+fn file_state(
     file: &FileFact,
     context: VerifyContext<'_>,
     is_output: bool,
@@ -193,7 +195,7 @@ impl DirectoryChange {
     }
 
     /// Whether a lookup of this path may now give another answer.
-    fn concerns(&self, path: &str, covers: CoversFn<'_>) -> bool {
+    fn may_affect(&self, path: &str, covers: CoversFn<'_>) -> bool {
         match self {
             Self::None => false,
             Self::Links => true,
@@ -241,19 +243,19 @@ pub fn reasons(catalogue: &Catalogue, verdict: &Verdict, record: usize, covers: 
     for lookup in record.lookups.iter().map(|lookup| &catalogue.lookups[*lookup]) {
         for directory in &catalogue.directory_lists[lookup.directories] {
             let (before, now) = (&catalogue.directories[*directory], &verdict.directories[*directory]);
-            reasons.extend(of_lookup(before, now, &lookup.name, covers));
+            reasons.extend(lookup_reasons(before, now, &lookup.name, covers));
         }
     }
     reasons.sort();
     reasons.dedup();
     // If a file that was read no longer exists, report only that, and not its name as well.
-    let gone: Vec<Utf8PathBuf> = reasons.iter().filter_map(Reason::gone_file).cloned().collect();
+    let gone: Vec<Utf8PathBuf> = reasons.iter().filter_map(Reason::missing_file).cloned().collect();
     reasons.retain(|reason| !matches!(reason, Reason::Name { file, .. } if gone.contains(file)));
     reasons
 }
 
 impl Reason {
-    fn gone_file(&self) -> Option<&Utf8PathBuf> {
+    fn missing_file(&self) -> Option<&Utf8PathBuf> {
         match self {
             Self::File { path, is_gone: true } => Some(path),
             _ => None,
@@ -261,7 +263,12 @@ impl Reason {
     }
 }
 
-fn of_lookup(before: &DirectoryFact, now: &DirectoryFact, path: &str, covers: CoversFn<'_>) -> Vec<Reason> {
+fn lookup_reasons(
+    before: &DirectoryFact,
+    now: &DirectoryFact,
+    path: &str,
+    covers: CoversFn<'_>,
+) -> Vec<Reason> {
     let directory = &now.path;
     match DirectoryChange::of(before, now) {
         DirectoryChange::None => Vec::new(),
@@ -330,13 +337,13 @@ impl Listing {
 
 impl DirectoryFact {
     /// Reads the current state of a directory. `base` is the configuration's directory.
-    pub fn now(path: &Utf8Path, base: &Utf8Path) -> Self {
+    pub fn read_current(path: &Utf8Path, base: &Utf8Path) -> Self {
         Self::from_listing(path, base, None)
     }
 
-    /// Like [`now`](Self::now), but reuses an earlier listing if there is one.
+    /// Like [`read_current`](Self::read_current), but reuses an earlier listing if there is one.
     pub(crate) fn from_listing(path: &Utf8Path, base: &Utf8Path, listed: Option<Listing>) -> Self {
-        let place = readable(path);
+        let place = or_current_directory(path);
         let Listing { names, mut links, is_doubtful } = listed.unwrap_or_else(|| Listing::of(place));
         let mut canonical = canonical(place, base);
         links.sort_unstable();

@@ -12,8 +12,8 @@ use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    CacheFault, Catalogue, DirectoryFact, FileFact, FileState, Home, Key, Listing, Listings, Lookup, Record,
-    TreeStore, Verdict, VerifyContext, decode, encode,
+    CacheFault, CacheLocation, Catalogue, DirectoryFact, FileFact, FileState, Key, Listing, Listings, Lookup,
+    Record, TreeStore, Verdict, VerifyContext, decode, encode,
 };
 use pathbuild_diagnostic::messages::{self, parameters};
 use pathbuild_diagnostic::{
@@ -40,7 +40,7 @@ fn catalogue(base: &Utf8Path, stamp: Stamp, bytes: &[u8]) -> Catalogue {
     let hash = Some(*blake3::hash(bytes).as_bytes());
     Catalogue {
         files: vec![FileFact { path: base.join("a.dxf"), stamp, hash }],
-        directories: vec![DirectoryFact::now(base, base)],
+        directories: vec![DirectoryFact::read_current(base, base)],
         directory_lists: vec![vec![0]],
         lookups: vec![Lookup { directories: 0, name: "1234.1P".into() }],
         records: vec![record],
@@ -72,8 +72,8 @@ fn context<'a>(base: &'a Utf8Path, covers: pathbuild_cache::CoversFn<'a>) -> Ver
 
 /// Creates a cache.
 fn cache(base: &Utf8Path) -> TreeStore {
-    let place = TreeStore::of_tree(&Home::Named(base.join("cache")), base);
-    place.make().unwrap();
+    let place = TreeStore::of_tree(&CacheLocation::Named(base.join("cache")), base);
+    place.create().unwrap();
     place
 }
 
@@ -134,7 +134,7 @@ fn read(file: &Utf8Path, _: bool) -> Option<(Vec<u8>, Stamp)> {
 fn a_file_that_has_not_rested_is_compared_by_its_bytes() {
     let (_directory, base) = place();
     let (file, begun) = written(&base, Duration::ZERO);
-    let stamp = Stamp::of(&file).settled(begun);
+    let stamp = Stamp::of(&file).for_storing(begun);
     assert_eq!(stamp, Stamp::UNKNOWN);
     let snapshot = catalogue(&base, stamp, b"one");
     let verdict = verify(&snapshot, &base, &covers);
@@ -150,7 +150,7 @@ fn a_file_that_has_rested_is_known_by_its_stamp() {
     let (_directory, base) = place();
     // The pause is longer than a tick of the coarsest clock plus a second.
     let (file, begun) = written(&base, Duration::from_millis(3200));
-    let stamp = Stamp::of(&file).settled(begun);
+    let stamp = Stamp::of(&file).for_storing(begun);
     assert_ne!(stamp, Stamp::UNKNOWN);
     let snapshot = catalogue(&base, stamp, b"one");
     assert!(verify(&snapshot, &base, &covers).is_current);
@@ -170,7 +170,7 @@ fn the_stamp_that_bytes_were_read_under_is_what_they_rest_under() {
     let set = |seconds_ago| {
         let time = std::time::SystemTime::now() - Duration::from_secs(seconds_ago);
         fs::File::options().write(true).open(&file).unwrap().set_modified(time).unwrap();
-        Stamp::of(&file).settled(begun)
+        Stamp::of(&file).for_storing(begun)
     };
     // On Unix, the time of the last change of the file's metadata reveals that the time was set back.
     assert_eq!(set(10) == Stamp::UNKNOWN, cfg!(unix));
@@ -182,7 +182,7 @@ fn the_stamp_that_bytes_were_read_under_is_what_they_rest_under() {
     fs::rename(base.join("b"), &file).unwrap();
     assert_ne!(of_open, Stamp::of(&file));
     assert_eq!(
-        (Stamp::MISSING.settled(begun), Stamp::UNKNOWN.settled(begun)),
+        (Stamp::MISSING.for_storing(begun), Stamp::UNKNOWN.for_storing(begun)),
         (Stamp::MISSING, Stamp::UNKNOWN)
     );
 }

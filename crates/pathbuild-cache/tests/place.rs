@@ -10,7 +10,7 @@ use std::fs;
 use std::os::unix::fs::{PermissionsExt, symlink};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::{Catalogue, Home, Key, TreeStore};
+use pathbuild_cache::{CacheLocation, Catalogue, Key, TreeStore};
 use tempfile::TempDir;
 
 /// Creates a directory for caches, and two trees.
@@ -34,19 +34,19 @@ fn mode(path: &Utf8Path) -> u32 {
 #[test]
 fn each_tree_has_its_own_results_by_its_real_path() {
     let (_directory, base) = world();
-    let home = Home::User(base.join("caches"));
+    let home = CacheLocation::User(base.join("caches"));
     let one = TreeStore::of_tree(&home, &base.join("one"));
     assert_ne!(one, TreeStore::of_tree(&home, &base.join("two")));
     symlink("one", base.join("link")).unwrap();
     assert_eq!(one, TreeStore::of_tree(&home, &base.join("link")));
-    let named = Home::Named(base.join("named"));
+    let named = CacheLocation::Named(base.join("named"));
     assert_eq!(TreeStore::of_tree(&named, &base.join("one")), TreeStore::of_tree(&named, &base.join("two")));
 }
 
 #[test]
 fn what_is_made_is_for_its_owner_only() {
     let (_directory, base) = world();
-    let place = TreeStore::of_tree(&Home::User(base.join("caches")), &base.join("one"));
+    let place = TreeStore::of_tree(&CacheLocation::User(base.join("caches")), &base.join("one"));
     store(&place);
     assert_eq!((mode(&base.join("caches")), mode(place.directory())), (0o700, 0o700));
     for entry in place.directory().read_dir_utf8().unwrap() {
@@ -57,7 +57,7 @@ fn what_is_made_is_for_its_owner_only() {
 #[test]
 fn a_link_a_file_and_what_everybody_may_write_into_are_refused() {
     let (_directory, base) = world();
-    let place = TreeStore::of_tree(&Home::Named(base.join("named")), &base);
+    let place = TreeStore::of_tree(&CacheLocation::Named(base.join("named")), &base);
     assert_eq!(place.refusal(), None);
     symlink("one", place.directory()).unwrap();
     assert_eq!(place.refusal().map(|it| it.en), Some("it is a link"));
@@ -74,7 +74,7 @@ fn a_link_a_file_and_what_everybody_may_write_into_are_refused() {
 #[test]
 fn files_that_are_too_large_are_not_read() {
     let (_directory, base) = world();
-    let place = TreeStore::of_tree(&Home::Named(base.join("named")), &base);
+    let place = TreeStore::of_tree(&CacheLocation::Named(base.join("named")), &base);
     store(&place);
     let key = Key::new("build", "question");
     // The files are sparse and take no space on disk.
@@ -88,7 +88,7 @@ fn files_that_are_too_large_are_not_read() {
 #[test]
 fn a_directory_of_other_things_is_refused_and_stays() {
     let (_directory, base) = world();
-    let place = TreeStore::of_tree(&Home::Named(base.join("one")), &base);
+    let place = TreeStore::of_tree(&CacheLocation::Named(base.join("one")), &base);
     fs::write(base.join("one/.bashrc"), "precious").unwrap();
     assert_eq!(
         place.refusal().map(|it| it.en),
@@ -107,19 +107,19 @@ fn a_directory_of_other_things_is_refused_and_stays() {
 fn nothing_is_pruned_through_a_link_or_among_other_things() {
     let (_directory, base) = world();
     let build = Key::new("build", "question");
-    let place = TreeStore::of_tree(&Home::Named(base.join("link")), &base);
+    let place = TreeStore::of_tree(&CacheLocation::Named(base.join("link")), &base);
     let old = base.join("one").join(build.file_name());
     fs::write(&old, "somebody's").unwrap();
     symlink("one", place.directory()).unwrap();
     assert!(place.prune(&build).is_err());
     fs::remove_file(place.directory()).unwrap();
-    let place = TreeStore::of_tree(&Home::Named(base.join("one")), &base);
+    let place = TreeStore::of_tree(&CacheLocation::Named(base.join("one")), &base);
     fs::write(base.join("one/.bashrc"), "precious").unwrap();
     assert!(place.prune(&build).is_err() && old.exists());
     // Without other files in it, the directory may have been left by a killed run.
     fs::remove_file(base.join("one/.bashrc")).unwrap();
     assert!(place.prune(&build).unwrap() == 1 && !old.exists());
-    assert_eq!(TreeStore::of_tree(&Home::Named(base.join("none")), &base).prune(&build).unwrap(), 0);
+    assert_eq!(TreeStore::of_tree(&CacheLocation::Named(base.join("none")), &base).prune(&build).unwrap(), 0);
 }
 
 /// Other programs mark their caches with the same signature and may use any file names, so such a mark does not suffice.
@@ -127,7 +127,7 @@ fn nothing_is_pruned_through_a_link_or_among_other_things() {
 fn only_what_pathbuild_makes_is_removed() {
     let (_directory, base) = world();
     let build = Key::new("build", "question");
-    let place = TreeStore::of_tree(&Home::Named(base.join("one")), &base);
+    let place = TreeStore::of_tree(&CacheLocation::Named(base.join("one")), &base);
     store(&place);
     let own = place.directory().join(build.file_name());
     let of_others = [
@@ -163,7 +163,7 @@ fn only_what_pathbuild_makes_is_removed() {
 #[test]
 fn a_directory_without_a_mark_may_be_anybodys() {
     let (_directory, base) = world();
-    let home = Home::User(base.join("caches"));
+    let home = CacheLocation::User(base.join("caches"));
     let place = TreeStore::of_tree(&home, &base);
     for name in ["tree", ".x..tmp", ".tree..tmp", ".clock.1.tmp", ".thing.1-2.tmp"] {
         fs::create_dir_all(place.directory()).unwrap();
@@ -192,7 +192,7 @@ fn a_directory_without_a_mark_may_be_anybodys() {
 #[test]
 fn one_directory_that_is_refused_keeps_no_other_from_being_pruned() {
     let (_directory, base) = world();
-    let home = Home::User(base.join("caches"));
+    let home = CacheLocation::User(base.join("caches"));
     let [one, two] = ["one", "two"].map(|tree| TreeStore::of_tree(&home, &base.join(tree)));
     store(&one);
     store(&two);
@@ -207,7 +207,7 @@ fn one_directory_that_is_refused_keeps_no_other_from_being_pruned() {
 #[test]
 fn links_are_neither_read_nor_written_through() {
     let (_directory, base) = world();
-    let place = TreeStore::of_tree(&Home::Named(base.join("named")), &base);
+    let place = TreeStore::of_tree(&CacheLocation::Named(base.join("named")), &base);
     store(&place);
     let key = Key::new("build", "question");
     let results = place.directory().join(key.file_name());
@@ -228,7 +228,7 @@ fn links_are_neither_read_nor_written_through() {
 #[test]
 fn pruning_removes_the_results_of_trees_that_are_gone() {
     let (_directory, base) = world();
-    let home = Home::User(base.join("caches"));
+    let home = CacheLocation::User(base.join("caches"));
     let [one, two] = ["one", "two"].map(|tree| TreeStore::of_tree(&home, &base.join(tree)));
     store(&one);
     store(&two);

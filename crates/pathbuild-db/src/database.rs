@@ -35,7 +35,7 @@ pub trait Db: salsa::Database {
     fn directory(&self, path: &Utf8Path) -> Directory;
 
     /// Returns the names in a directory that was listed in advance, and waits for a listing in progress. `None` if no listing was started.
-    fn listed(&self, directory: Directory) -> Option<Names>;
+    fn take_listing(&self, directory: Directory) -> Option<Names>;
 
     /// Records that a file's bytes no longer match its index.
     fn note_changed(&self, file: SourceFile);
@@ -76,7 +76,7 @@ struct Inputs {
 impl Database {
     /// Creates a database. [`Settings`](crate::Settings) must be set before the first query.
     pub fn new(system: Arc<dyn System>) -> Self {
-        Self::over(system, salsa::Storage::default())
+        Self::with_storage(system, salsa::Storage::default())
     }
 
     /// Creates a database that logs the name of each query function before it executes, for tests.
@@ -86,10 +86,10 @@ impl Database {
                 lock(&log).push(format!("{database_key:?}"));
             }
         };
-        Self::over(system, salsa::Storage::new(Some(Box::new(listener))))
+        Self::with_storage(system, salsa::Storage::new(Some(Box::new(listener))))
     }
 
-    fn over(system: Arc<dyn System>, storage: salsa::Storage<Self>) -> Self {
+    fn with_storage(system: Arc<dyn System>, storage: salsa::Storage<Self>) -> Self {
         let shared = SharedState {
             system,
             inputs: Mutex::default(),
@@ -218,7 +218,7 @@ impl Db for Database {
         directory
     }
 
-    fn listed(&self, directory: Directory) -> Option<Names> {
+    fn take_listing(&self, directory: Directory) -> Option<Names> {
         self.shared.listings.take(directory)
     }
 
@@ -282,7 +282,7 @@ impl Database {
     ///
     /// # Errors
     /// PB005 if it exceeded the time limit, PB001 if a drawing changed meanwhile, PB006 if it panicked; all without a place.
-    pub fn guarded<R>(&self, limit: Duration, work: impl Fn() -> R) -> Result<R, Box<Diagnostic>> {
+    pub fn run_guarded<R>(&self, limit: Duration, work: impl Fn() -> R) -> Result<R, Box<Diagnostic>> {
         loop {
             let payload = match catch_unwind(AssertUnwindSafe(&work)) {
                 Ok(result) => return Ok(result),
@@ -317,21 +317,23 @@ pub(crate) struct Scratch {
 pub struct ScratchPool(Mutex<Vec<Scratch>>);
 
 /// Size in bytes up to which a buffer is kept for reuse. Few drawings need more.
-const MOST_BYTES: usize = 1 << 20;
-const MOST_ENTITIES: usize = 1 << 12;
+const MAX_BUFFER_BYTES: usize = 1 << 20;
+const MAX_BUFFER_ENTITIES: usize = 1 << 12;
 
 impl ScratchPool {
     /// Calls `work` with a scratch buffer, which still holds the content of an earlier drawing.
     pub(crate) fn with<R>(&self, work: impl FnOnce(&mut Scratch) -> R) -> R {
-        let mut scratch = self.free().pop().unwrap_or_default();
+        let mut scratch = self.unused_buffers().pop().unwrap_or_default();
         let result = work(&mut scratch);
-        if scratch.bytes.len() <= MOST_BYTES && scratch.drawing.entities.capacity() <= MOST_ENTITIES {
-            self.free().push(scratch);
+        if scratch.bytes.len() <= MAX_BUFFER_BYTES
+            && scratch.drawing.entities.capacity() <= MAX_BUFFER_ENTITIES
+        {
+            self.unused_buffers().push(scratch);
         }
         result
     }
 
-    fn free(&self) -> MutexGuard<'_, Vec<Scratch>> {
+    fn unused_buffers(&self) -> MutexGuard<'_, Vec<Scratch>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -5,7 +5,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::message::{Arguments, fill, kept_arguments};
+use crate::message::{Arguments, deserialize_arguments, fill};
 use crate::{
     Code, ElementId, EntityKind, Handle, Lang, Message, Place, Point, Severity, TextFault, Value, messages,
 };
@@ -14,12 +14,12 @@ use crate::{
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Diagnostic {
     /// Message, which determines the code, the texts and the help.
-    #[serde(deserialize_with = "kept_message")]
+    #[serde(deserialize_with = "deserialize_message")]
     pub message: &'static Message,
     /// The default severity of the code. The configuration may change it when the diagnostic is reported.
     pub severity: Severity,
     /// The values in the message and its help, by name.
-    #[serde(deserialize_with = "kept_arguments")]
+    #[serde(deserialize_with = "deserialize_arguments")]
     pub arguments: Arguments,
     /// Further details, for example the nearest open end.
     pub notes: Vec<Note>,
@@ -39,10 +39,10 @@ pub struct Diagnostic {
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Note {
     /// Message of the note.
-    #[serde(deserialize_with = "kept_message")]
+    #[serde(deserialize_with = "deserialize_message")]
     pub message: &'static Message,
     /// The values in the message, by name.
-    #[serde(deserialize_with = "kept_arguments")]
+    #[serde(deserialize_with = "deserialize_arguments")]
     pub arguments: Arguments,
 }
 
@@ -232,7 +232,7 @@ impl Note {
 }
 
 /// Deserializes a message by its key. Fails if this version has no message with this key.
-fn kept_message<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Message, D::Error> {
+fn deserialize_message<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Message, D::Error> {
     static BY_KEY: LazyLock<HashMap<&str, &Message>> =
         LazyLock::new(|| messages::all().map(|message| (message.key, message)).collect());
     let key = <&str>::deserialize(deserializer)?;

@@ -19,7 +19,7 @@ pub mod words;
 
 pub use code::{Code, Severity};
 pub use diagnostic::{Diagnostic, Note, TraceStep};
-pub use location::{ElementId, EntityKind, Handle, Number, Place, Point, TextFault, in_prose};
+pub use location::{ElementId, EntityKind, Handle, Number, Place, Point, TextFault, with_decimal_separator};
 pub use message::{Message, Sentence, Value};
 pub use nearest::{is_slip, nearest};
 pub use words::{Lang, Text};

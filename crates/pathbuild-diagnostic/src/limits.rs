@@ -43,7 +43,7 @@ pub fn file_too_large(size: u64, limit: u64, key: &str) -> Diagnostic {
 }
 
 /// Returns the subject of the limit `embedding-moves`: the number of moves after `z-split` has divided them.
-pub fn moves_cut(moves: u64) -> Sentence {
+pub fn moves_after_splitting(moves: u64) -> Sentence {
     Sentence::new(&MOVES_CUT).with("moves", moves)
 }
 

@@ -24,11 +24,11 @@ impl Point {
     }
 
     /// Formats the point with enough decimals to distinguish it from other points in the same sentence.
-    pub(crate) fn apart_from(self, others: &[Self]) -> String {
+    pub(crate) fn distinct_from(self, others: &[Self]) -> String {
         let shown = |point: Self| (point.x.to_string(), point.y.to_string());
         let alike: Vec<Self> = others.iter().copied().filter(|other| shown(*other) == shown(self)).collect();
-        let x = self.x.apart_from(alike.iter().map(|other| other.x));
-        let y = self.y.apart_from(alike.iter().map(|other| other.y));
+        let x = self.x.distinct_from(alike.iter().map(|other| other.x));
+        let y = self.y.distinct_from(alike.iter().map(|other| other.y));
         format!("({x}, {y})")
     }
 }
@@ -189,19 +189,19 @@ impl Number {
 
     /// Formats the number with enough decimals to distinguish it from the other numbers in the same sentence, to avoid "8 mm is greater
     /// than 8".
-    pub(crate) fn apart_from(self, others: impl Iterator<Item = Self>) -> String {
+    pub(crate) fn distinct_from(self, others: impl Iterator<Item = Self>) -> String {
         let shown = self.to_string();
         let equal: Vec<Self> = others.filter(|other| *other != self && other.to_string() == shown).collect();
         let with = |number: Self, decimals: usize| format!("{:.decimals$}", number.0);
         let is_apart =
             |decimals: &usize| equal.iter().all(|other| with(*other, *decimals) != with(self, *decimals));
-        let decimals = (4..=MOST_DECIMALS).find(is_apart).filter(|_| !equal.is_empty());
-        decimals.map_or(shown, |decimals| trimmed(&with(self, decimals)).to_owned())
+        let decimals = (4..=MAX_DECIMALS).find(is_apart).filter(|_| !equal.is_empty());
+        decimals.map_or(shown, |decimals| without_trailing_zeros(&with(self, decimals)).to_owned())
     }
 
     /// Formats the number for a sentence: `0.5`, or `0,5` in German.
     pub fn prose(self, lang: Lang) -> String {
-        in_prose(self.to_string(), lang)
+        with_decimal_separator(self.to_string(), lang)
     }
 }
 
@@ -212,16 +212,16 @@ impl From<f64> for Number {
 }
 
 /// Maximum number of decimals. Smaller differences have no practical meaning.
-const MOST_DECIMALS: usize = 9;
+const MAX_DECIMALS: usize = 9;
 
 /// Removes trailing zeros from a number with decimals.
-fn trimmed(decimals: &str) -> &str {
+fn without_trailing_zeros(decimals: &str) -> &str {
     decimals.trim_end_matches('0').trim_end_matches('.')
 }
 
 /// Gives a formatted number the decimal separator of a language, for a sentence or a table. Coordinates, parameters and G-code keep their
 /// decimal point in every language, because users type them.
-pub fn in_prose(number: String, lang: Lang) -> String {
+pub fn with_decimal_separator(number: String, lang: Lang) -> String {
     match lang {
         Lang::En => number,
         Lang::De => number.replace('.', ","),
@@ -261,17 +261,17 @@ impl fmt::Display for Number {
         let value = self.0;
         if value != 0.0 && value.abs() < 0.0005 {
             let mut scaled = value.abs();
-            let first_digit = (1..=MOST_DECIMALS).find(|_| {
+            let first_digit = (1..=MAX_DECIMALS).find(|_| {
                 scaled *= 10.0;
                 scaled >= 1.0
             });
             return match first_digit {
-                Some(places) => f.write_str(trimmed(&format!("{value:.*}", places + 1))),
+                Some(places) => f.write_str(without_trailing_zeros(&format!("{value:.*}", places + 1))),
                 None => f.write_str("0"),
             };
         }
         let text = format!("{value:.3}");
-        let text = trimmed(&text);
+        let text = without_trailing_zeros(&text);
         f.write_str(if text == "-0" { "0" } else { text })
     }
 }

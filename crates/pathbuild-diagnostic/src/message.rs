@@ -3,7 +3,7 @@ use std::hash::{Hash, Hasher};
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::location::{Number, Point, in_prose};
+use crate::location::{Number, Point, with_decimal_separator};
 use crate::words::{Lang, NONE, Text, interned_name, interned_text};
 use crate::{Code, shown};
 
@@ -12,7 +12,7 @@ use crate::{Code, shown};
 pub struct Sentence {
     #[serde(deserialize_with = "interned_text")]
     text: &'static Text,
-    #[serde(deserialize_with = "kept_arguments")]
+    #[serde(deserialize_with = "deserialize_arguments")]
     arguments: Arguments,
 }
 
@@ -213,14 +213,14 @@ pub(crate) fn fill(template: &str, arguments: &[(&'static str, Value)], lang: La
         filled.push_str(&rest[..open]);
         match arguments.iter().find(|(argument, _)| *argument == name) {
             Some((_, Value::Number(number))) => {
-                let text = number.apart_from(arguments.iter().filter_map(|(_, value)| value.number()));
+                let text = number.distinct_from(arguments.iter().filter_map(|(_, value)| value.number()));
                 // A number directly after a letter is a parameter or a word of G-code, for example `O2.5`.
                 let is_word = filled.ends_with(|before: char| before.is_ascii_uppercase());
-                filled.push_str(&if is_word { text } else { in_prose(text, lang) });
+                filled.push_str(&if is_word { text } else { with_decimal_separator(text, lang) });
             }
             Some((_, Value::Point(point))) => {
                 let others: Vec<Point> = arguments.iter().filter_map(|(_, value)| value.point()).collect();
-                filled.push_str(&point.apart_from(&others));
+                filled.push_str(&point.distinct_from(&others));
             }
             Some((_, value)) => filled.push_str(&value.render(lang)),
             None => {
@@ -240,7 +240,9 @@ fn is_placeholder(name: &str) -> bool {
 }
 
 /// Deserializes the values in a message.
-pub(crate) fn kept_arguments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arguments, D::Error> {
+pub(crate) fn deserialize_arguments<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Arguments, D::Error> {
     let arguments = Vec::<(&str, Value)>::deserialize(deserializer)?;
     Ok(arguments.into_iter().map(|(name, value)| (interned_name(name), value)).collect())
 }

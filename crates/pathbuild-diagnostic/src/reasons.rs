@@ -96,7 +96,7 @@ words! {
 }
 
 /// Creates an error with a text in both languages, which [`reason`] retrieves.
-pub fn error(kind: ErrorKind, text: &'static Text) -> Error {
+pub fn text_error(kind: ErrorKind, text: &'static Text) -> Error {
     Error::new(kind, TextError(text))
 }
 
@@ -118,13 +118,13 @@ pub fn reason(error: &Error) -> Value {
             Some(TextError(text)) => Value::Prose(text),
             None => Value::foreign(inner),
         },
-        None if is_held(error) => Value::Prose(&HELD),
-        None if is_no_name(error) => Value::Prose(&NO_FILE),
-        None => by_kind(error.kind()).map_or_else(|| Value::foreign(of_system(error)), Value::Prose),
+        None if is_opened_exclusively(error) => Value::Prose(&HELD),
+        None if is_invalid_name(error) => Value::Prose(&NO_FILE),
+        None => text_by_kind(error.kind()).map_or_else(|| Value::foreign(system_text(error)), Value::Prose),
     }
 }
 
-fn by_kind(kind: ErrorKind) -> Option<&'static Text> {
+fn text_by_kind(kind: ErrorKind) -> Option<&'static Text> {
     Some(match kind {
         ErrorKind::NotFound => &NO_FILE,
         ErrorKind::IsADirectory => &DIRECTORY_OF_THAT_NAME,
@@ -141,17 +141,17 @@ fn by_kind(kind: ErrorKind) -> Option<&'static Text> {
 }
 
 /// Whether another program has opened the file exclusively (`ERROR_SHARING_VIOLATION` or `ERROR_LOCK_VIOLATION`).
-pub fn is_held(error: &Error) -> bool {
+pub fn is_opened_exclusively(error: &Error) -> bool {
     cfg!(windows) && matches!(error.raw_os_error(), Some(32 | 33))
 }
 
 /// Whether Windows does not permit the file name (`ERROR_INVALID_NAME`), for example because it is a pattern without matches.
-fn is_no_name(error: &Error) -> bool {
+fn is_invalid_name(error: &Error) -> bool {
     cfg!(windows) && error.raw_os_error() == Some(123)
 }
 
 /// Returns the system's text without the error number and the full stop at its end.
-fn of_system(error: &Error) -> String {
+fn system_text(error: &Error) -> String {
     let text = error.to_string();
     let end = text.find(" (os error").unwrap_or(text.len());
     text[..end].trim_end_matches('.').to_lowercase()
@@ -168,7 +168,7 @@ mod tests {
         let denied = || Error::from(ErrorKind::PermissionDenied);
         assert_eq!(reason_text(denied(), Lang::En), "permission denied");
         assert_eq!(reason_text(denied(), Lang::De), "keine Berechtigung");
-        assert_eq!(reason_text(error(ErrorKind::Other, &IS_LINK), Lang::De), IS_LINK.de);
+        assert_eq!(reason_text(text_error(ErrorKind::Other, &IS_LINK), Lang::De), IS_LINK.de);
         assert_eq!(reason_text(Error::other("By a library."), Lang::De), "„By a library.“");
         assert_eq!(reason_text(ErrorKind::TimedOut.into(), Lang::En), "timed out");
         assert_eq!(reason_text(ErrorKind::TimedOut.into(), Lang::De), "„timed out“");

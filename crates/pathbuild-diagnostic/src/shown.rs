@@ -15,7 +15,7 @@ use std::fmt::Write;
 
 /// Whether a character has an effect other than being displayed: control characters, line and paragraph separators, direction marks,
 /// zero-width characters, and tags.
-pub fn acts(character: char) -> bool {
+pub fn is_active(character: char) -> bool {
     // The first comparison is fast and decides most characters.
     !matches!(character, ' '..='~')
         && matches!(
@@ -31,12 +31,12 @@ pub fn acts(character: char) -> bool {
 
 /// Escapes a name or a text within a line.
 pub fn line(text: &str) -> Cow<'_, str> {
-    escaped(text, acts, escape)
+    escaped(text, is_active, escape)
 }
 
 /// Escapes a text of several lines that is displayed within a frame.
 pub fn framed(text: &str) -> Cow<'_, str> {
-    escaped(text, |c| c != '\n' && acts(c), escape)
+    escaped(text, |c| c != '\n' && is_active(c), escape)
 }
 
 /// Escapes an output of whole lines for humans. No line of the result is a command to a CI runner.
@@ -46,7 +46,7 @@ pub fn lines(text: &str) -> Cow<'_, str> {
 
 /// Like [`lines`], but keeps sequences that set colours. Untrusted parts must have passed [`line()`] before.
 pub fn colored_lines(text: &str) -> Cow<'_, str> {
-    let acts = |c| !matches!(c, '\n' | '\u{1b}') && acts(c);
+    let acts = |c| !matches!(c, '\n' | '\u{1b}') && is_active(c);
     let escaped = escaped(text, acts, escape);
     let is_color = |rest: &str| {
         rest.strip_prefix("\u{1b}[").is_some_and(|codes| {
@@ -71,7 +71,7 @@ pub fn colored_lines(text: &str) -> Cow<'_, str> {
 pub fn json(text: &str) -> Cow<'_, str> {
     let escaped = escaped(
         text,
-        |c| c != '\n' && acts(c),
+        |c| c != '\n' && is_active(c),
         |escaped, character| {
             for unit in character.encode_utf16(&mut [0; 2]) {
                 _ = write!(escaped, "\\u{unit:04x}");
@@ -107,7 +107,7 @@ fn harmless_lines(text: Cow<'_, str>) -> Cow<'_, str> {
     }
     let mut all = String::with_capacity(text.len() + 16);
     for line in text.split_inclusive('\n') {
-        let start = start(line);
+        let start = text_start(line);
         match line[start..].strip_prefix("::") {
             Some(rest) => all.extend([&line[..start], "\\u{3a}:", rest]),
             None => all.push_str(line),
@@ -117,7 +117,7 @@ fn harmless_lines(text: Cow<'_, str>) -> Cow<'_, str> {
 }
 
 /// Returns the offset at which the text of a line starts, after spaces and colour sequences.
-fn start(line: &str) -> usize {
+fn text_start(line: &str) -> usize {
     let mut rest = line;
     loop {
         let trimmed = rest.trim_start();

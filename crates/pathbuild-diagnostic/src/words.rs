@@ -114,18 +114,18 @@ words! {
 
 /// Deserializes a text as a `&'static Text`. Each distinct text is leaked once; there are only a few dozen.
 pub(crate) fn interned_text<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Text, D::Error> {
-    static KEPT: LazyLock<Mutex<HashMap<(&'static str, &'static str), &'static Text>>> =
+    static INTERNED_TEXTS: LazyLock<Mutex<HashMap<(&'static str, &'static str), &'static Text>>> =
         LazyLock::new(Mutex::default);
     let (en, de) = <(&str, &str)>::deserialize(deserializer)?;
     let (en, de) = (interned_name(en), interned_name(de));
-    let mut all = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut all = INTERNED_TEXTS.lock().unwrap_or_else(PoisonError::into_inner);
     Ok(all.entry((en, de)).or_insert_with(|| Box::leak(Box::new(Text { en, de }))))
 }
 
 /// Returns a copy of a text that lives until the process ends. Equal texts share one copy.
 pub(crate) fn interned_name(text: &str) -> &'static str {
-    static KEPT: LazyLock<Mutex<HashSet<&'static str>>> = LazyLock::new(Mutex::default);
-    let mut all = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    static INTERNED_NAMES: LazyLock<Mutex<HashSet<&'static str>>> = LazyLock::new(Mutex::default);
+    let mut all = INTERNED_NAMES.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(known) = all.get(text) {
         return known;
     }

@@ -18,7 +18,7 @@ impl Point {
     }
 
     /// Returns the point moved to another height.
-    pub const fn at(self, z: f64) -> Self {
+    pub const fn at_height(self, z: f64) -> Self {
         Self { z, ..self }
     }
 
@@ -39,7 +39,7 @@ impl Point {
     }
 
     /// Returns the vector rotated around the origin, counterclockwise.
-    pub fn turned(self, degrees: f64) -> Self {
+    pub fn rotated(self, degrees: f64) -> Self {
         let (sin, cos) = sin_cos(degrees);
         Self { x: self.x * cos - self.y * sin, y: self.x * sin + self.y * cos, ..self }
     }

@@ -41,7 +41,7 @@ impl<'a> Pair<'a> {
     }
 
     /// Returns the pair with its value cloned.
-    pub fn owned(&self) -> Pair<'static> {
+    pub fn to_owned_pair(&self) -> Pair<'static> {
         Pair { code: self.code, value: Cow::Owned(self.value.clone().into_owned()) }
     }
 }
@@ -87,7 +87,7 @@ pub fn identify(record: &mut Record<'_>, code: i32, handle: Option<u64>, owner: 
 }
 
 /// Removes unwanted output of the crate from an entity: empty names and dangling pointers.
-pub fn tidy(record: &mut Record<'_>) {
+pub fn remove_unwanted_pairs(record: &mut Record<'_>) {
     record.retain(|pair| match pair.code {
         347 | 390 | 430 | 440 | 284 => false,
         370 => pair.value.trim() != "-1",
@@ -126,7 +126,7 @@ pub struct StringPlaceholders {
 
 impl StringPlaceholders {
     /// Returns the string itself if the crate leaves it unchanged, otherwise its ticket.
-    pub fn ticket(&mut self, string: &str) -> String {
+    pub fn placeholder_for(&mut self, string: &str) -> String {
         let is_safe = |c: char| (' '..='~').contains(&c) && !matches!(c, '^' | '<');
         if string.chars().all(is_safe) {
             return string.to_owned();
@@ -140,15 +140,15 @@ impl StringPlaceholders {
     }
 
     /// Replaces the tickets by their strings.
-    pub fn redeem_all<'a>(&'a self, record: &mut Record<'a>) {
+    pub fn restore_strings<'a>(&'a self, record: &mut Record<'a>) {
         for pair in record {
-            if let Some(string) = self.redeem(&pair.value) {
+            if let Some(string) = self.original_string(&pair.value) {
                 pair.value = Cow::Borrowed(string);
             }
         }
     }
 
-    fn redeem(&self, ticket: &str) -> Option<&str> {
+    fn original_string(&self, ticket: &str) -> Option<&str> {
         let number = ticket.strip_prefix('<')?.strip_suffix('>')?;
         self.strings.get(number.parse::<usize>().ok()?).map(String::as_str)
     }

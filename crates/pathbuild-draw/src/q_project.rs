@@ -9,22 +9,24 @@ use encoding_rs::WINDOWS_1252;
 
 use crate::geometry::{Arc, Circle, Line, Point};
 use crate::pairs::{
-    CHUNK, Pair, Record, StringPlaceholders, ascii, chunks, identify, kind, records, reduce_mtext, tidy,
-    value,
+    CHUNK, Pair, Record, StringPlaceholders, ascii, chunks, identify, kind, records, reduce_mtext,
+    remove_unwanted_pairs, value,
 };
-use crate::place::{Candidate, ElementPart, LETTER_HEIGHT, TextPositions, TextSize, no_room, reduced};
+use crate::text_positions::{
+    Candidate, ElementPart, LETTER_HEIGHT, TextPositions, TextSize, letter_heights, no_space_message,
+};
 
 /// Distance in mm between the end of a segment and the start of the next.
 const SEGMENT_GAP: f64 = 20.0;
 
 /// Distance in mm between the ends of a path below which it counts as closed.
-const CLOSED: f64 = 1e-3;
+const CLOSED_TOLERANCE: f64 = 1e-3;
 
 /// Radius in mm of the circle that represents a closed path, since a line without length could not have a text.
-const CIRCLE: f64 = 5.0;
+const CLOSED_PATH_RADIUS: f64 = 5.0;
 
 /// Vertical distance in mm between the starts of consecutive paths.
-const ROW: f64 = 60.0;
+const ROW_SPACING: f64 = 60.0;
 
 /// A path to be drawn that embeds others.
 #[derive(Clone, Debug)]
@@ -46,7 +48,7 @@ pub fn q_project(paths: &[EmbeddingPath<'_>]) -> Result<Vec<u8>, Vec<String>> {
     let mut start = Point::new(0.0, 0.0);
     for path in paths {
         add_row(&mut elements, path, start);
-        start = start - Point::new(0.0, ROW);
+        start = start - Point::new(0.0, ROW_SPACING);
     }
     let mut layers = vec!["0"];
     for path in paths {
@@ -55,7 +57,7 @@ pub fn q_project(paths: &[EmbeddingPath<'_>]) -> Result<Vec<u8>, Vec<String>> {
             layers.push(path.layer);
         }
     }
-    Ok(to_dxf(&layers, &elements, &seat_texts(&elements)?))
+    Ok(to_dxf(&layers, &elements, &place_texts(&elements)?))
 }
 
 /// An element of a Q-project.
@@ -97,16 +99,19 @@ fn add_row<'a>(elements: &mut Vec<Element<'a>>, path: &EmbeddingPath<'a>, start:
 
 /// Creates a segment that begins at a point, and returns it with its end point. For a closed path the segment is a full circle.
 fn segment(from: Point, length: f64) -> (ElementPart, Point) {
-    if length < CLOSED {
-        let centre = from + Point::new(0.0, CIRCLE);
-        return (ElementPart::Arc(Arc { centre, radius: CIRCLE, start: 270.0, end: 270.0 }), from);
+    if length < CLOSED_TOLERANCE {
+        let centre = from + Point::new(0.0, CLOSED_PATH_RADIUS);
+        return (
+            ElementPart::Arc(Arc { centre, radius: CLOSED_PATH_RADIUS, start: 270.0, end: 270.0 }),
+            from,
+        );
     }
     let to = from + Point::new(length, 0.0);
     (ElementPart::Line(Line { from, to }), to)
 }
 
 /// Determines the positions of the texts, one entry for each element.
-fn seat_texts<'a>(elements: &[Element<'a>]) -> Result<Vec<Option<PlacedText<'a>>>, Vec<String>> {
+fn place_texts<'a>(elements: &[Element<'a>]) -> Result<Vec<Option<PlacedText<'a>>>, Vec<String>> {
     let candidate = |(index, element): (usize, &Element<'_>)| Candidate {
         entity: Some(index),
         layer: element.layer.trim().to_lowercase(),
@@ -122,9 +127,10 @@ fn seat_texts<'a>(elements: &[Element<'a>]) -> Result<Vec<Option<PlacedText<'a>>
         placed.push(text.and_then(|text| {
             let lines: Vec<&str> = text.split('\n').collect();
             let extent = |height| TextSize::of_mtext(&lines, height);
-            let seat = seats.seat(index, &candidates[index].layer, &reduced(LETTER_HEIGHT), extent);
+            let seat =
+                seats.find_position(index, &candidates[index].layer, &letter_heights(LETTER_HEIGHT), extent);
             if seat.is_none() {
-                errors.push(no_room(&escaped(text)));
+                errors.push(no_space_message(&escaped(text)));
             }
             let (centre, extent, height) = seat?;
             let corner = Point::new(centre.x - extent.width / 2.0, centre.y + extent.height / 2.0);
@@ -136,17 +142,17 @@ fn seat_texts<'a>(elements: &[Element<'a>]) -> Result<Vec<Option<PlacedText<'a>>
 
 /// The drawing around the layers and entities, as the crate `dxf` writes it for R2000 after corrections. `#n` is the nth handle after those
 /// of the entities, `#+n` the nth after those of entities and layers.
-const FRAME: &str = include_str!("frame.txt");
+const DXF_TEMPLATE: &str = include_str!("frame.txt");
 
 /// Handle of the first entity.
 const FIRST_HANDLE: u64 = 0x100;
 
-/// The number in [`FRAME`] of the handles of the first layer, of the plot style of layers, of the table of layers, and of model space,
+/// The number in [`DXF_TEMPLATE`] of the handles of the first layer, of the plot style of layers, of the table of layers, and of model space,
 /// which comes after the layers.
-const FIRST_LAYER: u64 = 31;
-const PLOT_STYLE: u64 = 10;
-const LAYER_TABLE: u64 = 30;
-const MODEL_SPACE: u64 = 40;
+const FIRST_LAYER_HANDLE: u64 = 31;
+const PLOT_STYLE_HANDLE: u64 = 10;
+const LAYER_TABLE_HANDLE: u64 = 30;
+const MODEL_SPACE_HANDLE: u64 = 40;
 
 fn to_dxf(layers: &[&str], elements: &[Element<'_>], texts: &[Option<PlacedText<'_>>]) -> Vec<u8> {
     let mut tickets = StringPlaceholders::default();
@@ -155,18 +161,18 @@ fn to_dxf(layers: &[&str], elements: &[Element<'_>], texts: &[Option<PlacedText<
     let after_layers = after_entities + layers.len() as u64;
     let number = |text: &str| text.parse::<u64>().unwrap_or_default();
     let mut pairs = Vec::new();
-    for pair in records(FRAME).into_iter().flatten() {
+    for pair in records(DXF_TEMPLATE).into_iter().flatten() {
         match pair.value.strip_prefix('#') {
             None => pairs.push(pair),
             Some("count") => pairs.push(Pair::integer(70, i64::try_from(layers.len()).unwrap_or_default())),
             Some("layers") => {
-                let handles = after_entities + FIRST_LAYER..;
+                let handles = after_entities + FIRST_LAYER_HANDLE..;
                 pairs.extend(
                     layers.iter().zip(handles).flat_map(|(name, handle)| layer(name, handle, after_entities)),
                 );
             }
             Some("entities") => {
-                let owner = after_layers + MODEL_SPACE;
+                let owner = after_layers + MODEL_SPACE_HANDLE;
                 pairs.extend(entity_pairs(&written, &tickets, owner));
             }
             Some(handle) => {
@@ -186,7 +192,7 @@ fn layer(name: &str, handle: u64, after_entities: u64) -> Record<'_> {
     vec![
         Pair::new(0, "LAYER"),
         Pair::handle(5, handle),
-        Pair::handle(330, after_entities + LAYER_TABLE),
+        Pair::handle(330, after_entities + LAYER_TABLE_HANDLE),
         Pair::new(100, "AcDbSymbolTableRecord"),
         Pair::new(100, "AcDbLayerTableRecord"),
         Pair::new(2, name),
@@ -194,7 +200,7 @@ fn layer(name: &str, handle: u64, after_entities: u64) -> Record<'_> {
         Pair::integer(62, 7),
         Pair::new(6, "CONTINUOUS"),
         Pair::new(290, "1"),
-        Pair::handle(390, after_entities + PLOT_STYLE),
+        Pair::handle(390, after_entities + PLOT_STYLE_HANDLE),
     ]
 }
 
@@ -212,7 +218,7 @@ fn entities(
         element.line_type.clone_into(&mut entity.common.line_type_name);
         let text = text.as_ref().map(|text| Entity::new(mtext(text, tickets)));
         for mut entity in std::iter::once(entity).chain(text) {
-            entity.common.layer = tickets.ticket(element.layer);
+            entity.common.layer = tickets.placeholder_for(element.layer);
             entity.common.lineweight_enum_value = -1;
             drawing.add_entity(entity);
         }
@@ -244,8 +250,8 @@ fn mtext(placed: &PlacedText<'_>, tickets: &mut StringPlaceholders) -> EntityTyp
         initial_text_height: placed.height,
         reference_rectangle_width: 0.0,
         attachment_point: AttachmentPoint::TopLeft,
-        extended_text: chunks.iter().map(|chunk| tickets.ticket(chunk)).collect(),
-        text: tickets.ticket(&last),
+        extended_text: chunks.iter().map(|chunk| tickets.placeholder_for(chunk)).collect(),
+        text: tickets.placeholder_for(&last),
         ..Default::default()
     })
 }
@@ -258,8 +264,8 @@ fn entity_pairs<'a>(written: &'a str, tickets: &'a StringPlaceholders, owner: u6
         .skip(1)
         .take_while(|record| kind(record) != "ENDSEC");
     let corrected = entities.zip(FIRST_HANDLE..).flat_map(|(mut record, handle)| {
-        tickets.redeem_all(&mut record);
-        tidy(&mut record);
+        tickets.restore_strings(&mut record);
+        remove_unwanted_pairs(&mut record);
         if kind(&record) == "MTEXT" {
             reduce_mtext(&mut record, &[50]);
         }

@@ -12,13 +12,13 @@ use memchr::{memchr, memmem};
 const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
 /// Number of bytes at the end of a file that are searched for the end mark.
-const TAIL: usize = 4096;
+const SEARCHED_BYTES: usize = 4096;
 
 /// Returns the ASCII form of a binary file, or `None` if the file is not binary. A truncated or misaligned file gives truncated or
 /// misaligned text.
 pub(crate) fn to_ascii(file: &[u8]) -> Option<Vec<u8>> {
     let bytes = file.strip_prefix(SENTINEL)?;
-    let mut rest = Values { bytes, codes: GroupCodes::of(bytes) };
+    let mut rest = BinaryGroups { bytes, codes: GroupCodeSize::of(bytes) };
     let mut text = Vec::with_capacity(bytes.len() * 2);
     let mut section = Section::Other;
     while let Some(code) = rest.code() {
@@ -43,7 +43,7 @@ pub(crate) fn to_ascii(file: &[u8]) -> Option<Vec<u8>> {
 
 /// Size of a group code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum GroupCodes {
+enum GroupCodeSize {
     /// Up to R12: one byte, or FF and two bytes.
     OneByte,
     /// Since R13: two bytes.
@@ -51,9 +51,9 @@ enum GroupCodes {
 }
 
 /// The unread rest of the file.
-struct Values<'a> {
+struct BinaryGroups<'a> {
     bytes: &'a [u8],
-    codes: GroupCodes,
+    codes: GroupCodeSize,
 }
 
 /// Progress through the sections.
@@ -66,7 +66,7 @@ enum Section {
     AfterEntities,
 }
 
-impl GroupCodes {
+impl GroupCodeSize {
     /// Detects the size from the first pair, which is `0/SECTION` or a comment (999).
     fn of(bytes: &[u8]) -> Self {
         match bytes {
@@ -88,10 +88,10 @@ impl Section {
     }
 }
 
-impl Values<'_> {
+impl BinaryGroups<'_> {
     /// Reads the next group code.
     fn code(&mut self) -> Option<i16> {
-        if self.codes == GroupCodes::TwoBytes {
+        if self.codes == GroupCodeSize::TwoBytes {
             return self.take().map(i16::from_le_bytes);
         }
         match self.take()? {
@@ -103,17 +103,17 @@ impl Values<'_> {
     /// Writes the value of a group. The code of an unknown type is written in a form that the reader rejects as a code.
     fn value(&mut self, code: i16, text: &mut Vec<u8>) -> Option<()> {
         match value_type(code) {
-            Type::String => self.string(text)?,
-            Type::Double => _ = write!(text, "{:?}", f64::from_le_bytes(self.take()?)),
-            Type::Short => _ = write!(text, "{}", i16::from_le_bytes(self.take()?)),
-            Type::Long => _ = write!(text, "{}", i32::from_le_bytes(self.take()?)),
-            Type::LongLong => _ = write!(text, "{}", i64::from_le_bytes(self.take()?)),
-            Type::Byte => _ = write!(text, "{}", u8::from_le_bytes(self.take()?)),
-            Type::Chunk => {
+            ValueType::String => self.string(text)?,
+            ValueType::Double => _ = write!(text, "{:?}", f64::from_le_bytes(self.take()?)),
+            ValueType::Short => _ = write!(text, "{}", i16::from_le_bytes(self.take()?)),
+            ValueType::Long => _ = write!(text, "{}", i32::from_le_bytes(self.take()?)),
+            ValueType::LongLong => _ = write!(text, "{}", i64::from_le_bytes(self.take()?)),
+            ValueType::Byte => _ = write!(text, "{}", u8::from_le_bytes(self.take()?)),
+            ValueType::Chunk => {
                 let [length] = self.take()?;
                 self.bytes = self.bytes.get(usize::from(length)..)?;
             }
-            Type::Unknown => {
+            ValueType::Unknown => {
                 self.bytes = &[];
                 _ = write!(text, "\ngroup of unknown type before this");
             }
@@ -144,7 +144,7 @@ impl Values<'_> {
 
 /// Storage type of a value.
 #[derive(Clone, Copy, Debug)]
-enum Type {
+enum ValueType {
     String,
     Double,
     Byte,
@@ -156,23 +156,23 @@ enum Type {
     Unknown,
 }
 
-fn value_type(code: i16) -> Type {
+fn value_type(code: i16) -> ValueType {
     match code {
-        310..=319 | 1004 => Type::Chunk,
+        310..=319 | 1004 => ValueType::Chunk,
         0..=9 | 100..=109 | 300..=369 | 390..=399 | 410..=419 | 430..=439 | 470..=489 | 999..=1009 => {
-            Type::String
+            ValueType::String
         }
-        10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => Type::Double,
-        60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 1060..=1070 => Type::Short,
-        90..=99 | 420..=429 | 440..=459 | 1071 => Type::Long,
-        160..=169 => Type::LongLong,
-        290..=299 => Type::Byte,
-        _ => Type::Unknown,
+        10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => ValueType::Double,
+        60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 1060..=1070 => ValueType::Short,
+        90..=99 | 420..=429 | 440..=459 | 1071 => ValueType::Long,
+        160..=169 => ValueType::LongLong,
+        290..=299 => ValueType::Byte,
+        _ => ValueType::Unknown,
     }
 }
 
 /// Whether the input ends with `0/EOF`, apart from a short padding.
 fn ends_with_eof(rest: &[u8]) -> bool {
-    let tail = &rest[rest.len().saturating_sub(TAIL)..];
+    let tail = &rest[rest.len().saturating_sub(SEARCHED_BYTES)..];
     memmem::find(tail, b"\0EOF\0").is_some()
 }

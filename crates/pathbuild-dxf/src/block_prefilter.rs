@@ -80,17 +80,17 @@ fn any_digit(digit: u8, bytes: &[u8], mut is: impl FnMut(usize) -> bool) -> bool
             }
             places &= places - 1;
         }
-        begin += VECTOR;
+        begin += VECTOR_BYTES;
     }
     (begin + 1..bytes.len()).any(|at| bytes.get(at) == Some(&digit) && is(at))
 }
 
 /// Number of bytes compared at once.
-const VECTOR: usize = 16;
+const VECTOR_BYTES: usize = 16;
 
 /// Bit mask of the inner bytes that are this digit with neighbours that a group code could have: bit n for byte n + 1.
 #[inline]
-fn digits(digit: u8, window: &[u8; VECTOR + 2]) -> u32 {
+fn digits(digit: u8, window: &[u8; VECTOR_BYTES + 2]) -> u32 {
     let bytes =
         |begin: usize| window[begin..].first_chunk().map_or(u8x16::splat(0), |bytes| u8x16::from(*bytes));
     let is = |bytes: u8x16, byte: u8| bytes.simd_eq(u8x16::splat(byte));

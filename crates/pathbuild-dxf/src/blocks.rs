@@ -11,8 +11,8 @@ use crate::Point3;
 use crate::collect::too_many_entities;
 use crate::encoding::Decoder;
 use crate::entities::{EntityReader, Item, Shape, Space};
-use crate::faults::{EntityError, Fatal, not_ended, stopped};
-use crate::fields::{Fields, Want};
+use crate::faults::{EntityError, Fatal, missing_end_error, stop_error};
+use crate::fields::{Fields, FillDecision};
 use crate::groups::{Groups, Records};
 use crate::layers::LayerId;
 use crate::names::case_folded;
@@ -41,7 +41,7 @@ struct Block<'a> {
     pairs: Pairs<'a>,
     head: Pair<'a>,
     items: Option<Rc<[Item<'a>]>>,
-    layers: LayersOf,
+    layers: BlockLayers,
     /// See [`Blocks::drawn_layers`].
     drawn_layers: Option<Arc<[SmolStr]>>,
     /// Whether the block stands for the content of another file.
@@ -49,11 +49,11 @@ struct Block<'a> {
 }
 
 /// The flags of a block that stands for another file: an external reference, attached or overlaid.
-const REFERENCE: i64 = 4 | 8;
+const REFERENCE_FLAGS: i64 = 4 | 8;
 
 /// The layers used by the contents of a block.
 #[derive(Clone, Default)]
-enum LayersOf {
+enum BlockLayers {
     /// The layers have yet to be determined.
     #[default]
     Unknown,
@@ -75,7 +75,7 @@ impl<'a> Block<'a> {
 
 /// Checks that the record after a block's contents is its ENDBLK.
 fn check_ended(records: &Records<'_>) -> Result<(), Fatal> {
-    if records.head.is("ENDBLK") { Ok(()) } else { Err(not_ended("BLOCK", &records.head)) }
+    if records.head.is("ENDBLK") { Ok(()) } else { Err(missing_end_error("BLOCK", &records.head)) }
 }
 
 impl<'a> Blocks<'a> {
@@ -87,7 +87,7 @@ impl<'a> Blocks<'a> {
         let mut head = groups.next_zero()?;
         while !head.is("ENDSEC") {
             if head.is("BLOCK") {
-                (head, _) = fields.fill(&mut groups, head.line, 0, |_| Want::Keep)?;
+                (head, _) = fields.fill(&mut groups, head.line, 0, |_| FillDecision::Keep)?;
                 blocks.add(fields, groups.pairs(), head, decoder);
             } else {
                 head = groups.next_zero()?;
@@ -122,7 +122,7 @@ impl<'a> Blocks<'a> {
         let mut items = Vec::new();
         let mut records = block.records();
         while let Some(item) =
-            reader.next_item(&mut records, Space::Block).map_err(|stop| stopped(stop, "BLOCKS"))?
+            reader.next_item(&mut records, Space::Block).map_err(|stop| stop_error(stop, "BLOCKS"))?
         {
             items.push(item);
         }
@@ -138,7 +138,7 @@ impl<'a> Blocks<'a> {
         block: BlockId,
         layer: LayerId,
         reader: &mut EntityReader<'a, '_>,
-        steps: &mut Steps,
+        steps: &mut StepBudget,
     ) -> Result<Rc<[LayerId]>, Fatal> {
         if let Some(wanted) = self.wanted.get(&(block, layer)) {
             return Ok(wanted.clone());
@@ -159,7 +159,7 @@ impl<'a> Blocks<'a> {
         &mut self,
         block: BlockId,
         reader: &mut EntityReader<'a, '_>,
-        steps: &mut Steps,
+        steps: &mut StepBudget,
     ) -> Result<Arc<[SmolStr]>, Fatal> {
         if let Some(layers) = &self.all[block.0].drawn_layers {
             return Ok(layers.clone());
@@ -168,9 +168,9 @@ impl<'a> Blocks<'a> {
         while let Some(next) = ahead.pop() {
             let mut records = self.all[next.0].records();
             while let Some((layer, inserted)) =
-                reader.next_element(&mut records).map_err(|stop| stopped(stop, "BLOCKS"))?
+                reader.next_element(&mut records).map_err(|stop| stop_error(stop, "BLOCKS"))?
             {
-                steps.take(1)?;
+                steps.spend(1)?;
                 let inner = inserted.and_then(|name| self.find(&name));
                 ahead.extend(inner.filter(|inner| seen.insert(*inner)));
                 let name = reader.layers.name(layer);
@@ -190,26 +190,26 @@ impl<'a> Blocks<'a> {
         block: BlockId,
         layer: LayerId,
         reader: &mut EntityReader<'a, '_>,
-        steps: &mut Steps,
+        steps: &mut StepBudget,
     ) -> Result<(Vec<LayerId>, HashSet<BlockOnLayer>), Fatal> {
         let (mut wanted, mut known) = (Vec::new(), HashSet::new());
         let mut seen = HashSet::from([(block, layer)]);
         let mut ahead = vec![(block, layer)];
         while let Some((block, inherited)) = ahead.pop() {
             if let Some(layers) = self.wanted.get(&(block, inherited)) {
-                steps.take(layers.len())?;
+                steps.spend(layers.len())?;
                 wanted.extend(layers.iter().filter(|layer| known.insert(**layer)));
                 continue;
             }
-            if let LayersOf::Known(layers) = self.layers(block, reader)? {
-                steps.take(layers.len())?;
+            if let BlockLayers::Known(layers) = self.layers(block, reader)? {
+                steps.spend(layers.len())?;
                 let layers = layers.iter().map(|layer| reader.layers.inherited(*layer, inherited));
                 let kept = layers.filter(|layer| reader.layers.is_kept(*layer));
                 wanted.extend(kept.filter(|layer| known.insert(*layer)));
                 continue;
             }
             let items = self.items(block, reader)?;
-            steps.take(items.len())?;
+            steps.spend(items.len())?;
             for item in items.iter() {
                 let layer = reader.layers.inherited(item.traits.layer, inherited);
                 match self.inserted(item) {
@@ -223,17 +223,17 @@ impl<'a> Blocks<'a> {
     }
 
     /// The layers of a block's contents that may be wanted.
-    fn layers(&mut self, block: BlockId, reader: &mut EntityReader<'a, '_>) -> Result<LayersOf, Fatal> {
+    fn layers(&mut self, block: BlockId, reader: &mut EntityReader<'a, '_>) -> Result<BlockLayers, Fatal> {
         let block = &mut self.all[block.0];
-        if matches!(block.layers, LayersOf::Unknown) {
+        if matches!(block.layers, BlockLayers::Unknown) {
             let mut records = block.records();
-            let layers = reader.layers_ahead(&mut records).map_err(|stop| stopped(stop, "BLOCKS"))?;
+            let layers = reader.layers_ahead(&mut records).map_err(|stop| stop_error(stop, "BLOCKS"))?;
             block.layers = match layers {
                 Some(layers) => {
                     check_ended(&records)?;
-                    LayersOf::Known(layers.into())
+                    BlockLayers::Known(layers.into())
                 }
-                None => LayersOf::Items,
+                None => BlockLayers::Items,
             };
         }
         Ok(block.layers.clone())
@@ -258,33 +258,35 @@ impl<'a> Blocks<'a> {
             pairs,
             head,
             items: None,
-            layers: LayersOf::Unknown,
+            layers: BlockLayers::Unknown,
             drawn_layers: None,
-            is_reference: fields.whole(70).is_ok_and(|flags| flags.is_some_and(|bits| bits & REFERENCE != 0)),
+            is_reference: fields
+                .whole(70)
+                .is_ok_and(|flags| flags.is_some_and(|bits| bits & REFERENCE_FLAGS != 0)),
         });
     }
 }
 
 /// The number of block entities that may still be visited.
-pub(crate) struct Steps {
+pub(crate) struct StepBudget {
     left: usize,
     most_entities: usize,
 }
 
 /// Number of block entities, wanted or not, that may be visited per entity of the limit.
-const STEPS_AN_ENTITY: usize = 16;
+const STEPS_PER_ENTITY: usize = 16;
 
-impl Steps {
+impl StepBudget {
     /// The budget of a drawing with this limit of entities.
     pub(crate) fn new(most_entities: usize) -> Self {
-        Self { left: most_entities.saturating_mul(STEPS_AN_ENTITY), most_entities }
+        Self { left: most_entities.saturating_mul(STEPS_PER_ENTITY), most_entities }
     }
 
     /// Spends some of the budget.
     ///
     /// # Errors
     /// PB005 if it is exhausted.
-    pub(crate) fn take(&mut self, count: usize) -> Result<(), Fatal> {
+    pub(crate) fn spend(&mut self, count: usize) -> Result<(), Fatal> {
         self.left = self.left.checked_sub(count).ok_or_else(|| too_many_entities(self.most_entities))?;
         Ok(())
     }

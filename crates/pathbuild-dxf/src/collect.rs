@@ -155,7 +155,7 @@ impl<'d> Collector<'d> {
             Ok(_) | Err(ApproximationFailure::TooFar) => {
                 return self.refuse(placed, layer, &EntityError::TooLarge);
             }
-            Err(ApproximationFailure::TooMany) => return Err(self.too_many()),
+            Err(ApproximationFailure::TooMany) => return Err(self.entity_limit_error()),
         };
         let group = Some(self.groups);
         self.groups += 1;
@@ -194,10 +194,10 @@ impl<'d> Collector<'d> {
             EntityError::LeftOut { message, point, block, layers } => {
                 self.count()?;
                 let problem = Diagnostic::new(message).quoting("entity", placed.kind.name());
-                self.leave_out(placed, layer, *point, with_block(problem, block.as_deref(), layers), layers);
+                self.omit(placed, layer, *point, with_block(problem, block.as_deref(), layers), layers);
                 return Ok(());
             }
-            EntityError::TooManyParts => return Err(self.too_many()),
+            EntityError::TooManyParts => return Err(self.entity_limit_error()),
             EntityError::TextTooLong => {
                 let diagnostic = exceeded(&TEXT_LENGTH, self.limits.text, "text-length");
                 return Err(Box::new(self.located(diagnostic, placed, layer)));
@@ -211,7 +211,7 @@ impl<'d> Collector<'d> {
         Ok(())
     }
 
-    fn leave_out(
+    fn omit(
         &mut self,
         placed: &PlacedEntity<'_>,
         layer: u32,
@@ -314,12 +314,12 @@ impl<'d> Collector<'d> {
         if drawing.entities.len() + drawing.hatches.len() + troubles + dear < self.limits.entities {
             return Ok(());
         }
-        Err(self.too_many())
+        Err(self.entity_limit_error())
     }
 
     /// Returns PB005, because the drawing has more entities than the limit allows.
     #[cold]
-    fn too_many(&self) -> Fatal {
+    fn entity_limit_error(&self) -> Fatal {
         too_many_entities(self.limits.entities)
     }
 }
@@ -337,7 +337,7 @@ fn place_of(placed: &PlacedEntity<'_>, point: Option<Point>) -> Place {
 }
 
 /// Maximum number of layers of a block's contents to list.
-const MOST_NAMED: usize = 3;
+const MAX_LISTED_LAYERS: usize = 3;
 
 /// Adds a block to a problem: its name, and the layers of its contents.
 fn with_block(mut problem: Diagnostic, block: Option<&str>, layers: &[SmolStr]) -> Diagnostic {
@@ -345,7 +345,7 @@ fn with_block(mut problem: Diagnostic, block: Option<&str>, layers: &[SmolStr]) 
     if layers.is_empty() {
         return problem;
     }
-    problem.with("layers", layers.iter().take(MOST_NAMED).map(SmolStr::to_string).collect::<Value>())
+    problem.with("layers", layers.iter().take(MAX_LISTED_LAYERS).map(SmolStr::to_string).collect::<Value>())
 }
 
 /// Returns PB005 with this limit of entities.

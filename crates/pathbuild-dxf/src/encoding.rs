@@ -17,7 +17,7 @@ use pathbuild_encoding::{
     decode_latin1,
 };
 
-use crate::faults::shown;
+use crate::faults::value_excerpt;
 use crate::header::Header;
 
 /// Decodes the strings of one file.
@@ -47,9 +47,9 @@ impl<'a> Decoder<'a> {
         let (charset, name) = match code_page(declared) {
             _ if is_utf8 => (Charset::Standard(UTF_8), Cow::Borrowed("UTF-8")),
             CodePage::Usual => (Charset::Either(file), Cow::Borrowed("ANSI_1252")),
-            CodePage::Standard(encoding) => (Charset::Standard(encoding), shown(declared).into()),
-            CodePage::Dos(page) => (Charset::Dos(page), shown(declared).into()),
-            CodePage::Unknown => (Charset::Unknown, shown(declared).into()),
+            CodePage::Standard(encoding) => (Charset::Standard(encoding), value_excerpt(declared).into()),
+            CodePage::Dos(page) => (Charset::Dos(page), value_excerpt(declared).into()),
+            CodePage::Unknown => (Charset::Unknown, value_excerpt(declared).into()),
         };
         Self { charset, name, doubt: None }
     }

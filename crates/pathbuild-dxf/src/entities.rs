@@ -12,7 +12,7 @@ use smol_str::SmolStr;
 use crate::block_prefilter::{has_text, may_hold_wanted};
 use crate::encoding::Decoder;
 use crate::faults::{EntityError, first_point};
-use crate::fields::{Fields, Value, Want};
+use crate::fields::{Fields, FillDecision, Value};
 use crate::groups::Records;
 use crate::layers::{LayerId, Layers, LineType, LineTypes};
 use crate::pairs::{Pair, Pairs, Stop};
@@ -44,12 +44,12 @@ pub(crate) enum Space {
 }
 
 /// Largest number of repeated groups kept per entity.
-pub(crate) fn most_repeated(options: &Options<'_>) -> usize {
-    options.max_entities.saturating_mul(GROUPS_AN_ENTITY).max(options.max_text)
+pub(crate) fn max_repeated_groups(options: &Options<'_>) -> usize {
+    options.max_entities.saturating_mul(GROUPS_PER_ENTITY).max(options.max_text)
 }
 
 /// Number of groups of a polyline or spline that count as one entity: x, y, bulge; or x, y, z, weight, knot.
-const GROUPS_AN_ENTITY: usize = 5;
+const GROUPS_PER_ENTITY: usize = 5;
 
 impl<'a, 'o> EntityReader<'a, 'o> {
     /// Creates a reader without cached names. `blocks` is the BLOCKS section.
@@ -110,7 +110,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
                 Some(kind) if kind.is_part() || kind.is_template() => records.skip()?,
                 Some(RecordKind::Insert | RecordKind::Text | RecordKind::MText) => return Ok(None),
                 Some(kind) => {
-                    let layer = self.traits(records, kind, Space::Block)?.map(|traits| traits.layer);
+                    let layer =
+                        self.read_common_properties(records, kind, Space::Block)?.map(|traits| traits.layer);
                     layers.extend(layer.filter(|layer| layers.last() != Some(layer)));
                 }
             }
@@ -132,7 +133,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
                     let mut found = None;
                     let keep = |layer: Value<'a>| {
                         found = Some(layer);
-                        Want::Keep
+                        FillDecision::Keep
                     };
                     (records.head, _) = fields.fill(&mut records.groups, head.line, 0, keep)?;
                     let layer = found.map_or(&b"0"[..], |layer| layer.bytes);
@@ -153,7 +154,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         kind: RecordKind,
         space: Space,
     ) -> Result<Option<Item<'a>>, Stop<'a>> {
-        let Some(traits) = self.traits(records, kind, space)? else { return Ok(None) };
+        let Some(traits) = self.read_common_properties(records, kind, space)? else { return Ok(None) };
         let shape = match kind {
             RecordKind::Polyline => self.polyline(records)?,
             _ => self.shape(kind),
@@ -162,27 +163,27 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     }
 
     /// Reads the groups of the head record. Returns its common properties if it may be wanted.
-    fn traits(
+    fn read_common_properties(
         &mut self,
         records: &mut Records<'a>,
         kind: RecordKind,
         space: Space,
-    ) -> Result<Option<Traits>, Stop<'a>> {
+    ) -> Result<Option<CommonProperties>, Stop<'a>> {
         let Pair { line, value: name, .. } = records.head;
         let (want, layer) = self.fill(records, kind, space)?;
-        if want == Want::Skip {
+        if want == FillDecision::Skip {
             records.skip_alike(name, self.layers.last_spelling())?;
             return Ok(None);
         }
         if self.is_in_paper_space() {
             return Ok(None);
         }
-        if want == Want::Note {
+        if want == FillDecision::Note {
             self.note_text();
             return Ok(None);
         }
         let layer = layer.unwrap_or_else(|| self.layers.id(b"0", || line, &mut self.decoder));
-        if self::want(&self.layers, layer, kind, space) == Want::Skip {
+        if fill_decision(&self.layers, layer, kind, space) == FillDecision::Skip {
             // The record has no layer, so [`Self::fill`] has read all of it.
             if self.notes_texts(kind) {
                 self.note_text();
@@ -192,7 +193,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         if kind == RecordKind::Insert && !self.insertion_matters(layer, space) {
             return Ok(None);
         }
-        Ok(Some(Traits {
+        Ok(Some(CommonProperties {
             layer,
             line_type: self.line_types.get(self.fields.get(6), &mut self.decoder),
             kind: kind.entity_kind(),
@@ -208,15 +209,15 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         records: &mut Records<'a>,
         kind: RecordKind,
         space: Space,
-    ) -> Result<(Want, Option<LayerId>), Stop<'a>> {
+    ) -> Result<(FillDecision, Option<LayerId>), Stop<'a>> {
         let notes_texts = self.notes_texts(kind);
         let Self { layers, decoder, fields, .. } = self;
         let mut found = None;
         let want = |layer: Value<'a>| {
             let id = layers.id(layer.bytes, || layer.line, decoder);
             found = Some(id);
-            match want(layers, id, kind, space) {
-                Want::Skip if notes_texts => Want::Note,
+            match fill_decision(layers, id, kind, space) {
+                FillDecision::Skip if notes_texts => FillDecision::Note,
                 want => want,
             }
         };
@@ -274,13 +275,13 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             RecordKind::Ellipse | RecordKind::Spline
                 if options.approximate_curves.is_nan() || options.approximate_curves <= 0.0 =>
             {
-                return Err(EntityError::left_out(&NOT_APPROXIMATED, fields));
+                return Err(EntityError::omitted(&NOT_APPROXIMATED, fields));
             }
             RecordKind::Ellipse => Shape::Ellipse(Box::new(Ellipse::read(fields)?)),
             RecordKind::Spline => Shape::Spline(Box::new(Spline::read(fields)?)),
             RecordKind::Hatch => Shape::Hatch(shapes::hatch_point(fields)),
             RecordKind::Insert => Shape::Insert(Box::new(Insert::read(fields, decoder)?)),
-            RecordKind::Foreign(_) => return Err(EntityError::left_out(&FOREIGN, fields)),
+            RecordKind::Foreign(_) => return Err(EntityError::omitted(&FOREIGN, fields)),
             _ => Shape::Parts(shapes::lightweight(fields)?),
         })
     }
@@ -293,7 +294,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         let mut polyline = OpenPolyline::begin(&self.fields);
         let mut is_first = true;
         while RecordKind::of(records.head.value) == Some(RecordKind::Vertex) {
-            let always = |_| Want::Keep;
+            let always = |_| FillDecision::Keep;
             let (next, _) = self.fields.fill(&mut records.groups, records.head.line, 0, always)?;
             records.head = next;
             let vertex = polyline.as_mut().map(|polyline| polyline.vertex(&self.fields));
@@ -315,20 +316,20 @@ impl<'a, 'o> EntityReader<'a, 'o> {
 /// Whether an entity on a layer may be wanted. Layer 0 inside a block depends on the insertion, and an insertion on the contents of its
 /// block.
 #[inline]
-fn want(layers: &Layers<'_, '_>, layer: LayerId, kind: RecordKind, space: Space) -> Want {
+fn fill_decision(layers: &Layers<'_, '_>, layer: LayerId, kind: RecordKind, space: Space) -> FillDecision {
     let may_be_wanted = layers.is_kept(layer)
         || kind == RecordKind::Insert
         || (space == Space::Block && layers.is_inheriting(layer));
-    if may_be_wanted { Want::Keep } else { Want::Skip }
+    if may_be_wanted { FillDecision::Keep } else { FillDecision::Skip }
 }
 
 /// Whether a record ends a section or block.
 fn is_end(head: &Pair<'_>) -> bool {
-    ENDS.iter().any(|keyword| head.is(keyword))
+    END_RECORDS.iter().any(|keyword| head.is(keyword))
 }
 
 /// Records that end a section or block.
-const ENDS: [&str; 5] = ["ENDSEC", "ENDBLK", "EOF", "SECTION", "BLOCK"];
+const END_RECORDS: [&str; 5] = ["ENDSEC", "ENDBLK", "EOF", "SECTION", "BLOCK"];
 
 /// The type of a record in ENTITIES or in a block. VERTEX and SEQEND are records of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -381,7 +382,7 @@ impl RecordKind {
 
     #[cold]
     fn unusual(name: &[u8]) -> Option<Self> {
-        let is_known = ANNOTATIONS.iter().chain(&ENDS).any(|known| known.as_bytes() == name);
+        let is_known = ANNOTATIONS.iter().chain(&END_RECORDS).any(|known| known.as_bytes() == name);
         Self::upper_case(name).or_else(|| (!is_known).then(|| Self::Foreign(EntityKind::foreign(name))))
     }
 
@@ -467,13 +468,13 @@ impl RecordKind {
 /// An entity on a layer that may be wanted.
 #[derive(Clone, Debug)]
 pub(crate) struct Item<'a> {
-    pub(crate) traits: Traits,
+    pub(crate) traits: CommonProperties,
     pub(crate) shape: Result<Shape<'a>, EntityError<'a>>,
 }
 
 /// The properties that all entities have.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Traits {
+pub(crate) struct CommonProperties {
     pub(crate) layer: LayerId,
     pub(crate) line_type: LineType,
     pub(crate) kind: EntityKind,

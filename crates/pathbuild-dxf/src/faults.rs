@@ -17,8 +17,8 @@ use crate::pairs::{Pair, Stop};
 pub(crate) type Fatal = Box<Diagnostic>;
 
 /// PB002: a value is not a number.
-pub(crate) fn bad_value(entity: &str, code: i32, value: &[u8], reason: NotANumber) -> Diagnostic {
-    let text = shown(value);
+pub(crate) fn bad_value_error(entity: &str, code: i32, value: &[u8], reason: NotANumber) -> Diagnostic {
+    let text = value_excerpt(value);
     let (message, fault) = match (reason, text.find(',')) {
         (NotANumber::Comma, Some(comma)) => (&DECIMAL_COMMA, comma..comma + 1),
         (NotANumber::NotFinite, _) => (&NUMBER_NOT_FINITE, 0..text.len()),
@@ -33,38 +33,38 @@ pub(crate) fn bad_value(entity: &str, code: i32, value: &[u8], reason: NotANumbe
 }
 
 /// PB002: the file ends inside a section.
-pub(crate) fn stopped(stop: Stop<'_>, section: &str) -> Fatal {
+pub(crate) fn stop_error(stop: Stop<'_>, section: &str) -> Fatal {
     Box::new(match stop {
         Stop::End { line } => Diagnostic::new(&TRUNCATED).quoting("section", section).at_line(line, None),
-        Stop::BadCode { line, found } => bad_code(found, line),
+        Stop::BadCode { line, found } => bad_code_error(found, line),
     })
 }
 
 /// PB002: a pair that is not allowed in its place.
-pub(crate) fn at_pair(message: &'static Message, pair: &Pair<'_>) -> Fatal {
-    Box::new(Diagnostic::new(message).quoting("found", shown(pair.value)).at_line(pair.line, None))
+pub(crate) fn pair_error(message: &'static Message, pair: &Pair<'_>) -> Fatal {
+    Box::new(Diagnostic::new(message).quoting("found", value_excerpt(pair.value)).at_line(pair.line, None))
 }
 
 /// PB002: a pair where the end of a section is missing.
-pub(crate) fn not_ended(section: &str, found: &Pair<'_>) -> Fatal {
-    let mut diagnostic = at_pair(&SECTION_NOT_ENDED, found);
+pub(crate) fn missing_end_error(section: &str, found: &Pair<'_>) -> Fatal {
+    let mut diagnostic = pair_error(&SECTION_NOT_ENDED, found);
     diagnostic.arguments.push(("section", Value::quoted(section)));
     diagnostic
 }
 
-fn bad_code(found: &[u8], line: u32) -> Diagnostic {
-    let found = shown(found);
+fn bad_code_error(found: &[u8], line: u32) -> Diagnostic {
+    let found = value_excerpt(found);
     let fault = TextFault::new(&found, 0..found.len());
     Diagnostic::new(&BAD_GROUP_CODE).quoting("found", found).at_line(line, None).with_text(fault)
 }
 
 /// A value for a message: trimmed, shortened, in any encoding.
-pub(crate) fn shown(value: &[u8]) -> String {
+pub(crate) fn value_excerpt(value: &[u8]) -> String {
     let value = value.trim_ascii();
-    String::from_utf8_lossy(&value[..value.len().min(MOST_SHOWN)]).into_owned()
+    String::from_utf8_lossy(&value[..value.len().min(MAX_EXCERPT_BYTES)]).into_owned()
 }
 
-const MOST_SHOWN: usize = 60;
+const MAX_EXCERPT_BYTES: usize = 60;
 
 /// A fault of an entity.
 #[derive(Clone, Debug)]
@@ -102,7 +102,7 @@ impl<'a> From<BadGroup<'a>> for EntityError<'a> {
 
 impl<'a> EntityError<'a> {
     /// Leaves an entity out for this reason, at its first point.
-    pub(crate) fn left_out(message: &'static Message, fields: &Fields<'a>) -> Self {
+    pub(crate) fn omitted(message: &'static Message, fields: &Fields<'a>) -> Self {
         Self::LeftOut { message, point: first_point(fields), block: None, layers: Arc::default() }
     }
 }
@@ -120,11 +120,10 @@ impl BadGroup<'_> {
             Self::Missing { code } => {
                 Diagnostic::new(&GROUP_MISSING).quoting("entity", entity).quoting("code", code.to_string())
             }
-            Self::Number { code, value, reason } => {
-                bad_value(entity, *code, value.bytes, *reason).at_line(value.line.saturating_add(1), None)
-            }
+            Self::Number { code, value, reason } => bad_value_error(entity, *code, value.bytes, *reason)
+                .at_line(value.line.saturating_add(1), None),
             Self::NotPositive { code, value } => {
-                let text = shown(value.bytes);
+                let text = value_excerpt(value.bytes);
                 let fault = TextFault::new(&text, 0..text.len());
                 Diagnostic::new(&NOT_POSITIVE)
                     .quoting("entity", entity)

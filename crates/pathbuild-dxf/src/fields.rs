@@ -59,7 +59,7 @@ pub(crate) struct Fields<'a> {
 
 /// Whether [`Fields::fill`] keeps an entity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Want {
+pub(crate) enum FillDecision {
     /// Keep the groups of the entity.
     Keep,
     /// Skip the groups of the entity.
@@ -92,16 +92,16 @@ impl<'a> Fields<'a> {
         groups: &mut Groups<'a>,
         line: u32,
         repeats: u64,
-        mut want: impl FnMut(Value<'a>) -> Want,
-    ) -> Result<(Pair<'a>, Want), Stop<'a>> {
+        mut want: impl FnMut(Value<'a>) -> FillDecision,
+    ) -> Result<(Pair<'a>, FillDecision), Stop<'a>> {
         self.line = line;
         self.begin_entity();
         self.repeated.clear();
         loop {
             let group = if repeats == 0 {
-                groups.pass_until(|role| !role.is_plain(), |group| self.keep(group))
+                groups.pass_until(|role| !role.is_plain(), |group| self.store(group))
             } else {
-                groups.pass_until(|role| !role.is_plain(), |group| self.keep_repeated(group, repeats))
+                groups.pass_until(|role| !role.is_plain(), |group| self.store_repeated(group, repeats))
             }?;
             if let Some(end) = self.special(&group, groups, &mut want)? {
                 return Ok(end);
@@ -111,7 +111,7 @@ impl<'a> Fields<'a> {
 
     /// Stores the value of a group.
     #[inline]
-    fn keep(&mut self, group: &Group<'a>) {
+    fn store(&mut self, group: &Group<'a>) {
         if let Some(value) = self.slots.get_mut(group.role.slot()) {
             *value = Value { bytes: group.raw, line: group.line(), entity: self.entity };
         }
@@ -119,8 +119,8 @@ impl<'a> Fields<'a> {
 
     /// Stores the value of a group that may be repeated.
     #[inline]
-    fn keep_repeated(&mut self, group: &Group<'a>, repeats: u64) {
-        self.keep(group);
+    fn store_repeated(&mut self, group: &Group<'a>, repeats: u64) {
+        self.store(group);
         let slot = group.role.slot();
         if slot < 64 && repeats >> slot & 1 != 0 && !self.is_full() {
             self.repeated.push(group.pair());
@@ -134,22 +134,22 @@ impl<'a> Fields<'a> {
         &mut self,
         group: &Group<'a>,
         groups: &mut Groups<'a>,
-        want: &mut impl FnMut(Value<'a>) -> Want,
-    ) -> Result<Option<(Pair<'a>, Want)>, Stop<'a>> {
+        want: &mut impl FnMut(Value<'a>) -> FillDecision,
+    ) -> Result<Option<(Pair<'a>, FillDecision)>, Stop<'a>> {
         match group.role {
-            Role::BEGIN => return Ok(Some((group.pair(), Want::Keep))),
+            Role::BEGIN => return Ok(Some((group.pair(), FillDecision::Keep))),
             Role::LAYER => {
                 let value = Value { bytes: group.value(), line: group.line(), entity: self.entity };
                 match want(value) {
-                    Want::Keep => {}
-                    Want::Skip => return Ok(Some((groups.next_zero()?, Want::Skip))),
-                    Want::Note => return Ok(Some((self.keep_text(groups)?, Want::Note))),
+                    FillDecision::Keep => {}
+                    FillDecision::Skip => return Ok(Some((groups.next_zero()?, FillDecision::Skip))),
+                    FillDecision::Note => return Ok(Some((self.store_text(groups)?, FillDecision::Note))),
                 }
             }
             // An embedded object (in the MTEXT of R2018) extends to the end of the entity.
-            Role::EMBEDDED => return Ok(Some((groups.next_zero()?, Want::Keep))),
+            Role::EMBEDDED => return Ok(Some((groups.next_zero()?, FillDecision::Keep))),
             _ if group.raw.trim_ascii().starts_with(b"{") => {
-                return Ok(skip_application_group(groups)?.map(|next| (next, Want::Keep)));
+                return Ok(skip_application_group(groups)?.map(|next| (next, FillDecision::Keep)));
             }
             _ => {}
         }
@@ -157,13 +157,13 @@ impl<'a> Fields<'a> {
     }
 
     /// Stores the text among the remaining groups of the entity, if there is one. Returns the first pair of the next entity.
-    fn keep_text(&mut self, groups: &mut Groups<'a>) -> Result<Pair<'a>, Stop<'a>> {
+    fn store_text(&mut self, groups: &mut Groups<'a>) -> Result<Pair<'a>, Stop<'a>> {
         let text = Role::of(1);
         let group = groups.pass_until(|role| role == text || role == Role::BEGIN, |_| {})?;
         if group.role == Role::BEGIN {
             return Ok(group.pair());
         }
-        self.keep(&group);
+        self.store(&group);
         groups.next_zero()
     }
 

@@ -7,8 +7,8 @@ use pathbuild_diagnostic::{Diagnostic, Text};
 use crate::binary::to_ascii;
 use crate::collect::{Collector, Limits};
 use crate::encoding::Decoder;
-use crate::entities::{EntityReader, most_repeated};
-use crate::faults::{Fatal, at_pair, not_ended, shown, stopped};
+use crate::entities::{EntityReader, max_repeated_groups};
+use crate::faults::{Fatal, missing_end_error, pair_error, stop_error, value_excerpt};
 use crate::fields::Fields;
 use crate::groups::Records;
 use crate::header::{Header, millimetres};
@@ -35,8 +35,8 @@ pub(crate) fn read_file(drawing: &mut Drawing, bytes: &[u8], options: &Options<'
 fn read_text(drawing: &mut Drawing, text: &[u8], has_bom: bool, options: &Options<'_>) -> Result<(), Fatal> {
     let mut file = File::new(text, has_bom);
     match file.find_entities()? {
-        AfterHead::Entities => file.read_entities(drawing, options),
-        AfterHead::EndOfFile => Ok(()),
+        PreambleEnd::Entities => file.read_entities(drawing, options),
+        PreambleEnd::EndOfFile => Ok(()),
     }
 }
 
@@ -55,7 +55,7 @@ struct File<'a> {
 }
 
 /// The end of the sections before the entities: the ENTITIES section, or the end of the file.
-enum AfterHead {
+enum PreambleEnd {
     Entities,
     EndOfFile,
 }
@@ -73,7 +73,7 @@ impl<'a> File<'a> {
     }
 
     /// Skips to ENTITIES and remembers the sections needed on the way.
-    fn find_entities(&mut self) -> Result<AfterHead, Fatal> {
+    fn find_entities(&mut self) -> Result<PreambleEnd, Fatal> {
         let mut head = self.next_head().map_err(|_| not_dxf(self.bytes))?;
         if !head.is("SECTION") && !head.is("EOF") {
             return Err(not_dxf(self.bytes));
@@ -83,27 +83,27 @@ impl<'a> File<'a> {
                 head = self.variables_after_header(head)?;
             }
             if head.is("EOF") {
-                return Ok(AfterHead::EndOfFile);
+                return Ok(PreambleEnd::EndOfFile);
             }
             if !head.is("SECTION") {
-                return Err(at_pair(&SECTION_EXPECTED, &head));
+                return Err(pair_error(&SECTION_EXPECTED, &head));
             }
-            let name = self.next_head().map_err(before_entities)?;
+            let name = self.next_head().map_err(missing_entities_error)?;
             if name.code == 2 && name.trimmed().eq_ignore_ascii_case(b"ENTITIES") {
-                return Ok(AfterHead::Entities);
+                return Ok(PreambleEnd::Entities);
             }
-            self.pass(&name)?;
-            head = self.next_head().map_err(before_entities)?;
+            self.read_or_skip_section(&name)?;
+            head = self.next_head().map_err(missing_entities_error)?;
         }
     }
 
     /// Reads header variables after the end of HEADER, with an end of their own, as written by dxflib 2.0.
     fn variables_after_header(&mut self, first: Pair<'a>) -> Result<Pair<'a>, Fatal> {
-        let end = self.header.read_on(first, &mut self.pairs).map_err(|stop| stopped(stop, "HEADER"))?;
+        let end = self.header.read_on(first, &mut self.pairs).map_err(|stop| stop_error(stop, "HEADER"))?;
         if !end.is("ENDSEC") {
-            return Err(at_pair(&SECTION_EXPECTED, &end));
+            return Err(pair_error(&SECTION_EXPECTED, &end));
         }
-        self.next_head().map_err(before_entities)
+        self.next_head().map_err(missing_entities_error)
     }
 
     /// The next pair that is not a comment.
@@ -117,13 +117,13 @@ impl<'a> File<'a> {
     }
 
     /// Reads or skips a section before the entities.
-    fn pass(&mut self, name: &Pair<'a>) -> Result<(), Fatal> {
-        let section = || shown(name.value);
+    fn read_or_skip_section(&mut self, name: &Pair<'a>) -> Result<(), Fatal> {
+        let section = || value_excerpt(name.value);
         let begin = self.pairs;
         match self.pairs.skip_section() {
             SectionEnd::Ended => {}
-            SectionEnd::Missing(next) => return Err(not_ended(&section(), &next)),
-            SectionEnd::CutOff { line } => return Err(stopped(Stop::End { line }, &section())),
+            SectionEnd::Missing(next) => return Err(missing_end_error(&section(), &next)),
+            SectionEnd::CutOff { line } => return Err(stop_error(Stop::End { line }, &section())),
         }
         let pairs = begin.until(&self.pairs);
         match name.trimmed() {
@@ -139,18 +139,23 @@ impl<'a> File<'a> {
         let scale = millimetres(&self.header, options.units)?;
         let decoder = Decoder::new(self.bytes, &self.header, self.has_bom);
         let layers = Layers::new(options.keep_layer, LayerTable::new(self.tables));
-        let mut reader =
-            EntityReader::new(options, decoder, layers, Fields::new(most_repeated(options)), self.blocks);
+        let mut reader = EntityReader::new(
+            options,
+            decoder,
+            layers,
+            Fields::new(max_repeated_groups(options)),
+            self.blocks,
+        );
         let limits = Limits {
             entities: options.max_entities,
             text: options.max_text,
             curves: options.approximate_curves,
         };
         let mut model = Model::new(&mut reader, Collector::new(drawing, limits), self.blocks);
-        let mut records = Records::new(self.pairs).map_err(|stop| stopped(stop, "ENTITIES"))?;
+        let mut records = Records::new(self.pairs).map_err(|stop| stop_error(stop, "ENTITIES"))?;
         model.add_all(&mut records, (scale != 1.0).then(|| Placement::scaled(scale)))?;
         if !records.head.is("ENDSEC") {
-            return Err(not_ended("ENTITIES", &records.head));
+            return Err(missing_end_error("ENTITIES", &records.head));
         }
         drawing.has_noted_text = reader.has_noted_text;
         drawing.diagnostics.extend(reader.decoder.into_doubt());
@@ -171,8 +176,8 @@ fn kind_of_file(bytes: &[u8]) -> &'static Text {
     static BLANK: Text = Text { en: "nothing but blanks", de: "nur Leerraum" };
     static BINARY: Text = Text { en: "binary data", de: "binäre Daten" };
     static TEXT: Text = Text { en: "a text without sections", de: "ein Text ohne Abschnitte" };
-    const BEGINNING: usize = 1024;
-    let beginning = &bytes[..bytes.len().min(BEGINNING)];
+    const INSPECTED_BYTES: usize = 1024;
+    let beginning = &bytes[..bytes.len().min(INSPECTED_BYTES)];
     match beginning {
         [b'A', b'C', b'1', rest @ ..] if rest.iter().take(3).all(u8::is_ascii_digit) => &DWG,
         _ if beginning.trim_ascii().is_empty() => &BLANK,
@@ -181,9 +186,9 @@ fn kind_of_file(bytes: &[u8]) -> &'static Text {
     }
 }
 
-fn before_entities(stop: Stop<'_>) -> Fatal {
+fn missing_entities_error(stop: Stop<'_>) -> Fatal {
     match stop {
         Stop::End { line } => Box::new(Diagnostic::new(&NO_ENTITIES).at_line(line, None)),
-        Stop::BadCode { .. } => stopped(stop, ""),
+        Stop::BadCode { .. } => stop_error(stop, ""),
     }
 }

@@ -32,7 +32,7 @@ pub(crate) struct Groups<'a> {
 /// The position of the next pair.
 #[derive(Clone, Copy)]
 struct NextPair<'a> {
-    stretch: Stretch<'a>,
+    stretch: ScannedPairs<'a>,
     /// Line of the next pair.
     line: u64,
 }
@@ -41,7 +41,7 @@ impl<'a> Group<'a> {
     /// 1-based line of the code.
     #[inline]
     pub(crate) fn line(&self) -> u32 {
-        shown(self.line)
+        diagnostic_line(self.line)
     }
 
     /// The value without its line end.
@@ -59,13 +59,13 @@ impl<'a> Group<'a> {
 impl<'a> Groups<'a> {
     /// Creates an iterator over the pairs from this position on.
     pub(crate) fn new(begin: Pairs<'a>) -> Self {
-        let ahead = NextPair { stretch: Stretch::EMPTY, line: begin.line().into() };
+        let ahead = NextPair { stretch: ScannedPairs::EMPTY, line: begin.line().into() };
         Self { begin, code_end: CodeEnd::of(&begin), bytes: &begin.bytes()[begin.consumed()..], ahead }
     }
 
     /// The position of the next pair.
     pub(crate) fn pairs(&self) -> Pairs<'a> {
-        self.begin.at(self.begin.bytes().len() - self.rest().len(), shown(self.ahead.line))
+        self.begin.at(self.begin.bytes().len() - self.rest().len(), diagnostic_line(self.ahead.line))
     }
 
     /// Passes pairs to `pass` up to the first one whose role satisfies `is_end`, and returns that one.
@@ -116,7 +116,7 @@ impl<'a> Groups<'a> {
             return false;
         }
         let bytes = self.rest();
-        let Some(stretch) = Stretch::of(bytes, self.code_end.last()) else { return false };
+        let Some(stretch) = ScannedPairs::of(bytes, self.code_end.line_end()) else { return false };
         (self.bytes, self.ahead.stretch) = (bytes, stretch);
         true
     }
@@ -128,7 +128,7 @@ impl<'a> Groups<'a> {
         let mut pairs = self.pairs();
         let Pair { code, line, value } = pairs.next()?;
         self.bytes = &pairs.bytes()[pairs.consumed()..];
-        self.ahead = NextPair { stretch: Stretch::EMPTY, line: pairs.line().into() };
+        self.ahead = NextPair { stretch: ScannedPairs::EMPTY, line: pairs.line().into() };
         Ok(Group { role: Role::of(code), line: line.into(), raw: value })
     }
 }
@@ -180,15 +180,15 @@ impl<'a> NextPair<'a> {
 
 /// Converts a line number for diagnostics.
 #[inline]
-fn shown(line: u64) -> u32 {
+fn diagnostic_line(line: u64) -> u32 {
     u32::try_from(line).unwrap_or(u32::MAX)
 }
 
 /// The pairs in a stretch of bytes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stretch<'a> {
+pub(crate) struct ScannedPairs<'a> {
     /// The bytes with known line ends, and room for one more code.
-    bytes: &'a [u8; KNOWN + CODE],
+    bytes: &'a [u8; WINDOW_BYTES + MAX_CODE_BYTES],
     /// Offset of the next pair.
     at: usize,
     /// Bit mask of the line ends from there on: bit n for byte n.
@@ -196,20 +196,20 @@ pub(crate) struct Stretch<'a> {
 }
 
 /// Number of bytes scanned at once.
-const KNOWN: usize = 64;
+const WINDOW_BYTES: usize = 64;
 
 /// Longest line with a code, in bytes.
-const CODE: usize = 8;
+const MAX_CODE_BYTES: usize = 8;
 
-impl<'a> Stretch<'a> {
+impl<'a> ScannedPairs<'a> {
     /// A stretch without pairs.
-    const EMPTY: Self = Self { bytes: &[0; KNOWN + CODE], at: 0, ends: 0 };
+    const EMPTY: Self = Self { bytes: &[0; WINDOW_BYTES + MAX_CODE_BYTES], at: 0, ends: 0 };
 
     /// The pairs at the start of these bytes; `None` if the first pair is too long or the bytes are nearly exhausted.
     #[inline]
     pub(crate) fn of(bytes: &'a [u8], line_end: u8) -> Option<Self> {
         let bytes = bytes.first_chunk()?;
-        let ends = places(bytes.first_chunk()?, line_end);
+        let ends = matching_bytes(bytes.first_chunk()?, line_end);
         (without_first(ends) != 0).then_some(Self { bytes, at: 0, ends })
     }
 
@@ -233,9 +233,9 @@ impl<'a> Stretch<'a> {
             return None;
         }
         // `at` is always smaller; the remainder proves it to the compiler.
-        let at = self.at % KNOWN;
+        let at = self.at % WINDOW_BYTES;
         let (length, role) = Role::of_line(*self.bytes[at..].first_chunk()?, code_end)?;
-        let end = value_ends.trailing_zeros() as usize % KNOWN;
+        let end = value_ends.trailing_zeros() as usize % WINDOW_BYTES;
         (self.at, self.ends) = (end + 1, without_first(value_ends));
         // Without a branch: whether a line ends with CR cannot be predicted.
         let has_cr = usize::from(end > 0 && self.bytes[end - 1] == b'\r');
@@ -245,7 +245,7 @@ impl<'a> Stretch<'a> {
 
 /// Bit mask of the bytes equal to this one: bit n for byte n.
 #[inline]
-fn places(bytes: &[u8; KNOWN], byte: u8) -> u64 {
+fn matching_bytes(bytes: &[u8; WINDOW_BYTES], byte: u8) -> u64 {
     let byte = u8x16::splat(byte);
     let (vectors, _) = bytes.as_chunks();
     let equal = |vector: &[u8; 16]| u64::from(u8x16::from(*vector).simd_eq(byte).to_bitmask());
@@ -289,7 +289,7 @@ impl CodeEnd {
     }
 
     /// The byte that ends a line.
-    pub(crate) fn last(self) -> u8 {
+    pub(crate) fn line_end(self) -> u8 {
         self.last
     }
 }
@@ -330,7 +330,7 @@ impl Role {
         #[expect(clippy::cast_possible_truncation, reason = "the first characters")]
         let index = index(word as u32);
         // Nearly all programs pad codes to three characters and use one kind of line end.
-        if (word ^ code_end.line_end_after_three) & code_end.mask == u64::from(USUAL[index]) {
+        if (word ^ code_end.line_end_after_three) & code_end.mask == u64::from(USUAL_CODES[index]) {
             return Some((code_end.length, ROLES[index]));
         }
         Self::of_unusual_line(line, code_end.last)
@@ -406,16 +406,16 @@ fn number(padded: u64) -> Option<i32> {
 const ONE_PER_BYTE: u64 = u64::from_le_bytes([1; 8]);
 
 /// The codes 0 to 999 as three characters, by hash. Slots without a code match no text.
-static USUAL: [u32; PLACES] = usual().0;
+static USUAL_CODES: [u32; TABLE_SLOTS] = usual_codes().0;
 
-/// The roles of the codes in [`USUAL`].
-static ROLES: [Role; PLACES] = usual().1;
+/// The roles of the codes in [`USUAL_CODES`].
+static ROLES: [Role; TABLE_SLOTS] = usual_codes().1;
 
-const PLACES: usize = 1 << 12;
+const TABLE_SLOTS: usize = 1 << 12;
 
-const fn usual() -> ([u32; PLACES], [Role; PLACES]) {
-    let mut texts = [0; PLACES];
-    let mut roles = [Role::WITHOUT_ROLE; PLACES];
+const fn usual_codes() -> ([u32; TABLE_SLOTS], [Role; TABLE_SLOTS]) {
+    let mut texts = [0; TABLE_SLOTS];
+    let mut roles = [Role::WITHOUT_ROLE; TABLE_SLOTS];
     let mut code = 0;
     while code < 1000 {
         let text = three_characters(code);

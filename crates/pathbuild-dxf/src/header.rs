@@ -29,7 +29,7 @@ impl<'a> Header<'a> {
     /// Finds the variables in the section that starts here.
     pub(crate) fn find(&mut self, section: &Pairs<'a>) {
         for variable in [&VERSION, &CODE_PAGE, &UNIT_VARIABLE] {
-            if let Some(mut pairs) = section.behind("9", variable) {
+            if let Some(mut pairs) = section.after_next("9", variable) {
                 let place = pairs;
                 if let Ok(value) = pairs.next() {
                     self.set(variable.needle(), value, place);
@@ -71,7 +71,7 @@ impl<'a> Header<'a> {
     pub(crate) fn units(&self) -> Result<Option<i64>, Fatal> {
         let Some((pair, _)) = self.units else { return Ok(None) };
         whole(pair.value).map(Some).map_err(|reason| {
-            let diagnostic = faults::bad_value("$INSUNITS", pair.code, pair.value, reason);
+            let diagnostic = faults::bad_value_error("$INSUNITS", pair.code, pair.value, reason);
             Box::new(self.at_units(diagnostic))
         })
     }
@@ -102,12 +102,12 @@ pub(crate) fn millimetres(header: &Header<'_>, units: Units) -> Result<f64, Fata
         (_, Some((_, factor))) if units == Units::Drawing => Ok(factor),
         (_, unit) => {
             let name = unit.map_or(&UNKNOWN, |(name, _)| name);
-            Err(Box::new(header.at_units(wrong_units(number, name))))
+            Err(Box::new(header.at_units(units_error(number, name))))
         }
     }
 }
 
-fn wrong_units(number: i64, name: &'static Text) -> Diagnostic {
+fn units_error(number: i64, name: &'static Text) -> Diagnostic {
     Diagnostic::new(&WRONG_UNITS).with("unit", name).quoting("number", number.to_string())
 }
 

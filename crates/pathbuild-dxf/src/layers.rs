@@ -10,7 +10,7 @@ use memchr::memmem::Finder;
 use smol_str::SmolStr;
 
 use crate::encoding::Decoder;
-use crate::fields::{Fields, Value, Want};
+use crate::fields::{Fields, FillDecision, Value};
 use crate::groups::Records;
 use crate::names::{Spellings, case_folded, without_xref};
 use crate::number::{real, whole};
@@ -94,7 +94,7 @@ impl<'a, 'o> Layers<'a, 'o> {
     pub(crate) fn used(
         &mut self,
         id: LayerId,
-        reading: &mut Reading<'_, 'a, '_>,
+        reading: &mut LayerTableReader<'_, 'a, '_>,
     ) -> Result<&UsedLayer, Stop<'a>> {
         let FoundLayer { full_name, used, .. } = &mut self.found[id.0 as usize];
         match used {
@@ -146,7 +146,7 @@ impl UsedLayer {
     fn look_up<'a>(
         full_name: &str,
         table: &mut LayerTable<'a>,
-        reading: &mut Reading<'_, 'a, '_>,
+        reading: &mut LayerTableReader<'_, 'a, '_>,
     ) -> Result<Self, Stop<'a>> {
         let record = table.find(full_name, reading)?;
         let name = without_xref(full_name);
@@ -206,30 +206,30 @@ impl<'a> LayerTable<'a> {
     pub(crate) fn find(
         &mut self,
         full_name: &str,
-        reading: &mut Reading<'_, 'a, '_>,
+        reading: &mut LayerTableReader<'_, 'a, '_>,
     ) -> Result<Option<LayerRecord<'a>>, Stop<'a>> {
         let Some(tables) = self.tables else { return Ok(None) };
         self.lookups += 1;
-        let certain = part_certain(without_xref(full_name).as_bytes());
+        let certain = case_independent_part(without_xref(full_name).as_bytes());
         let has_escapes = || memchr(b'\\', &tables.bytes()[tables.consumed()..]).is_some();
         if self.all.is_none()
             && self.lookups <= MAX_SINGLE_LOOKUPS
             && certain.len() >= MIN_SEARCHED_BYTES
             && !has_escapes()
         {
-            let some = reading.some(tables, certain, &case_folded(full_name))?;
+            let some = reading.read_until(tables, certain, &case_folded(full_name))?;
             return Ok(some.get(full_name).cloned());
         }
         let all = match &mut self.all {
             Some(all) => all,
-            all => all.insert(reading.all(tables)?),
+            all => all.insert(reading.read_all(tables)?),
         };
         Ok(all.get(full_name).cloned())
     }
 }
 
 /// The longest part of a name that is the same in any case and code page: ASCII without escapes and letters.
-fn part_certain(name: &[u8]) -> &[u8] {
+fn case_independent_part(name: &[u8]) -> &[u8] {
     let is_uncertain = |byte: &u8| !byte.is_ascii() || byte.is_ascii_alphabetic() || *byte == b'\\';
     name.split(is_uncertain).max_by_key(|part| part.len()).unwrap_or_default()
 }
@@ -279,16 +279,16 @@ impl LayerRecord<'_> {
 }
 
 /// The state needed to read records of the LAYER table.
-pub(crate) struct Reading<'r, 'a, 'd> {
+pub(crate) struct LayerTableReader<'r, 'a, 'd> {
     pub(crate) fields: &'r mut Fields<'a>,
     pub(crate) decoder: &'r mut Decoder<'d>,
 }
 
-impl<'a> Reading<'_, 'a, '_> {
+impl<'a> LayerTableReader<'_, 'a, '_> {
     /// Reads all layers of these tables.
-    fn all(&mut self, mut tables: Pairs<'a>) -> Result<KnownLayers<'a>, Stop<'a>> {
+    fn read_all(&mut self, mut tables: Pairs<'a>) -> Result<KnownLayers<'a>, Stop<'a>> {
         let mut layers = KnownLayers::default();
-        while let Some(head) = tables.place("0", &LAYER) {
+        while let Some(head) = tables.find_pair("0", &LAYER) {
             tables.jump_to(head);
             let mut records = Records::new(tables)?;
             while !is_end_of_table(&records.head) {
@@ -301,7 +301,7 @@ impl<'a> Reading<'_, 'a, '_> {
 
     /// Reads records up to the one with this name, at least those that contain a text. From a match on, the table is read pair by pair from the
     /// start of the record, so that no broken record is overlooked.
-    fn some(
+    fn read_until(
         &mut self,
         mut tables: Pairs<'a>,
         written: &[u8],
@@ -311,9 +311,9 @@ impl<'a> Reading<'_, 'a, '_> {
         let mut records = None;
         let begin = tables.consumed();
         for at in Finder::new(written).find_iter(&tables.bytes()[begin..]).map(|at| begin + at) {
-            let last = tables.last_place("0", "LAYER", at);
+            let last = tables.find_last_pair("0", "LAYER", at);
             // Everything before the first record is skipped at once.
-            let head = if records.is_none() { last.or_else(|| tables.place("0", &LAYER)) } else { last };
+            let head = if records.is_none() { last.or_else(|| tables.find_pair("0", &LAYER)) } else { last };
             if let Some(head) = head {
                 tables.jump_to(head);
                 records = Some(Records::new(tables)?);
@@ -334,7 +334,8 @@ impl<'a> Reading<'_, 'a, '_> {
     /// Reads the head record if it is a LAYER.
     fn record(&mut self, records: &mut Records<'a>, layers: &mut KnownLayers<'a>) -> Result<(), Stop<'a>> {
         let is_layer = records.head.is("LAYER");
-        (records.head, _) = self.fields.fill(&mut records.groups, records.head.line, 0, |_| Want::Keep)?;
+        (records.head, _) =
+            self.fields.fill(&mut records.groups, records.head.line, 0, |_| FillDecision::Keep)?;
         if is_layer {
             layers.add(self.fields, self.decoder);
         }

@@ -12,12 +12,12 @@ use pathbuild_diagnostic::messages::drawing::{BLOCK_ELSEWHERE, BLOCK_MISSING};
 use smol_str::SmolStr;
 
 use crate::Origin;
-use crate::blocks::{BlockId, Blocks, Steps};
+use crate::blocks::{BlockId, Blocks, StepBudget};
 use crate::collect::{Collector, PlacedEntity};
-use crate::entities::{EntityReader, Item, Shape, Space, Traits};
-use crate::faults::{EntityError, Fatal, stopped};
+use crate::entities::{CommonProperties, EntityReader, Item, Shape, Space};
+use crate::faults::{EntityError, Fatal, stop_error};
 use crate::groups::Records;
-use crate::layers::{LayerId, LineType, Reading};
+use crate::layers::{LayerId, LayerTableReader, LineType};
 use crate::pairs::Pairs;
 use crate::placement::Placement;
 use crate::shapes::{Array, Insert};
@@ -31,7 +31,7 @@ pub(crate) struct Model<'r, 'a, 'o> {
     blocks: Blocks<'a>,
     /// The insertions in progress, outermost first.
     open: Vec<BlockId>,
-    steps: Steps,
+    steps: StepBudget,
 }
 
 /// The context of an entity: model space or an insertion.
@@ -61,7 +61,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         collector: Collector<'r>,
         blocks: Option<Pairs<'a>>,
     ) -> Self {
-        let steps = Steps::new(reader.options.max_entities);
+        let steps = StepBudget::new(reader.options.max_entities);
         Self { reader, collector, section: blocks, blocks: Blocks::default(), open: Vec::new(), steps }
     }
 
@@ -73,15 +73,15 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     ) -> Result<(), Fatal> {
         let around = EntityContext { placement, insertion: None, is_invisible: false, frozen: None };
         while let Some(item) =
-            self.reader.next_item(records, Space::Model).map_err(|stop| stopped(stop, "ENTITIES"))?
+            self.reader.next_item(records, Space::Model).map_err(|stop| stop_error(stop, "ENTITIES"))?
         {
-            self.place(item, &around)?;
+            self.add_item(item, &around)?;
         }
         Ok(())
     }
 
     #[inline(always)]
-    fn place(&mut self, item: Item<'a>, around: &EntityContext) -> Result<(), Fatal> {
+    fn add_item(&mut self, item: Item<'a>, around: &EntityContext) -> Result<(), Fatal> {
         let layer = match &around.insertion {
             Some(insertion) => self.reader.layers.inherited(item.traits.layer, insertion.layer),
             None => item.traits.layer,
@@ -89,12 +89,12 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         match item.shape {
             Ok(Shape::Insert(insert)) => self.insert(&item.traits, layer, *insert, around),
             Ok(Shape::Hatch(point)) if self.reader.layers.is_kept(layer) => {
-                let placed = placed(self.reader, &item.traits, layer, around)?;
+                let placed = place_entity(self.reader, &item.traits, layer, around)?;
                 self.collector.add_hatch(&placed, point)
             }
             shape if self.reader.layers.is_kept(layer) => {
                 let is_compatible = self.reader.options.compatible;
-                let placed = placed(self.reader, &item.traits, layer, around)?;
+                let placed = place_entity(self.reader, &item.traits, layer, around)?;
                 let is_plain = around.insertion.is_none() && matches!(shape, Ok(Shape::Plain(_)));
                 if is_compatible && shape.is_ok() && !is_plain {
                     self.collector.ignore(&placed);
@@ -108,14 +108,14 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
 
     fn insert(
         &mut self,
-        traits: &Traits,
+        traits: &CommonProperties,
         layer: LayerId,
         insert: Insert<'a>,
         around: &EntityContext,
     ) -> Result<(), Fatal> {
         if let Some(section) = self.section.take() {
             let blocks = Blocks::index(section, self.reader);
-            self.blocks = blocks.map_err(|stop| stopped(stop, "BLOCKS"))?;
+            self.blocks = blocks.map_err(|stop| stop_error(stop, "BLOCKS"))?;
         }
         let Some(block) = self.blocks.find(&insert.block) else {
             let point = insert.array.ok().map(|array| array.begin());
@@ -128,31 +128,36 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
                 block: Some(insert.block.as_str().into()),
                 layers: Arc::default(),
             };
-            return self.refuse(traits, &[layer], &trouble, around);
+            return self.refuse_insertion(traits, &[layer], &trouble, around);
         };
         let wanted = self.blocks.wanted_layers(block, layer, self.reader, &mut self.steps)?;
         if wanted.is_empty() {
             return self.check_elsewhere(traits, layer, block, &insert, around);
         }
         if self.open.contains(&block) || self.open.len() >= MAX_BLOCK_DEPTH {
-            return self.refuse(traits, &wanted, &EntityError::Nested(insert.block.as_str().into()), around);
+            return self.refuse_insertion(
+                traits,
+                &wanted,
+                &EntityError::Nested(insert.block.as_str().into()),
+                around,
+            );
         }
         match insert.array.and_then(|array| Ok(array.copies(self.blocks.base(block)?))) {
-            Ok(copies) => self.copy(traits, layer, block, copies, around),
-            Err(trouble) => self.refuse(traits, &wanted, &trouble, around),
+            Ok(copies) => self.add_copies(traits, layer, block, copies, around),
+            Err(trouble) => self.refuse_insertion(traits, &wanted, &trouble, around),
         }
     }
 
     /// Adds the contents of a block at each of these placements.
-    fn copy(
+    fn add_copies(
         &mut self,
-        traits: &Traits,
+        traits: &CommonProperties,
         layer: LayerId,
         block: BlockId,
         copies: impl Iterator<Item = Placement>,
         around: &EntityContext,
     ) -> Result<(), Fatal> {
-        let placed = placed(self.reader, traits, layer, around)?;
+        let placed = place_entity(self.reader, traits, layer, around)?;
         let insertion = Insertion { layer, line_type: placed.line_type.clone(), origin: placed.origin };
         let frozen = placed.frozen.or(placed.layer.is_frozen.then_some(&placed.layer.name)).cloned();
         let is_invisible = placed.is_invisible;
@@ -160,10 +165,10 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         let items = self.blocks.items(block, self.reader)?;
         self.open.push(block);
         for copy in copies {
-            inside.placement = Some(around.placement.map_or(copy, |outer| outer.after(&copy)));
+            inside.placement = Some(around.placement.map_or(copy, |outer| outer.composed_after(&copy)));
             for item in items.iter() {
-                self.steps.take(1)?;
-                self.place(item.clone(), &inside)?;
+                self.steps.spend(1)?;
+                self.add_item(item.clone(), &inside)?;
             }
         }
         self.open.pop();
@@ -173,7 +178,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     /// Reports PB111 for a block on a wanted layer that draws only on layers that are not read.
     fn check_elsewhere(
         &mut self,
-        traits: &Traits,
+        traits: &CommonProperties,
         layer: LayerId,
         block: BlockId,
         insert: &Insert<'a>,
@@ -187,7 +192,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             return Ok(());
         }
         if self.reader.options.compatible {
-            let placed = placed(self.reader, traits, layer, around)?;
+            let placed = place_entity(self.reader, traits, layer, around)?;
             self.collector.ignore(&placed);
             return Ok(());
         }
@@ -197,20 +202,20 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             block: Some(insert.block.as_str().into()),
             layers,
         };
-        self.refuse(traits, &[layer], &trouble, around)
+        self.refuse_insertion(traits, &[layer], &trouble, around)
     }
 
     /// Reports a missing block that is inserted on a layer that is not read, unless that layer is frozen.
     fn note_missing(
         &mut self,
-        traits: &Traits,
+        traits: &CommonProperties,
         layer: LayerId,
         block: &str,
         point: Option<Point>,
         around: &EntityContext,
     ) -> Result<(), Fatal> {
         let is_compatible = self.reader.options.compatible;
-        let placed = placed(self.reader, traits, layer, around)?;
+        let placed = place_entity(self.reader, traits, layer, around)?;
         if !is_compatible && !placed.layer.is_frozen {
             self.collector.note_missing_block(&placed, block, point);
         }
@@ -218,16 +223,16 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     }
 
     /// Reports a faulty insertion on those of its layers that are wanted.
-    fn refuse(
+    fn refuse_insertion(
         &mut self,
-        traits: &Traits,
+        traits: &CommonProperties,
         layers: &[LayerId],
         trouble: &EntityError<'a>,
         around: &EntityContext,
     ) -> Result<(), Fatal> {
         for layer in layers {
             if self.reader.layers.is_kept(*layer) {
-                let placed = placed(self.reader, traits, *layer, around)?;
+                let placed = place_entity(self.reader, traits, *layer, around)?;
                 self.collector.add(&placed, Err(trouble.clone()))?;
             }
         }
@@ -237,15 +242,15 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
 
 /// Combines an entity with its layer and with the properties that it inherits.
 #[inline(always)]
-fn placed<'p>(
+fn place_entity<'p>(
     reader: &'p mut EntityReader<'_, '_>,
-    traits: &Traits,
+    traits: &CommonProperties,
     layer_id: LayerId,
     around: &'p EntityContext,
 ) -> Result<PlacedEntity<'p>, Fatal> {
     let EntityReader { layers, line_types, fields, decoder, .. } = reader;
-    let layer = layers.used(layer_id, &mut Reading { fields, decoder });
-    let layer = layer.map_err(|stop| stopped(stop, "TABLES"))?;
+    let layer = layers.used(layer_id, &mut LayerTableReader { fields, decoder });
+    let layer = layer.map_err(|stop| stop_error(stop, "TABLES"))?;
     let insertion = around.insertion.as_ref();
     Ok(PlacedEntity {
         kind: traits.kind,

@@ -18,7 +18,7 @@ pub(crate) fn without_xref(name: &str) -> &str {
         return name;
     }
     let after_bar = name.rfind('|').map_or(0, |bar| bar + 1);
-    let after_bound = bound_prefix(name);
+    let after_bound = xref_prefix_length(name);
     name[after_bar.max(after_bound)..].trim()
 }
 
@@ -28,7 +28,7 @@ fn has_xref_sign(name: &[u8]) -> bool {
 }
 
 /// Length of the prefix up to and including the last `$digits$`.
-fn bound_prefix(name: &str) -> usize {
+fn xref_prefix_length(name: &str) -> usize {
     let Some(last) = name.rfind('$') else { return 0 };
     let before = name[..last].trim_end_matches(|c: char| c.is_ascii_digit());
     let has_digits = before.len() < last;
@@ -42,14 +42,14 @@ fn bound_prefix(name: &str) -> usize {
 #[derive(Debug)]
 pub(crate) struct Spellings<'a, T> {
     /// Short spellings by open addressing. Some slots are always free.
-    short: [Option<(Short, T)>; SHORT_NAME_SLOTS],
+    short: [Option<(ShortSpelling, T)>; SHORT_NAME_SLOTS],
     free: usize,
     others: HashMap<&'a [u8], T>,
 }
 
 /// A spelling of up to 16 characters, compared as a whole, because branches on single characters cannot be predicted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Short {
+struct ShortSpelling {
     length: usize,
     /// The characters; the two words overlap for short spellings.
     characters: [u64; 2],
@@ -69,8 +69,8 @@ impl<'a, T: Copy> Spellings<'a, T> {
     /// Looks up a spelling.
     #[inline]
     pub(crate) fn get(&self, spelling: &[u8]) -> Option<T> {
-        if let Some(short) = Short::of(spelling) {
-            let mut place = short.place();
+        if let Some(short) = ShortSpelling::of(spelling) {
+            let mut place = short.preferred_slot();
             while let Some((known, value)) = self.short[place] {
                 if known == short {
                     return Some(value);
@@ -83,9 +83,9 @@ impl<'a, T: Copy> Spellings<'a, T> {
 
     /// Adds a spelling that was not found.
     pub(crate) fn insert(&mut self, spelling: &'a [u8], value: T) {
-        match Short::of(spelling).filter(|_| self.free > 0) {
+        match ShortSpelling::of(spelling).filter(|_| self.free > 0) {
             Some(short) => {
-                let mut place = short.place();
+                let mut place = short.preferred_slot();
                 while self.short[place].is_some() {
                     place = (place + 1) % SHORT_NAME_SLOTS;
                 }
@@ -97,7 +97,7 @@ impl<'a, T: Copy> Spellings<'a, T> {
     }
 }
 
-impl Short {
+impl ShortSpelling {
     #[inline]
     fn of(spelling: &[u8]) -> Option<Self> {
         let length = spelling.len();
@@ -117,7 +117,7 @@ impl Short {
 
     /// The preferred slot, by a hash that separates usual names.
     #[inline]
-    fn place(&self) -> usize {
+    fn preferred_slot(&self) -> usize {
         const MULTIPLIER: u64 = 0x9E37_79B9_7F4A_7C15;
         let [a, b] = self.characters;
         ((a.rotate_left(50) ^ b).wrapping_mul(MULTIPLIER) >> (u64::BITS - PLACE_BITS)) as usize

@@ -20,7 +20,7 @@ pub(crate) enum NotANumber {
 pub(crate) fn real(value: &[u8]) -> Result<f64, NotANumber> {
     match plain_decimal(value) {
         Some(number) => Ok(number),
-        None => unusual(value),
+        None => parse_unusual(value),
     }
 }
 
@@ -35,12 +35,12 @@ pub(crate) fn whole(value: &[u8]) -> Result<i64, NotANumber> {
 
 #[cold]
 #[inline(never)]
-fn unusual(value: &[u8]) -> Result<f64, NotANumber> {
+fn parse_unusual(value: &[u8]) -> Result<f64, NotANumber> {
     let value = value.trim_ascii();
-    plain_decimal(value).map_or_else(|| general(value), Ok)
+    plain_decimal(value).map_or_else(|| parse_general(value), Ok)
 }
 
-fn general(value: &[u8]) -> Result<f64, NotANumber> {
+fn parse_general(value: &[u8]) -> Result<f64, NotANumber> {
     let text = std::str::from_utf8(value).map_err(|_| NotANumber::Invalid)?;
     let number = match value.iter().position(|byte| matches!(byte, b'd' | b'D')) {
         Some(exponent) => format!("{}E{}", &text[..exponent], &text[exponent + 1..]).parse(),

@@ -132,7 +132,7 @@ impl<'a> Pairs<'a> {
         let at = self.at;
         let line = self.next_line();
         let code = std::str::from_utf8(line.trim_ascii()).ok().and_then(|text| text.parse().ok());
-        code.ok_or_else(|| self.no_code(at, line))
+        code.ok_or_else(|| self.missing_code_error(at, line))
     }
 
     /// Consumes a line and returns it without its end.
@@ -145,13 +145,13 @@ impl<'a> Pairs<'a> {
 
     /// The error for a line without a group code, which is not consumed.
     #[cold]
-    fn no_code(&mut self, at: usize, line: &'a [u8]) -> Stop<'a> {
+    fn missing_code_error(&mut self, at: usize, line: &'a [u8]) -> Stop<'a> {
         self.at = at;
         let rest = &self.bytes[at..];
         if rest.len() <= LONGEST_PADDING && rest.trim_ascii_start().is_empty() {
             return Stop::End { line: self.line };
         }
-        Stop::BadCode { line: self.line, found: &line[..line.len().min(MOST_SHOWN)] }
+        Stop::BadCode { line: self.line, found: &line[..line.len().min(MAX_EXCERPT_BYTES)] }
     }
 }
 
@@ -159,7 +159,7 @@ impl<'a> Pairs<'a> {
 const LONGEST_PADDING: usize = 1 << 16;
 
 /// Largest number of bytes of a faulty line shown in a message.
-const MOST_SHOWN: usize = 60;
+const MAX_EXCERPT_BYTES: usize = 60;
 
 /// Length of the first line without its end.
 #[inline]
@@ -214,7 +214,7 @@ impl<'a> Pairs<'a> {
             let at = from + at;
             let end = || bytes[..at].ends_with(b"END").then_some(at - 3..at + 3);
             let begin = || bytes[at..].starts_with(b"SECTION").then_some(at..at + 7);
-            self.pair_of(b"0", end().or_else(begin)?)
+            self.pair_start(b"0", end().or_else(begin)?)
         });
         self.jump_to(found.unwrap_or(bytes.len()));
         match self.next() {
@@ -225,29 +225,29 @@ impl<'a> Pairs<'a> {
     }
 
     /// The pairs after the next one with this code and keyword. Lines in between are not counted.
-    pub(crate) fn behind(&self, code: &str, keyword: &Keyword) -> Option<Self> {
-        let mut pairs = self.at(self.place(code, keyword)?, self.line());
+    pub(crate) fn after_next(&self, code: &str, keyword: &Keyword) -> Option<Self> {
+        let mut pairs = self.at(self.find_pair(code, keyword)?, self.line());
         pairs.next().ok()?;
         Some(pairs)
     }
 
     /// Position of the next pair with this code and keyword.
-    pub(crate) fn place(&self, code: &str, keyword: &Keyword) -> Option<usize> {
+    pub(crate) fn find_pair(&self, code: &str, keyword: &Keyword) -> Option<usize> {
         let from = self.consumed();
         let length = keyword.needle().len();
         let mut found = keyword.find_iter(&self.bytes()[from..]);
-        found.find_map(|at| self.pair_of(code.as_bytes(), from + at..from + at + length))
+        found.find_map(|at| self.pair_start(code.as_bytes(), from + at..from + at + length))
     }
 
     /// Position of the last pair with this code and keyword before `end`.
-    pub(crate) fn last_place(&self, code: &str, keyword: &str, end: usize) -> Option<usize> {
+    pub(crate) fn find_last_pair(&self, code: &str, keyword: &str, end: usize) -> Option<usize> {
         let from = self.consumed();
         let mut found = rfind_iter(self.bytes().get(from..end)?, keyword);
-        found.find_map(|at| self.pair_of(code.as_bytes(), from + at..from + at + keyword.len()))
+        found.find_map(|at| self.pair_start(code.as_bytes(), from + at..from + at + keyword.len()))
     }
 
     /// Position of the unconsumed pair that has this code and the value at this range, if there is one.
-    fn pair_of(&self, code: &[u8], value: Range<usize>) -> Option<usize> {
+    fn pair_start(&self, code: &[u8], value: Range<usize>) -> Option<usize> {
         let (before, after) = (&self.bytes()[..value.start], &self.bytes()[value.end..]);
         let before = trim_blanks_end(before).strip_suffix(&[self.line_end()])?;
         let start =
@@ -260,10 +260,10 @@ impl<'a> Pairs<'a> {
 
 /// Whether the file ends with `0/EOF`, apart from a short padding.
 pub(crate) fn ends_with_eof(pairs: &Pairs<'_>) -> bool {
-    const TAIL: usize = 4096;
+    const SEARCHED_BYTES: usize = 4096;
     let bytes = pairs.bytes();
-    let tail = bytes.len().saturating_sub(TAIL).max(pairs.consumed());
-    EOF.rfind_iter(&bytes[tail..]).any(|at| pairs.pair_of(b"0", tail + at..tail + at + 3).is_some())
+    let tail = bytes.len().saturating_sub(SEARCHED_BYTES).max(pairs.consumed());
+    EOF.rfind_iter(&bytes[tail..]).any(|at| pairs.pair_start(b"0", tail + at..tail + at + 3).is_some())
 }
 
 fn trim_blanks(mut bytes: &[u8]) -> &[u8] {

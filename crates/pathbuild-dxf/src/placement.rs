@@ -39,7 +39,7 @@ impl Placement {
     }
 
     /// The composition that applies `first` and then this one.
-    pub(crate) fn after(&self, first: &Self) -> Self {
+    pub(crate) fn composed_after(&self, first: &Self) -> Self {
         let (x, y) = first.x_axis;
         Self {
             origin: self.point(first.origin),
@@ -52,12 +52,12 @@ impl Placement {
     }
 
     /// Returns a placement that moves the origin to a point.
-    pub(crate) fn moved(origin: Point3) -> Self {
+    pub(crate) fn translated(origin: Point3) -> Self {
         Self { origin, ..Self::IDENTITY }
     }
 
     /// Returns a placement that turns about the origin, in degrees counterclockwise.
-    pub(crate) fn turned(turn: f64) -> Self {
+    pub(crate) fn rotated(turn: f64) -> Self {
         Self { x_axis: cos_sin(turn), turn, ..Self::IDENTITY }
     }
 
@@ -143,14 +143,15 @@ impl Placement {
 }
 
 /// Largest coordinate or length of a path in mm: a machine of one kilometre, with enough digits left for all computations.
-pub(crate) const LARGEST: f64 = 1e6;
+pub(crate) const MAX_COORDINATE: f64 = 1e6;
 
 impl Geometry {
-    /// Whether all coordinates and lengths are within [`LARGEST`] and all lengths positive.
+    /// Whether all coordinates and lengths are within [`MAX_COORDINATE`] and all lengths positive.
     pub(crate) fn is_sound(&self) -> bool {
-        let is_near =
-            |point: &Point3| [point.x, point.y, point.z].iter().all(|coordinate| coordinate.abs() <= LARGEST);
-        let is_length = |length: f64| length > 0.0 && length <= LARGEST;
+        let is_near = |point: &Point3| {
+            [point.x, point.y, point.z].iter().all(|coordinate| coordinate.abs() <= MAX_COORDINATE)
+        };
+        let is_length = |length: f64| length > 0.0 && length <= MAX_COORDINATE;
         match self {
             Self::Line(line) => is_near(&line.start) && is_near(&line.end),
             Self::Arc(arc) => is_near(&arc.centre) && is_length(arc.radius),

@@ -6,15 +6,15 @@ mod wrappers;
 // The WebAssembly build has no operating system, only the files it is given.
 #[cfg(not(target_family = "wasm"))]
 mod os;
+mod path_spelling;
 pub mod private;
 mod replace;
-mod spelling;
 mod stamp;
 pub use memory::{MemorySystem, OverlaySystem};
 #[cfg(not(target_family = "wasm"))]
 pub use os::OsSystem;
+pub use path_spelling::{clean, is_drawing, join, or_current_directory, with_forward_slashes};
 pub use replace::is_temporary;
-pub use spelling::{clean, is_drawing, join, readable, spelt};
 pub use stamp::{CLOCK, Clock, Stamp};
 pub use wrappers::{BasedSystem, ConfinedSystem};
 
@@ -51,7 +51,7 @@ pub trait System: Debug + Send + Sync {
     ///
     /// # Errors
     /// The errors of [`read`](Self::read).
-    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+    fn read_head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
         let mut bytes = self.read(path, u64::MAX)?;
         bytes.truncate(length);
         Ok(bytes)
@@ -84,7 +84,7 @@ pub trait System: Debug + Send + Sync {
     ///
     /// # Errors
     /// The errors of [`read`](Self::read).
-    fn tail(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+    fn read_tail(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
         let mut bytes = self.read(path, u64::MAX)?;
         Ok(bytes.split_off(bytes.len().saturating_sub(length)))
     }

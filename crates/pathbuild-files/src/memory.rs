@@ -37,13 +37,13 @@ impl MemorySystem {
 impl System for MemorySystem {
     fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
         let files = self.files();
-        copy(files.get(path).ok_or(ReadError::Missing)?, limit, room)
+        copy_limited(files.get(path).ok_or(ReadError::Missing)?, limit, room)
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
         let files = self.files();
         let (mut names, mut directories) = (BTreeSet::new(), BTreeSet::new());
-        for rest in below(&files, directory).filter_map(|path| path.strip_prefix(directory).ok()) {
+        for rest in files_below(&files, directory).filter_map(|path| path.strip_prefix(directory).ok()) {
             let mut components = rest.components();
             let Some(name) = components.next() else { continue };
             if components.next().is_some() { &mut directories } else { &mut names }.insert(name.as_str());
@@ -55,7 +55,7 @@ impl System for MemorySystem {
         let files = self.files();
         if files.contains_key(path) {
             FileKind::File
-        } else if path.as_str().is_empty() || below(&files, path).next().is_some() {
+        } else if path.as_str().is_empty() || files_below(&files, path).next().is_some() {
             FileKind::Directory
         } else {
             FileKind::Missing
@@ -82,7 +82,7 @@ impl System for MemorySystem {
 }
 
 /// Copies the content of a file into a buffer. Returns an unknown stamp, because files in memory have none.
-fn copy(bytes: &[u8], limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
+fn copy_limited(bytes: &[u8], limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
     let size = bytes.len() as u64;
     if size > limit {
         return Err(ReadError::TooLarge { size });
@@ -93,7 +93,7 @@ fn copy(bytes: &[u8], limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError
 }
 
 /// Iterates over the files below a directory, at any depth. Paths are ordered component by component, so these are consecutive.
-fn below<'a>(
+fn files_below<'a>(
     files: &'a BTreeMap<Utf8PathBuf, Vec<u8>>,
     directory: &Utf8Path,
 ) -> impl Iterator<Item = &'a Utf8PathBuf> {
@@ -123,17 +123,17 @@ impl OverlaySystem {
 impl System for OverlaySystem {
     fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
         if path == self.path {
-            copy(&self.bytes, limit, room)
+            copy_limited(&self.bytes, limit, room)
         } else {
             self.below.read_into(path, limit, room)
         }
     }
 
-    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+    fn read_head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
         if path == self.path {
             return Ok(self.bytes[..length.min(self.bytes.len())].to_vec());
         }
-        self.below.head(path, length)
+        self.below.read_head(path, length)
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {

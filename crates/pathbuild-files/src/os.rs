@@ -11,8 +11,8 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::{DIRECTORY_OF_THAT_NAME, NOT_REGULAR, reason};
 
+use crate::path_spelling::or_current_directory;
 use crate::replace::{self, is_temporary};
-use crate::spelling::readable;
 use crate::stamp::Stamp;
 use crate::{Entry, EntryKind, FileKind, FileLink, Listing, ReadError, System, WriteOutcome};
 
@@ -35,7 +35,7 @@ impl System for OsSystem {
         Ok(if Stamp::of_open(&file) == before { before } else { Stamp::UNKNOWN })
     }
 
-    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+    fn read_head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
         let file = open(path)?;
         regular_size(&file)?;
         let mut bytes = Vec::new();
@@ -43,7 +43,7 @@ impl System for OsSystem {
         Ok(bytes)
     }
 
-    fn tail(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+    fn read_tail(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
         let length = length as u64;
         let mut file = open(path)?;
         let size = regular_size(&file)?;
@@ -54,7 +54,7 @@ impl System for OsSystem {
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
-        let directory = readable(directory);
+        let directory = or_current_directory(directory);
         let (mut listing, mut temporary) = (Listing::default(), Vec::new());
         self.each_entry(directory, &mut |Entry { name, kind, .. }| {
             if is_temporary(name, |name| !name.is_empty()) {
@@ -78,7 +78,7 @@ impl System for OsSystem {
         directory: &Utf8Path,
         take: &mut dyn FnMut(Entry<'_>) -> ControlFlow<()>,
     ) -> Result<(), ReadError> {
-        for entry in fs::read_dir(readable(directory))? {
+        for entry in fs::read_dir(or_current_directory(directory))? {
             let entry = entry?;
             let kind = match entry.file_type() {
                 Ok(kind) if kind.is_dir() => EntryKind::Directory,
@@ -95,7 +95,7 @@ impl System for OsSystem {
     }
 
     fn kind(&self, path: &Utf8Path) -> FileKind {
-        match fs::metadata(readable(path)) {
+        match fs::metadata(or_current_directory(path)) {
             Ok(data) if data.is_dir() => FileKind::Directory,
             Ok(_) => FileKind::File,
             Err(_) => FileKind::Missing,
@@ -174,7 +174,7 @@ fn open_at_once(path: &Utf8Path) -> io::Result<File> {
 
 #[cfg(not(unix))]
 fn open_at_once(path: &Utf8Path) -> io::Result<File> {
-    replace::waiting(|| File::open(path))
+    replace::retry_while_busy(|| File::open(path))
 }
 
 /// Reads a file of at most `limit` bytes. The old content of `bytes` is overwritten.
@@ -219,7 +219,7 @@ fn not_regular() -> ReadError {
 /// If the file cannot be written, or is a pipe, socket or device. The path is then left as it was.
 fn replace(path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
     let parent = path.parent().unwrap_or(Utf8Path::new(""));
-    remove_debris(readable(parent));
+    remove_debris(or_current_directory(parent));
     match path.as_std_path().metadata() {
         Ok(data) if data.is_dir() => return Err(Value::Prose(&DIRECTORY_OF_THAT_NAME)),
         Ok(data) if !data.is_file() => return Err(Value::Prose(&NOT_REGULAR)),
@@ -228,7 +228,8 @@ fn replace(path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
         }
         _ => {}
     }
-    let written = fs::create_dir_all(readable(parent)).and_then(|()| replace::write(path, bytes, false));
+    let written =
+        fs::create_dir_all(or_current_directory(parent)).and_then(|()| replace::write(path, bytes, false));
     written.map(|()| WriteOutcome::Changed).map_err(|error| reason(&error))
 }
 
@@ -239,7 +240,7 @@ fn holds(path: &Utf8Path, bytes: &[u8]) -> bool {
 
 /// Temporary files in each directory that was listed, from its first listing. Each directory is searched at most once per run, and a listing made
 /// for another purpose serves as well.
-static LISTED: LazyLock<Mutex<HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>>> = LazyLock::new(Mutex::default);
+static LISTED_DEBRIS: LazyLock<Mutex<HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>>> = LazyLock::new(Mutex::default);
 
 /// Records the temporary files found while listing a directory.
 fn record_debris(directory: &Utf8Path, temporary: Vec<Utf8PathBuf>) {
@@ -264,5 +265,5 @@ fn remove_debris(directory: &Utf8Path) {
 }
 
 fn listed_directories() -> MutexGuard<'static, HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>> {
-    LISTED.lock().unwrap_or_else(PoisonError::into_inner)
+    LISTED_DEBRIS.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -10,7 +10,7 @@ use std::thread;
 use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::reasons::{TOO_MANY_TEMPORARY, WRITE_PROTECTED, error, is_held};
+use pathbuild_diagnostic::reasons::{TOO_MANY_TEMPORARY, WRITE_PROTECTED, is_opened_exclusively, text_error};
 
 /// Replaces a file, unless it is write-protected; an existing link is not followed. A private file has access for its owner only.
 ///
@@ -19,12 +19,12 @@ use pathbuild_diagnostic::reasons::{TOO_MANY_TEMPORARY, WRITE_PROTECTED, error, 
 pub(crate) fn write(path: &Utf8Path, bytes: &[u8], is_private: bool) -> io::Result<()> {
     // Renaming asks for access to the directory only.
     if fs::symlink_metadata(path).is_ok_and(|data| data.is_file() && data.permissions().readonly()) {
-        return Err(error(ErrorKind::PermissionDenied, &WRITE_PROTECTED));
+        return Err(text_error(ErrorKind::PermissionDenied, &WRITE_PROTECTED));
     }
     let (temporary, mut file) = temporary(path, is_private)?;
     let written = file.write_all(bytes).and_then(|()| file.flush());
     // The lock is held until the file has its final name.
-    let renamed = written.and_then(|()| waiting(|| fs::rename(&temporary, path)));
+    let renamed = written.and_then(|()| retry_while_busy(|| fs::rename(&temporary, path)));
     // Best effort: the first error is the one to report.
     renamed.inspect_err(|_| _ = fs::remove_file(&temporary))
 }
@@ -42,7 +42,7 @@ pub(crate) fn temporary(path: &Utf8Path, is_private: bool) -> io::Result<(Utf8Pa
     if is_private {
         std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
     }
-    for attempt in 0..ATTEMPTS {
+    for attempt in 0..MAX_NAME_ATTEMPTS {
         let candidate = path.with_file_name(format!(".{name}.{}-{attempt}.tmp", std::process::id()));
         match options.open(&candidate) {
             Ok(file) => match file.try_lock() {
@@ -57,11 +57,11 @@ pub(crate) fn temporary(path: &Utf8Path, is_private: bool) -> io::Result<(Utf8Pa
             Err(error) => return Err(error),
         }
     }
-    Err(error(ErrorKind::AlreadyExists, &TOO_MANY_TEMPORARY))
+    Err(text_error(ErrorKind::AlreadyExists, &TOO_MANY_TEMPORARY))
 }
 
 /// Number of names tried for a temporary file: killed runs with the same process id may have left theirs.
-const ATTEMPTS: u32 = 1000;
+const MAX_NAME_ATTEMPTS: u32 = 1000;
 
 /// Whether a name has the form `.NAME.123-0.tmp` of a temporary file, where `is_name` accepts NAME.
 pub fn is_temporary(name: &str, is_name: impl Fn(&str) -> bool) -> bool {
@@ -78,17 +78,17 @@ pub fn is_temporary(name: &str, is_name: impl Fn(&str) -> bool) -> bool {
 ///
 /// # Errors
 /// The last error.
-pub(crate) fn waiting<T>(attempt: impl FnMut() -> io::Result<T>) -> io::Result<T> {
-    again_while(is_held, attempt, thread::sleep)
+pub(crate) fn retry_while_busy<T>(attempt: impl FnMut() -> io::Result<T>) -> io::Result<T> {
+    retry_while(is_opened_exclusively, attempt, thread::sleep)
 }
 
 /// Retries an operation while its error satisfies `is_passing`.
-fn again_while<T>(
+fn retry_while<T>(
     is_passing: impl Fn(&io::Error) -> bool,
     mut attempt: impl FnMut() -> io::Result<T>,
     mut pause: impl FnMut(Duration),
 ) -> io::Result<T> {
-    for _ in 0..PAUSES {
+    for _ in 0..MAX_PAUSES {
         match attempt() {
             Err(error) if is_passing(&error) => pause(RETRY_PAUSE),
             result => return result,
@@ -99,7 +99,7 @@ fn again_while<T>(
 
 const RETRY_PAUSE: Duration = Duration::from_millis(50);
 /// Number of pauses between attempts: two seconds in total.
-const PAUSES: u32 = 40;
+const MAX_PAUSES: u32 = 40;
 
 #[cfg(test)]
 mod tests {
@@ -116,7 +116,7 @@ mod tests {
             Err(io::Error::from(ErrorKind::ResourceBusy))
         };
         let result =
-            again_while(|error| error.kind() == ErrorKind::ResourceBusy, attempt, |pause| waited += pause);
+            retry_while(|error| error.kind() == ErrorKind::ResourceBusy, attempt, |pause| waited += pause);
         (result.is_ok(), waited)
     }
 
@@ -124,13 +124,17 @@ mod tests {
     fn a_held_file_is_waited_for_two_seconds_and_no_longer() {
         assert_eq!(retry_locked(0), (true, Duration::ZERO));
         assert_eq!(retry_locked(3), (true, 3 * RETRY_PAUSE));
-        assert_eq!(retry_locked(PAUSES), (true, Duration::from_secs(2)));
-        assert_eq!(retry_locked(PAUSES + 1), (false, Duration::from_secs(2)));
+        assert_eq!(retry_locked(MAX_PAUSES), (true, Duration::from_secs(2)));
+        assert_eq!(retry_locked(MAX_PAUSES + 1), (false, Duration::from_secs(2)));
     }
 
     #[test]
     fn other_errors_are_not_waited_for() {
-        let waited = again_while(is_held, || Err::<(), _>(ErrorKind::NotFound.into()), |_| panic!("a pause"));
+        let waited = retry_while(
+            is_opened_exclusively,
+            || Err::<(), _>(ErrorKind::NotFound.into()),
+            |_| panic!("a pause"),
+        );
         assert_eq!(waited.unwrap_err().kind(), ErrorKind::NotFound);
     }
 }

@@ -55,13 +55,13 @@ impl Stamp {
 
     /// Returns the stamp to store for a run that began reading at `begun`: [`UNKNOWN`](Self::UNKNOWN) if the file was not at rest by then.
     #[must_use]
-    pub fn settled(self, begun: Clock) -> Self {
+    pub fn for_storing(self, begun: Clock) -> Self {
         let is_of_file = self != Self::MISSING && self != Self::UNKNOWN;
-        if is_of_file && !self.has_rested(begun) { Self::UNKNOWN } else { self }
+        if is_of_file && !self.is_old_enough(begun) { Self::UNKNOWN } else { self }
     }
 
     /// Whether the file's last change is old enough that a later one would alter the stamp.
-    fn has_rested(self, Clock(begun): Clock) -> bool {
+    fn is_old_enough(self, Clock(begun): Clock) -> bool {
         // Times before 1970 are not trusted: they do not count as rest.
         let is_before = |seconds: u64| {
             let time = i64::try_from(seconds)

@@ -13,7 +13,7 @@ use pathbuild_diagnostic::reasons::LEADS_OUT;
 use super::{Entry, FileKind, FileLink, Listing, ReadError, Stamp, System, WriteOutcome, clean};
 
 /// Wraps another system and refuses to read or write through links that lead from inside one of the given directories to outside of it. A path
-/// that, as written, lies outside of them is allowed: names from the repository itself are checked with [`ConfinedSystem::holds`] first, so such a
+/// that, as written, lies outside of them is allowed: names from the repository itself are checked with [`ConfinedSystem::is_in_configured_root`] first, so such a
 /// path was given by the user.
 #[derive(Clone, Debug)]
 pub struct ConfinedSystem {
@@ -27,7 +27,7 @@ pub struct ConfinedSystem {
 /// A directory, as written and with links resolved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Root {
-    spelt: Utf8PathBuf,
+    as_written: Utf8PathBuf,
     real: Utf8PathBuf,
 }
 
@@ -35,15 +35,15 @@ impl ConfinedSystem {
     /// Creates a system that is confined to the directory `root`.
     pub fn new(below: Arc<dyn System>, root: &Utf8Path, working_directory: &Utf8Path) -> Self {
         let confined = Self { below, working_directory: working_directory.to_owned(), roots: Vec::new() };
-        confined.and(root)
+        confined.with_root(root)
     }
 
     /// Adds a directory: links inside it must not lead out of it either.
     #[must_use]
-    pub fn and(mut self, root: &Utf8Path) -> Self {
+    pub fn with_root(mut self, root: &Utf8Path) -> Self {
         let spelt = clean(&self.working_directory.join(root));
         let real = self.below.canonical(&spelt);
-        let root = Root { spelt, real };
+        let root = Root { as_written: spelt, real };
         if !self.roots.contains(&root) {
             self.roots.push(root);
         }
@@ -52,7 +52,7 @@ impl ConfinedSystem {
 
     /// The directory of the configuration.
     pub fn root(&self) -> &Utf8Path {
-        self.roots.first().map_or(Utf8Path::new(""), |root| &root.spelt)
+        self.roots.first().map_or(Utf8Path::new(""), |root| &root.as_written)
     }
 
     /// Whether all the directories, with links resolved, lie in or below one of the `trusted` directories.
@@ -63,7 +63,7 @@ impl ConfinedSystem {
     }
 
     /// Whether a path lies in the directory of the configuration, both as written and with links resolved.
-    pub fn holds(&self, path: &Utf8Path) -> bool {
+    pub fn is_in_configured_root(&self, path: &Utf8Path) -> bool {
         self.roots
             .first()
             .is_some_and(|root| self.contains_as_written(path, root) && self.leads_into(path, root))
@@ -83,7 +83,7 @@ impl ConfinedSystem {
 
     fn contains_as_written(&self, path: &Utf8Path, root: &Root) -> bool {
         let path = clean(&self.working_directory.join(path));
-        path.starts_with(&root.spelt) || path.starts_with(&root.real)
+        path.starts_with(&root.as_written) || path.starts_with(&root.real)
     }
 
     fn leads_into(&self, path: &Utf8Path, root: &Root) -> bool {
@@ -104,12 +104,12 @@ impl ConfinedSystem {
         self.roots.iter().all(|root| !self.contains_as_written(path, root) || self.leads_into(path, root))
     }
 
-    fn allowed(&self, path: &Utf8Path) -> Result<&dyn System, ReadError> {
+    fn check_allowed(&self, path: &Utf8Path) -> Result<&dyn System, ReadError> {
         if self.allows(path) { Ok(&*self.below) } else { Err(ReadError::Other(Value::Prose(&LEADS_OUT))) }
     }
 
     /// Checks the parent directory, since writing replaces a link instead of following it.
-    fn changeable(&self, path: &Utf8Path) -> Result<&dyn System, Value> {
+    fn check_changeable(&self, path: &Utf8Path) -> Result<&dyn System, Value> {
         let directory = path.parent().unwrap_or(Utf8Path::new(""));
         if self.allows(directory) { Ok(&*self.below) } else { Err(Value::Prose(&LEADS_OUT)) }
     }
@@ -117,19 +117,19 @@ impl ConfinedSystem {
 
 impl System for ConfinedSystem {
     fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
-        self.allowed(path)?.read_into(path, limit, room)
+        self.check_allowed(path)?.read_into(path, limit, room)
     }
 
-    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
-        self.allowed(path)?.head(path, length)
+    fn read_head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        self.check_allowed(path)?.read_head(path, length)
     }
 
-    fn tail(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
-        self.allowed(path)?.tail(path, length)
+    fn read_tail(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        self.check_allowed(path)?.read_tail(path, length)
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
-        self.allowed(directory)?.list(directory)
+        self.check_allowed(directory)?.list(directory)
     }
 
     fn each_entry(
@@ -137,7 +137,7 @@ impl System for ConfinedSystem {
         directory: &Utf8Path,
         take: &mut dyn FnMut(Entry<'_>) -> ControlFlow<()>,
     ) -> Result<(), ReadError> {
-        self.allowed(directory)?.each_entry(directory, take)
+        self.check_allowed(directory)?.each_entry(directory, take)
     }
 
     fn kind(&self, path: &Utf8Path) -> FileKind {
@@ -149,15 +149,15 @@ impl System for ConfinedSystem {
     }
 
     fn link(&self, path: &Utf8Path) -> Option<FileLink> {
-        self.allowed(path).ok()?.link(path)
+        self.check_allowed(path).ok()?.link(path)
     }
 
     fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
-        self.changeable(path)?.write(path, bytes)
+        self.check_changeable(path)?.write(path, bytes)
     }
 
     fn remove(&self, path: &Utf8Path) -> Result<(), Value> {
-        self.changeable(path)?.remove(path)
+        self.check_changeable(path)?.remove(path)
     }
 
     fn now(&self) -> Option<Instant> {
@@ -179,26 +179,26 @@ impl BasedSystem {
         Self { below, directory }
     }
 
-    fn place(&self, path: &Utf8Path) -> Utf8PathBuf {
+    fn resolve(&self, path: &Utf8Path) -> Utf8PathBuf {
         self.directory.join(path)
     }
 }
 
 impl System for BasedSystem {
     fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
-        self.below.read_into(&self.place(path), limit, room)
+        self.below.read_into(&self.resolve(path), limit, room)
     }
 
-    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
-        self.below.head(&self.place(path), length)
+    fn read_head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        self.below.read_head(&self.resolve(path), length)
     }
 
-    fn tail(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
-        self.below.tail(&self.place(path), length)
+    fn read_tail(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        self.below.read_tail(&self.resolve(path), length)
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
-        self.below.list(&self.place(directory))
+        self.below.list(&self.resolve(directory))
     }
 
     fn each_entry(
@@ -206,27 +206,27 @@ impl System for BasedSystem {
         directory: &Utf8Path,
         take: &mut dyn FnMut(Entry<'_>) -> ControlFlow<()>,
     ) -> Result<(), ReadError> {
-        self.below.each_entry(&self.place(directory), take)
+        self.below.each_entry(&self.resolve(directory), take)
     }
 
     fn kind(&self, path: &Utf8Path) -> FileKind {
-        self.below.kind(&self.place(path))
+        self.below.kind(&self.resolve(path))
     }
 
     fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf {
-        self.below.canonical(&self.place(path))
+        self.below.canonical(&self.resolve(path))
     }
 
     fn link(&self, path: &Utf8Path) -> Option<FileLink> {
-        self.below.link(&self.place(path))
+        self.below.link(&self.resolve(path))
     }
 
     fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
-        self.below.write(&self.place(path), bytes)
+        self.below.write(&self.resolve(path), bytes)
     }
 
     fn remove(&self, path: &Utf8Path) -> Result<(), Value> {
-        self.below.remove(&self.place(path))
+        self.below.remove(&self.resolve(path))
     }
 
     fn now(&self) -> Option<Instant> {

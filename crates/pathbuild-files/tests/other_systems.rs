@@ -69,8 +69,8 @@ fn relative_paths_begin_at_a_directory() {
     let (inside, outside) = (Utf8Path::new("parts/1001.dxf"), Utf8Path::new("/other/1002.dxf"));
     assert_eq!(system.read(inside, 99).as_deref(), Ok(&b"drawing"[..]));
     assert_eq!(system.read(outside, 99).as_deref(), Ok(&b"another"[..]));
-    assert_eq!(system.head(inside, 4).as_deref(), Ok(&b"draw"[..]));
-    assert_eq!(system.tail(inside, 3).as_deref(), Ok(&b"ing"[..]));
+    assert_eq!(system.read_head(inside, 4).as_deref(), Ok(&b"draw"[..]));
+    assert_eq!(system.read_tail(inside, 3).as_deref(), Ok(&b"ing"[..]));
     assert_eq!(system.kind(inside), FileKind::File);
     assert_eq!(system.kind(Utf8Path::new("")), FileKind::Directory);
     assert_eq!(names(&system, "parts"), ["1001.dxf"]);

@@ -161,7 +161,7 @@ fn draw_frame(room: &mut Surroundings) {
 }
 
 fn insert(room: &mut Surroundings, block: &str, at: Point, layer: &str) {
-    let scale = Point::new(1.0, 1.0).at(1.0);
+    let scale = Point::new(1.0, 1.0).at_height(1.0);
     let shape =
         Insert { block: block.to_owned(), at, scale, rotation: 0.0, count: (1, 1), spacing: (0.0, 0.0) };
     room.add(Entity::new(Shape::Insert(shape)), layer);

@@ -12,7 +12,7 @@ fn the_page_escapes_what_the_program_escapes() {
     let escaped = Regex::new(&format!("^[{class}]$")).unwrap();
     for character in (0..=0x10_ffff).filter_map(char::from_u32) {
         // The script leaves line breaks as they are.
-        let is_meant = character != '\n' && shown::acts(character);
+        let is_meant = character != '\n' && shown::is_active(character);
         assert_eq!(escaped.is_match(character.encode_utf8(&mut [0; 4])), is_meant, "{character:?}");
     }
 }

@@ -26,7 +26,7 @@ pub mod waivers;
 pub mod watch;
 mod workspace;
 
-pub use pathbuild_cache::Home as CacheHome;
+pub use pathbuild_cache::CacheLocation as CacheHome;
 
 pub use inputs::{Input, Inputs};
 pub use workspace::{Failure, ProgressCounter, Reporter, SilentReporter, Workspace};

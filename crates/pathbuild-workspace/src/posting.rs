@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::{join, readable};
+use pathbuild_db::system::{join, or_current_directory};
 use pathbuild_diagnostic::messages::{posts, posts as messages};
 use pathbuild_diagnostic::reasons::LEADS_OUT_OF_POST;
 use pathbuild_diagnostic::{Diagnostic, Value};
@@ -377,7 +377,7 @@ const MAX_INSERTED_BYTES: u64 = 1 << 24;
 impl PostFiles for DirectoryFiles<'_> {
     fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value> {
         let Self { directory, system } = self;
-        let base = system.canonical(readable(directory));
+        let base = system.canonical(or_current_directory(directory));
         let file = system.canonical(&directory.join(path));
         if !file.starts_with(&base) && file.is_absolute() {
             return Err(Value::Prose(&LEADS_OUT_OF_POST));

@@ -5,9 +5,9 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
-use pathbuild_cache::{Home, TreeStore};
+use pathbuild_cache::{CacheLocation, TreeStore};
 use pathbuild_db::System;
-use pathbuild_db::system::spelt;
+use pathbuild_db::system::with_forward_slashes;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 
 use crate::config::{Origin, Settings};
@@ -28,7 +28,7 @@ pub struct Workspace {
     /// Number of worker threads; `None` means one per core.
     pub jobs: Option<u16>,
     /// Place where results are cached; `None` disables the cache.
-    pub cache: Option<Home>,
+    pub cache: Option<CacheLocation>,
     /// Receives messages about the progress of the run.
     pub reporter: Rc<dyn Reporter>,
 }
@@ -131,7 +131,7 @@ pub(crate) fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
     }
     let up = start[common..].iter().map(|_| Utf8Component::ParentDir);
     let relative: Utf8PathBuf = up.chain(target[common..].iter().copied()).collect();
-    if relative.as_str().is_empty() { Utf8PathBuf::from(".") } else { spelt(relative) }
+    if relative.as_str().is_empty() { Utf8PathBuf::from(".") } else { with_forward_slashes(relative) }
 }
 
 /// The reason why a request has no outcome.

@@ -9,7 +9,7 @@ use std::rc::Rc;
 use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{OsSystem, spelt};
+use pathbuild_db::system::{OsSystem, with_forward_slashes};
 use pathbuild_diagnostic::{Diagnostic, Lang, shown};
 use pathbuild_workspace::config::{self, Overrides, UserSettings, clean};
 use pathbuild_workspace::waivers::{Date, DateSource, RunDate};
@@ -55,7 +55,10 @@ pub(crate) fn workspace(
 /// Returns the working directory; empty if it is unknown or not UTF-8, so that relative names remain relative.
 pub(crate) fn working_directory() -> Utf8PathBuf {
     let directory = env::current_dir().ok();
-    directory.and_then(|directory| Utf8PathBuf::from_path_buf(directory).ok()).map(spelt).unwrap_or_default()
+    directory
+        .and_then(|directory| Utf8PathBuf::from_path_buf(directory).ok())
+        .map(with_forward_slashes)
+        .unwrap_or_default()
 }
 
 /// Returns the path of the user's `config.toml`, whether the file exists or not; `None` if its directory is unknown.

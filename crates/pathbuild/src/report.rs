@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::mem::ManuallyDrop;
 use std::time::Duration;
 
-use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity, in_prose};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity, with_decimal_separator};
 use pathbuild_workspace::check::{CheckOutcome, Request};
 use pathbuild_workspace::findings::Findings;
 
@@ -111,7 +111,7 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
         0 => String::new(),
         known => format!(", {} {}", count(known, lang), lang.choose("known", "bekannt")),
     };
-    let seconds = in_prose(format!("{:.1}", time.as_secs_f64()), lang);
+    let seconds = with_decimal_separator(format!("{:.1}", time.as_secs_f64()), lang);
     let paths = counted(findings.checked.iter().map(|file| file.paths.len()).sum(), PATH);
     let drawings = counted(findings.checked.len(), DRAWING);
     format!("{paths} in {drawings}: {errors}, {warnings}{known} ({seconds} s)")

@@ -1,7 +1,7 @@
 //! Formats numbers in the conventions of a language, and tables, for texts that users read.
 
 use comfy_table::{Cell, CellAlignment, Table};
-use pathbuild_diagnostic::{Lang, in_prose, shown};
+use pathbuild_diagnostic::{Lang, shown, with_decimal_separator};
 
 /// Formats a count with thousands separators: `2,014`, in German `2.014`.
 pub(crate) fn count(number: usize, lang: Lang) -> String {
@@ -40,7 +40,7 @@ pub(crate) fn decimal(number: f64, places: usize, lang: Lang) -> String {
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     // A small negative number is rounded to -0.
     let text = if text == "-0" { "0" } else { text };
-    in_prose(text.to_owned(), lang)
+    with_decimal_separator(text.to_owned(), lang)
 }
 
 /// The heading of a column, and whether the column contains numbers, which are aligned to the right.

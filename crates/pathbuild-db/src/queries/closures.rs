@@ -74,10 +74,10 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
     if let Some(closure) = closure_without_embeddings(db, target, root) {
         return closure;
     }
-    let mut walk = Walk::new(db, target.role(db));
+    let mut walk = ClosureWalk::new(db, target.role(db));
     if missing.is_empty() {
         walk.visit(root, 0);
-        walk.count(root);
+        walk.estimate_moves(root);
     } else {
         walk.reached.push(ReachedPath { instance: root, depth: 0 });
         walk.report_all(root, &missing);
@@ -148,7 +148,7 @@ impl Closure<'_> {
     }
 }
 
-struct Walk<'db> {
+struct ClosureWalk<'db> {
     db: &'db dyn Db,
     is_emitted: bool,
     options: PathOptions,
@@ -165,7 +165,7 @@ struct Walk<'db> {
     tops: FxHashMap<Instance<'db>, f64>,
     seen: FxHashSet<Instance<'db>>,
     /// The embeddings that lead to the path being visited.
-    stack: Vec<Frame<'db>>,
+    stack: Vec<VisitedPath<'db>>,
     is_full: bool,
 }
 
@@ -203,13 +203,13 @@ impl PathErrors<'_> {
     }
 }
 
-struct Frame<'db> {
+struct VisitedPath<'db> {
     instance: Instance<'db>,
     name: PathName,
     point: Point,
 }
 
-impl<'db> Walk<'db> {
+impl<'db> ClosureWalk<'db> {
     fn new(db: &'db dyn Db, role: &Role) -> Self {
         let settings = Settings::get(db);
         Self {
@@ -239,7 +239,7 @@ impl<'db> Walk<'db> {
         if self.seen.insert(instance) {
             self.reached.push(ReachedPath { instance, depth });
         }
-        if self.is_crowded(instance) {
+        if self.exceeds_path_limit(instance) {
             return PathErrors::Own;
         }
         let errors = self.visit_stages(instance, depth);
@@ -310,7 +310,7 @@ impl<'db> Walk<'db> {
             return Cow::Borrowed(&summary.sweep_problems);
         }
         let Some(height) = signature.sweep_height(&self.options, PathRole::Emitted) else {
-            self.miss(MissingOption::SweepHeight);
+            self.record_missing_option(MissingOption::SweepHeight);
             return Cow::default();
         };
         Cow::Owned(signature.sweep_limits.check(height, PathRole::Emitted))
@@ -321,7 +321,7 @@ impl<'db> Walk<'db> {
         if !self.is_emitted || !signature.needs_feed {
             return;
         }
-        let Some(feed) = self.options.feed else { return self.miss(MissingOption::Feed) };
+        let Some(feed) = self.options.feed else { return self.record_missing_option(MissingOption::Feed) };
         let language = Settings::get(self.db).language(self.db);
         let limits = language.tools.chip_load(signature.name.as_str(), signature.tool);
         let chips = limits.and_then(|limits| limits.check(feed, None));
@@ -330,7 +330,7 @@ impl<'db> Walk<'db> {
         self.report_all(instance, &doubts);
     }
 
-    fn miss(&mut self, option: MissingOption) {
+    fn record_missing_option(&mut self, option: MissingOption) {
         if !self.missing_options.contains(&option) {
             self.missing_options.push(option);
         }
@@ -345,18 +345,18 @@ impl<'db> Walk<'db> {
     ) -> PathErrors<'db> {
         self.report_all(instance, &embedding.warnings);
         let origin = &embedding.origin;
-        let frame = Frame { instance, name: outer.clone(), point: origin.point };
+        let frame = VisitedPath { instance, name: outer.clone(), point: origin.point };
         let has_errors = match &embedding.outcome {
             Outcome::Refused(problem) => self.report_all(instance, slice::from_ref(problem)),
             _ if depth >= MAX_EMBEDDING_DEPTH => {
-                let problem = self.too_deep(&frame, embedding);
+                let problem = self.depth_error(&frame, embedding);
                 self.report_all(instance, &[origin.at(problem)]);
                 return PathErrors::TooDeep;
             }
             Outcome::NotFound(problem) => self.report_all(instance, slice::from_ref(problem)),
             Outcome::Unread(problems) | Outcome::Unbound(problems) => self.report_all(instance, problems),
             Outcome::Found { child, .. } if self.is_open(*child, instance) => {
-                let problem = self.cycle(&frame, *child);
+                let problem = self.cycle_error(&frame, *child);
                 self.report_all(instance, &[origin.at(problem)]);
                 return PathErrors::Cycle(*child);
             }
@@ -399,7 +399,7 @@ impl<'db> Walk<'db> {
         child == visiting || self.stack.iter().any(|frame| frame.instance == child)
     }
 
-    fn cycle(&self, frame: &Frame<'db>, child: Instance<'db>) -> Diagnostic {
+    fn cycle_error(&self, frame: &VisitedPath<'db>, child: Instance<'db>) -> Diagnostic {
         let open = self.stack.iter().skip_while(|open| open.instance != child);
         let mut names: Vec<String> = open.map(|open| open.name.to_string()).collect();
         names.push(frame.name.to_string());
@@ -410,7 +410,7 @@ impl<'db> Walk<'db> {
             .in_path(frame.name.as_str())
     }
 
-    fn too_deep(&self, frame: &Frame<'db>, embedding: &Embedding<'db>) -> Diagnostic {
+    fn depth_error(&self, frame: &VisitedPath<'db>, embedding: &Embedding<'db>) -> Diagnostic {
         let mut names: Vec<String> = self.stack.iter().map(|open| open.name.to_string()).collect();
         names.push(frame.name.to_string());
         let name = match &embedding.outcome {
@@ -438,15 +438,15 @@ impl<'db> Walk<'db> {
             let same = self.known.entry(hash(&identity(&diagnostic))).or_default();
             if !same.iter().any(|index| identity(&self.diagnostics[*index]) == identity(&diagnostic)) {
                 same.push(self.diagnostics.len());
-                diagnostic.trace = self.trace();
+                diagnostic.trace = self.current_trace();
                 self.diagnostics.push(diagnostic);
             }
         }
         has_errors
     }
 
-    fn trace(&self) -> Vec<TraceStep> {
-        let step = |frame: &Frame<'db>| TraceStep {
+    fn current_trace(&self) -> Vec<TraceStep> {
+        let step = |frame: &VisitedPath<'db>| TraceStep {
             file: frame.instance.file(self.db).path(self.db).clone(),
             path: frame.name.as_str().into(),
             point: frame.point,
@@ -455,7 +455,7 @@ impl<'db> Walk<'db> {
     }
 
     /// Whether the number of distinct paths exceeds the limit, which is reported once.
-    fn is_crowded(&mut self, instance: Instance<'db>) -> bool {
+    fn exceeds_path_limit(&mut self, instance: Instance<'db>) -> bool {
         let Limits { paths, .. } = self.limits;
         if self.reached.len() as u64 <= paths {
             return false;
@@ -468,7 +468,7 @@ impl<'db> Walk<'db> {
     }
 
     /// Estimates the number of moves in the program before generating them.
-    fn count(&mut self, root: Instance<'db>) {
+    fn estimate_moves(&mut self, root: Instance<'db>) {
         if self.diagnostics.iter().any(Diagnostic::is_error) {
             return;
         }

@@ -82,7 +82,7 @@ impl<'db> Embedder<'_, 'db> {
             SubpathName::Missing { .. } | SubpathName::Invalid { .. } => None,
         };
         let outcome = match self.judge.name(call) {
-            Ok(name) => self.named(call, name),
+            Ok(name) => self.resolve_name(call, name),
             Err(problem) => {
                 Outcome::Refused(self.ends.with_name_hint(Settings::get(self.db).language(self.db), *problem))
             }
@@ -91,16 +91,16 @@ impl<'db> Embedder<'_, 'db> {
         Embedding { segment: call.segment, origin: call.origin.clone(), name, outcome, warnings }
     }
 
-    fn named(&self, call: &SubpathCall, name: &PathName) -> Outcome<'db> {
+    fn resolve_name(&self, call: &SubpathCall, name: &PathName) -> Outcome<'db> {
         let key = NameKey::of(self.db, name);
         let resolved = find_path(self.db, self.file, key);
         match resolved.files.as_slice() {
             _ if !resolved.unlisted.is_empty() => Outcome::Unread(resolved.unlisted.clone()),
-            [] => match self.unread(call, name, &resolved) {
+            [] => match self.unreadable_errors(call, name, &resolved) {
                 Some(problems) => Outcome::Unread(problems),
-                None => Outcome::NotFound(self.not_found(call, name, &resolved)),
+                None => Outcome::NotFound(self.not_found_error(call, name, &resolved)),
             },
-            [file] => self.bound(call, *file, key),
+            [file] => self.bind_values(call, *file, key),
             [first, second, ..] => {
                 let [first, second] = [first, second].map(|file| file.path(self.db).as_str());
                 Outcome::NotFound(self.judge.defined_twice(call, name, first, second))
@@ -110,7 +110,7 @@ impl<'db> Embedder<'_, 'db> {
 
     /// Returns the errors of the only drawing that may define the path according to file names, if they hide all of that drawing's paths. The last
     /// diagnostic says that the drawing has errors.
-    fn unread(
+    fn unreadable_errors(
         &self,
         call: &SubpathCall,
         name: &PathName,
@@ -128,17 +128,17 @@ impl<'db> Embedder<'_, 'db> {
         Some(problems)
     }
 
-    fn not_found(&self, call: &SubpathCall, name: &PathName, resolved: &ResolvedPath) -> Diagnostic {
+    fn not_found_error(&self, call: &SubpathCall, name: &PathName, resolved: &ResolvedPath) -> Diagnostic {
         let directories = search_path(self.db, own_directory(self.db, self.file)).iter();
         let directories: Value =
-            directories.map(|directory| shown(directory.path(self.db).as_str())).collect();
+            directories.map(|directory| displayed_directory(directory.path(self.db).as_str())).collect();
         let files: Value = resolved.searched.iter().map(|file| file.path(self.db).as_str()).collect();
         let known = resolved.searched.iter().flat_map(|file| file_index(self.db, *file).names());
         self.judge.not_found(call, name, directories, files, known.cloned().collect())
     }
 
     /// Checks the values against the path's variables, then the segment against the path.
-    fn bound(&self, call: &SubpathCall, file: SourceFile, name: NameKey<'db>) -> Outcome<'db> {
+    fn bind_values(&self, call: &SubpathCall, file: SourceFile, name: NameKey<'db>) -> Outcome<'db> {
         let problems = path_index(self.db, file, name)
             .as_ref()
             .map(|inner| self.judge.binding_problems(call, &inner.header))
@@ -153,7 +153,7 @@ impl<'db> Embedder<'_, 'db> {
     }
 }
 
-fn shown(directory: &str) -> &str {
+fn displayed_directory(directory: &str) -> &str {
     if directory.is_empty() { "." } else { directory }
 }
 

@@ -108,12 +108,12 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
                 let read_all = || entities(bytes, reading, &|_| true);
                 let ends = LayerEnds::new(&read_all);
                 let index = FileIndex::new(db, raw, drawn_parts, &ends, content);
-                index.with_name_judged(db, file, &ends).with_keep_outs(keep_outs)
+                index.with_file_name_findings(db, file, &ends).with_keep_outs(keep_outs)
             }
-            Err(bug) => FileIndex::failed(*bug, content),
+            Err(bug) => FileIndex::unreadable(*bug, content),
         }
     });
-    let mut index = index.unwrap_or_else(|problem| FileIndex::failed(*problem, Content::default()));
+    let mut index = index.unwrap_or_else(|problem| FileIndex::unreadable(*problem, Content::default()));
     for diagnostic in &mut index.diagnostics {
         diagnostic.file = Some(file.path(db).clone());
     }
@@ -215,11 +215,11 @@ impl FileIndex {
         paths.sort_unstable_by(|a, b| a.header.name.cmp(&b.header.name));
         let mut diagnostics = raw.diagnostics;
         let DrawnParts { parts, mut problems, .. } = parts.unwrap_or_default();
-        soften(db, &mut problems);
+        lower_to_warnings(db, &mut problems);
         diagnostics.append(&mut problems);
         let is_complete = cuts.len() == paths.len();
         let parts = (has_parts || !cuts.is_empty())
-            .then(|| Arc::new(FileParts { parts, cuts: in_order(cuts), is_complete }));
+            .then(|| Arc::new(FileParts { parts, cuts: in_name_order(cuts), is_complete }));
         // `collect` would reuse the allocation of `paths`, which is fifty times as large as needed.
         let mut shared = Vec::with_capacity(paths.len());
         shared.extend(paths.into_iter().map(Arc::new));
@@ -228,7 +228,7 @@ impl FileIndex {
     }
 
     /// Adds findings about the file's name, unless errors leave the drawing's paths unknown.
-    fn with_name_judged(mut self, db: &dyn Db, file: SourceFile, ends: &LayerEnds<'_>) -> Self {
+    fn with_file_name_findings(mut self, db: &dyn Db, file: SourceFile, ends: &LayerEnds<'_>) -> Self {
         if !self.diagnostics.iter().any(Diagnostic::is_error) {
             let settings = Settings::get(db);
             let stem = file.path(db).file_stem().unwrap_or_default();
@@ -247,7 +247,7 @@ impl FileIndex {
     }
 
     /// The index of a drawing that could not be read.
-    fn failed(problem: Diagnostic, content: Content) -> Self {
+    fn unreadable(problem: Diagnostic, content: Content) -> Self {
         Self { diagnostics: vec![problem], content, ..Self::default() }
     }
 
@@ -278,7 +278,7 @@ impl FileIndex {
     }
 }
 
-fn in_order(mut cuts: Vec<PathCuts>) -> Vec<PathCuts> {
+fn in_name_order(mut cuts: Vec<PathCuts>) -> Vec<PathCuts> {
     cuts.sort_unstable_by(|one, other| one.name.cmp(&other.name));
     cuts
 }
@@ -475,7 +475,7 @@ pub(super) struct FileParts {
 
 impl FileParts {
     /// Index of a path in [`FileParts::cuts`].
-    pub(super) fn place(&self, name: &PathName) -> Option<usize> {
+    pub(super) fn index_of_path(&self, name: &PathName) -> Option<usize> {
         self.cuts.binary_search_by(|cuts| (*cuts.name).cmp(name)).ok()
     }
 }
@@ -490,7 +490,7 @@ pub(super) fn cuts_of(db: &dyn Db, path: &Path, walked: &WalkedPath) -> Option<P
 }
 
 /// Turns errors about parts into warnings in compatible mode.
-pub(super) fn soften<'p>(db: &dyn Db, problems: impl IntoIterator<Item = &'p mut Diagnostic>) {
+pub(super) fn lower_to_warnings<'p>(db: &dyn Db, problems: impl IntoIterator<Item = &'p mut Diagnostic>) {
     if Settings::get(db).reading(db).compatible {
         for problem in problems {
             problem.severity = Severity::Warning;

@@ -28,11 +28,11 @@ pub struct PlacedKeepOut {
 
 /// The clamps around the program of a target, from all its drawings. Duplicates at the same place count once. Empty without a program.
 pub fn placed_keep_outs(db: &dyn Db, target: Target) -> Vec<PlacedKeepOut> {
-    with_keep_outs(db, target).map(|traced| placed(db, traced)).unwrap_or_default()
+    program_with_keep_outs(db, target).map(|traced| compute_placed_keep_outs(db, traced)).unwrap_or_default()
 }
 
 /// The program of a target, if its drawings have clamps.
-fn with_keep_outs(db: &dyn Db, target: Target) -> Option<&TracedProgram> {
+fn program_with_keep_outs(db: &dyn Db, target: Target) -> Option<&TracedProgram> {
     if has_keep_outs(db, target) { traced_program(db, target).as_deref() } else { None }
 }
 
@@ -42,7 +42,7 @@ fn has_keep_outs(db: &dyn Db, target: Target) -> bool {
         && closure(db, target).files(db).into_iter().any(has_some)
 }
 
-fn placed(db: &dyn Db, traced: &TracedProgram) -> Vec<PlacedKeepOut> {
+fn compute_placed_keep_outs(db: &dyn Db, traced: &TracedProgram) -> Vec<PlacedKeepOut> {
     let mut known = FxHashSet::default();
     let mut all = Vec::new();
     for (number, occurrence) in (0_u32..).zip(&traced.trace.occurrences) {
@@ -66,7 +66,7 @@ pub(super) fn entered_keep_outs(db: &dyn Db, target: Target) -> &[Diagnostic] {
 
 #[salsa::tracked]
 fn moves_into_keep_outs(db: &dyn Db, target: Target) -> Vec<Diagnostic> {
-    with_keep_outs(db, target).map(|traced| Search::new(db, traced).findings()).unwrap_or_default()
+    program_with_keep_outs(db, target).map(|traced| Search::new(db, traced).findings()).unwrap_or_default()
 }
 
 /// Searches a program for moves that hit clamps.
@@ -130,7 +130,7 @@ impl Collision {
 
 impl<'t> Search<'t> {
     fn new(db: &'t dyn Db, traced: &'t TracedProgram) -> Self {
-        Self { db, traced, clamps: placed(db, traced) }
+        Self { db, traced, clamps: compute_placed_keep_outs(db, traced) }
     }
 
     fn findings(&self) -> Vec<Diagnostic> {
@@ -151,7 +151,8 @@ impl<'t> Search<'t> {
             let Some(way) = way(&it) else { continue };
             let what = kind_of_move(&it);
             for clamp in map.entered(&way, radius, 0.0) {
-                let (occurrence, element) = self.occurrences().common(step, self.clamps[clamp].occurrence);
+                let (occurrence, element) =
+                    self.occurrences().innermost_common_path(step, self.clamps[clamp].occurrence);
                 let entry = Entry { clamp, occurrence, element, probe, what: what.en };
                 entries.entry(entry).or_insert(Collision::new(what)).add(&way);
             }

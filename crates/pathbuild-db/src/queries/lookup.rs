@@ -13,7 +13,7 @@ use crate::database::Db;
 use crate::database::catch_bugs;
 use crate::inputs::{Directory, Settings, SourceFile};
 use crate::queries::index::{FileIndex, NameKey, file_index, path_index};
-use crate::system::{FileKind, Names, ReadError, is_drawing, join, readable};
+use crate::system::{FileKind, Names, ReadError, is_drawing, join, or_current_directory};
 
 /// The drawings of a directory, by the path names that they may contain according to their file names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -53,7 +53,7 @@ pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     directory.revision(db);
     let pattern = Settings::get(db).file_pattern(db);
     let list = || db.system().list(directory.path(db)).map(|listing| listing.files);
-    match db.listed(directory).map_or_else(list, Ok) {
+    match db.take_listing(directory).map_or_else(list, Ok) {
         Ok(files) => NameTable::new(&files, pattern),
         Err(ReadError::Missing) => NameTable::default(),
         Err(fault) => NameTable { fault: Some(fault), ..NameTable::default() },
@@ -61,20 +61,20 @@ pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
 }
 
 /// Returns PB001 for a directory that cannot be listed, since it may define the path.
-pub fn unlisted(db: &dyn Db, directory: Directory) -> Option<Diagnostic> {
+pub fn listing_error(db: &dyn Db, directory: Directory) -> Option<Diagnostic> {
     let fault = name_table(db, directory).fault.as_ref()?;
-    Some(unlistable(directory.path(db), fault))
+    Some(unlistable_error(directory.path(db), fault))
 }
 
 /// Returns PB001 for a directory with this error.
-pub fn unlistable(directory: &Utf8Path, fault: &ReadError) -> Diagnostic {
+pub fn unlistable_error(directory: &Utf8Path, fault: &ReadError) -> Diagnostic {
     let reason = match fault {
         ReadError::Other(reason) => reason.clone(),
         ReadError::Missing | ReadError::IsDirectory | ReadError::TooLarge { .. } => {
             Value::Prose(&NO_DIRECTORY)
         }
     };
-    let directory = readable(directory);
+    let directory = or_current_directory(directory);
     Diagnostic::new(&messages::UNLISTABLE).with("reason", reason).in_file(directory)
 }
 
@@ -132,7 +132,7 @@ pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'d
         let mut seen = FxHashSet::default();
         files.retain(|file| seen.insert(db.system().canonical(file.path(db))));
     }
-    let unlisted = directories.iter().filter_map(|directory| unlisted(db, *directory)).collect();
+    let unlisted = directories.iter().filter_map(|directory| listing_error(db, *directory)).collect();
     ResolvedPath { files, searched, unlisted }
 }
 

@@ -35,11 +35,13 @@ pub use index::{
 };
 pub use keep_outs::{Collision, PlacedKeepOut, placed_keep_outs};
 pub use lookup::{
-    ResolvedPath, candidate_files, defining_files, drawing_names, embeds_others, likely_file, name_table,
-    prefetch, resolve_path, search_path, unlistable, unlisted,
+    ResolvedPath, candidate_files, defining_files, drawing_names, embeds_others, likely_file, listing_error,
+    name_table, prefetch, resolve_path, search_path, unlistable_error,
 };
 pub use neighbours::{PlacedPart, placed_parts};
 pub use part::uncut_rings;
-pub use programs::{DrawnPath, Part, TracedProgram, drawn_path, in_force, other_layers, traced_program};
+pub use programs::{
+    DrawnPath, Part, TracedProgram, drawn_path, effective_parameters, remaining_layers, traced_program,
+};
 pub use raw::{PathPlace, assigned_texts, combinations, path_place, raw_file};
 pub use results::{check_file, check_target, locate, program, q_project, q_project_findings};

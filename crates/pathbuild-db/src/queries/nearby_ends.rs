@@ -47,11 +47,15 @@ impl<'a> LayerEnds<'a> {
     ) -> Diagnostic {
         let hint = match problem.code() {
             Code::NothingContinues if problem.message != &paths::DRAWN_TWICE => {
-                self.end(path, language, &problem)
+                self.nearest_end(path, language, &problem)
             }
-            Code::MissingStart => self.marker(language, &problem, START, &drawing::START_ON_OTHER_LAYER),
-            Code::MissingEnd => self.marker(language, &problem, END, &drawing::END_MARKER_ON_OTHER_LAYER),
-            Code::TextWithoutElement => self.element(language, &problem),
+            Code::MissingStart => {
+                self.nearest_marker(language, &problem, START_MARKER, &drawing::START_ON_OTHER_LAYER)
+            }
+            Code::MissingEnd => {
+                self.nearest_marker(language, &problem, END_MARKER, &drawing::END_MARKER_ON_OTHER_LAYER)
+            }
+            Code::TextWithoutElement => self.nearest_element(language, &problem),
             Code::MissingPathParameters => self.start_text(&problem),
             _ => None,
         };
@@ -79,23 +83,23 @@ impl<'a> LayerEnds<'a> {
             _ => None,
         });
         if let Some(name) = name.filter(|_| problem.code() == Code::PromisedPath) {
-            let layers = self.all().drawing.layers.iter().map(|layer| &*layer.name);
+            let layers = self.all_layers().drawing.layers.iter().map(|layer| &*layer.name);
             problem.notes.extend(near_layer(&name, layers));
         }
         problem
     }
 
-    fn all(&self) -> &AllLayers {
+    fn all_layers(&self) -> &AllLayers {
         self.all.get_or_init(|| AllLayers::new((self.read)()))
     }
 
     /// The nearest end on another layer, whether or not that belongs to a path.
-    fn end(&self, path: &PathName, language: &Language, problem: &Diagnostic) -> Option<(Note, f64)> {
+    fn nearest_end(&self, path: &PathName, language: &Language, problem: &Diagnostic) -> Option<(Note, f64)> {
         let Point { x: Number(x), y: Number(y) } = problem.place.point?;
         let point = Xy::new(x, y);
         let is_other =
             |layer: &str| language.path_pattern.layer(layer).is_none_or(|layer| layer.path != *path);
-        let near = self.all().near(point, MAX_HINT_DISTANCE).filter(|(layer, _)| is_other(layer));
+        let near = self.all_layers().near(point, MAX_HINT_DISTANCE).filter(|(layer, _)| is_other(layer));
         let ends = near.flat_map(|(layer, entity)| {
             ends_of(&entity.geometry).into_iter().flatten().map(move |end| (layer, entity.kind, end))
         });
@@ -113,7 +117,7 @@ impl<'a> LayerEnds<'a> {
     }
 
     /// A start or end marker on a layer without a path.
-    fn marker(
+    fn nearest_marker(
         &self,
         language: &Language,
         problem: &Diagnostic,
@@ -126,11 +130,11 @@ impl<'a> LayerEnds<'a> {
         }
         let markers = self.markers.get_or_init(|| {
             MARKER_RADII.map(|radius| {
-                let mut entities = self.all().entities();
+                let mut entities = self.all_layers().entities();
                 entities.position(|(layer, entity)| is_marker(language, layer, entity, radius))
             })
         });
-        let (layer, entity) = self.all().entity(markers[which]?)?;
+        let (layer, entity) = self.all_layers().entity(markers[which]?)?;
         let Geometry::Circle(circle) = &entity.geometry else { return None };
         let centre = Point::new(circle.centre.x, circle.centre.y);
         Some((
@@ -140,7 +144,7 @@ impl<'a> LayerEnds<'a> {
     }
 
     /// The element on another layer that is nearest to a text.
-    fn element(&self, language: &Language, problem: &Diagnostic) -> Option<(Note, f64)> {
+    fn nearest_element(&self, language: &Language, problem: &Diagnostic) -> Option<(Note, f64)> {
         let (Some(Value::Point(centre)), Some(Value::Number(Number(diameter)))) =
             (problem.argument("centre"), problem.argument("diameter"))
         else {
@@ -151,11 +155,11 @@ impl<'a> LayerEnds<'a> {
         }
         let text = TextCircle { centre: Xy::new(centre.x.0, centre.y.0), radius: diameter / 2.0 };
         let own = problem.place.layer.as_deref();
-        let near = self.all().near(text.centre, text.radius + MAX_HINT_DISTANCE);
+        let near = self.all_layers().near(text.centre, text.radius + MAX_HINT_DISTANCE);
         let is_drawn_for_paths = |layer: &str| !language.is_part(layer) && !language.is_keep_out(layer);
         let others = near.filter(|(layer, _)| Some(*layer) != own && is_drawn_for_paths(layer));
-        let distances =
-            others.filter_map(|(layer, entity)| Some((layer, entity, gap(&text, &entity.geometry)?)));
+        let distances = others
+            .filter_map(|(layer, entity)| Some((layer, entity, distance_to_text(&text, &entity.geometry)?)));
         let (layer, entity, gap) =
             distances.reduce(|best, other| if other.2 < best.2 { other } else { best })?;
         let arguments = vec![
@@ -179,7 +183,7 @@ impl LayerEnds<'_> {
             has(Letter::O) && has(Letter::T) && !has(Letter::Embed)
         };
         let touches = |circle: &TextCircle| (circle.centre - at).norm() < circle.radius + START_RADIUS;
-        let texts = self.all().texts_near(at, START_RADIUS);
+        let texts = self.all_layers().texts_near(at, START_RADIUS);
         let others = texts.filter(|(layer, ..)| Some(*layer) != problem.place.layer.as_deref());
         let mut found = others.filter(|(_, circle, string)| touches(circle) && is_of_start(string));
         let (layer, _, string) = found.next()?;
@@ -195,12 +199,12 @@ impl LayerEnds<'_> {
                 && LineType::of(&entity.line_type, &language.line_types) == Some(LineType::Dashdot)
                 && ends_of(&entity.geometry).is_some_and(|[begin, _]| coincide(begin, start))
         };
-        let (_, segment) = self.all().near(start, MAX_HINT_DISTANCE).find(is_subpath)?;
+        let (_, segment) = self.all_layers().near(start, MAX_HINT_DISTANCE).find(is_subpath)?;
         let extent = box_of(&segment.geometry);
-        let names = self.all().texts_in(AABB::from_corners(extent.lower(), extent.upper()));
+        let names = self.all_layers().texts_in(AABB::from_corners(extent.lower(), extent.upper()));
         let mut names = names.filter(|(_, circle, string)| {
             string.trim_start().starts_with('>')
-                && gap(circle, &segment.geometry).is_some_and(|gap| gap <= 0.0)
+                && distance_to_text(circle, &segment.geometry).is_some_and(|gap| gap <= 0.0)
         });
         let (layer, _, string) = names.next()?;
         let is_own = Some(layer) == own;
@@ -279,11 +283,11 @@ fn distance_of(note: &Note) -> Option<f64> {
 
 /// Radii of the start and the end marker in mm.
 const MARKER_RADII: [f64; 2] = [START_RADIUS, END_RADIUS];
-const START: usize = 0;
-const END: usize = 1;
+const START_MARKER: usize = 0;
+const END_MARKER: usize = 1;
 
 /// The distance of an element from the circle of a text; `None` for texts.
-fn gap(text: &TextCircle, geometry: &Geometry) -> Option<f64> {
+fn distance_to_text(text: &TextCircle, geometry: &Geometry) -> Option<f64> {
     let xy = |point: &pathbuild_dxf::Point3| Xy::new(point.x, point.y);
     Some(match geometry {
         Geometry::Line(line) => {

@@ -14,7 +14,7 @@ use crate::database::Db;
 use crate::inputs::{Settings, Target};
 use crate::queries::closures::closure;
 use crate::queries::embedding::{Instance, Outcome, embeds};
-use crate::queries::index::soften;
+use crate::queries::index::lower_to_warnings;
 use crate::queries::part::{file_parts, part_findings, parts_of, path_cuts};
 use crate::queries::programs::{TracedProgram, traced_program};
 
@@ -39,7 +39,7 @@ fn has_neighbours(db: &dyn Db, target: Target) -> bool {
 fn cuts_into_neighbours(db: &dyn Db, target: Target) -> Vec<Diagnostic> {
     let Some(program) = placed_program(db, target) else { return Vec::new() };
     let mut found = program.findings();
-    soften(db, &mut found);
+    lower_to_warnings(db, &mut found);
     found
 }
 
@@ -74,7 +74,7 @@ struct PlacedPath<'db> {
 }
 
 /// Distance in mm below which two placements of one drawing count as the same, because its paths were embedded together.
-const SAME_PLACE: f64 = 0.01;
+const PLACEMENT_TOLERANCE: f64 = 0.01;
 
 impl<'db> PlacedProgram<'db> {
     /// Adds a path with all that it embeds.
@@ -120,7 +120,8 @@ impl<'db> PlacedProgram<'db> {
     /// Whether the drawings of two paths have the same place in the program.
     fn is_at(&self, other: &PlacedPath<'_>, instance: Instance<'db>, placement: &Placement) -> bool {
         let corners = [Xy::new(0.0, 0.0), Xy::new(1000.0, 0.0)];
-        let is_near = |at| (other.cuts.placement.place(at) - placement.place(at)).norm() <= SAME_PLACE;
+        let is_near =
+            |at| (other.cuts.placement.place(at) - placement.place(at)).norm() <= PLACEMENT_TOLERANCE;
         other.instance.file(self.db) == instance.file(self.db) && corners.into_iter().all(is_near)
     }
 
@@ -132,7 +133,7 @@ impl<'db> PlacedProgram<'db> {
             for cutting in (0..self.paths.len()).filter(|cutting| self.is_foreign(owner, *cutting)) {
                 let taken = self.paths[owner].cuts.taken_by(&self.paths[cutting].cuts, self.tolerance);
                 for gouge in taken.gouges {
-                    let (path, origin) = self.common(cutting, gouge.element, owner);
+                    let (path, origin) = self.innermost_common_path(cutting, gouge.element, owner);
                     let key = (gouge.part, path, origin.id.0);
                     let deepest = gouges.entry(key).or_insert((gouge.clone(), cutting, origin));
                     if gouge.depth > deepest.0.depth {
@@ -140,7 +141,7 @@ impl<'db> PlacedProgram<'db> {
                     }
                 }
                 bars.extend(taken.bars.iter().map(|lost| {
-                    let (path, origin) = self.common(cutting, lost.element, owner);
+                    let (path, origin) = self.innermost_common_path(cutting, lost.element, owner);
                     self.at(path, origin, lost.problem(self.paths[owner].cuts.cuts))
                 }));
             }
@@ -167,18 +168,18 @@ impl<'db> PlacedProgram<'db> {
     /// Whether a path is independent of the parts of another: it neither belongs to the same drawing at the same place nor is embedded in it.
     fn is_foreign(&self, owner: usize, cutting: usize) -> bool {
         let PlacedPath { instance, cuts, .. } = &self.paths[cutting];
-        let is_within = self.outwards(cutting).any(|around| around == owner);
+        let is_within = self.path_and_embedders(cutting).any(|around| around == owner);
         !is_within && !self.is_at(&self.paths[owner], *instance, &cuts.placement)
     }
 
     /// Iterates over a path and the paths that embed it, from the inside out.
-    fn outwards(&self, path: usize) -> impl Iterator<Item = usize> {
+    fn path_and_embedders(&self, path: usize) -> impl Iterator<Item = usize> {
         std::iter::successors(Some(path), |inner| self.paths[*inner].parent.map(|(outer, _)| outer))
     }
 
     /// Returns the innermost path that contains both an element and another path, and the element of that path that leads to the given one.
-    fn common(&self, mut path: usize, element: u32, other: usize) -> (usize, &'db Origin) {
-        let around: Vec<usize> = self.outwards(other).collect();
+    fn innermost_common_path(&self, mut path: usize, element: u32, other: usize) -> (usize, &'db Origin) {
+        let around: Vec<usize> = self.path_and_embedders(other).collect();
         let mut origin = &self.paths[path].cuts.cuts.elements[element as usize].origin;
         while !around.contains(&path) {
             let Some(parent) = self.paths[path].parent else { break };
@@ -209,7 +210,7 @@ impl<'db> PlacedProgram<'db> {
             let (file, name) = place(outer);
             Some(TraceStep { file: file.clone(), path: name.into(), point: origin.point })
         };
-        let mut trace: Vec<TraceStep> = self.outwards(path).filter_map(step).collect();
+        let mut trace: Vec<TraceStep> = self.path_and_embedders(path).filter_map(step).collect();
         trace.reverse();
         let (file, name) = place(path);
         Diagnostic { trace, ..origin.at(problem.in_file(file).in_path(name)) }
@@ -249,14 +250,14 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     let mut all = Vec::new();
     let mut foreign = bars_lost_to_neighbours(db, target);
     let radius = traced.program.tool / 2.0;
-    let ways = milled_ways(traced);
+    let ways = milled_moves(traced);
     for (number, occurrence) in (0_u32..).zip(&traced.trace.occurrences) {
         let cutting = &traced.parts[occurrence.id];
         let (Some(found), Some(findings)) = (file_parts(db, cutting.file), part_findings(db, cutting.file))
         else {
             continue;
         };
-        let Some(place) = found.place(&cutting.path.name) else { continue };
+        let Some(place) = found.index_of_path(&cutting.path.name) else { continue };
         // The material left and the bars are known by path, not by part: list them with the first part only.
         let (mut left, mut lost_bars) = (&*findings.left[place], &*findings.lost_bars[place]);
         for part in &findings.parts[place] {
@@ -285,7 +286,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
 }
 
 /// The cuts of a program, each with the occurrence of its path.
-fn milled_ways(traced: &TracedProgram) -> Vec<(u32, TipMove)> {
+fn milled_moves(traced: &TracedProgram) -> Vec<(u32, TipMove)> {
     let milled = traced.program.moves().filter(|(_, movement)| movement.pace.feed().is_some());
     let ways = milled.filter_map(|(step, movement)| {
         Some((traced.trace.steps.get(step as usize - 1)?.occurrence, way(&movement)?))

@@ -9,7 +9,7 @@ use pathbuild_path::{Curve, Part, PartFindings, PathCuts, check_parts, check_pat
 use crate::database::Db;
 use crate::inputs::{Reading, Settings, SourceFile};
 use crate::queries::embedding::{Instance, chains, path};
-use crate::queries::index::{FileParts, cuts_of, file_index, path_index, soften};
+use crate::queries::index::{FileParts, cuts_of, file_index, lower_to_warnings, path_index};
 use crate::queries::raw::read_layers_as;
 
 /// The parts and cuts of a drawing; `None` without the setting, or if it has neither parts nor embedded paths.
@@ -38,7 +38,7 @@ fn checked_parts(db: &dyn Db, file: SourceFile) -> PartFindings {
     };
     let cuts: Vec<&PathCuts> = found.cuts.iter().collect();
     let mut findings = check_parts(&found.parts, &cuts, found.is_complete, settings);
-    soften(db, findings.of_paths.iter_mut().flatten());
+    lower_to_warnings(db, findings.of_paths.iter_mut().flatten());
     findings
 }
 
@@ -47,7 +47,7 @@ pub(super) fn part_problems<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'
     let file = instance.file(db);
     let Some(findings) = part_findings(db, file) else { return &[] };
     if is_example(db, instance) {
-        let place = file_parts(db, file).and_then(|found| found.place(&instance.name(db).name(db)));
+        let place = file_parts(db, file).and_then(|found| found.index_of_path(&instance.name(db).name(db)));
         return place.map_or(&[], |place| &findings.of_paths[place]);
     }
     part_problems_with_values(db, instance)
@@ -62,14 +62,14 @@ fn part_problems_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> V
     };
     let cuts = path_cuts(db, instance);
     let mut problems = cuts.map(|cuts| check_path(&found.parts, cuts, settings)).unwrap_or_default();
-    soften(db, &mut problems);
+    lower_to_warnings(db, &mut problems);
     problems
 }
 
 /// The cuts of a path with its values. `None` if it has errors, or without the setting.
 pub(super) fn path_cuts<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Option<&'db PathCuts> {
     let found = file_parts(db, instance.file(db)).filter(|_| is_example(db, instance));
-    let known = found.and_then(|found| Some(&found.cuts[found.place(&instance.name(db).name(db))?]));
+    let known = found.and_then(|found| Some(&found.cuts[found.index_of_path(&instance.name(db).name(db))?]));
     known.or_else(|| cuts_with_values(db, instance).as_ref())
 }
 
@@ -84,7 +84,7 @@ pub(super) fn parts_of<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<&'d
     let (Some(found), Some(findings)) = (file_parts(db, file), part_findings(db, file)) else {
         return Vec::new();
     };
-    let place = found.place(&instance.name(db).name(db));
+    let place = found.index_of_path(&instance.name(db).name(db));
     place
         .map(|place| findings.parts[place].iter().map(|part| &found.parts[*part]).collect())
         .unwrap_or_default()
@@ -116,7 +116,7 @@ pub(super) fn uncut_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
     let problem = |(part, ring): &(usize, usize)| {
         let place = drawn.places.get(*part)?.get(*ring)?.clone();
         let mut problem = Diagnostic { place, ..Diagnostic::new(&messages::OUTLINE_NOT_CUT) };
-        soften(db, [&mut problem]);
+        lower_to_warnings(db, [&mut problem]);
         Some(problem.in_file(file.path(db)))
     };
     uncut.iter().filter_map(problem).collect()

@@ -95,7 +95,7 @@ pub fn drawn_path<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Op
 
 /// The effective parameters of each element of a path for these variable values. S is the same as in [`traced_program`]: a path that has
 /// variables or lacks an option counts as embedded.
-pub fn in_force(
+pub fn effective_parameters(
     db: &dyn Db,
     file: SourceFile,
     name: &PathName,
@@ -112,7 +112,7 @@ pub fn in_force(
 
 /// The contents of a drawing's layers that hold neither paths nor clamps. The drawing is read again for this; only the last one is kept.
 #[salsa::tracked(no_eq, lru = 1)]
-pub fn other_layers(db: &dyn Db, file: SourceFile) -> Arc<Drawing> {
+pub fn remaining_layers(db: &dyn Db, file: SourceFile) -> Arc<Drawing> {
     let language = Settings::get(db).language(db);
     let is_other = |layer: &str| !language.path_pattern.is_layer(layer) && !language.is_keep_out(layer);
     Arc::new(read_layers(db, file, &is_other))
@@ -157,8 +157,8 @@ pub(super) struct Occurrences<'t> {
 
 impl<'t> Occurrences<'t> {
     /// Returns the innermost path that contains both an element and another path, and the element of that path that leads to the given one.
-    pub(super) fn common(self, mut at: StepOrigin, other: u32) -> (u32, Option<u32>) {
-        let around_other: Vec<u32> = self.outwards(other).collect();
+    pub(super) fn innermost_common_path(self, mut at: StepOrigin, other: u32) -> (u32, Option<u32>) {
+        let around_other: Vec<u32> = self.path_and_embedders(other).collect();
         while !around_other.contains(&at.occurrence) {
             let Some(parent) = self.parent(at.occurrence) else { break };
             at = parent;
@@ -167,7 +167,7 @@ impl<'t> Occurrences<'t> {
     }
 
     /// Iterates over a path and the paths that embed it, from the inside out.
-    pub(super) fn outwards(self, occurrence: u32) -> impl Iterator<Item = u32> + 't {
+    pub(super) fn path_and_embedders(self, occurrence: u32) -> impl Iterator<Item = u32> + 't {
         let parent = move |inner: &u32| self.parent(*inner).map(|outer| outer.occurrence);
         std::iter::successors(Some(occurrence), parent)
     }
@@ -208,7 +208,7 @@ impl<'t> Occurrences<'t> {
                 point: part.path.drawn.origin(element).point,
             })
         };
-        let mut steps: Vec<TraceStep> = self.outwards(occurrence).filter_map(step).collect();
+        let mut steps: Vec<TraceStep> = self.path_and_embedders(occurrence).filter_map(step).collect();
         steps.reverse();
         steps
     }

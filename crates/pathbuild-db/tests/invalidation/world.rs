@@ -120,7 +120,7 @@ impl World {
 
     /// Runs work that may be abandoned.
     pub(crate) fn guarded<R>(&self, work: impl Fn(&Database) -> R) -> Result<R, Box<Diagnostic>> {
-        self.db.guarded(Duration::MAX, || work(&self.db))
+        self.db.run_guarded(Duration::MAX, || work(&self.db))
     }
 
     /// Writes a drawing without notifying the database.

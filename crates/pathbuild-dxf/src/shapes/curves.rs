@@ -12,7 +12,7 @@ use pathbuild_motion::is_full_turn;
 
 use crate::faults::EntityError;
 use crate::fields::{BadGroup, Fields};
-use crate::placement::{LARGEST, Placement, angle_of};
+use crate::placement::{MAX_COORDINATE, Placement, angle_of};
 use crate::shapes::{is_mirrored, repeated_number};
 use crate::{Arc, Geometry, Line, Point3};
 
@@ -46,7 +46,7 @@ impl Vector {
 
     /// Whether no coordinate is beyond the largest of a drawing.
     pub(crate) fn is_near(self) -> bool {
-        self.x.abs() <= LARGEST && self.y.abs() <= LARGEST
+        self.x.abs() <= MAX_COORDINATE && self.y.abs() <= MAX_COORDINATE
     }
 
     /// Returns the vector turned by a quarter turn, counterclockwise.
@@ -73,11 +73,11 @@ pub(crate) struct Ray {
 pub(crate) struct CurvePiece {
     pub(crate) start: Vector,
     pub(crate) end: Vector,
-    bend: Bend,
+    bend: PieceShape,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Bend {
+enum PieceShape {
     Straight,
     Round { centre: Vector, radius: f64, clockwise: bool },
 }
@@ -88,7 +88,7 @@ const MAX_LINE_HEIGHT: f64 = 1e-7;
 /// The biarc between two rays, or `None` if there is none, for example between opposite directions along their chord.
 fn biarc(from: Ray, to: Ray) -> Option<[CurvePiece; 2]> {
     let chord = to.point.minus(from.point);
-    let reach = reach(chord, from.direction, to.direction)?;
+    let reach = control_distance(chord, from.direction, to.direction)?;
     let bend = from.direction.minus(to.direction).times(reach);
     let joint = from.point.plus(to.point).plus(bend).times(0.5);
     let first = piece(from.point, joint, from.direction);
@@ -98,7 +98,7 @@ fn biarc(from: Ray, to: Ray) -> Option<[CurvePiece; 2]> {
 }
 
 /// Distance of the control polygon's corners from the ends.
-fn reach(chord: Vector, from: Vector, to: Vector) -> Option<f64> {
+fn control_distance(chord: Vector, from: Vector, to: Vector) -> Option<f64> {
     let along = chord.dot(from.plus(to));
     let turn = 2.0 * (1.0 - from.dot(to)).max(0.0);
     let square = chord.dot(chord);
@@ -115,28 +115,28 @@ fn piece(start: Vector, end: Vector, direction: Vector) -> CurvePiece {
     let square = chord.dot(chord);
     // The height over the chord is about a quarter of the distance of the end from the tangent.
     if aside.abs() < 4.0 * MAX_LINE_HEIGHT && chord.dot(direction) >= 0.0 {
-        return CurvePiece { start, end, bend: Bend::Straight };
+        return CurvePiece { start, end, bend: PieceShape::Straight };
     }
     let to_centre = square / (2.0 * aside);
     let centre = start.plus(direction.left().times(to_centre));
     CurvePiece {
         start,
         end,
-        bend: Bend::Round { centre, radius: to_centre.abs(), clockwise: to_centre < 0.0 },
+        bend: PieceShape::Round { centre, radius: to_centre.abs(), clockwise: to_centre < 0.0 },
     }
 }
 
 impl CurvePiece {
     /// The line between two points.
     pub(crate) fn line(start: Vector, end: Vector) -> Self {
-        Self { start, end, bend: Bend::Straight }
+        Self { start, end, bend: PieceShape::Straight }
     }
 
     fn reversed(self) -> Self {
         let bend = match self.bend {
-            Bend::Straight => Bend::Straight,
-            Bend::Round { centre, radius, clockwise } => {
-                Bend::Round { centre, radius, clockwise: !clockwise }
+            PieceShape::Straight => PieceShape::Straight,
+            PieceShape::Round { centre, radius, clockwise } => {
+                PieceShape::Round { centre, radius, clockwise: !clockwise }
             }
         };
         Self { start: self.end, end: self.start, bend }
@@ -146,7 +146,7 @@ impl CurvePiece {
     pub(crate) fn distance(&self, point: Vector) -> f64 {
         let to_ends = point.minus(self.start).length().min(point.minus(self.end).length());
         match self.bend {
-            Bend::Straight => {
+            PieceShape::Straight => {
                 let chord = self.end.minus(self.start);
                 let along = point.minus(self.start).dot(chord);
                 if along <= 0.0 || along >= chord.dot(chord) {
@@ -154,7 +154,7 @@ impl CurvePiece {
                 }
                 (point.minus(self.start).dot(chord.left()) / chord.length()).abs()
             }
-            Bend::Round { centre, radius, .. } => {
+            PieceShape::Round { centre, radius, .. } => {
                 if self.spans(point) {
                     (point.minus(centre).length() - radius).abs()
                 } else {
@@ -166,7 +166,7 @@ impl CurvePiece {
 
     /// Whether the projection of a point onto the circle lies on the arc.
     fn spans(&self, point: Vector) -> bool {
-        let Bend::Round { centre, clockwise, .. } = self.bend else { return false };
+        let PieceShape::Round { centre, clockwise, .. } = self.bend else { return false };
         let angle = |point: Vector| {
             let angle = angle_of(point.x - centre.x, point.y - centre.y);
             if clockwise { -angle } else { angle }
@@ -182,8 +182,8 @@ impl CurvePiece {
             return None;
         }
         Some(match self.bend {
-            Bend::Straight => Geometry::Line(Line { start: point(self.start), end: point(self.end) }),
-            Bend::Round { centre, radius, clockwise } => Geometry::Arc(Arc {
+            PieceShape::Straight => Geometry::Line(Line { start: point(self.start), end: point(self.end) }),
+            PieceShape::Round { centre, radius, clockwise } => Geometry::Arc(Arc {
                 centre: point(centre),
                 radius,
                 start_angle: angle_of(self.start.x - centre.x, self.start.y - centre.y),
@@ -421,7 +421,7 @@ impl Spline {
         let degree = usize::try_from(fields.whole(71)?.unwrap_or(CUBIC)).unwrap_or(0);
         let spline = Self { degree, points: groups.control_points()?, knots: groups.knots, z };
         if !spline.is_sound() {
-            return Err(EntityError::left_out(&SPLINE_NOT_UNDERSTOOD, fields));
+            return Err(EntityError::omitted(&SPLINE_NOT_UNDERSTOOD, fields));
         }
         Ok(spline)
     }

@@ -85,15 +85,19 @@ impl Array {
 
     /// Maps the block's coordinates, with the base point at the origin, to those of the space for the first copy.
     fn first(&self) -> Placement {
-        let moved = object(self.is_mirrored).after(&Placement::moved(self.at));
-        moved.after(&Placement::turned(self.turn)).after(&self.scaled)
+        let moved = object(self.is_mirrored).composed_after(&Placement::translated(self.at));
+        moved.composed_after(&Placement::rotated(self.turn)).composed_after(&self.scaled)
     }
 
     /// The placements of all copies of a block with this base point.
     pub(crate) fn copies(self, base: Point3) -> impl Iterator<Item = Placement> {
-        let first = self.first().after(&Placement::moved(Point3 { x: -base.x, y: -base.y, z: -base.z }));
+        let first = self.first().composed_after(&Placement::translated(Point3 {
+            x: -base.x,
+            y: -base.y,
+            z: -base.z,
+        }));
         // The grid of copies is turned but not scaled.
-        let direction = object(self.is_mirrored).after(&Placement::turned(self.turn));
+        let direction = object(self.is_mirrored).composed_after(&Placement::rotated(self.turn));
         let column_step = direction.direction(self.columns.distance, 0.0);
         let row_step = direction.direction(0.0, self.rows.distance);
         let places = (0..self.rows.count)
@@ -102,7 +106,7 @@ impl Array {
             let [row, column] = [f64::from(row), f64::from(column)];
             let x = column_step.0 * column + row_step.0 * row;
             let y = column_step.1 * column + row_step.1 * row;
-            Placement::moved(Point3 { x, y, z: 0.0 }).after(&first)
+            Placement::translated(Point3 { x, y, z: 0.0 }).composed_after(&first)
         })
     }
 }

@@ -28,7 +28,7 @@ pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Vec<Geometry>, Enti
     if !has_y {
         return Err(BadGroup::Missing { code: 20 }.into());
     }
-    Ok(pieces(&corners, flags & CLOSED != 0, is_mirrored(fields)?))
+    Ok(pieces(&corners, flags & CLOSED_FLAG != 0, is_mirrored(fields)?))
 }
 
 /// A POLYLINE that is waiting for its VERTEX records.
@@ -44,14 +44,14 @@ impl OpenPolyline {
     /// Starts a POLYLINE.
     pub(crate) fn begin<'a>(fields: &Fields<'a>) -> Result<Self, EntityError<'a>> {
         let flags = fields.whole(70)?.unwrap_or(0);
-        if flags & (THREE_DIMENSIONAL | MESH | POLYFACE) != 0 {
-            return Err(EntityError::left_out(&POLYLINE_NOT_FLAT, fields));
+        if flags & (THREE_DIMENSIONAL_FLAG | MESH_FLAG | POLYFACE_FLAG) != 0 {
+            return Err(EntityError::omitted(&POLYLINE_NOT_FLAT, fields));
         }
         Ok(Self {
             elevation: fields.number(30)?.unwrap_or(0.0),
-            is_closed: flags & CLOSED != 0,
+            is_closed: flags & CLOSED_FLAG != 0,
             is_mirrored: is_mirrored(fields)?,
-            is_spline_fit: flags & SPLINE_FIT != 0,
+            is_spline_fit: flags & SPLINE_FIT_FLAG != 0,
             corners: Vec::new(),
         })
     }
@@ -59,7 +59,7 @@ impl OpenPolyline {
     /// Adds the next VERTEX. Frame points of a smoothed polyline are not corners.
     pub(crate) fn vertex<'a>(&mut self, fields: &Fields<'a>) -> Result<(), EntityError<'a>> {
         let flags = fields.whole(70)?.unwrap_or(0);
-        if self.is_spline_fit && flags & FRAME_POINT != 0 {
+        if self.is_spline_fit && flags & FRAME_POINT_FLAG != 0 {
             return Ok(());
         }
         let point = fields.point(10)?;
@@ -76,20 +76,20 @@ impl OpenPolyline {
 }
 
 /// Flags of a polyline (group 70).
-const CLOSED: i64 = 1;
-const SPLINE_FIT: i64 = 4;
-const THREE_DIMENSIONAL: i64 = 8;
-const MESH: i64 = 16;
-const POLYFACE: i64 = 64;
+const CLOSED_FLAG: i64 = 1;
+const SPLINE_FIT_FLAG: i64 = 4;
+const THREE_DIMENSIONAL_FLAG: i64 = 8;
+const MESH_FLAG: i64 = 16;
+const POLYFACE_FLAG: i64 = 64;
 /// Flag of a VERTEX (group 70).
-const FRAME_POINT: i64 = 16;
+const FRAME_POINT_FLAG: i64 = 16;
 
 /// Largest bulge that counts as straight: over a chord of one metre it is 5 nm high, and the radius would be too large to be accurate.
 const MAX_LINE_BULGE: f64 = 1e-8;
 
 /// Height in mm over the chord up to which an arc may become a line if its centre is too far away: the difference is invisible in printed
 /// programs.
-const INVISIBLE: f64 = 0.0005;
+const MAX_INVISIBLE_HEIGHT: f64 = 0.0005;
 
 #[derive(Clone, Copy, Debug)]
 struct Corner {
@@ -127,13 +127,17 @@ fn piece(from: Corner, to: Corner) -> Option<Geometry> {
     if from.bulge.abs() < MAX_LINE_BULGE || (start.x == end.x && start.y == end.y) {
         return Some(Geometry::Line(Line { start, end }));
     }
-    let arc = Geometry::Arc(bulged(start, end, from.bulge));
+    let arc = Geometry::Arc(arc_from_bulge(start, end, from.bulge));
     let height = libm::hypot(end.x - start.x, end.y - start.y) * from.bulge.abs() / 2.0;
-    Some(if height < INVISIBLE && !arc.is_sound() { Geometry::Line(Line { start, end }) } else { arc })
+    Some(if height < MAX_INVISIBLE_HEIGHT && !arc.is_sound() {
+        Geometry::Line(Line { start, end })
+    } else {
+        arc
+    })
 }
 
 /// The arc over a chord. Its height is the bulge times half the chord.
-fn bulged(start: Point3, end: Point3, bulge: f64) -> Arc {
+fn arc_from_bulge(start: Point3, end: Point3, bulge: f64) -> Arc {
     let [x, y] = [end.x - start.x, end.y - start.y];
     // Distance of the centre from the middle of the chord, to the left, in units of the chord.
     let to_centre = (1.0 - bulge * bulge) / (4.0 * bulge);

@@ -31,7 +31,7 @@ pub(crate) fn text<'a>(
         height: fields.length(40)?,
         rotation: direction.map_or_else(|| fields.number(50), |angle| Ok(Some(angle)))?.unwrap_or(0.0),
         horizontal: horizontal_align(horizontal),
-        vertical: if horizontal == MIDDLE { VerticalAlign::Middle } else { vertical_align(vertical) },
+        vertical: if horizontal == MIDDLE_CODE { VerticalAlign::Middle } else { vertical_align(vertical) },
         backwards: generation & 2 != 0,
         upside_down: generation & 4 != 0,
     };
@@ -60,9 +60,9 @@ pub(crate) fn mtext<'a>(
     }))
 }
 
-const ALIGNED: i64 = 3;
-const MIDDLE: i64 = 4;
-const FITTED: i64 = 5;
+const ALIGNED_CODE: i64 = 3;
+const MIDDLE_CODE: i64 = 4;
+const FITTED_CODE: i64 = 5;
 
 /// The anchor of a TEXT, and its direction if two points define it.
 fn anchor<'a>(
@@ -73,7 +73,7 @@ fn anchor<'a>(
     let first = fields.point(10)?;
     match horizontal {
         0 if vertical == 0 => Ok((first, None)),
-        ALIGNED | FITTED => {
+        ALIGNED_CODE | FITTED_CODE => {
             let second = fields.point(11)?;
             Ok((between(first, second), direction(second.x - first.x, second.y - first.y)))
         }
@@ -92,7 +92,7 @@ fn direction(x: f64, y: f64) -> Option<f64> {
 
 fn horizontal_align(code: i64) -> HorizontalAlign {
     match code {
-        1 | ALIGNED | MIDDLE | FITTED => HorizontalAlign::Centre,
+        1 | ALIGNED_CODE | MIDDLE_CODE | FITTED_CODE => HorizontalAlign::Centre,
         2 => HorizontalAlign::Right,
         _ => HorizontalAlign::Left,
     }
@@ -172,8 +172,8 @@ fn plain_text(raw: &str) -> SmolStr {
         plain.push_str(&rest[..special]);
         rest = &rest[special..];
         let length = match rest.as_bytes()[0] {
-            b'\\' => command(rest, rest.len() > behind_last, &mut plain),
-            b'^' => caret(rest, &mut plain),
+            b'\\' => append_command(rest, rest.len() > behind_last, &mut plain),
+            b'^' => append_caret(rest, &mut plain),
             _ => 1,
         };
         rest = &rest[length..];
@@ -188,7 +188,7 @@ fn is_special(byte: u8) -> bool {
 }
 
 /// Appends the meaning of the command at the start of `text` and returns its length. `may_end` tells whether a `;` follows.
-fn command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usize {
+fn append_command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usize {
     let Some(letter) = text[1..].chars().next() else {
         plain.push('\\');
         return 1;
@@ -200,7 +200,7 @@ fn command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usize {
         '~' => plain.push('\u{a0}'),
         '\\' | '{' | '}' => plain.push(letter),
         'L' | 'l' | 'O' | 'o' | 'K' | 'k' => {}
-        'S' => return short + stacked(&text[short..], plain),
+        'S' => return short + append_stacked(&text[short..], plain),
         _ => {
             let Some(end) = may_end.then(|| text.find(';')).flatten() else {
                 plain.push('\\');
@@ -213,7 +213,7 @@ fn command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usize {
 }
 
 /// Appends a stacked text up to its `;` and returns its length.
-fn stacked(text: &str, plain: &mut SmolStrBuilder) -> usize {
+fn append_stacked(text: &str, plain: &mut SmolStrBuilder) -> usize {
     let mut characters = text.char_indices().peekable();
     while let Some((index, character)) = characters.next() {
         match character {
@@ -232,7 +232,7 @@ fn stacked(text: &str, plain: &mut SmolStrBuilder) -> usize {
 }
 
 /// Appends the meaning of the caret code at the start of `text` and returns its length.
-fn caret(text: &str, plain: &mut SmolStrBuilder) -> usize {
+fn append_caret(text: &str, plain: &mut SmolStrBuilder) -> usize {
     if text.starts_with("^M^J") {
         plain.push('\n');
         return 4;

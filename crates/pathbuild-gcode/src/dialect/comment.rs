@@ -48,7 +48,7 @@ pub fn within_comment(text: &str, dialect: Option<Dialect>, charset: Charset) ->
         '%' if !knows_percent => '-',
         '!' | '?' if acts_at_once => '.',
         '~' if acts_at_once => '-',
-        c if shown::acts(c) => ' ',
+        c if shown::is_active(c) => ' ',
         c => c,
     };
     let is_ascii = charset == Charset::Ascii || spelling.is_some_and(|spelling| spelling.real_time_bytes);
@@ -84,7 +84,7 @@ pub fn ascii(text: &str) -> String {
             || (is_after_capital && !is_before_letter);
         match c {
             c if c.is_ascii() => ascii.push(c),
-            c if shown::acts(c) => ascii.push(' '),
+            c if shown::is_active(c) => ascii.push(' '),
             c if c.is_uppercase() && is_among_capitals => ascii.push_str(&transliterated(c).to_uppercase()),
             c => ascii.push_str(transliterated(c)),
         }

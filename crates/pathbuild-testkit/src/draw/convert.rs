@@ -85,7 +85,7 @@ fn add_tables(drawing: &mut Drawing, sheet: &Sheet, tickets: &mut StringPlacehol
         drawing.add_line_type(line_type(name.to_owned(), pattern));
     }
     for (name, pattern) in sheet.line_types() {
-        drawing.add_line_type(line_type(tickets.ticket(name), pattern));
+        drawing.add_line_type(line_type(tickets.placeholder_for(name), pattern));
     }
     for layer in sheet.layers() {
         let layer = crate_layer(layer, tickets);
@@ -106,9 +106,9 @@ fn line_type(name: String, pattern: &[f64]) -> LineType {
 
 fn crate_layer(layer: &Layer, tickets: &mut StringPlaceholders) -> CrateLayer {
     CrateLayer {
-        name: tickets.ticket(&layer.name),
+        name: tickets.placeholder_for(&layer.name),
         color: Color::from_index(layer.colour),
-        line_type_name: tickets.ticket(&layer.line_type),
+        line_type_name: tickets.placeholder_for(&layer.line_type),
         is_layer_on: !layer.is(LayerState::Off),
         ..Default::default()
     }
@@ -124,7 +124,7 @@ fn add_blocks(drawing: &mut Drawing, sheet: &Sheet, tickets: &mut StringPlacehol
         let inside = |entity| crate_entity(entity, sheet, drawing, tickets);
         let entities = block.entities.iter().map(inside).collect();
         let base = point(block.base);
-        let name = tickets.ticket(&block.name);
+        let name = tickets.placeholder_for(&block.name);
         let flags = i32::from(block.name.starts_with('*'));
         drawing.add_block(CrateBlock { name, flags, base_point: base, entities, ..Default::default() });
     }
@@ -139,9 +139,9 @@ fn crate_entity(
     let version = sheet.options().version;
     let mut converted = CrateEntity::new(entity_type(entity, version, drawing, tickets));
     let layer = entity.layer.as_deref().unwrap_or("0");
-    converted.common.layer = tickets.ticket(layer);
+    converted.common.layer = tickets.placeholder_for(layer);
     if let Some(line_type) = &entity.line_type {
-        converted.common.line_type_name = tickets.ticket(line_type);
+        converted.common.line_type_name = tickets.placeholder_for(line_type);
     }
     if let Some(colour) = entity.colour {
         converted.common.color = Color::from_index(colour);
@@ -302,7 +302,7 @@ fn spline(spline: &Spline, plane: Orientation) -> CrateSpline {
 fn insert(insert: &Insert, plane: Orientation, tickets: &mut StringPlaceholders) -> CrateInsert {
     let sign = if is_mirrored(plane) { -1.0 } else { 1.0 };
     CrateInsert {
-        name: tickets.ticket(&insert.block),
+        name: tickets.placeholder_for(&insert.block),
         location: object_point(insert.at, plane),
         x_scale_factor: sign * insert.scale.x,
         y_scale_factor: insert.scale.y,
@@ -319,13 +319,13 @@ fn insert(insert: &Insert, plane: Orientation, tickets: &mut StringPlaceholders)
 
 fn dimension(dimension: &Dimension, tickets: &mut StringPlaceholders) -> RotatedDimension {
     let dimension_base = DimensionBase {
-        block_name: tickets.ticket(&dimension.block),
+        block_name: tickets.placeholder_for(&dimension.block),
         definition_point_1: point(dimension.line),
         text_mid_point: point(dimension.text),
         dimension_type: DimensionType::RotatedHorizontalOrVertical,
         attachment_point: AttachmentPoint::MiddleCenter,
         actual_measurement: (dimension.to.x - dimension.from.x).abs(),
-        text: tickets.ticket(&dimension.label),
+        text: tickets.placeholder_for(&dimension.label),
         is_block_reference_referenced_by_this_block_only: true,
         ..Default::default()
     };
@@ -351,7 +351,7 @@ pub(crate) fn text(text: &Text, entity: &Entity, tickets: &mut StringPlaceholder
         location: object_point(location, plane),
         second_alignment_point: alignment.map_or_else(Default::default, |at| object_point(at, plane)),
         text_height: text.height,
-        value: tickets.ticket(&text.value),
+        value: tickets.placeholder_for(&text.value),
         rotation: if plane == Orientation::Mirrored { -text.rotation } else { text.rotation },
         text_style_name: style(entity, tickets),
         text_generation_flags: i32::from(text.backwards) * 2 + i32::from(text.upside_down) * 4,
@@ -373,12 +373,12 @@ fn points(text: &Text, entity: &Entity) -> (Point, Option<Point>) {
 
 fn lower_left(text: &Text, entity: &Entity) -> Point {
     let width = 0.6 * text.height * text.value.chars().count() as f64;
-    let corner = Point::new(-width / 2.0, -text.height / 2.0).turned(text.rotation);
+    let corner = Point::new(-width / 2.0, -text.height / 2.0).rotated(text.rotation);
     text_circle(entity).map_or(text.anchor, |circle| circle.centre + corner)
 }
 
 fn style(entity: &Entity, tickets: &mut StringPlaceholders) -> String {
-    tickets.ticket(entity.style.as_deref().unwrap_or("STANDARD"))
+    tickets.placeholder_for(entity.style.as_deref().unwrap_or("STANDARD"))
 }
 
 fn horizontal(horizontal: Horizontal) -> HorizontalTextJustification {
@@ -413,8 +413,8 @@ pub(crate) fn mtext(text: &MText, entity: &Entity, tickets: &mut StringPlacehold
         initial_text_height: text.height,
         reference_rectangle_width: text.width,
         attachment_point: attachment(text.attachment),
-        extended_text: chunks.iter().map(|chunk| tickets.ticket(chunk)).collect(),
-        text: tickets.ticket(&last),
+        extended_text: chunks.iter().map(|chunk| tickets.placeholder_for(chunk)).collect(),
+        text: tickets.placeholder_for(&last),
         text_style_name: style(entity, tickets),
         extrusion_direction: normal(entity.orientation),
         x_axis_direction: Vector::new(direction.x, direction.y, direction.z),

@@ -463,7 +463,7 @@ pub fn bulged(from: Point, to: Point, bulge: f64) -> Option<Arc> {
     let offset = chord * (1.0 - bulge * bulge) / (4.0 * bulge);
     let unit = (to - from) * (1.0 / chord);
     let middle = (from + to) * 0.5;
-    let centre = Point::new(middle.x - unit.y * offset, middle.y + unit.x * offset).at(from.z);
+    let centre = Point::new(middle.x - unit.y * offset, middle.y + unit.x * offset).at_height(from.z);
     let (start, end) = if bulge > 0.0 { (from, to) } else { (to, from) };
     Some(Arc { centre, radius, start: centre.direction(start), end: centre.direction(end) })
 }

@@ -1,7 +1,9 @@
 //! Positions each text so that it belongs to its element by the rules of book: language/parameter-texts.
 
 use pathbuild_draw::geometry::sin_cos;
-use pathbuild_draw::place::{Candidate, ElementPart, TextPositions, TextSize, no_room, reduced};
+use pathbuild_draw::text_positions::{
+    Candidate, ElementPart, TextPositions, TextSize, letter_heights, no_space_message,
+};
 
 use super::model::{
     Arc, Attachment, Block, Circle, Direction, DrawError, Ellipse, Entity, Horizontal, Insert, Layer, Line,
@@ -141,7 +143,7 @@ fn copies(insert: &Insert) -> impl Iterator<Item = Point> + '_ {
     let (columns, rows) = insert.count;
     let at = |column, row| {
         Point::new(f64::from(column) * insert.spacing.0, f64::from(row) * insert.spacing.1)
-            .turned(insert.rotation)
+            .rotated(insert.rotation)
     };
     (0..columns.max(1)).flat_map(move |column| (0..rows.max(1)).map(move |row| at(column, row)))
 }
@@ -149,7 +151,7 @@ fn copies(insert: &Insert) -> impl Iterator<Item = Point> + '_ {
 fn transform(piece: &ElementPart, insert: &Insert, base: Point, copy: Point) -> ElementPart {
     let scale = insert.scale;
     let scaled = |p: Point| Point::new(p.x * scale.x, p.y * scale.y);
-    let point = |p: Point| insert.at + copy + scaled(p - base).turned(insert.rotation);
+    let point = |p: Point| insert.at + copy + scaled(p - base).rotated(insert.rotation);
     match piece {
         ElementPart::Line(line) => ElementPart::Line(Line { from: point(line.from), to: point(line.to) }),
         ElementPart::Circle(circle) => ElementPart::Circle(Circle {
@@ -200,7 +202,7 @@ fn of_text(text: &Text, mirrored: bool) -> TextCircle {
     let across = if mirrored == text.backwards { across } else { -across };
     let up = if text.upside_down { -up } else { up };
     let offset = Point::new(across * extent.width, up * extent.height);
-    TextCircle { centre: anchor + offset.turned(text.rotation), radius: extent.radius }
+    TextCircle { centre: anchor + offset.rotated(text.rotation), radius: extent.radius }
 }
 
 fn of_mtext(text: &MText) -> TextCircle {
@@ -209,7 +211,7 @@ fn of_mtext(text: &MText) -> TextCircle {
     let across = f64::from(1 - index % 3) / 2.0;
     let up = f64::from(index / 3 - 1) / 2.0;
     let offset = Point::new(across * extent.width, up * extent.height);
-    TextCircle { centre: text.anchor + offset.turned(text.direction.degrees()), radius: extent.radius }
+    TextCircle { centre: text.anchor + offset.rotated(text.direction.degrees()), radius: extent.radius }
 }
 
 /// Positions every note: each entity with a note is followed by its TEXT or MTEXT.
@@ -225,11 +227,12 @@ pub(crate) fn position_notes(
         for (index, entity) in entities.iter().enumerate() {
             take_for_text(&mut seats, entity, kind);
             if let Some(note) = entity.note.as_ref().filter(|note| kind_of(note, options) == kind) {
-                let heights = note.height.map_or(reduced(options.note_height).to_vec(), |own| vec![own]);
+                let heights =
+                    note.height.map_or(letter_heights(options.note_height).to_vec(), |own| vec![own]);
                 let extent = |height| extent(note, kind, height);
-                match seats.seat(index, &layer_of(entity), &heights, extent) {
+                match seats.find_position(index, &layer_of(entity), &heights, extent) {
                     Some(seat) => texts[index] = Some(note_entity(entity, note, kind, seat)),
-                    None => errors.push(DrawError::new(entity.line, 0, no_room(&note.value))),
+                    None => errors.push(DrawError::new(entity.line, 0, no_space_message(&note.value))),
                 }
             }
         }
@@ -253,7 +256,7 @@ fn take_for_text(seats: &mut TextPositions<'_>, entity: &Entity, kind: NoteKind)
         _ => false,
     };
     if let Some(circle) = text_circle(entity).filter(|_| is_kind && !entity.paper) {
-        seats.take(&layer_of(entity), circle.centre, circle.radius);
+        seats.mark_element_with_text(&layer_of(entity), circle.centre, circle.radius);
     }
 }
 

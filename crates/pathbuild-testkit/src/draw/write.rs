@@ -184,7 +184,7 @@ impl<'a> CrateOutput<'a> {
                 }
                 "ENDSEC" | "EOF" | "TABLE" | "ENDTAB" => {}
                 _ => {
-                    tickets.redeem_all(&mut record);
+                    tickets.restore_strings(&mut record);
                     match section.as_str() {
                         "TABLES" => written.tables.push(record),
                         "BLOCKS" => written.blocks.push(record),
@@ -200,7 +200,7 @@ impl<'a> CrateOutput<'a> {
     /// Corrects the entities in the crate's output.
     fn tidy(&mut self, tagged: &[&Entity], version: Version) {
         for record in self.entities.iter_mut().chain(&mut self.blocks) {
-            pairs::tidy(record);
+            pairs::remove_unwanted_pairs(record);
             if version < Version::R13 {
                 drop_codes(record, &[100]);
             }
@@ -359,7 +359,7 @@ fn is_space(record: &Record<'_>) -> bool {
 }
 
 fn owned_without_handle(record: &Record<'_>) -> Record<'static> {
-    let mut record: Record<'static> = record.iter().map(Pair::owned).collect();
+    let mut record: Record<'static> = record.iter().map(Pair::to_owned_pair).collect();
     drop_codes(&mut record, &[5]);
     record
 }

@@ -148,7 +148,7 @@ fn point(text: &str) -> Option<Point> {
     let numbers: Vec<f64> = text.split(',').map(number).collect::<Option<_>>()?;
     match numbers[..] {
         [x, y] => Some(Point::new(x, y)),
-        [x, y, z] => Some(Point::new(x, y).at(z)),
+        [x, y, z] => Some(Point::new(x, y).at_height(z)),
         _ => None,
     }
 }

@@ -292,7 +292,7 @@ pub(crate) fn insert(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let mut insert = Insert {
         block,
         at,
-        scale: Point::new(1.0, 1.0).at(1.0),
+        scale: Point::new(1.0, 1.0).at_height(1.0),
         rotation: 0.0,
         count: (1, 1),
         spacing: (0.0, 0.0),
@@ -316,9 +316,9 @@ pub(crate) fn insert(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
 
 fn scale(cursor: &mut Cursor) -> Parsed<Point> {
     if cursor.peek_word().is_some_and(|word| word.contains(',')) {
-        return cursor.point("the factors in x and y").map(|factors| factors.at(1.0));
+        return cursor.point("the factors in x and y").map(|factors| factors.at_height(1.0));
     }
-    cursor.number("a factor").map(|factor| Point::new(factor, factor).at(factor))
+    cursor.number("a factor").map(|factor| Point::new(factor, factor).at_height(factor))
 }
 
 /// Parses `P P P [P]`: the corners of a solid.

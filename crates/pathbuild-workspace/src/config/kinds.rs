@@ -325,7 +325,7 @@ pub(in crate::config) fn texts<'v, 't>(
 
 /// Whether a string can be written in single quotes, in which TOML escapes nothing.
 pub(in crate::config) fn is_literal(text: &str) -> bool {
-    !text.contains('\'') && !text.contains("##") && !text.contains(shown::acts)
+    !text.contains('\'') && !text.contains("##") && !text.contains(shown::is_active)
 }
 
 /// Formats a string as TOML, in single quotes if that avoids escapes. Otherwise uses JSON escapes, which are valid in TOML, except those of
@@ -336,7 +336,7 @@ pub(in crate::config) fn quoted(text: &str) -> String {
     }
     let mut quoted = String::with_capacity(text.len() + 2);
     for character in json!(text).to_string().chars() {
-        if character > '\u{ffff}' && shown::acts(character) {
+        if character > '\u{ffff}' && shown::is_active(character) {
             _ = write!(quoted, "\\U{:08x}", u32::from(character));
         } else {
             quoted.push(character);

@@ -63,7 +63,7 @@ fn confinement(
     let root = confining(&**system, &directory);
     let confined = ConfinedSystem::new(Arc::clone(system), root, discovery.working_directory);
     let further = discovery.search_starts();
-    let confined = further.fold(confined, |confined, place| confined.and(confining(&**system, &place)));
+    let confined = further.fold(confined, |confined, place| confined.with_root(confining(&**system, &place)));
     let is_trusted = given.trusted.as_ref().is_none_or(|roots| confined.lies_below(roots));
     (given.untrusted || !is_trusted).then_some(confined)
 }

@@ -5,7 +5,7 @@ use std::cell::LazyCell;
 use std::ops::Range;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{ConfinedSystem, spelt};
+use pathbuild_db::system::{ConfinedSystem, with_forward_slashes};
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Text, TextFault, Value, nearest};
 use serde_json::{Map, Value as Json};
@@ -93,8 +93,8 @@ impl<'a> TomlReader<'a> {
 
     /// Returns the file or directory that a value names, relative to the configuration's directory.
     pub(super) fn path(&mut self, name: &str, value: &Spanned<DeValue<'_>>) -> Option<Utf8PathBuf> {
-        let path: Utf8PathBuf = spelt(self.directory.join(name).components().collect());
-        match self.confined.filter(|confined| !confined.holds(&path)) {
+        let path: Utf8PathBuf = with_forward_slashes(self.directory.join(name).components().collect());
+        match self.confined.filter(|confined| !confined.is_in_configured_root(&path)) {
             None => Some(path),
             Some(confined) => {
                 let fault = self.fault(&messages::OUTSIDE, value.span());

@@ -4,7 +4,8 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use pathbuild_db::{
-    Database, Db, DrawnPath, Instance, Outcome, SourceFile, Target, closure, drawn_path, embeds, in_force,
+    Database, Db, DrawnPath, Instance, Outcome, SourceFile, Target, closure, drawn_path,
+    effective_parameters, embeds,
 };
 use pathbuild_diagnostic::{Sentence, Value, drawn_changes as texts};
 use pathbuild_path::{
@@ -265,7 +266,7 @@ struct DrawnInstance<'db> {
 impl<'db> DrawnInstance<'db> {
     fn of(db: &'db Database, instance: Instance<'db>, is_root: bool) -> Option<Self> {
         let (file, name) = (instance.file(db), PathName::new(instance.name(db).folded(db)));
-        let in_force = in_force(db, file, &name, instance.bindings(db), is_root);
+        let in_force = effective_parameters(db, file, &name, instance.bindings(db), is_root);
         Some(Self { file, drawn: drawn_path(db, file, &name)?, in_force })
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Database, program};
-use pathbuild_diagnostic::limits::{exceeded, moves_cut};
+use pathbuild_diagnostic::limits::{exceeded, moves_after_splitting};
 use pathbuild_diagnostic::messages::{files, probes};
 use pathbuild_diagnostic::{Diagnostic, Lang, Point, Severity};
 use pathbuild_gcode::native::{self, probe_name};
@@ -118,7 +118,7 @@ fn too_many_pieces(steps: u64, program: &Program, writing: &WriteSettings) -> Op
     // The limit is defined for moves that each have a comment; these steps have none.
     let size = memory(steps) / 2;
     if moves > writing.most_moves {
-        Some(exceeded(moves_cut(moves), writing.most_moves, "embedding-moves"))
+        Some(exceeded(moves_after_splitting(moves), writing.most_moves, "embedding-moves"))
     } else if size > writing.most_memory {
         let problem = Diagnostic::new(&files::TOO_MUCH_MEMORY).quoting("key", "program-memory");
         Some(problem.with("count", moves).with("size", size).with("limit", writing.most_memory))

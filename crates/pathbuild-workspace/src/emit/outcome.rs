@@ -142,6 +142,6 @@ pub(super) fn cannot_write(name: &str, reason: impl Into<Value>) -> Diagnostic {
 
 /// Whether a program on disk was written by another version of pathbuild.
 pub(super) fn is_of_other_version(system: &dyn System, program: &Utf8Path) -> bool {
-    let head = system.head(program, HEAD).unwrap_or_default();
+    let head = system.read_head(program, HEAD).unwrap_or_default();
     Provenance::of_head(&head).is_some_and(|(found, _)| *found.version != *VERSION)
 }

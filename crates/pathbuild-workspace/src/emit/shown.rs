@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::{
-    Database, Role, SourceFile, Target, check_file, drawn_path, file_index, in_force, keep_outs,
-    other_layers, path_names, placed_keep_outs, traced_program, uncut_rings,
+    Database, Role, SourceFile, Target, check_file, drawn_path, effective_parameters, file_index, keep_outs,
+    path_names, placed_keep_outs, remaining_layers, traced_program, uncut_rings,
 };
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
@@ -115,7 +115,7 @@ impl Session<'_> {
             scene.paths.extend(seen);
             diagnostics.extend(found);
         }
-        scene.other_layers = view::other_layers(other_layers(self.db(), file));
+        scene.other_layers = view::other_layers(remaining_layers(self.db(), file));
         scene.uncut = uncut_rings(self.db(), file).into_iter().map(view::outline).collect();
         self.add_origins(&mut scene);
         SceneReport { scene, diagnostics }
@@ -198,7 +198,7 @@ impl Session<'_> {
         }
         let drawn = drawn_path(self.db(), file, name);
         let examples = file_index(self.db(), file).path(name).map(|path| path.examples.clone());
-        let parameters = in_force(self.db(), file, name, &examples.unwrap_or_default(), true);
+        let parameters = effective_parameters(self.db(), file, name, &examples.unwrap_or_default(), true);
         let drawn = drawn.map(|drawn| view::drawn_path(&drawn_source(self.db(), file, drawn, &parameters)));
         (drawn, diagnostics, Vec::new())
     }

@@ -226,7 +226,7 @@ impl EarlierPrograms<'_> {
 
 /// Reads the provenance and the title from the head of a program.
 fn provenance(session: &Session<'_>, program: &Utf8Path) -> Option<(Provenance, Box<str>)> {
-    Provenance::of_head(&session.db().system().head(program, HEAD).ok()?)
+    Provenance::of_head(&session.db().system().read_head(program, HEAD).ok()?)
 }
 
 /// A file of a job's path that the job does not generate: `_Milling` beside `_Clean` (adjusted from it, or from before the path had probes), or

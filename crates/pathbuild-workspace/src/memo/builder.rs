@@ -139,7 +139,7 @@ impl<'a> CatalogueBuilder<'a> {
         let mut fact = file.clone();
         match self.store.verdict.files[number] {
             FileState::Unchanged | FileState::Unchecked => {}
-            FileState::Touched(stamp) => fact.stamp = stamp.settled(self.begun),
+            FileState::Touched(stamp) => fact.stamp = stamp.for_storing(self.begun),
             // The output is out of date. Its hash stays, because it describes the expected content.
             FileState::Changed => fact.stamp = Stamp::UNKNOWN,
         }
@@ -179,7 +179,7 @@ impl<'a> CatalogueBuilder<'a> {
 
     /// Records an output file written or compared in this run.
     fn output(&mut self, GeneratedFile { path, hash, is_there }: &GeneratedFile) -> usize {
-        let stamp = if *is_there { Stamp::of(path).settled(self.begun) } else { Stamp::UNKNOWN };
+        let stamp = if *is_there { Stamp::of(path).for_storing(self.begun) } else { Stamp::UNKNOWN };
         // If the file has vanished meanwhile, the stamp of a missing file must not be stored with the hash.
         let stamp = if stamp == Stamp::MISSING { Stamp::UNKNOWN } else { stamp };
         self.add_file(FileFact { path: path.clone(), stamp, hash: Some(*hash) })
@@ -187,7 +187,7 @@ impl<'a> CatalogueBuilder<'a> {
 
     /// Adds a file. One that could not be read gets neither stamp nor hash, so that its results are recomputed.
     fn new_file(&mut self, path: &Utf8Path, content: Option<Content>) -> usize {
-        let stamp = content.map_or(Stamp::UNKNOWN, |(_, stamp)| stamp.settled(self.begun));
+        let stamp = content.map_or(Stamp::UNKNOWN, |(_, stamp)| stamp.for_storing(self.begun));
         self.add_file(FileFact { path: path.to_owned(), stamp, hash: content.map(|(hash, _)| hash) })
     }
 
@@ -238,7 +238,7 @@ impl<'a> CatalogueBuilder<'a> {
     fn directory(&mut self, path: &Utf8Path) -> usize {
         match self.directories.get(path) {
             Some(known) => *known,
-            None => self.add_directory(DirectoryFact::now(path, &self.store.base)),
+            None => self.add_directory(DirectoryFact::read_current(path, &self.store.base)),
         }
     }
 

@@ -141,7 +141,7 @@ impl Store {
             return None;
         }
         // Without write access, the run goes on without a cache.
-        if place.make().is_ok_and(|is_new| is_new) {
+        if place.create().is_ok_and(|is_new| is_new) {
             report_old_cache(context, &base);
         }
         let key = Key::new(BUILD, &query_text(context, kind, text));

@@ -375,7 +375,7 @@ impl Session<'_> {
     /// a cached result are skipped, since they have probably not changed.
     pub fn prefetch(&self, inputs: &Inputs, is_known: &dyn Fn(SourceFile) -> bool) {
         // Bugs are ignored here: the query that needs the drawing will report them.
-        _ = self.db.guarded(self.limit(), || self.prefetch_likely(inputs, is_known));
+        _ = self.db.run_guarded(self.limit(), || self.prefetch_likely(inputs, is_known));
     }
 
     fn prefetch_likely(&self, inputs: &Inputs, is_known: &dyn Fn(SourceFile) -> bool) {

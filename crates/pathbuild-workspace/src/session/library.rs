@@ -12,8 +12,8 @@ use camino::{Utf8Path, Utf8PathBuf};
 use ignore::Match;
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
 use pathbuild_cache::{Listing, Listings};
-use pathbuild_db::system::{Entry, EntryKind, FileKind, Names, ReadError, join, readable};
-use pathbuild_db::{Db, System, catch_bugs, unlistable, unlisted};
+use pathbuild_db::system::{Entry, EntryKind, FileKind, Names, ReadError, join, or_current_directory};
+use pathbuild_db::{Db, System, catch_bugs, listing_error, unlistable_error};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::limits::line_too_long;
 use pathbuild_diagnostic::messages::{files as messages, outputs};
@@ -77,7 +77,7 @@ impl Walk<'_> {
         };
         if count > self.limit.saturating_add(1) {
             return WalkResult {
-                problems: vec![too_many(readable(root), self.limit)],
+                problems: vec![too_many(or_current_directory(root), self.limit)],
                 ..WalkResult::default()
             };
         }
@@ -120,7 +120,7 @@ impl Walk<'_> {
             } else {
                 open.iter().map(list).collect()
             };
-            if let Some(problem) = budget.exceeded(readable(root)) {
+            if let Some(problem) = budget.exceeded(or_current_directory(root)) {
                 return Err(problem);
             }
             let mut next = Vec::new();
@@ -168,7 +168,7 @@ struct Directory {
 impl Directory {
     /// Returns a directory whose contents are unknown, because listing it triggered a bug.
     fn failed(directory: &Utf8Path, bug: Diagnostic) -> Self {
-        let problems = vec![bug.in_file(readable(directory))];
+        let problems = vec![bug.in_file(or_current_directory(directory))];
         Self { problems, listing: Listing { is_doubtful: true, ..Listing::default() }, ..Self::default() }
     }
 
@@ -208,7 +208,7 @@ impl Directory {
             if is_none {
                 return Ok(None);
             }
-            found.problems.push(unlistable(directory, error));
+            found.problems.push(unlistable_error(directory, error));
         }
         // Lookups must not rely on an incomplete listing.
         found.listing.is_doubtful |= listed.is_err();
@@ -241,7 +241,7 @@ impl Directory {
             let is_meant = is_directory || is_wanted(Utf8Path::new(name));
             if is_meant && self.counts(directory, name, is_directory) {
                 let problem = Diagnostic::new(&messages::NAME_NOT_UTF_8).quoting("name", name);
-                self.problems.push(problem.in_file(readable(directory)));
+                self.problems.push(problem.in_file(or_current_directory(directory)));
             }
         } else if self.counts(directory, name, is_directory) {
             self.count += 1;
@@ -323,7 +323,7 @@ impl Session<'_> {
         let walked = Walk { obeys_git: false, ..self.walk(is_program) }.through(root);
         if walked.drawings.is_empty() && walked.problems.is_empty() {
             let problem = Diagnostic::new(&outputs::NO_PROGRAM);
-            found.problems.push(problem.quoting("directory", readable(directory).as_str()));
+            found.problems.push(problem.quoting("directory", or_current_directory(directory).as_str()));
         }
         found.programs.extend(walked.drawings);
         found.directories.extend(walked.directories);
@@ -340,8 +340,8 @@ impl Session<'_> {
         ask: impl Fn(pathbuild_db::Directory) -> R,
     ) -> Result<R, Box<Diagnostic>> {
         let input = self.db.directory(directory);
-        let answer = self.db.guarded(self.limit(), || (ask(input), unlisted(&self.db, input)));
-        match answer.map_err(|problem| problem.in_file(readable(directory)))? {
+        let answer = self.db.run_guarded(self.limit(), || (ask(input), listing_error(&self.db, input)));
+        match answer.map_err(|problem| problem.in_file(or_current_directory(directory)))? {
             (answer, None) => Ok(answer),
             (_, Some(problem)) => Err(Box::new(problem)),
         }
@@ -353,9 +353,9 @@ impl Session<'_> {
     /// PB001 if it cannot be listed, PB006 if this triggers a bug.
     pub fn file_names_in(&self, directory: &Utf8Path) -> Result<Names, Box<Diagnostic>> {
         let listed = catch_bugs(|| self.db.system().list(directory));
-        match listed.map_err(|bug| Box::new(bug.in_file(readable(directory))))? {
+        match listed.map_err(|bug| Box::new(bug.in_file(or_current_directory(directory))))? {
             Ok(listing) => Ok(listing.files),
-            Err(fault) if self.is_directory(directory) => Err(Box::new(unlistable(directory, &fault))),
+            Err(fault) if self.is_directory(directory) => Err(Box::new(unlistable_error(directory, &fault))),
             Err(_) => Ok(Names::default()),
         }
     }

@@ -3,7 +3,8 @@
 use camino::Utf8Path;
 use pathbuild_db::{
     Database, Db, DrawnPath, PlacedPart, Settings, SourceFile, Target, TracedProgram, assigned_texts,
-    drawn_path, in_force, keep_outs, other_layers, path_names, placed_parts, program, uncut_rings,
+    drawn_path, effective_parameters, keep_outs, path_names, placed_parts, program, remaining_layers,
+    uncut_rings,
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Number};
 use pathbuild_gcode::native::{Header, WriteOptions};
@@ -108,7 +109,7 @@ fn drawn_scene(db: &dyn Db, file: SourceFile) -> Scene {
     scene.keep_outs.extend(keep_outs(db, file).iter().map(|clamp| view::keep_out(clamp, [0.0, 0.0])));
     let paths = path_names(db, file).iter().filter_map(|name| drawn_path(db, file, name));
     scene.paths.extend(paths.map(|drawn| view::drawn_path(&drawn_source(db, file, drawn, &[]))));
-    scene.other_layers = view::other_layers(other_layers(db, file));
+    scene.other_layers = view::other_layers(remaining_layers(db, file));
     scene.uncut = uncut_rings(db, file).into_iter().map(view::outline).collect();
     scene
 }
@@ -125,10 +126,9 @@ pub(crate) fn program_scene(
 ) -> Result<Option<ScenePath>, Box<Diagnostic>> {
     let TracedProgram { program, trace, parts } = traced;
     // The first part is the emitted path itself.
-    let known = parts
-        .iter()
-        .zip(0..)
-        .map(|(part, number)| in_force(db, part.file, &part.path.name, &part.bindings, number == 0));
+    let known = parts.iter().zip(0..).map(|(part, number)| {
+        effective_parameters(db, part.file, &part.path.name, &part.bindings, number == 0)
+    });
     let known: Vec<Vec<ElementParameters>> = known.collect();
     let sources = parts.iter().zip(&known).map(|(part, known)| {
         let drawn = drawn_path(db, part.file, &part.path.name)?;

@@ -149,7 +149,7 @@ impl Session<'_> {
     ) -> Result<R, Box<Diagnostic>> {
         let limit = self.limit();
         let _watched = self.watchdog.get_or_init(|| Watchdog::start(limit)).begin(&self.db);
-        let answer = self.db.guarded(limit, || ask(&self.db));
+        let answer = self.db.run_guarded(limit, || ask(&self.db));
         answer.map_err(|problem| Box::new(about(&self.db, target, *problem)))
     }
 
@@ -171,7 +171,7 @@ impl Session<'_> {
         let watchdog = self.watchdog.get_or_init(|| Watchdog::start(limit));
         let work = |db: &Database, item: &T| {
             let _watched = watchdog.begin(db);
-            db.guarded(limit, || work(db, item))
+            db.run_guarded(limit, || work(db, item))
         };
         self.map_in_chunks(items, PROGRAMS_PER_CHUNK, work)
     }
@@ -262,7 +262,7 @@ impl Checker<'_> {
     pub fn check(&self, target: Target) -> CheckedTarget {
         let watchdog = self.watchdog.get_or_init(|| Watchdog::start(self.limit));
         let _watched = watchdog.begin(self.db);
-        let work = || self.db.guarded(self.limit, || check(self.db, target, self.is_traced));
+        let work = || self.db.run_guarded(self.limit, || check(self.db, target, self.is_traced));
         let name = || format!("{} ({})", target.name(self.db), target.file(self.db).path(self.db));
         let checked = self.timings.measure_path(name, work);
         checked.unwrap_or_else(|problem| aborted_target(self.db, target, *problem))

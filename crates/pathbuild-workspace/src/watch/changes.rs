@@ -308,5 +308,6 @@ const TAIL: usize = 256;
 
 /// Whether a drawing exists but lacks the end marker.
 fn is_unfinished(system: &dyn System, path: &Utf8Path) -> bool {
-    is_drawing(path) && system.tail(path, TAIL).is_ok_and(|tail| !tail.windows(3).any(|word| word == b"EOF"))
+    is_drawing(path)
+        && system.read_tail(path, TAIL).is_ok_and(|tail| !tail.windows(3).any(|word| word == b"EOF"))
 }

@@ -8,7 +8,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use notify::event::{EventKind, ModifyKind};
 use notify::{ErrorKind, RecursiveMode, Watcher};
 use pathbuild_db::System;
-use pathbuild_db::system::{FileKind, FileLink, is_drawing, join, readable};
+use pathbuild_db::system::{FileKind, FileLink, is_drawing, join, or_current_directory};
 
 use super::events::Request;
 use crate::Input;
@@ -83,7 +83,7 @@ impl WatchedDirectories {
     pub(super) fn watch(&mut self, source: &mut dyn Watcher, system: &dyn System) -> notify::Result<()> {
         // Watch the parents first, so that no new directory is missed. Best effort: some of them may not be listable.
         for way in self.names.iter().filter_map(|name| name.parent()).filter(|way| !is_root(way)) {
-            _ = source.watch(readable(way).as_std_path(), RecursiveMode::NonRecursive);
+            _ = source.watch(or_current_directory(way).as_std_path(), RecursiveMode::NonRecursive);
         }
         for (directory, mode) in self.watched.clone() {
             let is_there = directory.as_str().is_empty() || system.kind(&directory) == FileKind::Directory;
@@ -134,7 +134,7 @@ impl WatchedDirectories {
 
     fn watch_linked(&mut self, source: &mut dyn Watcher, path: &Utf8Path) -> notify::Result<()> {
         if !self.linked.contains(path) {
-            source.watch(readable(path).as_std_path(), RecursiveMode::NonRecursive)?;
+            source.watch(or_current_directory(path).as_std_path(), RecursiveMode::NonRecursive)?;
             self.linked.insert(path.to_owned());
         }
         Ok(())
@@ -225,7 +225,7 @@ impl WatchedDirectories {
         mode: RecursiveMode,
         seen: &mut BTreeSet<Utf8PathBuf>,
     ) -> notify::Result<()> {
-        match source.watch(readable(directory).as_std_path(), mode) {
+        match source.watch(or_current_directory(directory).as_std_path(), mode) {
             Err(error) if is_refusal(&error) => {}
             done => return done,
         }
@@ -252,7 +252,7 @@ fn directory_and_parents(directory: &Utf8Path) -> impl Iterator<Item = Utf8PathB
 
 /// Returns the canonical path of a directory, as events report it.
 fn real_directory(session: &Session<'_>, directory: &Utf8Path) -> Utf8PathBuf {
-    event_path(session, &session.workspace().system.canonical(readable(directory)))
+    event_path(session, &session.workspace().system.canonical(or_current_directory(directory)))
 }
 
 fn is_root(directory: &Utf8Path) -> bool {

@@ -61,7 +61,7 @@ fn harmless(candidates: Vec<CompletionCandidate>) -> impl Iterator<Item = Comple
 
 fn is_harmless(name: &str) -> bool {
     let is_special = |c: char| c.is_whitespace() || c.is_ascii_punctuation() && !"+,-./:@_".contains(c);
-    !name.chars().any(|c| shown::acts(c) || is_special(c) && !(cfg!(windows) && c == '\\'))
+    !name.chars().any(|c| shown::is_active(c) || is_special(c) && !(cfg!(windows) && c == '\\'))
 }
 
 /// Returns the paths of the working directory's library whose names begin with the current word.

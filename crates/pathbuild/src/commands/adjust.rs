@@ -4,7 +4,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::catch_bugs;
 use pathbuild_db::system::{FileKind, WriteOutcome, join};
 use pathbuild_diagnostic::messages::probes;
-use pathbuild_diagnostic::{Diagnostic, in_prose};
+use pathbuild_diagnostic::{Diagnostic, with_decimal_separator};
 use pathbuild_gcode::adjust::{AdjustedProgram, Inputs, Source, adjust};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
@@ -300,7 +300,7 @@ impl<'a> Adjustment<'a> {
             _ => self.context.choose("heights corrected by", "Höhen korrigiert um"),
         };
         let to = self.context.choose("to", "bis");
-        let signed = |height: f64| in_prose(format!("{height:+.3}"), self.context.lang());
+        let signed = |height: f64| with_decimal_separator(format!("{height:+.3}"), self.context.lang());
         let [lowest, highest] = [adjusted.corrections.0, adjusted.corrections.1].map(signed);
         let count = adjusted.heights;
         self.context

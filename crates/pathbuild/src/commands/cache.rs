@@ -1,7 +1,7 @@
 //! `pathbuild cache`: manages the cached results. (book: reference/configuration)
 
 use pathbuild_cache::{CacheFault, Entry, Key, RemoveError};
-use pathbuild_db::system::spelt;
+use pathbuild_db::system::with_forward_slashes;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
 
@@ -28,7 +28,7 @@ pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
         ));
     };
     let build = Key::new(BUILD, "");
-    let directory = spelt(place.directory().to_owned());
+    let directory = with_forward_slashes(place.directory().to_owned());
     match args.command {
         CacheCommand::Dir if context.format == Format::Json => {
             context.row("cache", json!({ "directory": directory.as_str() }));
@@ -64,7 +64,8 @@ fn report(context: &Context, removed: Result<usize, RemoveError>) -> ExitStatus 
             ExitStatus::Success
         }
         Err(RemoveError { path, reason }) => {
-            let problem = Diagnostic::new(&files::CANNOT_REMOVE).quoting("name", spelt(path).as_str());
+            let problem =
+                Diagnostic::new(&files::CANNOT_REMOVE).quoting("name", with_forward_slashes(path).as_str());
             context.fail(vec![problem.with("reason", reason)])
         }
     }

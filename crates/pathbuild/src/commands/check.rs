@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{FileKind, is_drawing, join, spelt};
+use pathbuild_db::system::{FileKind, is_drawing, join, with_forward_slashes};
 use pathbuild_workspace::check::{EarlierFiles, Request};
 use pathbuild_workspace::config::clean;
 use pathbuild_workspace::files::FILE_NAME;
@@ -106,7 +106,7 @@ impl<'a> RevisionFiles<'a> {
 
     /// Returns a real path relative to the root; `None` if it is outside.
     fn below_root(&self, real: &Utf8Path) -> Option<Utf8PathBuf> {
-        Some(spelt(real.strip_prefix(&self.repository.root).ok()?.to_owned()))
+        Some(with_forward_slashes(real.strip_prefix(&self.repository.root).ok()?.to_owned()))
     }
 
     /// Returns the real path of a file and its blob id in the revision; `None` if the file must count as changed.
@@ -115,7 +115,7 @@ impl<'a> RevisionFiles<'a> {
         let id = self.files.get(&self.below_root(&real)?)?;
         // Git would hang on special files and very large ones, and expects one file name per line.
         let largest = self.context.settings.limits.file_size.value;
-        let is_regular = self.context.system.head(&real, 1).is_ok();
+        let is_regular = self.context.system.read_head(&real, 1).is_ok();
         let is_comparable = is_regular
             && !real.as_str().contains('\n')
             && files::size(&real).is_some_and(|size| size <= largest);

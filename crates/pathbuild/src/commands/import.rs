@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use pathbuild_diagnostic::{Diagnostic, Lang, Number, in_prose, shown};
+use pathbuild_diagnostic::{Diagnostic, Lang, Number, shown, with_decimal_separator};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::estimate::{self, Kinematics};
 use pathbuild_gcode::statistics::{AxisRanges, MoveTotals, Summary, Tally, ToolTotals, is_guess};
@@ -228,7 +228,7 @@ impl Formatter<'_> {
     }
 
     fn tenths(&self, number: f64) -> String {
-        in_prose(format!("{number:.1}"), self.0.lang())
+        with_decimal_separator(format!("{number:.1}"), self.0.lang())
     }
 
     /// Formats an extent, such as `X 0.000 to 40.000, Y 0.000 to 20.000`; `None` if no axis moves to a known position.

@@ -1,7 +1,7 @@
 //! `pathbuild q-project`: writes a drawing that embeds all paths of another drawing. (book: language/q-projects)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{FileKind, spelt};
+use pathbuild_db::system::{FileKind, with_forward_slashes};
 use pathbuild_db::{Db, Role, Settings, SourceFile, check_file, path_names, q_project};
 use pathbuild_diagnostic::messages::{files, outputs};
 use pathbuild_diagnostic::reasons::DRAWN_BY_USER;
@@ -50,7 +50,9 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
 
 /// Returns `NAME_Q.dxf` in the directory of the drawing `NAME.dxf`.
 fn beside(drawing: &Utf8Path) -> Utf8PathBuf {
-    spelt(drawing.with_file_name(format!("{}.dxf", q_project_name(drawing.file_stem().unwrap_or_default()))))
+    with_forward_slashes(
+        drawing.with_file_name(format!("{}.dxf", q_project_name(drawing.file_stem().unwrap_or_default()))),
+    )
 }
 
 /// Returns the name of the Q-project's path: the given one, or the drawing's first number with `.0Q`.
@@ -192,7 +194,7 @@ fn is_of_user(session: &Session<'_>, output: &Utf8Path, bytes: &[u8]) -> bool {
     let system = session.db().system();
     let is_there = system.kind(output) == FileKind::File;
     let is_ours = |old: Vec<u8>| old.starts_with(MARK) || bytes.strip_prefix(MARK) == Some(&old);
-    is_there && !system.head(output, bytes.len()).is_ok_and(is_ours)
+    is_there && !system.read_head(output, bytes.len()).is_ok_and(is_ours)
 }
 
 /// First lines of every Q-project: a DXF comment that marks it.

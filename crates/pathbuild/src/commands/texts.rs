@@ -4,7 +4,8 @@
 use std::fmt::Write;
 
 use pathbuild_db::{
-    Database, SourceFile, assigned_texts, check_file, drawn_path, file_index, in_force, path_names,
+    Database, SourceFile, assigned_texts, check_file, drawn_path, effective_parameters, file_index,
+    path_names,
 };
 use pathbuild_diagnostic::{Diagnostic, Handle, Number, Point, shown};
 use pathbuild_path::{
@@ -190,7 +191,7 @@ fn table_of(context: &Context, db: &Database, file: SourceFile, path: &PathName)
     let index = file_index(db, file).path(path);
     let Some((index, drawn)) = index.zip(drawn_path(db, file, path)) else { return Vec::new() };
     let positions = drawn.positions.positions();
-    let elements = in_force(db, file, path, &index.examples, true);
+    let elements = effective_parameters(db, file, path, &index.examples, true);
     let placed =
         elements.iter().filter_map(|element| Some((element, *positions.get(element.origin.id.0 as usize)?)));
     let file = file.path(db);

@@ -2,7 +2,7 @@
 
 use camino::Utf8PathBuf;
 use pathbuild_db::SourceFile;
-use pathbuild_diagnostic::{Diagnostic, in_prose, shown};
+use pathbuild_diagnostic::{Diagnostic, shown, with_decimal_separator};
 use pathbuild_workspace::Inputs;
 use pathbuild_workspace::emit::ProgramOutcome;
 use pathbuild_workspace::posting::PostProcessor;
@@ -150,7 +150,7 @@ impl Listener for WatchPrinter<'_> {
         let checked = counted(count, checked);
         let has_news = !new.is_empty() || gone > 0;
         let new = counted(new.len(), [["new finding", "new findings"], ["neue Meldung", "neue Meldungen"]]);
-        let time = in_prose(format!("{milliseconds:.1}"), context.lang());
+        let time = with_decimal_separator(format!("{milliseconds:.1}"), context.lang());
         let tail = format!("{checked}{open}, {new}, {gone} {} ({time} ms)", phrase("fixed", "behoben"));
         let changed = update.changed.iter().map(|path| {
             let is_gone = update.removed.contains(path);

@@ -3,7 +3,7 @@
 use super::data::{Sheet, SheetTool, Words, distinct};
 use super::flow::Block;
 use super::operations;
-use pathbuild_diagnostic::in_prose;
+use pathbuild_diagnostic::with_decimal_separator;
 
 use crate::scene::{BilingualText, MoveKind, Point};
 use crate::svg::canvas::mm;
@@ -65,9 +65,9 @@ fn material(sheet: &Sheet, words: Words) -> String {
     let facts: Vec<String> =
         materials(sheet)
             .into_iter()
-            .chain(thicknesses(sheet).map(|thickness| in_prose(thickness, words.0)).map(|thickness| {
-                words.either(format!("{thickness} mm thick"), format!("{thickness} mm dick"))
-            }))
+            .chain(thicknesses(sheet).map(|thickness| with_decimal_separator(thickness, words.0)).map(
+                |thickness| words.either(format!("{thickness} mm thick"), format!("{thickness} mm dick")),
+            ))
             .chain(
                 size(sheet, words)
                     .map(|size| words.either(format!("at least {size}"), format!("mindestens {size}"))),

@@ -1,6 +1,6 @@
 //! The data of a setup sheet, values derived from it, and the texts in both languages.
 
-use pathbuild_diagnostic::{Lang, in_prose};
+use pathbuild_diagnostic::{Lang, with_decimal_separator};
 
 use crate::scene::{BilingualText, KeepOut, MoveKind, Point, Scene, SceneMove, Shape};
 use crate::svg::canvas::mm;
@@ -198,7 +198,7 @@ impl Words {
 
     /// Formats a length for a sentence, with the language's decimal separator.
     pub(super) fn mm(self, length: f64) -> String {
-        in_prose(mm(length), self.0)
+        with_decimal_separator(mm(length), self.0)
     }
 
     /// Describes the distance of zero from the lower end of a range along X (`is_across`) or Y.

@@ -248,7 +248,7 @@ fn path(
 /// Returns the configured post-processor if it has written a program. If the path's program is also written by it, its rounding and its
 /// additional moves do not count as differences.
 fn post_processor_of(context: &Context, program: &Utf8Path) -> Option<PostProcessor> {
-    let head = context.system.head(program, HEAD).ok()?;
+    let head = context.system.read_head(program, HEAD).ok()?;
     let (provenance, _) = Provenance::of_head(&head)?;
     let post_processor = PostProcessor::for_run(context, None, PostArguments::default()).ok()??;
     (provenance.dialect.is_some() && post_processor.reader() == provenance.dialect).then_some(post_processor)

@@ -4,12 +4,12 @@
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 
 /// Returns a path with `/` as the separator. Paths that begin with `\\?\` are left alone: in these, Windows treats `/` as an ordinary character.
-pub fn spelt(path: Utf8PathBuf) -> Utf8PathBuf {
-    if cfg!(windows) { with_slashes(path) } else { path }
+pub fn with_forward_slashes(path: Utf8PathBuf) -> Utf8PathBuf {
+    if cfg!(windows) { replace_backslashes(path) } else { path }
 }
 
 /// Returns a path for system calls, which do not accept an empty one: `.` stands for it.
-pub fn readable(path: &Utf8Path) -> &Utf8Path {
+pub fn or_current_directory(path: &Utf8Path) -> &Utf8Path {
     if path.as_str().is_empty() { Utf8Path::new(".") } else { path }
 }
 
@@ -24,7 +24,7 @@ pub fn join(directory: &Utf8Path, name: impl AsRef<Utf8Path>) -> Utf8PathBuf {
     let mut path = Utf8PathBuf::with_capacity(directory.as_str().len() + 1 + name.as_str().len());
     path.push(directory);
     path.push(name);
-    spelt(path)
+    with_forward_slashes(path)
 }
 
 /// Removes `.` and `..` and normalises separators, without resolving links, so that a linked drawing belongs to the directory where it
@@ -40,10 +40,10 @@ pub fn clean(path: &Utf8Path) -> Utf8PathBuf {
             other => clean.push(other),
         }
     }
-    spelt(clean)
+    with_forward_slashes(clean)
 }
 
-fn with_slashes(path: Utf8PathBuf) -> Utf8PathBuf {
+fn replace_backslashes(path: Utf8PathBuf) -> Utf8PathBuf {
     let text = path.as_str();
     if text.starts_with(r"\\?\") || !text.contains('\\') { path } else { text.replace('\\', "/").into() }
 }
@@ -61,7 +61,7 @@ mod tests {
             (r"\\?\C:\parts", r"\\?\C:\parts"),
             ("parts/a.dxf", "parts/a.dxf"),
         ] {
-            assert_eq!(with_slashes(path.into()), expected);
+            assert_eq!(replace_backslashes(path.into()), expected);
         }
     }
 
@@ -92,6 +92,6 @@ mod tests {
 
     #[test]
     fn where_a_backslash_is_a_letter_it_stays() {
-        assert_eq!(spelt(r"a\b".into()), if cfg!(windows) { "a/b" } else { r"a\b" });
+        assert_eq!(with_forward_slashes(r"a\b".into()), if cfg!(windows) { "a/b" } else { r"a\b" });
     }
 }

@@ -6,7 +6,7 @@ use crate::geometry::{Arc, Circle, Line, Point};
 pub const LETTER_HEIGHT: f64 = 2.0;
 
 /// Returns a letter height, followed by smaller ones to try if there is no room.
-pub fn reduced(height: f64) -> [f64; 7] {
+pub fn letter_heights(height: f64) -> [f64; 7] {
     [1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1].map(|factor| factor * height)
 }
 
@@ -35,7 +35,7 @@ impl ElementPart {
                 (covers(arc, centre) && distance <= radius).then_some((1, distance))
             }
             Self::Line(line) => {
-                let foot = foot(line, centre)?;
+                let foot = perpendicular_foot(line, centre)?;
                 let distance = centre.distance(foot);
                 (distance < radius).then_some((2, distance))
             }
@@ -49,17 +49,16 @@ impl ElementPart {
             Self::Circle(circle) => point.distance(circle.centre) - circle.radius,
             Self::Arc(arc) if covers(arc, point) => (point.distance(arc.centre) - arc.radius).abs(),
             Self::Arc(arc) => to_ends(arc.point(arc.start), arc.point(arc.end)),
-            Self::Line(line) => {
-                foot(line, point).map_or_else(|| to_ends(line.from, line.to), |foot| point.distance(foot))
-            }
+            Self::Line(line) => perpendicular_foot(line, point)
+                .map_or_else(|| to_ends(line.from, line.to), |foot| point.distance(foot)),
         }
     }
 
     /// Returns centres at which a text circle of this radius overlaps the part, the best looking first.
-    fn seats(&self, radius: f64) -> Vec<Point> {
-        const ALONG: [f64; 11] = [0.5, 0.35, 0.65, 0.2, 0.8, 0.42, 0.58, 0.28, 0.72, 0.1, 0.9];
-        const ASIDE: [f64; 3] = [0.6, -0.6, 0.0];
-        const ROUND: [f64; 16] = [
+    fn text_positions(&self, radius: f64) -> Vec<Point> {
+        const LENGTH_FRACTIONS: [f64; 11] = [0.5, 0.35, 0.65, 0.2, 0.8, 0.42, 0.58, 0.28, 0.72, 0.1, 0.9];
+        const SIDE_OFFSETS: [f64; 3] = [0.6, -0.6, 0.0];
+        const CIRCLE_ANGLES: [f64; 16] = [
             45.0, 135.0, 225.0, 315.0, 0.0, 90.0, 180.0, 270.0, 22.5, 67.5, 112.5, 157.5, 202.5, 247.5,
             292.5, 337.5,
         ];
@@ -68,13 +67,13 @@ impl ElementPart {
                 let outside = circle.radius + 0.8 * radius;
                 let inside = circle.radius - 0.6 * radius;
                 let rings = [outside, inside.max(0.0), 0.0].into_iter();
-                rings.flat_map(|d| ROUND.map(|angle| circle.centre.polar(d, angle))).collect()
+                rings.flat_map(|d| CIRCLE_ANGLES.map(|angle| circle.centre.polar(d, angle))).collect()
             }
             Self::Arc(arc) => {
                 let sweep = arc.sweep();
                 let ring = |aside: f64| (arc.radius + aside * radius).max(arc.radius / 2.0);
                 let at = |t: f64, aside: f64| arc.centre.polar(ring(aside), arc.start + t * sweep);
-                ALONG.iter().flat_map(|t| ASIDE.map(|aside| at(*t, aside))).collect()
+                LENGTH_FRACTIONS.iter().flat_map(|t| SIDE_OFFSETS.map(|aside| at(*t, aside))).collect()
             }
             Self::Line(line) => {
                 let length = line.from.distance(line.to);
@@ -83,7 +82,7 @@ impl ElementPart {
                 let normal = Point::new(-unit.y, unit.x);
                 let at =
                     |t: f64, aside: f64| line.from + (line.to - line.from) * t + normal * (aside * radius);
-                ALONG.iter().flat_map(|t| ASIDE.map(|aside| at(*t, aside))).collect()
+                LENGTH_FRACTIONS.iter().flat_map(|t| SIDE_OFFSETS.map(|aside| at(*t, aside))).collect()
             }
         }
     }
@@ -95,7 +94,7 @@ fn covers(arc: &Arc, point: Point) -> bool {
 }
 
 /// Returns the foot of the perpendicular from a point to a line, if it lies on the line.
-fn foot(line: &Line, point: Point) -> Option<Point> {
+fn perpendicular_foot(line: &Line, point: Point) -> Option<Point> {
     let (along, to) = (line.to - line.from, point - line.from);
     let length2 = along.x * along.x + along.y * along.y;
     let t = (to.x * along.x + to.y * along.y) / length2;
@@ -157,15 +156,15 @@ impl<'a> TextPositions<'a> {
     }
 
     /// Marks the element to which a text of the drawing belongs as having a text.
-    pub fn take(&mut self, layer: &str, centre: Point, radius: f64) {
-        if let Some(found) = self.found(layer, centre, radius) {
+    pub fn mark_element_with_text(&mut self, layer: &str, centre: Point, radius: f64) {
+        if let Some(found) = self.matched_element(layer, centre, radius) {
             self.taken[found] = true;
         }
     }
 
     /// Finds a position for an entity's text and returns its centre, its extent, and the height of its letters: preferably far from all other
     /// elements, otherwise anywhere that the rules assign to the entity. The letter heights are tried in the given order.
-    pub fn seat(
+    pub fn find_position(
         &mut self,
         entity: usize,
         layer: &str,
@@ -176,12 +175,14 @@ impl<'a> TextPositions<'a> {
         if self.taken[target] {
             return None;
         }
-        let rules: [Rule<'a>; 2] = [Self::is_alone, Self::is_given];
+        let rules: [Rule<'a>; 2] = [Self::is_clear_of_others, Self::is_assigned_by_rules];
         let seat = rules.iter().find_map(|rule| {
             heights.iter().find_map(|height| {
                 let extent = extent(*height);
-                let mut seats =
-                    self.candidates[target].pieces.iter().flat_map(|piece| piece.seats(extent.radius));
+                let mut seats = self.candidates[target]
+                    .pieces
+                    .iter()
+                    .flat_map(|piece| piece.text_positions(extent.radius));
                 let centre = seats.find(|seat| rule(self, target, layer, *seat, extent.radius))?;
                 Some((centre, extent, *height))
             })
@@ -191,7 +192,7 @@ impl<'a> TextPositions<'a> {
     }
 
     /// Whether the circle overlaps the target and keeps well clear of everything else.
-    fn is_alone(&self, target: usize, layer: &str, centre: Point, radius: f64) -> bool {
+    fn is_clear_of_others(&self, target: usize, layer: &str, centre: Point, radius: f64) -> bool {
         let others = self
             .candidates
             .iter()
@@ -203,8 +204,8 @@ impl<'a> TextPositions<'a> {
     }
 
     /// Whether the rules assign the text to the target in the order in which texts are read, even if the estimated size of the text is slightly off.
-    fn is_given(&self, target: usize, layer: &str, centre: Point, radius: f64) -> bool {
-        let near = |factor: f64| self.found(layer, centre, factor * radius);
+    fn is_assigned_by_rules(&self, target: usize, layer: &str, centre: Point, radius: f64) -> bool {
+        let near = |factor: f64| self.matched_element(layer, centre, factor * radius);
         if self.candidates[target].takes_text {
             [0.95, 1.0, 1.05].into_iter().all(|factor| near(factor) == Some(target))
         } else {
@@ -213,7 +214,7 @@ impl<'a> TextPositions<'a> {
     }
 
     /// Returns the element that a text circle matches among those that have no text yet.
-    fn found(&self, layer: &str, centre: Point, radius: f64) -> Option<usize> {
+    fn matched_element(&self, layer: &str, centre: Point, radius: f64) -> Option<usize> {
         let free = self.candidates.iter().enumerate().filter(|(index, candidate)| {
             candidate.takes_text && !self.taken[*index] && candidate.layer == layer
         });
@@ -230,7 +231,7 @@ fn overlaps(candidate: &Candidate, centre: Point, radius: f64) -> bool {
 }
 
 /// Formats the message that there is no room for an element's text.
-pub fn no_room(text: &str) -> String {
+pub fn no_space_message(text: &str) -> String {
     format!(
         "no place found where the text {text:?} would belong to this element and to no other; \
          give the neighbours texts of their own first, move them apart, or write a `text` or `mtext` line"
