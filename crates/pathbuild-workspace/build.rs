@@ -40,7 +40,7 @@ fn build_id() -> u128 {
     hash
 }
 
-/// The files of the workspace that results depend on, sorted.
+/// Lists the files of the workspace that results depend on, sorted.
 fn workspace_files(workspace: &Path) -> Vec<PathBuf> {
     let mut files = vec![workspace.join("Cargo.lock"), workspace.join("Cargo.toml")];
     for name in CRATES {
@@ -49,7 +49,7 @@ fn workspace_files(workspace: &Path) -> Vec<PathBuf> {
         sources(&directory.join("src"), &mut files);
         println!("cargo:rerun-if-changed={}", directory.join("src").display());
     }
-    // Setup sheets are set in these fonts.
+    // Setup sheets use these fonts.
     let fonts = workspace.join("crates/pathbuild-view/fonts");
     sources(&fonts, &mut files);
     println!("cargo:rerun-if-changed={}", fonts.display());
@@ -88,7 +88,7 @@ fn sources(directory: &Path, files: &mut Vec<PathBuf>) {
 const FNV_BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
 const FNV_PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
 
-/// FNV-1a over some bytes and their length. Collisions need not be prevented: an attacker could as well edit the cache.
+/// Adds some bytes and their length to an FNV-1a hash. Collisions need not be prevented: an attacker could edit the cache itself.
 fn with(hash: u128, bytes: &[u8]) -> u128 {
     let length = bytes.len().to_le_bytes();
     bytes.iter().chain(&length).fold(hash, |hash, byte| (hash ^ u128::from(*byte)).wrapping_mul(FNV_PRIME))

@@ -18,7 +18,7 @@ use crate::findings::Fingerprint;
 use crate::waivers::{Coverage, RunDate, WaivedFinding, Waiver};
 use crate::workspace::Workspace;
 
-/// Name of the baseline that is used unless another one is named, beside `pathbuild.toml`.
+/// File name of the default baseline, which lies beside `pathbuild.toml`.
 const FILE_NAME: &str = "pathbuild-baseline.txt";
 
 /// Accepted findings, read from a baseline file. They are not reported.
@@ -43,7 +43,7 @@ struct Entry {
 /// Fingerprints by which a baseline may identify a finding.
 struct FindingKey {
     fingerprint: String,
-    /// The fingerprint in baselines of versions up to 0.2.0.
+    /// The fingerprint of the same finding as versions up to 0.2.0 wrote it into baselines.
     earlier: String,
 }
 
@@ -74,8 +74,8 @@ impl Baseline {
         Ok((baseline, faults))
     }
 
-    /// Returns the text of a baseline that contains all these findings. Entries that still match keep their reasons and dates, and those of files
-    /// that the run did not cover stay as they are.
+    /// Returns the text of a baseline that contains all these findings. Entries that still match keep their reasons and dates. Entries for files that
+    /// the run did not cover stay as they are.
     pub fn rewritten(&self, findings: &[Diagnostic], workspace: &Workspace, coverage: &Coverage) -> String {
         let run = Run::new(workspace, coverage);
         let mut text = HEAD.to_owned();
@@ -118,8 +118,8 @@ impl Baseline {
         (shown::lines(&text).into_owned(), accepted.len())
     }
 
-    /// Moves the findings that this baseline accepts to the waived ones. A finding whose entry has expired, or accepts only a smaller depth, gets a
-    /// note about that.
+    /// Moves the findings that this baseline accepts to the waived findings. If the entry for a finding has expired or accepts only a smaller depth,
+    /// the finding stays and gets a note about that.
     fn apply(&self, mut findings: Findings, run: Option<RunDate>, base: &Utf8Path) -> Findings {
         let keys = self.keys(&findings.diagnostics, base);
         let place = self.file.file_name().unwrap_or_default();
@@ -139,7 +139,7 @@ impl Baseline {
         findings
     }
 
-    /// Warns about entries that match none of these findings, among those of files that the run covered. (PB610)
+    /// Returns a warning (PB610) for each entry that matches none of these findings although the run covered its file.
     fn unused(&self, findings: &[Diagnostic], run: &Run<'_>) -> Vec<Diagnostic> {
         let base = run.working_directory;
         let keyed = findings.iter().zip(self.keys(findings, base));
@@ -157,7 +157,7 @@ impl Baseline {
         unused.collect()
     }
 
-    /// Returns the fingerprints of each of these findings. The names of their files are relative to `base`.
+    /// Returns the fingerprints of each of these findings, in the same order. File names in them are relative to `base`.
     fn keys(&self, findings: &[Diagnostic], base: &Utf8Path) -> Vec<FindingKey> {
         let now = Fingerprint::with_places(findings, &|file| self.place(file, base));
         let keys = now.iter().zip(Fingerprint::of(findings));
@@ -178,8 +178,8 @@ impl Baseline {
         below.map_or(name.to_owned(), |below| format!("./{}", below.as_str().replace('\\', "/")))
     }
 
-    /// Finds the entry for a finding, with its fingerprint. Entries of earlier versions contain only the name of a program; they hold for the file
-    /// that their description names.
+    /// Returns the entry for a finding, and the fingerprint in that entry. Entries of earlier versions identify a program by its file name alone, so
+    /// they apply only to the file that their description names.
     fn entry(&self, diagnostic: &Diagnostic, key: &FindingKey, base: &Utf8Path) -> Option<(&str, &Entry)> {
         let find = |fingerprint: &String| self.entries.get_key_value(fingerprint);
         let is_of_file = |entry: &Entry| {
@@ -212,7 +212,7 @@ impl Baseline {
 }
 
 impl Workspace {
-    /// Returns the baseline file: `named` if given, else the one beside the configuration, else the one in the working directory.
+    /// Returns the path of the baseline file: `named` if given; otherwise it lies beside the configuration, or without one in the working directory.
     pub fn baseline_file(&self, named: Option<&Utf8Path>) -> Utf8PathBuf {
         match named {
             Some(file) => self.working_directory.join(file),
@@ -220,8 +220,8 @@ impl Workspace {
         }
     }
 
-    /// Moves the findings that the baseline accepts, if there is one, to the waived ones, and adds warnings about waivers that match nothing any
-    /// more.
+    /// Moves the findings that the baseline accepts, if there is a baseline, to the waived findings. Adds warnings about waivers that no longer match
+    /// any finding.
     ///
     /// # Errors
     /// If the baseline cannot be read or has faulty lines.
@@ -281,12 +281,12 @@ impl<'a> Run<'a> {
 }
 
 impl Entry {
-    /// Whether the finding is no deeper than the accepted depth, or has no depth.
+    /// Whether the entry accepts the depth of a finding. Findings without a depth always pass.
     fn is_deep_enough(&self, diagnostic: &Diagnostic) -> bool {
         depth(diagnostic).is_none_or(|depth| self.depth.is_some_and(|accepted| depth <= accepted))
     }
 
-    /// Adds a note to a finding: it was accepted with a smaller depth, or without one.
+    /// Adds a note to a finding that is not accepted because the entry states a smaller depth, or none.
     fn note_depth(&self, diagnostic: Diagnostic, file: &str) -> Diagnostic {
         let place = ("place", Value::quoted(format!("{file}:{}", self.waiver.line)));
         match (self.depth, depth(&diagnostic)) {
@@ -314,8 +314,8 @@ const HEAD: &str = "\
 # Only the fingerprint at the beginning of a line counts, with until=DATE and reason=\"TEXT\" after it; the rest describes the finding.
 ";
 
-/// Returns how deep the tool is in the material, or how far it leaves the travel of the machine, in mm, rounded up to 0.01 mm; `None` for other
-/// findings.
+/// Returns how deep the tool is in the material, or how far it leaves the machine's travel, in mm, rounded up to 0.01 mm; `None` for findings without
+/// such a depth.
 fn depth(diagnostic: &Diagnostic) -> Option<f64> {
     let number = |name| match diagnostic.arguments.iter().find(|(key, _)| *key == name) {
         Some((_, Value::Number(number))) => Some(number.0),

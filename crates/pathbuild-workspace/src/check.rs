@@ -39,7 +39,7 @@ pub struct Request<'a> {
     pub changed: Option<&'a dyn EarlierFiles>,
 }
 
-/// The outcome of a check.
+/// The diagnostics of a check, and the drawings that were checked.
 #[derive(Clone, Debug, Default)]
 pub struct CheckOutcome {
     /// All diagnostics, unsorted, with duplicates.
@@ -48,7 +48,7 @@ pub struct CheckOutcome {
     pub files: Vec<CheckedFile>,
 }
 
-/// A drawing that was checked.
+/// A checked drawing with the names of its paths.
 #[derive(Clone, Debug)]
 pub struct CheckedFile {
     /// Path of its file.
@@ -99,8 +99,8 @@ impl Request<'_> {
         Ok(checked)
     }
 
-    /// Returns what the run covered, for waivers that match nothing: a run on single paths covers no drawing completely, and one on some drawings
-    /// not the whole library.
+    /// Returns what the run covered, which decides whether a waiver without a match is reported. A run on single paths covers no drawing completely,
+    /// and a run on some drawings does not cover the whole library.
     pub fn coverage(&self, workspace: &Workspace, checked: &[CheckedFile]) -> waivers::Coverage {
         let is_directory = |name: &Utf8Path| workspace.system.kind(name) == FileKind::Directory;
         let mut inputs = self.inputs.iter();
@@ -193,7 +193,8 @@ impl Request<'_> {
         Results { selection, named, each }
     }
 
-    /// Returns the state since which changed drawings are selected; `None` if everything is selected, because a change affects all drawings.
+    /// Returns the earlier state with which drawings are compared. `None` selects all drawings: the request does not ask for changed ones only, or a
+    /// file that affects all results has changed.
     fn since(&self, session: &Session<'_>, matches: &ArgumentMatches) -> Option<&dyn EarlierFiles> {
         let past = self.changed?;
         let directories: Vec<Utf8PathBuf> =
@@ -212,9 +213,9 @@ impl Request<'_> {
 /// The resolved arguments and the results of their drawings.
 struct Results {
     selection: Selection,
-    /// Drawings that may define a named path.
+    /// Results of the drawings that may define a path named in the arguments.
     named: Vec<Answer<DrawingResult>>,
-    /// The drawings and paths that the arguments select.
+    /// Results of the drawings and paths that the arguments select.
     each: Vec<Answer<DrawingResult>>,
 }
 
@@ -268,8 +269,8 @@ fn compare_q_projects(
     memo.get_or(&pairs, subject, |_, result| Some(result), compare)
 }
 
-/// Warns about each configuration in the searched directories that does not apply to the run. One that `--config` names from another tree
-/// is meant for all of them.
+/// Warns about each configuration in the searched directories that does not apply to the run. Directories outside the tree of the applied
+/// configuration are skipped: `--config` has then named a configuration from elsewhere for them.
 fn unused_configurations(session: &Session<'_>, directories: &[Utf8PathBuf]) -> Vec<Diagnostic> {
     let system = session.db().system();
     let used = session.workspace().settings.file.as_deref().map(|file| session.normal(file));
@@ -373,7 +374,7 @@ fn combine_result(
     DrawingResult { names: names.to_vec(), diagnostics }
 }
 
-/// Returns the inputs of a drawing's result that do not depend on its paths; nothing if inputs are not traced.
+/// Returns the inputs of a drawing's result that do not depend on its paths: the drawing itself. Empty if inputs are not traced.
 fn own_trace(is_traced: bool, file: SourceFile) -> Vec<Trace> {
     if is_traced { vec![Trace { files: vec![file], lookups: Vec::new() }] } else { Vec::new() }
 }
@@ -403,7 +404,7 @@ impl Checker<'_> {
             for diagnostic in &result.diagnostics {
                 let index = *indices.entry(Identity::of(diagnostic)).or_insert(merged.len());
                 match merged.get_mut(index) {
-                    // A single result may contain the same fault with different arguments.
+                    // One combination may yield the same fault several times, with different arguments.
                     Some(combination) if combination.last.target == result.target => {}
                     Some(combination) => {
                         combination.count += 1;
@@ -474,10 +475,10 @@ fn shown(values: &Bindings) -> String {
 
 /// The state of files at an earlier time, such as a Git revision.
 pub trait EarlierFiles: Debug {
-    /// Returns for each file whether it has changed since, or did not exist. Files about which nothing is known count as changed.
+    /// Returns, for each file, whether it has changed since that time or did not exist then. Files about which nothing is known count as changed.
     fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool>;
 
-    /// Returns the file names of the drawings that the directory contained.
+    /// Returns the file names of the drawings that the directory contained at that time.
     fn drawings(&self, directory: &Utf8Path) -> &[String];
 
     /// Returns a file that has changed and affects all results, such as a configuration or a symbolic link. `directories` are the searched
@@ -494,7 +495,7 @@ pub(super) struct ChangeFilter<'a> {
 }
 
 impl<'a> ChangeFilter<'a> {
-    /// Creates a filter for these results. If `past` is given, only those pass that depend on files changed since then.
+    /// Creates a filter for these results. If `past` is given, only results that depend on files changed since then pass.
     pub(super) fn new<'r>(
         session: &'a Session<'a>,
         memo: &'a Memo,
@@ -520,7 +521,7 @@ impl<'a> ChangeFilter<'a> {
     }
 }
 
-/// The inputs of all results, of which some may have changed.
+/// The files and directories that the results depend on, before it is known which of them have changed.
 #[derive(Debug, Default)]
 struct ReachedInputs {
     files: BTreeSet<Utf8PathBuf>,

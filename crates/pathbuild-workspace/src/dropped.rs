@@ -37,7 +37,7 @@ pub struct Assumptions {
     pub surface: Option<String>,
 }
 
-/// A scene with the facts about its program.
+/// A scene, and what is known about its program, as the page receives them.
 #[derive(Serialize)]
 struct ProgramScene<'s> {
     #[serde(flatten)]
@@ -49,7 +49,7 @@ struct ProgramScene<'s> {
 struct ProgramRecord {
     dialect: &'static str,
     dialects: Vec<&'static str>,
-    /// The dialect, and the reason if it was guessed.
+    /// The dialect as which the program is read and, if it was guessed, the reason.
     read_as: BilingualText,
     checks: Vec<ShownCheck>,
     cutters: Vec<ToolSpan>,
@@ -125,7 +125,7 @@ impl Assumptions {
     }
 }
 
-/// Returns the cutters and the height of the material's upper face that a program states.
+/// Returns the cutters that a program states, and the height of the material's upper face; `None` if it does not state that height.
 fn stated(program: &Program, rapids: Option<&RapidValues>) -> (Vec<ToolSpan>, Option<f64>) {
     let mut header = HeaderReader::default();
     for step in &program.read.steps {

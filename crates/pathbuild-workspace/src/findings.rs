@@ -81,7 +81,7 @@ impl Workspace {
         self.settings.tables.severity_in.value.iter().any(|entry| entry.waiver.is_stated())
     }
 
-    /// Returns PB610 for waivers of the configuration that match nothing, among those of files that the run covered.
+    /// Returns PB610 for each waiver of the configuration that matches nothing although the run covered its files.
     pub fn unused_waivers(&self, findings: &Findings, coverage: &Coverage) -> Vec<Diagnostic> {
         let Some(configuration) = &self.settings.file else { return Vec::new() };
         let severities = self.severities();
@@ -123,7 +123,7 @@ pub(crate) fn identity(found: &Diagnostic) -> impl Eq + Hashed + '_ {
     (found.message, &found.file, &found.path, &found.place, &found.text, arguments)
 }
 
-// Fingerprints of findings: the same finding has the same one in every run, language and version.
+// Fingerprints of findings. The fingerprint of a finding is the same in every run, language and version.
 
 /// A 128-bit hash that identifies a finding, displayed as 32 hexadecimal digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -135,7 +135,7 @@ impl Fingerprint {
         Self::with_places(diagnostics, &|file| file.file_name().unwrap_or_default().to_owned())
     }
 
-    /// Returns the fingerprints of findings, in the same order, with the names that `place` gives to their files.
+    /// Returns the fingerprints of findings, in the same order. `place` returns the name of a file that enters the fingerprint.
     pub(crate) fn with_places(diagnostics: &[Diagnostic], place: &dyn Fn(&Utf8Path) -> String) -> Vec<Self> {
         let mut met: BTreeMap<u128, u32> = BTreeMap::new();
         let mut fingerprint = |diagnostic: &Diagnostic| {

@@ -29,7 +29,7 @@ impl Inputs {
 pub enum Input<'a> {
     /// A drawing or directory: the text ends in .dxf, contains a path separator, or is `.` or `..`.
     Place(&'a Utf8Path),
-    /// The name of a path; if there is no such path, of a drawing without its .dxf.
+    /// The name of a path or, if there is no such path, the file name of a drawing without `.dxf`.
     Name(&'a str),
 }
 
@@ -53,7 +53,7 @@ impl<'a> Input<'a> {
         }
     }
 
-    /// Whether the input is a file other than a drawing. A program may lie outside the tree whose configuration applies to it.
+    /// Whether the input is a file other than a drawing. Such a program may lie outside the tree of the configuration that applies to it.
     pub(crate) fn is_program(self, is_directory: impl Fn(&Utf8Path) -> bool) -> bool {
         matches!(self, Self::Place(place) if !is_drawing(place) && !is_directory(place))
     }

@@ -154,7 +154,7 @@ fn list_paths(
     (listed, unmade)
 }
 
-/// Compares the programs on disk with the paths. Returns the errors that kept programs from being generated and that no check reports.
+/// Compares the programs on disk with the paths. Returns the errors that kept programs from being generated but that `check` does not report.
 fn compare(
     session: &mut Session<'_>,
     post_processor: Option<&PostProcessor>,
@@ -458,7 +458,7 @@ pub fn path_json(file: &str, row: &Row) -> Json {
     })
 }
 
-/// Returns a drawing with errors of its own as a JSON object, which is listed beside those of its paths; `None` if there are only warnings.
+/// Returns a drawing with errors of its own as a JSON object, to be listed beside the objects of its paths; `None` if it has only warnings.
 pub fn drawing_json(found: &Findings) -> Option<Json> {
     let (errors, warnings) = (found.errors(), found.warnings());
     (errors > 0).then(|| json!({ "path": null, "state": "errors", "errors": errors, "warnings": warnings }))

@@ -40,7 +40,7 @@ pub struct PostProcessor {
     pub tools: ToolTable,
     /// Feed in mm/min for cuts without a feed of their own.
     feed: Option<f64>,
-    /// Options for all programs. Files that the definition inserts are not included.
+    /// Options for all programs. They do not contain the files that the definition inserts.
     pub(crate) options: PostOptions<'static>,
     system: Arc<dyn System>,
     /// Whether commands are not run, because the definition is untrusted.
@@ -426,7 +426,7 @@ fn entry(tool: &types::Tool) -> ToolEntry {
     }
 }
 
-/// Adds the table's data about tools to the operations of a job, where the program that the job was read from has none. Warns about unknown tool
+/// Adds the table's data about tools to the operations of a job, where the program from which the job was read gives none. Warns about unknown tool
 /// numbers. The spindle stands still while probing, and in a program that cuts nothing.
 pub fn complete_tools(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
     let (mut unknown, mut reported) = (Vec::new(), FxHashSet::default());

@@ -70,11 +70,11 @@ pub struct Program {
     pub dialect: Dialect,
     /// The evidence for the dialect, if it was guessed.
     pub evidence: Option<Evidence>,
-    /// The dialect that was named or guessed; it differs from `dialect` if the program is read by a definition.
+    /// The dialect that was named or guessed; it differs from `dialect` if the program is read by means of a post definition.
     pub shown: Dialect,
     /// Steps and diagnostics of the program.
     pub read: Interpretation,
-    /// The translation that was read, if the program was read by the definition that wrote it instead of a dialect.
+    /// The translation of the program, if it was read by means of the post definition that wrote it and not in a dialect.
     pub by_definition: Option<ByDefinition>,
     options: Options,
 }
@@ -136,8 +136,8 @@ impl Program {
         Ok(program)
     }
 
-    /// Interprets the text of a file and passes each step to `each` without storing it, because a large program is rather interpreted again.
-    /// `definition` translates a text in words that only a post definition defines.
+    /// Interprets the text of a file and passes each step to `each` without storing it. A caller that needs the steps of a large program twice
+    /// interprets it again. `definition` translates a text in words that only a post definition defines.
     pub fn read_each(
         settings: &Settings,
         file: &Utf8Path,
@@ -193,7 +193,7 @@ impl Program {
         Self { file: file.to_owned(), text, dialect, evidence, shown, read, by_definition, options }
     }
 
-    /// The program at its nominal heights, without the correction formulas.
+    /// Returns the program at its nominal heights, without the correction formulas.
     pub fn drawn(&self) -> Text<'_> {
         let options = Options { heights: Heights::Nominal, ..self.options.clone() };
         Text { text: self.code(), dialect: self.dialect, options }
@@ -229,7 +229,7 @@ impl Program {
         place(diagnostics.iter_mut().filter(|diagnostic| diagnostic.file.is_none()), &self.file, &self.text);
     }
 
-    /// Names the dialect, with the reason if it was guessed.
+    /// Returns the name of the dialect, with the reason if it was guessed.
     pub fn read_as(&self, lang: Lang) -> String {
         let mut text = self.manner().to_owned();
         if let Some(evidence) = self.evidence.filter(|_| self.by_definition.is_none()) {
@@ -247,7 +247,7 @@ impl Program {
         text
     }
 
-    /// Returns the first line whose moves are unknown, such as a call of a subprogram; lengths and times are then unknown as well.
+    /// Returns the first line with unknown moves, for example a call of a subprogram. Lengths and times are unknown as well if there is one.
     pub fn first_unfollowed_line(&self) -> Option<u32> {
         let is_unfollowed =
             |problem: &&Diagnostic| problem.is_error() && problem.code() == Code::WordNotFollowed;

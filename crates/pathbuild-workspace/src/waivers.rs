@@ -101,7 +101,7 @@ impl Waiver {
         self.noted(&messages::WAIVER_ENDED, diagnostic, file, run)
     }
 
-    /// Adds a note to a finding whose severity the waiver, which is in `file`, sets.
+    /// Adds a note to a finding that got its severity from this waiver, which is in `file`.
     pub fn note_severity(&self, diagnostic: Diagnostic, file: &str, run: Option<RunDate>) -> Diagnostic {
         self.noted(&messages::SEVERITY_UNTIL, diagnostic, file, run)
     }

@@ -1,4 +1,4 @@
-//! The environment of a run, and the messages about its progress, which are for the waiting user. Results are returned and not reported.
+//! The environment of a run, and the interface through which it tells a waiting user about its progress. Results are returned and not reported.
 
 use std::fmt::Debug;
 use std::rc::Rc;
@@ -49,8 +49,8 @@ impl Workspace {
         Some(TreeStore::of_tree(self.cache.as_ref()?, self.settings.directory()?))
     }
 
-    /// Returns the path of the working directory's configuration, relative to the working directory, if it does not apply to this run because the
-    /// inputs lie outside its tree.
+    /// Returns the path of the working directory's configuration, relative to that directory, if the configuration does not apply to this run because
+    /// the inputs lie outside its tree.
     pub fn unused_configuration(&self) -> Option<Utf8PathBuf> {
         let file = self.settings.not_used.as_deref()?;
         Some(relative(file, &self.working_directory))
@@ -87,7 +87,7 @@ impl Workspace {
     }
 }
 
-/// Receives progress messages of a run.
+/// A receiver of progress messages of a run.
 pub trait Reporter: Debug {
     /// Reports a line about the run.
     fn status(&self, line: &str);
@@ -97,7 +97,7 @@ pub trait Reporter: Debug {
     fn progress(&self, total: usize) -> Box<dyn ProgressCounter>;
 }
 
-/// Counts the finished items of a progress display.
+/// A counter of the finished items of a progress display.
 pub trait ProgressCounter: Debug + Send + Sync {
     /// Counts one more finished item. May be called from any thread.
     fn advance(&self);

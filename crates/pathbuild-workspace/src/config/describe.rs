@@ -25,7 +25,7 @@ pub fn show(settings: &Settings, with_origin: bool) -> String {
     text
 }
 
-/// Returns the tables without a header, whose keys come before all headers.
+/// Returns the tables without a header. Their keys come first in the file.
 fn without_header() -> impl Iterator<Item = &'static TableEntry> {
     TABLES.iter().filter(|(header, ..)| header.is_empty())
 }

@@ -71,7 +71,7 @@ pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {
 /// Smallest value of a [`PIECE`] other than 0, in mm.
 const SHORTEST_PIECE: f64 = 0.1;
 
-/// Tolerance of the part check in mm. With a smaller one than the bound, the rounding of coordinates would be reported.
+/// Tolerance of the part check in mm. With a tolerance below `FINEST_TOLERANCE`, the rounding of coordinates would be reported.
 pub(in crate::config) const PART_TOLERANCE: ValueType<f64> = ValueType {
     read: |value, reader| {
         let tolerance = number(value).filter(|number| *number >= FINEST_TOLERANCE);
@@ -269,7 +269,7 @@ pub(in crate::config) const fn choice<T: Choice>() -> ValueType<T> {
     ValueType { read: read_choice, show: |choice| name_of(*choice).map(quoted), schema: choice_schema::<T> }
 }
 
-/// Returns the type of a list of such values.
+/// Returns the type of a value that is a list of texts of a choice.
 pub(in crate::config) const fn choices<T: Choice>() -> ValueType<Vec<T>> {
     ValueType {
         read: |value, reader| {

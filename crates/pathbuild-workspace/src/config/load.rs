@@ -50,8 +50,7 @@ pub fn load(
     (Settings { file, not_used, is_unexpected, confined, date: given.date, ..options.resolve() }, diagnostics)
 }
 
-/// Returns the repositories that an untrusted run must not leave: that of the configuration, and that of each argument. `None` if all of them are
-/// trusted.
+/// Returns the repositories that an untrusted run must not leave: those of the configuration and of each argument. `None` if all of them are trusted.
 fn confinement(
     system: &Arc<dyn System>,
     given: &Overrides,
@@ -150,7 +149,7 @@ impl Discovery<'_> {
         self.above(&clean(self.working_directory))
     }
 
-    /// Returns the directory of a run without configuration: that of the first argument.
+    /// Returns the directory used in place of the configuration's by a run without one: that of the first argument, or the working directory.
     pub(super) fn search_start(&self) -> Utf8PathBuf {
         let first = self.inputs.iter().next();
         first.map_or_else(|| clean(self.working_directory), |first| self.search_start_of(first))
@@ -175,7 +174,7 @@ impl Discovery<'_> {
         clean(&self.working_directory.join(input.search_start(|place| self.is_directory(place))))
     }
 
-    /// Finds the configuration of a directory: the one in it, or else in the nearest directory above.
+    /// Finds the configuration that applies in a directory: its own, or else that of the nearest directory above.
     pub(super) fn above(&self, directory: &Utf8Path) -> Option<Utf8PathBuf> {
         let mut files = directory.ancestors().map(|directory| join(directory, files::FILE_NAME));
         // A directory named like a configuration, or a dangling link, counts as a configuration that cannot be read.
@@ -186,7 +185,7 @@ impl Discovery<'_> {
         files.find(is_one)
     }
 
-    /// Returns diagnostics for arguments with another configuration than that of the run.
+    /// Returns diagnostics for arguments to which another configuration would apply than the one of the run.
     pub(super) fn misplaced_inputs(&self, used: Option<&Utf8Path>) -> Vec<Diagnostic> {
         let place = |input: Input<'_>| match input {
             Input::Place(place) => Some(place.to_owned()),

@@ -46,7 +46,7 @@ impl Origin {
 /// A value with its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourcedValue<T> {
-    /// The value, whichever source sets it.
+    /// The value itself.
     pub value: T,
     /// The source that set the value.
     pub origin: Origin,
@@ -86,7 +86,7 @@ impl fmt::Display for Origin {
     }
 }
 
-/// The command whose cached results depend on a setting.
+/// The commands with cached results that depend on a setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ResultKind {
     /// `check`, and hence also `emit`.

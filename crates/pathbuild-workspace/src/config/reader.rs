@@ -28,10 +28,10 @@ pub(super) struct TomlReader<'a> {
     counts: [u64; 2],
 }
 
-/// The index of keys, which is built when the first misplaced key is found.
+/// An index of keys that is built when the first misplaced key is found.
 type LazyKeyIndex = LazyCell<KeyIndex, Box<dyn FnOnce() -> KeyIndex>>;
 
-/// A kind of value whose number is limited because each takes far more memory than its text.
+/// A kind of value that is limited in number, because each such value takes far more memory than its text.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum LimitedKind {
     /// A regular expression.
@@ -50,7 +50,7 @@ impl LimitedKind {
 }
 
 impl<'a> TomlReader<'a> {
-    /// Creates a reader for a file whose relative paths start at `directory`.
+    /// Creates a reader for a file. Relative paths in the file start at `directory`.
     pub(super) fn new(
         source: Source<'a>,
         directory: &'a Utf8Path,
@@ -239,7 +239,7 @@ impl<'a> Table<'_, '_, 'a> {
         _ = self.reader.expected::<()>(expected, value);
     }
 
-    /// Reads a nested table; a missing one counts as empty. Without a name, the keys are in this table itself.
+    /// Reads a nested table; a missing one counts as empty. If `name` is empty, its keys are in this table itself.
     pub(super) fn section<T: Default>(
         &mut self,
         name: &'static str,
@@ -438,12 +438,12 @@ impl<'a> Source<'a> {
         self.characters.get(block).copied().unwrap_or_default() + beginnings(rest)
     }
 
-    /// Returns the first byte that is shown of a line that begins at `begin`, for a fault at `start`.
+    /// Returns the byte from which a line is shown, given the start of the line (`begin`) and of the fault in it.
     fn shown_from(&self, begin: usize, start: usize) -> usize {
         begin.max(self.text.floor_char_boundary(start.saturating_sub(MOST_CONTEXT)))
     }
 
-    /// Returns the end of the part of a line that is shown for a fault from `start` to `end`.
+    /// Returns the byte up to which a line is shown, given the start and end of the fault in it.
     fn shown_to(&self, start: usize, end: usize) -> usize {
         let most = self
             .text

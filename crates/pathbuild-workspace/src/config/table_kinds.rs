@@ -246,7 +246,7 @@ fn severity((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option
     Some((code, level))
 }
 
-/// Returns the code whose number or name is most similar to `name`; the first if several are equally similar.
+/// Returns the code with the number or name most similar to `name`; the first one if several are equally similar.
 pub fn nearest_code(name: &str) -> Option<String> {
     static CODES: LazyLock<Vec<(String, &str)>> =
         LazyLock::new(|| Code::ALL.iter().map(|code| (code.to_string(), code.name())).collect());

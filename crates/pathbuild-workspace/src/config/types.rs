@@ -66,9 +66,9 @@ impl Choice for Lang {
 choice! {
     /// How a part is held while it is cut out of the plate. (book: language/part)
     PartHolding {
-        /// By support bars.
+        /// Support bars hold the part.
         Bars = "bars",
-        /// By something that no drawing shows, such as tape or vacuum.
+        /// Something that no drawing shows holds the part, for example tape or vacuum.
         Otherwise = "otherwise",
     }
 }
@@ -88,19 +88,19 @@ choice! {
 choice! {
     /// A check that `verify` must make. (book: program/reading)
     Requirement {
-        /// That rapid moves do not enter material. Values from comments of the program do not suffice.
+        /// Rapid moves must not enter material. Values from comments of the program do not suffice for this check.
         Rapids = "rapids",
-        /// That rapid moves do not enter material. Values from comments of the program suffice.
+        /// Rapid moves must not enter material. Values from comments of the program suffice for this check.
         AssumedRapids = "rapids=assumed",
-        /// That moves stay within the travel of the machine.
+        /// Moves must stay within the travel of the machine.
         Envelope = "envelope",
-        /// That feeds do not exceed the machine's maximum.
+        /// Feeds must not exceed the machine's maximum.
         Feeds = "feeds",
-        /// That the spindle speed is within the machine's range.
+        /// The spindle speed must be within the machine's range.
         Spindle = "spindle",
-        /// That the moves are those of the drawing.
+        /// The moves must be those of the drawing.
         Drawing = "drawing",
-        /// That moves do not enter the clamps in the drawing.
+        /// Moves must not enter the clamps in the drawing.
         Clamps = "clamps",
     }
 }
@@ -208,7 +208,7 @@ impl Pattern {
         self.set.is_match(name)
     }
 
-    /// Returns the only name that the glob matches, if it contains no wildcard.
+    /// Returns the only name that the glob matches; `None` if the glob contains a wildcard.
     pub fn literal(&self) -> Option<&str> {
         (!self.text.contains(['*', '?', '[', '{', '\\'])).then_some(&*self.text)
     }
@@ -231,7 +231,7 @@ pub struct FileSeverities {
 }
 
 impl FileSeverities {
-    /// Whether the entry applies to a file, which is named relative to the configuration's directory, with slashes.
+    /// Whether the entry applies to `file`, a name relative to the configuration's directory, with slashes.
     pub fn concerns(&self, file: &str) -> bool {
         self.files.iter().any(|pattern| pattern.matches(file))
     }
@@ -248,7 +248,7 @@ pub struct Tool {
     pub name: Box<str>,
     /// Diameter in mm; the tool suits paths with this O.
     pub diameter: f64,
-    /// Regular expression searched in the names of the paths that the tool is for; `None` means all paths with its diameter.
+    /// Regular expression searched in path names, to find the paths that the tool is for; `None` means all paths with its diameter.
     pub paths: Option<Box<str>>,
     /// Shape of the cutter.
     pub shape: CutterShape,
@@ -271,7 +271,7 @@ pub struct Tool {
 }
 
 impl Tool {
-    /// Returns the limits of the chip load with the number of flutes, if both are known.
+    /// Returns the limits of the chip load together with the number of flutes; `None` if either is not configured.
     pub fn chip_load(&self) -> Option<ChipLoad> {
         let NumberRange { from, to } = self.chip_load?;
         Some(ChipLoad { flutes: self.flutes?, speed: self.spindle, least: from, most: to })
@@ -282,8 +282,8 @@ impl Tool {
         self.direction.or(self.spindle.map(|_| Turning::Clockwise))
     }
 
-    /// Returns the widths for the check of rapid moves. A tool with a tip that is not flat counts as the centre line of its moves, both in removing
-    /// material and in hitting it: such a tool fits into its own cut.
+    /// Returns the widths for the check of rapid moves. A tool without a flat tip fits into its own cut, so only the centre line of its moves counts,
+    /// both for removing material and for hitting it.
     pub fn cutter(&self) -> Cutter {
         let flat = match self.shape {
             CutterShape::Other => 0.0,
@@ -298,9 +298,9 @@ impl Tool {
 pub struct PostChoice {
     /// Name of a built-in post-processor, or path of a file that defines one.
     pub name: Box<str>,
-    /// Whether to write programs that cannot be read back, for which the user takes responsibility.
+    /// Whether to write programs that cannot be read back. The user takes responsibility for them.
     pub unchecked: bool,
-    /// Program number for controls that call programs by number; `None` takes it from the path.
+    /// Program number for controls that call programs by number; `None` derives it from the path's name.
     pub program_number: Option<u32>,
 }
 
@@ -313,9 +313,9 @@ impl From<&str> for PostChoice {
 choice! {
     /// How the spindle is controlled.
     SpindleControl {
-        /// By the program, which uses the speeds of the configured tools.
+        /// The program controls the spindle, with the speeds of the configured tools.
         Tool = "tool",
-        /// By the operator: programs neither start nor stop the spindle.
+        /// The operator controls the spindle: programs neither start nor stop it.
         Manual = "manual",
     }
 }
@@ -325,7 +325,7 @@ choice! {
     DwellTime {
         /// Seconds, as in the controls' manuals.
         Seconds = "seconds",
-        /// Milliseconds, to which Mach3 can be set (Config > Logic).
+        /// Milliseconds, an option of Mach3 (Config > Logic).
         Milliseconds = "milliseconds",
     }
 }

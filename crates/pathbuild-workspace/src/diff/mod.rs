@@ -30,7 +30,7 @@ pub struct Tree<'s, 'w> {
     pub root: &'s Utf8Path,
 }
 
-/// The outcome of a comparison.
+/// The paths that differ between two trees, and what could not be compared.
 #[derive(Debug, Default)]
 pub struct Comparison {
     /// Paths that differ between the sides, sorted by name.
@@ -59,7 +59,7 @@ pub struct PathDiff {
     pub name: String,
     /// Path of the drawing that defines it on the old and on the new side, relative to the root; `None` if the side lacks the path.
     pub files: [Option<Utf8PathBuf>; 2],
-    /// How the path differs.
+    /// The kind of difference.
     pub outcome: Outcome,
 }
 
@@ -85,7 +85,7 @@ pub enum Outcome {
 /// Differences between the old and the new program of a path.
 #[derive(Debug, Default)]
 pub struct ProgramDiff {
-    /// Changes of the moves, grouped by kind.
+    /// Changed moves, grouped by the kind of change.
     pub groups: Vec<Group>,
     /// Reasons for the changes; `None` unless both sides are drawings, empty if no element and no setting differs.
     pub reasons: Option<Vec<Reason>>,
@@ -108,7 +108,7 @@ pub struct PictureSet {
     pub stock: Vec<String>,
 }
 
-/// Compares the moves of two programs. `pictures` is the language of the pictures' legends, if pictures are requested.
+/// Compares the moves of two programs. `pictures` is the language of the legends; `None` if no pictures are requested.
 pub fn programs(old: &ScenePath, new: &ScenePath, pictures: Option<Lang>) -> ProgramDiff {
     let changes = compare(&old.moves, &new.moves);
     let picture = |which, lang| changes_svg(&old.moves, &new.moves, &changes, which, lang);
@@ -128,7 +128,7 @@ pub fn programs(old: &ScenePath, new: &ScenePath, pictures: Option<Lang>) -> Pro
     }
 }
 
-/// Compares all paths of two trees.
+/// Compares all paths of two trees. `pictures` is the language of the legends; `None` if no pictures are requested.
 pub fn trees(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Lang>) -> Comparison {
     let Tree { session, inputs, root } = new;
     session.with_stable_files(|session| {
@@ -205,7 +205,7 @@ struct Pair {
     new: Option<SidePath>,
 }
 
-/// Pairs the paths of both sides: those with the same name in the same drawing, then those whose name remains exactly once on each side.
+/// Pairs the paths of both sides: first those with the same name in the same drawing, then those with a name that remains exactly once on each side.
 fn pair_up(old: Vec<SidePath>, new: Vec<SidePath>) -> Vec<Pair> {
     let mut by_file: HashMap<(Utf8PathBuf, PathName), SidePath> =
         old.into_iter().map(|known| ((known.place.clone(), known.name.clone()), known)).collect();
@@ -263,8 +263,8 @@ impl Pair {
     }
 }
 
-/// Compares a path whose programs differ; returns `None` if they differ in comments only and the drawings are the same. If a limit prevents a side
-/// from being built, there are no moves to compare, and the diagnostics say why.
+/// Compares the two different programs of a path; returns `None` if they differ in comments only and the drawings are the same. If a limit prevents a
+/// side from being built, there are no moves to compare, and the diagnostics say why.
 fn changed(
     sessions: [&Session<'_>; 2],
     paths: [&SidePath; 2],

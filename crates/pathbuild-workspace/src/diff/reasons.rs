@@ -19,7 +19,7 @@ use crate::config::{Settings, settings};
 pub enum Reason {
     /// An element was added, removed or changed in the drawing.
     Drawn(DrawnChange),
-    /// The file contains the same elements in another order, which decides between equal candidates. Nothing else has changed.
+    /// The file contains the same elements in another order, which matters where several are equally good candidates. Nothing else has changed.
     Reordered,
     /// A variable of the path has another value.
     Variable(ValueChange),
@@ -34,7 +34,7 @@ pub enum Reason {
     },
 }
 
-/// A named value before and after the change; `None` if it was or is not set.
+/// A named value before and after the change; `None` on a side where it is not set.
 #[derive(Debug, PartialEq, Eq)]
 pub struct ValueChange {
     /// Name of the variable or of the key.
@@ -60,7 +60,7 @@ impl Reason {
         }
     }
 
-    /// Returns the reasons within this reason: those of an embedded path.
+    /// Returns the nested reasons: the changes of an embedded path. Empty for other kinds.
     pub fn reasons(&self) -> &[Self] {
         match self {
             Self::Embedded { reasons, .. } => reasons,
@@ -85,7 +85,7 @@ pub(super) struct Side<'a> {
     pub(super) target: Target,
 }
 
-/// Returns the reasons why the programs of a path differ; none if neither the drawings nor the settings differ.
+/// Returns the reasons why the programs of a path differ; empty if neither the drawings nor the settings differ.
 pub(super) fn reasons(old: Side<'_>, new: Side<'_>) -> Vec<Reason> {
     let (Some(was), Some(is)) = (closure(old.db, old.target).root, closure(new.db, new.target).root) else {
         return Vec::new();
@@ -124,10 +124,10 @@ const READING_KEYS: [&str; 4] = ["approximate-curves", "compatible", "line-types
 /// Keys that influence how drawn elements are connected. They count only if nothing else explains the moves.
 const WALK_KEYS: [&str; 2] = ["compatible", "join-tolerance"];
 
-/// Keys with defaults for elements whose texts give no value.
+/// Keys that give defaults for elements without a value in their texts.
 const DEFAULTS: [&str; 3] = ["feed", "probe-feed", "sweep-height"];
 
-/// Returns the keys that can change moves and whose values differ.
+/// Returns the keys that can change moves and have different values on the two sides.
 fn changed_settings(old: &Settings, new: &Settings) -> BTreeMap<&'static str, ValueChange> {
     let can_move = |name: &str| [&READING_KEYS[..], &WALK_KEYS, &DEFAULTS].concat().contains(&name);
     let values = |all: &Settings| {
@@ -147,13 +147,13 @@ fn changed_settings(old: &Settings, new: &Settings) -> BTreeMap<&'static str, Va
 struct Explainer<'o, 'n> {
     old: &'o Database,
     new: &'n Database,
-    /// Whether a setting differs that influences how a drawing is read.
+    /// Whether the sides differ in a setting that influences how a drawing is read.
     is_read_otherwise: bool,
-    /// The pairs of paths compared so far, and whether they differ.
+    /// Result for each pair of paths compared so far: whether the two differ.
     known: HashMap<(Instance<'o>, Instance<'n>), bool>,
-    /// The options from which any of the paths takes a value.
+    /// The options that provide a value for any of the paths.
     used_options: BTreeSet<&'static str>,
-    /// Whether a drawing with the same bytes was read differently.
+    /// Whether two drawings with the same bytes were read differently.
     has_same_file: bool,
     /// Whether a file contains the same elements in another order.
     has_other_order: bool,
@@ -194,7 +194,7 @@ impl<'o, 'n> Explainer<'o, 'n> {
     fn embedded(&mut self, Versions { old, new }: Versions<'o, 'n>) -> Vec<Reason> {
         let mut were = children(self.old, old);
         let mut reasons = Vec::new();
-        // First pair the paths that have the same values on both sides, and only then the remaining ones by name.
+        // First pair the paths with the same values on both sides, then pair the remaining ones by name.
         let (alike, others): (Vec<_>, Vec<_>) =
             children(self.new, new).into_iter().partition(|child| were.iter().any(|was| was.is_same(child)));
         for child in alike.iter().chain(&others) {
@@ -237,7 +237,7 @@ impl Child<'_> {
     }
 }
 
-/// Returns the paths that a path embeds, each once.
+/// Returns the paths that a path embeds, without duplicates.
 fn children<'db>(db: &'db Database, instance: Instance<'db>) -> Vec<Child<'db>> {
     let mut children: Vec<Child<'db>> = Vec::new();
     let mut seen = HashSet::new();
@@ -274,7 +274,7 @@ impl<'db> DrawnInstance<'db> {
         DrawnSide { raw: self.drawn.raw, positions: self.drawn.positions, in_force: &self.in_force }
     }
 
-    /// Returns the options from which the elements take values.
+    /// Returns the names of the options that provide values for the elements.
     fn options(&self) -> impl Iterator<Item = &'static str> {
         let parameters = self.in_force.iter().flat_map(|row| &*row.parameters);
         parameters.filter_map(|parameter| match parameter.from {

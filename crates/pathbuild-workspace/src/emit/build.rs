@@ -21,10 +21,10 @@ use super::sheet;
 use crate::posting::PostProcessor;
 use crate::session::{OutputKind, WriteSettings};
 
-/// The outcome of a program and its generated files. There are no files if any of them cannot be written.
+/// The outcome of building a program, and the generated files. If one file cannot be written, there are none.
 #[derive(Default)]
 pub(super) struct Built {
-    /// The outcome of the program, in which the files are still missing.
+    /// The outcome of the program. Its `files` are filled in when they are written.
     pub(super) outcome: ProgramOutcome,
     pub(super) outputs: Vec<Output>,
 }
@@ -93,7 +93,7 @@ fn unsafe_moves(
     errors.extend(machine.into_iter().flat_map(|machine| beyond_machine(program, machine)));
     errors.retain(Diagnostic::is_error);
     for problem in &mut errors {
-        // The line is the number of a step here, which means nothing to the user.
+        // `line` is the number of a step here, which means nothing to the user.
         problem.place.line = None;
         problem.file = Some(job.drawing(db).path(db).clone());
         problem.path = Some(job.path.clone());
@@ -107,8 +107,8 @@ fn unsafe_together(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Optio
     (!errors.is_empty()).then_some(errors)
 }
 
-/// Returns PB005 if cutting moves into pieces (z-split) exceeds a limit. Moves were counted before cutting, so the pieces are counted here. `steps`
-/// is the number of pieces and of the comments between them.
+/// Returns PB005 if splitting moves into pieces (z-split) exceeds a limit. Moves were counted before splitting, so the pieces are counted here.
+/// `steps` is the number of pieces plus the comments between them.
 fn too_many_pieces(steps: u64, program: &Program, writing: &WriteSettings) -> Option<Diagnostic> {
     if steps <= program.steps.len() as u64 {
         return None;
@@ -158,7 +158,7 @@ fn outputs(
         (None, [program]) => {
             native(job, program, provenance, settings, at, delivered).map_err(|problem| vec![*problem])
         }
-        // Only a post-processor can join paths.
+        // Native programs are never joined: only a post-processor can do that.
         (None, _) => Ok(Vec::new()),
     }
 }
@@ -178,7 +178,7 @@ fn native(
     }
     match correction.outside(program) {
         Some(outside) => delivered.problems.push(at(outside_probes(&outside))),
-        // Probes that lie outside the program are unused for that reason, which is reported above.
+        // This warning would say nothing new about probes outside the program, so it is given only if there are none.
         None => delivered.problems.extend(unused_probes(program, correction).map(&at)),
     }
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {

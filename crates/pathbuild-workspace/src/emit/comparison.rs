@@ -1,5 +1,5 @@
-//! Compares programs on disk with their drawings, and differing programs with those of `--compatible`. (book: language/probes,
-//! book: program/compatible)
+//! Compares programs on disk with their drawings, and compares programs that differ with those of `--compatible`. (book: language/probes, book:
+//! program/compatible)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, join};
@@ -20,7 +20,7 @@ use crate::config::Settings;
 use crate::session::{OutputKind, SelectedPath, Session};
 use crate::workspace::Workspace;
 
-/// How a program compares with its drawing.
+/// The result of comparing a program with its drawing.
 #[derive(Debug)]
 pub enum DrawingComparison {
     /// The drawing produces the same moves.
@@ -37,9 +37,9 @@ pub enum DrawingComparison {
         /// The first line that differs.
         other: OtherLine,
     },
-    /// The drawing has these errors.
+    /// The drawing has these errors, so its program is unknown.
     Wrong(Vec<Diagnostic>),
-    /// The moves depend on these missing options.
+    /// The moves depend on these options, which are not given.
     NeedsOptions(Vec<MissingOption>),
     /// The drawing was not found.
     NoDrawing {
@@ -50,8 +50,8 @@ pub enum DrawingComparison {
     Unknown,
 }
 
-/// Compares a native program with its drawing: the drawing `named`, or else the one in the program's title, which is searched for beside the
-/// program and then where paths are looked up.
+/// Compares a native program with its drawing. This is `named`, or else the drawing in the program's title, which is searched for beside the program
+/// and then where paths are looked up.
 pub fn compare_with_drawing(
     session: &mut Session<'_>,
     text: &[u8],

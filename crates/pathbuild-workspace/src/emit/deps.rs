@@ -47,8 +47,8 @@ pub(super) fn write<'p>(
     written.err().map(|reason| cannot_write(file.as_str(), reason))
 }
 
-/// Whether no escaping keeps `make` from interpreting the name: assignments (even `!=`), patterns and wildcards, order-only prerequisites, home
-/// directories, archive members, and line continuations.
+/// Whether the name cannot be written in a makefile, because no escaping keeps `make` from interpreting it: assignments (even `!=`), patterns and
+/// wildcards, order-only prerequisites, home directories, archive members, and line continuations.
 fn has_no_spelling(name: &str) -> bool {
     name.contains(['=', '%', '|', '*', '?', '[']) || name.starts_with('~') || name.ends_with([')', '\\'])
 }

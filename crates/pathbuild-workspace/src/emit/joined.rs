@@ -12,13 +12,13 @@ use pathbuild_toolpath::{Program, kind_of_move, way};
 
 use super::plan::Job;
 
-/// Returns PB211 for each doubt that paths belong into one program with the first one.
+/// Returns PB211 for each sign that the paths do not belong into one program: different material or thickness, or a repeated path.
 pub(super) fn doubts(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Vec<Diagnostic> {
     let thickness = differing_thickness(db, job, programs);
     thickness.into_iter().chain(differing_material(db, job)).chain(repeated(db, job)).collect()
 }
 
-/// Returns PB211 for the first path whose material has another name than that of the first path.
+/// Returns PB211 for the first path with another material name than the first path of the program.
 fn differing_material(db: &Database, job: &Job) -> Option<Diagnostic> {
     let material =
         |target: &Target| summary(db, closure(db, *target).root?).signature.as_ref()?.material.clone();
@@ -39,7 +39,7 @@ fn repeated(db: &Database, job: &Job) -> Option<Diagnostic> {
     Some(problem.quoting("path", &**target.name(db)).in_file(target.file(db).path(db)))
 }
 
-/// Returns PB211 for the first path whose material is not as thick as that of the first path.
+/// Returns PB211 for the first path with another material thickness than the first path of the program.
 fn differing_thickness(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Diagnostic> {
     let first = programs.first()?;
     let mut targets = programs.iter().zip(&job.targets);
@@ -49,8 +49,8 @@ fn differing_thickness(db: &Database, job: &Job, programs: &[Arc<Program>]) -> O
     Some(problem.quoting("path", &*first.path).in_file(target.file(db).path(db)))
 }
 
-/// Returns PB407 for moves of one path into clamps of another path's drawing, and for rapid moves from one path to the next: one diagnostic for
-/// each clamp, path and kind of move.
+/// Returns PB407 for moves of one path into the clamps of another path's drawing, and for rapid moves from one path to the next into any clamp. There
+/// is one diagnostic for each clamp, path and kind of move.
 pub(super) fn moves_into_clamps(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Vec<Diagnostic> {
     let clamps = job.targets.iter().flat_map(|target| {
         let drawing = target.file(db).path(db).file_name().unwrap_or_default().to_owned();
@@ -83,7 +83,7 @@ pub(super) fn moves_into_clamps(db: &Database, job: &Job, programs: &[Arc<Progra
     collisions.iter().map(diagnostic).collect()
 }
 
-/// Returns the rapid move to the start of each program, at the greatest S of all programs; `None` for the first program.
+/// Returns, for each program, the rapid move to its start, at the greatest sweep height (S) of all programs; `None` for the first program.
 fn traverses(programs: &[Arc<Program>]) -> impl Iterator<Item = Option<TipMove>> {
     let clearance = programs.iter().map(|program| program.sweep_height).fold(f64::NEG_INFINITY, f64::max);
     let ends = programs

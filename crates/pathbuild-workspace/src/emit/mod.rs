@@ -48,7 +48,7 @@ use stale::{EarlierPrograms, StaleOutcome};
 pub struct Request<'a> {
     /// The drawings, paths and directories; if empty, the paths matched by `[emit] targets`.
     pub inputs: &'a Inputs,
-    /// The task that is performed with the generated files.
+    /// The task to perform with the generated files.
     pub task: Task,
     /// Name or file of the post-processor that replaces the configured one; `None` for the configured one.
     pub post: Option<&'a str>,
@@ -85,7 +85,7 @@ impl Request<'_> {
         }
     }
 
-    /// Whether everything must be regenerated, regardless of the cache.
+    /// Whether everything is regenerated, regardless of the cache.
     fn is_always_made(&self) -> bool {
         matches!(self.task, Task::Print | Task::Write { force: true })
             || self.deps.is_some()
@@ -224,14 +224,15 @@ impl Emitter<'_> {
         Ok(Run { selection, plans, diagnostics })
     }
 
-    /// Returns the part of the cache key for everything besides drawings and settings on which a program depends: the post-processor.
+    /// Returns the part of the cache key that identifies the post-processor: drawings and settings are keyed separately, and nothing else affects a
+    /// program.
     fn query(&self) -> String {
         let Some(post_processor) = self.post_processor else { return "emit".to_owned() };
         let identity = blake3::hash(&post_processor.identity()).to_hex();
         format!("emit {:?} {identity}", post_processor.file())
     }
 
-    /// Adds the inputs of a plan's program, and the files that were generated from it, to the inputs of the plan.
+    /// Adds what was read to build the plan's program, and the generated files, to the recorded inputs of the plan.
     fn complete_inputs(&self, answer: &mut Answer<Plan>) {
         let Some(inputs) = &mut answer.inputs else { return };
         let job = answer.value.remaining_job();
@@ -258,7 +259,7 @@ struct Run {
 
 /// Reports, at the level of details, how many results were cached.
 fn report_cached(context: &Workspace, selection: &TargetSelection, plans: &[Answer<Plan>]) {
-    // A plan is for one path, or for all of them if they are joined.
+    // Each plan is for one path, or for all paths if they are joined.
     let paths = selection.targets.len() / plans.len().max(1);
     let open = paths * plans.iter().filter(|plan| plan.inputs.is_some()).count();
     let drawings = selection.drawings().count();
@@ -273,7 +274,7 @@ fn report_cached(context: &Workspace, selection: &TargetSelection, plans: &[Answ
     }
 }
 
-/// Returns for each target with a program on disk whether that program is up to date, or the errors that keep it from being generated.
+/// For each target with a program on disk, returns whether that program is up to date, or the errors that keep it from being generated.
 pub(crate) fn freshness_on_disk(
     session: &mut Session<'_>,
     post_processor: Option<&PostProcessor>,

@@ -21,7 +21,7 @@ use crate::posting::{PostProcessor, machine, tool_table};
 use crate::session::{CheckedTarget, WriteSettings};
 use crate::workspace::Workspace;
 
-/// Returns the usage error for missing values that paths without errors need; `None` if none is missing.
+/// Returns the usage error about option values that paths without errors need but that are not given; `None` if there are none.
 pub(super) fn missing(context: &Workspace, task: Task, checked: &[CheckedTarget]) -> Option<String> {
     let sound = || checked.iter().filter(|checked| !checked.diagnostics.iter().any(Diagnostic::is_error));
     let is_missing = |option: &MissingOption| sound().any(|checked| checked.missing_options.contains(option));
@@ -32,7 +32,7 @@ pub(super) fn missing(context: &Workspace, task: Task, checked: &[CheckedTarget]
     (!names.is_empty()).then(|| missing_values(context, names))
 }
 
-/// Explains which values are missing and where to give them, one line each, with a further line if no configuration applies.
+/// Explains which option values are missing and where to give them, one line each, with a further line if no configuration applies.
 pub fn missing_values(context: &Workspace, names: impl IntoIterator<Item = &'static str>) -> String {
     let template = context.choose(
         "missing: {what}; give --{name}, or set `{name}` in pathbuild.toml",
@@ -43,7 +43,7 @@ pub fn missing_values(context: &Workspace, names: impl IntoIterator<Item = &'sta
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Names a configuration that exists but does not apply to this run, so that users do not set keys in it in vain.
+/// Returns a sentence about a configuration that exists but does not apply to this run, so that users do not set keys in it in vain.
 fn no_configuration(context: &Workspace) -> Option<String> {
     if context.settings.file.is_some() {
         return None;
@@ -78,7 +78,7 @@ fn meaning<'a>(context: &'a Workspace, name: &str) -> &'a str {
     }
 }
 
-/// Takes the settings for writing files from the configuration.
+/// Returns the settings for writing files, taken from the configuration.
 pub fn writing(settings: &Settings) -> WriteSettings {
     let limits = &settings.limits;
     WriteSettings {
@@ -89,7 +89,7 @@ pub fn writing(settings: &Settings) -> WriteSettings {
     }
 }
 
-/// Settings for writing native programs.
+/// Returns the options for writing native programs.
 fn write_options(settings: &Settings) -> WriteOptions {
     let general = &settings.general;
     let rapid = general.rapid.value.unwrap_or_default();
@@ -121,7 +121,7 @@ impl<'a> OutputSettings<'a> {
 pub(super) struct SheetSettings {
     pub(super) lang: Lang,
     pub(super) tools: ToolTable,
-    /// The tools of the configuration, in the order of `tools`.
+    /// The configured tools, in the same order as `tools`.
     pub(super) shapes: Vec<types::Tool>,
     pub(super) starts_spindle: bool,
 }

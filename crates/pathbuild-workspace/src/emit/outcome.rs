@@ -30,7 +30,7 @@ pub enum Task {
     Print,
 }
 
-/// The outcome of generating the files of one program.
+/// The outcome of generating and then writing, comparing or printing the files of one program.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct ProgramOutcome {
     /// Name of the path, or of the joined program.
@@ -46,7 +46,7 @@ pub struct ProgramOutcome {
     pub length: f64,
     /// Machining time of the program in minutes.
     pub minutes: f64,
-    /// Errors of the program, and differences between its moves and those on disk.
+    /// Errors of the program, and differences between its moves and those of the file on disk.
     pub problems: Vec<Diagnostic>,
     /// Whether the program itself has errors, so that nothing is written.
     #[serde(skip)]
@@ -64,7 +64,8 @@ pub struct ProgramOutcome {
 }
 
 impl ProgramOutcome {
-    /// Whether all `files` files of a program were written or compared, and no error occurred that may not recur.
+    /// Whether all `files` files of a program were written or compared without errors. Errors make it incomplete because they may not recur in
+    /// another run.
     pub(super) fn is_complete(&self, files: usize) -> bool {
         self.files.len() == files
             && self.hashes.len() == files
@@ -73,7 +74,7 @@ impl ProgramOutcome {
 
     /// Returns the generated files and their state on disk.
     pub(super) fn generated(&self, task: Task) -> Vec<GeneratedFile> {
-        // Programs with the same moves may still differ in bytes.
+        // A comparison of moves alone does not show whether the bytes are equal.
         let is_compared_whole = task != Task::Compare { moves_only: true };
         let is_there = |state: &State| matches!(state, State::Written | State::Unchanged | State::Current);
         let file = |((path, state), hash): (&(Utf8PathBuf, State), &[u8; 32])| GeneratedFile {
@@ -84,7 +85,7 @@ impl ProgramOutcome {
         self.files.iter().zip(&self.hashes).map(file).collect()
     }
 
-    /// Whether the file on disk is now up to date because this run wrote it or found it unchanged.
+    /// Whether the file on disk is up to date because this run wrote it or found it unchanged.
     pub fn has_written(&self, file: &Utf8Path) -> bool {
         let is_there = |state: &State| matches!(state, State::Written | State::Unchanged);
         self.files.iter().any(|(path, state)| path == file && is_there(state))
@@ -119,7 +120,7 @@ impl Task {
         if self == Self::Print { SheetFormat::No } else { settings.emit.sheet.value }
     }
 
-    /// Returns the outcome of a file whose state is known from an earlier run, so that this run neither writes nor compares it.
+    /// Returns the outcome of a file with a state known from an earlier run. This run then neither writes nor compares the file.
     pub(super) fn known_state(self, state: OutputState) -> State {
         match state {
             OutputState::Current if matches!(self, Self::Write { .. }) => State::Unchanged,

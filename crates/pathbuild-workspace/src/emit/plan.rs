@@ -19,17 +19,17 @@ use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, OutputKind, ProgramFacts, Session, stem_fault};
 use crate::workspace::Workspace;
 
-/// For each file name, in lower case, the target for which the file was written.
+/// The target for which each file was written, by file name in lower case.
 pub type FileOwners = HashMap<String, Target>;
 
-/// The plan for one program: its job, or the reasons why there is none.
+/// The plan for one program: its job, or the reasons why it has none.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Plan {
     /// Diagnostics of the paths and of the drawings that they use.
     pub(super) diagnostics: Vec<Diagnostic>,
     /// Reasons why no program is generated although the paths have no errors.
     pub(super) refusals: Vec<Diagnostic>,
-    /// `None` if no program is generated.
+    /// The job that generates the program; `None` if none is generated.
     pub(super) job: Option<Job>,
 }
 
@@ -39,8 +39,8 @@ pub(super) struct Job {
     /// The paths in milling order; never empty.
     #[serde(skip)]
     pub(super) targets: Vec<Target>,
-    /// The drawings that were read for the paths, starting with the first path's own. Includes drawings in which an embedded path was sought and
-    /// not found.
+    /// The drawings that were read for the paths, starting with the first path's own. Includes drawings that were searched in vain for an embedded
+    /// path.
     #[serde(skip)]
     pub(super) sources: Vec<SourceFile>,
     /// Name of the path as the drawing spells it, or the name of the joined program.
@@ -49,11 +49,11 @@ pub(super) struct Job {
     pub(super) stem: Utf8PathBuf,
     /// The files to generate, with their kinds.
     pub(super) files: Vec<(OutputKind, Utf8PathBuf)>,
-    /// Title of the program, which follows its provenance.
+    /// Title of the program, which the header of the file states after the provenance.
     #[serde(skip)]
     pub(super) title: String,
-    /// Whether the job is left out, and no files are generated, although the paths have no errors: another job writes one of these files, or the
-    /// configuration counts a warning as an error.
+    /// Whether the job is left out although the paths have no errors: another job writes one of the same files, or the configuration counts a warning
+    /// as an error.
     #[serde(skip)]
     pub(super) is_left_out: bool,
     /// The outcome of the job; `None` until its files are generated.
@@ -76,7 +76,7 @@ impl Plan {
         let is_wrong = workspace.has_error(self.problems());
         if let Some(job) = self.job.as_mut().filter(|_| is_wrong) {
             job.is_left_out = true;
-            // An earlier run may have written its files.
+            // Discard the outcome of an earlier run, which may have written the files.
             job.outcome = None;
         }
     }
@@ -108,7 +108,8 @@ impl Job {
         format!("{} ({})", self.path, self.drawing(db).path(db))
     }
 
-    /// Claims the job's file names. Returns false and reports PB514 if another target that still yields a program has claimed one of them.
+    /// Claims the job's file names for its target. If a target that still yields a program has already claimed one of them, reports PB514 and returns
+    /// false.
     pub(super) fn claim(
         &self,
         session: &Session<'_>,
@@ -170,14 +171,14 @@ pub(super) fn plan(
             }
         }
     }
-    // The cached moves may stem from a run that needed no times.
+    // The cached results may stem from a run that needed no times and therefore computed none.
     let is_timed = workspace.settings.general.rapid.value.is_some() || !task.writes_times();
     let is_cached = |answer: &Answer<Plan>| answer.inputs.is_none() && answer.value.job.is_some();
     if !is_timed && plans.iter().any(is_cached) {
         return Err(options::missing_values(workspace, ["rapid"]));
     }
     mark_clashes(session, plans.iter_mut().filter_map(|answer| answer.value.job.as_mut()), diagnostics);
-    // An earlier run may have left out jobs because their files clashed with those of jobs that no longer exist.
+    // An earlier run may have left out jobs because their files clashed with those of jobs that do not exist any more.
     for (answer, targets) in plans.iter_mut().zip(&programs) {
         let is_open = answer.value.remaining_job().is_some_and(|job| job.outcome.is_none());
         if answer.inputs.is_none()
@@ -193,7 +194,7 @@ pub(super) fn plan(
     refusal.map_or(Ok(plans), Err)
 }
 
-/// Returns the inputs of the plan of checked paths.
+/// Returns the recorded inputs of a plan, taken from its checked paths.
 fn inputs(checked: &[CheckedTarget]) -> Inputs {
     let traces: Vec<Trace> = checked.iter().filter_map(|checked| checked.trace.clone()).collect();
     // A check that was aborted has no trace.
@@ -201,7 +202,8 @@ fn inputs(checked: &[CheckedTarget]) -> Inputs {
     Inputs { traces, is_transient, ..Inputs::default() }
 }
 
-/// Returns the plan of an earlier run, if it suffices for the task. For a task that writes, it does not if one of the files has changed on disk.
+/// Returns the plan of an earlier run if it suffices for the task. For a task that writes files, it does not suffice if one of them has changed on
+/// disk since.
 fn still_suffices(
     session: &Session<'_>,
     memo: &Memo,
@@ -248,7 +250,7 @@ fn subject(db: &Database, targets: &[Target], join: Option<&str>) -> Box<str> {
     subject.into()
 }
 
-/// Returns the diagnostics of a path and of the drawings that it uses.
+/// Returns the diagnostics of a checked path and of the drawings that it uses.
 pub(super) fn found(session: &Session<'_>, checked: &CheckedTarget) -> Vec<Diagnostic> {
     let of_files = checked.files.iter().flat_map(|file| check_file(session.db(), *file));
     of_files.chain(&checked.diagnostics).cloned().collect()
@@ -322,7 +324,8 @@ impl JobBuilder<'_> {
         Ok(self.with_files(stem, &emitted.path, std::slice::from_ref(checked), kinds))
     }
 
-    /// Refuses probes with a post-processor: its output cannot contain formulas, so they would be measured for nothing.
+    /// Returns an error if the path has probes and there is a post-processor: its output cannot contain formulas, so the probes would be measured for
+    /// nothing.
     fn refuse_probes(&self, checked: &CheckedTarget, emitted: &ProgramFacts) -> Result<(), Box<Diagnostic>> {
         if self.post_processor.is_none() || !emitted.has_probes {
             return Ok(());
@@ -418,7 +421,7 @@ fn same_output(name: Option<&str>, first: String, second: String, drawing: &Utf8
         .in_file(drawing)
 }
 
-/// Joins a file name to a directory, unless the system forbids the name. `rest` is the part of the name that is not the drawing's name.
+/// Joins a file name to a directory. Returns an error if the system forbids the name. `rest` is the part of the name that follows the drawing's name.
 fn named(name: &str, rest: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
     if let Some(fault) = stem_fault(name, rest) {
         return Err(Box::new(cannot_write(name, Value::Prose(fault))));

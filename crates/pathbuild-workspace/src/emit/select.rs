@@ -15,19 +15,19 @@ use crate::session::{Argument, ArgumentMatches, Selection, Session, several_path
 /// The paths to emit, and the drawings that were considered.
 #[derive(Debug, Default)]
 pub(super) struct TargetSelection {
-    /// Every path once; if paths are joined, as often as the arguments name it.
+    /// The paths to emit, each once. If paths are joined, a path occurs as often as the arguments name it.
     pub(super) targets: Vec<Target>,
-    /// Drawings whose paths were all considered.
+    /// Drawings of which all paths were considered.
     pub(super) covered: Vec<Answer<DrawingResult>>,
     /// Drawings that were named, or that may define a named path.
     pub(super) named: Vec<Answer<DrawingResult>>,
-    /// Directories that were searched for drawings. Stale programs are searched for in them.
+    /// Directories that were searched for drawings, and in which stale programs are therefore searched for as well.
     pub(super) directories: Vec<Utf8PathBuf>,
 }
 
 impl TargetSelection {
-    /// Resolves the arguments; `None` if there are none and the configuration names no targets. Paths to be joined (`is_joined`) keep the order
-    /// of the arguments, which is the milling order.
+    /// Resolves the arguments. Returns `None` if there are none and the configuration names no targets. Paths to be joined (`is_joined`) keep the
+    /// order of the arguments, which is the milling order.
     pub(super) fn new(
         session: &Session<'_>,
         memo: &Memo,

@@ -17,7 +17,7 @@ use super::plan::Job;
 use crate::config::types::SheetFormat;
 use crate::session::{OutputKind, WriteSettings, finished_parts, program_scene};
 
-/// Renders a job's setup sheet; returns `None` if a drawing changed in the meantime.
+/// Renders a job's setup sheet; returns `None` if one of its drawings has changed in the meantime.
 ///
 /// # Errors
 /// PB005 if it is too large, PB004 if it cannot be generated.
@@ -93,7 +93,7 @@ fn left_out(program: &Program) -> impl Iterator<Item = BilingualText> + use<> {
     en.into_iter().zip(de).map(|(en, de)| BilingualText { en, de })
 }
 
-/// Adds a path, in the coordinates of its program, with the clamps of its drawing and of those that it embeds.
+/// Adds a path to the scene, in the coordinates of its program, with the clamps in its drawing and in the drawings of the paths that it embeds.
 fn add(
     db: &Database,
     scene: &mut Scene,

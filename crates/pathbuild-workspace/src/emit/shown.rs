@@ -39,7 +39,7 @@ pub struct SceneReport {
 /// The program text that is shown beside the moves.
 #[derive(Clone, Copy, Debug)]
 pub enum ShownText<'a> {
-    /// The native program, whatever `emit` writes.
+    /// The native program, even if `emit` writes another one.
     Native,
     /// The program that `emit` writes, natively or through a post-processor. Falls back to the native program if `emit` writes nothing.
     Emitted(Option<&'a PostProcessor>),
@@ -96,7 +96,7 @@ fn outer_name(name: &str) -> String {
 
 impl Session<'_> {
     /// Returns the scene of some paths of a drawing, with the texts of their programs. If options are missing, or if a path has variables, its
-    /// program is that of a check: with example values, and with S as if it were embedded.
+    /// program is the one that `check` examines: with example values, and with the sweep height (S) of an embedded path.
     pub fn scene(&self, file: SourceFile, names: &[PathName], text: ShownText<'_>) -> SceneReport {
         let name = file.path(self.db()).as_str();
         let title = match names {
@@ -128,14 +128,14 @@ impl Session<'_> {
         Some(self.scene(file, slice::from_ref(name), ShownText::Native).scene)
     }
 
-    /// Adds the line in pathbuild.toml to each parameter whose value is a default from the configuration.
+    /// Adds the line in pathbuild.toml to each parameter that has a default of the configuration as its value.
     fn add_origins(&self, scene: &mut Scene) {
         let with_origin = |parameter: &Parameter| {
             let option = parameter.which.as_deref().filter(|_| parameter.from == "option");
             let origin = option.map(|option| self.workspace().settings.origin_of_option(option));
             Parameter { line: origin.and_then(Origin::line), ..parameter.clone() }
         };
-        // Consecutive elements often share their parameters, and still do afterwards.
+        // Consecutive elements often share their parameters. Reusing the result lets them share the new ones as well.
         let mut last: Option<[Arc<[Parameter]>; 2]> = None;
         for element in scene.paths.iter_mut().flat_map(|path| &mut path.elements) {
             let known = last.take().filter(|[without, _]| Arc::ptr_eq(without, &element.parameters));
@@ -159,7 +159,7 @@ impl Session<'_> {
             .pop();
         let Some(checked) = checked else { return (None, Vec::new(), Vec::new()) };
         let writing = &writing(&self.workspace().settings);
-        // Without a rapid feed, or for a path that is only checked, `emit` writes nothing: the text is a preview.
+        // Without `rapid`, or for a path that is only checked, `emit` writes nothing: the text is a preview.
         let is_written = *checked.target.role(self.db()) == Role::Emitted
             && self.workspace().settings.general.rapid.value.is_some();
         let (emitted, refusal) = match text {

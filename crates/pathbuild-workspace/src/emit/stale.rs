@@ -1,6 +1,5 @@
-//! Finds stale programs: G-code that was written earlier and that no path yields any more (PB520), or whose paths could not be written by this run,
-//! so that it shows an earlier state of the drawing (PB522). (book: reference/commands)
-//!
+//! Finds stale programs: G-code of earlier runs that no path yields any more (PB520), or that shows an earlier state of its drawing because this run
+//! could not write the path again (PB522). (book: reference/commands)
 //!
 //! Each program names its drawing and path, and has a hash of its moves. Programs of removed paths are searched for only where the run knows every
 //! drawing that could have produced them: beside the drawings of named directories, or in the output directory. Former files of the run's own paths
@@ -38,7 +37,7 @@ struct StaleProgram {
 enum Reason {
     /// No path yields the program any more.
     Left,
-    /// The program's drawing is not in the library, but may be in another one that shares the output directory.
+    /// The program's drawing is not in this library, but may be in another library that shares the output directory.
     OfOthers,
     /// The program was adjusted from the program `clean`, which has changed since.
     Adjusted { clean: Utf8PathBuf },
@@ -81,10 +80,10 @@ impl StaleProgram {
 /// The outcome of searching for stale programs of earlier runs.
 #[derive(Debug, Default)]
 pub(super) struct StaleOutcome {
-    /// Earlier programs of paths that could not be written now.
+    /// The programs that are still on disk of paths that this run could not write.
     pub(super) older: Vec<ProgramOutcome>,
     pub(super) removed: Vec<Utf8PathBuf>,
-    /// Stale programs whose paths still exist.
+    /// Stale programs of paths that still exist.
     pub(super) outdated: Vec<Utf8PathBuf>,
 }
 
@@ -102,7 +101,7 @@ pub(super) struct EarlierPrograms<'a> {
 }
 
 impl EarlierPrograms<'_> {
-    /// Finds programs that show another state of the drawings, and reports or, if `is_removed`, removes those that are stale.
+    /// Finds programs that show another state of the drawings. Stale programs are removed if `is_removed`, and reported otherwise.
     pub(super) fn clear(&self, is_removed: bool, diagnostics: &mut Vec<Diagnostic>) -> StaleOutcome {
         if self.task == Task::Print {
             return StaleOutcome::default();
@@ -121,7 +120,7 @@ impl EarlierPrograms<'_> {
     ) -> StaleOutcome {
         let mut dealt = StaleOutcome::default();
         for stale in stale {
-            // Keep a program that another library may need, and one whose edits would be lost.
+            // Keep a program that may belong to another library, and one that was edited, because its edits would be lost.
             let is_kept = matches!(stale.reason, Reason::OfOthers | Reason::Edited { .. });
             if !is_removed || is_kept {
                 diagnostics.push(stale.diagnostic());
@@ -140,7 +139,7 @@ impl EarlierPrograms<'_> {
         dealt
     }
 
-    /// Finds the stale programs: among all files of the searched directories, and among the former files of paths that lie elsewhere.
+    /// Finds the stale programs: among all files of the searched directories, and among former files of the jobs in other directories.
     fn stale(&self, diagnostics: &mut Vec<Diagnostic>) -> Vec<StaleProgram> {
         let Self { selection, jobs, .. } = *self;
         let is_wide = !selection.covered.is_empty() || !selection.directories.is_empty();
@@ -229,8 +228,8 @@ fn provenance(session: &Session<'_>, program: &Utf8Path) -> Option<(Provenance, 
     Provenance::of_head(&session.db().system().read_head(program, HEAD).ok()?)
 }
 
-/// A file of a job's path that the job does not generate: `_Milling` beside `_Clean` (adjusted from it, or from before the path had probes), or
-/// `_Clean` and `_Probing` from when the path had probes.
+/// A file that a job's path yielded earlier, but that the job does not generate: `_Milling` beside `_Clean` (adjusted from it, or written before the
+/// path had probes), or `_Clean` and `_Probing` (written while the path had probes).
 struct FormerFile<'a> {
     job: &'a Job,
     kind: OutputKind,
@@ -260,7 +259,7 @@ impl<'a> StaleSearch<'a> {
         programs.into_iter()
     }
 
-    /// Returns the names that former files would have, for paths outside the searched directories.
+    /// Returns the names that former files of the jobs would have, outside the searched directories.
     fn former_files(&self, directories: &[Utf8PathBuf]) -> impl Iterator<Item = Utf8PathBuf> {
         let searched: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
         let stems = self.run.jobs.iter().map(|job| &job.stem);
@@ -275,8 +274,8 @@ impl<'a> StaleSearch<'a> {
         paths.filter(|path| !self.outputs.contains(&**path))
     }
 
-    /// Returns the program at `path` if it is stale. `beside` lists the files in its directory, if programs of removed paths are searched for as
-    /// well.
+    /// Returns the program at `path` if it is stale. `beside` lists the files in its directory; `None` if programs of removed paths are not searched
+    /// for.
     fn judge(&self, path: Utf8PathBuf, beside: Option<&Names>) -> Option<StaleProgram> {
         let (found, title) = provenance(self.run.session, &path)?;
         match self.own(&path) {
@@ -291,7 +290,8 @@ impl<'a> StaleSearch<'a> {
         }
     }
 
-    /// Returns a program of one of the run's paths that was written natively or through another post-processor, if the path has other moves now.
+    /// Returns the program at `path` as stale if it was written for one of the run's paths, natively or through another post-processor, and that path
+    /// has other moves now.
     fn of_other_post(&self, path: &Utf8Path, found: &Provenance, title: &str) -> Option<StaleProgram> {
         let name = path.with_extension("");
         let stem = PROGRAMS.iter().find_map(|kind| name.as_str().strip_suffix(kind))?;
@@ -303,7 +303,7 @@ impl<'a> StaleSearch<'a> {
         is_meant.then(|| StaleProgram { path: path.to_owned(), reason: Reason::OtherMoves { program } })
     }
 
-    /// Finds the native job whose path may have produced this file earlier.
+    /// Finds the native job of the path that may have produced this file earlier.
     fn own(&self, path: &Utf8Path) -> Option<FormerFile<'a>> {
         if self.run.post_processor.is_some() {
             return None;
@@ -336,8 +336,8 @@ impl FormerFile<'_> {
         self.job.files.iter().find(|(present, _)| *present == kind).map(|(_, path)| path.as_path())
     }
 
-    /// Returns the reason if a program with the current provenance is not the result of adjusting the current program. Unreadable files are not
-    /// judged.
+    /// Returns the reason if a program with the current provenance is not the result of adjusting the current program; `None` also for unreadable
+    /// files.
     fn edited(&self, session: &Session<'_>, path: &Utf8Path, clean: &Utf8Path) -> Option<Reason> {
         let limit = session.workspace().settings.limits.file_size.value;
         let read = |file: &Utf8Path| session.db().system().read(file, limit).ok();
@@ -382,11 +382,12 @@ struct Writers {
     /// Titles of paths in covered drawings for which the run generates nothing, because they have errors or are not selected. Existing files may
     /// still belong to them.
     idle: BTreeSet<Title>,
-    /// Drawings whose paths are all known.
+    /// Drawings of which the run knows all paths.
     covered: BTreeSet<Title>,
-    /// Drawings that exist, but whose paths are not known.
+    /// Drawings that exist, but of which the run does not know the paths.
     others: BTreeSet<Title>,
-    /// Whether the run knows all drawings of the library, or all beside the program, so that any other drawing no longer exists.
+    /// Whether the run knows all drawings of the library, or all drawings beside the program. If so, a drawing that it does not know does not exist
+    /// any more.
     knows_all: bool,
     /// Whether the output directory lies outside the configuration's directory, where other libraries may use it.
     is_shared: bool,
@@ -456,7 +457,7 @@ impl Writers {
         if self.covered.contains(&drawing) {
             return Some(Reason::Left);
         }
-        // A drawing that exists but is unknown to the run, such as an ignored one, is left alone.
+        // Leave the program alone if its drawing exists although the run does not know it, for example because it is ignored.
         let is_gone = self.knows_all && !is_beside;
         is_gone.then_some(if self.is_shared { Reason::OfOthers } else { Reason::Left })
     }
@@ -478,7 +479,7 @@ struct Listings {
 }
 
 impl Listings {
-    /// Returns the programs in a directory whose names begin with `stem`, ignoring case.
+    /// Returns the programs in a directory with names that begin with `stem`, ignoring case.
     fn beginning(
         &mut self,
         run: &EarlierPrograms<'_>,

@@ -30,7 +30,7 @@ pub(super) struct Reading {
 pub(super) struct Entries {
     list: Vec<Entry>,
     is_used: Vec<bool>,
-    /// Index of the entry of each name that is in force: the last, unless `is_first_in_force`.
+    /// For each name, the index of the entry in force: the last one, unless `is_first_in_force`.
     by_name: FxHashMap<String, usize>,
     /// Whether the first entry of each name is in force, not the last.
     is_first_in_force: bool,
@@ -39,7 +39,7 @@ pub(super) struct Entries {
 }
 
 impl Entries {
-    /// Entries of a format in which the first entry of each name is in force.
+    /// Creates entries for a format in which the first entry of each name is in force.
     pub(super) fn with_first_in_force() -> Self {
         Self { is_first_in_force: true, ..Self::default() }
     }
@@ -63,7 +63,7 @@ impl Entries {
         self.list.iter()
     }
 
-    /// Returns the entry of this name that is in force, and marks all of this name as used. Reports those with another value.
+    /// Returns the entry in force for a name, and marks all entries of this name as used. Reports those with another value.
     pub(super) fn take(&mut self, name: &str) -> Option<&Entry> {
         let index = *self.by_name.get(name)?;
         let taken = &self.list[index];
@@ -105,7 +105,7 @@ impl Entries {
         None
     }
 
-    /// Reports an entry whose value is not of the kind that the key needs.
+    /// Reports an entry with a value of another kind than the key needs.
     pub(super) fn report_invalid_value(&mut self, entry: &Entry, expected: &'static Text) {
         let problem = Diagnostic::new(&say::VALUE_NOT_TAKEN).quoting("name", entry.name.as_str());
         let problem = problem.quoting("value", entry.value.as_str()).with("expected", Shown::Prose(expected));

@@ -91,7 +91,7 @@ fn travel(entries: &mut Entries, lower: &[String; 3], upper: &[String; 3], scale
 }
 
 fn entries(text: &str) -> Result<Entries, Box<Diagnostic>> {
-    // `IniFile::Find` returns the first match.
+    // LinuxCNC looks up values with `IniFile::Find`, which returns the first match.
     let mut entries = Entries::with_first_in_force();
     let mut section = "";
     for (index, line) in text.lines().enumerate() {

@@ -54,7 +54,7 @@ pub struct Description {
     pub tools: Vec<DescribedTool>,
     /// The entries for which there is no key.
     pub unused: Vec<Entry>,
-    /// Diagnostics of entries that correspond to a key, but whose values the key cannot take.
+    /// Diagnostics of entries for which there is a key, but with values that the key cannot take.
     pub problems: Vec<Diagnostic>,
 }
 
@@ -91,7 +91,7 @@ pub struct DescribedValue {
 pub enum Target {
     /// The table `[machine]`.
     Machine,
-    /// A table of `[tool]`: the one with this number, or else the one with this name.
+    /// The table of `[tool]` with this number, or else with this name.
     Tool {
         /// Number of the tool in the machine.
         number: Option<u32>,
@@ -111,15 +111,15 @@ pub enum Quantity {
     Text(String),
 }
 
-/// Returns the unit of lengths that a text names for other files as well: that of an ini file of `LinuxCNC`. `None` for other texts.
+/// Returns the unit of lengths in an ini file of `LinuxCNC`, which also applies to tool tables. `None` for other texts.
 fn machine_unit(text: &str) -> Option<LengthUnit> {
     if linuxcnc::is_ini(text) { linuxcnc::length_unit(text) } else { None }
 }
 
-/// Returns the unit of the tool tables among the texts: the one that is named, or that of an ini file among them.
+/// Returns the unit of the tool tables among the texts: `named` if given, otherwise the unit of an ini file among the texts.
 ///
 /// # Errors
-/// An ini file has another unit than the one that is named, or than another ini file.
+/// If an ini file has another unit than `named`, or than another ini file.
 pub fn table_unit(
     named: Option<LengthUnit>,
     texts: &[(&Utf8Path, String)],
@@ -144,8 +144,8 @@ pub fn text(system: &dyn System, file: &Utf8Path) -> Result<String, Shown> {
     utf_8(bytes)
 }
 
-/// Parses a description, whose format is recognized by its content. `unit` is the unit of a tool table that does not name it. `bit` returns the
-/// text of a tool bit that a FreeCAD library names.
+/// Parses a description; its format is recognized by its content. `unit` is the unit of a tool table that does not name it. `bit` returns the text of
+/// a tool bit that a FreeCAD library names.
 ///
 /// # Errors
 /// If the text is in none of the known formats, or is broken.

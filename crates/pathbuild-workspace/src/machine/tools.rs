@@ -347,14 +347,14 @@ impl Tools {
         }
     }
 
-    /// Reports a tool whose diameter is missing, or in an unknown unit.
+    /// Reports a tool without a diameter, or with a diameter in an unknown unit.
     fn without_diameter(&mut self, tool: &ToolDescription) {
         let problem = Diagnostic::new(&say::NO_DIAMETER).quoting("name", tool.name.as_str());
         let problem = problem.with("number", u64::from(tool.number.unwrap_or_default()));
         self.problems.push(problem.at_line(tool.line, None));
     }
 
-    /// Adds a tool, unless it has no diameter, which the configuration requires, or an impossible corner radius.
+    /// Adds a tool. Leaves it out if it has an impossible corner radius, or no diameter, which the configuration requires.
     fn add(&mut self, tool: ToolDescription) {
         let Some(diameter) = tool.number_of("diameter") else { return };
         let radius = tool.number_of("corner-radius").unwrap_or_default();

@@ -1,5 +1,5 @@
-//! Builds the catalogue to be stored. Results that still hold keep their facts; new results get current facts. Also returns the names and
-//! diagnostics of drawings themselves, from an earlier run or newly read.
+//! Builds the catalogue of results that is stored in the cache. Results that still hold keep their facts about files; new results get current facts.
+//! Also returns the names and diagnostics of drawings themselves, from an earlier run or newly read.
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -21,7 +21,8 @@ use crate::files::ExtraInput;
 use crate::session::{MOST_UNKNOWN, Session};
 
 impl Store {
-    /// Stores new results together with those that still hold, including results of other drawings. Writes nothing if nothing has changed.
+    /// Stores new results together with cached results that still hold, including those of drawings outside this run. Writes nothing if nothing has
+    /// changed.
     pub(super) fn keep(&self, session: &Session<'_>, fresh: &[FreshResult<'_>]) {
         let is_as_it_was = fresh.is_empty() && self.verdict.is_current;
         let Some(begun) = self.begun.filter(|_| !is_as_it_was) else { return };
@@ -125,7 +126,7 @@ impl<'a> CatalogueBuilder<'a> {
         });
     }
 
-    /// Whether this run read bytes from a file that was not verified, and they differ from those in the old catalogue.
+    /// Whether this run read bytes from a file that was not verified before, and they differ from those that the old catalogue describes.
     fn is_other(&self, number: usize) -> bool {
         let file = &self.store.kept.files[number];
         self.store.verdict.files[number] == FileState::Unchecked && self.run.is_other(&file.path, file.hash)
@@ -185,7 +186,7 @@ impl<'a> CatalogueBuilder<'a> {
         self.add_file(FileFact { path: path.clone(), stamp, hash: Some(*hash) })
     }
 
-    /// Adds a file. One that could not be read gets neither stamp nor hash, so that its results are recomputed.
+    /// Adds a file. A file that could not be read gets neither stamp nor hash, so that its results are recomputed.
     fn new_file(&mut self, path: &Utf8Path, content: Option<Content>) -> usize {
         let stamp = content.map_or(Stamp::UNKNOWN, |(_, stamp)| stamp.for_storing(self.begun));
         self.add_file(FileFact { path: path.to_owned(), stamp, hash: content.map(|(hash, _)| hash) })

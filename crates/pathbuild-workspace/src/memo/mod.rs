@@ -127,12 +127,13 @@ impl Memo {
         }
     }
 
-    /// Returns the reasons why a cached result no longer holds: none if it holds; `None` if there is no such result.
+    /// Returns the reasons why a cached result no longer holds: an empty list if it holds; `None` if there is no such result.
     pub fn why(&self, subject: &str) -> Option<Vec<Reason>> {
         self.0.as_ref()?.why(subject)
     }
 
-    /// Stores new results together with those that still hold, including results of other drawings. Writes nothing if nothing has changed.
+    /// Stores new results together with cached results that still hold, including those of drawings outside this run. Writes nothing if nothing has
+    /// changed.
     pub fn keep<'a>(&self, session: &Session<'_>, fresh: impl Iterator<Item = FreshResult<'a>>) {
         if let Some(store) = &self.0 {
             store.keep(session, &fresh.collect::<Vec<_>>());

@@ -195,7 +195,7 @@ impl Store {
         })
     }
 
-    /// Returns the reasons why a cached result no longer holds: none if it holds; `None` if there is no such result.
+    /// Returns the reasons why a cached result no longer holds: an empty list if it holds; `None` if there is no such result.
     pub(super) fn why(&self, subject: &str) -> Option<Vec<Reason>> {
         let number = self.record(subject)?;
         let coverage = &self.coverage;
@@ -303,7 +303,7 @@ fn place_of(context: &Workspace) -> &str {
     base.and_then(|base| directory.strip_prefix(base).ok()).unwrap_or(directory).as_str()
 }
 
-/// Decides by file names which drawings may contain which paths.
+/// The patterns of path and file names, which decide which drawings may contain which paths.
 #[derive(Clone, Debug)]
 pub struct Coverage {
     paths: PathPattern,
@@ -311,7 +311,7 @@ pub struct Coverage {
 }
 
 impl Coverage {
-    /// Takes the patterns from the configuration.
+    /// Compiles the patterns of the configuration.
     pub fn new(context: &Workspace) -> Self {
         let general = &context.settings.general;
         Self {
@@ -347,7 +347,8 @@ impl CoveredPaths<'_> {
     }
 }
 
-/// The drawings that a run uses. The subject of a result is a drawing, or something in it whose description follows the drawing's path after a NUL.
+/// The drawings that a run uses. The subject of a result begins with the path of a drawing. If the result is about something in the drawing, its
+/// description follows after a NUL.
 #[derive(Debug)]
 pub(super) enum Scope {
     /// The run uses all drawings.

@@ -1,8 +1,8 @@
 //! Finds the files and directories that arguments may refer to, as the first step of resolving arguments. It looks at file names alone: only
 //! patterns of path names read drawings. (book: reference/commands)
 //!
-//! Meanwhile directories are listed and drawings read before they are needed: listing a directory of ten thousand drawings takes longer than
-//! building a program from ten of them, so the drawings that are most likely embedded are read in the meantime.
+//! Directories are also listed, and drawings read, before they are needed: listing a directory of ten thousand drawings takes longer than building a
+//! program from ten of them, so the drawings that are most likely embedded are read in the meantime.
 
 use std::collections::HashSet;
 use std::thread::Builder;
@@ -48,13 +48,13 @@ pub enum Argument {
     Directory(SearchedDirectory),
     /// A drawing by its file, whether it exists or not.
     Drawing(SourceFile),
-    /// A name without a separator. It refers to the first of these that exists: a path, a drawing without its `.dxf`, a directory.
+    /// A name without a separator. It refers to the first of these that exists: a path, a drawing without its `.dxf`, or a directory.
     Name {
         /// The name as the user wrote it.
         name: PathName,
-        /// Drawings whose file names allow them to define the path.
+        /// Drawings that may define the path, judging by their file names.
         candidates: Vec<SourceFile>,
-        /// The drawing whose file name is this name with `.dxf`.
+        /// The drawing with this file name plus `.dxf`.
         drawing: Option<SourceFile>,
         /// The directory with this name.
         directory: Option<SearchedDirectory>,
@@ -177,7 +177,7 @@ impl Session<'_> {
         entries.filter(|name| pattern.matches(name)).map(|name| join(directory, name)).collect()
     }
 
-    /// Adds the paths of the library whose names match a pattern, and the diagnostics of drawings without any known path.
+    /// Adds the paths of the library with names that match a pattern, and the diagnostics of drawings without any known path.
     fn add_matching_paths(&self, pattern: &Pattern, found: &mut ArgumentMatches) {
         let paths = self.paths_of_library(usize::MAX);
         let (files, problems) = self.all_drawings();
@@ -230,7 +230,7 @@ impl Session<'_> {
         Argument::Name { name: path, candidates, drawing, directory }
     }
 
-    /// Finds the drawing whose name without extension, in any case, is `name`; the first in order if there are several.
+    /// Finds the drawing with the file name `name`, ignoring its extension and case; the first in order if there are several.
     fn drawing_of_name(&self, name: &str, directories: &[Utf8PathBuf]) -> Option<SourceFile> {
         directories.iter().find_map(|directory| {
             let is_meant = |file: &&str| file.rsplit_once('.').is_some_and(|(stem, _)| stem == name);

@@ -15,7 +15,7 @@ use crate::Inputs;
 use crate::session::Session;
 use crate::session::work::about;
 
-/// A graph of paths, whose edges are embeddings.
+/// A graph with paths as nodes and embeddings as edges.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     /// Each path once per set of values; the requested paths come first.
@@ -24,7 +24,7 @@ pub struct Graph {
     pub embeddings: Vec<Embedding>,
     /// Indices of the requested nodes.
     pub roots: Vec<usize>,
-    /// Diagnostics of targets whose embeddings are unknown.
+    /// Diagnostics of targets with unknown embeddings.
     pub problems: Vec<Diagnostic>,
 }
 
@@ -39,11 +39,11 @@ pub struct Node {
     pub bindings: Bindings,
     /// Whether the values are only examples for checking, and no path embeds this one with them.
     pub is_example: bool,
-    /// Whether the path's drawing has no errors. If it has, the path may embed more than is known.
+    /// Whether the path's drawing has no errors. A path in a drawing with errors may embed more than is known.
     pub is_sound: bool,
 }
 
-/// One or more subpath segments that embed the same path.
+/// The subpath segments of a path that embed the same other path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Embedding {
     /// Index of the embedding path in [`Graph::nodes`].
@@ -59,7 +59,7 @@ pub struct Embedding {
 pub enum End {
     /// Index of a path in [`Graph::nodes`].
     Node(usize),
-    /// No path; the name in the segment, and the code of the error.
+    /// There is no such path. Contains the name in the segment, if it has one, and the code of the error.
     Nowhere(Option<PathName>, Code),
 }
 
@@ -211,7 +211,7 @@ impl GraphArguments {
 }
 
 impl Session<'_> {
-    /// Returns the graph of the paths that drawings and paths embed, directly or through others.
+    /// Returns the graph of the paths that the inputs embed, directly or through others.
     pub fn embedded_paths(&mut self, inputs: &Inputs) -> GraphOutcome {
         self.with_stable_files(|session| {
             let arguments = GraphArguments::new(session, inputs);
@@ -219,7 +219,7 @@ impl Session<'_> {
         })
     }
 
-    /// Returns the graph of the paths that embed drawings and paths, directly or through others, among all paths of the library.
+    /// Returns the graph of the paths in the library that embed the inputs, directly or through others.
     pub fn embedding_paths(&mut self, inputs: &Inputs) -> GraphOutcome {
         self.with_stable_files(|session| {
             let mut arguments = GraphArguments::new(session, inputs);
@@ -269,7 +269,7 @@ struct TargetGraph {
 }
 
 impl TargetGraph {
-    /// Returns the nodes whose embeddings are incomplete, because the target embeds them too deep or embeds too many paths.
+    /// Returns the nodes with incomplete embeddings. They are incomplete because the target embeds the node too deep, or embeds too many paths.
     fn cut(&self) -> HashSet<usize> {
         let cut = |(from, to): &(usize, End)| match to {
             End::Nowhere(_, Code::NestingTooDeep | Code::LimitReached) => Some(*from),
@@ -338,7 +338,7 @@ fn node(db: &Database, instance: Instance<'_>) -> Node {
 struct GraphBuilder {
     graph: Graph,
     nodes: HashMap<(PathName, Utf8PathBuf, Bindings), usize>,
-    /// Nodes whose embeddings have all been added. These are the same for every target that reaches the node.
+    /// Nodes for which all embeddings have been added. A node has the same embeddings in every target that reaches it.
     complete: HashSet<usize>,
 }
 

@@ -166,7 +166,7 @@ struct Directory {
 }
 
 impl Directory {
-    /// Returns a directory whose contents are unknown, because listing it triggered a bug.
+    /// Returns a directory with unknown contents, because listing it triggered a bug.
     fn failed(directory: &Utf8Path, bug: Diagnostic) -> Self {
         let problems = vec![bug.in_file(or_current_directory(directory))];
         Self { problems, listing: Listing { is_doubtful: true, ..Listing::default() }, ..Self::default() }
@@ -371,7 +371,7 @@ pub(super) struct Rules {
     above: Option<Arc<Self>>,
 }
 
-/// Limits the size of ignore files: compiled rules take about two hundred times as much memory.
+/// A budget for the size of ignore files, because compiled rules take about two hundred times as much memory.
 #[derive(Debug)]
 pub(super) struct Budget {
     /// Upper bound on a file's size in bytes.
@@ -424,7 +424,7 @@ pub(crate) fn is_ignore_file(name: &str) -> bool {
     IGNORE_FILES.contains(&name)
 }
 
-/// Whether an entry of this name changes the rules: an ignore file does, and the root of a repository if there are rules already.
+/// Whether an entry of this name changes the rules: an ignore file does; so does `.git`, the root of a repository, if there are rules already.
 pub(super) fn changes_rules(name: &str, are_some: bool) -> bool {
     is_ignore_file(name) || are_some && name == ".git"
 }

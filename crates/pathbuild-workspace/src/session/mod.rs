@@ -80,7 +80,7 @@ impl<'a> Session<'a> {
         Self::over(context, false, Arc::new(overlay))
     }
 
-    /// Runs some work on a consistent state of the drawings: repeats it if a drawing changes while the work reads it twice.
+    /// Runs some work on a consistent state of the drawings. Repeats it if a drawing changes between two reads by the same work.
     pub fn with_stable_files<R>(&mut self, mut work: impl FnMut(&mut Self) -> R) -> R {
         let mut rounds = 0;
         loop {

@@ -23,7 +23,7 @@ use crate::workspace::relative;
 /// The drawings and paths that arguments resolve to.
 #[derive(Debug, Default)]
 pub struct Selection {
-    /// Drawings in named directories, in the order of their places, without those that were named themselves.
+    /// Drawings in named directories, in the order of their paths, without drawings that the arguments name themselves.
     pub drawings: Vec<Utf8PathBuf>,
     /// Drawings that the arguments name.
     pub named: Vec<SourceFile>,
@@ -55,7 +55,7 @@ impl Session<'_> {
         self.select_matches(self.match_arguments(inputs))
     }
 
-    /// Resolves all matched arguments.
+    /// Resolves the arguments from the files and directories that match them.
     pub fn select_matches(&self, matches: ArgumentMatches) -> Selection {
         let mut selection =
             self.select_arguments(&matches, &matches.arguments, &|file| path_names(&self.db, file));
@@ -153,7 +153,7 @@ impl Session<'_> {
         if self.has_library() { found.name_problems.clone() } else { self.all_drawings().1 }
     }
 
-    /// Returns the distinct drawings in these directories that define a path. Directories whose query triggers a bug are skipped: for arguments the
+    /// Returns the distinct drawings in these directories that define a path. A directory is skipped if querying it triggers a bug: for arguments the
     /// bug was already reported, and hints are not essential.
     pub fn definitions(&self, name: &PathName, directories: &[Utf8PathBuf]) -> Vec<SourceFile> {
         let defining_files = |directory: &Utf8PathBuf| {
@@ -296,7 +296,7 @@ pub fn several_paths(drawing: &Utf8Path, names: &[PathName]) -> Diagnostic {
 }
 
 impl Session<'_> {
-    /// Adds to each PB503 of a subpath where in the library the path is defined. The library is searched only if there is such a diagnostic.
+    /// Adds to each PB503 about a subpath where in the library that path is defined. The library is searched only if there is such a diagnostic.
     pub(super) fn with_library_hints(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         let directories = LazyCell::new(|| self.library_directories());
         let mut definitions: BTreeMap<PathName, Option<Utf8PathBuf>> = BTreeMap::new();
@@ -362,7 +362,7 @@ impl Session<'_> {
         self.with_library_hints(diagnostics).into_iter().map(with_near).collect()
     }
 
-    /// Finds a missing path elsewhere: in the library, in a drawing whose file name does not cover the path, or under a similar name.
+    /// Finds a missing path elsewhere: in the library, in a drawing with a file name that does not cover the path, or under a similar name.
     fn near_path(&self, name: &str, known: &KnownNames) -> Option<(&'static Message, String)> {
         let path = PathName::new(name);
         let in_drawing = |message, file: SourceFile| Some((message, file.path(self.db()).to_string()));
@@ -401,7 +401,7 @@ impl Session<'_> {
         Some(if self.db().system().kind(&whole) == FileKind::Missing { near } else { whole })
     }
 
-    /// Returns the sorted names of the wanted files and of the directories in a directory, without hidden ones.
+    /// Returns the sorted names of the entries of a directory that are directories themselves or files that `is_wanted` accepts, without hidden ones.
     pub(super) fn entries(&self, directory: &Utf8Path, is_wanted: fn(&Utf8Path) -> bool) -> Vec<String> {
         let mut names = Vec::new();
         let mut take = |entry: Entry<'_>| {
@@ -451,8 +451,8 @@ impl Session<'_> {
         })
     }
 
-    /// Returns PB518 for each named directory without drawings. A new library may have empty directories, so for the library it is returned only if
-    /// all directories are empty.
+    /// Returns PB518 for each named directory without drawings. A new library may have empty directories, so for a library, PB518 is returned only if
+    /// all its directories are empty.
     pub(super) fn without_drawings(is_library: bool, directories: &[&SearchedDirectory]) -> Vec<Diagnostic> {
         let empty = directories.iter().filter(|directory| directory.drawings.is_empty());
         let empty: Vec<&Utf8Path> = empty.map(|directory| directory.path.as_path()).collect();
@@ -464,8 +464,9 @@ impl Session<'_> {
         }
     }
 
-    /// Returns PB518 if there are drawings, but none of them contains a path. A drawing with an error of its own may contain one. PathDxf2GCode
-    /// accepts such a library. `drawings` has the paths and the diagnostics of each drawing.
+    /// Returns PB518 if there are drawings, but none of them contains a path. Returns `None` if a drawing has an error of its own, because it may
+    /// contain a path, and in compatible mode, because PathDxf2GCode accepts such a library. `drawings` has the paths and the diagnostics of each
+    /// drawing.
     pub fn no_path_anywhere<'a>(
         &self,
         drawings: impl IntoIterator<Item = (&'a [PathName], &'a [Diagnostic])>,

@@ -26,7 +26,7 @@ pub struct HashedPath {
     pub file: SourceFile,
     /// Name of the path.
     pub name: PathName,
-    /// The target whose program was hashed.
+    /// The target for which the hashed program was built.
     pub target: Target,
     /// Hash of the moves of the path's program; `None` if the path has errors, or if its program could not be built.
     pub moves: Option<Box<str>>,
@@ -76,7 +76,7 @@ fn prevents_program(problem: &Diagnostic) -> bool {
     matches!(problem.code(), Code::LimitReached | Code::InternalError) && problem.is_error()
 }
 
-/// Returns values that were chosen only for display: of variables, of S, and of options that are not set.
+/// Returns values that were chosen only for display: those of variables, of the sweep height (S), and of options that are not set.
 pub(crate) fn examples(
     db: &dyn Db,
     TracedProgram { program, parts, .. }: &TracedProgram,

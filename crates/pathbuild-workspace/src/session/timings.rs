@@ -15,7 +15,7 @@ pub struct Timings {
     paths: Mutex<Vec<(String, Duration)>>,
 }
 
-/// Phase in which the drawings are found that the arguments refer to.
+/// Phase in which the arguments are matched with drawings.
 pub static FINDING: Text = Text { en: "finding drawings", de: "Zeichnungen suchen" };
 /// Phase in which cached results are compared with the files.
 pub static VERIFYING: Text = Text { en: "verifying cached results", de: "gespeicherte Ergebnisse prüfen" };

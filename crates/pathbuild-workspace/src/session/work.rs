@@ -45,7 +45,7 @@ pub struct ProgramFacts {
     pub has_probes: bool,
 }
 
-/// Checks targets one by one, on a worker thread with its own clone of the database.
+/// A checker of single targets, which runs on a worker thread with its own clone of the database.
 #[derive(Debug)]
 pub struct Checker<'a> {
     db: &'a Database,
@@ -55,11 +55,12 @@ pub struct Checker<'a> {
     timings: &'a Timings,
 }
 
-/// Upper bound on items per rayon chunk. Other threads cannot take over items of a chunk, so they may have to wait at the end. But each chunk
-/// clones the database, whose caches then grow anew, so shorter chunks would cost more than the waiting.
+/// Upper bound on items per rayon chunk. Other threads cannot take over items of a chunk, so they may have to wait at the end. But each chunk clones
+/// the database and has to fill the caches of the clone anew, so shorter chunks would cost more than the waiting.
 const ITEMS_PER_CHUNK: usize = 32;
 
-/// Building a program costs about 1000 times as much as cloning the database, so programs are scheduled one by one.
+/// Number of programs per rayon chunk. Building a program costs about 1000 times as much as cloning the database, so programs are scheduled one by
+/// one.
 const PROGRAMS_PER_CHUNK: usize = 1;
 
 impl Session<'_> {
@@ -245,7 +246,7 @@ impl Checker<'_> {
     }
 
     /// Checks a path in the role in which it is emitted. A path with variables or missing options is checked as if it were embedded: with example
-    /// values, and with S above what it embeds.
+    /// values, and with a sweep height (S) above everything that it embeds.
     pub fn check_leniently(&self, file: SourceFile, name: &PathName) -> CheckedTarget {
         let target = |role| self.db.target(file, name.as_str(), role);
         let index = file_index(self.db, file).path(name);
@@ -269,7 +270,7 @@ impl Checker<'_> {
     }
 }
 
-/// Returns the outcome of a target whose check was aborted.
+/// Returns the outcome of a target for which the check was aborted.
 fn aborted_target(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget {
     CheckedTarget {
         target,

@@ -45,9 +45,9 @@ impl Workers {
     }
 }
 
-/// Allocates the memory that a thread will need in one piece and frees it at once, so that it is available later. Otherwise glibc requests a
-/// thread's memory page by page while all other threads wait. glibc keeps at most twice the size of the largest piece that was returned to the
-/// system, which is why memory is allocated and freed once before.
+/// Allocates the memory that a thread will need in one piece and frees it again, so that it is available later. Otherwise glibc requests a thread's
+/// memory page by page while all other threads wait. glibc keeps at most twice the size of the largest piece that it has returned to the system,
+/// which is why one piece is allocated and freed first.
 fn reserve_memory(is_wanted: &AtomicBool) {
     drop(reserved());
     touch(&mut reserved(), is_wanted);

@@ -55,7 +55,7 @@ pub struct RapidValues {
     pub surface_origin: Origin,
 }
 
-/// Source of a value; the program's own statements come last.
+/// Source of a value, from the most to the least reliable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Origin {
     /// An option on the command line.
@@ -160,7 +160,7 @@ pub fn summary(records: &[CheckRecord], lang: Lang) -> String {
 }
 
 impl CheckRecord {
-    /// Returns the values with which rapid moves were checked, if they were.
+    /// Returns the values with which rapid moves were checked; `None` for other checks, and if the check was not made.
     pub fn values(&self) -> Option<&RapidValues> {
         match &self.outcome {
             Outcome::Made(values) => values.as_ref(),

@@ -44,7 +44,7 @@ use stock::Sources;
 pub struct VerifyOptions {
     /// Options for reading the programs.
     pub reading: ReadingOptions,
-    /// Name of the path whose drawing the programs are compared with.
+    /// Name of a path; the programs are compared with its drawing.
     pub against: Option<String>,
     /// Diameter of the cutter in mm.
     pub cutter: Option<f64>,
@@ -100,7 +100,7 @@ pub struct MoveComparison {
     pub equal: usize,
 }
 
-/// Verifies programs; holds the data that all programs of a run share.
+/// A verifier of programs, with the data that all programs of a run share.
 #[derive(Debug)]
 pub struct Verifier<'w> {
     settings: &'w Settings,
@@ -158,7 +158,7 @@ impl<'w> Verifier<'w> {
         verified
     }
 
-    /// Returns the findings about a program whose steps are stored. Required checks that could not be made are not among them.
+    /// Returns the findings about a program with stored steps. Required checks that could not be made are not reported.
     pub fn findings(&self, program: &Program) -> Vec<Diagnostic> {
         let mut as_written = WrittenSteps::new(self.machine.as_ref());
         program.read.steps.iter().for_each(|step| as_written.step(step));
@@ -208,7 +208,7 @@ impl<'w> Verifier<'w> {
     }
 }
 
-/// Collects facts about the steps of a program as they are written, with corrected heights.
+/// A collector of facts about the steps of a program as they are written, with corrected heights.
 struct WrittenSteps<'m> {
     header: HeaderReader,
     stated: StatedStatistics,
@@ -256,7 +256,7 @@ impl<'m> WrittenSteps<'m> {
     }
 }
 
-/// Applies the rules for which the steps of a program need their nominal heights.
+/// The rules that examine the steps of a program at their nominal heights.
 struct NominalSteps<'w, I: Iterator<Item = (u32, Move)>> {
     comparison: Option<DrawingComparison<'w, I>>,
     words: Option<WordRules<'w>>,
@@ -287,7 +287,7 @@ impl<I: Iterator<Item = (u32, Move)>> NominalSteps<'_, I> {
     }
 }
 
-/// Whether a program cuts so far, and whether it has started the spindle with a speed.
+/// Facts about the steps seen so far: whether any of them cuts, and whether any starts the spindle with a speed.
 #[derive(Clone, Copy, Debug, Default)]
 struct SeenSpeeds {
     has_cut: bool,
@@ -317,7 +317,7 @@ struct Examination<'v> {
     words: Arc<PostWords>,
     /// Whether the program may be the probing run of a drawing, which is a separate program.
     is_probing: bool,
-    /// The drawing's program, unless the verified program is its probing run.
+    /// The drawing's program; `None` if there is none, or if the verified program is its probing run.
     milled: Option<&'v ReferenceProgram>,
 }
 
@@ -488,18 +488,18 @@ impl<'v> Examination<'v> {
     }
 }
 
-/// Whether a doubt is that the program does not state its unit, its distance mode or its plane.
+/// Whether the doubt is about a unit, distance mode or plane that the program does not state.
 fn is_of_modes(doubt: &Diagnostic) -> bool {
     matches!(doubt.code(), Code::UnitsNotStated | Code::ModesNotStated)
 }
 
-/// Whether a doubt is that the control may read a length as thousandths.
+/// Whether the doubt is about a length that the control may read as thousandths.
 fn is_of_point(doubt: &Diagnostic) -> bool {
     doubt.message.key == NO_DECIMAL_POINT.key
 }
 
-/// Whether a doubt is about words that the drawing's program does not contain. Two kinds are not: the drawing does not determine how fine arcs are,
-/// and the user asked to ignore feeds.
+/// Whether the doubt concerns words that the drawing's program does not contain. Two kinds of doubts do not: the drawing does not determine how fine
+/// arcs are, and the user asked to ignore feeds.
 fn is_unsaid(doubt: &Diagnostic) -> bool {
     doubt.code() != Code::DoubtfulArc && doubt.message.key != FEED_IGNORED.key
 }
@@ -542,8 +542,8 @@ impl Writers {
         self.dialect.or(self.named.as_ref().and_then(PostProcessor::reader))
     }
 
-    /// Returns the post that wrote a program of this dialect, if known. A program whose header shows no dialect is attributed to a configured
-    /// definition that names none.
+    /// Returns the post that wrote a program of this dialect, if known. If the program's header shows no dialect, the program is attributed to a
+    /// configured definition that names none either.
     fn of(&self, dialect: Dialect, evidence: Option<EvidenceKind>) -> Option<&PostProcessor> {
         let is_without_header = evidence.is_some_and(|kind| kind != EvidenceKind::Header);
         let may_have_written = |post: &&PostProcessor| match post.reader() {

@@ -17,7 +17,7 @@ use crate::workspace::Workspace;
 pub struct Request<'a> {
     /// The files and directories to verify.
     pub places: &'a [Utf8PathBuf],
-    /// A program that is in no file, such as one from standard input, after its name in messages. Its result is not cached.
+    /// A program that is not in a file, for example from standard input, preceded by its name for messages. Its result is not cached.
     pub text: Option<(&'a Utf8Path, Vec<u8>)>,
     /// Options for the verification.
     pub options: VerifyOptions,

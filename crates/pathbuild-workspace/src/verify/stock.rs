@@ -13,7 +13,7 @@ use super::{Verifier, VerifyOptions};
 use crate::config::types::Tool;
 use crate::program::Program;
 
-/// Combines all sources for the cutters of a program and for the height of its material.
+/// All sources for the cutters of a program and for the height of its material.
 pub(super) struct Sources<'s> {
     verifier: &'s Verifier<'s>,
     program: &'s Program,
@@ -28,8 +28,8 @@ struct ToolDiameters {
     drawn: Option<f64>,
     /// Widths of the cutter according to the configuration.
     table: Option<Cutter>,
-    /// Whether the number in the program is that of the tool in the spindle. It is not in a native program, which always selects T1, so there the
-    /// header takes precedence over the configuration.
+    /// Whether the number in the program is that of the tool in the spindle. This does not hold for a native program, which always selects T1, so
+    /// there the header takes precedence over the configuration.
     is_numbered: bool,
     header: Option<StatedCutter>,
 }
@@ -135,7 +135,7 @@ impl<'s> Sources<'s> {
         !is_surface_known || self.cutter_origin() == Some(Origin::Program)
     }
 
-    /// Returns the outcome of the check of rapid moves. `blind` counts those that start at an unknown position.
+    /// Returns the outcome of the check of rapid moves. `blind` counts the rapid moves that start at an unknown position.
     pub(super) fn rapids(&self, is_limit_reached: bool, blind: Option<BlindRapids>) -> Outcome {
         if is_limit_reached {
             return Outcome::NotMade(Reason::TooLarge);
@@ -159,8 +159,8 @@ impl<'s> Sources<'s> {
         }
     }
 
-    /// Reports rapid moves at cutting depth. Does not if the surface is known from more than the comments of another CAM program, or for lines that
-    /// have an error already. A cutter that is not known may be as wide as [`WIDEST`].
+    /// Reports rapid moves at cutting depth. Reports none if the surface is known from more than the comments of another CAM program, and none on
+    /// lines that already have an error. A cutter that is not known may be as wide as [`WIDEST`].
     pub(super) fn doubtful_rapids(&self, rules: DepthRules, found: &[Diagnostic]) -> Vec<Diagnostic> {
         let is_known = self.options().surface.is_some()
             || self.verifier.against.is_some()
@@ -245,7 +245,7 @@ impl<'s> Sources<'s> {
         found
     }
 
-    /// Compares the surface of the command line with the highest one that the program states, unless there is a drawing.
+    /// Compares the surface of the command line with the highest surface that the program states, unless there is a drawing.
     fn other_surface_given(&self) -> Option<Diagnostic> {
         let given = self.options().surface.filter(|_| self.verifier.against.is_none());
         let stated = self.header.surface.or_else(|| self.stated_stock()?.highest());
@@ -276,8 +276,8 @@ impl<'s> Sources<'s> {
         self.tools().iter().find(|entry| entry.number.is_some() && entry.number == tool.number)
     }
 
-    /// Returns the chip loads allowed for the tools, each with the line from which the tool cuts; nothing for a program with subprograms and
-    /// several tools, in which the tool of a line depends on the caller.
+    /// Returns the chip loads allowed for the tools, each with the line from which the tool cuts. Empty for a program with subprograms and several
+    /// tools, in which the tool of a line depends on the caller.
     pub(super) fn chip_loads(&self) -> Vec<(u32, Option<ChipLoad>)> {
         if !self.is_numbered() || self.header.has_calls && self.header.tools.len() > 1 {
             return Vec::new();

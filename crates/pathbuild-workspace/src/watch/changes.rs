@@ -16,7 +16,7 @@ use super::events::{Bell, Changes, Request, Restart, Signal};
 use super::library::Library;
 use crate::session::{Session, is_ignore_file};
 
-/// Watches the directories of a library.
+/// A watcher of a library's directories, which collects changes in batches.
 pub(super) struct Watcher {
     signals: Receiver<Signal>,
     bell: Bell,
@@ -32,7 +32,7 @@ pub(super) struct Watcher {
     system: Arc<dyn System>,
     /// Changes that arrived while a batch was processed.
     pending: Changes,
-    /// Time at which these changes are due, if no more arrive.
+    /// Time at which the pending changes are due, if no more arrive.
     due: Instant,
     /// Whether a wake-up was requested and not yet handled.
     is_woken: bool,
@@ -110,7 +110,7 @@ impl Watcher {
         })
     }
 
-    /// Watches the targets of those files that are links. Returns the files whose target the system refuses to watch, with its reason.
+    /// Watches the targets of the files that are links. If the system refuses to watch a target, returns the file with the system's reason.
     pub(super) fn follow(
         &mut self,
         session: &Session<'_>,

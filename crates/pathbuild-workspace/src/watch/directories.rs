@@ -21,7 +21,7 @@ pub(super) struct WatchedDirectories {
     watched: BTreeMap<Utf8PathBuf, RecursiveMode>,
     /// For each watched directory: the path that events report, its canonical path, and its path in the session, which may begin with `..`.
     roots: BTreeSet<[Utf8PathBuf; 3]>,
-    /// Directories whose replacement matters: the watched ones and their parents.
+    /// Directories of which a replacement must be noticed: the watched directories and their parents.
     names: BTreeSet<Utf8PathBuf>,
     /// Directories that the system refuses to watch because they cannot be listed.
     refused: BTreeSet<Utf8PathBuf>,
@@ -94,7 +94,7 @@ impl WatchedDirectories {
         Ok(())
     }
 
-    /// Watches the targets of those files that are links. Returns the files whose target the system refuses to watch, with its reason.
+    /// Watches the targets of the files that are links. If the system refuses to watch a target, returns the file with the system's reason.
     pub(super) fn follow(
         &mut self,
         source: &mut dyn Watcher,
@@ -157,7 +157,7 @@ impl WatchedDirectories {
         self.watched.keys().any(|directory| directory.is_relative())
     }
 
-    /// Whether a change at this path matters. Parents of watched directories also report names that do not.
+    /// Whether a change at this path matters. Parents of watched directories also report irrelevant names.
     pub(super) fn is_relevant(&self, path: &EventPath) -> bool {
         self.names.contains(&path.reported)
             || self.roots.iter().any(|[event_name, real, _]| {
@@ -194,15 +194,15 @@ impl WatchedDirectories {
         if own.is_empty() { vec![path.reported.clone()] } else { own.into_iter().collect() }
     }
 
-    /// Returns the names of linked drawings whose content a change at this path may affect.
+    /// Returns the names of linked drawings that may have other content after a change at this path.
     pub(super) fn linked_drawings(&self, path: &EventPath, system: &dyn System) -> BTreeSet<Utf8PathBuf> {
         let mut drawings = self.links.drawings_at(system, &path.reported);
         drawings.extend(self.links.drawings_at(system, &path.resolved));
         drawings
     }
 
-    /// Whether the set of directories to watch changes with this event. Ordinary files have no effect on it, nor have changes inside a directory:
-    /// programs may be written into it.
+    /// Whether the set of directories to watch changes with this event. Ordinary files do not affect the set, nor do changes inside a directory, for
+    /// example when programs are written into it.
     pub(super) fn are_changed(&self, kind: EventKind, path: &EventPath, system: &dyn System) -> bool {
         if comes_or_goes(kind) {
             return self.names.contains(&path.reported) || self.names.contains(&path.resolved);
@@ -314,7 +314,7 @@ pub(super) fn event_path(session: &Session<'_>, path: &Utf8Path) -> Utf8PathBuf 
 /// Links among the dependencies of results. All paths are as events report them.
 #[derive(Default)]
 pub(super) struct Links {
-    /// For each path that determines the content of linked drawings, these drawings.
+    /// Linked drawings, by each path that determines their content.
     by_place: BTreeMap<Utf8PathBuf, BTreeSet<Utf8PathBuf>>,
     /// The reverse of `by_place`, for removing a drawing.
     places: HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>,
@@ -372,7 +372,7 @@ impl Links {
         to_watch
     }
 
-    /// Returns the linked drawings whose content a change at this path may affect.
+    /// Returns the linked drawings that may have other content after a change at this path.
     pub(super) fn drawings_at(&self, system: &dyn System, place: &Utf8Path) -> BTreeSet<Utf8PathBuf> {
         let mut drawings = self.by_place.get(place).cloned().unwrap_or_default();
         if !drawings.is_empty()

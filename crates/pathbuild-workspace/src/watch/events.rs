@@ -27,7 +27,7 @@ pub struct Request<'a> {
     pub polls: bool,
 }
 
-/// Receives reports from the watch loop. Callbacks get the session, so that they can query more than the findings.
+/// A receiver of reports from the watch loop. Callbacks get the session, so that they can query more than the findings.
 pub trait Listener {
     /// Receives the handle that wakes the watcher from other threads.
     fn set_bell(&self, _: Bell) {}
@@ -41,7 +41,7 @@ pub trait Listener {
     fn first_check_done(&self, _: &FirstCheck) {}
     /// Called when a batch of changes was processed.
     fn batch_done(&self, _: &Update) {}
-    /// Called for links whose targets cannot be watched, with the system's reason.
+    /// Called for links to targets that cannot be watched, with the system's reason.
     fn not_watched(&self, _: &[(Utf8PathBuf, String)]) {}
     /// Called when programs were written.
     fn programs_written(&self, _: &[ProgramOutcome]) {}
@@ -117,7 +117,7 @@ pub(super) enum Signal {
     Over,
 }
 
-/// Wakes the watching thread. May be cloned and used by any thread.
+/// A handle that wakes the watching thread. May be cloned and used by any thread.
 #[derive(Clone, Debug)]
 pub struct Bell(pub(super) Sender<Signal>);
 

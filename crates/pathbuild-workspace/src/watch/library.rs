@@ -39,7 +39,7 @@ pub(super) struct Library<'a> {
 /// The outcome of a batch of changes.
 #[derive(Debug, Default)]
 pub(super) struct Batch {
-    /// Files whose changes caused the batch.
+    /// The changed files that caused the batch.
     pub(super) changed: BTreeSet<Utf8PathBuf>,
     /// Drawings that were checked.
     pub(super) checked_files: Vec<SourceFile>,
@@ -49,9 +49,9 @@ pub(super) struct Batch {
     pub(super) removed: BTreeSet<Utf8PathBuf>,
     /// Unchanged drawings that are checked again, and directories that can be listed again.
     pub(super) tried_again: BTreeSet<Utf8PathBuf>,
-    /// Previous diagnostics of these drawings.
+    /// Previous diagnostics of the drawings in this batch.
     pub(super) before: Vec<Diagnostic>,
-    /// Current diagnostics of these drawings.
+    /// Current diagnostics of the drawings in this batch.
     pub(super) now: Vec<Diagnostic>,
     /// Diagnostics of arguments and directories, if they have changed.
     pub(super) problems: Option<Vec<Diagnostic>>,
@@ -139,7 +139,7 @@ impl<'a> Library<'a> {
     }
 
     /// Marks drawings with transient diagnostics to be checked again, except those just checked, and lists unreadable directories again. `further`
-    /// names drawings whose programs could not be written.
+    /// names drawings of which a program could not be written.
     pub(super) fn try_again(
         &mut self,
         further: &BTreeSet<Utf8PathBuf>,
@@ -150,7 +150,7 @@ impl<'a> Library<'a> {
         let system = &*self.session.workspace().system;
         let is_missing = |path: &Utf8PathBuf| system.kind(path) == FileKind::Missing;
         let has_missing = self.drawings.iter().any(|(path, result)| is_passed(result) && is_missing(path));
-        // No event reports a drawing that was removed before its directory was watched.
+        // A drawing may have been removed before its directory was watched, so that no event reports it.
         if has_missing || self.problems.iter().any(is_transient) {
             self.find_drawings(&mut concerned, &mut update);
         }
@@ -241,8 +241,8 @@ impl<'a> Library<'a> {
         files
     }
 
-    /// Updates the names of directories in which files were added or removed, and collects the drawings whose lookups this may affect. Returns
-    /// whether any names changed.
+    /// Updates the names of directories in which files were added or removed, and collects the drawings that looked up names there and may be
+    /// affected. Returns whether any names changed.
     fn apply_names(
         &mut self,
         changes: &Changes,
@@ -270,7 +270,7 @@ impl<'a> Library<'a> {
         have_changed
     }
 
-    /// Lists a directory again and collects the drawings whose lookups are affected. Returns whether any names changed.
+    /// Lists a directory again, and collects the drawings that looked up a name that has appeared or disappeared. Returns whether any names changed.
     fn renew_names(&mut self, directory: &Utf8Path, concerned: &mut HashSet<SourceFile>) -> bool {
         let changed = self.names.renew(&mut self.session, directory);
         let names = changed.iter().map(|name| &**name);
@@ -365,7 +365,7 @@ impl<'a> Library<'a> {
         }
     }
 
-    /// Finds the drawings that have a Q-project. Among ten thousand drawings this takes as long as an edit.
+    /// Finds the drawings that have a Q-project. Among ten thousand drawings, this takes as long as processing an edit.
     fn find_pairs(&mut self, update: &mut Batch) {
         let pairs = q_project_pairs(self.drawings.keys()).into_iter();
         let pairs: BTreeSet<[Utf8PathBuf; 2]> = pairs.map(|pair| pair.map(Utf8PathBuf::clone)).collect();
@@ -395,7 +395,7 @@ fn ignore_files(selection: &Selection) -> impl Iterator<Item = Utf8PathBuf> {
     selection.below.iter().flat_map(|directory| IGNORE_FILES.map(|name| join(directory, name)))
 }
 
-/// For each input, the drawings whose results depend on it.
+/// The drawings that depend on each input.
 #[derive(Default)]
 pub(super) struct ReverseIndex {
     by_file: HashMap<SourceFile, HashSet<SourceFile>>,
@@ -447,7 +447,7 @@ impl ReverseIndex {
         self.by_file.get(&file).into_iter().flatten().copied()
     }
 
-    /// Returns the drawings with lookups in a directory whose results may change if files of these names appear or disappear.
+    /// Returns the drawings that looked up names in a directory and may get other results if files of these names appear or disappear.
     pub(super) fn of_names<'n>(
         &self,
         directory: &Utf8Path,
@@ -495,7 +495,7 @@ impl NameSnapshots {
         self.0.contains_key(directory)
     }
 
-    /// Iterates over the directories whose names are stored.
+    /// Iterates over the directories for which names are stored.
     pub(super) fn directories(&self) -> impl Iterator<Item = &Utf8PathBuf> {
         self.0.keys()
     }

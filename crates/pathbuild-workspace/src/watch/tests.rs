@@ -81,7 +81,7 @@ fn codes(found: &[Diagnostic]) -> Vec<Code> {
     found.iter().map(Diagnostic::code).collect()
 }
 
-/// Adds two drawings, of which the first is checked, and removes those of `removed` before the second one is.
+/// Adds two drawings and checks the first. Removes the drawings `removed` before the second one is checked.
 fn removed_before_the_check(removed: &[&str], events: &[&str]) {
     let place = Place::new();
     let mut library = place.watched();

@@ -13,7 +13,7 @@ use crate::posting::{PostArguments, PostProcessor};
 use crate::session::Session;
 use crate::workspace::Workspace;
 
-/// Writes programs, if `--emit` is given.
+/// A writer of programs, which does nothing unless `--emit` is given.
 pub(super) struct Writer<'a> {
     workspace: &'a Workspace,
     listener: &'a dyn Listener,
@@ -27,9 +27,9 @@ pub(super) struct Writer<'a> {
 /// The outcome of writing the programs of some drawings.
 #[derive(Default)]
 pub(super) struct WriteOutcome {
-    /// Diagnostics of these drawings' programs from the previous time.
+    /// Previous diagnostics of the drawings' programs.
     pub(super) before: Vec<Diagnostic>,
-    /// Current diagnostics of these drawings' programs.
+    /// Current diagnostics of the drawings' programs.
     pub(super) now: Vec<Diagnostic>,
 }
 
@@ -70,7 +70,7 @@ impl<'a> Writer<'a> {
         self.post_processor.as_ref().map(PostProcessor::sources).unwrap_or_default()
     }
 
-    /// Returns the drawings whose programs have transient diagnostics or could not be written. No event reports when that changes, so they are
+    /// Returns the drawings with programs that have transient diagnostics or could not be written. No event reports when that changes, so they are
     /// tried again.
     pub(super) fn with_transient_problems(&self) -> BTreeSet<Utf8PathBuf> {
         let may_pass = |found: &Diagnostic| is_transient(found) || found.code() == Code::CannotWrite;

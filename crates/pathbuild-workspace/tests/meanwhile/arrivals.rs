@@ -19,10 +19,10 @@ use crate::on_disk::{OnDisk, sorted};
 /// A drawing that is changed after each step: once the session reports this change, it has processed the step as well.
 const TICK: &str = "lib/ticks/9999.1P.dxf";
 
-/// Performs the next step of a test; returns `false` if none is left.
+/// A function that performs the next step of a test; returns `false` if none is left.
 type Step<'s> = Box<dyn FnMut(&OnDisk) -> bool + 's>;
 
-/// Performs the steps of a test one after the other.
+/// A listener that performs the steps of a test one after the other.
 struct Driver<'s> {
     name: String,
     place: OnDisk,

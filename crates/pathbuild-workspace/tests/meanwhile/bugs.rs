@@ -56,7 +56,7 @@ fn a_bug_in_one_drawing_keeps_no_other_from_being_checked() {
     }
 }
 
-/// A bug triggered by listing a directory is reported for that directory, in the same way.
+/// A bug triggered by listing a directory is reported for that directory. All other directories are checked, and the bug is not cached.
 #[test]
 fn a_bug_in_listing_a_directory_keeps_no_other_from_being_checked() {
     let workshop = RandomLibrary::new(3);
@@ -136,7 +136,7 @@ fn a_bug_in_listing_ends_no_command() {
     in_each_listing(Event::Panic, "InternalError");
 }
 
-/// The directory is reported: otherwise a path in it would not be found, or another one would count as the only one of that name.
+/// The unreadable directory is reported: otherwise a path in it would not be found, or another path would count as the only one of that name.
 #[test]
 fn a_directory_that_cannot_be_listed_is_told() {
     in_each_listing(Event::Fail, "UnreadableFile");

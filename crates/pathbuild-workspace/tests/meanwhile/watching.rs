@@ -18,8 +18,8 @@ const OTHER: (&str, &str) =
     ("lib/1001.1P.dxf", "layer 1001.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0");
 const VICTIM: &str = "lib/8001.1P.dxf";
 
-/// Changes a drawing after the first check, and another one after the retry of the first findings. Ends watching soon after that, or on a
-/// timeout.
+/// A listener that changes a drawing after the first check, and another one after the retry of the first findings. Ends watching soon after that, or
+/// on a timeout.
 struct Editor {
     /// The drawing that is changed, with its new content.
     edit: (&'static str, String),
@@ -187,7 +187,7 @@ fn a_directory_in_which_something_was_looked_for_in_vain_is_listed_again() {
     assert!(before == [Code::UnreadableFile] && now.is_empty(), "{told:#?}");
 }
 
-/// Adds a drawing after the first check, and ends watching after two batches.
+/// A listener that adds a drawing after the first check, and ends watching after two batches.
 struct Adder {
     place: OnDisk,
     bell: RefCell<Option<Bell>>,
