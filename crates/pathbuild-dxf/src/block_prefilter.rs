@@ -52,7 +52,7 @@ pub(crate) fn has_text<'a>(
     })
 }
 
-/// The layer of the record that contains the last of these bytes, if it precedes them.
+/// Returns the layer of the record at the end of these bytes, if its group (code 8) is among them.
 fn layer_before(bytes: &[u8], line_end: u8) -> Option<&[u8]> {
     let mut lines = bytes.rsplit(|byte| *byte == line_end).skip(1).map(without_cr);
     while let (Some(value), Some(code)) = (lines.next(), lines.next()) {
@@ -88,7 +88,7 @@ fn any_digit(digit: u8, bytes: &[u8], mut is: impl FnMut(usize) -> bool) -> bool
 /// Number of bytes compared at once.
 const VECTOR_BYTES: usize = 16;
 
-/// Bit mask of the inner bytes that are this digit with neighbours that a group code could have: bit n for byte n + 1.
+/// Returns a bit mask of the inner bytes that hold this digit between neighbours that a group code may have: bit n for byte n + 1.
 #[inline]
 fn digits(digit: u8, window: &[u8; VECTOR_BYTES + 2]) -> u32 {
     let bytes =
@@ -100,13 +100,14 @@ fn digits(digit: u8, window: &[u8; VECTOR_BYTES + 2]) -> u32 {
     (is_padding & is(bytes(1), digit) & is_blank(bytes(2))).to_bitmask()
 }
 
-/// Start of the line after the one with this digit, if that line holds only a group code.
+/// Returns the start of the line after the one that contains the byte at `digit`, if that line contains only a group code.
 fn line_after_code(bytes: &[u8], digit: usize, line_end: u8) -> Option<usize> {
     let length = rest_of_code(&bytes[digit + 1..], line_end)?;
     is_begin_of_code(&bytes[..digit], line_end).then_some(digit + 1 + length)
 }
 
-/// Length of the line end at these bytes, if a code may end just before them.
+/// Returns the length of the padding and the line end at the start of these bytes; `None` if no line end follows the padding, so that no group code
+/// ends just before these bytes.
 #[inline]
 fn rest_of_code(after: &[u8], line_end: u8) -> Option<usize> {
     let length = after.iter().position(|byte| *byte == line_end || *byte > b' ')?;
@@ -135,7 +136,7 @@ mod tests {
     use crate::header::Header;
     use crate::layers::LayerTable;
 
-    /// Returns the same answer by reading pair by pair, for comparison.
+    /// Returns the answer of [`may_hold_wanted`], found by reading pair by pair.
     fn holds_wanted(mut pairs: Pairs<'_>, is_wanted: impl Fn(&[u8]) -> bool) -> bool {
         iter::from_fn(|| pairs.next().ok()).any(|pair| pair.code == 8 && is_wanted(pair.value))
     }

@@ -22,7 +22,7 @@ use crate::placement::Placement;
 use crate::shapes::curves::{ApproximationFailure, Tolerance};
 use crate::{Drawing, Entity, Fault, Geometry, Layer, OmittedCurve, Origin, Point3};
 
-/// Builds a drawing.
+/// A builder of a drawing.
 pub(crate) struct Collector<'d> {
     drawing: &'d mut Drawing,
     /// Indices into [`Drawing::layers`] by folded name.
@@ -31,7 +31,7 @@ pub(crate) struct Collector<'d> {
     with_invisible: BTreeSet<u32>,
     /// Layers with at least one entity in a block that is inserted on a frozen layer.
     with_frozen: BTreeSet<u32>,
-    /// The missing blocks that are inserted on layers that are not read.
+    /// The missing blocks that are inserted on layers that are not read, to report each of them once.
     missing_blocks: BTreeSet<SmolStr>,
     /// Layer of the previous entity, as a cache.
     last: Option<(LayerId, u32)>,
@@ -42,7 +42,7 @@ pub(crate) struct Collector<'d> {
     limits: Limits,
 }
 
-/// Number of entities to reserve room for.
+/// Number of entities for which memory is reserved in advance.
 const RESERVED_ENTITIES: usize = 64;
 
 /// Number of faults and left-out curves that count as one entity each. No real drawing has more, but a broken insertion repeats its fault
@@ -80,7 +80,7 @@ pub(crate) struct PlacedEntity<'p> {
 }
 
 impl PlacedEntity<'_> {
-    /// Transforms a point of the entity's space to the drawing's.
+    /// Transforms a point from the coordinates of the entity's space to those of the drawing.
     fn point(&self, point: Point) -> Point {
         let Some(placement) = self.placement else { return point };
         let placed = placement.point(Point3 { x: point.x.0, y: point.y.0, z: 0.0 });
@@ -89,7 +89,7 @@ impl PlacedEntity<'_> {
 }
 
 impl<'d> Collector<'d> {
-    /// Starts with an empty drawing.
+    /// Creates a collector that fills this empty drawing.
     pub(crate) fn new(drawing: &'d mut Drawing, limits: Limits) -> Self {
         drawing.entities.reserve(RESERVED_ENTITIES);
         drawing.origins.reserve(RESERVED_ENTITIES);
@@ -273,7 +273,7 @@ impl<'d> Collector<'d> {
         }
     }
 
-    /// Fills in the entity's place. A line that is already set is that of the faulty value and stays.
+    /// Fills in the entity's place. If the diagnostic already has a line, which is that of the faulty value, the line stays.
     fn located(&self, mut diagnostic: Diagnostic, placed: &PlacedEntity<'_>, layer: u32) -> Diagnostic {
         let place = &mut diagnostic.place;
         place.line = place.line.or(Some(placed.own.line));
@@ -324,7 +324,7 @@ impl<'d> Collector<'d> {
     }
 }
 
-/// The place of an entity with a point in its own space.
+/// Returns the place of an entity. `point` is in the entity's own space.
 fn place_of(placed: &PlacedEntity<'_>, point: Option<Point>) -> Place {
     Place {
         line: Some(placed.own.line),

@@ -39,7 +39,7 @@ pub enum Units {
     Millimetres,
 }
 
-/// The content of a drawing, as far as it is wanted. `entities[i]` starts in the file at `origins[i]`.
+/// The wanted content of a drawing. `entities[i]` starts in the file at `origins[i]`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
     /// The wanted entities of model space in file order.
@@ -126,7 +126,7 @@ pub struct Entity {
     /// The line type, trimmed, without xref prefix, in upper case. BYLAYER or none is replaced by the layer's, BYBLOCK in model space by
     /// CONTINUOUS.
     pub line_type: SmolStr,
-    /// The entity type in the file: LWPOLYLINE for a part of one.
+    /// The entity type in the file. A part of a polyline has the type of the polyline.
     pub kind: EntityKind,
     /// Number shared by all parts of one polyline or approximated curve: a text that overlaps one part belongs to all of them.
     pub group: Option<u32>,
@@ -171,7 +171,7 @@ pub struct Arc {
     pub centre: Point3,
     /// Radius in mm, positive.
     pub radius: f64,
-    /// Start angle in degrees as in the file, mirrored if the entity is.
+    /// Start angle in degrees as in the file, mirrored if the entity is mirrored.
     pub start_angle: f64,
     /// End angle in degrees.
     pub end_angle: f64,

@@ -20,7 +20,7 @@ use pathbuild_encoding::{
 use crate::faults::value_excerpt;
 use crate::header::Header;
 
-/// Decodes the strings of one file.
+/// A decoder for the strings of one file.
 #[derive(Debug)]
 pub(crate) struct Decoder<'a> {
     charset: Charset<'a>,
@@ -213,7 +213,7 @@ fn iso_8859(part: u32) -> CodePage {
 /// Replacement for an escape that does not denote a character.
 const REPLACEMENT: char = char::REPLACEMENT_CHARACTER;
 
-/// Decodes all escapes. The flag tells whether all of them were characters; the others become U+FFFD.
+/// Decodes all escapes. Also returns whether each of them denotes a character; those that do not become U+FFFD.
 fn unescape(text: Cow<'_, str>) -> (Cow<'_, str>, bool) {
     let bytes = text.as_bytes();
     if !memchr_iter(b'\\', bytes).any(|at| matches!(bytes[at..], [_, b'U' | b'M', b'+', ..])) {
@@ -234,7 +234,7 @@ fn unescape(text: Cow<'_, str>) -> (Cow<'_, str>, bool) {
     (Cow::Owned(decoded), all_known)
 }
 
-/// The character and the length of the escape at the start of `text`. The inner `None` is an escape that does not denote a character.
+/// Returns the character and the length of the escape at the start of `text`; the inner `None` means that the escape does not denote a character.
 fn escape(text: &str) -> Option<(Option<char>, usize)> {
     unicode(text).or_else(|| multibyte(text))
 }
@@ -268,7 +268,7 @@ fn multibyte(text: &str) -> Option<(Option<char>, usize)> {
     Some((decoded.and_then(|text| text.chars().next()), 8))
 }
 
-/// The encoding for a digit of `\M+`. The fourth, Johab, is unsupported because no drawing uses it.
+/// Returns the encoding for a digit of `\M+`. Digit 4, Johab, is unsupported because no drawing uses it.
 fn multibyte_encoding(digit: u8) -> Option<&'static Encoding> {
     match digit {
         b'1' => Some(SHIFT_JIS),
@@ -302,7 +302,7 @@ pub(crate) fn without_carets(text: Cow<'_, str>) -> Cow<'_, str> {
     Cow::Owned(decoded)
 }
 
-/// The character and length of the caret code at the start of `text`.
+/// Returns the character and the length of the caret code at the start of `text`.
 pub(crate) fn control(text: &str) -> Option<(char, usize)> {
     let mut characters = text.chars();
     characters.next().filter(|first| *first == '^')?;

@@ -19,7 +19,7 @@ use crate::pairs::{Pair, Pairs, Stop};
 use crate::shapes::{self, Ellipse, Insert, OpenPolyline, Spline};
 use crate::{Geometry, Options, Origin};
 
-/// Reads entities and caches the names of layers and line types that it has resolved.
+/// A reader of entities, with a cache of the layer and line-type names that it has resolved.
 pub(crate) struct EntityReader<'a, 'o> {
     pub(crate) options: &'o Options<'o>,
     pub(crate) decoder: Decoder<'a>,
@@ -74,7 +74,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
     }
 
-    /// The next entity that is or may be wanted. `None` at the record that ends the section or block, which stays the head.
+    /// Returns the next entity that is or may be wanted; `None` at the record that ends the section or block. That record remains the head.
     #[inline(always)]
     pub(crate) fn next_item(
         &mut self,
@@ -95,8 +95,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
     }
 
-    /// The layers of all entities up to the end of the block that may be wanted. `None` if layers alone do not suffice: for insertions, and
-    /// for texts, which may contain undecodable characters.
+    /// Reads to the end of the block and returns the layers of all entities that may be wanted. Returns `None` if layers alone do not suffice: for
+    /// insertions, and for texts, which may contain undecodable characters.
     pub(crate) fn layers_ahead(
         &mut self,
         records: &mut Records<'a>,
@@ -118,8 +118,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
     }
 
-    /// The next record up to the end of the block that is more than a text or an annotation, wanted or not: its layer and, if it is an
-    /// INSERT, the block's name.
+    /// Reads to the next record in the block, wanted or not, that is more than a text or an annotation. Returns its layer and, if it is an INSERT,
+    /// the block's name.
     pub(crate) fn next_element(
         &mut self,
         records: &mut Records<'a>,
@@ -313,8 +313,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     }
 }
 
-/// Whether an entity on a layer may be wanted. Layer 0 inside a block depends on the insertion, and an insertion on the contents of its
-/// block.
+/// Whether an entity on a layer may be wanted. An entity on layer 0 of a block may be, because its layer depends on the insertion. An insertion may
+/// be, because its block may contain something wanted.
 #[inline]
 fn fill_decision(layers: &Layers<'_, '_>, layer: LayerId, kind: RecordKind, space: Space) -> FillDecision {
     let may_be_wanted = layers.is_kept(layer)
@@ -374,7 +374,7 @@ const ANNOTATIONS: [&str; 18] = [
 ];
 
 impl RecordKind {
-    /// The kind with this name in any case, or `None` for annotations and ends. (`3DLINE` is the three-dimensional LINE of R10.)
+    /// Returns the kind with this name, ignoring case; `None` for annotations and ends. (`3DLINE` is the three-dimensional LINE of R10.)
     #[inline]
     pub(crate) fn of(name: &[u8]) -> Option<Self> {
         Self::upper_case(name).or_else(|| Self::unusual(&name.trim_ascii().to_ascii_uppercase()))
@@ -421,7 +421,7 @@ impl RecordKind {
         self == Self::Foreign(EntityKind::AttDef)
     }
 
-    /// Bit mask of the codes below 80 that this kind repeats.
+    /// Returns a bit mask of the codes below 80 that this kind repeats.
     #[inline]
     fn repeated_codes(self) -> u64 {
         const fn bits(codes: &[u32]) -> u64 {
@@ -446,7 +446,7 @@ impl RecordKind {
         }
     }
 
-    /// The kind for diagnostics.
+    /// Returns the kind as it is named in diagnostics.
     fn entity_kind(self) -> EntityKind {
         match self {
             Self::Line => EntityKind::Line,

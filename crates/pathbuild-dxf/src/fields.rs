@@ -46,7 +46,7 @@ pub(crate) enum BadGroup<'a> {
 
 /// The groups of an entity.
 pub(crate) struct Fields<'a> {
-    /// The line of the entity's first pair, whose code is 0.
+    /// The line of the entity's first pair, which has code 0.
     pub(crate) line: u32,
     /// Number of the current entity; slots with another number are empty.
     entity: u32,
@@ -79,12 +79,12 @@ impl<'a> Value<'a> {
 }
 
 impl<'a> Fields<'a> {
-    /// Starts without an entity; keeps at most `most_repeated` repeated groups.
+    /// Creates fields without an entity, which keep at most `most_repeated` repeated groups.
     pub(crate) fn new(most_repeated: usize) -> Self {
         Self { line: 0, entity: 0, slots: [Value::default(); SLOTS], repeated: Vec::new(), most_repeated }
     }
 
-    /// Reads the entity whose pair with code 0 is on this line. `repeats` has a bit for each code that the entity repeats, and `want` is called once
+    /// Reads the entity that begins with code 0 on this line. `repeats` has a bit for each code that the entity repeats, and `want` is called once
     /// its layer is known. Returns the first pair of the next entity, and whether this entity was kept.
     #[inline]
     pub(crate) fn fill(
@@ -217,7 +217,7 @@ impl<'a> Fields<'a> {
         whole(value.bytes).map(Some).map_err(|reason| BadGroup::Number { code, value, reason })
     }
 
-    /// A point whose x has this code. `z` may be missing; R10 used the elevation (38) instead.
+    /// Returns the point that has this code for its x. `z` may be missing; R10 used the elevation (38) instead.
     #[inline]
     pub(crate) fn point(&self, x: i32) -> Result<Point3, BadGroup<'a>> {
         let z = self.number(x + 20)?.map_or_else(|| self.number(38), |z| Ok(Some(z)))?;

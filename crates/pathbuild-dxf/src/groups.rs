@@ -57,7 +57,7 @@ impl<'a> Group<'a> {
 }
 
 impl<'a> Groups<'a> {
-    /// Creates an iterator over the pairs from this position on.
+    /// Creates an iterator that starts at this position.
     pub(crate) fn new(begin: Pairs<'a>) -> Self {
         let ahead = NextPair { stretch: ScannedPairs::EMPTY, line: begin.line().into() };
         Self { begin, code_end: CodeEnd::of(&begin), bytes: &begin.bytes()[begin.consumed()..], ahead }
@@ -68,7 +68,7 @@ impl<'a> Groups<'a> {
         self.begin.at(self.begin.bytes().len() - self.rest().len(), diagnostic_line(self.ahead.line))
     }
 
-    /// Passes pairs to `pass` up to the first one whose role satisfies `is_end`, and returns that one.
+    /// Passes pairs to `pass` until the role of one satisfies `is_end`, and returns that pair.
     #[inline]
     pub(crate) fn pass_until(
         &mut self,
@@ -205,7 +205,7 @@ impl<'a> ScannedPairs<'a> {
     /// A stretch without pairs.
     const EMPTY: Self = Self { bytes: &[0; WINDOW_BYTES + MAX_CODE_BYTES], at: 0, ends: 0 };
 
-    /// The pairs at the start of these bytes; `None` if the first pair is too long or the bytes are nearly exhausted.
+    /// Finds the pairs at the start of these bytes; `None` if the first pair is too long or the bytes are nearly exhausted.
     #[inline]
     pub(crate) fn of(bytes: &'a [u8], line_end: u8) -> Option<Self> {
         let bytes = bytes.first_chunk()?;
@@ -243,7 +243,7 @@ impl<'a> ScannedPairs<'a> {
     }
 }
 
-/// Bit mask of the bytes equal to this one: bit n for byte n.
+/// Returns a bit mask of the bytes equal to `byte`: bit n for byte n.
 #[inline]
 fn matching_bytes(bytes: &[u8; WINDOW_BYTES], byte: u8) -> u64 {
     let byte = u8x16::splat(byte);
@@ -322,7 +322,7 @@ impl Role {
         }
     }
 
-    /// The role of the code on the first line of these bytes, and the length of that line with its end. `None` unless the line has at most
+    /// Returns the role of the code on the first line of these bytes, and the length of that line with its end. `None` unless the line has at most
     /// seven bytes: blanks, digits, and possibly a CR.
     #[inline]
     fn of_line(line: [u8; 8], code_end: CodeEnd) -> Option<(usize, Self)> {
@@ -341,7 +341,7 @@ impl Role {
     fn of_unusual_line(line: [u8; 8], line_end: u8) -> Option<(usize, Self)> {
         let word = u64::from_le_bytes(line);
         let other = word ^ (ONE_PER_BYTE * u64::from(line_end));
-        // Sets the top bit of each byte that is a line end. Bits above the lowest may be wrong.
+        // Set the top bit of each byte that is a line end. Bits above the lowest set one may be wrong.
         let ends = other.wrapping_sub(ONE_PER_BYTE) & !other & (ONE_PER_BYTE * 0x80);
         let length = ends.trailing_zeros() as usize / 8;
         let before = *line.get(length.wrapping_sub(1)).filter(|_| length < line.len())?;
@@ -349,7 +349,7 @@ impl Role {
         if bits == 0 {
             return None;
         }
-        // Aligns the last digit to the last byte and fills with blanks before the first.
+        // Align the last digit to the last byte and fill with blanks before the first.
         let code = number((word << (64 - bits)) | ((ONE_PER_BYTE * 0x20) >> bits))?;
         Some((length + 1, Self::of(code)))
     }
@@ -395,8 +395,8 @@ fn number(padded: u64) -> Option<i32> {
     if !is_blank_or_digit || !is_in_range || has_blank_after_digit || !ends_with_digit {
         return None;
     }
-    // Combines neighbours: digits to two-digit numbers, these to four-digit numbers, and these to the result. Everything that belongs to
-    // no pair overflows at the top.
+    // Combine neighbours: digits to two-digit numbers, these to four-digit numbers, and these to the result. Everything that belongs to no pair
+    // overflows at the top.
     let twos = (values.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;
     let fours = (twos.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_FFFF_0000_FFFF;
     i32::try_from(fours.wrapping_mul(1 + (10_000 << 32)) >> 32).ok()
@@ -433,7 +433,7 @@ const fn three_characters(code: i32) -> u32 {
     hundreds | tens << 8 | (b'0' as u32 + (code % 10) as u32) << 16
 }
 
-/// The low nibbles of the first three characters, side by side.
+/// Returns the low nibbles of the first three characters, side by side.
 #[inline]
 const fn index(text: u32) -> usize {
     // The product shifts each nibble to its place; the mask removes the rest.

@@ -91,7 +91,7 @@ impl<'a> Header<'a> {
     }
 }
 
-/// Millimetres per unit of the drawing, or PB113.
+/// Returns the millimetres per unit of the drawing, or PB113.
 pub(crate) fn millimetres(header: &Header<'_>, units: Units) -> Result<f64, Fatal> {
     if units == Units::Millimetres {
         return Ok(1.0);
@@ -111,7 +111,7 @@ fn units_error(number: i64, name: &'static Text) -> Diagnostic {
     Diagnostic::new(&WRONG_UNITS).with("unit", name).quoting("number", number.to_string())
 }
 
-/// The name of a unit and its length in millimetres.
+/// Returns the name of a unit and its length in millimetres.
 fn unit(number: i64) -> Option<(&'static Text, f64)> {
     let index = usize::try_from(number).ok()?;
     UNITS.get(index).map(|(name, factor)| (name, *factor))

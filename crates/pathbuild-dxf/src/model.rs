@@ -22,7 +22,7 @@ use crate::pairs::Pairs;
 use crate::placement::Placement;
 use crate::shapes::{Array, Insert};
 
-/// Reads a drawing's model space.
+/// A reader of a drawing's model space.
 pub(crate) struct Model<'r, 'a, 'o> {
     reader: &'r mut EntityReader<'a, 'o>,
     collector: Collector<'r>,
@@ -205,7 +205,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         self.refuse_insertion(traits, &[layer], &trouble, around)
     }
 
-    /// Reports a missing block that is inserted on a layer that is not read, unless that layer is frozen.
+    /// Reports a missing block that is inserted on a layer that is not read. Reports nothing if that layer is frozen.
     fn note_missing(
         &mut self,
         traits: &CommonProperties,

@@ -155,7 +155,7 @@ impl Digits {
         Self(u64::from_le_bytes(characters) ^ ZEROS)
     }
 
-    /// Loads the first few of eight characters.
+    /// Loads the first `count` of eight characters.
     #[inline]
     fn first(characters: [u8; WIDTH], count: usize) -> Self {
         if count == 0 { Self(0) } else { Self(Self::of(characters).0 << (64 - 8 * count)) }
@@ -175,13 +175,13 @@ impl Digits {
         (Self(behind | before << 8), Some(WIDTH - 1 - points.trailing_zeros() as usize / 8))
     }
 
-    /// The value of the digits; `None` if some byte is no digit.
+    /// Returns the value of the digits; `None` if some byte is not a digit.
     #[inline]
     fn number(self) -> Option<u64> {
         let Self(digits) = self;
         let beyond_nine = (digits | digits.wrapping_add(ONE_PER_BYTE * 0x76)) & (ONE_PER_BYTE * 0x80);
-        // Combines neighbours: digits to two-digit numbers, these to four-digit numbers, and these to the result. Everything that belongs
-        // to no pair overflows at the top.
+        // Combine neighbours: digits to two-digit numbers, these to four-digit numbers, and these to the result. Everything that belongs to no pair
+        // overflows at the top.
         let twos = (digits.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;
         let fours = (twos.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_FFFF_0000_FFFF;
         (beyond_nine == 0).then(|| fours.wrapping_mul(1 + (10_000 << 32)) >> 32)

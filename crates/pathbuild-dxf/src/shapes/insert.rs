@@ -83,13 +83,14 @@ impl Array {
         Point::new(at.x, at.y)
     }
 
-    /// Maps the block's coordinates, with the base point at the origin, to those of the space for the first copy.
+    /// Returns the placement of the first copy. It maps the block's coordinates, with the base point at the origin, to those of the space that
+    /// contains the INSERT.
     fn first(&self) -> Placement {
         let moved = object(self.is_mirrored).composed_after(&Placement::translated(self.at));
         moved.composed_after(&Placement::rotated(self.turn)).composed_after(&self.scaled)
     }
 
-    /// The placements of all copies of a block with this base point.
+    /// Returns the placements of all copies of a block with this base point.
     pub(crate) fn copies(self, base: Point3) -> impl Iterator<Item = Placement> {
         let first = self.first().composed_after(&Placement::translated(Point3 {
             x: -base.x,
@@ -117,17 +118,17 @@ impl Steps {
     }
 }
 
-/// Maps object coordinates to those of the space.
+/// Returns the placement that maps object coordinates to those of the space that contains the INSERT.
 fn object(is_mirrored: bool) -> Placement {
     if is_mirrored { Placement::MIRRORED } else { Placement::IDENTITY }
 }
 
-/// An optional scale, 1 by default.
+/// Reads an optional scale, 1 by default.
 fn scale<'a>(fields: &Fields<'a>, code: i32) -> Result<f64, BadGroup<'a>> {
     Ok(fields.number(code)?.unwrap_or(1.0))
 }
 
-/// A number of copies; missing or 0 means one.
+/// Reads a number of copies; missing or 0 means one.
 fn count<'a>(fields: &Fields<'a>, code: i32) -> Result<u32, BadGroup<'a>> {
     let count = fields.whole(code)?.unwrap_or(1).max(1);
     Ok(u32::try_from(count).unwrap_or(u32::MAX))

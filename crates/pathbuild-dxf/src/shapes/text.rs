@@ -64,7 +64,7 @@ const ALIGNED_CODE: i64 = 3;
 const MIDDLE_CODE: i64 = 4;
 const FITTED_CODE: i64 = 5;
 
-/// The anchor of a TEXT, and its direction if two points define it.
+/// Returns the anchor of a TEXT, and its direction if two points define it.
 fn anchor<'a>(
     fields: &Fields<'a>,
     horizontal: i64,
@@ -85,7 +85,7 @@ fn between(a: Point3, b: Point3) -> Point3 {
     Point3 { x: f64::midpoint(a.x, b.x), y: f64::midpoint(a.y, b.y), z: f64::midpoint(a.z, b.z) }
 }
 
-/// Angle of a vector in degrees; `None` for a vector of zero length.
+/// Returns the angle of a vector in degrees; `None` for a vector of zero length.
 fn direction(x: f64, y: f64) -> Option<f64> {
     (x != 0.0 || y != 0.0).then(|| angle_of(x, y))
 }
@@ -107,7 +107,7 @@ fn vertical_align(code: i64) -> VerticalAlign {
     }
 }
 
-/// Attachment of an MTEXT: 1 to 9 are three rows of three, from top left to bottom right.
+/// Returns the alignment for an attachment of an MTEXT: 1 to 9 are three rows of three, from top left to bottom right.
 fn attachment_align(code: i64) -> (HorizontalAlign, VerticalAlign) {
     let horizontal = match code {
         2 | 5 | 8 => HorizontalAlign::Centre,
@@ -122,8 +122,8 @@ fn attachment_align(code: i64) -> (HorizontalAlign, VerticalAlign) {
     (horizontal, vertical)
 }
 
-/// Rotation of an MTEXT seen from above: 50 or 11/21, whichever comes later. A mirrored MTEXT is read from the other end, so that its lines
-/// run the same way.
+/// Returns the rotation of an MTEXT seen from above: 50 or 11/21, whichever comes later. A mirrored MTEXT is read from the other end, so that its
+/// lines run the same way.
 fn rotation<'a>(fields: &Fields<'a>, is_mirrored: bool) -> Result<f64, BadGroup<'a>> {
     let by_angle = fields.get(50).map(|value| value.line);
     let by_point = fields.get(11).map(|value| value.line).filter(|line| Some(*line) > by_angle);
@@ -165,7 +165,7 @@ fn plain_text(raw: &str) -> SmolStr {
         return raw.into();
     }
     let mut plain = SmolStrBuilder::new();
-    // Searched only once: thousands of unterminated commands would otherwise each search the whole rest.
+    // Search for the last `;` only once: thousands of unterminated commands would otherwise each search the whole rest.
     let behind_last = raw.rfind(';').map_or(raw.len(), |last| raw.len() - last - 1);
     let mut rest = raw;
     while let Some(special) = rest.bytes().position(is_special) {

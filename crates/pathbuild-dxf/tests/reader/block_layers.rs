@@ -132,7 +132,7 @@ fn blocks_that_name_very_many_layers_are_looked_at_in_time() {
     assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
 }
 
-/// Damage is reported only then: otherwise the blocks are not read, like other unused sections.
+/// Damage in blocks is reported only if they may contain something wanted: otherwise they are not read, like other unused sections.
 #[test]
 fn what_is_broken_in_blocks_is_told_if_they_may_hold_something_wanted() {
     let broken = |content: &str| drawing(content).replace(" 62\n1\n", " 6x\n1\n");

@@ -129,7 +129,7 @@ fn a_record_whose_beginning_is_lost_is_an_error_where_all_are_read() {
     assert!(said.starts_with("PB002") && said.contains("expected a group code here"), "{said}");
 }
 
-/// Reading would take hours if any part were examined twice.
+/// Reading would take hours if any part of the tables were examined twice.
 #[test]
 fn tables_full_of_the_name_are_read_in_time() {
     let many = |line: &str| line.repeat(100_000);
