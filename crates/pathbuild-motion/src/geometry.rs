@@ -5,9 +5,9 @@ use std::f64::consts::{PI, TAU};
 /// A position in the program's first coordinate system, in mm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Position {
-    /// X, Y and Z in mm. The value of an axis that is not in `known` is no position.
+    /// X, Y and Z in mm. The value of an axis that is not in `known` is not a coordinate of this system.
     pub at: [f64; 3],
-    /// The axes whose coordinate is known. All are unknown at the start of the program; some become unknown after a move to a named position or a
+    /// The axes with a known coordinate. All are unknown at the start of the program; some become unknown after a move to a named position or a
     /// probe.
     pub known: Axes,
 }
@@ -157,8 +157,8 @@ pub struct Arc {
     pub extra_turns: u32,
 }
 
-/// Difference of directions, in radians, up to which they are equal. An arc whose ends are in equal directions from its centre is a full circle, as
-/// in GRBL.
+/// Difference in radians up to which two directions count as equal. An arc with both ends in equal directions from its centre is a full circle, as in
+/// GRBL.
 const SAME_DIRECTION: f64 = 5e-7;
 
 /// Maximum rounding error of an angle after a rotation, in radians.
@@ -237,7 +237,7 @@ impl Arc {
     }
 }
 
-/// Returns the widest angle in radians of a chord whose distance from the circle is at most `tolerance` mm; never more than a quarter turn.
+/// Returns the widest angle in radians of a chord that stays within `tolerance` mm of the circle; never more than a quarter turn.
 pub fn widest_chord(radius: f64, tolerance: f64) -> f64 {
     (2.0 * libm::acos(1.0 - tolerance / radius.max(tolerance))).min(PI / 2.0)
 }
@@ -249,7 +249,7 @@ pub struct Course {
     from: [f64; 3],
     to: [f64; 3],
     sweep: f64,
-    /// The radius in mm at the start. `growth` is its increase along the arc, as a fraction of it.
+    /// The radius in mm at the start. `growth` is the increase of the radius along the arc, as a fraction of `radius`.
     radius: f64,
     growth: f64,
 }

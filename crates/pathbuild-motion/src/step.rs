@@ -153,9 +153,9 @@ impl fmt::Debug for Coolant {
 }
 
 impl Coolant {
-    /// Only flood coolant (M8).
+    /// Flood coolant alone (M8).
     pub const FLOOD: Self = Self { mist: false, flood: true };
-    /// Only mist (M7).
+    /// Mist alone (M7).
     pub const MIST: Self = Self { mist: true, flood: false };
     /// No coolant (M9).
     pub const OFF: Self = Self { mist: false, flood: false };
@@ -193,9 +193,9 @@ pub enum Change {
 /// The active tool length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ToolLength {
-    /// No length (G49).
+    /// No tool length applies (G49).
     Off,
-    /// G43 H: the length of an entry in the tool table, or without H that of the tool in the spindle.
+    /// G43 H: the length in an entry of the tool table or, without H, the length of the tool in the spindle.
     OfTool(Option<u32>),
     /// Any other length: G43.1, G43.2, G44, or G43 with only X or Y.
     Other,

@@ -2,7 +2,7 @@
 
 use pathbuild_motion::WrittenArc;
 
-/// Arcs, each with start, end, and centre relative to the start, whose rounded radii differ by more than 0.002 mm.
+/// Arcs with rounded radii that differ by more than 0.002 mm. Each has a start, an end, and a centre relative to the start.
 const UNLUCKY: [[[f64; 2]; 3]; 3] = [
     [
         [17.795_257_996_527_887, -5.848_451_641_270_525],
