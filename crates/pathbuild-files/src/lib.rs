@@ -30,8 +30,8 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 
 /// File operations of the operating system, or of a substitute such as a [`MemorySystem`].
 pub trait System: Debug + Send + Sync {
-    /// Reads a file into a buffer, whose old content is overwritten, and returns the file's stamp. The stamp is unknown if it differs
-    /// before and after reading, or if the system has none: then the file must be read again to find out whether it has changed.
+    /// Reads a file into a buffer, overwriting its old content, and returns the file's stamp. The stamp is unknown if it differs before and after
+    /// reading, or if the system has none: then the file must be read again to find out whether it has changed.
     ///
     /// # Errors
     /// If there is no such regular file, it cannot be read, or it has more bytes than `limit`. The content of the buffer is then undefined.
@@ -63,7 +63,7 @@ pub trait System: Debug + Send + Sync {
     /// The errors of [`read`](Self::read).
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError>;
 
-    /// Calls `take` for each entry of a directory, in no particular order, until it asks to stop. Links are not resolved.
+    /// Calls `take` for each entry of a directory, in no particular order, until `take` asks to stop. Links are not resolved.
     ///
     /// # Errors
     /// The errors of [`read`](Self::read), possibly after some entries.

@@ -12,7 +12,7 @@ use std::time::Duration;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::reasons::{TOO_MANY_TEMPORARY, WRITE_PROTECTED, is_opened_exclusively, text_error};
 
-/// Replaces a file, unless it is write-protected; an existing link is not followed. A private file has access for its owner only.
+/// Replaces a file; refuses to if it is write-protected. An existing link is replaced and not followed. Only the owner has access to a private file.
 ///
 /// # Errors
 /// If it cannot be written; the previous file remains.

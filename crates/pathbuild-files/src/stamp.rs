@@ -26,7 +26,7 @@ pub struct Stamp([u64; 6]);
 #[derive(Clone, Copy, Debug)]
 pub struct Clock(SystemTime);
 
-/// Name of the temporary file whose modification time shows the clock of the file system.
+/// Name of the temporary file that is created to read the clock of the file system from its modification time.
 pub const CLOCK: &str = "clock";
 
 /// Coarsest time resolution of a file system in use (FAT).
@@ -36,7 +36,7 @@ impl Stamp {
     /// Stamp of a file that does not exist.
     pub const MISSING: Self = Self([u64::MAX; 6]);
 
-    /// Stamp that equals that of no file.
+    /// A stamp that no file has.
     pub const UNKNOWN: Self = Self([0; 6]);
 
     /// Returns the stamp of a file, following symbolic links; [`UNKNOWN`](Self::UNKNOWN) if its metadata cannot be read.

@@ -31,8 +31,8 @@ fn a_file_may_have_as_many_bytes_as_the_limit() {
     assert_eq!(OsSystem.read(&path, 999), Err(ReadError::TooLarge { size: 1000 }));
 }
 
-/// Files of the kernel report no size, but are read nevertheless. This one contains the environment of a process, and can be read once the process
-/// runs.
+/// Files of the kernel report no size, but are read nevertheless. The file in this test contains the environment of a process, and can be read once
+/// the process runs.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_file_that_is_longer_than_it_says_is_read_up_to_the_limit() {
