@@ -122,7 +122,7 @@ fn deserialize_bytes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<u
     <&[u8]>::deserialize(deserializer).map(<[u8]>::to_vec)
 }
 
-/// Identifies a set of cached results: program build, settings, and query.
+/// The identity of a set of cached results: program build, settings, and query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
     /// Hash of the program's build.

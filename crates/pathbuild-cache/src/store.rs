@@ -127,7 +127,7 @@ fn is_own_tag(tag: &[u8]) -> bool {
     tag == TAG_TEXT.as_bytes()
 }
 
-/// Whether the directory's tree file was written by pathbuild: the directory is named after that tree.
+/// Whether pathbuild wrote the directory's tree file: then the directory has the name that pathbuild gives to the tree in that file.
 fn is_own_tree(directory: &Utf8Path) -> bool {
     recorded_tree(directory).is_some_and(|tree| directory.file_name() == Some(&tree_directory_name(&tree)))
 }

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use crate::catalogue::{Catalogue, DirectoryFact, FileFact};
 
-/// A test of whether the file of the first name may contain the path of the second name.
+/// A function that returns whether the file with the first name may contain the path with the second name.
 pub type CoversFn<'a> = &'a (dyn Fn(&str, &str) -> bool + Sync);
 
 /// A file's bytes, and the stamp under which they were read.
@@ -310,7 +310,7 @@ impl Listing {
         }
     }
 
-    /// Lists a directory. A missing directory is empty; one that cannot be read makes the listing doubtful.
+    /// Lists a directory. A missing directory counts as empty. If the directory cannot be read, the listing is doubtful.
     fn of(directory: &Utf8Path) -> Self {
         let mut listing = Self::default();
         let entries = match fs::read_dir(directory) {

@@ -1,4 +1,4 @@
-//! A stored catalogue is loaded unchanged, and its results hold as long as their inputs are unchanged.
+//! Tests that a stored catalogue is loaded unchanged, and that its results hold as long as their inputs are unchanged.
 
 #![allow(
     clippy::unwrap_used,
@@ -118,7 +118,7 @@ fn a_catalogue_is_found_under_its_key_and_build_only() {
     assert_eq!(place.load(&Key::new("other", "question")), Err(CacheFault::Foreign));
 }
 
-/// Writes a file and waits. Returns the file with the time at which a run begins afterwards.
+/// Writes a file and waits for `rest`. Returns the file, and the time at which a run begins afterwards.
 fn written(base: &Utf8Path, rest: Duration) -> (Utf8PathBuf, Clock) {
     let file = base.join("a.dxf");
     fs::write(&file, "one").unwrap();
