@@ -96,7 +96,7 @@ impl<'a> Blocks<'a> {
         Ok(blocks)
     }
 
-    /// Finds a block by name, ignoring case. An external reference that the file does not contain is no block.
+    /// Finds a block by name, ignoring case. An external reference without contents in the file does not count as a block.
     pub(crate) fn find(&self, name: &str) -> Option<BlockId> {
         self.by_name
             .get(&case_folded(name))
@@ -109,7 +109,7 @@ impl<'a> Blocks<'a> {
         self.all[block.0].base.clone()
     }
 
-    /// The contents of a block that may be wanted.
+    /// Returns the items in a block that may be wanted.
     pub(crate) fn items(
         &mut self,
         block: BlockId,
@@ -132,7 +132,7 @@ impl<'a> Blocks<'a> {
         Ok(items)
     }
 
-    /// The wanted layers on which inserting a block on a layer draws something or reports a fault.
+    /// Returns the wanted layers on which an insertion of this block on this layer draws something or reports a fault.
     pub(crate) fn wanted_layers(
         &mut self,
         block: BlockId,
@@ -146,15 +146,15 @@ impl<'a> Blocks<'a> {
         let (wanted, seen) = self.look_for_wanted(block, layer, reader, steps)?;
         let wanted: Rc<[LayerId]> = wanted.into();
         if wanted.is_empty() {
-            // Nothing nested in it is wanted either, so all visited blocks share the result.
+            // Nothing in the nested blocks is wanted either, so all visited blocks share the result.
             self.wanted.extend(seen.into_iter().map(|seen| (seen, Rc::clone(&wanted))));
         }
         self.wanted.insert((block, layer), Rc::clone(&wanted));
         Ok(wanted)
     }
 
-    /// The names of the layers, wanted or not, that a block and the blocks nested in it draw on with more than texts and annotations. Layer
-    /// `0`, which stands for the layer of the insertion, is left out.
+    /// Returns the names of the layers, wanted or not, on which a block and the blocks nested in it draw more than texts and annotations. Layer `0`,
+    /// which stands for the layer of the insertion, is left out.
     pub(crate) fn drawn_layers(
         &mut self,
         block: BlockId,
@@ -222,7 +222,7 @@ impl<'a> Blocks<'a> {
         Ok((wanted, seen))
     }
 
-    /// The layers of a block's contents that may be wanted.
+    /// Determines the layers of a block's contents that may be wanted.
     fn layers(&mut self, block: BlockId, reader: &mut EntityReader<'a, '_>) -> Result<BlockLayers, Fatal> {
         let block = &mut self.all[block.0];
         if matches!(block.layers, BlockLayers::Unknown) {
@@ -239,7 +239,7 @@ impl<'a> Blocks<'a> {
         Ok(block.layers.clone())
     }
 
-    /// The block that an item inserts, if the file defines it.
+    /// Returns the block that an item inserts; `None` if the file does not define it.
     fn inserted(&self, item: &Item<'_>) -> Option<BlockId> {
         match &item.shape {
             Ok(Shape::Insert(insert)) => self.find(&insert.block),
@@ -277,7 +277,7 @@ pub(crate) struct StepBudget {
 const STEPS_PER_ENTITY: usize = 16;
 
 impl StepBudget {
-    /// The budget of a drawing with this limit of entities.
+    /// Creates the budget of a drawing with this limit of entities.
     pub(crate) fn new(most_entities: usize) -> Self {
         Self { left: most_entities.saturating_mul(STEPS_PER_ENTITY), most_entities }
     }

@@ -16,7 +16,7 @@ use crate::pairs::{Pair, Stop};
 /// An error that ends the reading of a file.
 pub(crate) type Fatal = Box<Diagnostic>;
 
-/// PB002: a value is not a number.
+/// Returns PB002 for a value that is not a number.
 pub(crate) fn bad_value_error(entity: &str, code: i32, value: &[u8], reason: NotANumber) -> Diagnostic {
     let text = value_excerpt(value);
     let (message, fault) = match (reason, text.find(',')) {
@@ -32,7 +32,7 @@ pub(crate) fn bad_value_error(entity: &str, code: i32, value: &[u8], reason: Not
         .with_text(fault)
 }
 
-/// PB002: the file ends inside a section.
+/// Returns PB002 for a file that ends inside a section.
 pub(crate) fn stop_error(stop: Stop<'_>, section: &str) -> Fatal {
     Box::new(match stop {
         Stop::End { line } => Diagnostic::new(&TRUNCATED).quoting("section", section).at_line(line, None),
@@ -40,12 +40,12 @@ pub(crate) fn stop_error(stop: Stop<'_>, section: &str) -> Fatal {
     })
 }
 
-/// PB002: a pair that is not allowed in its place.
+/// Returns PB002 for a pair that is not allowed in its place.
 pub(crate) fn pair_error(message: &'static Message, pair: &Pair<'_>) -> Fatal {
     Box::new(Diagnostic::new(message).quoting("found", value_excerpt(pair.value)).at_line(pair.line, None))
 }
 
-/// PB002: a pair where the end of a section is missing.
+/// Returns PB002 for a pair that stands where a section should end.
 pub(crate) fn missing_end_error(section: &str, found: &Pair<'_>) -> Fatal {
     let mut diagnostic = pair_error(&SECTION_NOT_ENDED, found);
     diagnostic.arguments.push(("section", Value::quoted(section)));
@@ -58,7 +58,7 @@ fn bad_code_error(found: &[u8], line: u32) -> Diagnostic {
     Diagnostic::new(&BAD_GROUP_CODE).quoting("found", found).at_line(line, None).with_text(fault)
 }
 
-/// A value for a message: trimmed, shortened, in any encoding.
+/// Formats a value for a message: trims and shortens it, whatever its encoding.
 pub(crate) fn value_excerpt(value: &[u8]) -> String {
     let value = value.trim_ascii();
     String::from_utf8_lossy(&value[..value.len().min(MAX_EXCERPT_BYTES)]).into_owned()
@@ -101,19 +101,19 @@ impl<'a> From<BadGroup<'a>> for EntityError<'a> {
 }
 
 impl<'a> EntityError<'a> {
-    /// Leaves an entity out for this reason, at its first point.
+    /// Creates the error of an entity that is left out for this reason. Its place is the entity's first point.
     pub(crate) fn omitted(message: &'static Message, fields: &Fields<'a>) -> Self {
         Self::LeftOut { message, point: first_point(fields), block: None, layers: Arc::default() }
     }
 }
 
-/// The point 10/20 of an entity, or else 11/21, which is the first fit point of a spline without control points.
+/// Returns the point 10/20 of an entity, or else 11/21, which is the first fit point of a spline without control points.
 pub(crate) fn first_point(fields: &Fields<'_>) -> Option<Point> {
     fields.point(10).or_else(|_| fields.point(11)).ok().map(|point| Point::new(point.x, point.y))
 }
 
 impl BadGroup<'_> {
-    /// The diagnostic, with the line if a value is at fault.
+    /// Returns the diagnostic, with the line if a value is at fault.
     pub(crate) fn diagnostic(&self, kind: EntityKind) -> Diagnostic {
         let entity = kind.name();
         match self {

@@ -54,7 +54,7 @@ struct File<'a> {
     blocks: Option<Pairs<'a>>,
 }
 
-/// The end of the sections before the entities: the ENTITIES section, or the end of the file.
+/// The end of the sections that precede the entities: either ENTITIES begins, or the file ends.
 enum PreambleEnd {
     Entities,
     EndOfFile,
@@ -106,7 +106,7 @@ impl<'a> File<'a> {
         self.next_head().map_err(missing_entities_error)
     }
 
-    /// The next pair that is not a comment.
+    /// Reads the next pair that is not a comment.
     fn next_head(&mut self) -> Result<Pair<'a>, Stop<'a>> {
         loop {
             let pair = self.pairs.next()?;

@@ -51,11 +51,11 @@ pub(crate) struct UsedLayer {
     pub(crate) line_type: SmolStr,
     /// Whether the layer is frozen or off.
     pub(crate) hidden: bool,
-    /// Whether the layer is frozen: then blocks inserted on it are invisible as a whole.
+    /// Whether the layer is frozen, so that blocks inserted on it are invisible as a whole.
     pub(crate) is_frozen: bool,
 }
 
-/// Number of layers to reserve room for.
+/// Number of layers for which memory is reserved in advance.
 const RESERVED_LAYERS: usize = 16;
 
 impl<'a, 'o> Layers<'a, 'o> {
@@ -228,7 +228,7 @@ impl<'a> LayerTable<'a> {
     }
 }
 
-/// The longest part of a name that is the same in any case and code page: ASCII without escapes and letters.
+/// Returns the longest part of a name that is the same in any case and code page: ASCII without escapes and letters.
 fn case_independent_part(name: &[u8]) -> &[u8] {
     let is_uncertain = |byte: &u8| !byte.is_ascii() || byte.is_ascii_alphabetic() || *byte == b'\\';
     name.split(is_uncertain).max_by_key(|part| part.len()).unwrap_or_default()
@@ -299,8 +299,8 @@ impl<'a> LayerTableReader<'_, 'a, '_> {
         Ok(layers)
     }
 
-    /// Reads records up to the one with this name, at least those that contain a text. From a match on, the table is read pair by pair from the
-    /// start of the record, so that no broken record is overlooked.
+    /// Reads at least the records that contain the bytes `written`, up to the record with the name `wanted`. From a match on, the table is read pair
+    /// by pair from the start of the record, so that no broken record is overlooked.
     fn read_until(
         &mut self,
         mut tables: Pairs<'a>,
@@ -351,7 +351,7 @@ fn is_end_of_table(head: &Pair<'_>) -> bool {
 /// The line type where none is given.
 pub(crate) const CONTINUOUS: SmolStr = SmolStr::new_static("CONTINUOUS");
 
-/// The line type of an entity as written.
+/// The line type of an entity as the file states it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LineType {
     /// The line type of the entity's layer, which also applies if the entity names none.
@@ -362,7 +362,7 @@ pub(crate) enum LineType {
     Named(u32),
 }
 
-/// Number of line types to reserve room for.
+/// Number of line types for which memory is reserved in advance.
 const USUAL_LINE_TYPES: usize = 8;
 
 /// The names of line types that entities use.
@@ -385,14 +385,14 @@ impl Default for LineTypes<'_> {
 }
 
 impl<'a> LineTypes<'a> {
-    /// The line type for this value of group 6.
+    /// Returns the line type for this value of group 6.
     #[inline]
     pub(crate) fn get(&mut self, value: Option<Value<'a>>, decoder: &mut Decoder<'_>) -> LineType {
         let Some(value) = value else { return LineType::ByLayer };
         self.by_spelling.get(value.bytes).unwrap_or_else(|| self.first_use(value, decoder))
     }
 
-    /// The name with this index: upper case, without xref prefix.
+    /// Returns the name with this index: upper case, without xref prefix.
     pub(crate) fn name(&self, number: u32) -> &SmolStr {
         &self.names[number as usize]
     }
@@ -412,7 +412,7 @@ impl<'a> LineTypes<'a> {
     }
 }
 
-/// A line type's name folded for comparison: trimmed, without xref prefix, upper case.
+/// Folds the name of a line type for comparison: trimmed, without xref prefix, upper case.
 fn line_type_name(name: &str) -> SmolStr {
     case_folded(without_xref(name))
 }

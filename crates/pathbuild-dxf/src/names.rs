@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use smol_str::{SmolStr, StrExt};
 
-/// A name in upper case and without blanks around it, for comparison.
+/// Converts a name to upper case without surrounding blanks, for comparison.
 pub(crate) fn case_folded(name: &str) -> SmolStr {
     let name = name.trim();
     if name.is_ascii() { name.to_ascii_uppercase_smolstr() } else { name.to_uppercase_smolstr() }
@@ -27,7 +27,7 @@ fn has_xref_sign(name: &[u8]) -> bool {
     name.iter().any(|byte| matches!(byte, b'|' | b'$'))
 }
 
-/// Length of the prefix up to and including the last `$digits$`.
+/// Returns the length of the prefix up to and including the last `$digits$`.
 fn xref_prefix_length(name: &str) -> usize {
     let Some(last) = name.rfind('$') else { return 0 };
     let before = name[..last].trim_end_matches(|c: char| c.is_ascii_digit());
@@ -115,7 +115,7 @@ impl ShortSpelling {
         Some(Self { length, characters })
     }
 
-    /// The preferred slot, by a hash that separates usual names.
+    /// Returns the preferred slot, found by a hash that separates usual names.
     #[inline]
     fn preferred_slot(&self) -> usize {
         const MULTIPLIER: u64 = 0x9E37_79B9_7F4A_7C15;

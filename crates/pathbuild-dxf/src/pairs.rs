@@ -65,7 +65,7 @@ impl Pair<'_> {
 }
 
 impl<'a> Pairs<'a> {
-    /// Starts at the beginning of a file.
+    /// Creates an iterator at the beginning of a file.
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
         Self { bytes, at: 0, line: 1, line_end: line_end(bytes) }
     }
@@ -103,7 +103,7 @@ impl<'a> Pairs<'a> {
         self.line_end
     }
 
-    /// Continues at another position of the same file, whose line is given.
+    /// Returns the pairs of the same file from another position on; `line` is the line at that position.
     pub(crate) fn at(&self, at: usize, line: u32) -> Self {
         Self { at, line, ..*self }
     }
@@ -143,7 +143,7 @@ impl<'a> Pairs<'a> {
         &rest[..length]
     }
 
-    /// The error for a line without a group code, which is not consumed.
+    /// Returns the error for a line without a group code. The line is not consumed.
     #[cold]
     fn missing_code_error(&mut self, at: usize, line: &'a [u8]) -> Stop<'a> {
         self.at = at;
@@ -161,7 +161,7 @@ const LONGEST_PADDING: usize = 1 << 16;
 /// Largest number of bytes of a faulty line shown in a message.
 const MAX_EXCERPT_BYTES: usize = 60;
 
-/// Length of the first line without its end.
+/// Returns the length of the first line without its end.
 #[inline]
 pub(crate) fn line_length(line_end: u8, lines: &[u8]) -> usize {
     memchr(line_end, lines).unwrap_or(lines.len())
@@ -224,14 +224,14 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// The pairs after the next one with this code and keyword. Lines in between are not counted.
+    /// Returns the pairs after the next one with this code and keyword. Lines in between are not counted.
     pub(crate) fn after_next(&self, code: &str, keyword: &Keyword) -> Option<Self> {
         let mut pairs = self.at(self.find_pair(code, keyword)?, self.line());
         pairs.next().ok()?;
         Some(pairs)
     }
 
-    /// Position of the next pair with this code and keyword.
+    /// Finds the position of the next pair with this code and keyword.
     pub(crate) fn find_pair(&self, code: &str, keyword: &Keyword) -> Option<usize> {
         let from = self.consumed();
         let length = keyword.needle().len();
@@ -239,14 +239,14 @@ impl<'a> Pairs<'a> {
         found.find_map(|at| self.pair_start(code.as_bytes(), from + at..from + at + length))
     }
 
-    /// Position of the last pair with this code and keyword before `end`.
+    /// Finds the position of the last pair with this code and keyword before `end`.
     pub(crate) fn find_last_pair(&self, code: &str, keyword: &str, end: usize) -> Option<usize> {
         let from = self.consumed();
         let mut found = rfind_iter(self.bytes().get(from..end)?, keyword);
         found.find_map(|at| self.pair_start(code.as_bytes(), from + at..from + at + keyword.len()))
     }
 
-    /// Position of the unconsumed pair that has this code and the value at this range, if there is one.
+    /// Returns the position of the unconsumed pair that has this code and the value at this range, if there is one.
     fn pair_start(&self, code: &[u8], value: Range<usize>) -> Option<usize> {
         let (before, after) = (&self.bytes()[..value.start], &self.bytes()[value.end..]);
         let before = trim_blanks_end(before).strip_suffix(&[self.line_end()])?;

@@ -38,7 +38,7 @@ impl Placement {
         Self { x_axis: (scale, 0.0), scale, z_scale: scale, ..Self::IDENTITY }
     }
 
-    /// The composition that applies `first` and then this one.
+    /// Returns the placement that applies `first` and then this one.
     pub(crate) fn composed_after(&self, first: &Self) -> Self {
         let (x, y) = first.x_axis;
         Self {
@@ -162,7 +162,7 @@ impl Geometry {
     }
 }
 
-/// The mirrored alignment.
+/// Returns the mirrored alignment.
 pub(crate) fn opposite(side: HorizontalAlign) -> HorizontalAlign {
     match side {
         HorizontalAlign::Left => HorizontalAlign::Right,
@@ -171,7 +171,7 @@ pub(crate) fn opposite(side: HorizontalAlign) -> HorizontalAlign {
     }
 }
 
-/// Cosine and sine of an angle in degrees. Right angles, which most drawings consist of, are exact.
+/// Computes the cosine and sine of an angle in degrees. They are exact for right angles, of which most drawings consist.
 fn cos_sin(degrees: f64) -> (f64, f64) {
     let turned = libm::fmod(degrees, 360.0);
     let turned = if turned < 0.0 { turned + 360.0 } else { turned };
@@ -187,7 +187,7 @@ fn cos_sin(degrees: f64) -> (f64, f64) {
     }
 }
 
-/// The angle in degrees of a vector of non-zero length.
+/// Returns the angle in degrees of a vector of non-zero length.
 pub(crate) fn angle_of(x: f64, y: f64) -> f64 {
     libm::atan2(y, x).to_degrees()
 }

@@ -92,7 +92,7 @@ fn copy_limited(bytes: &[u8], limit: u64, room: &mut Vec<u8>) -> Result<Stamp, R
     Ok(Stamp::UNKNOWN)
 }
 
-/// Iterates over the files below a directory, at any depth. Paths are ordered component by component, so these are consecutive.
+/// Iterates over the files below a directory, at any depth. Paths are ordered component by component, so the paths of these files are consecutive.
 fn files_below<'a>(
     files: &'a BTreeMap<Utf8PathBuf, Vec<u8>>,
     directory: &Utf8Path,

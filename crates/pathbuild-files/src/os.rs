@@ -238,8 +238,8 @@ fn holds(path: &Utf8Path, bytes: &[u8]) -> bool {
     OsSystem.read(path, bytes.len() as u64).is_ok_and(|present| present == bytes)
 }
 
-/// Temporary files in each directory that was listed, from its first listing. Each directory is searched at most once per run, and a listing made
-/// for another purpose serves as well.
+/// Temporary files that were found by the first listing of each directory. Each directory is searched at most once per run; a listing made for
+/// another purpose counts as that search.
 static LISTED_DEBRIS: LazyLock<Mutex<HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>>> = LazyLock::new(Mutex::default);
 
 /// Records the temporary files found while listing a directory.

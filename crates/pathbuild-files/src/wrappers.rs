@@ -12,15 +12,15 @@ use pathbuild_diagnostic::reasons::LEADS_OUT;
 
 use super::{Entry, FileKind, FileLink, Listing, ReadError, Stamp, System, WriteOutcome, clean};
 
-/// Wraps another system and refuses to read or write through links that lead from inside one of the given directories to outside of it. A path
-/// that, as written, lies outside of them is allowed: names from the repository itself are checked with [`ConfinedSystem::is_in_configured_root`] first, so such a
-/// path was given by the user.
+/// A wrapper that refuses to read or write through links that lead from inside one of the given directories to outside of it. A path that, as
+/// written, lies outside of all of them is allowed: names from the repository itself are checked with [`ConfinedSystem::is_in_configured_root`] first, so such
+/// a path was given by the user.
 #[derive(Clone, Debug)]
 pub struct ConfinedSystem {
     below: Arc<dyn System>,
     /// Directory that relative paths are resolved against.
     working_directory: Utf8PathBuf,
-    /// The directories that links must not lead out of, starting with the one of the configuration.
+    /// The directories that links must not lead out of, starting with that of the configuration.
     roots: Vec<Root>,
 }
 
@@ -108,7 +108,8 @@ impl ConfinedSystem {
         if self.allows(path) { Ok(&*self.below) } else { Err(ReadError::Other(Value::Prose(&LEADS_OUT))) }
     }
 
-    /// Checks the parent directory, since writing replaces a link instead of following it.
+    /// Returns the wrapped system if the file at this path may be replaced or removed. Checks the parent directory, since writing replaces a link
+    /// instead of following it.
     fn check_changeable(&self, path: &Utf8Path) -> Result<&dyn System, Value> {
         let directory = path.parent().unwrap_or(Utf8Path::new(""));
         if self.allows(directory) { Ok(&*self.below) } else { Err(Value::Prose(&LEADS_OUT)) }
@@ -165,8 +166,8 @@ impl System for ConfinedSystem {
     }
 }
 
-/// Wraps another system and resolves relative paths against a fixed directory. The working directory of the process may change at any time, and a
-/// program that embeds pathbuild chooses it for reasons of its own.
+/// A wrapper that resolves relative paths against a fixed directory. The working directory of the process may change at any time, and a program that
+/// embeds pathbuild chooses it for reasons of its own.
 #[derive(Clone, Debug)]
 pub struct BasedSystem {
     below: Arc<dyn System>,

@@ -85,19 +85,19 @@ enum PieceShape {
 /// Largest height over the chord, in mm, of an arc that becomes a line: its radius would be too large to be accurate.
 const MAX_LINE_HEIGHT: f64 = 1e-7;
 
-/// The biarc between two rays, or `None` if there is none, for example between opposite directions along their chord.
+/// Returns the biarc between two rays; `None` if there is none, for example between opposite directions along their chord.
 fn biarc(from: Ray, to: Ray) -> Option<[CurvePiece; 2]> {
     let chord = to.point.minus(from.point);
     let reach = control_distance(chord, from.direction, to.direction)?;
     let bend = from.direction.minus(to.direction).times(reach);
     let joint = from.point.plus(to.point).plus(bend).times(0.5);
     let first = piece(from.point, joint, from.direction);
-    // Constructed backwards from the end, since its direction is known.
+    // Construct the second piece backwards from the end, where its direction is known.
     let second = piece(to.point, joint, to.direction.times(-1.0)).reversed();
     Some([first, second])
 }
 
-/// Distance of the control polygon's corners from the ends.
+/// Returns the distance of the control polygon's corners from the ends.
 fn control_distance(chord: Vector, from: Vector, to: Vector) -> Option<f64> {
     let along = chord.dot(from.plus(to));
     let turn = 2.0 * (1.0 - from.dot(to)).max(0.0);
@@ -108,7 +108,7 @@ fn control_distance(chord: Vector, from: Vector, to: Vector) -> Option<f64> {
     (reach.is_finite() && reach > 0.0).then_some(reach)
 }
 
-/// The arc that leaves a point in a given direction and reaches another point.
+/// Returns the arc that leaves a point in a given direction and reaches another point.
 fn piece(start: Vector, end: Vector, direction: Vector) -> CurvePiece {
     let chord = end.minus(start);
     let aside = chord.dot(direction.left());
@@ -127,7 +127,7 @@ fn piece(start: Vector, end: Vector, direction: Vector) -> CurvePiece {
 }
 
 impl CurvePiece {
-    /// The line between two points.
+    /// Returns the line between two points.
     pub(crate) fn line(start: Vector, end: Vector) -> Self {
         Self { start, end, bend: PieceShape::Straight }
     }
@@ -142,7 +142,7 @@ impl CurvePiece {
         Self { start: self.end, end: self.start, bend }
     }
 
-    /// Distance of a point from the piece.
+    /// Returns the distance of a point from the piece.
     pub(crate) fn distance(&self, point: Vector) -> f64 {
         let to_ends = point.minus(self.start).length().min(point.minus(self.end).length());
         match self.bend {
@@ -175,7 +175,7 @@ impl CurvePiece {
         from_start(angle(point)) <= from_start(angle(self.end))
     }
 
-    /// The piece as the geometry of an entity; `None` if it has no length.
+    /// Returns the piece as the geometry of an entity; `None` if it has no length.
     pub(crate) fn geometry(&self, z: f64) -> Option<Geometry> {
         let point = |vector: Vector| Point3 { x: vector.x, y: vector.y, z };
         if self.start == self.end {
@@ -196,7 +196,7 @@ impl CurvePiece {
 
 /// A curve that is smooth over the interval in question.
 pub(crate) trait Curve {
-    /// The point at a parameter, and the derivative there.
+    /// Returns the point at a parameter, and the derivative there.
     fn at(&self, parameter: f64) -> (Vector, Vector);
 }
 
@@ -251,7 +251,7 @@ pub(crate) fn approximate(
     if pieces.len() > tolerance.most_pieces { Err(ApproximationFailure::TooMany) } else { Ok(()) }
 }
 
-/// The biarc that matches the ends and directions of the curve, if it is close enough, or a line if the curve has no direction there.
+/// Returns the biarc that matches the ends and directions of the curve, if it is close enough, or a line if the curve has no direction there.
 fn fit(curve: &impl Curve, from: f64, to: f64, distance: f64) -> Option<Vec<CurvePiece>> {
     let width = to - from;
     let rays = ray(curve, from, width).zip(ray(curve, to, -width));
@@ -266,8 +266,8 @@ fn fit(curve: &impl Curve, from: f64, to: f64, distance: f64) -> Option<Vec<Curv
     (1..SAMPLES).all(is_near).then_some(fitting)
 }
 
-/// A point of the curve with its direction. If the derivative vanishes at the point, the direction is taken slightly inside the span, on
-/// the side of `inwards`.
+/// Returns a point of the curve with its direction. If the derivative vanishes at the point, the direction is taken slightly inside the span, on the
+/// side of `inwards`.
 fn ray(curve: &impl Curve, parameter: f64, inwards: f64) -> Option<Ray> {
     /// Fraction of the span to move inwards for a direction.
     const STEP: f64 = 1e-3;
@@ -360,7 +360,7 @@ impl Ellipse {
     }
 }
 
-/// Range of the parameter: greater than 0, and a full turn according to [`is_full_turn`].
+/// Returns the range of the parameter, which is always greater than 0. It is a full turn if [`is_full_turn`] says so.
 fn sweep(start: f64, end: f64) -> f64 {
     if is_full_turn(end - start) {
         return TAU;
@@ -500,7 +500,7 @@ impl Groups {
         Ok(groups)
     }
 
-    /// The control points, or none if the number of weights does not match.
+    /// Returns the control points; an empty list if the number of weights does not match.
     fn control_points<'a>(&self) -> Result<Vec<ControlPoint>, BadGroup<'a>> {
         if !self.weights.is_empty() && self.weights.len() != self.points.len() {
             return Ok(Vec::new());
@@ -524,7 +524,7 @@ impl Curve for Span<'_> {
 }
 
 impl Span<'_> {
-    /// Value and derivative by de Boor's algorithm.
+    /// Computes value and derivative by de Boor's algorithm.
     fn homogeneous(&self, parameter: f64) -> (Homogeneous, Homogeneous) {
         let Spline { degree, knots, points, .. } = self.spline;
         let first = self.knot - degree;

@@ -41,7 +41,7 @@ pub(crate) struct OpenPolyline {
 }
 
 impl OpenPolyline {
-    /// Starts a POLYLINE.
+    /// Reads the groups of a POLYLINE itself, before its VERTEX records.
     pub(crate) fn begin<'a>(fields: &Fields<'a>) -> Result<Self, EntityError<'a>> {
         let flags = fields.whole(70)?.unwrap_or(0);
         if flags & (THREE_DIMENSIONAL_FLAG | MESH_FLAG | POLYFACE_FLAG) != 0 {
@@ -106,7 +106,7 @@ impl Corner {
     }
 }
 
-/// The pieces between corners, without those of zero length.
+/// Returns the pieces between corners, without those of zero length.
 fn pieces(corners: &[Corner], is_closed: bool, is_mirrored: bool) -> Vec<Geometry> {
     let next = corners.iter().skip(1).chain(corners.first().filter(|_| is_closed));
     let mut pieces: Vec<Geometry> =
@@ -136,7 +136,7 @@ fn piece(from: Corner, to: Corner) -> Option<Geometry> {
     })
 }
 
-/// The arc over a chord. Its height is the bulge times half the chord.
+/// Returns the arc over a chord. Its height is the bulge times half the chord.
 fn arc_from_bulge(start: Point3, end: Point3, bulge: f64) -> Arc {
     let [x, y] = [end.x - start.x, end.y - start.y];
     // Distance of the centre from the middle of the chord, to the left, in units of the chord.
