@@ -241,6 +241,21 @@ fn speeds_are_checked_only_if_the_spindle_starts() {
 }
 
 #[test]
+fn rounding_of_corners_is_checked_where_the_program_can_limit_it() {
+    let codes = |dialect: &str, corners: &str, configuration: &str| {
+        let text = format!("G17 G21 G90 G94\n{corners}\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG0 Z5\nM30\n");
+        let place = Place::new().file("a.nc", text).file("pathbuild.toml", configuration);
+        codes_of(&place.run(&format!("verify a.nc --dialect {dialect} --format concise --require corners")))
+    };
+    assert_eq!(codes("linuxcnc", "G64 P0.02", ""), [""; 0]);
+    assert_eq!(codes("linuxcnc", "G64 P0.03", ""), ["PB787"]);
+    assert_eq!(codes("linuxcnc", "G64 P0.03", "part-tolerance = 0.03\n"), [""; 0]);
+    assert_eq!(codes("linuxcnc", "G64", ""), ["PB523"]);
+    assert_eq!(codes("linuxcnc", "", ""), ["PB523"]);
+    assert_eq!(codes("mach3", "G64", ""), [""; 0], "no limit can be written");
+}
+
+#[test]
 fn the_configuration_may_require_checks() {
     let limits = "[machine]\ntravel = [300, 200, 60]\nmaximum-feed = 2000\n";
     let place = |configuration: &str| {

@@ -56,8 +56,8 @@ impl VerifyOptions {
         self
     }
 
-    /// Makes it an error if this check cannot be made: `rapids`, `rapids=assumed`, `envelope`, `feeds`, `spindle`, `drawing` or `clamps`. If this is
-    /// never called, the configuration decides.
+    /// Makes it an error if this check cannot be made: `rapids`, `rapids=assumed`, `envelope`, `feeds`, `spindle`, `drawing`, `clamps` or
+    /// `corners`. If this is never called, the configuration decides.
     pub fn require(mut self, check: impl Into<String>) -> Self {
         self.required.push(check.into());
         self

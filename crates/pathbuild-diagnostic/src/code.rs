@@ -265,6 +265,7 @@ codes! {
     784 SpinningAtChange "spinning-at-change" Warning "a tool change by hand while the spindle turns";
     785 WrongToolLength "wrong-tool-length" Error "a cut with the length of another tool, or without one";
     786 ProbeWithSpindleOn "probe-with-spindle-on" Error "a probing move with the spindle turning";
+    787 RoundedCorners "rounded-corners" Warning "the control may round corners by more than `part-tolerance`";
     790 DoubtfulChipLoad "doubtful-chip-load" Warning "a chip load outside the limits of `[tool]`";
 }
 

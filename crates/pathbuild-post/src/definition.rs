@@ -217,8 +217,17 @@ impl PostDefinition {
         let machine = options.machine.as_ref();
         let is_flat = matches!(&self.engine, Engine::CamBam(definition) if definition.is_flat());
         let milliseconds = options.milliseconds;
-        let expected =
-            ReadBackOptions { target, tolerance, machine, translated, is_manual, is_flat, milliseconds };
+        let part_tolerance = options.part_tolerance;
+        let expected = ReadBackOptions {
+            target,
+            tolerance,
+            machine,
+            part_tolerance,
+            translated,
+            is_manual,
+            is_flat,
+            milliseconds,
+        };
         read_back::check(text, job, &expected)
     }
 

@@ -43,6 +43,8 @@ pub struct PostOptions<'a> {
     pub spin_up: f64,
     /// Capabilities of the machine, if they are known.
     pub machine: Option<Machine>,
+    /// How far cuts may miss the outline of a part, in mm. (`part-tolerance`)
+    pub part_tolerance: f64,
     /// Access to the files that the definition inserts.
     pub files: &'a dyn PostFiles,
 }
@@ -65,6 +67,7 @@ impl Default for PostOptions<'_> {
             milliseconds: false,
             spin_up: 0.0,
             machine: None,
+            part_tolerance: 0.0,
             files: &NoFiles,
         }
     }

@@ -5,7 +5,7 @@ use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options};
-use pathbuild_gcode::verify::{Machine, MachineRules, Rules, Stock, Tolerance};
+use pathbuild_gcode::verify::{CornerRules, Machine, MachineRules, Rules, Stock, Tolerance};
 use pathbuild_motion::{
     Action, Axes, Change, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength, WorkSystem,
 };
@@ -28,6 +28,8 @@ pub(super) struct ReadBackOptions<'a> {
     pub(super) tolerance: Option<Tolerance>,
     /// Capabilities of the machine, if they are known.
     pub(super) machine: Option<&'a Machine>,
+    /// How far cuts may miss the outline of a part, in mm.
+    pub(super) part_tolerance: f64,
     /// The translation to RS274 of a text without a target.
     pub(super) translated: Option<&'a TranslatedText>,
     /// Whether the program need not switch the spindle, because the operator does it or the target has no word for it.
@@ -45,8 +47,7 @@ pub(super) fn check(
     job: &Job,
     expected: &ReadBackOptions<'_>,
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    let ReadBackOptions { target, tolerance, machine, translated, is_manual, is_flat, milliseconds } =
-        expected;
+    let ReadBackOptions { target, tolerance, translated, is_manual, is_flat, milliseconds, .. } = expected;
     let reader = target.map_or(Dialect::LinuxCnc, |target| target.reader);
     let options = Options { milliseconds: *milliseconds, ..Options::default() };
     let read = interpret::interpret(text, reader, &options);
@@ -65,7 +66,7 @@ pub(super) fn check(
     if tolerance.is_some() {
         problems.extend(skippable(text, &read.steps));
     }
-    let (mut broken, mut doubts) = broken_rules(&read.steps, job, *machine);
+    let (mut broken, mut doubts) = broken_rules(&read.steps, job, expected);
     if target.is_none() && (tolerance.is_none() || !is_started(&read.steps)) {
         // The text's words may mean something other than the spindle, or the operator switches it and the final M5 is only for safety.
         broken.retain(|problem| !is_rule_of_spindle(problem));
@@ -220,20 +221,26 @@ fn chosen_offsets(steps: &[Step]) -> Vec<Diagnostic> {
 const MOST_DOUBTS: usize = 5;
 
 /// Checks the rules of `verify` that do not depend on the material. (book: program/reading)
-fn broken_rules(steps: &[Step], job: &Job, machine: Option<&Machine>) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
+fn broken_rules(
+    steps: &[Step],
+    job: &Job,
+    expected: &ReadBackOptions<'_>,
+) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let stock = job.lowest_surface().map(|surface| Stock::uniform(surface, 1.0));
     let mut rules = Rules::new(stock.as_ref());
-    let mut limits = machine.map(MachineRules::new);
+    let mut limits = expected.machine.map(MachineRules::new);
+    let mut corners = CornerRules::new(expected.part_tolerance);
     for step in steps {
         if let Some(limits) = &mut limits {
             limits.step(step);
         }
         rules.step(step);
+        corners.step(step);
     }
     let mut found = limits.map(MachineRules::finish).unwrap_or_default();
     found.extend(rules.finish());
     found.sort_by_key(|problem| problem.place.line);
-    let (mut broken, mut doubts) = (Vec::new(), Vec::new());
+    let (mut broken, mut doubts) = (Vec::new(), Vec::from_iter(corners.finish()));
     for mut problem in found {
         // Programs that were not written by pathbuild only get a warning for these problems; a program that is about to be written must
         // not have them.

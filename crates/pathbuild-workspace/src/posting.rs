@@ -139,6 +139,7 @@ impl PostProcessor {
             spin_up: settings.machine.spin_up.value,
             milliseconds: settings.machine.dwell.value == types::DwellTime::Milliseconds,
             machine: machine(settings),
+            part_tolerance: general.part_tolerance.value,
             ..PostOptions::default()
         };
         let directory = file.as_deref().map(|file| file.parent().unwrap_or(Utf8Path::new("")).to_owned());

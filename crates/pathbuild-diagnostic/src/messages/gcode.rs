@@ -721,6 +721,13 @@ messages! {
         help_en: "stop it with M5 before, and start it again after probing",
         help_de: "vorher mit M5 anhalten und nach dem Antasten wieder einschalten",
     }
+    /// G64 with a P above the limit.
+    CORNERS_ROUNDED: RoundedCorners {
+        en: "the control may round corners by up to {most} mm (G64 P), which is more than {limit} mm",
+        de: "die Steuerung darf Ecken um bis zu {most} mm verrunden (G64 P), das sind mehr als {limit} mm",
+        help_en: "write G64 with a P of at most {limit} mm, or G61; if the part permits more, set `part-tolerance` in pathbuild.toml",
+        help_de: "G64 mit einem P von höchstens {limit} mm schreiben, oder G61; erlaubt das Teil mehr, `part-tolerance` in pathbuild.toml setzen",
+    }
     /// A probing move without length.
     PROBE_WITHOUT_WAY: UselessProbe {
         en: "the probing move ends where it begins",

@@ -312,6 +312,33 @@ fn lines_that_a_switch_can_skip_must_not_be_needed() {
     }
 }
 
+#[test]
+fn corners_are_rounded_within_a_limit() {
+    let warnings = |dialect: &str, words: &str, part_tolerance: f64| {
+        let elements = format!("<Header>{{$units}} {{$distancemode}} G17\n{words}</Header>{dialect}");
+        let steps = vec![feed(0.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)];
+        let text =
+            format!("<PostFile>{{$header}}\n{{$mops}}\nM30</PostFile><MOP>{{$blocks}}</MOP>{elements}");
+        let options = PostOptions { part_tolerance, ..PostOptions::default() };
+        texts(&read(&definition(&text)).unwrap().write(&job(steps), &options).unwrap().warnings)
+    };
+    for dialect in [&*dialect("linuxcnc"), ""] {
+        for (words, part_tolerance, is_told) in [
+            ("G64 P0.01", 0.0, false),
+            ("G64 P0.011", 0.0, true),
+            ("G64 P0.02", 0.02, false),
+            ("G64 P5", 0.02, true),
+            ("G64 P2 Q2", 0.02, true),
+            ("G64", 0.02, false),
+            ("G61", 0.02, false),
+        ] {
+            let found = warnings(dialect, words, part_tolerance);
+            let is_found = found.iter().any(|text| text.contains("PB787"));
+            assert_eq!(is_found, is_told, "{dialect} {words}: {found:?}");
+        }
+    }
+}
+
 /// Writes a cut to X10 at the speed of a tool, with these texts before and after it, for LinuxCNC on a machine.
 fn run_on(machine: Machine, before: &str, behind: &str) -> Result<(), Vec<String>> {
     let text = format!(

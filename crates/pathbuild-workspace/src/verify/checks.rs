@@ -85,6 +85,8 @@ pub enum Reason {
     NoSurface,
     /// The program cuts, but never starts the spindle with a speed.
     NoSpeed,
+    /// The program cuts without limiting the rounding of corners.
+    NoCornerLimit,
     /// A limit of `[limits]` is exceeded.
     TooLarge,
 }
@@ -129,6 +131,12 @@ pub(super) fn records(
         (Requirement::Clamps, with_drawing(references.has_keep_out, Reason::NoKeepOut)),
     ];
     all.map(|(requirement, outcome)| CheckRecord { requirement, outcome }).into()
+}
+
+/// Returns the check of how far corners are rounded. `has_limit` is whether the program limits that.
+pub(super) fn of_corners(has_limit: bool) -> CheckRecord {
+    let outcome = if has_limit { Outcome::Made(None) } else { Outcome::NotMade(Reason::NoCornerLimit) };
+    CheckRecord { requirement: Requirement::Corners, outcome }
 }
 
 /// Describes the checks of a program in one line.
@@ -196,6 +204,7 @@ impl CheckRecord {
             (Reason::NoSurface, _) => &SURFACE,
             (Reason::TooLarge, _) => &LIMITS,
             (Reason::NoSpeed, _) => &START,
+            (Reason::NoCornerLimit, _) => &CORNER_LIMIT,
             (Reason::NoLimit, Requirement::Feeds) => &FEED,
             (Reason::NoLimit, Requirement::Spindle) => &SPEEDS,
             (Reason::NoLimit, _) => &TRAVEL,
@@ -263,6 +272,7 @@ impl Reason {
             Self::NoSurface => &NO_SURFACE,
             Self::TooLarge => &TOO_LARGE,
             Self::NoSpeed => &NO_SPEED,
+            Self::NoCornerLimit => &NO_CORNER_LIMIT,
         }
     }
 }
@@ -308,6 +318,7 @@ fn shown(requirement: Requirement) -> Text {
         Requirement::Spindle => Text { en: "spindle speeds", de: "Drehzahlen" },
         Requirement::Drawing => Text { en: "moves of the drawing", de: "Bewegungen der Zeichnung" },
         Requirement::Clamps => Text { en: "clamps", de: "Spannmittel" },
+        Requirement::Corners => Text { en: "rounding of corners", de: "Verrunden von Ecken" },
     }
 }
 
@@ -333,6 +344,11 @@ static NO_SPEED: Text = Text {
     en: "the program cuts before it has set a spindle speed",
     de: "das Programm fräst, bevor es eine Drehzahl gesetzt hat",
 };
+static NO_CORNER_LIMIT: Text = Text {
+    en: "the program does not limit how far the control rounds corners",
+    de: "das Programm begrenzt nicht, wie weit die Steuerung Ecken verrundet",
+};
+static CORNER_LIMIT: Text = Text { en: "G64 P or G61 in the program", de: "G64 P oder G61 im Programm" };
 static START: Text = Text { en: "M3 and S in the program", de: "M3 und S im Programm" };
 static ONLY_COMMENTS: Text = Text {
     en: "only the program itself states cutter or material",

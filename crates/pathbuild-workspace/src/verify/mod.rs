@@ -18,7 +18,7 @@ use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    BlindRapidRules, BlindRapids, ChipLoadRules, DepthRules, DirectionRules, DrawingComparison, LengthRules,
+    BlindRapidRules, ChipLoadRules, CornerRules, DepthRules, DirectionRules, DrawingComparison, LengthRules,
     Machine, MachineRules, PastClamps, PostWords, StatedStatistics, Stock, WordRules, coarse_arcs, verify,
 };
 use pathbuild_motion::{Action, Move, Pace, Step};
@@ -306,6 +306,24 @@ impl SeenSpeeds {
     }
 }
 
+/// Facts about the steps of a program that decide which checks count as made.
+struct CheckEvidence {
+    /// Rapid moves from unknown positions, if the material is known.
+    blind: Option<BlindRapidRules>,
+    speeds: SeenSpeeds,
+    corners: CornerRules,
+}
+
+impl CheckEvidence {
+    fn step(&mut self, step: &Step) {
+        self.speeds.step(step);
+        self.corners.step(step);
+        if let Some(blind) = &mut self.blind {
+            blind.step(step);
+        }
+    }
+}
+
 /// A program that is being verified, with everything that the rules need.
 struct Examination<'v> {
     verifier: &'v Verifier<'v>,
@@ -345,10 +363,12 @@ impl<'v> Examination<'v> {
     /// The problem that prevents the verification.
     fn run(&self, written: WrittenFindings) -> Result<VerifiedProgram, Vec<Diagnostic>> {
         let rewritten = self.rewritten()?;
-        let stock = self.sources.stock();
-        let mut blind = stock.and_then(BlindRapidRules::new);
-        let mut speeds = SeenSpeeds::default();
-        let (mut found, comparison) = self.findings(written, rewritten.as_ref(), &mut blind, &mut speeds);
+        let mut evidence = CheckEvidence {
+            blind: self.sources.stock().and_then(BlindRapidRules::new),
+            speeds: SeenSpeeds::default(),
+            corners: CornerRules::new(self.verifier.settings.general.part_tolerance.value),
+        };
+        let (mut found, comparison) = self.findings(written, rewritten.as_ref(), &mut evidence);
         if let Some(against) =
             self.verifier.against.as_ref().filter(|_| self.program.dialect == Dialect::Native)
         {
@@ -357,8 +377,7 @@ impl<'v> Examination<'v> {
             let differences = against.text_differences(settings, self.program, self.is_probing, is_sound);
             found.extend(differences.map_err(|problem| vec![*problem])?);
         }
-        let blind = blind.and_then(BlindRapidRules::finish);
-        let checks = self.checks(&mut found, comparison.as_ref(), blind, speeds);
+        let checks = self.checks(&mut found, comparison.as_ref(), evidence);
         self.program.place(&mut found);
         let mut diagnostics = self.doubts(rewritten.as_ref(), &mut found);
         diagnostics.append(&mut found);
@@ -380,8 +399,7 @@ impl<'v> Examination<'v> {
         &self,
         written: WrittenFindings,
         rewritten: Option<&RewrittenProgram>,
-        blind: &mut Option<BlindRapidRules>,
-        speeds: &mut SeenSpeeds,
+        evidence: &mut CheckEvidence,
     ) -> (Vec<Diagnostic>, Option<MoveComparison>) {
         let Self { verifier, program, .. } = self;
         let against = verifier.against.as_ref();
@@ -402,7 +420,7 @@ impl<'v> Examination<'v> {
         let mut depths = DepthRules::default();
         let mut found = verify(&program.drawn(), self.sources.stock(), &mut |step| {
             nominal.step(step);
-            speeds.step(step);
+            evidence.step(step);
             chip_loads.step(step);
             if let Some(directions) = &mut directions {
                 directions.step(step);
@@ -411,9 +429,6 @@ impl<'v> Examination<'v> {
                 lengths.step(step);
             }
             depths.step(step);
-            if let Some(blind) = &mut *blind {
-                blind.step(step);
-            }
         });
         found.extend(lengths.into_iter().flat_map(LengthRules::finish));
         found.extend(self.sources.doubtful_rapids(depths, &found));
@@ -443,13 +458,12 @@ impl<'v> Examination<'v> {
         (found, comparison)
     }
 
-    /// Returns the checks with their outcomes.
+    /// Returns the checks with their outcomes, and adds the finding about corners.
     fn checks(
         &self,
-        found: &mut [Diagnostic],
+        found: &mut Vec<Diagnostic>,
         comparison: Option<&MoveComparison>,
-        blind: Option<BlindRapids>,
-        speeds: SeenSpeeds,
+        evidence: CheckEvidence,
     ) -> Vec<CheckRecord> {
         let mut is_limit_reached = false;
         for problem in found.iter_mut().filter(|problem| problem.code() == Code::LimitReached) {
@@ -457,6 +471,7 @@ impl<'v> Examination<'v> {
             // A check that was not made is an error only if it is required.
             problem.severity = Severity::Warning;
         }
+        let CheckEvidence { blind, speeds, corners } = evidence;
         let verifier = self.verifier;
         let references = checks::References {
             has_drawing: verifier.against.is_some(),
@@ -467,8 +482,14 @@ impl<'v> Examination<'v> {
         let states_speed =
             !speeds.has_cut || speeds.has_started || self.program.dialect == Dialect::Xpertmill;
         let machine = verifier.machine.as_ref();
-        let rapids = self.sources.rapids(is_limit_reached, blind);
-        checks::records(rapids, machine, references, states_speed)
+        let rapids = self.sources.rapids(is_limit_reached, blind.and_then(BlindRapidRules::finish));
+        let mut records = checks::records(rapids, machine, references, states_speed);
+        // Only LinuxCNC has a word that limits the rounding of corners.
+        if self.program.dialect == Dialect::LinuxCnc {
+            records.push(checks::of_corners(corners.has_limit()));
+        }
+        found.extend(corners.finish());
+        records
     }
 
     /// Returns doubts about the program's words. If there is a drawing to compare with, doubts about words that the drawing's program does not

@@ -13,11 +13,9 @@ use super::ToolUse;
 use crate::dialect::Dialect;
 use crate::interpret::code_name;
 use crate::read::Problems;
+use crate::verify::corners::{BUILT_IN_ROUNDING, MARGIN};
 use crate::verify::tool_state::{LengthFit, ToolState};
 use crate::verify::words::PostWords;
-
-/// Maximum rounding of corners in mm, as in the built-in posts.
-const CORNERS: f64 = 0.01 * (1.0 + 1e-6);
 
 /// Heights are equal if they differ by less than this, in mm.
 const SAME_HEIGHT: f64 = 0.002;
@@ -147,7 +145,7 @@ impl<'w> Setup<'w> {
                 self.corners = Some(corners);
                 match corners {
                     // G64 P0 sets no limit, as if there were no P.
-                    Corners::Rounded(Some(most)) if !(most > 0.0 && most <= CORNERS) => {
+                    Corners::Rounded(Some(most)) if !(most > 0.0 && most <= BUILT_IN_ROUNDING * MARGIN) => {
                         extra(line, "G64 P".to_owned(), problems);
                     }
                     Corners::Rounded(None) if self.words.rounds_freely => {}
