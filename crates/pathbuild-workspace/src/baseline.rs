@@ -21,7 +21,7 @@ use crate::workspace::Workspace;
 /// File name of the default baseline, which lies beside `pathbuild.toml`.
 const FILE_NAME: &str = "pathbuild-baseline.txt";
 
-/// Accepted findings, read from a baseline file. They are not reported.
+/// The accepted findings in a baseline file. They are not reported.
 #[derive(Clone, Debug, Default)]
 pub struct Baseline {
     file: Utf8PathBuf,
@@ -255,7 +255,7 @@ impl Workspace {
     }
 }
 
-/// The files that a run covered.
+/// A run, with the files that it covered.
 struct Run<'a> {
     system: &'a dyn System,
     working_directory: &'a Utf8Path,

@@ -35,7 +35,7 @@ pub struct Request<'a> {
     pub inputs: &'a Inputs,
     /// Whether to check all combinations of the variables' values instead of one example value of each.
     pub with_all_values: bool,
-    /// If set, show only results that depend on drawings changed since that state.
+    /// The state of the files at an earlier time. If set, only results that depend on drawings changed since then are shown.
     pub changed: Option<&'a dyn EarlierFiles>,
 }
 
@@ -51,9 +51,9 @@ pub struct CheckOutcome {
 /// A checked drawing with the names of its paths.
 #[derive(Clone, Debug)]
 pub struct CheckedFile {
-    /// Path of its file.
+    /// Path of the drawing's file.
     pub file: Utf8PathBuf,
-    /// Names of its paths in file order, as the drawing spells them.
+    /// Names of the drawing's paths in file order, as the drawing spells them.
     pub paths: Vec<PathName>,
 }
 
@@ -81,7 +81,7 @@ impl Request<'_> {
         }
     }
 
-    /// Runs the check. Results are taken from the cache where they still hold, and new ones are stored.
+    /// Runs the check. Results are taken from the cache if they still hold, and new ones are stored.
     ///
     /// # Errors
     /// If the request is limited to changed drawings and the inputs are not all directories.
@@ -219,7 +219,7 @@ struct Results {
     each: Vec<Answer<DrawingResult>>,
 }
 
-/// Reports, at the level of details, how many drawings have cached results that still hold.
+/// Reports, as a detail, how many drawings have cached results that still hold.
 fn report_known(context: &Workspace, known: usize, all: usize) {
     let phrase =
         context.choose("drawings whose results still hold", "Zeichnungen, deren Ergebnisse noch gelten");
@@ -481,12 +481,12 @@ pub trait EarlierFiles: Debug {
     /// Returns the file names of the drawings that the directory contained at that time.
     fn drawings(&self, directory: &Utf8Path) -> &[String];
 
-    /// Returns a file that has changed and affects all results, such as a configuration or a symbolic link. `directories` are the searched
-    /// directories.
+    /// Returns a changed file that affects all results, such as a configuration or a symbolic link; `None` if there is none. `directories` are the
+    /// searched directories.
     fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf>;
 }
 
-/// Selects the results that are shown: all of them, or only those that depend on changed drawings.
+/// A filter for the results that are shown: all of them, or only those that depend on changed drawings.
 pub(super) struct ChangeFilter<'a> {
     session: &'a Session<'a>,
     memo: &'a Memo,
@@ -532,7 +532,7 @@ struct ReachedInputs {
 /// Drawings that were changed, added or removed.
 struct ChangedDrawings {
     files: BTreeSet<Utf8PathBuf>,
-    /// File names of these drawings, by directory.
+    /// File names of the changed drawings, by directory.
     names: BTreeMap<Utf8PathBuf, Vec<String>>,
     coverage: Coverage,
 }
@@ -570,13 +570,13 @@ impl ChangedDrawings {
         Self { names: by_directory(&files), files, coverage: Coverage::new(session.workspace()) }
     }
 
-    /// Whether a result depends on one of the drawings.
+    /// Whether a result depends on one of the changed drawings.
     fn affects(&self, facts: &Dependencies<'_>) -> bool {
         facts.files.iter().any(|file| self.files.contains(*file))
             || facts.lookups.iter().any(|(directory, name)| self.answers(directory, name))
     }
 
-    /// Whether a lookup of `name` in this directory may find one of the drawings.
+    /// Whether a lookup of `name` in this directory may find one of the changed drawings.
     fn answers(&self, directory: &Utf8Path, name: &str) -> bool {
         let names = self.names.get(directory);
         names.is_some_and(|names| names.iter().any(|file| self.coverage.may_hold(file, name)))

@@ -18,11 +18,11 @@ use crate::workspace::Failure;
 /// A program that was dropped on the page.
 #[derive(Debug)]
 pub struct DroppedProgram {
-    /// Name of its file.
+    /// Name of the program's file.
     pub name: String,
     /// Bytes of the program's text.
     pub text: Vec<u8>,
-    /// Values that the user typed in.
+    /// Values that the user typed in on the page.
     pub assumptions: Assumptions,
 }
 

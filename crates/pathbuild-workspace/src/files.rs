@@ -92,7 +92,7 @@ fn create_new(file: &Utf8Path, content: &[u8]) -> std::io::Result<()> {
     write_whole(created, content).inspect_err(|_| _ = fs::remove_file(file))
 }
 
-/// Takes the file by value to close it on return: Windows does not remove open files.
+/// Writes the content, and closes the file on return: it is passed by value because Windows does not remove open files.
 fn write_whole(mut file: fs::File, content: &[u8]) -> std::io::Result<()> {
     file.write_all(content)
 }

@@ -48,7 +48,7 @@ pub struct ListedPath {
     pub drawing: Utf8PathBuf,
     /// Diagnostics of the path and of what it embeds.
     pub diagnostics: Vec<Diagnostic>,
-    /// Figures of its parameters and its program.
+    /// Figures from the path's parameters and its program.
     pub figures: Figures,
     /// State of the program on disk.
     pub program: ProgramState,
@@ -299,7 +299,7 @@ impl Figures {
     }
 }
 
-/// A path with the numbers of its errors and warnings by the configured severities.
+/// A path with the numbers of its errors and warnings, counted with the configured severities.
 #[derive(Clone, Debug)]
 pub struct Row {
     /// The path with its figures.
@@ -385,7 +385,7 @@ pub struct Stats {
 pub struct Total {
     /// Number of paths.
     pub paths: usize,
-    /// Total length of their programs in mm.
+    /// Total length of the paths' programs in mm.
     pub length: f64,
     /// Machining time in minutes, of the paths for which it is known.
     pub minutes: f64,
@@ -432,7 +432,7 @@ impl Stats {
     }
 }
 
-/// Returns a path as a JSON object. `file` is the displayed name of its drawing.
+/// Returns a path as a JSON object. `file` is the displayed name of the path's drawing.
 pub fn path_json(file: &str, row: &Row) -> Json {
     let path = &row.path;
     let axis = |ends: Option<(f64, f64)>| ends.map(|(low, high)| [low, high]);

@@ -230,12 +230,13 @@ impl PostProcessor {
             .of_definition(&self.name(), left_out)
     }
 
-    /// Translates a program of this post into the words of RS274 by means of its definition; `None` if a dialect covers its words.
+    /// Translates a program of this post into the words of RS274 by means of the post's definition; `None` if a dialect covers the program's words.
     pub fn translate(&self, text: &[u8]) -> Option<TranslatedText> {
         self.is_read_by_definition().then(|| self.post.translate(text))
     }
 
-    /// Whether its programs are read back by means of the definition, because no dialect covers its words or its axes are not those of the drawing.
+    /// Whether programs of this post are read back by means of its definition, because no dialect covers its words or its axes are not those of the
+    /// drawing.
     fn is_read_by_definition(&self) -> bool {
         self.reader().is_none() || self.post.has_own_axes()
     }

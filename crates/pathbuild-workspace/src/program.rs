@@ -79,7 +79,7 @@ pub struct Program {
     options: Options,
 }
 
-/// Function that translates a text by means of the post definition that wrote it, if the definition is known. The second argument is the guessed
+/// A function that translates a text by means of the post definition that wrote it, if the definition is known. The second argument is the guessed
 /// dialect; `None` if a dialect was specified.
 pub type Translate<'t> = dyn Fn(&[u8], Option<&Guess>) -> Option<ByDefinition> + 't;
 
@@ -219,7 +219,7 @@ impl Program {
         self.by_definition.as_ref().map_or_else(|| self.dialect.name(), |by| &by.name)
     }
 
-    /// Adds the file, and the line of text, to diagnostics.
+    /// Adds the file's name to diagnostics, and the text of the lines that they refer to.
     pub fn place(&self, diagnostics: &mut [Diagnostic]) {
         place(diagnostics, &self.file, &self.text);
     }

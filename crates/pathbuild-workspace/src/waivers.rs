@@ -40,7 +40,7 @@ impl fmt::Display for Date {
 /// The date that waivers are compared with, and its source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunDate {
-    /// The day on which waivers must still hold.
+    /// The day with which the last days of waivers are compared.
     pub date: Date,
     /// Source of the day.
     pub source: DateSource,

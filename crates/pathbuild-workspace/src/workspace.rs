@@ -89,11 +89,11 @@ impl Workspace {
 
 /// A receiver of progress messages of a run.
 pub trait Reporter: Debug {
-    /// Reports a line about the run.
+    /// Reports a line about the progress of the run.
     fn status(&self, line: &str);
     /// Reports a line of detail, which is shown only on request.
     fn detail(&self, line: &str);
-    /// Starts a progress display of `total` items; it ends when the returned value is dropped.
+    /// Starts a progress display for `total` items. It ends when the returned value is dropped.
     fn progress(&self, total: usize) -> Box<dyn ProgressCounter>;
 }
 
@@ -134,7 +134,7 @@ pub(crate) fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
     if relative.as_str().is_empty() { Utf8PathBuf::from(".") } else { with_forward_slashes(relative) }
 }
 
-/// The reason why a request has no outcome.
+/// The reason why a request cannot be answered.
 #[derive(Debug)]
 pub enum Failure {
     /// The request is invalid, for this reason in the language of messages.

@@ -13,14 +13,14 @@ use super::origin::SourcedValue;
 use super::types::{Directories, Restriction};
 use crate::waivers::RunDate;
 
-/// A command-line option that sets the configuration key of the same name. (book: reference/commands)
+/// A command-line option that sets the configuration key with the same name. (book: reference/commands)
 #[derive(Debug)]
 pub struct SettingOption {
     /// The name of the key and, after two hyphens, of the option.
     pub name: &'static str,
     /// Position among the common options in the help, from 0.
     pub position: usize,
-    /// Kind and number of its values.
+    /// Kind and number of the option's values.
     pub values: OptionValues,
     /// Help text of the option.
     pub help: Text,
@@ -68,7 +68,7 @@ pub struct Overrides {
     pub config: Option<Utf8PathBuf>,
     /// `--untrusted`: treats the tree as untrusted.
     pub untrusted: bool,
-    /// Directories below which trees are trusted; `None` means that all trees are.
+    /// Directories below which all trees are trusted; `None` trusts trees everywhere.
     pub trusted: Option<Vec<Utf8PathBuf>>,
     /// The date that waivers are compared with.
     pub date: Option<RunDate>,
@@ -124,7 +124,7 @@ fn fault(message: &'static Message, name: &str, text: &str) -> Diagnostic {
     Diagnostic::new(message).quoting("key", option).with_text(TextFault::new(&shown, span))
 }
 
-/// Validates options, applies them to the configured values, and collects the diagnostics.
+/// A reader of the given options, which validates them, applies them to the configured values, and collects the diagnostics.
 pub(super) struct OptionReader<'a> {
     given: &'a GivenOptions,
     working_directory: &'a Utf8Path,

@@ -37,7 +37,7 @@ fn with_header() -> impl Iterator<Item = &'static TableEntry> {
 /// A configuration key with its value.
 #[derive(Clone, Debug)]
 pub struct KeyValue {
-    /// Header of its table; empty for keys before the first table.
+    /// Header of the key's table; empty for keys before the first table.
     pub section: &'static str,
     /// Name of the key.
     pub name: &'static str,

@@ -306,7 +306,7 @@ pub(in crate::config) fn choice_schema<T: Choice>() -> Json {
     json!({ "enum": T::ALL.iter().map(|(name, _)| *name).collect::<Vec<_>>() })
 }
 
-/// Returns the text of a choice.
+/// Returns the text that stands for a choice in the configuration.
 pub(in crate::config) fn name_of<T: Choice>(choice: T) -> Option<&'static str> {
     T::ALL.iter().find(|(_, value)| *value == choice).map(|(name, _)| *name)
 }

@@ -98,7 +98,8 @@ fn parse(file: &Utf8Path, text: &str, confined: Option<&ConfinedSystem>) -> (Opt
     })
 }
 
-/// Parses the text of a configuration file.
+/// Parses the text of a configuration file and passes its root table to `read`. Returns the result of `read`, or the default after a syntax error,
+/// with all diagnostics.
 pub(super) fn read_table<T: Default>(
     file: &Utf8Path,
     text: &str,
@@ -124,7 +125,7 @@ fn syntax_fault(error: &toml::de::Error, source: &Source<'_>) -> Diagnostic {
     source.fault(&messages::TOML_SYNTAX, error.span().unwrap_or(0..0)).with("reason", Value::foreign(reason))
 }
 
-/// Searches for the configuration that applies to a run or a directory.
+/// A search for the configuration that applies to a run or a directory.
 pub(super) struct Discovery<'a> {
     pub(super) system: &'a dyn System,
     pub(super) inputs: &'a Inputs,
@@ -132,8 +133,8 @@ pub(super) struct Discovery<'a> {
 }
 
 impl Discovery<'_> {
-    /// Finds the configuration of a run: the one above the first argument. If that argument is a program without a configuration above it, the next
-    /// argument decides, and finally the working directory.
+    /// Finds the configuration of a run, which is that above the first argument. If this argument is a program without a configuration above it, the
+    /// next argument decides, and finally the working directory.
     pub(super) fn for_run(&self) -> Option<Utf8PathBuf> {
         for input in self.inputs.iter() {
             let configuration = self.above(&self.search_start_of(input));
@@ -255,7 +256,7 @@ pub struct UserSettings {
 }
 
 impl UserSettings {
-    /// Reads the file, if it exists, and returns all its diagnostics.
+    /// Reads the user's settings from a file, if it exists, and returns all diagnostics of the file.
     pub fn load(system: &dyn System, file: &Utf8Path) -> (Self, Vec<Diagnostic>) {
         if !files::is_named(file) {
             return (Self::default(), Vec::new());

@@ -89,11 +89,11 @@ impl fmt::Display for Origin {
 /// The commands with cached results that depend on a setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ResultKind {
-    /// `check`, and hence also `emit`.
+    /// The results of `check`, and therefore also those of `emit`, depend on the setting.
     Check,
-    /// `emit` only.
+    /// Only the results of `emit` depend on the setting.
     Emit,
-    /// Neither command: the setting changes only what is requested or how it is reported.
+    /// No cached result depends on the setting: it changes only what is requested or how it is reported.
     Neither,
 }
 
@@ -104,11 +104,11 @@ impl ResultKind {
     }
 }
 
-/// Facts about a key that do not depend on its type.
+/// The properties of a key that do not depend on its type.
 pub(super) struct Key {
     /// Name within its table.
     pub(super) name: &'static str,
-    /// Description, in one or more lines.
+    /// Description of the key, in one or more lines.
     pub(super) meaning: &'static [&'static str],
     /// A value as TOML: the default, or an example if there is no default.
     pub(super) example: &'static str,

@@ -14,7 +14,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::origin::{Origin, SourcedValue};
 
-/// Reads values from a parsed TOML file and collects all diagnostics.
+/// A reader of the values in a parsed TOML file, which collects all diagnostics.
 pub(super) struct TomlReader<'a> {
     source: Source<'a>,
     directory: &'a Utf8Path,
@@ -24,7 +24,7 @@ pub(super) struct TomlReader<'a> {
     key_index: Option<LazyKeyIndex>,
     key: String,
     diagnostics: Vec<Diagnostic>,
-    /// Number of regular expressions and of globs that were read.
+    /// Number of regular expressions and number of globs read so far.
     counts: [u64; 2],
 }
 
@@ -109,7 +109,7 @@ impl<'a> TomlReader<'a> {
         self.confined.is_some()
     }
 
-    /// Full name of the key that is being read, for messages.
+    /// Returns the full name of the key that is being read, for messages.
     pub(super) fn key(&self) -> &str {
         &self.key
     }
@@ -129,7 +129,7 @@ impl<'a> TomlReader<'a> {
         self.report(fault);
     }
 
-    /// Line of a span, from 1.
+    /// Returns the line of a span, counted from 1.
     pub(super) fn line(&self, span: Range<usize>) -> u32 {
         self.source.line_number(span.start)
     }
@@ -139,7 +139,7 @@ impl<'a> TomlReader<'a> {
         self.source.fault(message, span).quoting("key", self.key.as_str())
     }
 
-    /// Counts a value of a limited kind. Returns whether the limit permits it. Exceeding the limit is reported only once.
+    /// Counts a value of a limited kind. Returns whether the limit allows one more. Exceeding the limit is reported only once.
     pub(super) fn counts(&mut self, what: LimitedKind, span: Range<usize>) -> bool {
         let (most, word) = what.most();
         let count = &mut self.counts[what as usize];

@@ -40,7 +40,7 @@ macro_rules! tables {
             $(pub $table: $table::Settings,)*
         }
 
-        /// Values of the configuration, to which the options of the command line are applied. Keys that neither of them sets are `None`.
+        /// Values from the configuration and, once they are applied, from the options of the command line. Keys that neither sets are `None`.
         #[derive(Clone, Debug, Default)]
         #[expect(missing_docs, reason = "the tables of the configuration, by name")]
         pub struct Options {

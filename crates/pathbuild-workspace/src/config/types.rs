@@ -64,7 +64,7 @@ impl Choice for Lang {
 }
 
 choice! {
-    /// How a part is held while it is cut out of the plate. (book: language/part)
+    /// The means by which a part is held while it is cut out of the plate. (book: language/part)
     PartHolding {
         /// Support bars hold the part.
         Bars = "bars",
@@ -118,7 +118,7 @@ impl Requirement {
         Self::ALL.iter().find(|(name, _)| *name == text).map(|(_, requirement)| *requirement)
     }
 
-    /// Returns the name in the configuration.
+    /// Returns the requirement's name in the configuration.
     pub fn name(self) -> &'static str {
         Self::ALL.iter().find(|(_, requirement)| *requirement == self).map_or("", |(name, _)| name)
     }
@@ -139,7 +139,7 @@ choice! {
 }
 
 choice! {
-    /// How a diagnostic is reported.
+    /// The level at which a diagnostic is reported. (`Ignore` suppresses it.)
     Level {
         /// The diagnostic is reported as an error.
         Error = "error",
@@ -166,7 +166,7 @@ impl Level {
 pub struct LineTypeAlias {
     /// Name of the line type in drawings.
     pub name: Box<str>,
-    /// The line type that it stands for.
+    /// The line type for which the name stands.
     pub line_type: LineType,
 }
 
@@ -215,7 +215,7 @@ impl Pattern {
         (!self.text.contains(['*', '?', '[', '{', '\\'])).then_some(&*self.text)
     }
 
-    /// The glob as it was written.
+    /// Returns the glob as it was written.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -228,7 +228,7 @@ pub struct FileSeverities {
     pub files: Vec<Pattern>,
     /// Levels by code.
     pub levels: Vec<(Code, Level)>,
-    /// The reason and the last date of these levels.
+    /// The reason for these levels, and the last day on which they hold.
     pub waiver: Waiver,
 }
 
@@ -313,7 +313,7 @@ impl From<&str> for PostChoice {
 }
 
 choice! {
-    /// How the spindle is controlled.
+    /// The control of the spindle: by the program or by the operator.
     SpindleControl {
         /// The program controls the spindle, with the speeds of the configured tools.
         Tool = "tool",

@@ -161,7 +161,7 @@ struct SidePath {
     place: Utf8PathBuf,
     name: PathName,
     target: Target,
-    /// Hash of its program's moves; `None` if it has errors, or if its program could not be built.
+    /// Hash of the moves of the path's program; `None` if the path has errors, or if its program could not be built.
     moves: Option<Box<str>>,
 }
 

@@ -46,7 +46,7 @@ pub struct ValueChange {
 }
 
 impl Reason {
-    /// Returns the reason as a sentence, without the reasons within it.
+    /// Returns the reason as a sentence, without the nested reasons.
     pub fn sentence(&self) -> Sentence {
         match self {
             Self::Drawn(change) => change.sentence(),
@@ -143,7 +143,7 @@ fn changed_settings(old: &Settings, new: &Settings) -> BTreeMap<&'static str, Va
     changed.collect()
 }
 
-/// Collects reasons by comparing paths and the paths that they embed.
+/// A collector of reasons, which compares paths and the paths that they embed.
 struct Explainer<'o, 'n> {
     old: &'o Database,
     new: &'n Database,
@@ -167,7 +167,7 @@ struct Versions<'o, 'n> {
 }
 
 impl<'o, 'n> Explainer<'o, 'n> {
-    /// Returns what has changed in a path and in those that it embeds.
+    /// Returns the changes in a path and in the paths that it embeds.
     fn path(&mut self, versions: Versions<'o, 'n>, is_root: bool) -> Vec<Reason> {
         let Versions { old, new } = versions;
         let variables = variables(old.bindings(self.old), new.bindings(self.new));
@@ -176,7 +176,7 @@ impl<'o, 'n> Explainer<'o, 'n> {
         variables.into_iter().map(Reason::Variable).chain(drawn).chain(embedded).collect()
     }
 
-    /// Returns what has changed in the drawing of a path.
+    /// Returns the changes in the drawing of a path.
     fn drawn(&mut self, Versions { old, new }: Versions<'o, 'n>, is_root: bool) -> Vec<Reason> {
         let was = DrawnInstance::of(self.old, old, is_root);
         let is = DrawnInstance::of(self.new, new, is_root);

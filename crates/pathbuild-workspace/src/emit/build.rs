@@ -1,4 +1,4 @@
-//! Builds the files of one program, natively or through a post-processor. Runs on worker threads.
+//! Builds the files of one program, natively or through a post-processor. This code runs on worker threads.
 
 use std::sync::Arc;
 
@@ -59,7 +59,7 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
     Built { outcome: delivered, outputs }
 }
 
-/// Returns PB005 for an output file that is too large. Files on disk are not read beyond this limit either.
+/// Returns PB005 for an output file that is too large. The limit is the same for reading files on disk, so a larger file could not be compared.
 fn file_too_large(db: &Database, job: &Job, output: &Output, writing: &WriteSettings) -> Diagnostic {
     Diagnostic::new(&files::FILE_TOO_LARGE)
         .quoting("name", output.path.file_name().unwrap_or_default())

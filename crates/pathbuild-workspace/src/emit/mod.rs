@@ -257,7 +257,7 @@ struct Run {
     diagnostics: Vec<Diagnostic>,
 }
 
-/// Reports, at the level of details, how many results were cached.
+/// Reports, as a detail, how many results were cached.
 fn report_cached(context: &Workspace, selection: &TargetSelection, plans: &[Answer<Plan>]) {
     // Each plan is for one path, or for all paths if they are joined.
     let paths = selection.targets.len() / plans.len().max(1);
@@ -302,8 +302,8 @@ fn is_current(delivered: ProgramOutcome) -> Result<bool, Vec<Diagnostic>> {
     Ok(!delivered.files.is_empty() && delivered.files.iter().all(is_current))
 }
 
-/// Writes the programs of these targets in a long-lived session and returns what is wrong with the programs themselves; drawing errors are
-/// reported by `check`.
+/// Writes the programs of these targets in a long-lived session, and returns the diagnostics of the programs themselves; `check` reports errors in
+/// drawings.
 ///
 /// # Errors
 /// The names of missing options.

@@ -33,7 +33,7 @@ pub(super) struct Plan {
     pub(super) job: Option<Job>,
 }
 
-/// A path without errors, or several that are joined into one program, with the files to generate.
+/// A path without errors, or several such paths that are joined into one program, with the files to generate.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Job {
     /// The paths in milling order; never empty.
@@ -256,7 +256,7 @@ pub(super) fn found(session: &Session<'_>, checked: &CheckedTarget) -> Vec<Diagn
     of_files.chain(&checked.diagnostics).cloned().collect()
 }
 
-/// Turns checked paths into jobs.
+/// A builder of jobs from checked paths.
 pub(super) struct JobBuilder<'a> {
     pub(super) session: &'a Session<'a>,
     /// The post-processor for the programs; `None` for native programs.

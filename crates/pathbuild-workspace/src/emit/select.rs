@@ -159,7 +159,7 @@ impl TargetCollector<'_> {
     }
 }
 
-/// Matches path names against the configured patterns, and records which patterns matched.
+/// A matcher of path names against the configured patterns, which records which patterns have matched.
 pub struct TargetPatterns<'a> {
     settings: &'a Settings,
     /// For each pattern, whether it has matched any path.

@@ -471,7 +471,7 @@ fn is_outside(session: &Session<'_>, directory: &Utf8Path) -> bool {
     !rest.is_ok_and(|rest| rest.is_relative() && !rest.starts_with(".."))
 }
 
-/// Lists the programs in output directories, each directory at most once.
+/// The programs in output directories. Each directory is listed at most once, when its programs are first requested.
 #[derive(Default)]
 struct Listings {
     programs: HashMap<Utf8PathBuf, Vec<(String, Utf8PathBuf)>>,

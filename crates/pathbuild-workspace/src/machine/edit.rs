@@ -7,7 +7,7 @@ use toml_edit::{Array, DocumentMut, Item, Key, Table, TableLike, Value};
 
 use super::{DescribedValue, Quantity, Target};
 
-/// A value from a description, with the value that the configuration had before.
+/// A value that is imported from a description, with the value that the configuration had before.
 #[derive(Debug)]
 pub struct Change {
     /// Name of the table, with dots.
@@ -98,7 +98,7 @@ fn table_mut<'d>(document: &'d mut DocumentMut, path: &[String]) -> Option<&'d m
     Some(table)
 }
 
-/// Gives a value the spaces and comments around and within the value that it replaces.
+/// Gives a new value the whitespace and comments, around and within it, of the value that it replaces.
 fn replaced(mut new: Value, old: &Value) -> Value {
     match (&new, old) {
         (Value::Array(numbers), Value::Array(old)) if numbers.len() == old.len() => {

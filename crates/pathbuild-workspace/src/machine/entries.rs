@@ -18,7 +18,7 @@ pub struct Entry {
     pub line: Option<u32>,
 }
 
-/// A number that was read, with its line.
+/// A number read from an entry, with the entry's line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
     pub(super) number: f64,

@@ -71,7 +71,7 @@ pub struct DescribedTool {
     pub values: Vec<DescribedValue>,
 }
 
-/// A value for the configuration.
+/// A value from a description, for a key of the configuration.
 #[derive(Clone, Debug)]
 pub struct DescribedValue {
     /// The table of the configuration to which the value belongs.

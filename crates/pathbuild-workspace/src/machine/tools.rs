@@ -12,7 +12,7 @@ use super::entries::rounded;
 use super::{DescribedTool, DescribedValue, Description, Entry, LengthUnit, Quantity, Target, broken};
 use crate::config::is_too_round;
 
-/// Function that returns the text of a tool bit named in a FreeCAD library.
+/// A function that returns the text of a tool bit named in a FreeCAD library.
 pub(super) type ReadBit<'r> = &'r dyn Fn(&str) -> Result<String, Shown>;
 
 /// Whether the first line of the text that is not a comment describes a tool of `LinuxCNC`.
@@ -332,7 +332,7 @@ impl Tools {
         Self { format, described: Vec::new(), unused: Vec::new(), problems: Vec::new() }
     }
 
-    /// Reads the number of a tool. 0 stands for none.
+    /// Reads the number of a tool; 0 means that it has none.
     fn tool_number(&mut self, name: &str, text: Option<&str>, line: Option<u32>) -> Option<u32> {
         let text = text?;
         match text.parse() {

@@ -50,7 +50,7 @@ struct CatalogueBuilder<'a> {
     session: &'a Session<'a>,
     begun: Clock,
     catalogue: Catalogue,
-    /// Indices of files, directories, lists of directories and lookups in the new catalogue.
+    /// Index of each file in the new catalogue. The following maps hold those of directories, lists of directories, and lookups.
     files: HashMap<Utf8PathBuf, usize>,
     directories: HashMap<Utf8PathBuf, usize>,
     lists: HashMap<Vec<usize>, usize>,
@@ -331,7 +331,7 @@ pub struct DrawingResult {
 }
 
 impl DrawingResult {
-    /// Returns both fields as slices.
+    /// Returns the names and the diagnostics as slices.
     pub fn parts(&self) -> (&[PathName], &[Diagnostic]) {
         (&self.names, &self.diagnostics)
     }

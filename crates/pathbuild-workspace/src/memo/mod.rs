@@ -95,7 +95,7 @@ impl Memo {
         answers
     }
 
-    /// Whether results are cached at all.
+    /// Whether results of this run are cached.
     pub fn is_some(&self) -> bool {
         self.0.is_some()
     }

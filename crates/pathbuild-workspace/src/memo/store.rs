@@ -274,7 +274,7 @@ fn report_fault(context: &Workspace, reason: CacheFault) {
     context.reporter.status(phrase);
 }
 
-/// Identifies this build of the program.
+/// Identifier of this build of the program.
 pub const BUILD: &str = env!("PATHBUILD_BUILD");
 
 /// Returns the cache key: the query with all settings that results depend on. Directories are relative to the configuration, so that a tree keeps
@@ -333,7 +333,7 @@ impl Coverage {
     }
 }
 
-/// The paths that some drawings may contain, judging by their names.
+/// The paths that some drawings may contain, judging by the drawings' file names.
 #[derive(Debug)]
 pub struct CoveredPaths<'a> {
     paths: &'a PathPattern,

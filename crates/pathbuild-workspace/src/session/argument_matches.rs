@@ -29,7 +29,7 @@ use crate::inputs::{Input, Inputs};
 pub struct ArgumentMatches {
     /// The matches of each argument; without arguments, the directories of the library.
     pub arguments: Vec<Argument>,
-    /// Whether there are no arguments, so that the library is selected.
+    /// Whether there are no arguments, which selects the library.
     pub is_library: bool,
     /// Contents of the directories that were listed.
     pub listings: Listings,
@@ -46,7 +46,7 @@ pub struct ArgumentMatches {
 pub enum Argument {
     /// A directory with the drawings in and below it.
     Directory(SearchedDirectory),
-    /// A drawing by its file, whether it exists or not.
+    /// A drawing, identified by its file, which need not exist.
     Drawing(SourceFile),
     /// A name without a separator. It refers to the first of these that exists: a path, a drawing without its `.dxf`, or a directory.
     Name {
@@ -162,7 +162,7 @@ impl Session<'_> {
     }
 
     /// Expands a pattern that the shell passed on unexpanded, as Windows shells do. The last component of the pattern is matched with the names of
-    /// wanted files and of directories. Returns nothing if a file of exactly that name exists.
+    /// directories and of files that `is_wanted` accepts. Returns an empty list if a file with exactly that name exists.
     pub(super) fn expand_pattern(
         &self,
         place: &Utf8Path,

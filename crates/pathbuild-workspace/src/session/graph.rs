@@ -18,9 +18,9 @@ use crate::session::work::about;
 /// A graph with paths as nodes and embeddings as edges.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
-    /// Each path once per set of values; the requested paths come first.
+    /// The paths, each once for each set of values; the requested paths come first.
     pub nodes: Vec<Node>,
-    /// Embeddings in the order of the embedding path's segments.
+    /// The embeddings, in the order of the segments in the embedding path.
     pub embeddings: Vec<Embedding>,
     /// Indices of the requested nodes.
     pub roots: Vec<usize>,
@@ -50,7 +50,7 @@ pub struct Embedding {
     pub from: usize,
     /// The embedded path, or the reason why there is none.
     pub to: End,
-    /// Number of subpath segments that embed it.
+    /// Number of subpath segments with this embedding.
     pub count: usize,
 }
 
@@ -66,9 +66,9 @@ pub enum End {
 /// Direction in which embeddings are followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// From a path to the paths that it embeds.
+    /// Embeddings are followed from a path to the paths that it embeds.
     Down,
-    /// From a path to the paths that embed it.
+    /// Embeddings are followed from a path to the paths that embed it.
     Up,
 }
 
@@ -129,7 +129,7 @@ impl Graph {
         }
     }
 
-    /// Returns the node at the far end of an embedding; `None` if there is no path.
+    /// Returns the node at the far end of an embedding; `None` if no path is embedded there.
     pub fn end(&self, embedding: usize, direction: Direction) -> Option<usize> {
         let embedding = &self.embeddings[embedding];
         match (direction, &embedding.to) {
@@ -279,7 +279,7 @@ impl TargetGraph {
     }
 }
 
-/// Whether all embeddings of a path are known.
+/// Whether a node's embeddings are complete.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Completeness {
     /// All embeddings are known.

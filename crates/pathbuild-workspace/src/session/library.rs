@@ -36,18 +36,18 @@ pub struct ProgramMatches {
 /// The contents of a directory and of all directories below it.
 #[derive(Debug, Default)]
 pub(super) struct WalkResult {
-    /// All drawings, or other wanted files, in the order of [`by_place`].
+    /// All drawings, or all files that the search wants instead, in the order of [`by_place`].
     pub(super) drawings: Vec<Utf8PathBuf>,
     /// The directory itself and all directories below it, in the order of [`by_place`].
     pub(super) directories: Vec<Utf8PathBuf>,
-    /// Contents of those directories that could be listed.
+    /// Contents of the directories that could be listed.
     pub(super) listings: Listings,
     /// Errors for directories that cannot be listed. If the limit is exceeded, the result contains nothing but PB005: a partial result would be
     /// misleading.
     pub(super) problems: Vec<Diagnostic>,
 }
 
-/// Number of directories up to which listing them one after the other is faster than starting threads.
+/// Maximum number of directories that are listed one after the other, because starting threads would take longer.
 const MAX_SEQUENTIAL_DIRECTORIES: usize = 4;
 
 /// Settings of a recursive search.
@@ -61,7 +61,7 @@ pub(super) struct Walk<'a> {
     pub(super) rules_limit: u64,
     /// Whether to use all cores.
     pub(super) is_parallel: bool,
-    /// Function that decides by a file's name whether it is searched for.
+    /// A function that decides by a file's name whether the search wants the file.
     pub(super) is_wanted: fn(&Utf8Path) -> bool,
     /// Whether .gitignore files apply, besides .ignore.
     pub(super) obeys_git: bool,
@@ -87,7 +87,7 @@ impl Walk<'_> {
         walked
     }
 
-    /// Reads the ignore rules of a directory, as far as they apply to this search.
+    /// Reads the ignore rules of a directory. Leaves out those in .gitignore if the search does not obey them.
     fn rules(
         self,
         directory: &Utf8Path,
@@ -103,7 +103,7 @@ impl Walk<'_> {
         Ok(rules)
     }
 
-    /// Collects the contents unsorted, and counts them. Stops once the limit is exceeded.
+    /// Collects the files and directories unsorted, and counts them. Stops once the limit is exceeded.
     fn levels(self, root: &Utf8Path) -> Result<(WalkResult, u64), Box<Diagnostic>> {
         let mut walked = WalkResult::default();
         let mut open: Vec<(Utf8PathBuf, Option<Arc<Rules>>)> = vec![(root.to_owned(), None)];
@@ -380,7 +380,7 @@ pub(super) struct Budget {
     read: AtomicU64,
 }
 
-/// Upper bound on the total size of all ignore files, as a multiple of the limit for one.
+/// Upper bound on the total size of all ignore files, as a multiple of the limit for one file.
 const ALL: u64 = 16;
 
 impl Budget {
@@ -445,8 +445,8 @@ impl Rules {
         Ok(Arc::new(Self { git: read(".gitignore")?, own: read(".ignore")?, is_repository, above }))
     }
 
-    /// Whether an entry is ignored. Rules in `.ignore` files take precedence over those in `.gitignore`, and rules of a directory over
-    /// those from above. Hidden entries are ignored unless a rule includes them.
+    /// Whether an entry is ignored. Rules in `.ignore` files take precedence over those in `.gitignore`, and rules of a directory take precedence
+    /// over those of directories above it. Hidden entries are ignored unless a rule includes them.
     pub(super) fn exclude(&self, path: &Utf8Path, is_directory: bool) -> bool {
         let by_own = self.levels().map(|level| level.own.matched(path, is_directory));
         let by_git = self.git_levels().map(|level| level.git.matched(path, is_directory));

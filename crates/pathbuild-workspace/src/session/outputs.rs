@@ -29,9 +29,9 @@ pub enum OutputKind {
 /// Settings for writing files, whatever their contents.
 #[derive(Clone, Copy, Debug)]
 pub struct WriteSettings {
-    /// Language, character set, rapid feed, and correction.
+    /// Language, character set, speed of rapid moves, and height correction.
     pub options: WriteOptions,
-    /// Upper bound on a program's moves, after cutting them into pieces.
+    /// Upper bound on a program's moves, counted after splitting them into pieces.
     pub most_moves: u64,
     /// Upper bound on the memory of a program's moves, in bytes. (`[limits] program-memory`)
     pub most_memory: u64,

@@ -37,7 +37,7 @@ pub struct Selection {
     pub problems: Vec<Diagnostic>,
 }
 
-/// A path that was named.
+/// A path that an argument names.
 #[derive(Clone, Debug)]
 pub struct SelectedPath {
     /// The drawing that defines the path.
@@ -46,7 +46,7 @@ pub struct SelectedPath {
     pub name: PathName,
 }
 
-/// Function that returns the names of a drawing's paths, from the cache if possible, so that the drawing need not be read.
+/// A function that returns the names of a drawing's paths, from the cache if possible, so that the drawing need not be read.
 pub type NamesOf<'a> = &'a dyn Fn(SourceFile) -> &'a [PathName];
 
 impl Session<'_> {
@@ -63,7 +63,7 @@ impl Session<'_> {
         selection
     }
 
-    /// Resolves some of the arguments.
+    /// Resolves these arguments, which are some or all of those in `found`.
     pub fn select_arguments(
         &self,
         found: &ArgumentMatches,
@@ -106,7 +106,7 @@ impl Session<'_> {
                 let defines = |file: &SourceFile| names(*file).contains(name);
                 let files = self.distinct(candidates.iter().copied().filter(defines));
                 if !files.is_empty() {
-                    // The errors may have hidden another definition of the path.
+                    // These errors may have hidden another definition of the path.
                     selection.problems.extend_from_slice(&found.name_problems);
                 }
                 match (files.as_slice(), drawing, directory) {

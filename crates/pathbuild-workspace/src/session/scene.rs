@@ -19,7 +19,7 @@ use pathbuild_view::{
 use super::work::about;
 use super::{CheckedTarget, Session, WriteSettings};
 
-/// A hash of a path's moves, to compare paths without drawing them.
+/// A path with a hash of its moves, so that paths can be compared without drawing them.
 #[derive(Debug)]
 pub struct HashedPath {
     /// The drawing that defines the path.

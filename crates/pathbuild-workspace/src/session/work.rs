@@ -70,7 +70,7 @@ impl Session<'_> {
         names.map(|name| self.db.target(file, name.as_str(), role.clone())).collect()
     }
 
-    /// Returns the target of a path that was named.
+    /// Returns the target of a path that an argument selected.
     pub fn target(&self, path: &SelectedPath, role: Role) -> Target {
         self.target_in(path.file, &path.name, role)
     }
@@ -158,8 +158,8 @@ impl Session<'_> {
         self.context.settings.limits.seconds_per_path.value
     }
 
-    /// Processes items independently: one that takes too long or triggers a bug does not affect the others. The results are in the order of
-    /// the items.
+    /// Processes items independently: an item that takes too long or triggers a bug does not affect the others. The results are in the order of the
+    /// items.
     pub fn map_guarded<T: Sync, R: Send>(
         &self,
         items: &[T],
@@ -235,7 +235,7 @@ impl Session<'_> {
 }
 
 impl Checker<'_> {
-    /// The clone of the database that belongs to this thread.
+    /// Returns this thread's clone of the database.
     pub fn db(&self) -> &Database {
         self.db
     }

@@ -92,7 +92,7 @@ struct WorkList {
     is_over: bool,
 }
 
-/// Guard of a work item that is being watched; dropping it ends the watch.
+/// A guard for work that is being watched; dropping it ends the watch.
 pub(super) struct WatchGuard<'a> {
     watchdog: &'a Watchdog,
     db: &'a Database,

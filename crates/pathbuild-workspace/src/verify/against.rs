@@ -37,7 +37,7 @@ pub(super) struct ReferenceProgram {
     trace: Option<Trace>,
 }
 
-/// The program that a post-processor with a definition writes for a path now.
+/// The program that a post-processor with a definition currently writes for a path.
 pub(super) struct RewrittenProgram {
     /// Number of the first line in which the verified program differs, and the expected line.
     other_line: Option<(u32, String)>,
@@ -52,7 +52,7 @@ pub(super) struct RewrittenProgram {
 }
 
 impl RewrittenProgram {
-    /// Whether the verified program has the same lines.
+    /// Whether the verified program has the same lines as this program.
     pub(super) fn is_same(&self) -> bool {
         self.other_line.is_none()
     }

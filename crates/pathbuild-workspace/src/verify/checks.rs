@@ -12,9 +12,9 @@ use crate::config::types::Requirement;
 /// A check of a program, with its outcome.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CheckRecord {
-    /// The kind of check that may be required.
+    /// The kind of check.
     pub requirement: Requirement,
-    /// Whether the check was made, and with which values.
+    /// Whether the check was made, and with which values or why not.
     pub outcome: Outcome,
 }
 
@@ -34,9 +34,9 @@ pub enum Outcome {
 /// The reason why the values of a check may be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Assumption {
-    /// The cutter or the material is stated by the program only.
+    /// Only the program itself states the cutter or the material.
     Stock,
-    /// The program moves by values that only the machine knows, such as those of a probe.
+    /// The program contains moves that depend on values which only the machine knows, such as that of a probe.
     MachineValues,
 }
 

@@ -60,7 +60,7 @@ impl VerifyOptions {
     /// Sets the diameter of the cutter and the height of the material's upper face, if they are given.
     ///
     /// # Errors
-    /// The diagnostic of the first text that is not such a number.
+    /// The diagnostic of the first text that is not a valid number.
     pub fn with_stock(
         mut self,
         cutter: Option<&str>,
@@ -139,8 +139,8 @@ impl<'w> Verifier<'w> {
         })
     }
 
-    /// Verifies a program. If its heights are corrected, the check of rapid moves uses the nominal heights and the material as drawn: rapid moves
-    /// that follow an uneven plate do not mill it. The machine's limits apply to the actual moves.
+    /// Verifies a program. If the program's heights are corrected, the check of rapid moves uses the nominal heights and the material as drawn: rapid
+    /// moves that follow an uneven plate do not mill it. The machine's limits apply to the actual moves.
     ///
     /// The text is interpreted twice instead of keeping its steps, because the rules need to know the material first.
     pub fn verify(&self, file: &Utf8Path, text: Vec<u8>) -> VerifiedProgram {
@@ -216,7 +216,7 @@ struct WrittenSteps<'m> {
     has_probed: bool,
 }
 
-/// Findings about the steps as they are written.
+/// Findings about the steps of a program as they are written, with corrected heights.
 struct WrittenFindings {
     statistics: Vec<Diagnostic>,
     limits: Vec<Diagnostic>,
@@ -497,7 +497,7 @@ impl<'v> Examination<'v> {
     fn doubts(&self, rewritten: Option<&RewrittenProgram>, found: &mut [Diagnostic]) -> Vec<Diagnostic> {
         let mut doubts = self.program.read.problems.clone();
         if rewritten.is_some_and(RewrittenProgram::is_same) {
-            // Doubts about the words of a definition are reported when it writes them.
+            // Doubts about the words that a definition writes are reported when a program is written through it.
             let is_own = self.program.by_definition.is_none();
             doubts.retain(|doubt| doubt.is_error() && is_own || is_of_modes(doubt) || is_of_point(doubt));
         } else if self.verifier.against.is_some() {

@@ -19,7 +19,7 @@ pub struct Request<'a> {
     pub places: &'a [Utf8PathBuf],
     /// A program that is not in a file, for example from standard input, preceded by its name for messages. Its result is not cached.
     pub text: Option<(&'a Utf8Path, Vec<u8>)>,
-    /// Options for the verification.
+    /// Options for reading the programs, for the stock, and for comparing with a drawing.
     pub options: VerifyOptions,
 }
 
@@ -95,7 +95,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// Returns the part of the cache key besides the program and the settings of `emit`.
+    /// Returns the part of the cache key that neither the program nor the settings of `emit` contain.
     fn query(&self, session: &Session<'_>) -> String {
         let limits = &self.settings.limits;
         let limits = (limits.verify_cells.value, limits.verify_pieces.value);
@@ -106,7 +106,7 @@ impl Verifier<'_> {
     }
 }
 
-/// Reports, at the level of details, how many programs have cached results that still hold.
+/// Reports, as a detail, how many programs have cached results that still hold.
 fn report_known(workspace: &Workspace, known: usize, all: usize) {
     let [en, de] = ["programs whose results still hold", "Programme, deren Ergebnisse noch gelten"];
     workspace.reporter.detail(&format!("{}: {known} / {all}", workspace.choose(en, de)));

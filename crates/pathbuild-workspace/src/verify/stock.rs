@@ -22,7 +22,7 @@ pub(super) struct Sources<'s> {
     stock: Option<Stock>,
 }
 
-/// The diameters in mm that the sources give for a cutting tool.
+/// The diameters of a cutting tool in mm, by source.
 struct ToolDiameters {
     given: Option<f64>,
     drawn: Option<f64>,
@@ -362,7 +362,7 @@ fn disagreements_of(tool: &CuttingTool, diameters: &ToolDiameters) -> Vec<Diagno
     found
 }
 
-/// Returns both values, if they differ.
+/// Returns both values if they differ by more than the tolerance.
 fn different(one: Option<f64>, other: Option<f64>) -> Option<(f64, f64)> {
     one.zip(other).filter(|(one, other)| (one - other).abs() > TOLERANCE)
 }

@@ -88,7 +88,7 @@ impl Watcher {
         directories.watch(&mut *watcher, &*workspace.system)?;
         let configuration = settings.file.iter().chain(post).map(|file| event_path(session, file));
         let configuration: BTreeSet<Utf8PathBuf> = configuration.collect();
-        // Best effort: a link among these files may be dangling, as for drawings.
+        // Best effort: a link among the configuration's files may be dangling, like a link among the drawings.
         _ = directories.follow(&mut *watcher, session, configuration.iter().cloned());
         Ok(Self {
             signals,
@@ -171,7 +171,7 @@ impl Watcher {
         (!changes.is_empty() || library.has_backlog()).then_some(Batch::Changes(changes))
     }
 
-    /// Whether drawings have changed since the last batch, or watching must end.
+    /// Whether drawings have changed since the last batch, or the end of watching was requested.
     pub(super) fn has_news(&mut self, session: &Session<'_>) -> bool {
         self.poll_signals(session);
         let pending = &self.pending;
@@ -270,7 +270,8 @@ impl Watcher {
         }
     }
 
-    /// Holds back incomplete drawings, and releases those that are complete or have been waited for long enough.
+    /// Removes incomplete drawings from the changes and keeps them back. Adds drawings kept back earlier that are complete now or have been waited
+    /// for long enough.
     fn hold_back(&mut self, changes: &mut Changes) {
         let now = Instant::now();
         for path in std::mem::take(&mut changes.paths) {

@@ -108,7 +108,7 @@ impl WatchedDirectories {
         for file in files {
             let places = self.links.follow(system, &file, &workspace.working_directory, as_event);
             let outcomes = places.into_iter().map(|place| self.watch_link(source, place));
-            // A drawing behind a directory that cannot be listed is followed again after the next change.
+            // If a directory cannot be listed, the drawings behind it are followed again after the next change.
             let errors = outcomes.filter_map(Result::err).filter(|error| !is_refusal(error));
             refused.extend(errors.last().map(|error| (file, error)));
         }
@@ -306,12 +306,12 @@ fn directories(
     whole.chain(alone.into_iter().map(with(RecursiveMode::NonRecursive))).collect()
 }
 
-/// Returns a path as events report it.
+/// Converts a path to the form in which events report it.
 pub(super) fn event_path(session: &Session<'_>, path: &Utf8Path) -> Utf8PathBuf {
     session.normal(&clean(&session.workspace().working_directory.join(path)))
 }
 
-/// Links among the dependencies of results. All paths are as events report them.
+/// Links among the dependencies of results. All paths have the form in which events report them.
 #[derive(Default)]
 pub(super) struct Links {
     /// Linked drawings, by each path that determines their content.

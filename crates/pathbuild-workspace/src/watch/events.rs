@@ -83,9 +83,9 @@ pub struct Update {
     pub before: Vec<Diagnostic>,
     /// Current diagnostics of the checked drawings.
     pub now: Vec<Diagnostic>,
-    /// Those current diagnostics that no drawing had before.
+    /// The current diagnostics that no drawing had before.
     pub new: Vec<Diagnostic>,
-    /// Those previous diagnostics that no drawing has any more, not even an unchanged one.
+    /// The previous diagnostics that no drawing has any more, not even an unchanged one.
     pub fixed: Vec<Diagnostic>,
     /// Time that the batch took.
     pub time: Duration,

@@ -24,13 +24,13 @@ pub(super) struct Library<'a> {
     /// Diagnostics of arguments and directories.
     problems: Vec<Diagnostic>,
     q_projects: BTreeMap<[Utf8PathBuf; 2], Vec<Diagnostic>>,
-    /// Each drawing that has a Q-project, paired with it; computed on demand.
+    /// Each drawing that has a Q-project, with that Q-project; computed on demand.
     pairs: Option<BTreeSet<[Utf8PathBuf; 2]>>,
     reverse: ReverseIndex,
     names: NameSnapshots,
-    /// Drawings that are still to be checked, sorted by path.
+    /// Drawings yet to be checked, sorted by path.
     open: BTreeMap<Utf8PathBuf, SourceFile>,
-    /// The changed files because of which these drawings are still to be checked.
+    /// The changed files for which the drawings in `open` are yet to be checked.
     backlog_cause: BTreeSet<Utf8PathBuf>,
     /// Dependencies that have not yet been checked for links.
     unfollowed: BTreeSet<Utf8PathBuf>,
@@ -43,7 +43,7 @@ pub(super) struct Batch {
     pub(super) changed: BTreeSet<Utf8PathBuf>,
     /// Drawings that were checked.
     pub(super) checked_files: Vec<SourceFile>,
-    /// Number of drawings still to be checked, because more changes arrived.
+    /// Number of drawings that are yet to be checked because more changes arrived.
     pub(super) open: usize,
     /// Drawings that no longer exist.
     pub(super) removed: BTreeSet<Utf8PathBuf>,
@@ -465,7 +465,7 @@ impl ReverseIndex {
         self.by_file.contains_key(&file)
     }
 
-    /// Iterates over all files that any drawing's result depends on.
+    /// Iterates over all files that some drawing's result depends on.
     pub(super) fn files(&self) -> impl Iterator<Item = SourceFile> {
         self.by_file.keys().copied()
     }

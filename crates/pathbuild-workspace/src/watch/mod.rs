@@ -63,7 +63,7 @@ struct WatchLoop<'a> {
     revision: u64,
 }
 
-/// Number of drawings checked between wake-ups at the beginning.
+/// Number of drawings that the first check processes between two wake-ups.
 const FIRST_PORTION: usize = 512;
 
 /// Number of drawings checked between polls for new changes.
@@ -165,7 +165,7 @@ impl WatchLoop<'_> {
         checked_files
     }
 
-    /// Watches the targets of links, if possible before they are read.
+    /// Watches the targets of links, if possible before the linked files are read.
     fn follow_links(&mut self) {
         let files = self.library.take_unfollowed();
         let refused = self.watcher.follow(self.library.session(), files);

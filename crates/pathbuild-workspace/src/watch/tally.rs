@@ -7,7 +7,7 @@ use pathbuild_diagnostic::Diagnostic;
 
 use crate::findings::identity;
 
-/// For each finding, the number of checks that report it: several drawings may have the same one.
+/// The number of checks that report each finding. Several drawings may have the same finding.
 #[derive(Debug, Default)]
 pub(super) struct FindingTally(HashMap<Counted, usize>);
 

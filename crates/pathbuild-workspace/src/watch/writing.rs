@@ -20,7 +20,7 @@ pub(super) struct Writer<'a> {
     is_on: bool,
     post_processor: Option<PostProcessor>,
     owners: FileOwners,
-    /// For each drawing, the diagnostics of writing its programs, if there are any.
+    /// The diagnostics of writing each drawing's programs, for drawings that have any.
     found: BTreeMap<Utf8PathBuf, Vec<Diagnostic>>,
 }
 
@@ -55,7 +55,7 @@ impl<'a> Writer<'a> {
         self.post_processor.as_ref()
     }
 
-    /// Returns the drawings with paths that are targets.
+    /// Returns those of the drawings that contain target paths.
     pub(super) fn written(&self, session: &Session<'_>, files: &[SourceFile]) -> Vec<SourceFile> {
         let mut configured = TargetPatterns::new(&self.workspace.settings);
         let mut is_written = |file: &&SourceFile| {
@@ -78,8 +78,8 @@ impl<'a> Writer<'a> {
         with_transient_problems.map(|(drawing, _)| drawing.clone()).collect()
     }
 
-    /// Releases the output files of drawings that will be checked again or were removed. Returns the diagnostics of removed drawings'
-    /// programs.
+    /// Releases the output file names that are claimed for drawings that will be checked again or were removed. Returns the diagnostics of the
+    /// programs of removed drawings.
     pub(super) fn release(
         &mut self,
         session: &Session<'_>,

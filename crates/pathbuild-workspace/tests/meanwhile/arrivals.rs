@@ -104,7 +104,7 @@ impl Listener for Driver<'_> {
     }
 }
 
-/// Watches a library until no step is left. Returns the number of steps.
+/// Watches a library until no step is left. Returns the number of steps performed.
 fn drive(name: String, place: OnDisk, step: Step<'_>) -> u32 {
     fs::create_dir_all(place.path().join("lib/ticks")).unwrap();
     let (bell, told, ticks, is_patient) = Default::default();
@@ -213,7 +213,7 @@ fn a_component_that_arrives_after_another_drawing_is_found() {
     }
 }
 
-/// Edits of a whole library, which make paths ambiguous, missing or cyclic.
+/// Edits a whole library repeatedly. The edits make paths ambiguous, missing or cyclic.
 #[test]
 fn one_session_takes_over_edits_of_a_library() {
     for seed in 0..2 {

@@ -24,7 +24,7 @@ use pathbuild_testkit::RandomLibrary;
 use mischief::{Event, Mischief};
 use on_disk::OnDisk;
 
-/// Pseudorandom numbers, the same in every run (xorshift).
+/// A generator of pseudorandom numbers (xorshift) that yields the same numbers in every run.
 struct Chance(u64);
 
 impl Chance {

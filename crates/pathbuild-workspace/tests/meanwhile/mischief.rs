@@ -28,8 +28,8 @@ pub(crate) enum Event {
     Busy,
 }
 
-/// The operating system's files, with one event: just before or after a certain file is read or a certain directory is listed, or after the file is
-/// written, for the n-th time.
+/// The operating system's files, with an event that happens once: just before or after the n-th time that a certain file is read or a certain
+/// directory is listed, or after the n-th time that the file is written.
 #[derive(Debug)]
 pub(crate) struct Mischief {
     pub(crate) trigger: String,
@@ -46,7 +46,7 @@ pub(crate) struct Mischief {
 const LONG: Duration = Duration::from_secs(61);
 
 impl Mischief {
-    /// Reads a path, and lets the event happen before or after that if it is due.
+    /// Reads a path with `read`. If the event is due, it happens just before or just after that.
     fn around<T>(
         &self,
         path: &Utf8Path,

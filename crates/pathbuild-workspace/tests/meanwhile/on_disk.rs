@@ -147,7 +147,7 @@ impl OnDisk {
     }
 }
 
-/// Returns a path with so many segments that the walk queries the clock.
+/// Returns a path with so many segments that walking along it queries the clock.
 pub(crate) fn long(name: &str) -> String {
     let segments: Vec<String> = (0..300).map(|x| format!("mill {x},0 {},0\n", x + 1)).collect();
     format!("layer {name}\nstart 0,0 \"T5 O2 I1 B0 MX\"\n{}end 300,0", segments.concat())
