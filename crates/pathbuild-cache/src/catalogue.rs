@@ -134,7 +134,7 @@ pub struct Key {
 /// The reason why a results file is not used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CacheFault {
-    /// The file is incomplete, altered, or no results file.
+    /// The file is incomplete, altered, or not a results file.
     Damaged,
     /// The file was written by another build of the program, or for another query.
     Foreign,

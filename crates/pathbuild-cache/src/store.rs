@@ -36,7 +36,7 @@ pub struct TreeStore {
 const TREE_FILE: &str = "tree";
 /// Size limit of results files in bytes: a planted file must not exhaust the memory.
 const MAX_RESULTS_BYTES: u64 = 1 << 30;
-/// Size limit of the other files in bytes.
+/// Size limit of the tree file and of the cache tag in bytes.
 const MAX_TAG_BYTES: u64 = 1 << 16;
 /// Name of the file that marks a directory as a cache.
 const TAG_FILE: &str = "CACHEDIR.TAG";

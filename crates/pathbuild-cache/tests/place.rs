@@ -1,4 +1,4 @@
-//! The directory of cached results contains only the user's own files, and is never accessed through links.
+//! Tests that the directory of cached results contains only the user's own files, and is never accessed through links.
 #![cfg(unix)]
 #![expect(
     clippy::unwrap_used,
@@ -122,7 +122,7 @@ fn nothing_is_pruned_through_a_link_or_among_other_things() {
     assert_eq!(TreeStore::of_tree(&CacheLocation::Named(base.join("none")), &base).prune(&build).unwrap(), 0);
 }
 
-/// Other programs mark their caches with the same signature and may use any file names, so such a mark does not suffice.
+/// Other programs mark their caches with the same signature and may use any file names, so the signature does not suffice.
 #[test]
 fn only_what_pathbuild_makes_is_removed() {
     let (_directory, base) = world();
@@ -159,7 +159,7 @@ fn only_what_pathbuild_makes_is_removed() {
     assert!(of_others.iter().all(|name| base.join("one").join(name).exists()));
 }
 
-/// Without its mark, a directory belongs to pathbuild only if it contains nothing but files that pathbuild creates.
+/// Without its cache tag, a directory belongs to pathbuild only if it contains nothing but files that pathbuild creates.
 #[test]
 fn a_directory_without_a_mark_may_be_anybodys() {
     let (_directory, base) = world();
@@ -172,7 +172,7 @@ fn a_directory_without_a_mark_may_be_anybodys() {
         assert!(place.refusal().is_some() && place.clean().is_err() && file.exists(), "{name}");
         fs::remove_file(&file).unwrap();
     }
-    // A run may have been killed, or may be about to write the mark.
+    // A run may have been killed, or may be about to write the tag.
     let tree = base.canonicalize_utf8().unwrap();
     let made = [
         ("tree", tree.as_str()),

@@ -56,7 +56,7 @@ struct BinaryGroups<'a> {
     codes: GroupCodeSize,
 }
 
-/// Progress through the sections.
+/// The section that has been reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Section {
     Other,
@@ -100,7 +100,7 @@ impl BinaryGroups<'_> {
         }
     }
 
-    /// Writes the value of a group. The code of an unknown type is written in a form that the reader rejects as a code.
+    /// Writes the value of a group. A group of unknown type ends the conversion with a line that the reader rejects as a group code.
     fn value(&mut self, code: i16, text: &mut Vec<u8>) -> Option<()> {
         match value_type(code) {
             ValueType::String => self.string(text)?,

@@ -30,7 +30,7 @@ pub(crate) fn may_hold_wanted<'a>(
     })
 }
 
-/// Whether any text (code 1) in these blocks satisfies `is`, except for those of records on a wanted layer.
+/// Whether any text (code 1) in these blocks satisfies `is`. Texts in records on a wanted layer are left out.
 pub(crate) fn has_text<'a>(
     blocks: &Pairs<'a>,
     is: &dyn Fn(&[u8]) -> bool,
@@ -65,7 +65,7 @@ fn layer_before(bytes: &[u8], line_end: u8) -> Option<&[u8]> {
     None
 }
 
-/// Whether `is` holds for the position of any such digit that may be a group code.
+/// Whether `is` holds for any position at which the digit may be a whole group code.
 fn any_digit(digit: u8, bytes: &[u8], mut is: impl FnMut(usize) -> bool) -> bool {
     // Positions ascend, since the caller counts lines on the way.
     if bytes.first() == Some(&digit) && is(0) {

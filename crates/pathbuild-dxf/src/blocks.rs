@@ -24,11 +24,11 @@ pub(crate) struct Blocks<'a> {
     /// Blocks by folded name. If several have the same name, the first one counts.
     by_name: HashMap<SmolStr, BlockId>,
     all: Vec<Block<'a>>,
-    /// For each block and layer it is inserted on: the wanted layers that such an insertion draws on.
+    /// The wanted layers on which an insertion draws, by the inserted block and the layer of the insertion.
     wanted: BTreeMap<BlockOnLayer, Rc<[LayerId]>>,
 }
 
-/// A block and the layer it is inserted on.
+/// A block, and the layer on which it is inserted.
 type BlockOnLayer = (BlockId, LayerId);
 
 /// Index of a block.
@@ -42,7 +42,7 @@ struct Block<'a> {
     head: Pair<'a>,
     items: Option<Rc<[Item<'a>]>>,
     layers: BlockLayers,
-    /// See [`Blocks::drawn_layers`].
+    /// The layers that [`Blocks::drawn_layers`] returns; `None` until they are determined.
     drawn_layers: Option<Arc<[SmolStr]>>,
     /// Whether the block stands for the content of another file.
     is_reference: bool,
@@ -104,7 +104,7 @@ impl<'a> Blocks<'a> {
             .filter(|block| !self.all[block.0].is_missing_reference())
     }
 
-    /// The base point of a block.
+    /// Returns the base point of a block.
     pub(crate) fn base(&self, block: BlockId) -> Result<Point3, EntityError<'a>> {
         self.all[block.0].base.clone()
     }

@@ -107,7 +107,7 @@ impl<'d> Collector<'d> {
         }
     }
 
-    /// Adds an entity.
+    /// Adds an entity with this shape, or records the fault because of which it has none.
     #[inline(always)]
     pub(crate) fn add(
         &mut self,
@@ -336,7 +336,7 @@ fn place_of(placed: &PlacedEntity<'_>, point: Option<Point>) -> Place {
     }
 }
 
-/// Maximum number of layers of a block's contents to list.
+/// Maximum number of layers of a block's contents that a message lists.
 const MAX_LISTED_LAYERS: usize = 3;
 
 /// Adds a block to a problem: its name, and the layers of its contents.

@@ -8,7 +8,7 @@ pub struct Options<'a> {
     /// Decides by a layer's name (trimmed, xref prefix dropped, `\U+` decoded) whether its entities are wanted. Numbers on other layers are
     /// not even parsed, so they cannot be wrong.
     pub keep_layer: &'a dyn Fn(&str) -> bool,
-    /// Test for the undecoded bytes of each TEXT, or last part of an MTEXT, on an unwanted layer. If one passes, [`Drawing::has_noted_text`] is
+    /// A test for the undecoded bytes of each TEXT, or last part of an MTEXT, on an unwanted layer. If one passes, [`Drawing::has_noted_text`] is
     /// set.
     pub note_text: Option<TextTest<'a>>,
     /// The treatment of $INSUNITS.
@@ -19,8 +19,8 @@ pub struct Options<'a> {
     pub max_entities: usize,
     /// Maximum length of a text in bytes. A longer text is an error (PB005).
     pub max_text: usize,
-    /// Reads as PathDxf2GCode does: only LINE, ARC, CIRCLE, TEXT and MTEXT outside of blocks. Anything else on a wanted layer is left out
-    /// with one warning per drawing, and no MTEXT has a width.
+    /// Whether to read as PathDxf2GCode does: only LINE, ARC, CIRCLE, TEXT and MTEXT outside of blocks. Anything else on a wanted layer is then left
+    /// out with one warning per drawing, and no MTEXT has a width.
     pub compatible: bool,
 }
 

@@ -61,7 +61,7 @@ impl<'a> Decoder<'a> {
         if is_plain(bytes) { decode_latin1(bytes) } else { self.decode_others(bytes, line) }
     }
 
-    /// Decodes to UTF-8 bytes.
+    /// Decodes a string that starts on this line to UTF-8 bytes.
     pub(crate) fn decode_bytes<'b>(&mut self, bytes: &'b [u8], line: u32) -> Cow<'b, [u8]> {
         if is_plain(bytes) {
             return bytes.into();

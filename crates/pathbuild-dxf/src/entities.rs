@@ -36,14 +36,14 @@ pub(crate) struct EntityReader<'a, 'o> {
     pub(crate) has_noted_text: bool,
 }
 
-/// The space that entities are drawn in.
+/// The space in which entities are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Space {
     Model,
     Block,
 }
 
-/// Largest number of repeated groups kept per entity.
+/// Returns the largest number of repeated groups that is kept per entity.
 pub(crate) fn max_repeated_groups(options: &Options<'_>) -> usize {
     options.max_entities.saturating_mul(GROUPS_PER_ENTITY).max(options.max_text)
 }
@@ -406,17 +406,17 @@ impl RecordKind {
         })
     }
 
-    /// Whether such a record belongs to a POLYLINE.
+    /// Whether a record of this kind belongs to a POLYLINE.
     fn is_part(self) -> bool {
         matches!(self, Self::Vertex | Self::SequenceEnd)
     }
 
-    /// Whether such a record draws more than texts and annotations.
+    /// Whether a record of this kind draws more than texts and annotations.
     fn is_element(self) -> bool {
         !(self.is_part() || self.is_template() || matches!(self, Self::Text | Self::MText | Self::Hatch))
     }
 
-    /// Whether such a record draws nothing where its block is inserted: each insertion has an ATTRIB of its own instead.
+    /// Whether a record of this kind draws nothing where its block is inserted: each insertion has an ATTRIB of its own instead.
     fn is_template(self) -> bool {
         self == Self::Foreign(EntityKind::AttDef)
     }

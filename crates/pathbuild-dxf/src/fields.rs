@@ -1,7 +1,7 @@
 //! The groups of one entity, kept as bytes until the entity turns out to be wanted.
 //!
-//! Each code below 80 has a slot; groups that an entity repeats (points of a polyline, chunks of a text) are also kept in order. No entity
-//! allocates memory.
+//! Each code below 80 has a slot; groups that an entity repeats (points of a polyline, chunks of a text) are also kept in order. Storing them
+//! allocates no memory per entity.
 
 use pathbuild_diagnostic::Handle;
 
@@ -57,7 +57,7 @@ pub(crate) struct Fields<'a> {
     most_repeated: usize,
 }
 
-/// Whether [`Fields::fill`] keeps an entity.
+/// The decision of [`Fields::fill`] about the groups of an entity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FillDecision {
     /// Keep the groups of the entity.
@@ -181,27 +181,27 @@ impl<'a> Fields<'a> {
         self.entity += 1;
     }
 
-    /// The value of a code, if present. If the code occurs several times, the last value counts.
+    /// Returns the value of a code, if present. If the code occurs several times, the last value counts.
     #[inline]
     pub(crate) fn get(&self, code: i32) -> Option<Value<'a>> {
         let value = self.slots.get(Role::of(code).slot()).filter(|value| value.entity == self.entity)?;
         Some(Value { bytes: without_cr(value.bytes), ..*value })
     }
 
-    /// Returns the number of a group that may be missing.
+    /// Returns the value of a code as a number; `None` if the group is missing.
     #[inline]
     pub(crate) fn number(&self, code: i32) -> Result<Option<f64>, BadGroup<'a>> {
         let Some(value) = self.get(code) else { return Ok(None) };
         real(value.bytes).map(Some).map_err(|reason| BadGroup::Number { code, value, reason })
     }
 
-    /// Returns the number of a group that must be present.
+    /// Returns the value of a code as a number. The group must be present.
     #[inline]
     pub(crate) fn required(&self, code: i32) -> Result<f64, BadGroup<'a>> {
         self.number(code)?.ok_or(BadGroup::Missing { code })
     }
 
-    /// Returns the length of a group that must be present. It must be positive.
+    /// Returns the value of a code as a length. The group must be present, and the length positive.
     #[inline]
     pub(crate) fn length(&self, code: i32) -> Result<f64, BadGroup<'a>> {
         let length = self.required(code)?;
@@ -211,7 +211,7 @@ impl<'a> Fields<'a> {
         Err(self.get(code).map_or(BadGroup::Missing { code }, |value| BadGroup::NotPositive { code, value }))
     }
 
-    /// Returns the integer of a group that may be missing.
+    /// Returns the value of a code as an integer; `None` if the group is missing.
     pub(crate) fn whole(&self, code: i32) -> Result<Option<i64>, BadGroup<'a>> {
         let Some(value) = self.get(code) else { return Ok(None) };
         whole(value.bytes).map(Some).map_err(|reason| BadGroup::Number { code, value, reason })
@@ -224,7 +224,7 @@ impl<'a> Fields<'a> {
         Ok(Point3 { x: self.required(x)?, y: self.required(x + 10)?, z: z.unwrap_or(0.0) })
     }
 
-    /// The handle, if present and hexadecimal.
+    /// Returns the handle, if it is present and hexadecimal.
     #[inline]
     pub(crate) fn handle(&self) -> Option<Handle> {
         let digits = self.get(5)?.bytes.trim_ascii();

@@ -50,7 +50,7 @@ impl<'a> Group<'a> {
         without_cr(self.raw)
     }
 
-    /// Converts to a pair. Its code is -1 if the role stands for several codes.
+    /// Converts the group to a pair. The pair's code is -1 if the role stands for several codes.
     pub(crate) fn pair(&self) -> Pair<'a> {
         Pair { code: self.role.code().unwrap_or(-1), line: self.line(), value: self.value() }
     }
@@ -161,7 +161,7 @@ impl<'a> Records<'a> {
         Ok(())
     }
 
-    /// Skips the record.
+    /// Skips the head record.
     pub(crate) fn skip(&mut self) -> Result<(), Stop<'a>> {
         self.head = self.groups.next_zero()?;
         Ok(())
@@ -187,11 +187,11 @@ fn diagnostic_line(line: u64) -> u32 {
 /// The pairs in a stretch of bytes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ScannedPairs<'a> {
-    /// The bytes with known line ends, and room for one more code.
+    /// The bytes with known line ends, followed by as many bytes as one more code may need.
     bytes: &'a [u8; WINDOW_BYTES + MAX_CODE_BYTES],
     /// Offset of the next pair.
     at: usize,
-    /// Bit mask of the line ends from there on: bit n for byte n.
+    /// Bit mask of the line ends from `at` on: bit n for byte n.
     ends: u64,
 }
 
@@ -202,7 +202,7 @@ const WINDOW_BYTES: usize = 64;
 const MAX_CODE_BYTES: usize = 8;
 
 impl<'a> ScannedPairs<'a> {
-    /// A stretch without pairs.
+    /// A window without pairs.
     const EMPTY: Self = Self { bytes: &[0; WINDOW_BYTES + MAX_CODE_BYTES], at: 0, ends: 0 };
 
     /// Finds the pairs at the start of these bytes; `None` if the first pair is too long or the bytes are nearly exhausted.
@@ -237,7 +237,7 @@ impl<'a> ScannedPairs<'a> {
         let (length, role) = Role::of_line(*self.bytes[at..].first_chunk()?, code_end)?;
         let end = value_ends.trailing_zeros() as usize % WINDOW_BYTES;
         (self.at, self.ends) = (end + 1, without_first(value_ends));
-        // Without a branch: whether a line ends with CR cannot be predicted.
+        // Use no branch: whether a line ends with CR cannot be predicted.
         let has_cr = usize::from(end > 0 && self.bytes[end - 1] == b'\r');
         Some((role, self.bytes.get(at + length..end - has_cr).unwrap_or_default()))
     }
@@ -306,7 +306,7 @@ impl Role {
     /// Code 102, which opens or closes a group of an application.
     pub(crate) const APPLICATION: Self = Self(87);
 
-    /// The role of a code.
+    /// Returns the role of a code.
     pub(crate) const fn of(code: i32) -> Self {
         match code {
             0 => Self::BEGIN,
@@ -354,7 +354,7 @@ impl Role {
         Some((length + 1, Self::of(code)))
     }
 
-    /// The slot in which an entity keeps the value. [`Role::WITHOUT_ROLE`] and the roles after it have none.
+    /// Returns the slot in which an entity keeps the value. [`Role::WITHOUT_ROLE`] and the roles after it have none.
     #[inline]
     pub(crate) fn slot(self) -> usize {
         usize::from(self.0)
@@ -366,7 +366,7 @@ impl Role {
         self.0 <= Self::WITHOUT_ROLE.0
     }
 
-    /// The code with this role, if there is only one.
+    /// Returns the code with this role, if there is only one.
     pub(crate) fn code(self) -> Option<i32> {
         Some(match self {
             Self::WITHOUT_ROLE => return None,

@@ -32,7 +32,7 @@ pub(crate) struct Layers<'a, 'o> {
 
 /// A layer that some entity uses, wanted or not.
 struct FoundLayer<'a> {
-    /// The decoded spelling.
+    /// The decoded spelling of the name.
     full_name: Cow<'a, str>,
     is_kept: bool,
     /// Whether the layer is layer `0`, which inside a block stands for the layer of the insertion.
@@ -84,12 +84,12 @@ impl<'a, 'o> Layers<'a, 'o> {
         id
     }
 
-    /// The spelling that was looked up last.
+    /// Returns the spelling that was looked up last.
     pub(crate) fn last_spelling(&self) -> &'a [u8] {
         self.last.map_or(b"", |(spelling, _)| spelling)
     }
 
-    /// The properties of a wanted layer.
+    /// Returns the properties of a wanted layer.
     #[inline]
     pub(crate) fn used(
         &mut self,
@@ -109,12 +109,12 @@ impl<'a, 'o> Layers<'a, 'o> {
         self.found(id).is_kept
     }
 
-    /// The name: trimmed, decoded, without xref prefix.
+    /// Returns the name of a layer: trimmed, decoded, without xref prefix.
     pub(crate) fn name(&self, id: LayerId) -> &str {
         without_xref(&self.found(id).full_name)
     }
 
-    /// The effective layer of an entity in an inserted block: that of the insertion if the entity is on layer `0`.
+    /// Returns the effective layer of an entity in an inserted block: that of the insertion if the entity is on layer `0`.
     pub(crate) fn inherited(&self, layer: LayerId, of_insert: LayerId) -> LayerId {
         if self.is_inheriting(layer) { of_insert } else { layer }
     }
@@ -178,7 +178,7 @@ struct KnownLayers<'a> {
     records: HashMap<SmolStr, LayerRecord<'a>>,
     /// Layers with an external-reference prefix, by the rest of their names.
     referenced: HashMap<SmolStr, LayerRecord<'a>>,
-    /// The name added last.
+    /// The name of the layer that was added last.
     last_name: SmolStr,
 }
 
@@ -261,7 +261,7 @@ impl<'a> KnownLayers<'a> {
 }
 
 impl LayerRecord<'_> {
-    /// The line type in upper case, if set.
+    /// Returns the line type in upper case, if the record gives one.
     pub(crate) fn line_type(&self) -> Option<SmolStr> {
         let name = String::from_utf8_lossy(self.line_type.as_deref()?);
         Some(line_type_name(&name)).filter(|name| !name.is_empty())

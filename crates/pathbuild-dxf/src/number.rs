@@ -128,7 +128,7 @@ const POWERS: [f64; 2 * WIDTH] =
 /// 0x01 in each byte.
 const ONE_PER_BYTE: u64 = u64::from_le_bytes([1; WIDTH]);
 
-/// `0` in each byte.
+/// The character `0` in each byte.
 const ZEROS: u64 = ONE_PER_BYTE * 0x30;
 
 /// Up to eight digits, the last in the highest byte, padded with zeros. A byte above 9 is some other character.

@@ -25,12 +25,12 @@ pub(crate) struct Pair<'a> {
 pub(crate) enum Stop<'a> {
     /// The input ends. An incomplete pair and blank lines at the end do not count.
     End {
-        /// The line after the last.
+        /// The line after the last line of the input.
         line: u32,
     },
     /// A line that should hold a group code holds something else.
     BadCode {
-        /// The line in question.
+        /// The faulty line.
         line: u32,
         /// Content of the line, shortened.
         found: &'a [u8],
@@ -200,7 +200,7 @@ pub(crate) enum SectionEnd<'a> {
     Missing(Pair<'a>),
     /// The input ended within the section.
     CutOff {
-        /// The last line.
+        /// The last line of the input.
         line: u32,
     },
 }

@@ -9,7 +9,7 @@ pub(crate) struct Placement {
     origin: Point3,
     /// Image of the unit vector in x: direction times scale.
     x_axis: (f64, f64),
-    /// Angle of that vector in degrees.
+    /// Angle of `x_axis` in degrees.
     turn: f64,
     /// Scale of lengths, positive.
     scale: f64,

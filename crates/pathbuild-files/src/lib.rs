@@ -112,7 +112,7 @@ pub trait System: Debug + Send + Sync {
     /// The reason why it cannot be removed.
     fn remove(&self, path: &Utf8Path) -> Result<(), Value>;
 
-    /// Returns the current time, for time limits; `None` without a clock: then the caller must stop work that takes too long.
+    /// Returns the current time, for time limits. `None` if there is no clock, so that the caller must stop work that takes too long.
     fn now(&self) -> Option<Instant> {
         Some(Instant::now())
     }
@@ -170,7 +170,7 @@ impl ReadError {
         }
     }
 
-    /// Returns the reason as a phrase, for a message about the purpose for which the file was needed.
+    /// Returns the reason as a phrase, for a message that says what the file was needed for.
     pub fn reason(self, limit: u64) -> Value {
         match self {
             Self::Missing => (&NO_FILE).into(),
@@ -217,7 +217,7 @@ pub enum EntryKind {
     File,
     /// A directory.
     Directory,
-    /// A symbolic link to anything.
+    /// A symbolic link, whatever its target is.
     Link,
 }
 
@@ -240,7 +240,7 @@ impl Names {
         self.ends.push(self.text.len());
     }
 
-    /// The number of names.
+    /// Returns the number of names.
     pub fn len(&self) -> usize {
         self.ends.len()
     }

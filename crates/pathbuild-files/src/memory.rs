@@ -153,7 +153,7 @@ impl System for OverlaySystem {
         directory: &Utf8Path,
         take: &mut dyn FnMut(Entry<'_>) -> ControlFlow<()>,
     ) -> Result<(), ReadError> {
-        // The listing is that of the disk: the overlaid file is not added.
+        // The overlaid file is not added: the listing shows what is on disk.
         self.below.each_entry(directory, take)
     }
 

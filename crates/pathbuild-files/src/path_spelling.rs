@@ -18,7 +18,7 @@ pub fn is_drawing(path: &Utf8Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
 }
 
-/// Returns the path of a file in a directory, with separators as from [`spelt`], in a single allocation of the right size.
+/// Returns the path of a file in a directory, with separators as from [`with_forward_slashes`], in a single allocation of the right size.
 pub fn join(directory: &Utf8Path, name: impl AsRef<Utf8Path>) -> Utf8PathBuf {
     let name = name.as_ref();
     let mut path = Utf8PathBuf::with_capacity(directory.as_str().len() + 1 + name.as_str().len());

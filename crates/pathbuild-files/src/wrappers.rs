@@ -50,7 +50,7 @@ impl ConfinedSystem {
         self
     }
 
-    /// The directory of the configuration.
+    /// Returns the directory of the configuration.
     pub fn root(&self) -> &Utf8Path {
         self.roots.first().map_or(Utf8Path::new(""), |root| &root.as_written)
     }
@@ -91,7 +91,7 @@ impl ConfinedSystem {
         self.real(path).is_none_or(|real| real.is_ok_and(|target| target.starts_with(&root.real)))
     }
 
-    /// Returns the path with links resolved; if it does not exist yet, that of the nearest existing parent directory.
+    /// Returns the path with links resolved. If nothing exists at the path yet, resolves the nearest existing parent directory instead.
     fn real(&self, path: &Utf8Path) -> Option<io::Result<Utf8PathBuf>> {
         let path = self.working_directory.join(path);
         let mut ancestors = path.ancestors();

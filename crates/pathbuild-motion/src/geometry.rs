@@ -136,7 +136,7 @@ impl Plane {
         Axes::ALL.without(Axes::of(self.third()))
     }
 
-    /// Returns the coordinates of a position in the plane.
+    /// Returns the coordinates of a position along the plane's two axes.
     pub fn project(self, at: &[f64; 3]) -> [f64; 2] {
         self.axes().map(|axis| at[axis])
     }
@@ -322,7 +322,8 @@ impl Course {
         libm::sincos(if self.arc.clockwise { -angle } else { angle })
     }
 
-    /// Returns the position at the end of a vector from the centre with the initial radius, which has been rotated by a fraction of the arc.
+    /// Returns the position at a fraction of the arc. `[a, b]` is the vector from the centre to the start, already rotated by that fraction of the
+    /// swept angle.
     fn place(&self, [a, b]: [f64; 2], share: f64) -> [f64; 3] {
         let stretch = 1.0 + share * self.growth;
         let [first, second] = self.arc.plane.axes();
@@ -339,7 +340,7 @@ fn turned([a, b]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 2] {
     [a * cos - b * sin, a * sin + b * cos]
 }
 
-// Adjusts arcs to the way in which a controller reads them, from rounded numbers. (book: program/gcode)
+// Arcs are adjusted to the way in which a controller reads them: from rounded numbers. (book: program/gcode)
 //
 // A controller rejects an arc, or mills something unexpected, if its centre is not equidistant from its ends. Start, end and centre are rounded
 // separately, each by up to half a unit of the last digit. Together this may be too much even for a correct arc. Then a centre that differs by one

@@ -166,7 +166,8 @@ impl Coolant {
     }
 }
 
-/// Changes besides position, spindle, tool and coordinate system. Positions in steps reflect all of them except the tool length.
+/// A change of something other than position, spindle, tool and coordinate system. Positions in steps reflect all of these changes except that of the
+/// tool length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
     /// G43, G43.1, G43.2, G44, G49: sets the tool length.
@@ -248,7 +249,7 @@ impl WorkSystem {
     }
 }
 
-/// Groups of G words, of which only one may occur in a line. (NIST RS274/NGC, table 4)
+/// A group of G words. A line may contain only one word of each group. (NIST RS274/NGC, table 4)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Group {
@@ -348,7 +349,7 @@ impl Pace {
     }
 }
 
-/// Positions that a program specifies by name, with the axes that move.
+/// A position that a program specifies by name, with the axes that move there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NamedPosition {
     /// G53: machine coordinates. If the machine's origin is unknown, the axes of the target that are not `known` hold machine coordinates.

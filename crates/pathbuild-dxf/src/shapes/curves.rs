@@ -44,7 +44,7 @@ impl Vector {
         libm::hypot(self.x, self.y)
     }
 
-    /// Whether no coordinate is beyond the largest of a drawing.
+    /// Whether both coordinates are within the largest coordinate of a drawing.
     pub(crate) fn is_near(self) -> bool {
         self.x.abs() <= MAX_COORDINATE && self.y.abs() <= MAX_COORDINATE
     }

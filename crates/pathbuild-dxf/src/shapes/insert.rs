@@ -77,7 +77,7 @@ impl Array {
         })
     }
 
-    /// The insertion point.
+    /// Returns the insertion point.
     pub(crate) fn begin(&self) -> Point {
         let at = self.first().point(Point3::default());
         Point::new(at.x, at.y)

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use pathbuild_dxf::{Drawing, Entity, Geometry, HorizontalAlign, MText, Origin, Text, VerticalAlign};
 
-/// For each layer, by its upper-case name, whether it is frozen or off.
+/// Whether each layer is frozen or off, by the layer's upper-case name.
 pub(crate) type SeenLayers = BTreeMap<String, bool>;
 
 /// An entity in world coordinates.
@@ -22,7 +22,7 @@ pub(crate) struct Seen {
     pub(crate) numbers: Vec<f64>,
 }
 
-/// Maximum difference of equal numbers, of which the oracle has nine decimals.
+/// Maximum difference of numbers that count as equal. The oracle gives nine decimals.
 const NEAR: f64 = 2e-9;
 
 impl Seen {

@@ -1,4 +1,4 @@
-//! Insertions matter only if they draw on a wanted layer; problems of all others are ignored. (book: language/layers-and-names)
+//! Tests that insertions matter only if they draw on a wanted layer, and that problems of all others are ignored. (book: language/layers-and-names)
 
 use std::time::{Duration, Instant};
 
