@@ -111,7 +111,7 @@ pub struct OmittedCurve {
     pub kind: EntityKind,
     /// First point of the entity, if known.
     pub point: Option<Point>,
-    /// For a block that draws on layers that were not wanted, and on no others: the names of those layers. If one of them is read for
+    /// If the entity inserts a block that draws only on unwanted layers, the names of those layers; otherwise empty. If one of them is read for
     /// another purpose, nothing is missing.
     pub layers: sync::Arc<[SmolStr]>,
     /// PB111, with line and handle.

@@ -8,7 +8,7 @@ pub fn with_forward_slashes(path: Utf8PathBuf) -> Utf8PathBuf {
     if cfg!(windows) { replace_backslashes(path) } else { path }
 }
 
-/// Returns a path for system calls, which do not accept an empty path: `.` if it is empty.
+/// Returns a path for system calls: `.` for an empty path, which they do not accept.
 pub fn or_current_directory(path: &Utf8Path) -> &Utf8Path {
     if path.as_str().is_empty() { Utf8Path::new(".") } else { path }
 }

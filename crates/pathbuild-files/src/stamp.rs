@@ -1,4 +1,4 @@
-//! File stamps, which show whether a file has changed from the file system's metadata, without reading the file.
+//! File stamps. They show by the file system's metadata whether a file has changed, so that the file need not be read.
 //!
 //! As in Git, equal stamps prove that a file is unchanged only if it had been at rest for a while when it was read: a file that changes
 //! again within the same tick of the file system's clock keeps its stamp. Files that were not at rest are stored without a stamp, and are

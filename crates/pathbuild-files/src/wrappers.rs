@@ -13,8 +13,8 @@ use pathbuild_diagnostic::reasons::LEADS_OUT;
 use super::{Entry, FileKind, FileLink, Listing, ReadError, Stamp, System, WriteOutcome, clean};
 
 /// A wrapper that refuses to read or write through links that lead from inside one of the given directories to outside of it. A path that, as
-/// written, lies outside of all of them is allowed: names from the repository itself are checked with [`ConfinedSystem::is_in_configured_root`] first, so such
-/// a path was given by the user.
+/// written, lies outside of all of them is allowed: names from the repository itself are checked with [`ConfinedSystem::is_in_configured_root`]
+/// first, so such a path was given by the user.
 #[derive(Clone, Debug)]
 pub struct ConfinedSystem {
     below: Arc<dyn System>,

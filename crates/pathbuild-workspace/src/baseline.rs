@@ -212,7 +212,8 @@ impl Baseline {
 }
 
 impl Workspace {
-    /// Returns the path of the baseline file: `named` if given; otherwise it lies beside the configuration, or without one in the working directory.
+    /// Returns the path of the baseline file: `named` if given; otherwise it lies beside the configuration or, without a configuration, in the
+    /// working directory.
     pub fn baseline_file(&self, named: Option<&Utf8Path>) -> Utf8PathBuf {
         match named {
             Some(file) => self.working_directory.join(file),

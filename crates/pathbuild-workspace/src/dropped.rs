@@ -49,7 +49,7 @@ struct ProgramScene<'s> {
 struct ProgramRecord {
     dialect: &'static str,
     dialects: Vec<&'static str>,
-    /// The dialect as which the program is read and, if it was guessed, the reason.
+    /// The dialect in which the program is read and, if it was guessed, the reason.
     read_as: BilingualText,
     checks: Vec<ShownCheck>,
     cutters: Vec<ToolSpan>,

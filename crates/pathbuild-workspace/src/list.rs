@@ -188,7 +188,7 @@ fn not_a_pattern(session: &Session<'_>, name: &str, reason: &Value) -> String {
     format!("{what}: {}", reason.render(session.workspace().lang()))
 }
 
-/// The arguments, divided into drawings or directories and patterns for path names.
+/// The arguments, divided into places (drawings and directories) and patterns for path names.
 struct ListArguments {
     places: Inputs,
     patterns: Vec<Pattern>,

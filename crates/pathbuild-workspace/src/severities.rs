@@ -37,8 +37,8 @@ impl Workspace {
         self.severities().has_error(diagnostics)
     }
 
-    /// Returns PB524 if the configuration lowers all errors among these problems of a program that was not written. Otherwise the user would see no
-    /// reason why it was not written.
+    /// Returns PB524 if the configuration lowers all errors among these problems of a program that was not written. Without it, the user would see no
+    /// reason why the program was not written.
     pub fn lowered_error<'d>(
         &self,
         problems: impl IntoIterator<Item = &'d Diagnostic> + Clone,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use pathbuild_dxf::{Drawing, Entity, Geometry, HorizontalAlign, MText, Origin, Text, VerticalAlign};
 
-/// Whether each layer is frozen or off, by the layer's upper-case name.
+/// The layers of a drawing by upper-case name, with whether each is frozen or off.
 pub(crate) type SeenLayers = BTreeMap<String, bool>;
 
 /// An entity in world coordinates.

@@ -150,7 +150,8 @@ impl Discovery<'_> {
         self.above(&clean(self.working_directory))
     }
 
-    /// Returns the directory used in place of the configuration's by a run without one: that of the first argument, or the working directory.
+    /// Returns the directory that a run without a configuration uses instead of the configuration's: that of the first argument, or the working
+    /// directory.
     pub(super) fn search_start(&self) -> Utf8PathBuf {
         let first = self.inputs.iter().next();
         first.map_or_else(|| clean(self.working_directory), |first| self.search_start_of(first))
@@ -186,7 +187,7 @@ impl Discovery<'_> {
         files.find(is_one)
     }
 
-    /// Returns diagnostics for arguments to which another configuration would apply than the one of the run.
+    /// Returns a diagnostic for each argument to which another configuration than that of the run would apply.
     pub(super) fn misplaced_inputs(&self, used: Option<&Utf8Path>) -> Vec<Diagnostic> {
         let place = |input: Input<'_>| match input {
             Input::Place(place) => Some(place.to_owned()),

@@ -102,7 +102,7 @@ choice! {
         Drawing = "drawing",
         /// Moves must not enter the clamps in the drawing.
         Clamps = "clamps",
-        /// That the control rounds corners by no more than the program permits. Only for controls that take such a limit.
+        /// The control must round corners by no more than the program permits. Only for controls that take such a limit.
         Corners = "corners",
     }
 }

@@ -21,7 +21,7 @@ use super::sheet;
 use crate::posting::PostProcessor;
 use crate::session::{OutputKind, WriteSettings};
 
-/// The outcome of building a program, and the generated files. If one file cannot be written, there are none.
+/// The outcome of building a program, and the generated files. There are no files if one of them cannot be written.
 #[derive(Default)]
 pub(super) struct Built {
     /// The outcome of the program. Its `files` are filled in when they are written.

@@ -50,8 +50,8 @@ pub enum DrawingComparison {
     Unknown,
 }
 
-/// Compares a native program with its drawing. This is `named`, or else the drawing in the program's title, which is searched for beside the program
-/// and then where paths are looked up.
+/// Compares a native program with its drawing. The drawing is `named`, or else the one in the program's title, which is searched for beside the
+/// program and then where paths are looked up.
 pub fn compare_with_drawing(
     session: &mut Session<'_>,
     text: &[u8],

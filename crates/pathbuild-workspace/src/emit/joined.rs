@@ -12,7 +12,7 @@ use pathbuild_toolpath::{Program, kind_of_move, way};
 
 use super::plan::Job;
 
-/// Returns PB211 for each sign that the paths do not belong into one program: different material or thickness, or a repeated path.
+/// Returns PB211 for each sign that the paths do not belong in one program: different material or thickness, or a repeated path.
 pub(super) fn doubts(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Vec<Diagnostic> {
     let thickness = differing_thickness(db, job, programs);
     thickness.into_iter().chain(differing_material(db, job)).chain(repeated(db, job)).collect()

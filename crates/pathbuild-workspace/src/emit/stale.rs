@@ -80,7 +80,7 @@ impl StaleProgram {
 /// The outcome of searching for stale programs of earlier runs.
 #[derive(Debug, Default)]
 pub(super) struct StaleOutcome {
-    /// The programs that are still on disk of paths that this run could not write.
+    /// Earlier programs, still on disk, of paths that this run could not write.
     pub(super) older: Vec<ProgramOutcome>,
     pub(super) removed: Vec<Utf8PathBuf>,
     /// Stale programs of paths that still exist.

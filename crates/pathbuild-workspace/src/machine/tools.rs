@@ -332,7 +332,7 @@ impl Tools {
         Self { format, described: Vec::new(), unused: Vec::new(), problems: Vec::new() }
     }
 
-    /// Reads the number of a tool; 0 means that it has none.
+    /// Reads the number of a tool; 0 means that the tool has no number.
     fn tool_number(&mut self, name: &str, text: Option<&str>, line: Option<u32>) -> Option<u32> {
         let text = text?;
         match text.parse() {

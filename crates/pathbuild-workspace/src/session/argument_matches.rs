@@ -1,5 +1,5 @@
-//! Finds the files and directories that arguments may refer to, as the first step of resolving arguments. It looks at file names alone: only
-//! patterns of path names read drawings. (book: reference/commands)
+//! Finds the files and directories that arguments may refer to, as the first step of resolving arguments. This step looks at file names alone; it
+//! reads drawings only to match patterns of path names. (book: reference/commands)
 //!
 //! Directories are also listed, and drawings read, before they are needed: listing a directory of ten thousand drawings takes longer than building a
 //! program from ten of them, so the drawings that are most likely embedded are read in the meantime.

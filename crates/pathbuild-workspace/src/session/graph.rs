@@ -43,7 +43,7 @@ pub struct Node {
     pub is_sound: bool,
 }
 
-/// The subpath segments of a path that embed the same other path.
+/// An embedding: all subpath segments of one path that embed the same other path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Embedding {
     /// Index of the embedding path in [`Graph::nodes`].
@@ -279,7 +279,7 @@ impl TargetGraph {
     }
 }
 
-/// Whether a node's embeddings are complete.
+/// The extent to which a node's embeddings are known.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Completeness {
     /// All embeddings are known.

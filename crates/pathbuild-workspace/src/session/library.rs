@@ -371,7 +371,7 @@ pub(super) struct Rules {
     above: Option<Arc<Self>>,
 }
 
-/// A budget for the size of ignore files, because compiled rules take about two hundred times as much memory.
+/// A budget for the size of ignore files. It is needed because compiled rules take about two hundred times as much memory as the file.
 #[derive(Debug)]
 pub(super) struct Budget {
     /// Upper bound on a file's size in bytes.

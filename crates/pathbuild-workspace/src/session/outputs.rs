@@ -151,7 +151,7 @@ pub fn stem_fault(name: &str, rest: &str) -> Option<&'static Text> {
     (name == rest && is_device(name)).then_some(&DEVICE_NAME)
 }
 
-/// Whether Windows takes a file name that begins like this for a device. It ignores everything after the first dot.
+/// Whether Windows takes this file name for a device, which depends only on the part before the first dot.
 fn is_device(name: &str) -> bool {
     let Some((base, _)) = name.split_once('.') else { return false };
     let base = base.trim_end().to_ascii_uppercase();

@@ -296,7 +296,8 @@ pub fn several_paths(drawing: &Utf8Path, names: &[PathName]) -> Diagnostic {
 }
 
 impl Session<'_> {
-    /// Adds to each PB503 about a subpath where in the library that path is defined. The library is searched only if there is such a diagnostic.
+    /// Adds to each PB503 about a subpath the place in the library where that path is defined. The library is searched only if there is such a
+    /// diagnostic.
     pub(super) fn with_library_hints(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         let directories = LazyCell::new(|| self.library_directories());
         let mut definitions: BTreeMap<PathName, Option<Utf8PathBuf>> = BTreeMap::new();

@@ -55,7 +55,7 @@ pub struct RapidValues {
     pub surface_origin: Origin,
 }
 
-/// Source of a value, from the most to the least reliable.
+/// Source of a value. The sources are ordered from the most to the least reliable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Origin {
     /// An option on the command line.

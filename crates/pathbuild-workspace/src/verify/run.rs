@@ -95,7 +95,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// Returns the part of the cache key that neither the program nor the settings of `emit` contain.
+    /// Returns the part of the cache key that is neither the program nor a setting of `emit`.
     fn query(&self, session: &Session<'_>) -> String {
         let limits = &self.settings.limits;
         let limits = (limits.verify_cells.value, limits.verify_pieces.value);

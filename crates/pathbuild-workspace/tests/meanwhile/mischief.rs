@@ -28,8 +28,8 @@ pub(crate) enum Event {
     Busy,
 }
 
-/// The operating system's files, with an event that happens once: just before or after the n-th time that a certain file is read or a certain
-/// directory is listed, or after the n-th time that the file is written.
+/// The operating system's files, with one event. It happens just before or after the n-th time that a certain file is read or a certain directory is
+/// listed, or after the n-th time that the file is written.
 #[derive(Debug)]
 pub(crate) struct Mischief {
     pub(crate) trigger: String,
