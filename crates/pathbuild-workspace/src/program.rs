@@ -66,7 +66,7 @@ pub struct Program {
     pub file: Utf8PathBuf,
     /// Contents of the file.
     pub text: Vec<u8>,
-    /// Dialect in which it was read.
+    /// Dialect in which the program was read.
     pub dialect: Dialect,
     /// The evidence for the dialect, if it was guessed.
     pub evidence: Option<Evidence>,
