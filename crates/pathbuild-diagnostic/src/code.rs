@@ -15,7 +15,7 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// Returns the name in machine-readable formats.
+    /// Returns the name in machine-readable formats: `error` or `warning`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Error => "error",

@@ -27,7 +27,7 @@ pub struct Diagnostic {
     pub file: Option<Utf8PathBuf>,
     /// Name of the milling path that the diagnostic is about, as written in the drawing.
     pub path: Option<Box<str>>,
-    /// Place in the file.
+    /// Position in `file`, as far as it is known.
     pub place: Place,
     /// Text that contains the fault, with the faulty range.
     pub text: Option<TextFault>,
@@ -38,7 +38,7 @@ pub struct Diagnostic {
 /// An additional sentence about a diagnostic.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Note {
-    /// Message of the note.
+    /// Message, which determines the text of the note.
     #[serde(deserialize_with = "deserialize_message")]
     pub message: &'static Message,
     /// The values in the message, by name.
@@ -142,7 +142,7 @@ impl Diagnostic {
         self
     }
 
-    /// Sets the point in the drawing.
+    /// Sets the point in the drawing at which the problem is.
     pub fn at_point(mut self, point: Point) -> Self {
         self.place.point = Some(point);
         self
@@ -161,12 +161,12 @@ impl Diagnostic {
         self.quoting("nearest", nearest)
     }
 
-    /// Returns the value of an argument of the message.
+    /// Returns the value of an argument of the message; `None` if it has not been set.
     pub fn argument(&self, name: &str) -> Option<&Value> {
         argument(&self.arguments, name)
     }
 
-    /// Returns the text of an argument if it is a quoted one.
+    /// Returns the text of an argument; `None` if its value is not [`Value::Quoted`].
     pub fn quoted(&self, name: &str) -> Option<&str> {
         match self.argument(name)? {
             Value::Quoted(text) => Some(text),
@@ -206,7 +206,7 @@ impl Diagnostic {
         )
     }
 
-    /// Returns the line in the message, if the diagnostic itself has no line.
+    /// Returns the line that an argument of the message gives, unless the diagnostic itself has a line.
     fn named_line(&self) -> Option<u64> {
         match self.argument("line") {
             Some(Value::Count(line)) if self.place.line.is_none() => Some(*line),
@@ -220,7 +220,7 @@ fn argument<'a>(arguments: &'a [(&'static str, Value)], name: &str) -> Option<&'
 }
 
 impl Note {
-    /// Returns the value of an argument of the note.
+    /// Returns the value of an argument of the note; `None` if it has not been set.
     pub fn argument(&self, name: &str) -> Option<&Value> {
         argument(&self.arguments, name)
     }

@@ -8,17 +8,17 @@ use crate::messages::files;
 use crate::words::words;
 
 words! {
-    /// Subject of the limit `entities`.
+    /// The quantity that the limit `entities` bounds.
     ENTITIES: "the number of entities", "die Zahl der Elemente";
-    /// Subject of the limit `text-length`, for a text as drawn.
+    /// The quantity that the limit `text-length` bounds, for a text as drawn.
     TEXT_LENGTH: "the length of a text in bytes", "die Länge eines Textes in Bytes";
-    /// Subject of the limit `text-length`, for a text whose variables are replaced by their values.
+    /// The quantity that the limit `text-length` bounds, for a text in which variables are replaced by their values.
     TEXT_WITH_VALUES: "a text with its variables' values", "ein Text mit den Werten seiner Variablen";
-    /// Subject of the limit `seconds-per-path`.
+    /// The quantity that the limit `seconds-per-path` bounds.
     TIME_OF_PATH: "the time that this path takes", "die Zeit, die dieser Pfad braucht";
-    /// Subject of the limit `embedding-moves`, for a program whose moves `z-split` divides.
+    /// The quantity that the limit `embedding-moves` bounds, for a program with moves that `z-split` divides.
     MOVES_CUT: "the number of moves, cut by z-split ({moves}),", "die Zahl der Bewegungen, die z-split teilt ({moves}),";
-    /// Subject of the limit `file-size` and of similar limits.
+    /// The quantity that `file-size` and other limits of sizes bound.
     FILE_SIZE: "the file's size of {size} bytes", "die Dateigröße von {size} Bytes";
     /// Reason why a file is not read: it is larger than a limit such as `file-size`.
     TOO_MANY_BYTES: "it has {size} bytes, the limit is {limit}", "sie hat {size} Bytes, die Grenze ist {limit}";
@@ -42,7 +42,7 @@ pub fn file_too_large(size: u64, limit: u64, key: &str) -> Diagnostic {
     exceeded(Sentence::new(&FILE_SIZE).with("size", size), bytes(limit), key)
 }
 
-/// Returns the subject of the limit `embedding-moves`: the number of moves after `z-split` has divided them.
+/// Returns the quantity that the limit `embedding-moves` bounds: the number of moves after `z-split` has divided them.
 pub fn moves_after_splitting(moves: u64) -> Sentence {
     Sentence::new(&MOVES_CUT).with("moves", moves)
 }

@@ -17,7 +17,7 @@ pub struct Sentence {
 }
 
 impl Sentence {
-    /// Creates a sentence whose arguments have no values yet.
+    /// Creates a sentence without values for its arguments.
     pub fn new(text: &'static Text) -> Self {
         Self { text, arguments: Vec::new() }
     }

@@ -27,7 +27,7 @@ words! {
     IS_DIRECTORY: "it is a directory", "es ist ein Verzeichnis";
     /// A directory is in the place of a file to write.
     DIRECTORY_OF_THAT_NAME: "a directory has that name", "ein Verzeichnis heißt so";
-    /// The name of a program contains R, whose value contains an invalid character.
+    /// The name of a program contains R, and the value of R contains an invalid character.
     NO_FILE_NAME: "the name, which includes R, contains a character that file names cannot contain", "der Name, zu dem R gehört, enthält ein Zeichen, das in keinem Dateinamen stehen kann";
     /// The name of a path, such as `CON.1P`, would give a file name that means a device on Windows.
     DEVICE_NAME: "on Windows a file name that begins like this means a device", "unter Windows meint ein Dateiname, der so beginnt, ein Gerät";

@@ -45,7 +45,7 @@ messages! {
         help_en: "`{near}` belongs at the top of the file, before the first [table]",
         help_de: "`{near}` gehört an den Anfang der Datei, vor die erste [Tabelle]",
     }
-    /// An unknown key that is similar to one of another table.
+    /// An unknown key that is similar to a key of another table.
     NEAR_KEY_OF_TABLE: InvalidConfiguration {
         en: "unknown key `{key}`",
         de: "unbekannter Schlüssel `{key}`",
@@ -188,14 +188,14 @@ messages! {
         help_en: "`pathbuild explain` lists all of them",
         help_de: "`pathbuild explain` führt alle auf",
     }
-    /// A lower severity for a code whose severity cannot be lowered.
+    /// A lower severity for a code that must keep its severity.
     CANNOT_BE_LOWERED: InvalidConfiguration {
         en: "{code} ({name}) cannot be lowered to \"{level}\"",
         de: "{code} ({name}) kann nicht auf \"{level}\" herabgesetzt werden",
         help_en: "otherwise a wrong program could result; correct the drawing, or keep known errors in a file with --baseline",
         help_de: "sonst könnte ein falsches Programm entstehen; die Zeichnung berichtigen oder bekannte Fehler mit --baseline in einer Datei festhalten",
     }
-    /// An argument that belongs to another configuration than the first one.
+    /// An argument with another configuration than the first argument.
     OTHER_CONFIGURATION: InvalidConfiguration {
         en: "{argument} belongs to {other}, but this run uses {used}",
         de: "{argument} gehört zu {other}, dieser Lauf verwendet aber {used}",
@@ -216,14 +216,14 @@ messages! {
         help_en: "run once for each, or name the intended configuration with --config",
         help_de: "für jedes einen eigenen Lauf machen oder die gemeinte Konfiguration mit --config nennen",
     }
-    /// A configuration below the one of the run.
+    /// A configuration in a subdirectory, which has no effect because the run uses another one.
     UNUSED_CONFIGURATION: UnusedConfiguration {
         en: "this configuration does not apply: the run uses {used} for the drawings here, too",
         de: "diese Konfiguration gilt nicht: der Lauf verwendet {used} auch für die Zeichnungen hier",
         help_en: "check this directory in a run of its own, or remove the file",
         help_de: "dieses Verzeichnis in einem eigenen Lauf prüfen oder die Datei entfernen",
     }
-    /// A configuration below the searched directories of a run without one.
+    /// A configuration in a subdirectory, which has no effect because the run has no configuration.
     UNUSED_WITHOUT_ANY: UnusedConfiguration {
         en: "this configuration does not apply: the run has none, because there is none in its directory or above",
         de: "diese Konfiguration gilt nicht: der Lauf hat keine, weil in seinem Verzeichnis und darüber keine liegt",
@@ -282,7 +282,7 @@ messages! {
         en: "accepted up to a depth of {accepted} mm by {place}; here it is {depth} mm",
         de: "hingenommen bis zu einer Tiefe von {accepted} mm durch {place}; hier sind es {depth} mm",
     }
-    /// Note: a waiver of an older version accepts a tool in the material without stating the depth.
+    /// Note: a waiver written by an older version accepts a tool in the material without stating the depth.
     WAIVER_WITHOUT_DEPTH: InvalidConfiguration {
         en: "accepted by {place}, which does not state the depth: accept the finding again",
         de: "hingenommen durch {place}, aber ohne Tiefe: den Befund noch einmal hinnehmen",

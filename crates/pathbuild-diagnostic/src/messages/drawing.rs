@@ -48,17 +48,17 @@ messages! {
         en: "the circle at {point} has a text with O and T, but its diameter is {diameter} mm; if it is meant as the start marker, draw it with 1 mm",
         de: "der Kreis bei {point} hat einen Text mit O und T, sein Durchmesser ist aber {diameter} mm; ist er als Anfangsmarke gemeint, mit 1 mm zeichnen",
     }
-    /// Note: an end marker with a start marker's text, in a path whose start marker has no text.
+    /// Note: an end marker has the text of a start marker, while the path's start marker has no text.
     SWAPPED_MARKERS: MissingPathParameters {
         en: "the circle at {point} has a text with O and T, but is an end marker (2 mm): are the two swapped? The start has 1 mm, the end 2 mm",
         de: "der Kreis bei {point} hat einen Text mit O und T, ist aber eine Endmarke (2 mm): sind die beiden vertauscht? Der Anfang hat 1 mm, das Ende 2 mm",
     }
-    /// Note: a circle with a start marker's text, but the line type of an element.
+    /// Note: a circle with a start marker's text, but a line type other than PHANTOM.
     MEANT_AS_PHANTOM_START: MissingStart {
         en: "the circle at {point} has a text with O and T, but its line type is not PHANTOM; if it is meant as the start marker, draw it as a PHANTOM circle of 1 mm",
         de: "der Kreis bei {point} hat einen Text mit O und T, sein Linientyp ist aber nicht PHANTOM; ist er als Anfangsmarke gemeint, als PHANTOM-Kreis mit 1 mm zeichnen",
     }
-    /// Note: a circle with an end marker's diameter, but the line type of an element.
+    /// Note: a circle with an end marker's diameter, but a line type other than PHANTOM.
     MEANT_AS_PHANTOM_END: MissingEnd {
         en: "the circle at {point} has a diameter of 2 mm, but its line type is not PHANTOM: is it meant as the end marker?",
         de: "der Kreis bei {point} hat 2 mm Durchmesser, sein Linientyp ist aber nicht PHANTOM: ist er als Endmarke gemeint?",
@@ -124,7 +124,7 @@ messages! {
         help_en: "a circle of the cutter's diameter is drilled and leaves no support bars: use CONTINUOUS (to B) or DIVIDE (to D)",
         help_de: "ein Kreis mit dem Durchmesser des Fräsers wird gebohrt und lässt keine Stützstege: CONTINUOUS (bis B) oder DIVIDE (bis D) verwenden",
     }
-    /// A text without an element.
+    /// A text that belongs to no element.
     TEXT_WITHOUT_ELEMENT: TextWithoutElement {
         en: "the text \"{text}\" belongs to no element: its circle is at {centre} with a diameter of {diameter} mm",
         de: "der Text \"{text}\" gehört zu keinem Element: sein Kreis liegt bei {centre} mit {diameter} mm Durchmesser",
@@ -237,14 +237,14 @@ messages! {
         en: "\"{character}\" ({code}) in the name of the layer only looks like \"{plain}\"",
         de: "\"{character}\" ({code}) im Namen des Layers sieht nur aus wie \"{plain}\"",
     }
-    /// A milled line from a point to the same point.
+    /// A milled line of length zero.
     CUT_WITHOUT_LENGTH: LeftoverElement {
         en: "this line has no length: the cutter plunges here without milling anything",
         de: "diese Linie hat keine Länge: der Fräser taucht hier ein und fräst nichts",
         help_en: "delete it; to drill here, draw a circle of the cutter's diameter",
         help_de: "löschen; um hier zu bohren, einen Kreis mit dem Durchmesser des Fräsers zeichnen",
     }
-    /// A sweep from a point to the same point.
+    /// A sweep of length zero.
     SWEEP_WITHOUT_LENGTH: LeftoverElement {
         en: "this sweep has no length and no effect",
         de: "diese Leerfahrt hat keine Länge und keine Wirkung",
@@ -363,7 +363,7 @@ messages! {
         help_en: "draw the outline with lines, arcs, a circle or a closed polyline; `approximate-curves` in pathbuild.toml reads ellipses and splines",
         help_de: "den Umriss mit Linien, Bögen, einem Kreis oder einer geschlossenen Polylinie zeichnen; mit `approximate-curves` in pathbuild.toml werden Ellipsen und Splines gelesen",
     }
-    /// A block on a layer with clamps that draws on other layers only.
+    /// A block that is inserted on a layer with clamps, but draws only on other layers.
     CLAMP_ELSEWHERE: InvalidKeepOut {
         en: "block {block} is inserted on a layer with clamps, but what it contains lies on other layers ({layers}), so the position of the clamp is unknown",
         de: "Block {block} ist auf einem Layer mit Spannmitteln eingefügt, sein Inhalt liegt aber auf anderen Layern ({layers}); die Lage des Spannmittels ist daher unbekannt",
@@ -377,7 +377,7 @@ messages! {
         help_en: "write the height as TEXT or MTEXT, in the block or over it, for example Z25; explode the block if its attribute holds it",
         help_de: "die Höhe als TEXT oder MTEXT schreiben, im Block oder darüber, zum Beispiel Z25; steht sie in einem Attribut, den Block auflösen",
     }
-    /// A clamp with several texts, only the first of which are listed.
+    /// A clamp with too many texts to list all of them.
     CLAMP_WITH_MANY_TEXTS: InvalidKeepOut {
         en: "{count} texts are inside the outline of this clamp or overlap it, the first are {texts}",
         de: "{count} Texte liegen im Umriss dieses Spannmittels oder überlappen ihn, die ersten sind {texts}",
@@ -419,7 +419,7 @@ messages! {
         help_en: "the file is broken; save the drawing again",
         help_de: "die Datei ist beschädigt; die Zeichnung noch einmal speichern",
     }
-    /// Something between two sections.
+    /// Content between two sections, where only a section or the end of the file may begin.
     SECTION_EXPECTED: InvalidDxf {
         en: "expected a section or the end of the file here, not \"{found}\"",
         de: "hier wird ein Abschnitt oder das Ende der Datei erwartet, nicht \"{found}\"",
@@ -503,7 +503,7 @@ messages! {
         help_en: "draw it with these (many CAD programs can explode it), or move it to a layer that is not a path",
         help_de: "damit zeichnen (viele CAD-Programme können es auflösen) oder auf einen Layer legen, der kein Pfad ist",
     }
-    /// ELLIPSE or SPLINE without the setting for approximating them.
+    /// An ELLIPSE or SPLINE that is left out, because `approximate-curves` is not set.
     NOT_APPROXIMATED: UnsupportedCurve {
         en: "{entity} is left out: only lines and arcs are milled",
         de: "{entity} wird ausgelassen: nur Linien und Bögen werden gefräst",
@@ -517,7 +517,7 @@ messages! {
         help_en: "explode them into lines and arcs, or remove `compatible`: then they are milled",
         help_de: "in Linien und Bögen auflösen oder `compatible` weglassen: dann werden sie gefräst",
     }
-    /// Three-dimensional polylines and meshes.
+    /// A three-dimensional polyline or a mesh.
     POLYLINE_NOT_FLAT: UnsupportedCurve {
         en: "{entity} is left out: it is a 3D polyline or a mesh",
         de: "{entity} wird ausgelassen: es ist eine 3D-Polylinie oder ein Netz",
@@ -545,7 +545,7 @@ messages! {
         help_en: "bind external references before saving, or delete the insertion",
         help_de: "externe Referenzen vor dem Speichern binden oder die Einfügung löschen",
     }
-    /// An INSERT on a wanted layer, of a block that only draws on other layers.
+    /// An INSERT on a layer that is read, of a block that draws only on other layers.
     BLOCK_ELSEWHERE: UnsupportedCurve {
         en: "block {block} is inserted on this layer, but nothing in it belongs to it: what it contains lies on other layers ({layers}) and is ignored",
         de: "Block {block} ist auf diesem Layer eingefügt, aber nichts darin gehört dazu: sein Inhalt liegt auf anderen Layern ({layers}) und wird nicht beachtet",

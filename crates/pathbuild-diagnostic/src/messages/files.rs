@@ -34,7 +34,7 @@ messages! {
         en: "did you mean {near}?",
         de: "ist {near} gemeint?",
     }
-    /// A link whose target does not exist.
+    /// A link to a file that does not exist.
     DANGLING_LINK: UnreadableFile {
         en: "the file that this link leads to does not exist",
         de: "die Datei, zu der diese Verknüpfung führt, gibt es nicht",
@@ -76,14 +76,14 @@ messages! {
         help_en: "this is a bug in pathbuild; please report it with this drawing and the version that `pathbuild --version` prints",
         help_de: "das ist ein Fehler in pathbuild; bitte mit dieser Zeichnung und der Ausgabe von `pathbuild --version` melden",
     }
-    /// Something that exceeds a configured limit.
+    /// A quantity that exceeds a configured limit.
     LIMIT: LimitReached {
         en: "{what} exceeds the limit of {limit}",
         de: "{what} überschreitet die Grenze von {limit}",
         help_en: "if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// A program with more moves than the limit permits.
+    /// A path with more moves in its program than the limit permits.
     TOO_MANY_MOVES: LimitReached {
         en: "this path has {count} moves, which exceeds the limit of {limit}",
         de: "dieser Pfad hat {count} Bewegungen und überschreitet damit die Grenze von {limit}",
@@ -97,7 +97,7 @@ messages! {
         help_en: "check infeed I and depth B (a wrong I gives thousands of passes); or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "Zustellung I und Tiefe B prüfen (ein falsches I ergibt tausende Durchgänge); oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// Ignore files whose total size exceeds the limit, so that their directory is skipped.
+    /// Ignore files with a total size above the limit, so that their directory is skipped.
     TOO_MANY_RULES: LimitReached {
         en: "the .gitignore and .ignore files below {directory} add up to more than {limit} bytes: the directory is skipped",
         de: "die .gitignore- und .ignore-Dateien unter {directory} haben zusammen mehr als {limit} Byte: das Verzeichnis wird übergangen",
@@ -153,7 +153,7 @@ messages! {
         help_en: "rename the file or the directory, or leave out --deps",
         help_de: "die Datei oder das Verzeichnis umbenennen oder --deps weglassen",
     }
-    /// An output file in whose place is something that must not be replaced.
+    /// An output file that is not written, because it would replace something else, such as a directory.
     WOULD_REPLACE: CannotWrite {
         en: "cannot write {name}: {reason}",
         de: "{name} kann nicht geschrieben werden: {reason}",

@@ -370,14 +370,14 @@ messages! {
         help_en: "end subprograms with M99 or endsub, loops with endrepeat or endwhile, do with while, and branches with endif",
         help_de: "Unterprogramme mit M99 oder endsub beenden, Schleifen mit endrepeat oder endwhile, do mit while, Verzweigungen mit endif",
     }
-    /// A `do` loop after a `while` loop that was left by `break`.
+    /// A `do` loop that LinuxCNC ends too early, because an earlier `while` loop was left by `break`.
     ENDED_BY_EARLIER_BREAK: WordNotFollowed {
         en: "LinuxCNC ends the do loop {name} here, although its condition holds, because a break left a while loop in line {earlier}",
         de: "LinuxCNC beendet die do-Schleife {name} hier, obwohl ihre Bedingung gilt, weil ein break in Zeile {earlier} eine while-Schleife verlassen hat",
         help_en: "write a while loop instead of the do loop, or end the earlier loop by its condition",
         help_de: "statt der do-Schleife eine while-Schleife schreiben, oder die frühere Schleife durch ihre Bedingung beenden",
     }
-    /// A loop that ends after `continue` in a `do` loop.
+    /// A loop that LinuxCNC repeats once too often, because of an earlier `continue` in a `do` loop.
     REPEATED_BY_EARLIER_CONTINUE: WordNotFollowed {
         en: "LinuxCNC begins the loop {name} again where it should end, because of the continue in a do loop in line {earlier}",
         de: "LinuxCNC beginnt die Schleife {name} erneut, wo sie enden sollte, wegen des continue in einer do-Schleife in Zeile {earlier}",
@@ -527,7 +527,7 @@ messages! {
         en: "this has no value: {reason}; the line is left out",
         de: "das hat keinen Wert: {reason}; die Zeile bleibt unbeachtet",
     }
-    /// A parameter whose value only the machine knows.
+    /// A parameter with a value that only the machine knows.
     MACHINE_VALUE: MachineValue {
         en: "only the machine knows {parameter}; {value} is assumed",
         de: "nur die Maschine kennt {parameter}; {value} wird angenommen",
@@ -541,7 +541,7 @@ messages! {
         help_en: "lengths and the overall size are valid only within one work offset",
         help_de: "Längen und Abmessungen gelten nur innerhalb einer Nullpunktverschiebung",
     }
-    /// G10 L2 for the active work offset, whose position before it is unknown.
+    /// G10 L2 for the active work offset, which had an unknown position before.
     ORIGIN_UNKNOWN: UnknownOffset {
         en: "G10 L2 counts from the machine's zero, and where {system} was before is unknown; it is assumed to have been there",
         de: "G10 L2 zählt vom Maschinennullpunkt aus, und wo {system} vorher lag, ist unbekannt; angenommen wird: dort",
@@ -693,14 +693,14 @@ messages! {
         help_en: "put {word} into the next line",
         help_de: "{word} in die nächste Zeile setzen",
     }
-    /// A program whose material would be simulated with more cells than the limit.
+    /// A program that would require more cells than the limit to simulate its material.
     TOO_LARGE_TO_FOLLOW: LimitReached {
         en: "following the material of this program takes more cells than the limit of {limit}; not checked: rapid moves into material",
         de: "um das Material dieses Programms zu verfolgen, sind mehr als die erlaubten {limit} Zellen nötig; nicht geprüft: Eilgang ins Material",
         help_en: "correct numbers that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Zahlen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// A program whose arcs and ramps would be divided into more pieces than the limit when its material is simulated.
+    /// A program that exceeds the limit of pieces into which arcs and ramps are divided to simulate the material.
     TOO_MANY_PIECES: LimitReached {
         en: "to follow the material, the arcs and slopes of this program are cut into {count} pieces, which exceeds the limit of {limit}; not checked: rapid moves into material",
         de: "um das Material zu verfolgen, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, mehr als die Grenze von {limit}; nicht geprüft: Eilgang ins Material",

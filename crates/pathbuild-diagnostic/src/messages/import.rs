@@ -29,14 +29,14 @@ messages! {
         help_en: "name the machine's ini file as well, or give --units mm or --units inch",
         help_de: "auch die ini-Datei der Maschine nennen, oder --units mm bzw. --units inch angeben",
     }
-    /// Statements about the unit of lengths that contradict each other.
+    /// Contradictory statements about the unit of lengths.
     UNITS_CONTRADICT: UnreadableDescription {
         en: "the unit of lengths in this ini file is not that of --units, or of another ini file",
         de: "die Einheit der Längen in dieser ini-Datei ist nicht die von --units oder einer anderen ini-Datei",
         help_en: "leave out --units: tool tables have the unit of the machine's ini file",
         help_de: "--units weglassen: Werkzeugtabellen haben die Einheit der ini-Datei der Maschine",
     }
-    /// A tool whose corner radius is impossible for its diameter.
+    /// A tool with a corner radius of more than half its diameter.
     CORNER_TOO_ROUND: UnreadableDescription {
         en: "the corner radius of tool {number} ({name}) is {radius} mm, which is more than half of its diameter, {diameter} mm",
         de: "der Eckenradius von Werkzeug {number} ({name}) ist {radius} mm, mehr als die Hälfte seines Durchmessers von {diameter} mm",
@@ -50,7 +50,7 @@ messages! {
         help_en: "write them into it by hand",
         help_de: "sie von Hand hineinschreiben",
     }
-    /// A described value that the key of the configuration does not permit.
+    /// A value in the description that the key of the configuration does not permit.
     VALUE_NOT_TAKEN: UnusableValue {
         en: "`{name}` is `{value}`, but {expected} is needed; the value is not imported",
         de: "`{name}` ist `{value}`, nötig ist aber {expected}; der Wert wird nicht übernommen",
@@ -106,7 +106,7 @@ messages! {
         help_en: "add LINEAR_UNITS = mm or LINEAR_UNITS = inch",
         help_de: "LINEAR_UNITS = mm oder LINEAR_UNITS = inch ergänzen",
     }
-    /// Axes whose limits give no valid travel.
+    /// Limits of axes that give no valid travel.
     NO_TRAVEL: UnusableValue {
         en: "the limits of the axes give no valid travel; they are not imported",
         de: "die Grenzen der Achsen ergeben keinen gültigen Verfahrweg; sie werden nicht übernommen",
@@ -127,7 +127,7 @@ messages! {
         help_en: "give each tool a number of its own in the library, and export it again",
         help_de: "jedem Werkzeug in der Bibliothek eine eigene Nummer geben und sie noch einmal exportieren",
     }
-    /// Two different tools with the same number, in a file whose lines are not known.
+    /// Two different tools with the same number, in a file without known line numbers.
     TOOL_TWICE: UnusableValue {
         en: "tool {number} ({name}) is described differently in {file} ({earlier}); neither is imported",
         de: "Werkzeug {number} ({name}) ist in {file} ({earlier}) anders beschrieben; keines von beiden wird übernommen",

@@ -13,7 +13,7 @@ macro_rules! messages {
             help: crate::Text { en: concat!($($help_en)?), de: concat!($($help_de)?) },
         };)*
 
-        /// The messages of this subject.
+        /// All messages of this module.
         pub(crate) static ALL: &[&crate::Message] = &[$(&$key),*];
     };
 }

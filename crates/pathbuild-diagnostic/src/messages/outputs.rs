@@ -55,7 +55,7 @@ messages! {
         en: "layer {layer} has a similar name",
         de: "Layer {layer} heißt ähnlich",
     }
-    /// Note: a layer whose name has a character of another alphabet.
+    /// Note: a layer name with a character of another alphabet.
     LOOK_ALIKE_LAYER: PromisedPath {
         en: "layer {layer} has a similar name: \"{character}\" ({code}) only looks like \"{plain}\"",
         de: "Layer {layer} heißt ähnlich: \"{character}\" ({code}) sieht nur aus wie \"{plain}\"",
@@ -145,7 +145,7 @@ messages! {
         help_en: "do not run it: adjust again with the current probe values; emit --remove-stale removes it",
         help_de: "nicht laufen lassen: adjust mit den aktuellen Messwerten noch einmal aufrufen; emit --remove-stale entfernt es",
     }
-    /// An adjusted program that was edited afterwards, or whose header lacks the measured heights.
+    /// An adjusted program that was edited afterwards, or that lacks the measured heights in its header.
     STALE_EDITED: StaleOutput {
         en: "{name} is not what adjust makes of {clean} with the measured heights in its header",
         de: "{name} ist nicht das, was adjust mit den gemessenen Höhen seines Kopfs aus {clean} erzeugt",
@@ -173,14 +173,14 @@ messages! {
         help_en: "add it, or write the Q-project again: pathbuild q-project {drawing}",
         help_de: "ihn hinzufügen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
     }
-    /// A value that differs from that of the proxy line.
+    /// A value on a Q-project's segment that differs from that of the proxy line.
     Q_VALUE_DIFFERS: QProjectDiffers {
         en: "{letter} is {here} here, but {there} on the proxy line of path {name} in {drawing}",
         de: "{letter} ist hier {here}, auf der Stellvertreterlinie von Pfad {name} in {drawing} aber {there}",
         help_en: "make both agree, or write the Q-project again: pathbuild q-project {drawing}",
         help_de: "die Werte angleichen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
     }
-    /// A length that differs from that of the proxy line.
+    /// A length of a Q-project's segment that differs from that of the proxy line.
     Q_LENGTH_DIFFERS: QProjectDiffers {
         en: "the segment is {here} mm long, but the proxy line of path {name} in {drawing} is {there} mm long",
         de: "das Segment ist {here} mm lang, die Stellvertreterlinie von Pfad {name} in {drawing} aber {there} mm",
@@ -194,7 +194,7 @@ messages! {
         help_en: "the drawing's paths: {names}",
         help_de: "die Pfade der Zeichnung: {names}",
     }
-    /// A proxy line that names another path than the one along which it runs.
+    /// A proxy line that runs along one path, but names another.
     PROXY_OF_OTHER: ProxyDiffers {
         en: "the proxy line names {name}, but runs from the start of path {other} to its end",
         de: "die Stellvertreterlinie nennt {name}, läuft aber vom Anfang von Pfad {other} zu dessen Ende",

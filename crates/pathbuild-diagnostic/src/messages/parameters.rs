@@ -155,7 +155,7 @@ messages! {
         help_en: "write a value above 0, for example {example}",
         help_de: "einen Wert über 0 schreiben, zum Beispiel {example}",
     }
-    /// A feed that is zero in a program.
+    /// A feed that is rounded to zero in a program.
     FEED_ROUNDED_OFF: ParameterOutOfRange {
         en: "{letter} is less than 0.0005 mm/min, which is 0 with the three decimals of a program",
         de: "{letter} ist kleiner als 0,0005 mm/min und damit 0 mit den drei Dezimalen eines Programms",
@@ -533,12 +533,12 @@ messages! {
         help_en: "each value occurred in at least one of them; projects are checked with the values that they set",
         help_de: "jeder Wert kam in mindestens einer vor; Projekte werden mit den Werten geprüft, die sie setzen",
     }
-    /// Note: the values of the variables for which this was found.
+    /// Note: the values of the variables with which the problem occurs.
     WITH_VALUES: VariableValueNotAllowed {
         en: "with {values} in path {name}",
         de: "mit {values} in Pfad {name}",
     }
-    /// Note: the values of the variables for which this was found, and the number of others.
+    /// Note: values of the variables with which the problem occurs, and the number of other combinations with which it occurs.
     WITH_MORE_VALUES: VariableValueNotAllowed {
         en: "with {values} in path {name}, and with {others} more of {all} combinations",
         de: "mit {values} in Pfad {name}, und mit {others} weiteren von {all} Kombinationen",

@@ -1,7 +1,7 @@
 //! Messages about finished parts: their outlines, and the cuts along and into them. (PB213 to PB220)
 
 messages! {
-    /// A cut into the part that the path itself makes.
+    /// A cut of the path into its own part.
     GOUGE: GougedPart {
         en: "the cutter goes {depth} mm into the part at {point}, over a length of {length} mm",
         de: "der Fräser gerät bei {point} {depth} mm tief in das Teil, auf einer Länge von {length} mm",
@@ -15,7 +15,7 @@ messages! {
         help_en: "move the hole, or draw its circle on the layer of the part as well",
         help_de: "das Bohrloch versetzen oder seinen Kreis auch auf dem Layer des Teils zeichnen",
     }
-    /// A cut into a part that another path of the project makes.
+    /// A cut into the part of another path of the project.
     GOUGED_NEIGHBOUR: GougedNeighbour {
         en: "the cutter, O{tool}, goes {depth} mm into the part of path {other} at {point}; that part lies at {place} in the program",
         de: "der Fräser, O{tool}, gerät bei {point} {depth} mm tief in das Teil von Pfad {other}, das im Programm bei {place} liegt",
@@ -29,7 +29,7 @@ messages! {
         help_en: "draw the path half of O away from the outline; to leave an allowance on purpose, draw the part with it",
         help_de: "den Pfad im Abstand von O/2 neben den Umriss zeichnen; soll ein Aufmaß bleiben, das Teil damit zeichnen",
     }
-    /// A cut beside an outline that does not go through the plate.
+    /// A cut along the outline of a part that does not go through the material.
     NOT_CUT_THROUGH: LeftoverAtPart {
         en: "the cut along the outline of the part, from {from} to {to}, over {length} mm, does not go through: it ends at Z{height} (places: {count})",
         de: "der Schnitt am Umriss des Teils, von {from} bis {to}, auf {length} mm, geht nicht durch: er endet bei Z{height} (Stellen: {count})",
@@ -78,14 +78,14 @@ messages! {
         help_en: "trim the two to one outline; give it another layer or line type if it only shows something, for example a counterbore",
         help_de: "beide zu einem Umriss stutzen; zeigt er nur etwas an, zum Beispiel eine Senkung, ihm einen anderen Layer oder Linientyp geben",
     }
-    /// A layer with parts, none of which has a closed outline.
+    /// A layer for parts that has no closed outline.
     NO_CLOSED_OUTLINE: DoubtfulOutline {
         en: "layer {layer} has no closed outline, so no part is checked there",
         de: "Layer {layer} hat keinen geschlossenen Umriss, deshalb wird dort kein Teil geprüft",
         help_en: "draw the outline with CONTINUOUS lines, arcs, circles or closed polylines whose ends meet all around; other line types do not count",
         help_de: "den Umriss mit Linien, Bögen, Kreisen oder geschlossenen Polylinien vom Linientyp CONTINUOUS zeichnen, deren Enden sich rundum treffen; andere Linientypen zählen nicht",
     }
-    /// An element on a layer with parts that is not supported.
+    /// An unsupported element on a layer with parts.
     OUTLINE_UNREADABLE: DoubtfulOutline {
         en: "this {entity} on a layer with a part could not be read, so the outline may lack something",
         de: "{entity} auf einem Layer mit einem Teil war nicht lesbar; dem Umriss fehlt vielleicht etwas",

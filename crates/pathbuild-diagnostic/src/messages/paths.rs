@@ -218,14 +218,14 @@ messages! {
         help_en: "rename or remove one of them",
         help_de: "einen davon umbenennen oder entfernen",
     }
-    /// A segment with another length than its path.
+    /// A subpath segment with another length than the distance from the start to the end of the embedded path.
     SIZE_DIFFERS: SubpathSizeDiffers {
         en: "the segment is {segment} mm long, but path {name} is {path} mm from start to end",
         de: "das Segment ist {segment} mm lang, Pfad {name} aber {path} mm von Anfang bis Ende",
         help_en: "draw the segment from where the path starts to where it ends: copy the component's proxy line",
         help_de: "das Segment vom Anfang des Pfads bis zu seinem Ende zeichnen: die Stellvertreterlinie des Bauteils kopieren",
     }
-    /// A segment with another cutter than its path.
+    /// A subpath segment that states another cutter (O) than the embedded path has.
     CUTTER_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",
         de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
@@ -253,14 +253,14 @@ messages! {
         help_en: "draw the segment outside of the block, or insert the block without mirroring it; a mirrored component needs a path of its own",
         help_de: "das Segment außerhalb des Blocks zeichnen oder den Block nicht gespiegelt einfügen; ein gespiegeltes Bauteil braucht einen eigenen Pfad",
     }
-    /// A segment with another thickness than its path.
+    /// A subpath segment that states another thickness (T) than the embedded path has.
     THICKNESS_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",
         de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
         help_en: "both paths are milled from the same sheet: give both the same T, or embed a component that is drawn for this thickness",
         help_de: "beide Pfade werden aus derselben Platte gefräst: beiden dasselbe T geben oder ein Bauteil einbetten, das für diese Dicke gezeichnet ist",
     }
-    /// A segment with another T, O or M than its path.
+    /// A subpath segment that states another T, O or M than the embedded path has.
     PARAMETER_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",
         de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",

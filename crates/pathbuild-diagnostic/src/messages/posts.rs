@@ -15,7 +15,7 @@ messages! {
         help_en: "open it in an editor and save it as UTF-8 (in Notepad: File, Save as, Encoding)",
         help_de: "sie in einem Editor öffnen und als UTF-8 speichern (im Windows-Editor: Datei, Speichern unter, Codierung)",
     }
-    /// A number format with few decimals, by which coordinates are rounded.
+    /// A number format with so few decimals that it rounds coordinates noticeably.
     COARSE_NUMBERS: DoubtfulPost {
         en: "{option} is \"{value}\", which rounds coordinates by up to {error} mm",
         de: "{option} ist \"{value}\" und rundet Koordinaten um bis zu {error} mm",
@@ -53,7 +53,7 @@ messages! {
         en: "the definition has {size} bytes; the limit is {limit}",
         de: "die Definition hat {size} Bytes; die Grenze ist {limit}",
     }
-    /// An XML file whose root element is not that of a definition.
+    /// An XML file with a root element other than `PostProcessor`.
     POST_WRONG_ROOT: InvalidPost {
         en: "the file contains <{found}>, not <PostProcessor>",
         de: "die Datei enthält <{found}>, nicht <PostProcessor>",
@@ -256,7 +256,7 @@ messages! {
         help_en: "write it in a comment in the post, or give the drawing another name",
         help_de: "es im Postprozessor in einen Kommentar schreiben oder die Zeichnung anders nennen",
     }
-    /// A program to be wrapped around a cylinder whose radius is not above 0.
+    /// A program to be wrapped around a cylinder with a radius of 0 or less.
     NO_RADIUS: NothingToPost {
         en: "{operation} cannot be wrapped round a cylinder: its surface T, which is the radius, is not above 0",
         de: "{operation} lässt sich nicht um einen Zylinder legen: die Oberfläche T, das ist der Radius, liegt nicht über 0",
@@ -270,7 +270,7 @@ messages! {
         help_en: "keep the width of the drawing within the circumference, 2 x pi x T",
         help_de: "die Breite der Zeichnung innerhalb des Umfangs halten, 2 x Pi x T",
     }
-    /// A word for an axis whose coordinate is replaced by an angle.
+    /// A word for an axis that is replaced by an angle.
     REPLACED_AXIS_WRITTEN: PostDiffers {
         en: "the post writes \"{line}\", but {angle} stands in place of {axis}: the machine would move both",
         de: "der Postprozessor schreibt \"{line}\", aber {angle} steht anstelle von {axis}: die Maschine würde beide bewegen",
@@ -376,7 +376,7 @@ messages! {
         help_en: "did you mean {nearest}? Another program's names are translated in [alias]",
         help_de: "ist {nearest} gemeint? Namen anderer Programme übersetzt [alias]",
     }
-    /// Variables whose texts refer to each other, nested more deeply than the limit.
+    /// Variables with texts that refer to each other, nested more deeply than the limit.
     VARIABLE_DEPTH: EndlessMacro {
         en: "{text}, line {line}, column {column}: variables in the text of {name} are nested more than {limit} levels deep",
         de: "{text}, Zeile {line}, Spalte {column}: im Text von {name} sind Variablen tiefer als {limit} verschachtelt",
@@ -461,7 +461,7 @@ messages! {
         help_en: "write the variable outside of a statement, or in one with s",
         help_de: "die Variable außerhalb einer Anweisung schreiben oder in einer mit s",
     }
-    /// A term whose value is not finite, for example because of a division by zero.
+    /// A term without a finite value, for example because of a division by zero.
     TERM_NOT_FINITE: InvalidControlText {
         en: "{text}, line {line}, column {column}: the term has no value (a division by zero?)",
         de: "{text}, Zeile {line}, Spalte {column}: der Ausdruck hat keinen Wert (Division durch null?)",
@@ -488,7 +488,7 @@ messages! {
         en: "{text}, line {line}, column {column}: CAD6 accepts only one sign in front of a term",
         de: "{text}, Zeile {line}, Spalte {column}: CAD6 erlaubt nur ein Vorzeichen vor einem Ausdruck",
     }
-    /// A bitwise operator beside a comparison, as in `1 & 2 == 2`, whose precedence is not documented.
+    /// A bitwise operator beside a comparison, as in `1 & 2 == 2`: it is not documented which is evaluated first.
     TERM_MIXED_BITS: DoubtfulControlText {
         en: "{text}, line {line}, column {column}: it is not documented whether & | ^ or the comparison is evaluated first",
         de: "{text}, Zeile {line}, Spalte {column}: ob zuerst & | ^ oder der Vergleich berechnet wird, ist nicht dokumentiert",
@@ -693,7 +693,7 @@ messages! {
         en: "this is {found}, in the program it is {expected}",
         de: "das ist {found}, im Programm {expected}",
     }
-    /// Note: another feed.
+    /// Note: a move with another feed.
     GOES_WITH_ANOTHER_FEED: PostDiffers {
         en: "the feed is {found} here and {expected} in the program",
         de: "der Vorschub ist hier {found}, im Programm {expected}",
@@ -708,14 +708,14 @@ messages! {
         en: "this is {found} from {from} to {to}; between these two cuts the program makes no such move, or only a higher one",
         de: "das ist {found} von {from} nach {to}; zwischen diesen beiden Schnitten macht das Programm keine solche Bewegung oder nur eine weiter oben",
     }
-    /// An M word or an axis whose meaning is unknown, because no dialect is named.
+    /// An M word or an axis with an unknown meaning, because no dialect is named.
     WORD_NOT_FOLLOWED: DoubtfulPost {
         en: "the output contains {word}, whose effect is unknown without a dialect",
         de: "die Ausgabe enthält {word}, dessen Wirkung ohne Dialekt unbekannt ist",
         help_en: "name the dialect of the control in the definition, or with --dialect",
         help_de: "den Dialekt der Steuerung in der Definition oder mit --dialect nennen",
     }
-    /// A G or M code on whose meaning controls disagree, because no dialect is named.
+    /// A G or M code that controls interpret differently, with no dialect named.
     DIALECTS_DISAGREE: DoubtfulPost {
         en: "controls disagree on what {words} does, and no dialect is named",
         de: "was {words} bewirkt, ist von Steuerung zu Steuerung verschieden, und kein Dialekt ist genannt",
@@ -737,7 +737,7 @@ messages! {
         en: "it is written by {section}, line {at} of the definition",
         de: "sie wird von {section} geschrieben, Zeile {at} der Definition",
     }
-    /// Note: the section whose default text wrote the line of output.
+    /// Note: the section with the default text that wrote the line of output.
     WRITTEN_BY: PostDiffers {
         en: "it is written by the default text of {section}, which the definition does not contain",
         de: "sie wird vom vorgegebenen Text von {section} geschrieben, den die Definition nicht enthält",

@@ -29,7 +29,7 @@ messages! {
         help_en: "keep the line with the right value",
         help_de: "die Zeile mit dem richtigen Wert behalten",
     }
-    /// A value that differs from the one in the log.
+    /// A value in the file of measured values that differs from the log.
     VALUE_DIFFERS_FROM_LOG: InvalidProbeLine {
         en: "#{probe} has a value here, but {measured} in the log",
         de: "#{probe} hat hier einen Wert, im Protokoll aber {measured}",
@@ -50,7 +50,7 @@ messages! {
         help_en: "a result has the form [PRB:X,Y,Z:1]: measure again if the line was cut off, or remove it",
         help_de: "ein Ergebnis hat die Form [PRB:X,Y,Z:1]: noch einmal messen, wenn die Zeile abgeschnitten ist, oder sie entfernen",
     }
-    /// A log whose number of results is not the number of probes.
+    /// A log with more or fewer results than there are probes.
     LOG_COUNT: InvalidProbeLine {
         en: "the log has {found} probe results, but {file} has {expected} probes",
         de: "das Protokoll hat {found} Messergebnisse, {file} aber {expected} Proben",
@@ -99,7 +99,7 @@ messages! {
         help_en: "the drawing has changed since; emit again, and measure with the new program",
         help_de: "die Zeichnung hat sich seither geändert; noch einmal ausgeben und mit dem neuen Programm messen",
     }
-    /// A probe whose expected height is unknown, because its line has an older form and no formula contains the height.
+    /// A probe with an unknown expected height: its line has an older form, and no formula contains the height.
     NO_EXPECTED_HEIGHT: InvalidProbeLine {
         en: "neither this line nor a formula says how high #{probe} was drawn, so its value cannot be checked",
         de: "weder diese Zeile noch eine Formel sagt, in welcher Höhe #{probe} gezeichnet ist; der Wert lässt sich nicht prüfen",
@@ -148,7 +148,7 @@ messages! {
         help_en: "it was damaged or edited: emit again and use the new program",
         help_de: "sie wurde beschädigt oder bearbeitet: noch einmal ausgeben und das neue Programm verwenden",
     }
-    /// A formula whose value is too large for a number.
+    /// A formula with a value that is too large for a number.
     NOT_FINITE: InvalidFormula {
         en: "the formula's value is too large for a number",
         de: "der Wert der Formel ist zu groß für eine Zahl",

@@ -386,14 +386,14 @@ messages! {
         help_en: "go down with G1 and a feed (stock known to within {resolution} mm)",
         help_de: "mit G1 und einem Vorschub hinunterfahren (Material auf {resolution} mm genau bekannt)",
     }
-    /// A program whose first move is in the plane, before the cutter is raised.
+    /// A program that moves in the plane before it raises the cutter.
     START_NOT_RAISED: StartNotRaised {
         en: "the program moves in the plane before it raises the cutter",
         de: "das Programm fährt in der Ebene, bevor es den Fräser anhebt",
         help_en: "begin with G0 Z above the material",
         help_de: "mit G0 Z über dem Material beginnen",
     }
-    /// A program whose first move in the plane also changes the height.
+    /// A program that also changes the height in its first move in the plane.
     START_ASLANT: StartNotRaised {
         en: "the first move in the plane also changes the height, which is unknown before it: on its way, the cutter may hit material or clamps",
         de: "die erste Bewegung in der Ebene ändert zugleich die Höhe, die vorher unbekannt ist: unterwegs kann der Fräser Material oder Spannmittel treffen",
@@ -547,7 +547,7 @@ messages! {
         help_en: "write H{tool}",
         help_de: "H{tool} schreiben",
     }
-    /// A cut with a length whose number differs from that of the tool: `G43 H2` for T1.
+    /// A cut with a length that has another number than the tool: `G43 H2` for T1.
     LENGTH_OF_OTHER_NUMBER: WrongToolLength {
         en: "T{tool} cuts with the length H{entry}: the numbers differ",
         de: "T{tool} schneidet mit der Länge H{entry}: die Nummern sind verschieden",
