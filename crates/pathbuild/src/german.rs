@@ -26,7 +26,7 @@ pub fn command(lang: Lang) -> Command {
     }
 }
 
-/// Returns the English and German text of every help text, value name and possible value, except for settings. A test compares it with the
+/// Returns every help text, value name and possible value in English and German, except for settings. A test compares them with the
 /// definition of the command line.
 pub fn catalogue() -> impl Iterator<Item = (&'static str, &'static str)> {
     args::GERMAN.into_iter().chain([OTHERS]).flatten().copied()

@@ -11,7 +11,7 @@ use crate::args::{Command, CommonArgs, ReportFile};
 use crate::printer::Stream;
 use crate::render::{Format, RenderedText, View, json as lines, page, pictures, render};
 
-/// The document of a run. It collects everything that is written at its end.
+/// The machine-readable document of a run. Collects everything that is written when the run ends.
 #[derive(Debug)]
 pub(crate) struct Output {
     pub(crate) command: &'static str,
@@ -102,7 +102,7 @@ impl Output {
         self.figures.borrow_mut().insert(name.to_owned(), value.into());
     }
 
-    /// Whether the run writes a JSON document or report, whose last line contains numbers.
+    /// Whether the run writes a JSON document or report, so that numbers can be added to its last line.
     pub(crate) fn has_figures(&self) -> bool {
         self.format == Format::Json || self.reports.iter().any(|report| report.format == Format::Json)
     }

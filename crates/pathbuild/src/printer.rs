@@ -1,19 +1,19 @@
-//! The only place of the program that prints. (book: reference/commands)
+//! Prints all output of the program; no other module prints. (book: reference/commands)
 //!
 //! | what | stream | at |
 //! | --- | --- | --- |
-//! | results: what the command was asked for | stdout | always |
+//! | results: the output that the command was asked for | stdout | always |
 //! | the machine-readable document of a run | stdout, unless that holds a program | always |
 //! | all other diagnostics | stderr | up to `-q` |
 //! | wrong usage | stderr | always |
 //! | status: the summary, files written; a progress bar on a terminal | stderr | without `-q` |
-//! | details: what was found, read, taken from the cache | stderr | with `-v` |
+//! | details, such as files read and results taken from the cache | stderr | with `-v` |
 //!
 //! All output passes through `pathbuild_diagnostic::shown`, so that names and texts from untrusted files can neither move the cursor nor
 //! start a command of a CI runner. Status lines and single-line results stay single lines whatever names they contain; names within longer
 //! results are escaped by the caller. Bytes that are requested unchanged (a program, a shell script) are printed unchanged.
 //!
-//! A closed pipe is no error: the rest of that stream is dropped (`pathbuild check --format concise 2>&1 | head`). Any other write error is
+//! A closed pipe is not an error: the rest of that stream is dropped (`pathbuild check --format concise 2>&1 | head`). Any other write error is
 //! remembered and makes the run end with [`ExitStatus::Errors`].
 
 use std::cell::RefCell;
@@ -68,7 +68,7 @@ impl Verbosity {
     }
 }
 
-/// Prints to both streams, as verbosity and choice of colours require.
+/// Printer for stdout and stderr, with a verbosity and a choice of colours.
 #[derive(Debug, Default)]
 pub struct Printer {
     verbosity: Verbosity,

@@ -102,7 +102,7 @@ fn accept(
     write(context, file, &text, &accepted)
 }
 
-/// Returns the reason why a waiver would have no effect; `None` if it would have one.
+/// Returns the reason why a waiver would have no effect; `None` if it would have an effect.
 fn refusal(context: &Context, waiver: &Waiver, run: Option<RunDate>) -> Option<String> {
     if waiver.reason.as_ref().is_some_and(|reason| reason.trim().is_empty()) {
         let reason = context.choose("--reason must not be empty", "--reason darf nicht leer sein");

@@ -86,8 +86,8 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
     }
 }
 
-/// Returns to the working directory, which may have been replaced. If arguments are relative to it, waits until it exists again. Returns
-/// false if the page was closed meanwhile, so that the run ends.
+/// Changes back to the working directory, which may have been replaced. If arguments are relative to it, waits until it exists again.
+/// Returns false if the page was closed meanwhile, so that the run ends.
 fn is_back(cli: &Cli, home: &Utf8Path, server: Option<&Server>) -> bool {
     let inputs = cli.command.inputs();
     let is_named = inputs.inputs.iter().all(|input| Utf8Path::new(input).is_absolute());

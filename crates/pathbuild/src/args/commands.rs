@@ -27,7 +27,7 @@ pub struct CheckArgs {
     /// Exit with 1 on warnings too
     #[arg(long)]
     pub error_on_warning: bool,
-    /// Accepted findings.
+    /// Options for accepted findings.
     #[command(flatten)]
     pub waivers: WaiverArgs,
     /// Check only what depends on files changed since this Git revision
@@ -48,7 +48,7 @@ pub struct CheckArgs {
 #[derive(Clone, Debug, Default, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own on the command line")]
 pub struct EmitArgs {
-    /// Drawings, paths and directories whose programs are written.
+    /// Drawings, paths and directories for which programs are written.
     #[command(flatten)]
     pub inputs: InputArgs,
     /// Write nothing; report the files on disk that are out of date
@@ -249,7 +249,7 @@ pub struct VerifyArgs {
     /// Post-processor that wrote the programs: sets the known words and the dialect
     #[arg(long, value_name = "POST", add = completions::posts())]
     pub post: Option<String>,
-    /// Accepted findings.
+    /// Options for accepted findings.
     #[command(flatten)]
     pub waivers: WaiverArgs,
     /// Options for reading the programs.
@@ -462,7 +462,7 @@ pub enum ConfigCommand {
         /// Also say where each value comes from
         #[arg(long)]
         origin: bool,
-        /// Drawings, paths and directories whose configuration is shown.
+        /// Places with the configuration to show: drawings, paths and directories.
         #[command(flatten)]
         inputs: InputArgs,
     },

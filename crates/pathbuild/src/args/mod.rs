@@ -182,7 +182,7 @@ impl Command {
         }
     }
 
-    /// Name of the command.
+    /// Name of the command, as it is typed.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Check(_) => "check",
@@ -217,7 +217,7 @@ impl Command {
 }
 
 impl Cli {
-    /// Parses a command line, whose first argument is the program's own name.
+    /// Parses a command line that begins with the program's own name.
     ///
     /// # Errors
     /// A usage error, or a request for help or the version, which clap also treats as an error.
@@ -229,7 +229,7 @@ impl Cli {
         Self::from_arg_matches(&matches).map_err(|error| error.format(&mut Self::command()))
     }
 
-    /// Parses a command line with a definition, whose language is that of the errors.
+    /// Parses a command line with the given definition. Errors are in the language of the definition.
     ///
     /// # Errors
     /// A usage error, or a request for help or the version, which clap also treats as an error.

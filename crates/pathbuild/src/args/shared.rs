@@ -313,7 +313,7 @@ fn is_name(text: &str) -> bool {
     text.split('.').all(is_part)
 }
 
-/// Arguments of a command whose definition is deferred until the command is used, because defining those of all commands takes time.
+/// Arguments of a command that are defined only when the command is used, because defining the arguments of all commands takes time.
 #[derive(Clone, Debug)]
 pub struct DeferredArgs<T>(T);
 

@@ -43,7 +43,8 @@ fn run(dropped: &[PathBuf], own: Option<&Path>) -> io::Result<Option<String>> {
     Ok(if output.status.success() || is_shown { None } else { Some(message) })
 }
 
-/// Returns the program `pathbuild` beside this one, or the one on the search path if there is none.
+/// Returns the path of the program `pathbuild` beside this one. If there is none, returns only its name, which the system looks up in the
+/// search path.
 fn program(own: Option<&Path>) -> PathBuf {
     let name = format!("pathbuild{}", env::consts::EXE_SUFFIX);
     let beside = own.map(|own| own.join(&name)).filter(|beside| beside.is_file());

@@ -80,9 +80,9 @@ pub(super) const CLEAN: &str = "_Clean.gcode";
 pub(super) const VALUES: &str = "_Z.txt";
 
 impl Job {
-    /// Returns the programs that an argument refers to. It names a file of a program, or a drawing whose programs are where `emit` writes
-    /// them. The names of programs may contain more than the drawing's name (R, or the path in a drawing with several); such programs are
-    /// recognised by their headers, which identify the drawing.
+    /// Returns the programs that an argument refers to. The argument names a file of a program, or a drawing. The programs of a drawing are
+    /// where `emit` writes them. Their names may contain more than the drawing's name (R, or the path in a drawing with several); such
+    /// programs are recognised by their headers, which identify the drawing.
     ///
     /// # Errors
     /// PB006 if listing the programs' directory triggers a bug.

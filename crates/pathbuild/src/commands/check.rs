@@ -145,7 +145,7 @@ impl<'a> RevisionFiles<'a> {
         false
     }
 
-    /// Returns a symbolic link whose target has changed.
+    /// Returns a symbolic link that has a changed target, if there is one.
     fn changed_link(&self) -> Option<Utf8PathBuf> {
         let ids: Vec<&str> = self.links.values().map(String::as_str).collect();
         // A target that cannot be read counts as changed.
@@ -197,8 +197,8 @@ impl EarlierFiles for RevisionFiles<'_> {
     }
 }
 
-/// Returns the place whose repository is used: the root of an untrusted tree; otherwise the first argument, the configuration's directory,
-/// or the working directory.
+/// Returns the place that determines the repository: the root of an untrusted tree; otherwise the first argument, the configuration's
+/// directory, or the working directory.
 fn place(context: &Context, inputs: &Inputs) -> Utf8PathBuf {
     if let Some(confined) = &context.settings.confined {
         return confined.root().to_owned();

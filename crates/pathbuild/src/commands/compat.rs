@@ -23,7 +23,7 @@ use super::adjust;
 use crate::environment::named_lang;
 use crate::german;
 
-/// Options with a value, and the options of pathbuild that they become.
+/// Options of the original tools that take a value, each with the corresponding option of pathbuild.
 const VALUES: &[(char, &str)] = &[
     ('f', "--feed"),
     ('v', "--rapid"),

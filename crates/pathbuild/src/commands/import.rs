@@ -42,7 +42,7 @@ struct Facts<'a> {
     rapid: Option<f64>,
     /// Machining time in seconds, if the machine's capabilities are configured.
     machine_seconds: Option<f64>,
-    /// First line whose moves are unknown. If there is one, lengths, times and the extent are unknown as well.
+    /// First line with unknown moves. If there is one, lengths, times and the extent are unknown as well.
     unfollowed: Option<u32>,
     /// Diagnostics about assumptions that were made while reading.
     taken: Vec<&'a Diagnostic>,

@@ -106,7 +106,7 @@ fn compare(
     Ok(())
 }
 
-/// Returns the configuration file of the run, or the one that would be created in the working directory.
+/// Returns the configuration file of the run. If there is none, returns the path in the working directory at which it would be created.
 fn configuration(context: &Context) -> Utf8PathBuf {
     context.settings.file.clone().unwrap_or_else(|| join(&context.working_directory, FILE_NAME))
 }

@@ -81,7 +81,7 @@ fn path_name(session: &Session<'_>, drawing: SourceFile, given: Option<&str>) ->
     Ok(name)
 }
 
-/// Returns the first number in the drawing's name, with `.0Q`.
+/// Returns the first number in the drawing's name, followed by `.0Q`.
 fn default_name(drawing: &Utf8Path) -> String {
     let stem = drawing.file_stem().unwrap_or_default();
     let is_digit = |character: char| character.is_ascii_digit();

@@ -17,7 +17,7 @@ use crate::serving::Server;
 use crate::text::{DRAWING, ERROR, PATH, WARNING, counted};
 use pathbuild_workspace::findings::Findings;
 
-/// Runs the command until it ends.
+/// Watches until the user ends it.
 ///
 /// # Errors
 /// The reason why everything must be restarted, as a sentence.

@@ -108,8 +108,8 @@ fn describe(context: &Context, reason: &Reason) -> String {
     }
 }
 
-/// Returns the JSON object of a reason. `change` is `changed`, `gone`, `new` or `links`; `path` is the path whose drawing the file may be
-/// or may have been.
+/// Returns the JSON object of a reason. `change` is `changed`, `gone`, `new` or `links`. `path` is the path that the file, judging by its
+/// name, contains or contained; null if the reason is not about such a file.
 fn object(context: &Context, reason: &Reason) -> Value {
     let (file, change, path) = match reason {
         Reason::File { path, is_gone } => (&**path, if *is_gone { "gone" } else { "changed" }, None),

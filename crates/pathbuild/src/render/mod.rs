@@ -89,7 +89,7 @@ pub fn render(format: Format, findings: &Findings, view: &View) -> RenderedText 
         Format::Concise => shown::lines(&concise::render(findings, view)).into_owned(),
         Format::Json => shown::json(&json::render(findings, view)).into_owned(),
         Format::Sarif => shown::json(&sarif::render(findings, view)).into_owned(),
-        // This format consists of lines that begin with `::`. Its renderer escapes all other lines that begin so.
+        // This format consists of lines that begin with `::`. Its renderer escapes that beginning in all other lines.
         Format::Github => shown::framed(&github::render(findings, view)).into_owned(),
         Format::Gitlab => shown::json(&gitlab::render(findings, view)).into_owned(),
         Format::Junit => shown::lines(&junit::render(findings, view)).into_owned(),

@@ -56,7 +56,8 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
 /// The file of a drawing, the name of a path in it, and the path's scene if the path cuts anything.
 type StockScene<'d> = ((&'d Utf8Path, &'d str), Option<Scene>);
 
-/// Returns the drawing and the path of a finding about a finished part, which is shown in a picture of the stock.
+/// Returns the drawing and the path of a finding about a finished part, because such findings are shown in pictures of the stock; `None`
+/// for all other findings.
 fn part_and_path(diagnostic: &Diagnostic) -> Option<(&Utf8Path, &str)> {
     let is_about_part = matches!(
         diagnostic.code(),

@@ -112,7 +112,7 @@ fn is_literal(host: &str) -> bool {
     inner.map_or_else(|| host.parse::<Ipv4Addr>().is_ok(), |host| host.parse::<Ipv6Addr>().is_ok())
 }
 
-/// Returns the address by which other machines reach this one if the server listens on all addresses. Sends nothing.
+/// Returns the address by which other machines reach this one if the server listens on all addresses. Nothing is sent to determine it.
 fn own_address(unspecified: IpAddr) -> IpAddr {
     let (from, to, loopback): (_, SocketAddr, IpAddr) = match unspecified {
         IpAddr::V4(_) => (unspecified, (Ipv4Addr::new(192, 0, 2, 1), 9).into(), Ipv4Addr::LOCALHOST.into()),

@@ -22,7 +22,7 @@ pub(super) struct Hub {
 pub(super) struct State {
     /// Number of the last change.
     revision: u64,
-    /// Revision before which changes are unknown: clients whose last revision is older must reload everything.
+    /// First revision after which all changes are known: clients that only know an older one must reload everything.
     base: u64,
     drawings: BTreeMap<Utf8PathBuf, PublishedDrawing>,
     /// Totals of all paths, as JSON.
@@ -38,7 +38,7 @@ pub(super) struct State {
     is_over: bool,
 }
 
-/// The facts about a drawing that are published.
+/// The published facts about a drawing.
 struct PublishedDrawing {
     revision: u64,
     /// Rows of the drawing in the list, as JSON.
@@ -104,7 +104,7 @@ impl Hub {
         self.leave();
     }
 
-    /// Drops pending questions, because nobody will answer them any more.
+    /// Drops pending questions, because the watching thread will not answer them any more.
     pub(super) fn leave(&self) {
         let mut state = self.state();
         state.bell = None;

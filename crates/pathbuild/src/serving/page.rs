@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 use super::hub::{AnswerForm, Hub, Question, Subject};
 use crate::context::Context;
 
-/// Updates the page of a watched library.
+/// Listener of the watching thread that updates the page of a library.
 pub(super) struct Page<'a> {
     context: &'a Context,
     hub: Arc<Hub>,

@@ -202,7 +202,7 @@ async fn answer_with(routes: &Routes, subject: Subject, kind: &'static str) -> R
     }
 }
 
-/// Returns a stream of the numbers of changes, beginning with the last one.
+/// Returns a stream of the numbers of changes, beginning with the number of the last change so far.
 async fn events(State(routes): State<Arc<Routes>>) -> impl IntoResponse {
     let (revisions, run) = (routes.hub.revisions(), routes.run.clone());
     let open = OpenPage::new(routes.pages.clone());
@@ -220,7 +220,7 @@ async fn events(State(routes): State<Arc<Routes>>) -> impl IntoResponse {
     Sse::new(numbers).keep_alive(KeepAlive::default())
 }
 
-/// Counts an open page until it is dropped.
+/// Guard that counts a page as open until it is dropped.
 struct OpenPage(watch::Sender<usize>);
 
 impl OpenPage {

@@ -145,11 +145,11 @@ pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
     lines
 }
 
-/// Maximum number of lines of an explanation. Further lines are counted.
+/// Maximum number of lines of an explanation. Further lines are only counted.
 const MOST_REASONS: usize = 24;
 
-/// Returns lines that explain the changes, each with its indentation level: an introduction, then the reasons, with the reasons of a
-/// reason below it. Empty if it is unknown whether there is an explanation.
+/// Returns the lines that explain the changes, each with its indentation level: an introduction, then the reasons. A reason may have
+/// reasons of its own, which follow it one level deeper. Empty if it is unknown whether there is an explanation.
 fn explanation(program: &ProgramDiff, lang: Lang) -> Vec<(usize, String)> {
     let Some(reasons) = &program.reasons else { return Vec::new() };
     if reasons.is_empty() {
