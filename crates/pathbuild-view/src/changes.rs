@@ -49,8 +49,8 @@ const ORIGIN: Point = [0.0; 2];
 
 /// Returns the changes from one program to another, in the order of the new one; empty if both are equivalent.
 ///
-/// Equal moves are set aside. Among the others, a run of moves that occurs at another place is shifted; every other move is classified by
-/// its line in the plane, whose final depth, feed and number of passes are compared.
+/// Equal moves are ignored. Among the others, a run of moves that occurs at another place is shifted; every other move is classified by
+/// comparing the final depth, the feed and the number of passes along its line in the plane.
 pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> Vec<Change> {
     let rows = differing(old, new);
     if rows.is_empty() {
@@ -203,7 +203,7 @@ fn of_kind(groups: &mut Vec<Group>, kind: ChangeKind) -> &mut Group {
     &mut groups[index]
 }
 
-/// A key that is equal for equal moves. Its numbers are in µm and µm/min, so that it hides differences from printing numbers.
+/// A key that is equal for equal moves. Its numbers are in µm and µm/min, so that rounding in printed programs makes no difference.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct MoveIdentity {
     kind: MoveKind,
@@ -222,7 +222,7 @@ struct Turn {
 }
 
 impl MoveIdentity {
-    /// Returns the identity of a move whose coordinates are taken relative to a point in the plane.
+    /// Returns the identity of a move, with coordinates relative to a point in the plane.
     pub(super) fn of(movement: &SceneMove, origin: Point) -> Self {
         let shift = |axis: usize| origin.get(axis).copied().unwrap_or_default();
         let end =

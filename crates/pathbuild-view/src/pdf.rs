@@ -77,7 +77,7 @@ pub(crate) fn document(trees: &[Tree], font: &[u8], metadata: Option<&str>) -> R
     Ok(pdf.finish())
 }
 
-/// Allocates the numbers of PDF objects.
+/// Allocator for the numbers of PDF objects.
 struct References(i32);
 
 impl References {
@@ -209,7 +209,7 @@ impl Page<'_> {
         }
     }
 
-    /// Writes the glyphs of a span. Glyphs whose distances equal their widths are written as one run.
+    /// Writes the glyphs of a span. A glyph that begins where the previous one ends is written in the same run.
     fn glyphs(&mut self, span: &Span, mode: TextRenderingMode) {
         let size = span.font_size.get();
         let metrics = self.face.glyph_metrics(Size::new(size), LocationRef::default());

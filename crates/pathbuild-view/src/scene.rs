@@ -203,7 +203,7 @@ pub enum ElementKind {
     Sweep,
     SkippedSubpath,
     Subpath,
-    /// An element whose line type has no meaning.
+    /// An element with a line type that has no meaning.
     Unclear,
     Start,
     End,

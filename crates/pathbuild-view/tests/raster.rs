@@ -38,7 +38,8 @@ fn a_page_is_whole_and_takes_no_name_for_markup() {
     assert_eq!(made, page(&Scene::new(title), Lang::De));
 }
 
-/// The size of a picture must not depend on the number of findings: that of a drawing with many mistakes would take a megabyte of memory for each.
+/// The size of a picture must not depend on the number of findings: otherwise, the picture of a drawing with many mistakes would take a
+/// megabyte of memory for each finding.
 #[test]
 fn a_picture_does_not_grow_with_the_number_of_findings() {
     let text = |text: &str| BilingualText { en: text.to_owned(), de: text.to_owned() };

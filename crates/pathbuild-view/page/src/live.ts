@@ -198,7 +198,7 @@ class Page {
     const open = pending > 0 ? ` · ${count.format(pending)} ${say("unchecked", lang)}` : "";
     const nothing = rows.length > 0 || !this.isComplete ? "" : say(all.length === 0 ? "nothing" : "nothingFound", lang);
     $("count").textContent = nothing || `${shown}${count.format(all.length)} ${say(all.length === 1 ? "path" : "paths", lang)}${open}${this.isWhole ? "" : " …"}`;
-    // Set the rows last: the count takes a line of the space in which the list scrolls to its selected row.
+    // Set the rows last: the count may take a line from the height of the list, which then scrolls to its selected row.
     this.list.set(rows, this.open);
   }
 

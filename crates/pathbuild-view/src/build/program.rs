@@ -299,8 +299,7 @@ impl Finder {
         }
     }
 
-    /// Returns the first line of a cut. The post may have divided the cut into several moves; it ends with the one that ends at the same
-    /// place.
+    /// Returns the first line of a cut. The post may have divided the cut into several moves, the last of which ends where the cut ends.
     fn cut(&mut self, movement: &Move) -> Option<u32> {
         let is_cut = |(_, written): &(u32, Move)| !matches!(written.pace, Pace::Rapid);
         let rest = &self.written[self.next..self.written.len().min(self.next + MAX_SEARCHED_MOVES)];

@@ -29,23 +29,23 @@ const LABEL_DISTANCE: f64 = 1.0;
 /// each picture.
 const MOST_EMPTY: usize = 200;
 
-/// Maximum number of texts in a picture. There is no room for more, and searching for room takes long.
+/// Maximum number of texts in a picture. There is no space for more, and searching for space takes long.
 const MOST_TEXTS: usize = 200;
 
-/// The place of a finding, and what a picture must show with it.
+/// The place of a finding, and the things that a picture must show with it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spot {
     /// Position of the finding in the drawing.
     pub at: Point,
     /// Related points, such as the nearest open end or the position of a text.
     pub related: Vec<Point>,
-    /// Centre and radius of the matching circle of a text that has no element within it.
+    /// For a text that belongs to no element: centre and radius of the circle by which it is matched with elements.
     pub circle: Option<(Point, f64)>,
     /// Whether the finding is an error rather than a warning.
     pub is_error: bool,
 }
 
-/// Draws the surroundings of a finding, whose place is circled. Distant elements are omitted.
+/// Draws the surroundings of a finding and circles its place. Distant elements are omitted.
 pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
     drawn(spot, |canvas, frame, window| {
         let near = near(scene, window);

@@ -44,7 +44,7 @@ const MARGIN: f64 = 40.0;
 /// Minimum extent shown in mm, for drawings without an extent, such as a single hole.
 const MIN_EXTENT: f64 = 10.0;
 
-/// Transforms coordinates of the drawing to those of the page.
+/// Transform from coordinates of the drawing to those of the page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     low: Point,
@@ -54,7 +54,7 @@ pub(super) struct Frame {
     corner: Point,
 }
 
-/// Transforms coordinates of a path to those of the page.
+/// Transform from coordinates of a path to those of the page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PageTransform {
     frame: Frame,
@@ -193,7 +193,8 @@ const CELL: f64 = 4.0;
 /// Maximum vertical distance of a text from its preferred position, in multiples of its height.
 const MAX_TEXT_DISTANCE: u32 = 6;
 
-/// Number of the first candidate positions of a label. They are so near to the symbol that the label cannot be mistaken for another's.
+/// Number of candidate positions, counted from the first, that are so near to the symbol of a label that the label cannot be taken for
+/// another's.
 const NEAR_CANDIDATES: usize = 13;
 
 /// Upper left and lower right corner of a rectangle in px.

@@ -276,7 +276,7 @@ fn first_findings(findings: &[Finding], shown: VisibleParts) -> (Vec<(Option<&Fi
     (all, findings.len())
 }
 
-/// Returns the lines of a finding. The first line carries the finding, whose number is drawn before it.
+/// Returns the lines of a finding. Only the first line refers to the finding, because the finding's number is drawn before that line.
 fn lines<'a>(finding: &'a Finding, shown: VisibleParts) -> Vec<(Option<&'a Finding>, String)> {
     let pick = |text: &'a crate::scene::BilingualText| match shown.lang {
         Lang::En => text.en.as_str(),

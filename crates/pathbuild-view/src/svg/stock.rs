@@ -445,7 +445,7 @@ fn is_known(way: &Move) -> bool {
     way.from.known.and(way.to.known) == Axes::ALL && way.named.is_none()
 }
 
-/// The cuts of a scene whose place and material are known.
+/// Returns the cuts of a scene that have a known place and known material, each with its path and its conditions.
 fn cuts(scene: &Scene) -> impl Iterator<Item = (&ScenePath, &SceneMove, CuttingConditions)> {
     let all = scene.paths.iter().flat_map(|path| path.moves.iter().map(move |movement| (path, movement)));
     let known = all.filter(|(_, movement)| {
@@ -480,7 +480,7 @@ fn moved(way: &Move, zero: Point) -> Move {
     moved
 }
 
-/// Collects what cuts paint.
+/// Builder of the areas and strokes that cuts paint.
 struct StrokeBuilder {
     areas: Vec<SweptArea>,
     strokes: Vec<Stroke>,
@@ -595,7 +595,7 @@ fn touch(([low, high], surface): Blank, zero: Point) -> (Move, StockSpan) {
 /// Depth in mm of the move that touches a blank, too small to count as material.
 const TOUCH_DEPTH: f64 = 1e-4;
 
-/// Returns the line number for the next step.
+/// Returns the line number of a step that `steps` other steps precede.
 fn line(steps: usize) -> u32 {
     u32::try_from(steps + 1).unwrap_or(u32::MAX)
 }

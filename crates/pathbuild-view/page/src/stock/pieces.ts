@@ -1,4 +1,4 @@
-// The moves as straight pieces of a cutter's way, and the stock that they are cut from.
+// The moves as straight pieces of the cutter's path, and the stock that they are cut from.
 
 import { Move, Path, Scene, isCut, pointsOfMove, toolOf } from "../scene.js";
 

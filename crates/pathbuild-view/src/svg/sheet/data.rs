@@ -187,7 +187,7 @@ pub(super) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> 
     distinct
 }
 
-/// Chooses texts by language.
+/// The language of a sheet, with functions that choose or format texts in it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Words(pub(super) Lang);
 

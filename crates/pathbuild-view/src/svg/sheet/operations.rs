@@ -7,7 +7,7 @@ use crate::svg::canvas::mm;
 /// Maximum number of rows. A longer table is of no use on paper.
 const MOST_ROWS: usize = 300;
 
-/// A range of consecutive numbers with the same operation.
+/// A range of consecutive element numbers with the same operation.
 #[derive(Debug)]
 struct Operation {
     numbers: [u32; 2],

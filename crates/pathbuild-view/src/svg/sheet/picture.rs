@@ -22,7 +22,7 @@ const BOTTOM_MARGIN: f64 = 50.0;
 /// Height of the legend in units: scale, kinds of lines, depths.
 const LEGEND: f64 = 54.0;
 
-/// Fraction of the available space. A drawing that is smaller is enlarged, and a true-size inset is added.
+/// Fraction of the available space below which a drawing is enlarged and gets a true-size inset.
 const ENLARGED_BELOW: f64 = 0.34;
 
 /// Minimum extent shown in mm, for drawings without an extent.
@@ -116,7 +116,7 @@ fn limit([low, high]: Corners, area: Column) -> f64 {
     (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1])) / UNITS
 }
 
-/// Returns the scale at which the corners fill the area that a true-size inset on the right leaves.
+/// Returns the scale at which the corners fill the part of the area that a true-size inset on the right leaves free.
 fn limit_beside(corners: Corners, area: Column) -> f64 {
     let inset = inset_width(corners);
     limit(corners, Column { width: area.width - inset, ..area })
