@@ -26,7 +26,7 @@ use crate::support::Place;
 const LIBRARIES: u64 = 300;
 const EDITS: usize = 10;
 
-/// One library in this many is also checked by the program itself, which takes longer than all other ways together.
+/// One in this many libraries is also checked by running the program, which takes longer than all other checks together.
 const OF_PROGRAM: u64 = 20;
 
 /// Kinds of faults, each of which must occur in at least one of twenty states.
@@ -89,15 +89,15 @@ fn states(seed: u64) -> Vec<Vec<Finding>> {
 
 #[track_caller]
 fn same(model: &[Finding], program: &[Finding], what: &str) {
-    // The model has no probing program; tests/cli/keep_outs.rs tests clamps in its way.
+    // The model has no probing program; tests/cli/keep_outs.rs tests clamps that a probing program hits.
     let of_probing = |found: &&Finding| found.words.iter().any(|it| it.starts_with("in the probing program"));
     let program: Vec<Finding> = program.iter().filter(|found| !of_probing(found)).cloned().collect();
     let differences = differences(model, &program);
     assert!(differences.is_empty(), "{what}:\n{}", differences.join("\n"));
 }
 
-/// Asserts that findings are the same, apart from cycles: from a single path a cycle may be entered in several ways, of which each path takes only
-/// one.
+/// Asserts that findings are the same. If there is a cycle among them, only asserts that both sides report one: a cycle may be entered in
+/// several ways, and each path takes only one of them.
 #[track_caller]
 fn same_but_cycles(model: &[Finding], program: &[Finding], what: &str) {
     let is_cyclic = |found: &[Finding]| found.iter().any(|it| it.code == "PB509");

@@ -249,7 +249,7 @@ fn a_drawing_that_was_touched_is_not_checked_again() {
     assert_eq!(reused_drawings(&place), "5 / 5");
 }
 
-/// If a path is 0.5 mm too far outside, material is left, unless its cutter is for slots.
+/// The path is 0.5 mm too far from the part, so that material is left, unless the tool is a slot cutter.
 #[test]
 fn the_shape_of_a_cutter_asks_another_question() {
     let drawing = "layer 1234.1S\nstart 0,-0.5 \"T2 O2 I1 B0 S5\"\nmill 0,-0.5 40,-0.5\nend 40,-0.5\n\
@@ -389,7 +389,7 @@ fn a_cache_that_is_a_link_is_not_used() {
     assert_eq!(fs::read_dir(place.path().join("other")).unwrap().count(), 1);
 }
 
-/// A cache directory whose name is not UTF-8 is an error: otherwise the cache would silently be in another directory.
+/// A cache directory with a name that is not UTF-8 is an error: otherwise the cache would silently be in another directory.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_cache_whose_name_is_no_utf_8_is_refused() {
@@ -579,7 +579,7 @@ fn paths_and_drawings_that_are_named_are_checked_once() {
     }
     // The results are for another path of the same drawing.
     assert_eq!(known(&place, "1002.1P"), "0 / 1");
-    // A drawing whose name does not admit the path has no effect on the path; one whose name does may define the path again.
+    // A drawing has no effect on a path that its file name does not admit; if the name admits the path, the drawing may define it again.
     let place = place.file("library/parts/1004.dxf", dxf(&[path("1001.1P", 5, &[])]));
     assert_eq!(known(&place, "1001.1P 1002.1P 1003.1P"), "2 / 2");
     let place = place.file("library/parts/1000-1001.dxf", dxf(&[path("1001.1P", 5, &[])]));

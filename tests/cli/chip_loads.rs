@@ -5,7 +5,7 @@ use pathbuild_testkit::sheet;
 
 const TOOL: &str = "[tool.mill]\ndiameter = 2\nnumber = 4\nspindle = 10000\nflutes = 2\n";
 
-/// Returns the output of `check` for a path with F on its start and on a line, with limits of 0.01 to 0.03 mm per tooth: F200 to F600.
+/// Returns the output of `check` for a path with F on its start and on a line. The limits of 0.01 to 0.03 mm per tooth permit F200 to F600.
 fn check(start: &str, line: &str, options: &str) -> String {
     let drawing =
         format!("layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 MX {start}\"\nmill 0,0 40,0{line}\nend 40,0\n");

@@ -360,7 +360,7 @@ fn an_argument_under_another_configuration_is_wrong() {
     );
 }
 
-/// Each is reported once, however many drawings lie beside it.
+/// A configuration below that of the run is reported once, however many drawings lie beside it.
 #[test]
 fn configurations_below_that_of_the_run_are_warnings() {
     let place = Place::new().file("a/pathbuild.toml", "").file("a/b/pathbuild.toml", "").file("c/none", "");

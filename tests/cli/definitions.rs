@@ -116,7 +116,7 @@ fn a_program_of_an_unchecked_definition_is_not_called_as_drawn() {
     assert_eq!(run.status, Some(1), "it moves elsewhere than the drawing\n{run}");
 }
 
-/// Lines of the program, the texts that replace them, and whether this is a finding.
+/// Lines of the program, each with the text that replaces it and whether `verify` must report the change.
 const CHANGES: [(&str, &str, bool); 14] = [
     ("G00 Z+5 M03", "G00 Z+5", true),
     ("G17 G71 G90", "G17 G70 G90", true),

@@ -18,7 +18,7 @@ const FOR_BOTH: &str = "a\\b\\ c\\\\ d\u{85}/1301.1P a  b#c$d$$e:f::g \u{2028}\u
 /// Path with special characters that `make` supports, but Ninja does not.
 const FOR_MAKE: &str = "a\\#b\\:c\\;d/1301.1P a;touch$IFS$9b;\"'`&<>";
 
-/// A place with a drawing of that name, its program and its rule.
+/// A place with a drawing, its program, and the make rule for them.
 struct Emitted {
     place: Place,
     drawing: String,
@@ -121,8 +121,8 @@ fn names_that_no_rule_can_have_are_refused() {
     }
 }
 
-/// Endings with `\` or `)` are refused, which the name of a configuration may have: a backslash would join two lines, and a parenthesis would form
-/// an archive member.
+/// Names that end with `\` or `)` are refused, although a configuration may have such a name: a backslash would join two lines, and a
+/// parenthesis would form an archive member.
 #[test]
 fn ends_that_no_rule_can_have_are_refused() {
     for (name, is_right) in [("c(x)d", true), ("c(x)", false), ("c\\d", true), ("c\\", false)] {

@@ -135,7 +135,8 @@ fn a_program_and_the_path_that_it_was_made_from() {
     assert_eq!(place.run("diff programs/1001.1P_Milling.gcode new").status, Some(2));
 }
 
-/// GRBL's post writes four decimals and the native program three, which half a micrometre distinguishes.
+/// GRBL's post writes four decimals, and the native program three. The coordinate differs by half a micrometre between them, which is not a
+/// change.
 #[test]
 fn what_a_post_rounds_is_no_change() {
     let line = |end: &str| dxf("1001.1P", "1", &format!("mill 0,0 20,{end}\nmill 20,{end} 40,0"));
@@ -215,7 +216,7 @@ fn json_markdown_and_a_page() {
     assert_eq!(place.run("diff old new -o d.txt").status, Some(2));
 }
 
-/// A deeper cut, an added cut, a removed cut and a hole: the picture of the changes, then those of the old and the new moves.
+/// Tests a deeper cut, an added cut, a removed cut and a hole: the picture of the changes, then those of the old and the new moves.
 #[test]
 fn changes_are_seen() {
     let [old, new] = [
@@ -398,7 +399,7 @@ fn a_revision_has_an_end() {
     assert!(german.stderr.contains("mehr als 4 GiB") && !german.stderr.contains("git:"), "{german}");
 }
 
-/// A path is as long as the system permits.
+/// The path of a file is as long as the system permits.
 #[cfg(unix)]
 #[test]
 fn names_of_a_revision_have_an_end() {

@@ -14,7 +14,7 @@ fn limits(limits: &str) -> String {
     format!("{CONFIGURATION}[limits]\n{limits}\n")
 }
 
-/// A path whose program is longer the smaller its infeed is.
+/// Returns the drawing of a path. The smaller its infeed, the longer its program.
 fn path(infeed: &str) -> Vec<u8> {
     let drawn = format!("layer 1234.1P\nstart 0,0 \"T5 O2 I{infeed} B0 MX\"\nmill 0,0 40,0\nend 40,0");
     sheet(&drawn).unwrap().to_dxf()

@@ -333,7 +333,8 @@ fn a_changed_drawing_is_not_current() {
     assert_snapshot!(check_moves(&place, arguments));
 }
 
-/// Without `--compatible`, such a program has different moves. A note gives this reason, but only if it is the reason.
+/// Without `--compatible`, a program that the original tool wrote has different moves. A note gives this reason, but only if it is the
+/// reason.
 #[test]
 fn a_program_as_the_original_tool_writes_it_is_named_so() {
     let cases = support::project().join("fixtures/conformance/cases");
@@ -466,7 +467,7 @@ fn two_outputs_of_one_name_are_both_refused() {
     assert_snapshot!(same.run("emit --out-dir all"));
 }
 
-/// If file names ignore case, as on Windows, two such drawings cannot exist.
+/// If file names ignore case, as on Windows, two files with names that differ only in case cannot exist.
 #[cfg(not(windows))]
 #[test]
 fn outputs_whose_names_differ_in_case_are_both_refused() {
@@ -495,7 +496,7 @@ fn what_nothing_writes_any_more_is_stale() {
     assert_eq!(gone, ["projects/8001 a b_Milling.gcode"]);
 }
 
-/// Each of these files belongs to a path or command that may write it again.
+/// A file is not stale if a path or a command may write it again.
 #[test]
 fn what_may_be_written_again_is_not_stale() {
     let place = Place::of(LIBRARY);
@@ -518,7 +519,7 @@ fn what_may_be_written_again_is_not_stale() {
     assert!(!run.stderr.contains("stale"), "{run}");
 }
 
-/// A drawing that cannot be read at the moment may still contain the paths of these programs.
+/// A drawing that cannot be read at the moment may still contain the paths of its programs.
 #[test]
 fn programs_of_a_drawing_that_cannot_be_read_are_not_stale() {
     for arguments in ["", "projects ", "--out-dir all ", "projects --out-dir all "] {

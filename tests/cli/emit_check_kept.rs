@@ -43,7 +43,7 @@ end 40,0
 const ALL_CURRENT: &str = "4 current, 0 not current
 ";
 
-/// Creates a library whose programs were just written.
+/// Creates a library with programs that were just written.
 fn emitted() -> Place {
     let place = Place::of(LIBRARY);
     let run = place.run("emit");

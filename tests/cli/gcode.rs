@@ -202,7 +202,7 @@ fn what_was_emitted_is_what_the_drawing_says() {
     assert_snapshot!(cut_off);
 }
 
-/// A program cannot be compared with a drawing of several paths, of which none is named.
+/// A program cannot be compared with a drawing of several paths if none of them is named.
 #[test]
 fn a_program_is_compared_with_one_path() {
     let path = |name: &str, y: u32| {
@@ -490,7 +490,7 @@ fn verify_finds_what_breaks_cutters() {
         .file("g28.nc", format!("{head}M3 S12000\n{cut}G1 X30\nG28\n{foot}"))
         .file("g92.nc", format!("{head}M3 S12000\n{cut}G1 X30\nG0 Z15\nG92 X0 Y0 Z0\n{foot}"))
         .file("good.nc", format!("{head}M3 S12000\n{cut}G1 X30\nG0 Z15\n{foot}"));
-    // In a program without S, the control may have a speed.
+    // If a program has no S, the control may still have the speed of an earlier program.
     let verified = place.run("verify --dialect linuxcnc --cutter 2 --surface 2 no_s.nc");
     assert!(verified.status == Some(0) && verified.stderr.contains("warning[PB745]"), "{verified}");
     for (name, code) in [("s0", "PB745"), ("drill", "PB741"), ("g28", "PB740"), ("g92", "PB774")] {

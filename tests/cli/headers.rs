@@ -91,7 +91,7 @@ fn without_a_cutter_only_what_no_cutter_can_have_cleared_is_doubtful() {
     assert_eq!(codes(&slots(head, "G0 Y35"), "--cutter 70"), [""; 0]);
 }
 
-/// The higher of the two surfaces counts.
+/// The higher of the two surfaces, that of the header and that of `--surface`, counts.
 #[test]
 fn a_surface_that_the_program_contradicts_is_told() {
     let plunge = |z: &str| format!("G0 Z5\nG0 Y20\nG0 Z{z}");
@@ -102,7 +102,7 @@ fn a_surface_that_the_program_contradicts_is_told() {
     assert_eq!(codes(&slots(CARBIDE_CREATE, &plunge("0.5")), "--surface 0.5"), ["PB777"]);
 }
 
-/// The header of this native program names no T, because it mills parts of T 2 and T 4; the value of 4 counts.
+/// The header of this native program names no T, because it mills a path with T2 and one with T4. The greater T counts.
 #[test]
 fn a_surface_below_the_plunges_of_a_native_program_is_told() {
     let slot = |t: &str, y: &str| {
@@ -131,7 +131,7 @@ fn a_stock_block_gives_the_surface() {
     assert_eq!(codes(&slots(CARBIDE_CREATE, "G0 Z5\nG0 Y20\nG0 Z-0.1"), ""), ["PB741"]);
 }
 
-/// Rapid moves at cutting depth could not be checked because the program is too large for the map, which is reported. If there is no such move,
+/// If a program is too large for the map, its rapid moves at cutting depth cannot be checked, which is reported. If there is no such move,
 /// nothing needs to be checked.
 #[test]
 fn what_is_too_large_to_doubt_is_told() {

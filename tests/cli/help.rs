@@ -55,7 +55,7 @@ fn without_a_code_all_are_listed() {
     assert_eq!(run.stdout.lines().next(), Some("PB001  unreadable-file              error"));
 }
 
-/// The output of examples is tested for those that contain commands.
+/// Every example has commands, because only the output of commands is tested.
 #[test]
 fn every_example_is_a_fixture_that_can_be_drawn() {
     for code in Code::ALL {

@@ -267,7 +267,7 @@ fn the_archive_of_fusion_is_read_like_its_library() {
     }
 }
 
-/// Returns a library whose tools 3 and 4 have other numbers and descriptions.
+/// Returns a library of two tools with these numbers and geometries.
 fn numbered(third: (u32, &str), fourth: (u32, &str)) -> String {
     let tool = |(number, keys): (u32, &str)| {
         format!(

@@ -33,7 +33,7 @@ mill 0,0 40,0
 end 40,0
 "#;
 
-/// Files of the operating system, of which one drawing is replaced after it was read for the n-th time.
+/// The files of the operating system. After one drawing was read for the n-th time, it is replaced.
 #[derive(Debug)]
 struct Changing {
     left: AtomicU32,

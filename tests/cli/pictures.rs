@@ -112,7 +112,7 @@ fn a_clamp_in_the_way_is_seen() {
     assert_snapshot!(clamp.1);
 }
 
-/// A path whose cuts go into its part by 0.5 mm below and leave 0.5 mm above is shown with both; no program of it is written.
+/// A path cuts 0.5 mm into its part at the lower edge, and leaves 0.5 mm at the upper edge. Both are shown, although no program is written.
 #[test]
 fn cuts_into_a_part_are_shown_with_it() {
     let drawing = "layer 1234.1P\nstart 0,-9 \"T2 O2 I1 B0 S5 F150\"\nsweep 0,-9 -1,-0.5\nmill -1,-0.5 41,-0.5 41,21.5 -1,21.5 -1,-0.5\nsweep -1,-0.5 0,-9\nend 0,-9\nlayer Part\npolyline 0,0 40,0 40,20 0,20 closed\n";

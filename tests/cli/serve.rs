@@ -243,7 +243,7 @@ fn only_get_is_answered() {
     assert_eq!(served.get("/nothing").status, 404);
 }
 
-/// A page posts the text of a program, of which nothing is stored.
+/// A page posts the text of a program. The server stores nothing of it.
 #[test]
 fn a_program_is_taken_from_own_pages() {
     let place = library();
@@ -606,7 +606,7 @@ fn it_ends_once_the_page_is_closed_if_that_is_wanted() {
     assert_eq!(served.child.wait().unwrap().code(), Some(0));
 }
 
-/// The output of such a run is invisible, so the page shows the problem.
+/// The output of a run with `--until-closed` is invisible, so the page shows the problem.
 #[test]
 fn until_closed_even_a_wrong_beginning_is_shown() {
     let place = library().file("pathbuild.toml", "feed = \n");

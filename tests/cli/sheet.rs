@@ -169,7 +169,8 @@ fn a_pdf_has_all_pages_with_letters_and_the_same_bytes_each_time() {
     assert!(text.contains("\nPath 8003.1P, drawing 8003.1P.dxf\n"));
 }
 
-/// A drawn circle of 52 mm: the PDF contains the circle that the axis of the cutter describes inside it, and the ruler at the foot of the page.
+/// Tests a drawn circle of 52 mm: the PDF contains the circle that the axis of the cutter describes inside it, and the ruler at the foot of
+/// the page.
 #[test]
 #[cfg(feature = "pictures")]
 fn a_pdf_is_true_to_scale() {

@@ -12,8 +12,8 @@ const FORMATS: [&str; 9] =
 const HOSTILE: &str =
     "\u{1b}[31m\u{1b}]0;x\u{7}\u{9b}2J\u{202e}\u{2066}\r\u{2028}\u{85}##[add-mask]b\n::add-mask::e";
 
-/// Returns a drawing with such names on layers and line types and in texts: one without an element, faulty parameters and values, and names of
-/// missing paths.
+/// Returns a drawing with hostile names on layers and line types and in texts: one without an element, faulty parameters and values, and
+/// names of missing paths.
 fn drawing(path: &str) -> String {
     let hostile = HOSTILE.replace('\n', "\\P").replace('\r', "^M");
     let text = |layer: &str, x: u32, content: &str| {
@@ -169,7 +169,7 @@ fn json_of_hostile_names_is_whole() {
     roxmltree::Document::parse(&run.stdout).unwrap();
 }
 
-/// Reports in files contain no such characters either, because other programs display them.
+/// Reports in files contain no characters with special effects, because other programs display them.
 #[test]
 fn reports_of_hostile_names_act_on_nobody() {
     for format in ["full", "concise", "json", "sarif", "gitlab", "junit", "html"] {
@@ -183,7 +183,7 @@ fn reports_of_hostile_names_act_on_nobody() {
     assert_harmless(&Run { stdout: place.read("known"), ..run }, false);
 }
 
-/// Pictures, pages and scenes contain no such characters either.
+/// Pictures, pages and scenes contain no characters with special effects.
 #[test]
 fn what_is_seen_of_hostile_names_acts_on_nobody() {
     let place = place();

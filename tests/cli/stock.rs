@@ -352,7 +352,7 @@ const THROUGH: &str = "#ccd6e0";
 const EDGE: &str = "#4a3012";
 const WRONG: &str = "#e50d1a";
 
-/// Describes what is wrong about the colour of a point; `None` if nothing is.
+/// Describes what is wrong with the colour of a point; `None` if nothing is.
 fn fault(still: &Still, exact: &ExactStock, at: Point) -> Option<String> {
     let step = ((exact.top - exact.low) / STEPS).max(1e-3);
     let shade = (exact.top - exact.low) / SHADES.abs();

@@ -584,7 +584,7 @@ fn strokes_of_the_stock_are_painted_in_groups() {
     }
 }
 
-/// The cutter stays above a bar for a length of P and O together, so that P is left of the bar.
+/// The cutter stays above a bar over a length of P plus O, so that a length of P remains standing.
 #[test]
 fn bars_have_their_true_width() {
     let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 S9 F100 P3 U12 D3\"\nbars 0,0 40,0\nend 40,0";

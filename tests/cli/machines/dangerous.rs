@@ -149,8 +149,8 @@ fn no_dangerous_change_passes_and_no_good_program_has_a_finding() {
     assert!(10 * dangerous >= sampled.len(), "nearly nothing that was tried is dangerous");
 }
 
-/// Changes to a program whose helices are chords, and whether they are found. A chord may deviate from its helix as far as the post permits, by
-/// 0.01 mm, and its ends may be rounded.
+/// Changes to a program with chords instead of helices, and whether each is found. A chord may deviate from its helix as far as the post
+/// permits, by 0.01 mm, and its ends may be rounded.
 const OF_CHORDS: [(&str, &str, bool); 6] = [
     // The chord that remains is 0.0109 mm away from the arc.
     ("G01 X16.918 Y13.29 Z0.75\r\n", "", true),
@@ -176,7 +176,8 @@ fn chords_are_as_fine_as_the_post_writes_them() {
     }
 }
 
-/// Each entry has a line, another line to put before it, the replacement of the first line, and the posts in whose programs the change is found.
+/// Each entry has a text of a program, a line to insert before it, the text that takes its place, and the posts in whose programs the
+/// change is found.
 const PUT_IN: [(&str, &str, &str, &[&str]); 5] = [
     ("G1 X13.7", "M0", "G1 X13.7", &["grbl", "linuxcnc", "haas", "estlcam"]),
     ("G0 X10.0 Y18.0", "M0", "G0 X10.0 Y18.0", &["haas"]),
@@ -214,7 +215,7 @@ fn library() -> Place {
     copy(&support::project().join("fixtures/library"), place.path());
     let configuration = place.path().join("pathbuild.toml");
     let text = fs::read_to_string(&configuration).unwrap();
-    // The changes are made to single moves.
+    // Holes are written as single moves, because single moves are changed.
     let text = text.replace("cycles = true", "cycles = false");
     fs::write(configuration, format!("{text}{TOOLS}")).unwrap();
     place

@@ -77,8 +77,8 @@ fn text_of(post: &str, it: &Named) -> String {
     String::from_utf8(text).unwrap()
 }
 
-/// Returns a program as rs274 can read it: without its number or title, and without the retract to the machine's zero, whose position rs274 does
-/// not know.
+/// Returns a program as rs274 can read it: without its number or title, and without the retract to the machine's zero, because rs274 does
+/// not know its position.
 pub(super) fn common_words(text: &str, dialect: Dialect) -> String {
     let text = without_way_up(text);
     if dialect != Dialect::Din {

@@ -114,7 +114,7 @@ fn every_changed_height_or_formula_of_an_adjusted_program_is_an_error() {
 fn consistent_changes_are_found_with_the_drawing() {
     let place = adjusted("");
     let good = place.read("a_Milling.gcode");
-    // The line has another formula, with the number that it gives.
+    // The line has another formula, and the number that this formula gives.
     let constant = with_line(&good, line_of(&good, "G01 F"), |line| {
         let (before, _) = line.split_once("(==").unwrap();
         let number = before.rsplit_once('Z').unwrap().1;

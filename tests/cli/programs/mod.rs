@@ -63,7 +63,7 @@ impl Known {
         fs::read_to_string(project().join("fixtures/programs").join(self.name)).unwrap()
     }
 
-    /// Returns the configuration of a machine with these tools that can just run the program, with some room in the plane.
+    /// Returns the configuration of a machine with these tools that can just run the program, with some margin in the plane.
     fn configuration(&self) -> String {
         let needs = Needs::of(&self.text());
         let mut text = format!(

@@ -290,8 +290,8 @@ fn an_edited_post_begins_anew() {
     assert!(place.read(program).starts_with("(anna)"));
 }
 
-/// A drawing changes while two hundred others are being checked because of an earlier change, which is not repeated: the remaining drawings are
-/// checked together with it. The pauses put the second change before, between and after the batches.
+/// A drawing changes while two hundred others are being checked because of an earlier change. That check does not start again: the
+/// remaining drawings are checked together with the changed one. The pauses put the second change before, between and after the batches.
 #[test]
 fn changes_that_come_while_others_are_worked_on_are_not_lost() {
     const PROJECTS: usize = 200;
