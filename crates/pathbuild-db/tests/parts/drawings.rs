@@ -70,6 +70,8 @@ fn an_edge_may_be_off_by_the_tolerance() {
     let (shallow, length, severity) = depth(0.099);
     assert!((shallow - 0.099).abs() < 1e-6 && length > 39.0, "{shallow} {length}");
     assert_eq!(severity, Severity::Warning);
+    // 1 - (1 - 0.1) is slightly more than 0.1 in binary.
+    assert_eq!(depth(0.1).2, Severity::Warning);
     assert_eq!(depth(0.101).2, Severity::Error);
 }
 

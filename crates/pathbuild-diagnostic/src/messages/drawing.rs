@@ -265,6 +265,13 @@ messages! {
         help_en: "delete one of the two; if the tool is to come back along it, draw a turn marker at its end (a PHANTOM circle of 1.5 mm)",
         help_de: "eines der beiden löschen; soll der Fräser darauf zurückkommen, am Ende eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm)",
     }
+    /// A milled line or arc drawn on top of another of a different line type.
+    CURVE_TWICE_OTHERWISE: LeftoverElement {
+        en: "{element} at {point} is drawn twice, as {one} and as {other}: the deeper cut removes the mark or the support bars of the other",
+        de: "{element} bei {point} ist doppelt gezeichnet, als {one} und als {other}: der tiefere Schnitt entfernt die Markierung oder die Stützstege des anderen",
+        help_en: "delete one of the two; if both are wanted, give each a text, and order them with N",
+        help_de: "eines der beiden löschen; sind beide gewollt, jedem einen Text geben und sie mit N ordnen",
+    }
     /// A milled line or arc that is far shorter than the cutter is wide.
     CUT_HARDLY_LONG: LeftoverElement {
         en: "{element} here is only {length} mm long: the cutter plunges here and mills hardly anything",

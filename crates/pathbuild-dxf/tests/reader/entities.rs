@@ -133,6 +133,8 @@ fn what_no_path_consists_of_is_left_out_with_its_name() {
         ("TRACE", EntityKind::Trace),
         ("3DFACE", EntityKind::Face),
         ("3DSOLID", EntityKind::Solid3D),
+        ("ARCALIGNEDTEXT", EntityKind::ArcText),
+        ("RTEXT", EntityKind::RText),
         ("ATTRIB", EntityKind::Attrib),
         ("ACAD_PROXY_ENTITY", EntityKind::Proxy),
         ("NEW_IN_2040", EntityKind::Other),

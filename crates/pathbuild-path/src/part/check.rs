@@ -33,8 +33,8 @@ pub struct PartFindings {
     pub lost_bars: Vec<Vec<Curve>>,
 }
 
-/// Depth in mm up to which a cut into a part is a warning.
-const MAX_WARNING_DEPTH: f64 = 0.1;
+/// Depth in micrometres up to which a cut into a part is a warning. Depths are rounded to micrometres, as in the message, before they are compared.
+const MAX_WARNING_DEPTH: f64 = 100.0;
 
 /// Checks the cuts of all paths of a drawing against its parts. `is_complete`: whether the cuts of all its paths are known; otherwise
 /// missing cuts are not reported.
@@ -236,7 +236,7 @@ fn gouge_problem(gouge: &Gouge, radius: f64) -> Diagnostic {
         Diagnostic::new(&messages::GOUGE).with("length", gouge.length)
     };
     let mut problem = problem.with("depth", gouge.depth).with("point", shown(gouge.at));
-    if gouge.depth <= MAX_WARNING_DEPTH {
+    if (1000.0 * gouge.depth).round() <= MAX_WARNING_DEPTH {
         problem.severity = Severity::Warning;
     }
     problem

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::messages::{drawing, paths as messages};
 use pathbuild_diagnostic::{Diagnostic, Text, Value, words};
 
 use crate::approx::coincide;
-use crate::element::shown;
+use crate::element::{Element, shown};
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
 use crate::read::TextCircle;
@@ -220,31 +220,38 @@ impl<'a> Curves<'a> {
         same.take(2).any(|(_, other)| *other != segment)
     }
 
-    /// Returns PB121 for milled segments on top of another of their kind, unless both have a text: then the user milled the same curve twice on
-    /// purpose.
+    /// Returns PB121 for milled segments on top of another, unless both have a text: then the user cuts the same curve twice on purpose.
     pub(super) fn milled_twice(&self) -> Vec<Diagnostic> {
         let pairs = self.known.windows(2).filter(|pair| pair[0].0 == pair[1].0);
-        let mut twice: Vec<usize> =
-            pairs.filter(|pair| self.is_mistake(pair[0].1, pair[1].1)).map(|pair| pair[1].1).collect();
+        let mut twice: Vec<[usize; 2]> =
+            pairs.map(|pair| [pair[1].1, pair[0].1]).filter(|pair| self.is_mistake(*pair)).collect();
         twice.sort_unstable();
-        twice.into_iter().filter_map(|segment| self.problem(segment)).collect()
+        twice.into_iter().filter_map(|pair| self.problem(pair)).collect()
     }
 
-    fn is_mistake(&self, one: usize, other: usize) -> bool {
-        let [one, other] = [one, other].map(|segment| {
-            let segment = &self.path.segments[segment];
-            &self.path.drawn.elements[segment.element as usize]
-        });
-        one.role == other.role && (one.text.is_none() || other.text.is_none())
+    fn is_mistake(&self, pair: [usize; 2]) -> bool {
+        pair.iter().any(|segment| self.element(*segment).text.is_none())
     }
 
-    fn problem(&self, segment: usize) -> Option<Diagnostic> {
-        let segment = &self.path.segments[segment];
+    /// Returns PB121, reported at the first of two segments on top of each other.
+    fn problem(&self, pair: [usize; 2]) -> Option<Diagnostic> {
+        let segment = &self.path.segments[pair[0]];
         let SegmentKind::Cut(cut) = &segment.kind else { return None };
-        let problem = Diagnostic::new(&drawing::CURVE_TWICE)
+        let [element, other] = pair.map(|segment| self.element(segment));
+        let problem = if element.role == other.role {
+            Diagnostic::new(&drawing::CURVE_TWICE)
+        } else {
+            let [one, other] = [other, element].map(|element| element.class(None).word());
+            Diagnostic::new(&drawing::CURVE_TWICE_OTHERWISE).with("one", one).with("other", other)
+        };
+        let problem = problem
             .with("element", self.path.cuts[*cut as usize].word())
             .with("point", shown(self.path.ends(segment)[0]));
         Some(self.path.origin(segment).at(problem))
+    }
+
+    fn element(&self, segment: usize) -> &Element {
+        &self.path.drawn.elements[self.path.segments[segment].element as usize]
     }
 }
 

@@ -233,6 +233,10 @@ fn a_line_drawn_twice_is_milled_at_two_depths() {
     assert_eq!(twice(&groove("mill 40,0 40,20 \"B2 N1\"\nmill 40,0 40,20 \"B1 N2\"")), 0);
     assert_eq!(groove("mill arc 40,0 to 40,20 centre 40,10\nmill arc 40,20 to 40,0 centre 40,10"), [""; 0]);
     assert_eq!(groove("mill 40,0 40,20 \"B2\"\nsweep 40,20 40,0"), [""; 0]);
+    // The deeper of two line types removes what the other leaves, unless each has its own text.
+    assert_eq!(twice(&groove("mill 40,0 40,20\nbars 40,20 40,0")), 1);
+    assert_eq!(twice(&groove("mill 40,0 40,20 \"B2\"\nmark 40,20 40,0")), 1);
+    assert_eq!(twice(&groove("mill 40,0 40,20 \"B2 N1\"\nbars 40,20 40,0 \"B0 N2\"")), 0);
     // There are three copies, and a fourth groove to return.
     assert_eq!(twice(&codes_of(&format!("{}\nend 20,0", "mill 0,0 20,0\n".repeat(3)))), 2);
 }
