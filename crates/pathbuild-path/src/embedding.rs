@@ -57,6 +57,10 @@ pub struct PathSignature {
     pub has_probes: bool,
     /// The probes raised by H.
     pub raised_probes: Vec<ProbeTop>,
+    /// T + H of the highest probe; 0 without probes.
+    pub highest_probe: f64,
+    /// The sweeps with their own S.
+    pub own_sweeps: Vec<OwnSweep>,
     /// Letters with values that are hidden by errors.
     pub(crate) unknown: Letters,
     /// The path's subpath segments in order.
@@ -106,6 +110,8 @@ impl PathSignature {
             needs_feed: path.needs_feed(),
             has_probes: !path.probes.is_empty(),
             raised_probes: ProbeTop::raised(path),
+            highest_probe: path.probes.iter().map(|probe| probe.height).fold(0.0, f64::max),
+            own_sweeps: path.segments.iter().filter_map(|segment| OwnSweep::of(path, segment)).collect(),
             unknown: path.unknown_letters(),
             subpaths: path.segments.iter().enumerate().filter_map(call).collect(),
         }
@@ -160,10 +166,49 @@ impl ProbeTop {
     }
 }
 
+/// A sweep with its own S.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OwnSweep {
+    origin: Origin,
+    /// S in mm.
+    height: f64,
+    fault: Option<TextFault>,
+}
+
+impl OwnSweep {
+    fn of(path: &Path, segment: &Segment) -> Option<Self> {
+        let SegmentKind::Sweep { height: Some(height) } = segment.kind else { return None };
+        let text = path.drawn.text(path.element(segment).text);
+        let fault = text.and_then(|text| text.fault_of(Letter::S));
+        Some(Self { origin: path.origin(segment), height, fault })
+    }
+}
+
 impl PathSignature {
+    /// Returns PB203 for each sweep whose own S does not clear `top`, the height in mm of everything that the path embeds, or a probe. How far raised
+    /// material reaches is not drawn, so it does not matter where the sweep is.
+    pub fn own_sweep_problems(&self, top: f64) -> Vec<Diagnostic> {
+        let top = top.max(self.highest_probe);
+        let too_low = self.own_sweeps.iter().filter(|sweep| !above(sweep.height, top));
+        let problem = |sweep: &OwnSweep| {
+            let mut problem = Diagnostic::new(&parameters::SWEEP_BELOW_RAISED)
+                .with("value", sweep.height)
+                .with("limit", top)
+                .in_path(self.name.as_str());
+            problem.text.clone_from(&sweep.fault);
+            sweep.origin.at(problem)
+        };
+        too_low.map(problem).collect()
+    }
+
     /// Returns the height in mm of the highest point of the path's own material and probes, above its plane.
     pub fn own_top(&self) -> f64 {
         self.raised_probes.iter().map(|probe| probe.height).fold(self.thickness, f64::max)
+    }
+
+    /// Whether heights of the path's own probes must be compared with a sweep height.
+    pub fn compares_probes(&self) -> bool {
+        !self.raised_probes.is_empty() || (self.highest_probe > 0.0 && !self.own_sweeps.is_empty())
     }
 
     /// Returns PB203 for each of the path's own probes that reaches the sweep height, in mm.

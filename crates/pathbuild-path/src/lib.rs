@@ -35,7 +35,7 @@ pub use changes::{DrawnChange, DrawnChanges, DrawnSide, ElementChange, ElementKi
 pub use effective::{PathNumbers, PathOptions, PathRole, Provider, fallback};
 pub use element::{Cut, END_RADIUS, Element, Marker, Origin, Role, START_RADIUS, Shape, Source};
 pub use embedding::{Judge, with_near_names};
-pub use embedding::{PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits};
+pub use embedding::{OwnSweep, PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
 pub use in_force::{ElementParameters, Parameter, parameters_in_force};
 pub use keep_out::{KeepOut, KeepOutMap, KeepOuts, TipMove};

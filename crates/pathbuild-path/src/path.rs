@@ -327,7 +327,7 @@ impl Path {
         }
     }
 
-    fn element(&self, segment: &Segment) -> &Element {
+    pub(crate) fn element(&self, segment: &Segment) -> &Element {
         &self.drawn.elements[segment.element as usize]
     }
 }

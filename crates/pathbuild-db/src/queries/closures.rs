@@ -98,7 +98,7 @@ fn closure_without_embeddings<'db>(
     root: Instance<'db>,
 ) -> Option<Closure<'db>> {
     let (own, limits) = (summary(db, root), Settings::get(db).limits(db));
-    let has_raised = own.signature.as_ref().is_some_and(|signature| !signature.raised_probes.is_empty());
+    let has_raised = own.signature.as_ref().is_some_and(PathSignature::compares_probes);
     let is_plain = own.is_clean()
         && keep_out_problems(db, target.file(db)).is_empty()
         && part_problems(db, root).is_empty();
@@ -280,10 +280,14 @@ impl<'db> ClosureWalk<'db> {
         let raised: Vec<(&SubpathCall, f64)> = raised.collect();
         let top = raised.iter().map(|(_, top)| *top).fold(signature.own_top(), f64::max);
         self.tops.insert(instance, top);
-        let Some(height) = self.sweep_height(signature, depth).filter(|_| !self.options.compatible) else {
+        if self.options.compatible {
             return false;
+        }
+        let mut problems = signature.own_sweep_problems(top);
+        let Some(height) = self.sweep_height(signature, depth) else {
+            return self.report_all(instance, &problems);
         };
-        let mut problems = signature.raised_probe_problems(height);
+        problems.extend(signature.raised_probe_problems(height));
         let of_subpath =
             |(call, top): &(&SubpathCall, f64)| signature.raised_subpath_problem(call, height, *top);
         problems.extend(raised.iter().filter_map(of_subpath));

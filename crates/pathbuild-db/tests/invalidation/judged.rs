@@ -62,6 +62,42 @@ fn what_h_raises_is_checked_where_a_path_embeds_nothing() {
     assert_eq!(checked("", "H7"), [""; 0]);
 }
 
+/// A sweep's own S is compared with raised material in any role, whether or not the path has an S.
+#[test]
+fn the_s_of_a_sweep_clears_what_the_path_embeds() {
+    let component = component("1111.1P", "0");
+    let checked = |path: &str, s: &str, role| {
+        let drawn = format!(
+            "layer 8001.1P\nstart 0,0 \"T5 O3 I1 Mx {path}\"\nsubpath 0,0 20,0 \">1111.1P H10\"\n\
+             sweep 20,0 40,0 \"{s}\"\nend 40,0"
+        );
+        codes(
+            &[("lib/1111.1P.dxf", &component), ("lib/8001.1P.dxf", &drawn)],
+            "lib/8001.1P.dxf",
+            "8001.1P",
+            role,
+        )
+    };
+    for (path, role) in [("S30", Role::Checked), ("S30", Role::Emitted), ("", Role::Checked)] {
+        assert_eq!(checked(path, "S15.1", role.clone()), [""; 0]);
+        assert_eq!(checked(path, "S15", role.clone()), ["PB203"]);
+        assert_eq!(checked(path, "", role), [""; 0]);
+    }
+}
+
+#[test]
+fn the_s_of_a_sweep_clears_the_probes() {
+    let checked = |s: &str| {
+        let drawn = format!(
+            "layer 1111.1P\nstart 0,0 \"T5 O3 I1 Mx B0 S20\"\nmill 0,0 20,0\nprobe 10,30 \"T9.9\"\n\
+             sweep 20,0 40,0 \"{s}\"\nend 40,0"
+        );
+        codes(&[("lib/1111.dxf", &drawn)], "lib/1111.dxf", "1111.1P", Role::Checked)
+    };
+    assert_eq!(checked("S10"), [""; 0]);
+    assert_eq!(checked("S9.9"), ["PB203"]);
+}
+
 #[test]
 fn a_path_that_two_drawings_define_is_in_neither() {
     let files = [

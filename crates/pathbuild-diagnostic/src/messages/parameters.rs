@@ -302,6 +302,13 @@ messages! {
         help_en: "give this path a greater S, or raise the material less (H)",
         help_de: "diesem Pfad ein größeres S geben oder das Material weniger anheben (H)",
     }
+    /// A sweep's own S below material or a probe that H raises.
+    SWEEP_BELOW_RAISED: ParameterOutOfRange {
+        en: "this sweep runs at {value}, but what the path embeds, or a probe, reaches up to {limit}: the rapid move may hit it",
+        de: "diese Leerfahrt läuft auf {value}, aber was der Pfad einbettet, oder eine Probe, reicht bis {limit}: der Eilgang kann damit kollidieren",
+        help_en: "remove S from the sweep, so that it has the S of the path, or give it one above {limit}",
+        help_de: "das S der Leerfahrt weglassen, dann gilt das des Pfads, oder eines über {limit} angeben",
+    }
     /// A repeated letter.
     TWICE: DuplicateParameter {
         en: "{letter} is given twice",
