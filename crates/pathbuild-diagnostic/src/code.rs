@@ -266,7 +266,10 @@ codes! {
     785 WrongToolLength "wrong-tool-length" Error "a cut with the length of another tool, or without one";
     786 ProbeWithSpindleOn "probe-with-spindle-on" Error "a probing move with the spindle turning";
     787 RoundedCorners "rounded-corners" Warning "the control may round corners by more than `part-tolerance`";
+    788 UnitChanged "unit-changed" Warning "a feed, an offset or a drilling cycle that was stated in the other unit";
+    789 CycleLeftOn "cycle-left-on" Warning "a drilling cycle that is still on after a tool change";
     790 DoubtfulChipLoad "doubtful-chip-load" Warning "a chip load outside the limits of `[tool]`";
+    791 StopAtDepth "stop-at-depth" Warning "a stop for the operator with the cutter in the material";
 }
 
 impl Code {

@@ -35,7 +35,7 @@ pub fn seconds(steps: &[Step], kinematics: &Kinematics) -> f64 {
             }
             Action::SelectTool(_)
             | Action::Coolant(_)
-            | Action::System(_)
+            | Action::System { .. }
             | Action::Word(_)
             | Action::ProgramNumber(_)
             | Action::Change(_)

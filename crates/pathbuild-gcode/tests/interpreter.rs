@@ -1507,3 +1507,92 @@ fn a_cycle_below_its_level_rises_before_or_above_the_hole() {
     assert_eq!(run(LinuxCnc, program)[1..3], ["3 rapid to 0 0 1", "3 rapid to 5 0 1"]);
     assert_eq!(run(Fanuc, program)[1..3], ["3 rapid to 5 0 -1", "3 rapid to 5 0 1"]);
 }
+
+/// Returns the findings of a program as text and severity, after a head of two lines.
+fn judged(dialect: Dialect, program: &str) -> Vec<(String, Severity)> {
+    let text = format!("G17 G21 G90 G94\nG0 X0. Y0. Z5.\n{program}\nM30\n");
+    let found = interpret(text.as_bytes(), dialect, &Options::default()).problems;
+    let found = found.iter().filter(|it| it.code().name() != "doubtful-spelling");
+    found.map(|it| (fault_text(it), it.severity)).collect()
+}
+
+fn warned(text: &str) -> Vec<(String, Severity)> {
+    vec![(text.to_owned(), Severity::Warning)]
+}
+
+fn refused(text: &str) -> Vec<(String, Severity)> {
+    vec![(text.to_owned(), Severity::Error)]
+}
+
+#[test]
+fn a_feed_is_stated_again_after_a_change_of_the_unit() {
+    let cut = |dialect, words: &str| judged(dialect, &format!("G1 Z-1. F300\nX40.\nG20\n{words}\nX2."));
+    for dialect in [Fanuc, Mach3, Rs274] {
+        assert_eq!(cut(dialect, "G1 X1."), warned("6 unit-changed"), "{dialect:?}");
+        assert_eq!(cut(dialect, "G1 X1. F10"), [], "{dialect:?}");
+        assert_eq!(cut(dialect, "G21"), [], "{dialect:?}");
+        assert_eq!(cut(dialect, "G0 X1."), [], "{dialect:?}");
+    }
+    for dialect in [LinuxCnc, Grbl] {
+        assert_eq!(cut(dialect, "G1 X1."), [], "{dialect:?}");
+    }
+}
+
+#[test]
+fn the_unit_of_a_haas_is_a_setting() {
+    assert_eq!(judged(Haas, "G1 Z-1. F300\nG20\nX1.\nG21"), refused("4 unit-changed"));
+    assert_eq!(judged(Haas, "G21"), []);
+    assert_eq!(judged(Fanuc, "G20"), []);
+}
+
+#[test]
+fn an_offset_is_set_again_after_a_change_of_the_unit() {
+    for offset in ["G52", "G92"] {
+        let moved = |dialect, words: &str| judged(dialect, &format!("{offset} X10. Y0.\nG20\n{words}"));
+        for dialect in [Fanuc, Mach3] {
+            assert_eq!(moved(dialect, "G0 X1.\nX2."), warned("5 unit-changed"), "{dialect:?}");
+            assert_eq!(moved(dialect, "G21\nG0 X1."), [], "{dialect:?}");
+            assert_eq!(moved(dialect, &format!("{offset} X0. Y0.\nG0 X1.")), [], "{dialect:?}");
+        }
+    }
+    assert_eq!(judged(LinuxCnc, "G92 X10\nG20\nG0 X1"), []);
+}
+
+#[test]
+fn the_heights_of_a_cycle_are_stated_again_after_a_change_of_the_unit() {
+    let drilled = |dialect, words: &str| {
+        judged(dialect, &format!("G83 X10. Y0. Z-2. R2. Q1. F100\nG20\nF4\n{words}\nX1.\nG80"))
+    };
+    for dialect in [LinuxCnc, Fanuc, Mach3] {
+        assert_eq!(drilled(dialect, "X.5"), refused("6 unit-changed"), "{dialect:?}");
+        assert_eq!(drilled(dialect, "X.5 Z-.1 R.1"), refused("6 unit-changed"), "{dialect:?}");
+        assert_eq!(drilled(dialect, "X.5 Z-.1 R.1 Q.05"), [], "{dialect:?}");
+        assert_eq!(drilled(dialect, "G21 F100"), [], "{dialect:?}");
+    }
+}
+
+#[test]
+fn a_cycle_does_not_outlive_a_tool_change() {
+    let drilled = |dialect, words: &str| {
+        judged(dialect, &format!("G81 X10. Y0. Z-2. R2. F100\n{words}\nX30.\nX40.\nG80"))
+    };
+    for dialect in [LinuxCnc, Fanuc, Haas, Mach3] {
+        assert_eq!(drilled(dialect, "T2 M6\nG43 H2"), warned("6 cycle-left-on"), "{dialect:?}");
+        assert_eq!(drilled(dialect, "G80\nT2 M6\nG0"), [], "{dialect:?}");
+        assert_eq!(drilled(dialect, "T2 M6\nG81 X20. Z-3. R1."), [], "{dialect:?}");
+        assert_eq!(drilled(dialect, "T2 M6\nG0 Z5."), [], "{dialect:?}");
+        assert_eq!(drilled(dialect, "T2"), [], "{dialect:?}");
+    }
+}
+
+#[test]
+fn a_low_height_of_the_machine_is_doubtful_over_the_part() {
+    assert_eq!(judged(LinuxCnc, "G53 G0 Z-10\nG0 X1\nG53 G0 Z-10"), []);
+    assert_eq!(judged(LinuxCnc, "G53 G0 Z-10.1\nG0 X1\nG53 G0 Z-50"), warned("3 unknown-offset"));
+    assert_eq!(judged(LinuxCnc, "G53 G0 X0 Y0 Z-10.1"), warned("3 unknown-offset"));
+    // At a place of the machine there is a tool setter.
+    assert_eq!(judged(LinuxCnc, "G53 G0 X0 Y0\nG53 G0 Z-50"), []);
+    let offsets = Some(MachineOffsets::default());
+    let text = "G17 G21 G90 G94\nG0 X0 Y0 Z5\nG53 G0 Z-50\nM30\n";
+    assert_eq!(faults_with(LinuxCnc, text, &Options { offsets, ..Options::default() }), FINE);
+}

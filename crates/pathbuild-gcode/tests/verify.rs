@@ -326,7 +326,7 @@ fn tools_are_changed_above_the_material() {
     assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nT2\nM0\nG0 Z5"), ["5 tool-change-at-depth"]);
     assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nM0\nT2\nG0 Z5"), ["5 tool-change-at-depth"]);
     assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nT2\nG0 Z5\nM0"), FINE, "raised before the stop");
-    assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nM0\nG0 Z5"), FINE, "no tool is named");
+    assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nM0\nG0 Z5"), ["4 stop-at-depth"], "no tool is named");
     assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nG0 Z5\nT2 M6"), FINE);
     assert_eq!(on_stock("T2 M6\nG0 X0 Y0 Z5"), FINE);
 }
@@ -346,6 +346,20 @@ fn the_spindle_stands_where_the_operator_changes_the_tool() {
     assert_eq!(verify(&read.steps, None).iter().map(fault_text).collect::<Vec<_>>(), FINE);
 }
 
+#[test]
+fn a_stop_is_above_the_material() {
+    for stop in ["M0", "M1"] {
+        let stop_at = |z: &str| behind_slot(&format!("G0 Z{z}\n{stop}\n{stop}\nG0 Z10"));
+        assert_eq!(stop_at("5"), FINE);
+        assert_eq!(stop_at("4.999"), FINE);
+        assert_eq!(stop_at("4.99"), ["7 stop-at-depth"]);
+        // With T, it is a tool change, and behind the last move it is the end.
+        assert_eq!(behind_slot(stop), ["5 end-not-raised"]);
+    }
+    assert_eq!(behind_slot("T2\nM0\nG0 Z10"), ["7 tool-change-at-depth"]);
+    assert_eq!(behind_slot("M0\nT2\nG0 Z10"), ["7 tool-change-at-depth"]);
+}
+
 /// Returns the findings about a program in LinuxCNC's dialect, on material up to Z 0 with a cutter of 2 mm, and the number of rapid moves from
 /// unknown positions, with the line of the first.
 fn from_unknown(program: &str) -> (Vec<String>, Option<(usize, u32)>) {
@@ -356,6 +370,49 @@ fn from_unknown(program: &str) -> (Vec<String>, Option<(usize, u32)>) {
     read.steps.iter().for_each(|step| blind.step(step));
     let found = verify(&read.steps, Some(&stock)).iter().map(fault_text).collect();
     (found, blind.finish().map(|blind| (blind.count, blind.line)))
+}
+
+#[test]
+fn a_low_height_of_the_machine_raises_no_tool() {
+    let blind = |z: &str| from_unknown(&format!("G0 Z5\nG0 X0 Y0\nG53 G0 Z{z}\nG0 X9\nG0 Z5\nG0 X0")).1;
+    assert_eq!(blind("-10"), None);
+    assert_eq!(blind("-10.1"), Some((2, 4)));
+    // The tool is at a place of the machine, and raised again.
+    let setter = "G0 Z5\nG0 X0 Y0\nG53 G0 Z0\nG53 G0 X0 Y0\nG53 G0 Z-50\nG53 G0 Z0\nG0 X9 Y0\nG0 Z5";
+    assert_eq!(from_unknown(setter).1, None);
+}
+
+/// Two vises, G54 and G55, have one part each.
+#[test]
+fn what_is_cut_in_one_coordinate_system_is_not_cut_in_another() {
+    let slot = "G0 Z5\nG0 X0 Y0\nG1 Z-1\nG1 X20\nG0 Z5";
+    let again = |before: &str, system: &str| {
+        from_unknown(&format!("{before}\n{slot}\n{system}\nG0 X0 Y0\nG0 Z-1\nG1 X20\nG0 Z5")).0
+    };
+    assert_eq!(again("G54", "G54"), FINE);
+    assert_eq!(again("G54", "G55"), ["10 rapid-plunge"]);
+    assert_eq!(again("G55", "G54"), ["10 rapid-plunge"]);
+    assert_eq!(again("G54", "G55\nG54"), FINE);
+    // The program places both at the same point.
+    assert_eq!(again("G10 L2 P1 X0 Y0 Z0\nG10 L2 P2 X0 Y0 Z0", "G55"), FINE);
+}
+
+#[test]
+fn the_tool_is_raised_before_it_goes_to_another_coordinate_system() {
+    let leave = |words: &str| {
+        from_unknown(&format!("G0 Z5\nG0 X0 Y0\nG1 Z-1\nG1 X20\n{words}\nG55\nG0 X0 Y50\nG0 Z5")).0
+    };
+    assert_eq!(leave("G0 Z0"), FINE);
+    assert_eq!(leave("G0 Z-0.1")[0], "8 rapid-in-material");
+}
+
+#[test]
+fn cuts_at_depth_are_compared_within_a_coordinate_system() {
+    let between = |words: &str| {
+        at_depth(&format!("G0 X0 Y0 Z5\nG1 Z-2 F100\nX20\n{words}\nG0 Y20\nG1 Z-2\nX0\nG0 Z5\nX9"))
+    };
+    assert_eq!(between("G54"), ["6 rapid-at-depth"]);
+    assert_eq!(between("G55"), FINE);
 }
 
 /// Lines that cut a slot at Z-5 from the current position to X20.
@@ -751,4 +808,16 @@ fn moves_in_the_air_have_no_cutting_depth() {
         at_depth("G0 X0 Y0 Z5\nG1 Z-9 F100\nG0 Z5\nG0 X20\nG0 Z1\nG1 Z-4\nG0 Z0\nG0 Z-3\nG1 Z-9\nG0 Z5"),
         FINE
     );
+}
+
+#[test]
+fn a_stop_as_deep_as_the_cut_before_it_is_doubtful() {
+    let stop = |words: &str| at_depth(&format!("G0 X0 Y0 Z5\nG1 Z-2 F100\nX20\n{words}\nG0 Z5\nX9"));
+    assert_eq!(stop("M0"), ["5 stop-at-depth"]);
+    assert_eq!(stop("M0\nM1"), ["5 stop-at-depth"]);
+    assert_eq!(stop("T2 M6"), ["5 tool-change-at-depth"]);
+    assert_eq!(stop("G0 Z-1.99\nM0"), FINE);
+    assert_eq!(stop("G53 G0 Z0\nM0"), FINE);
+    // The program is for a laser.
+    assert_eq!(at_depth("G0 X0 Y0 Z0\nG1 X20 F100\nM0\nG1 X0"), FINE);
 }

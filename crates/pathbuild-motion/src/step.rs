@@ -52,7 +52,13 @@ pub enum Action {
     /// Changes the state of the coolant.
     Coolant(Coolant),
     /// Selects a coordinate system. Positions remain in the program's first system.
-    System(WorkSystem),
+    System {
+        /// The system.
+        system: WorkSystem,
+        /// The first system of the program whose place relative to this one is known: usually the system itself, and the program's first one if
+        /// G10 has stated both places. Positions in systems of different frames cannot be compared.
+        frame: WorkSystem,
+    },
     /// A G or M word other than a motion, regardless of its effect.
     Word(StatedWord),
     /// Another change that may affect where, how deep or how fast the tool goes.

@@ -162,7 +162,7 @@ impl Builder {
             Action::ChangeTool(tool) => self.change_tool(step.line, *tool),
             Action::Spindle(spindle) => self.set_spindle(spindle),
             Action::Coolant(coolant) => self.set_coolant(*coolant),
-            Action::System(system) if *system != WorkSystem::default() => {
+            Action::System { system, .. } if *system != WorkSystem::default() => {
                 self.refuse(step.line, &posts::JOB_SYSTEM);
             }
             Action::Comment(text) => match remark(text) {
@@ -179,7 +179,7 @@ impl Builder {
             },
             Action::Stop { .. } => self.stop(),
             Action::SelectTool(_)
-            | Action::System(_)
+            | Action::System { .. }
             | Action::Word(_)
             | Action::ProgramNumber(_)
             | Action::Change(_)

@@ -205,7 +205,7 @@ fn chosen_offsets(steps: &[Step]) -> Vec<Diagnostic> {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for step in steps {
         let word = match &step.action {
-            Action::System(system) if *system != WorkSystem::default() => system.name(),
+            Action::System { system, .. } if *system != WorkSystem::default() => system.name(),
             Action::Change(Change::ToolLength(ToolLength::Other)) => "G43.1, G43.2".into(),
             _ => continue,
         };

@@ -193,7 +193,7 @@ fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
             Action::Change(Change::Corners(Corners::Rounded(Some(most)))) if most <= 0.01 => {}
             // Tool length, offsets and the like change the machine's coordinates, not the program's.
             Action::Change(Change::Corners(Corners::Rounded(None))) => effects.push((nothing(), None)),
-            Action::Change(_) | Action::System(_) => effects.push((nothing(), Some(spindle))),
+            Action::Change(_) | Action::System { .. } => effects.push((nothing(), Some(spindle))),
             _ => {}
         }
     }

@@ -535,7 +535,7 @@ fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
             Action::ChangeTool(tool) => {
                 settings.insert("tool", format!("{tool:?}"));
             }
-            Action::System(system) => {
+            Action::System { system, .. } => {
                 settings.insert("system", format!("{system:?}"));
             }
             // The speed of rapid moves does not affect the material.

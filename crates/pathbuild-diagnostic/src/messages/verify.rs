@@ -141,6 +141,13 @@ messages! {
         help_en: "raise the tool above the material first",
         help_de: "das Werkzeug zuerst über das Material heben",
     }
+    /// The first move in another coordinate system, while the tool is below the surface of the material.
+    SYSTEM_FROM_DEPTH: RapidInMaterial {
+        en: "a move from Z {z} to a place in another coordinate system: the material reaches up to Z {surface}",
+        de: "eine Bewegung ab Z {z} zu einer Stelle in einem anderen Koordinatensystem: das Material reicht bis Z {surface}",
+        help_en: "raise the tool above the material first",
+        help_de: "das Werkzeug zuerst über das Material heben",
+    }
     /// A cut with the spindle on at speed 0 (`M3 S0`).
     SPINDLE_AT_ZERO: SpindleOff {
         en: "this is a cutting move with the spindle at speed 0",
@@ -511,6 +518,27 @@ messages! {
         de: "das Werkzeug wird auf Z {z} gewechselt, unter der Oberfläche des Materials bei {surface}",
         help_en: "raise the cutter before M6",
         help_de: "den Fräser vor M6 anheben",
+    }
+    /// A stop (M0, M1, M60) below the surface.
+    STOP_AT_DEPTH: StopAtDepth {
+        en: "the program stops for the operator at Z {z}, below the material's surface at {surface}",
+        de: "das Programm hält auf Z {z} für den Bediener an, unter der Oberfläche des Materials bei {surface}",
+        help_en: "raise the cutter before the stop",
+        help_de: "den Fräser vor dem Halt anheben",
+    }
+    /// A stop at the depth of the cut before it, where the surface is unknown.
+    STOP_AT_CUT: StopAtDepth {
+        en: "the program stops for the operator at Z {z}, as deep as the cut before: the cutter is probably in the material",
+        de: "das Programm hält auf Z {z} für den Bediener an, so tief wie der Schnitt davor: der Fräser steht wohl im Material",
+        help_en: "raise the cutter before the stop",
+        help_de: "den Fräser vor dem Halt anheben",
+    }
+    /// A tool change at the depth of the cut before it, where the surface is unknown.
+    CHANGE_AT_CUT: ToolChangeAtDepth {
+        en: "the tool is changed at Z {z}, as deep as the cut before: the cutter is probably in the material",
+        de: "das Werkzeug wird auf Z {z} gewechselt, so tief wie der Schnitt davor: der Fräser steht wohl im Material",
+        help_en: "raise the cutter before the change",
+        help_de: "den Fräser vor dem Wechsel anheben",
     }
     /// A manual tool change (M0 after T) while the spindle turns.
     SPINNING_AT_CHANGE: SpinningAtChange {

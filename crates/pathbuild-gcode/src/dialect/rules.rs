@@ -23,6 +23,8 @@ pub struct Rules {
     pub unit_words: [u16; 2],
     /// G codes (times ten) that switch to inches and to millimetres besides `unit_words`.
     pub unit_synonyms: Option<[u16; 2]>,
+    /// The effect of a change of the unit on lengths stated before it.
+    pub units: UnitChange,
     /// Whether M6 selects a layer, and moves and S apply to the selected layer.
     pub layers: bool,
     /// Whether a motion word applies only to its own line; coordinates alone repeat it, with a warning.
@@ -69,6 +71,17 @@ pub struct Rules {
     pub ends_cycles_beside_motion: bool,
     /// Rules for the tool length in effect where the program does not set one.
     pub lengths: LengthRules,
+}
+
+/// The effect of a change of the unit on F, G52 and G92.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UnitChange {
+    /// They keep their lengths: the control stores them in a unit of its own, or converts them.
+    Converts,
+    /// They keep their numbers, or it is not known what they keep.
+    Unknown,
+    /// The control refuses any other unit than the one that it is set to.
+    Refused,
 }
 
 /// Rules for the tool length that a control retains from earlier lines and programs.
@@ -233,6 +246,7 @@ const BASE: Rules = Rules {
     start_motion: StartMotion::Rapid,
     unit_words: [200, 210],
     unit_synonyms: None,
+    units: UnitChange::Unknown,
     layers: false,
     motion_is_stated: false,
     dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"", counts_turns: false },
@@ -296,6 +310,8 @@ pub(super) static LINUXCNC: Rules = Rules {
         active_comments: OBEYED,
         ..BASE_SPELLING
     },
+    // interp_convert.cc, convert_length_units: G92 is converted; the feed was passed on in mm/min when F was read.
+    units: UnitChange::Converts,
     words: &codes::LINUXCNC,
     arcs: ArcRules {
         radius: RadiusTolerance::Relative { most: 2.83, least: 0.0283, share: 0.001 },
@@ -323,6 +339,8 @@ pub(super) static GRBL: Rules = Rules {
         real_time_bytes: true,
         ..BASE_SPELLING
     },
+    // gcode.c: "Always store feed rate in mm/min" when F is read, "Push last state feed rate" otherwise; G92 is stored in mm.
+    units: UnitChange::Converts,
     words: &codes::GRBL,
     // gcode.c: "bit_false(value_words,(bit(WORD_I)|bit(WORD_J)|bit(WORD_K)))". FreeCAD's grbl_post writes `K0.000` in every arc.
     arcs: ArcRules { ignores_third_centre: true, ..BASE.arcs },
@@ -433,6 +451,8 @@ pub(super) static FANUC: Rules = Rules {
 
 pub(super) static HAAS: Rules = Rules {
     dialect: Dialect::Haas,
+    // From memory of the operator's manual: G20 and G21 only check Setting 9, and alarm if it differs.
+    units: UnitChange::Refused,
     words: &codes::HAAS,
     dwell: DwellRules { p: DwellUnit::ByPoint, seconds: b"", counts_turns: false },
     // Haas Mill Operator's Manual, M00: "It stops the axes, spindle, and turns off the coolant".
@@ -459,6 +479,8 @@ pub(super) static MARLIN: Rules = Rules {
         message_codes: &[0, 1, 117, 118],
         ..BASE_SPELLING
     },
+    // G0_G1 stores F as mm/s, and position shifts are in mm.
+    units: UnitChange::Converts,
     words: &codes::MARLIN,
     // G28 sets the position to the position of the switches, and the shift by G92 to 0 (set_axis_is_at_home).
     reference: ReferenceRules { g: &[280], loses_zero: true },

@@ -3,11 +3,12 @@
 //! Names such as "height" and Z assume the plane XY, which is almost always the active one.
 
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Position};
 
 use super::codes::{self, Cycle};
 use super::execute::{Interpreter, Slot, limits, whole};
-use super::state::CycleState;
+use super::state::{CycleState, StatedLength};
 use crate::read::{Block, Span};
 
 /// Distance above the last depth at which a pecking cycle stops its rapid descent, and by which a chip-breaking cycle retracts: 0.010
@@ -46,6 +47,8 @@ impl Interpreter<'_> {
             return self.remember(block, coordinates[axis]);
         }
         let repeats = self.take_repeat_count(block);
+        self.check_change_within_cycle(block);
+        self.check_unit_of_cycle(block, coordinates[axis].is_some());
         self.remember(block, coordinates[axis]);
         let Some(hole) = self.hole(block, cycle) else { return };
         let mut old = self.old_height();
@@ -84,6 +87,33 @@ impl Interpreter<'_> {
         self.rules.stores_cycles && stays && repeats.is_some_and(|slot| slot.value == 0.0)
     }
 
+    /// Reports the first hole of a cycle that was on before a tool change.
+    fn check_change_within_cycle(&mut self, block: &Block<'_>) {
+        let Some(line) = self.state.change_within_cycle.take() else { return };
+        let word = codes::name('G', self.state.motion_code);
+        self.report(block, &say::CYCLE_LEFT_ON, Span::new(0, block.text.len()), |d| {
+            d.quoting("word", word).with("line", u64::from(line))
+        });
+    }
+
+    /// Reports the first hole whose R, Z or Q was stated in the other unit. LinuxCNC keeps these numbers: `Z-2` in mm becomes `Z-2` in inches.
+    fn check_unit_of_cycle(&mut self, block: &Block<'_>, is_z_given: bool) {
+        let CycleState { r, z, q, stated, .. } = self.state.cycle;
+        let Some(stated) = stated.filter(|stated| stated.unit != self.state.unit) else { return };
+        let (has_r, has_q) = (self.words.values.has(b'R'), self.words.values.has(b'Q'));
+        let kept = [("R", r, has_r), ("Z", z, is_z_given), ("Q", q, has_q)];
+        let kept = kept.iter().filter(|(_, value, is_given)| value.is_some() && !is_given);
+        let letters: Vec<&str> = kept.map(|(letter, ..)| *letter).collect();
+        if letters.is_empty() {
+            return;
+        }
+        self.state.cycle.stated = None;
+        self.report_other_unit(block, &say::CYCLE_IN_OTHER_UNIT, stated, |d| Diagnostic {
+            severity: Severity::Error,
+            ..d.quoting("word", letters.join(", "))
+        });
+    }
+
     fn take_repeat_count(&mut self, block: &Block<'_>) -> u32 {
         let letter = self.rules.repeats;
         let Some(slot) = self.words.values.take_slot(letter) else { return 1 };
@@ -107,7 +137,11 @@ impl Interpreter<'_> {
         let p = self.words.values.take_slot(b'P').map(|slot| self.seconds(block, slot));
         let z = z.map(|slot| self.millimetres(slot));
         let incremental = self.state.incremental;
+        let stated = StatedLength { line: block.line, unit: self.state.unit };
         let kept = &mut self.state.cycle;
+        if r.or(q).or(z).is_some() {
+            kept.stated = Some(stated);
+        }
         kept.r = r.map(|r| if incremental { old + r } else { r + shift }).or(kept.r);
         kept.z = z.map(|z| if incremental { kept.r.unwrap_or(old) + z } else { z + shift }).or(kept.z);
         kept.p = p.or(kept.p);

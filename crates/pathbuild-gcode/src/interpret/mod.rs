@@ -26,6 +26,7 @@ pub use self::guess::{Disputes, UnionWord, union_word};
 pub use self::state::{Heights, MachineOffsets, Options, UnitCodes};
 pub use codes::name as code_name;
 pub use guess::{Evidence, EvidenceKind, Guess, guess};
+pub(crate) use motion::LOWEST_RETRACT;
 
 use crate::dialect::Dialect;
 use crate::read::BlockReader;

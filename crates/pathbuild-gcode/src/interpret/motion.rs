@@ -9,9 +9,13 @@ use pathbuild_motion::{
 
 use super::codes::{self, Command, Motion, Origin};
 use super::execute::{Interpreter, Slot, Values, limits, whole};
-use super::state::INCH;
+use super::state::{INCH, StatedLength};
 use crate::dialect::RadiusTolerance;
 use crate::read::{Block, Span};
+
+/// The lowest height of G53, in mm, that counts as a retract. Posts stay some millimetres below machine zero, to keep clear of the switches: Carbide
+/// Create writes `G53G0Z-5.000`, OpenBuilds `G53 G0 Z-10`.
+pub(crate) const LOWEST_RETRACT: f64 = -10.0;
 
 impl Interpreter<'_> {
     /// Executes the motion of the block, if it has one. Returns whether it moves.
@@ -35,6 +39,9 @@ impl Interpreter<'_> {
         }
         self.check_stated(block, stated.is_some(), motion);
         self.state.offsets.fix_base();
+        if is_machine.is_none() {
+            self.check_unit_of_shift(block);
+        }
         match motion {
             Motion::None => {
                 self.report(block, &say::NO_MOTION, self.coordinates_span(block), |d| d);
@@ -63,6 +70,7 @@ impl Interpreter<'_> {
             let goes_on = matches!((self.state.motion, motion), (Motion::Cycle(_), Motion::Cycle(_)));
             self.begin_cycle(goes_on);
         }
+        self.state.change_within_cycle = None;
         self.state.motion = motion;
         self.state.motion_code = code;
     }
@@ -146,6 +154,7 @@ impl Interpreter<'_> {
     }
 
     fn machine_target(&mut self, block: &Block<'_>, coordinates: [Option<Slot>; 3]) -> Position {
+        self.check_machine_height(block, coordinates[2]);
         let mut to = self.state.position;
         for (axis, slot) in coordinates.into_iter().enumerate() {
             let Some(slot) = slot else { continue };
@@ -162,6 +171,17 @@ impl Interpreter<'_> {
             self.state.lost = Some((block.line, 530));
         }
         to
+    }
+
+    /// Reports the first move to a low height of the machine that begins over the part.
+    fn check_machine_height(&mut self, block: &Block<'_>, z: Option<Slot>) {
+        let Some(slot) = z.filter(|_| self.state.offsets.of_machine(2, 0.0).is_none()) else { return };
+        let is_over_part = self.state.position.known.has(Axes::XY);
+        let is_low = self.millimetres(slot) < LOWEST_RETRACT;
+        if is_over_part && is_low && !std::mem::replace(&mut self.state.stated.machine_height, true) {
+            let z = slot.value;
+            self.report(block, &say::LOW_MACHINE_HEIGHT, slot.span, |d| d.with("z", z));
+        }
     }
 
     fn straight(&mut self, block: &Block<'_>, pace: Pace, is_machine: bool) {
@@ -200,6 +220,10 @@ impl Interpreter<'_> {
         let Some((command, code, span)) = self.words.of_group(Group::NonModal) else { return false };
         if !matches!(command, Command::Home(_) | Command::Reference) {
             let are_shifted = self.are_shifted(command);
+            if let Some(are_shifted) = are_shifted {
+                let stated = StatedLength { line: block.line, unit: self.state.unit };
+                self.state.shift_stated = are_shifted.then_some(stated);
+            }
             self.step(block, Action::Change(Change::Offsets { code, are_shifted }));
         }
         match command {
@@ -431,7 +455,8 @@ impl Interpreter<'_> {
                 d.quoting("system", name).quoting("base", base)
             });
         }
-        self.step(block, Action::System(system));
+        let frame = self.state.offsets.frame(system);
+        self.step(block, Action::System { system, frame });
     }
 }
 

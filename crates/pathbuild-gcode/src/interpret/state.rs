@@ -32,6 +32,8 @@ pub(super) struct State {
     pub(super) feed_unit: FeedUnit,
     /// F in the unit given by [`feed_unit`](Self::feed_unit), with lengths in mm.
     pub(super) feed: f64,
+    /// The place that stated F, unless F is inverse time.
+    pub(super) feed_stated: Option<StatedLength>,
     /// Line and code (times ten) of the feed mode word that cleared F.
     pub(super) feed_cleared: Option<(u32, u16)>,
     pub(super) spindle: Spindle,
@@ -45,9 +47,20 @@ pub(super) struct State {
     /// Feed of the last rapid move in mm/min, if it depends on F.
     pub(super) rapid_feed: Option<f64>,
     pub(super) retract_to_r: bool,
+    /// The line of a tool change since the last motion word, which left a drilling cycle on.
+    pub(super) change_within_cycle: Option<u32>,
+    /// The place that stated the active G52 or G92.
+    pub(super) shift_stated: Option<StatedLength>,
     pub(super) cycle: CycleState,
     pub(super) offsets: Offsets,
     pub(super) stated: StatedModes,
+}
+
+/// A place of the program that stated lengths, and the unit in mm that it used.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct StatedLength {
+    pub(super) line: u32,
+    pub(super) unit: f64,
 }
 
 /// The values of drilling cycles, which are kept until another motion.
@@ -60,6 +73,8 @@ pub(super) struct CycleState {
     pub(super) z: Option<f64>,
     pub(super) p: Option<f64>,
     pub(super) q: Option<f64>,
+    /// The last line that stated R, Z or Q.
+    pub(super) stated: Option<StatedLength>,
 }
 
 /// The settings that the program has specified, and the missing ones that have been reported.
@@ -71,6 +86,10 @@ pub(super) struct StatedModes {
     pub(super) plane: bool,
     pub(super) feed_missing: bool,
     pub(super) program_number: bool,
+    /// Whether a refused change of the unit has been reported.
+    pub(super) other_unit: bool,
+    /// Whether a low height of G53 has been reported.
+    pub(super) machine_height: bool,
 }
 
 impl State {
@@ -92,6 +111,7 @@ impl State {
             unit: 1.0,
             feed_unit: FeedUnit::PerMinute,
             feed: 0.0,
+            feed_stated: None,
             feed_cleared: None,
             spindle: Spindle::UNSTATED,
             coolant: Coolant::default(),
@@ -100,6 +120,8 @@ impl State {
             layer_speeds: Vec::new(),
             rapid_feed: None,
             retract_to_r: !rules.lifts_to_start,
+            change_within_cycle: None,
+            shift_stated: None,
             cycle: CycleState::default(),
             offsets: Offsets::new(offsets),
             stated: StatedModes::default(),
@@ -129,6 +151,8 @@ pub(super) struct Offsets {
     length: AppliedLength,
     /// The sum of all offsets at the first move; `None` until then.
     base: Option<[f64; 3]>,
+    /// The system that was active at the first move.
+    first: Option<WorkSystem>,
     /// Whether `base` is known in machine coordinates.
     is_base_known: bool,
     home: [Option<[f64; 3]>; 2],
@@ -168,6 +192,7 @@ impl Offsets {
             local: [0.0; 3],
             length: AppliedLength::default(),
             base: None,
+            first: None,
             is_base_known: false,
             home: [0, 1].map(|index| configured.map(|offsets| offsets.home[index])),
             is_configured: configured.is_some(),
@@ -178,6 +203,7 @@ impl Offsets {
     pub(super) fn fix_base(&mut self) {
         if self.base.is_none() {
             self.base = Some(self.sum());
+            self.first = Some(self.active);
             self.is_base_known = self.systems[self.active.index()].origin == SystemOrigin::Machine;
         }
     }
@@ -223,12 +249,21 @@ impl Offsets {
     pub(super) fn select(&mut self, system: WorkSystem) -> bool {
         let is_other = self.active != system;
         self.active = system;
-        let is_known = match self.systems[system.index()].origin {
+        !is_other || self.base.is_none() || self.is_placed(system)
+    }
+
+    /// Whether the origin of a system is known relative to the program's first one.
+    fn is_placed(&self, system: WorkSystem) -> bool {
+        match self.systems[system.index()].origin {
             SystemOrigin::Unknown => false,
             SystemOrigin::Machine => self.is_base_known,
             SystemOrigin::Program => true,
-        };
-        !is_other || self.base.is_none() || is_known
+        }
+    }
+
+    /// Returns the first system whose place relative to this one is known.
+    pub(super) fn frame(&self, system: WorkSystem) -> WorkSystem {
+        self.first.filter(|_| self.is_placed(system)).unwrap_or(system)
     }
 
     /// Executes G10 L2: sets the origin of a system in machine coordinates. Returns false if the preceding positions, which are in the same system,

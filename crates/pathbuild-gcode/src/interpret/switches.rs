@@ -1,13 +1,13 @@
 //! Executes all words of a block that do not move: tools, spindle, coolant, dwells, modes, stops.
 
-use pathbuild_diagnostic::Text;
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Message, Severity, Text};
 use pathbuild_motion::{Action, Axes, Change, Coolant, Corners, Group, Move, ToolLength, Turning};
 
-use super::codes::{self, Command, FeedUnit};
+use super::codes::{self, Command, FeedUnit, Motion};
 use super::execute::{Interpreter, Slot, Values, limits, whole};
-use super::state::INCH;
-use crate::dialect::{DwellUnit, FeedMode};
+use super::state::{INCH, StatedLength};
+use crate::dialect::{DwellUnit, FeedMode, UnitChange};
 use crate::read::{Block, Span};
 
 /// M codes of the spindle, of stops and of ends.
@@ -41,6 +41,9 @@ impl Interpreter<'_> {
             });
         }
         self.step(block, Action::ChangeTool(self.state.tool));
+        if matches!(self.state.motion, Motion::Cycle(_)) {
+            self.state.change_within_cycle = Some(block.line);
+        }
         if self.rules.layers {
             self.enter_layer(block, self.state.tool.unwrap_or(0));
         } else {
@@ -372,8 +375,9 @@ impl Interpreter<'_> {
             Some((Command::Inches(inches), ..)) => unit_of(inches),
             _ => self.state.unit,
         };
-        self.state.feed =
-            if self.state.feed_unit == FeedUnit::InverseTime { slot.value } else { slot.value * unit };
+        let is_inverse = self.state.feed_unit == FeedUnit::InverseTime;
+        self.state.feed = if is_inverse { slot.value } else { slot.value * unit };
+        self.state.feed_stated = (!is_inverse).then_some(StatedLength { line: block.line, unit });
         self.state.feed_cleared = None;
         self.state.stated.feed_missing = false;
     }
@@ -414,8 +418,15 @@ impl Interpreter<'_> {
     }
 
     pub(super) fn units(&mut self, block: &Block<'_>, inches: bool, code: u16, span: Span) {
-        self.state.unit = unit_of(inches);
-        self.state.stated.units = true;
+        let before = std::mem::replace(&mut self.state.unit, unit_of(inches));
+        let contradicts = std::mem::replace(&mut self.state.stated.units, true) && before != self.state.unit;
+        let is_refused = contradicts && self.rules.units == UnitChange::Refused;
+        if is_refused && !std::mem::replace(&mut self.state.stated.other_unit, true) {
+            self.report(block, &say::UNIT_IS_SETTING, span, |d| {
+                let d = d.quoting("word", codes::name('G', code));
+                Diagnostic { severity: Severity::Error, ..d }
+            });
+        }
         let Some(said) = self.rules.layers.then(|| unit_said(block)).flatten() else { return };
         if said != inches {
             let (taken, comment) = if inches { (&INCHES, &MILLIMETRES) } else { (&MILLIMETRES, &INCHES) };
@@ -444,10 +455,46 @@ impl Interpreter<'_> {
         };
         // With this option the feeds of the layers apply, which are not in the file.
         let is_layers = self.rules.layers && self.options.ignore_feed;
+        if self.state.feed_unit != FeedUnit::InverseTime && !movement.is_nothing() {
+            self.check_unit_of_feed(block);
+        }
         if per_minute == 0.0 && !movement.is_nothing() && !is_layers {
             self.report_missing_feed(block);
         }
         per_minute
+    }
+
+    /// Reports an F in the other unit once, until the next F.
+    fn check_unit_of_feed(&mut self, block: &Block<'_>) {
+        let Some(stated) = self.state.feed_stated.filter(|stated| self.may_misread(*stated)) else { return };
+        self.state.feed_stated = None;
+        self.report_other_unit(block, &say::FEED_IN_OTHER_UNIT, stated, |d| d);
+    }
+
+    /// Reports a move that counts from an offset in the other unit once, until the next offset.
+    pub(super) fn check_unit_of_shift(&mut self, block: &Block<'_>) {
+        let Some(stated) = self.state.shift_stated.filter(|stated| self.may_misread(*stated)) else { return };
+        self.state.shift_stated = None;
+        self.report_other_unit(block, &say::OFFSET_IN_OTHER_UNIT, stated, |d| d);
+    }
+
+    /// Whether the unit has changed since lengths were stated, on a control that may keep their numbers.
+    fn may_misread(&self, stated: StatedLength) -> bool {
+        stated.unit != self.state.unit && self.rules.units == UnitChange::Unknown
+    }
+
+    pub(super) fn report_other_unit(
+        &mut self,
+        block: &Block<'_>,
+        message: &'static Message,
+        stated: StatedLength,
+        values: impl FnOnce(Diagnostic) -> Diagnostic,
+    ) {
+        let [unit, other] =
+            [stated.unit, self.state.unit].map(|unit| if unit == INCH { &INCHES } else { &MILLIMETRES });
+        self.report(block, message, Span::new(0, block.text.len()), |d| {
+            values(d.with("line", u64::from(stated.line)).with("unit", unit).with("other", other))
+        });
     }
 
     /// Reports a missing feed once until the next F, because it is a single mistake, however many moves follow.

@@ -3,11 +3,12 @@
 //! After a move to a machine position, a tool change or a probe, and at the beginning of a program, the start of a move is known only in part. Only
 //! its end is then compared with the map of the material. That suffices for a vertical move, and for a move above the material.
 
-use pathbuild_motion::{Action, Axes, Move, Pace, Position, Step};
+use pathbuild_motion::{Action, Axes, Move, NamedPosition, Pace, Position, Step};
 use serde::{Deserialize, Serialize};
 
 use super::height_map::RESIDUE;
 use super::material::Stock;
+use crate::interpret::LOWEST_RETRACT;
 
 /// Number and first line of the rapid moves with unknown start that may pass through material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -43,13 +44,19 @@ impl BlindRapidRules {
         let stated = std::mem::replace(&mut self.stated, step.stated);
         match &step.action {
             Action::Move(movement) => {
-                if movement.pace == Pace::Rapid && movement.named.is_none() && self.is_blind(movement, stated)
-                {
+                let is_low = is_low_in_machine(movement);
+                let is_doubtful = match movement.named {
+                    None => movement.pace == Pace::Rapid && self.is_blind(movement, stated),
+                    // Over a known place there may be material; elsewhere the machine has a tool setter or a magazine.
+                    Some(_) => is_low && known(&movement.from, stated).has(Axes::XY),
+                };
+                if is_doubtful {
                     let found = self.found.get_or_insert(BlindRapids { count: 0, line: step.line });
                     found.count += 1;
                 }
                 self.is_raised = match movement.pace {
                     Pace::Probe { .. } => false,
+                    _ if is_low => false,
                     _ => self.is_raised || movement.homes_z() || movement.to.known.has(Axes::Z),
                 };
             }
@@ -78,6 +85,13 @@ impl BlindRapidRules {
         let begins_above = is_above(height(&movement.from, from)) || is_vertical;
         !(begins_above && is_above(height(&movement.to, to)))
     }
+}
+
+/// Whether a move ends at an unknown height which the machine need not be able to reach above the material.
+fn is_low_in_machine(movement: &Move) -> bool {
+    let machine = matches!(movement.named, Some(NamedPosition::Machine(axes)) if axes.has(Axes::Z));
+    // An unknown coordinate of G53 is that of the machine.
+    machine && !movement.to.known.has(Axes::Z) && movement.to.z() < LOWEST_RETRACT
 }
 
 /// Returns the axes of a position that are known and that the program has stated since the machine last changed them.

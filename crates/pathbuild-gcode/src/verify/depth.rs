@@ -5,9 +5,11 @@
 
 use std::collections::BTreeSet;
 
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Message};
 use pathbuild_motion::{Action, Axes, Move, Pace, Step};
 
+use super::frames::Frames;
 use super::height_map::RESIDUE;
 use super::material::{self, Stock};
 use crate::interpret::Program;
@@ -20,40 +22,57 @@ pub struct DepthRules {
     depths: Depths,
     /// Number of moves passed so far.
     moves: usize,
+    /// Stops and tool changes at cutting depth.
+    stops: Problems,
+    frames: Frames,
 }
 
 impl DepthRules {
     /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
-        if let Action::Move(movement) = &step.action {
-            self.depths.add(self.moves, movement);
-            self.moves += 1;
+        match &step.action {
+            Action::Move(movement) => {
+                self.frames.step(step);
+                self.depths.add(self.moves, movement);
+                self.moves += 1;
+            }
+            Action::System { .. } => self.leave_frame(step),
+            Action::Stop { .. } => self.report_at_cut(&say::STOP_AT_CUT, step.line),
+            Action::ChangeTool(_) => self.report_at_cut(&say::CHANGE_AT_CUT, step.line),
+            _ => {}
         }
     }
 
-    /// Reports the found moves that lead through a point at which the program never cuts as deep. The surface of `stock` is
-    /// [unknown](Stock::with_unknown_surface). If no moves were found, the program is not processed again.
+    /// Forgets the cuts of another coordinate system.
+    fn leave_frame(&mut self, step: &Step) {
+        if self.frames.step(step) {
+            self.depths.cut = None;
+            self.depths.at_cut = None;
+            self.depths.pending.clear();
+        }
+    }
+
+    /// Reports a stop or a tool change as deep as the last cut, once until the tool cuts again.
+    fn report_at_cut(&mut self, message: &'static Message, line: u32) {
+        if let Some(z) = self.depths.at_cut.take() {
+            self.stops.add_at_line(message, line, |d| d.with("z", z));
+        }
+    }
+
+    /// Reports the stops and tool changes at cutting depth, and the found moves that lead through a point at which the program never cuts as deep. The
+    /// surface of `stock` is [unknown](Stock::with_unknown_surface). If no moves were found, the program is not processed again.
     pub fn finish(self, program: &(impl Program + ?Sized), stock: &Stock) -> Vec<Diagnostic> {
         let found = &self.depths.found;
-        let mut problems = Problems::default();
+        let mut problems = self.stops;
         if !found.is_empty() {
-            material::check(&CutsAndFound { program, found }, stock, &mut problems);
+            let reduced = CutsAndFound { program, found };
+            self.frames.each(&reduced, &mut |program| material::check(program, stock, &mut problems));
         }
         problems.into_diagnostics()
     }
 }
 
-/// Passes each move to `take` with its index, counted from 0.
-fn each_move(program: &(impl Program + ?Sized), take: &mut dyn FnMut(usize, &Step, &Move)) {
-    let mut index = 0;
-    program.each(&mut |step| {
-        let Action::Move(movement) = &step.action else { return };
-        take(index, step, movement);
-        index += 1;
-    });
-}
-
-/// A program reduced to its cuts and to the rapid moves that were found at cutting depth.
+/// A program reduced to its cuts, to the rapid moves that were found at cutting depth, and to its coordinate systems.
 struct CutsAndFound<'p, P: ?Sized> {
     program: &'p P,
     found: &'p BTreeSet<usize>,
@@ -61,10 +80,16 @@ struct CutsAndFound<'p, P: ?Sized> {
 
 impl<P: Program + ?Sized> Program for CutsAndFound<'_, P> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
-        each_move(self.program, &mut |index, step, movement| {
-            if movement.pace != Pace::Rapid || self.found.contains(&index) {
-                take(step);
+        let mut index = 0;
+        self.program.each(&mut |step| match &step.action {
+            Action::Move(movement) => {
+                if movement.pace != Pace::Rapid || self.found.contains(&index) {
+                    take(step);
+                }
+                index += 1;
             }
+            Action::System { .. } => take(step),
+            _ => {}
         });
     }
 }
@@ -79,10 +104,19 @@ struct Depths {
     /// Indices and heights in mm of the rapid moves in the plane since the last cut.
     pending: Vec<(usize, f64)>,
     found: BTreeSet<usize>,
+    /// Height in mm of the tool while it is as deep as the last cut.
+    at_cut: Option<f64>,
 }
 
 impl Depths {
     fn add(&mut self, index: usize, movement: &Move) {
+        self.follow(index, movement);
+        let z = movement.to.z();
+        let is_deep = movement.is_known() && self.cut.is_some_and(|cut| z <= cut + RESIDUE);
+        self.at_cut = is_deep.then_some(z);
+    }
+
+    fn follow(&mut self, index: usize, movement: &Move) {
         let is_known = movement.is_known();
         match movement.pace {
             Pace::Rapid if !is_known => self.top = movement.to.known.has(Axes::Z).then(|| movement.to.z()),

@@ -12,6 +12,7 @@ mod corners;
 mod depth;
 mod direction;
 mod excursion;
+mod frames;
 mod height_map;
 mod lengths;
 mod machine;
@@ -46,6 +47,7 @@ pub use stated::StatedStatistics;
 pub use tool_state::{LengthFit, ToolState};
 pub use words::{PostWords, WordRules};
 
+use self::frames::Frames;
 use crate::interpret::Program;
 use crate::read::Problems;
 
@@ -58,14 +60,16 @@ pub fn verify(
     each: &mut dyn FnMut(&Step),
 ) -> Vec<Diagnostic> {
     let mut rules = Rules::new(stock);
+    let mut frames = Frames::default();
     program.each(&mut |step| {
         rules.step(step);
+        frames.step(step);
         each(step);
     });
     let mut found = rules.finish();
     if let Some(stock) = stock {
         let mut problems = Problems::default();
-        material::check(program, stock, &mut problems);
+        frames.each(program, &mut |program| material::check(program, stock, &mut problems));
         found.append(&mut problems.into_diagnostics());
     }
     found.sort_by_key(|diagnostic| diagnostic.place.line);

@@ -8,6 +8,7 @@ use pathbuild_motion::{
     Action, Arc, Axes, Change, Move, MoveShape, NamedPosition, Pace, Plane, Position, Spindle, Step, Turning,
 };
 
+use super::frames::Frames;
 use super::material::Stock;
 use crate::dialect::Dialect;
 use crate::interpret::{Options, code_name, interpret_each};
@@ -49,6 +50,11 @@ pub struct Rules<'c> {
     directions: ArcDirections,
     /// The words of a tool change by hand since the last move: T and a stop.
     by_hand: ChangeByHand,
+    /// The line of the first stop since the last move, if the tool is in the material there.
+    stop_at_depth: Option<u32>,
+    frames: Frames,
+    /// Whether the next move begins in another frame.
+    changes_frame: bool,
     /// Line and code (times ten) of the active G52 or G92, and whether it came after the first cut.
     shifted: Option<(u32, u16, bool)>,
 }
@@ -80,6 +86,9 @@ impl<'c> Rules<'c> {
             is_height_homed: false,
             directions: ArcDirections::default(),
             by_hand: ChangeByHand::default(),
+            stop_at_depth: None,
+            frames: Frames::default(),
+            changes_frame: false,
             shifted: None,
         }
     }
@@ -87,6 +96,7 @@ impl<'c> Rules<'c> {
     /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let line = step.line;
+        self.changes_frame |= self.frames.step(step);
         match &step.action {
             Action::Move(movement) => self.moves(line, movement),
             Action::Spindle(spindle) => self.switch(line, *spindle),
@@ -99,10 +109,15 @@ impl<'c> Rules<'c> {
                 self.by_hand.is_selected = true;
                 self.change_by_hand(line);
             }
-            Action::Stop { optional: false } => {
-                self.by_hand.is_stopped = true;
-                self.by_hand.spinning = self.spindle.turning.is_on().then_some(line);
-                self.change_by_hand(line);
+            Action::Stop { optional } => {
+                if self.at.known.has(Axes::Z) && self.surface_above(line, self.at.z()).is_some() {
+                    self.stop_at_depth.get_or_insert(line);
+                }
+                if !optional {
+                    self.by_hand.is_stopped = true;
+                    self.by_hand.spinning = self.spindle.turning.is_on().then_some(line);
+                    self.change_by_hand(line);
+                }
             }
             _ => {}
         }
@@ -117,9 +132,11 @@ impl<'c> Rules<'c> {
     fn moves(&mut self, line: u32, movement: &Move) {
         self.line = line;
         self.by_hand = ChangeByHand::default();
+        self.report_stop();
         self.first_move(line, movement);
         self.diagonal(line, movement);
         self.home(line, movement);
+        self.leave_frame(line, movement);
         probe(line, movement, &mut self.problems);
         self.turning_probe(line, movement);
         self.after_probe(line, movement);
@@ -140,6 +157,20 @@ impl<'c> Rules<'c> {
             let z = movement.from.z();
             self.problems
                 .add_at_line(&say::HOME_FROM_DEPTH, line, |d| d.with("z", z).with("surface", surface));
+        }
+    }
+
+    /// Checks the first move in another coordinate system, whose direction is not known.
+    fn leave_frame(&mut self, line: u32, movement: &Move) {
+        let leaves = std::mem::take(&mut self.changes_frame) && self.at.known.has(Axes::Z);
+        let rises = movement.keeps_xy() && movement.to.z() >= movement.from.z();
+        if !leaves || rises || movement.named.is_some() {
+            return;
+        }
+        let z = self.at.z();
+        if let Some(surface) = self.surface_above(line, z) {
+            self.problems
+                .add_at_line(&say::SYSTEM_FROM_DEPTH, line, |d| d.with("z", z).with("surface", surface));
         }
     }
 
@@ -289,7 +320,17 @@ impl<'c> Rules<'c> {
         }
     }
 
+    /// Reports a stop with the tool in the material. At the end of a program, that is [`end`](Self::end)'s finding.
+    fn report_stop(&mut self) {
+        let Some(line) = self.stop_at_depth.take() else { return };
+        let z = self.at.z();
+        if let Some(surface) = self.surface_above(line, z) {
+            self.problems.add_at_line(&say::STOP_AT_DEPTH, line, |d| d.with("z", z).with("surface", surface));
+        }
+    }
+
     fn tool_change(&mut self, line: u32) {
+        self.stop_at_depth = None;
         let z = self.at.z();
         if !self.at.known.has(Axes::Z) {
             return;

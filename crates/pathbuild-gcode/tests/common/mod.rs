@@ -90,7 +90,7 @@ fn step_text(step: &Step) -> String {
             format!("spindle {:?} {}", spindle.turning, spindle.speed.unwrap_or_default())
         }
         Action::Coolant(coolant) => format!("coolant mist={} flood={}", coolant.mist, coolant.flood),
-        Action::System(system) => format!("system {}", system.name()),
+        Action::System { system, .. } => format!("system {}", system.name()),
         Action::Word(word) => format!("word {}{}", word.letter, f64::from(word.code) / 10.0),
         Action::ProgramNumber(number) => format!("number {number}"),
         Action::Change(change) => format!("{change:?}"),

@@ -175,7 +175,9 @@ impl<'s> Sources<'s> {
         let is_same_line = |error: &Diagnostic, doubt: &Diagnostic| error.place.line == doubt.place.line;
         doubts.retain(|doubt| match doubt.code() {
             Code::LimitReached => found.iter().all(|problem| problem.code() != Code::LimitReached),
-            _ => !found.iter().any(|error| error.is_error() && is_same_line(error, doubt)),
+            code => !found
+                .iter()
+                .any(|known| (known.is_error() || known.code() == code) && is_same_line(known, doubt)),
         });
         // If a limit stops this check, the program is not wrong, because the check only raises doubts.
         for doubt in &mut doubts {
