@@ -1,5 +1,6 @@
 //! Links the program at a fixed address on Linux: relocating a position-independent executable at every start takes longer than compiling
-//! most drawings (benches/README.md, "Start"). Not with musl, where statically linked programs must be position-independent to start.
+//! most drawings (benches/README.md, "Start"). With musl, the address is not fixed, because statically linked programs must be
+//! position-independent to start.
 
 #![expect(clippy::disallowed_methods, reason = "this is how cargo talks to a build script")]
 

@@ -7,7 +7,7 @@ fn compat(arguments: &[&str]) -> Run {
     Place::new().run_with(&[&["compat"], arguments].concat())
 }
 
-/// Returns the translation of a command line of one of these programs.
+/// Returns the translation of a command line of the original programs.
 fn translated(arguments: &[&str]) -> String {
     let run = compat(&[&["--print"], arguments].concat());
     assert_eq!((run.status, run.stderr.as_str()), (Some(0), ""), "{run}");

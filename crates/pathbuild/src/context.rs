@@ -23,7 +23,7 @@ use crate::render::{Format, View, json as lines, render};
 /// Everything that a command needs in addition to its arguments.
 #[derive(Debug)]
 pub struct Context {
-    /// Prints to stdout and stderr, which nothing else may access.
+    /// Printer for stdout and stderr, which nothing else may access.
     pub printer: Rc<Printer>,
     /// Format in which diagnostics are printed.
     pub format: Format,

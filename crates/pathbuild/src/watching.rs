@@ -27,7 +27,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
         if has_begun && !is_back(cli, &home, server.as_ref()) {
             return Context::of(cli).0.printer.finish(ExitStatus::Success);
         }
-        // Read these before the configuration is loaded, so that later changes are noticed.
+        // Read the sources before the configuration is loaded, so that later changes are noticed.
         let sources = Sources::of(&Context::of(cli).0);
         let (context, faults) = Context::of(cli);
         if let Some(refusal) = context.refusal() {

@@ -79,7 +79,7 @@ impl fmt::Display for Run {
     }
 }
 
-/// Returns the translatable runs in some folders of cases, by case and number.
+/// Returns the runs in these folders that can be translated, ordered by case and number.
 pub(crate) fn runs(folders: &[PathBuf]) -> Vec<Run> {
     folders.iter().flat_map(|folder| runs_in(folder)).collect()
 }

@@ -62,7 +62,7 @@ pub fn gaps(count: usize) -> String {
     entities(&(0..count).map(with_gap).collect::<String>(), at(count))
 }
 
-/// Returns ends within a hundredth of a mm, none of which meet.
+/// Returns lines with ends that lie close together at two places, but never meet.
 pub fn spots(count: usize) -> String {
     const IN_A_ROW: usize = 30;
     let spot = |index: usize| {

@@ -123,7 +123,7 @@ fn a_file_with_another_name_is_watched() {
     watch.until("PB506");
 }
 
-/// Both names are in the library; the system watches the file only once.
+/// Two hard links to one file are in the library; the system watches the file only once.
 #[cfg(target_os = "linux")]
 #[test]
 fn two_drawings_that_are_one_file_change_together() {

@@ -3,14 +3,14 @@
 use crate::words::words;
 
 messages! {
-    /// The configuration is missing or unreadable.
+    /// A configuration that does not exist or cannot be read.
     CONFIGURATION_UNREADABLE: InvalidConfiguration {
         en: "cannot read the configuration: {reason}",
         de: "die Konfiguration ist nicht lesbar: {reason}",
         help_en: "check the name; `pathbuild init` writes a new one",
         help_de: "den Namen prüfen; `pathbuild init` schreibt eine neue",
     }
-    /// The file is not valid TOML.
+    /// A configuration that is not valid TOML; the reason is that of the parser.
     TOML_SYNTAX: InvalidConfiguration {
         en: "this is not valid TOML: {reason}",
         de: "das ist kein gültiges TOML: {reason}",
@@ -125,7 +125,7 @@ messages! {
         help_en: "remove one of the two: names of line types are compared without regard to case",
         help_de: "eines von beiden entfernen: bei Namen von Linientypen zählt Groß- und Kleinschreibung nicht",
     }
-    /// A missing directory.
+    /// A key that names something other than a directory.
     NO_DIRECTORY: InvalidConfiguration {
         en: "`{key}` names {directory}, which is not a directory",
         de: "`{key}` nennt {directory}, das kein Verzeichnis ist",
@@ -146,7 +146,7 @@ messages! {
         help_en: "did you mean \"{near}\"?",
         help_de: "ist \"{near}\" gemeint?",
     }
-    /// An invalid regular expression.
+    /// A key that must be a regular expression, with a text that is not a valid one.
     BROKEN_REGEX: InvalidConfiguration {
         en: "`{key}` is not a regular expression: {reason}",
         de: "`{key}` ist kein regulärer Ausdruck: {reason}",
@@ -160,14 +160,14 @@ messages! {
         help_en: "combine alternatives into one pattern: a|b; in file patterns they are written in braces, separated by commas",
         help_de: "Alternativen in einem Muster zusammenfassen: a|b; in Dateimustern stehen sie in geschweiften Klammern, durch Kommas getrennt",
     }
-    /// An invalid glob pattern.
+    /// A key that must be a pattern of names, with a text that is not a valid one.
     BROKEN_GLOB: InvalidConfiguration {
         en: "`{key}` is not a valid name pattern: {reason}",
         de: "`{key}` ist kein gültiges Namensmuster: {reason}",
         help_en: "* matches any text, ** also across directories, ? one character, [a-c] one of several",
         help_de: "* steht für beliebigen Text, ** auch über Verzeichnisse hinweg, ? für ein Zeichen, [a-c] für eines von mehreren",
     }
-    /// A restriction without a colon.
+    /// A restriction of embeddings without the colon between the patterns for parent and child.
     RESTRICT_WITHOUT_COLON: InvalidConfiguration {
         en: "`{key}` must be PARENT:CHILD, two regular expressions with a colon between",
         de: "`{key}` muss AUSSEN:INNEN sein, zwei reguläre Ausdrücke mit einem Doppelpunkt dazwischen",
@@ -230,14 +230,14 @@ messages! {
         help_en: "check this directory in a run of its own, or name the intended configuration with --config",
         help_de: "dieses Verzeichnis in einem eigenen Lauf prüfen oder die gemeinte Konfiguration mit --config nennen",
     }
-    /// An unreadable baseline.
+    /// A baseline file that cannot be read.
     BASELINE_UNREADABLE: InvalidConfiguration {
         en: "cannot read the baseline: {reason}",
         de: "die Liste bekannter Meldungen ist nicht lesbar: {reason}",
         help_en: "check the name; --update-baseline writes a new one",
         help_de: "den Namen prüfen; --update-baseline schreibt eine neue",
     }
-    /// A malformed line of a baseline.
+    /// A line of a baseline that does not begin with a fingerprint.
     BASELINE_LINE: InvalidConfiguration {
         en: "this line of the baseline does not begin with a fingerprint of 32 hexadecimal digits",
         de: "diese Zeile der Liste bekannter Meldungen beginnt nicht mit einem Kennzeichen aus 32 Hexadezimalziffern",
@@ -315,9 +315,9 @@ words! {
     NOT_NEGATIVE: "a number of at least 0", "eine Zahl von mindestens 0";
     /// Permitted values of the length in mm of pieces of moves (`z-split`). 0 means that moves are not divided.
     PIECE: "0 or a number of at least 0.1", "0 oder eine Zahl von mindestens 0.1";
-    /// Permitted values of a tolerance of the part check.
+    /// Permitted values of a tolerance of the part check, in mm.
     PART_TOLERANCE: "a number of at least 0.005", "eine Zahl von mindestens 0.005";
-    /// Permitted values of a tool's corner radius.
+    /// Permitted values of a tool's corner radius, which depend on its diameter.
     CORNER_RADIUS: "a number of at most half of `diameter`", "eine Zahl von höchstens der Hälfte von `diameter`";
     /// Permitted values: whole numbers from 1 up.
     COUNT: "a whole number from 1 up", "eine ganze Zahl ab 1";
@@ -351,9 +351,9 @@ words! {
     AXES: "a list of three numbers greater than 0", "eine Liste von drei Zahlen größer als 0";
     /// Permitted values: the lower and the upper end of a range.
     EXTENT: "a list of two numbers, the smaller first", "eine Liste von zwei aufsteigenden Zahlen";
-    /// Source of a run's date: the option.
+    /// Source of a run's date: the option `--date`.
     DATE_GIVEN: "--date", "--date";
-    /// Source of a run's date: the environment variable.
+    /// Source of a run's date: the environment variable `SOURCE_DATE_EPOCH`.
     DATE_OF_EPOCH: "SOURCE_DATE_EPOCH", "SOURCE_DATE_EPOCH";
     /// Source of a run's date: the system's clock.
     DATE_OF_CLOCK: "today, UTC", "heute, UTC";

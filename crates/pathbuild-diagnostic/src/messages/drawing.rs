@@ -293,7 +293,7 @@ messages! {
         help_en: "make it visible, or rename it if the path is no longer needed",
         help_de: "sichtbar machen oder umbenennen, wenn der Pfad nicht mehr gebraucht wird",
     }
-    /// A turn marker without effect.
+    /// A turn marker that is not at the tip of a dead end.
     TURN_WITHOUT_EFFECT: TurnMarkerWithoutEffect {
         en: "this turn marker has no effect",
         de: "diese Wendemarke hat keine Wirkung",
@@ -398,7 +398,7 @@ messages! {
         help_en: "make the texts smaller, or move them away from elements that they do not belong to",
         help_de: "die Texte verkleinern oder von Elementen wegschieben, zu denen sie nicht gehören",
     }
-    /// A line that is not a group code.
+    /// A line at which a group code is expected, but that contains something else.
     BAD_GROUP_CODE: InvalidDxf {
         en: "expected a group code here, not \"{found}\"",
         de: "hier wird ein Gruppencode erwartet, nicht \"{found}\"",
@@ -419,7 +419,7 @@ messages! {
         help_en: "save the drawing again; perhaps the CAD is still writing it, or it was copied only in part",
         help_de: "die Zeichnung noch einmal speichern; vielleicht schreibt das CAD noch, oder sie wurde nur teilweise kopiert",
     }
-    /// A section without an end.
+    /// A section that is not closed by ENDSEC.
     SECTION_NOT_ENDED: InvalidDxf {
         en: "section {section} has no end: \"{found}\" stands where ENDSEC is missing",
         de: "der Abschnitt {section} hat kein Ende: vor \"{found}\" fehlt ENDSEC",
@@ -433,14 +433,14 @@ messages! {
         help_en: "the file is broken; save the drawing again",
         help_de: "die Datei ist beschädigt; die Zeichnung noch einmal speichern",
     }
-    /// A value that is not a number.
+    /// A group of an entity that must contain a number, but does not.
     VALUE_NOT_A_NUMBER: InvalidDxf {
         en: "{entity}: group {code} must be a number, not \"{value}\"",
         de: "{entity}: Gruppe {code} muss eine Zahl sein, nicht \"{value}\"",
         help_en: "the program that wrote the file wrote a broken entity; draw it anew, or save the drawing again",
         help_de: "das Programm, das die Datei schrieb, hat ein beschädigtes Element geschrieben; das Element neu zeichnen oder die Zeichnung noch einmal speichern",
     }
-    /// A decimal comma.
+    /// A number with a decimal comma in a DXF file.
     DECIMAL_COMMA: InvalidDxf {
         en: "{entity}: \"{value}\" in group {code} has a decimal comma, but DXF numbers need a point",
         de: "{entity}: \"{value}\" in Gruppe {code} hat ein Dezimalkomma, DXF-Zahlen brauchen aber einen Punkt",
@@ -461,7 +461,7 @@ messages! {
         help_en: "the entity is incomplete; draw it anew, or save the drawing again",
         help_de: "das Element ist unvollständig; das Element neu zeichnen oder die Zeichnung noch einmal speichern",
     }
-    /// A length that must be positive.
+    /// A length of an entity that is 0 or negative.
     NOT_POSITIVE: InvalidDxf {
         en: "{entity}: \"{value}\" in group {code} must be more than 0",
         de: "{entity}: \"{value}\" in Gruppe {code} muss größer als 0 sein",
@@ -489,14 +489,14 @@ messages! {
         help_en: "the entities were read, but perhaps the CAD is still writing the file; save the drawing again",
         help_de: "die Elemente wurden gelesen, aber vielleicht schreibt das CAD die Datei noch; die Zeichnung noch einmal speichern",
     }
-    /// Bytes that are invalid in the encoding.
+    /// Bytes of a text that are invalid in the encoding of the file.
     UNDECODABLE: DoubtfulEncoding {
         en: "the file is in {encoding}, in which some bytes of this text are invalid",
         de: "die Datei ist in {encoding} kodiert, worin einige Bytes dieses Textes ungültig sind",
         help_en: "special characters of texts and layer names may be wrong; save the drawing as R2007 or later",
         help_de: "Sonderzeichen in Texten und Layernamen können falsch sein; die Zeichnung als R2007 oder neuer speichern",
     }
-    /// An unknown code page.
+    /// An unknown code page in the header of a drawing, in place of which ANSI_1252 is used.
     UNKNOWN_CODE_PAGE: DoubtfulEncoding {
         en: "the code page \"{encoding}\" is not known; texts are read as ANSI_1252",
         de: "die Codepage \"{encoding}\" ist nicht bekannt; Texte werden als ANSI_1252 gelesen",

@@ -8,7 +8,7 @@ messages! {
         help_en: "check the name, and that the CAD has not locked the file",
         help_de: "den Namen prüfen, und ob das CAD die Datei gesperrt hat",
     }
-    /// A directory that cannot be listed.
+    /// A directory that the system refuses to list.
     UNLISTABLE: UnreadableFile {
         en: "cannot list the directory: {reason}",
         de: "das Verzeichnis lässt sich nicht auflisten: {reason}",
@@ -48,7 +48,7 @@ messages! {
         help_en: "name a drawing in it, or use `pathbuild check` for the whole directory",
         help_de: "eine Zeichnung darin nennen oder `pathbuild check` für das ganze Verzeichnis",
     }
-    /// An empty file.
+    /// A drawing of zero bytes.
     EMPTY_FILE: InvalidDxf {
         en: "the file is empty",
         de: "die Datei ist leer",
@@ -139,7 +139,7 @@ messages! {
         help_en: "name a deeper directory; or list everything that does not belong to the library in an .ignore file; or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "ein tieferes Verzeichnis nennen; oder was nicht zur Bibliothek gehört, in einer Datei .ignore aufführen; oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// A file that cannot be removed.
+    /// An output or cache file that the system refuses to remove.
     CANNOT_REMOVE: CannotWrite {
         en: "cannot remove {name}: {reason}",
         de: "{name} kann nicht entfernt werden: {reason}",

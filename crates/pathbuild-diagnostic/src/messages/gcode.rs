@@ -62,14 +62,14 @@ messages! {
         help_en: "put the command in front",
         help_de: "den Befehl davorsetzen",
     }
-    /// Two commands in one line.
+    /// Two commands in one line, in a dialect that obeys only the first.
     SECOND_COMMAND: ConflictingWords {
         en: "{dialect} obeys one command a line: {first}, not {word}",
         de: "{dialect} führt je Zeile nur einen Befehl aus: {first}, nicht {word}",
         help_en: "write {word} into a line of its own",
         help_de: "{word} in eine eigene Zeile schreiben",
     }
-    /// Two G words, or two M words, in one line.
+    /// Two G words or two M words in one line, in a dialect that obeys only the first.
     SECOND_WORD: ConflictingWords {
         en: "{dialect} obeys one {letter} word a line: {first}, not {word}",
         de: "{dialect} führt je Zeile nur ein {letter}-Wort aus: {first}, nicht {word}",
@@ -104,7 +104,7 @@ messages! {
         help_en: "remove it, or put the remark into a comment",
         help_de: "das Zeichen entfernen oder die Bemerkung in einen Kommentar setzen",
     }
-    /// A letter without a number.
+    /// A word that lacks its number.
     WORD_WITHOUT_NUMBER: InvalidWord {
         en: "`{letter}` has no number; the line is left out",
         de: "`{letter}` hat keine Zahl; die Zeile bleibt unbeachtet",
@@ -132,14 +132,14 @@ messages! {
         help_en: "N comes first in the line, has no decimals, and is at most {most}",
         help_de: "N steht am Anfang der Zeile, ohne Nachkommastellen, und ist höchstens {most}",
     }
-    /// A wrong checksum.
+    /// A checksum (`*`) that does not match the rest of its line.
     WRONG_CHECKSUM: InvalidWord {
         en: "the checksum `{found}` is wrong, {expected} would be right: the line was altered and is left out",
         de: "die Prüfsumme `{found}` ist falsch, richtig wäre {expected}: die Zeile wurde verändert und bleibt unbeachtet",
         help_en: "have the program written again, or remove N and the checksum: the host adds its own",
         help_de: "das Programm neu schreiben lassen, oder N und die Prüfsumme entfernen: das sendende Programm fügt eigene an",
     }
-    /// An unclosed comment.
+    /// A comment that is still open at the end of its line.
     UNCLOSED_COMMENT: InvalidComment {
         en: "the comment is not closed; the line is left out",
         de: "der Kommentar ist nicht geschlossen; die Zeile bleibt unbeachtet",
@@ -153,21 +153,21 @@ messages! {
         help_en: "write `[` and `]` within comments: {dialect} stops here",
         help_de: "in Kommentaren `[` und `]` schreiben: {dialect} bleibt hier stehen",
     }
-    /// A missing value in an expression.
+    /// An expression that lacks a value.
     VALUE_EXPECTED: InvalidExpression {
         en: "a value is missing here; the line is left out",
         de: "hier fehlt ein Wert; die Zeile bleibt unbeachtet",
         help_en: "a value is a number, #n, a function or an expression in [ ]",
         help_de: "ein Wert ist eine Zahl, #n, eine Funktion oder ein Ausdruck in [ ]",
     }
-    /// A missing operator or closing bracket.
+    /// An expression that lacks an operator or a closing bracket.
     OPERATOR_EXPECTED: InvalidExpression {
         en: "an operator or `{bracket}` is missing here; the line is left out",
         de: "hier fehlt ein Rechenzeichen oder `{bracket}`; die Zeile bleibt unbeachtet",
         help_en: "operators are {operators}",
         help_de: "Rechenzeichen sind {operators}",
     }
-    /// A missing bracket.
+    /// An expression that lacks a bracket.
     BRACKET_EXPECTED: InvalidExpression {
         en: "`{bracket}` is missing here; the line is left out",
         de: "hier fehlt `{bracket}`; die Zeile bleibt unbeachtet",
@@ -258,7 +258,7 @@ messages! {
         help_en: "write ASCII only, and no ! ? ~",
         help_de: "nur ASCII schreiben, kein ! ? ~",
     }
-    /// Lines after the end of the program.
+    /// Lines after the end of the program, which are not read.
     AFTER_END: AfterProgramEnd {
         en: "the program ends in line {line}; this and what follows is not read",
         de: "das Programm endet in Zeile {line}; dies und alles danach wird nicht gelesen",
@@ -293,21 +293,21 @@ messages! {
         help_en: "remove the line if it is not meant to run",
         help_de: "die Zeile entfernen, wenn sie nicht ausgeführt werden soll",
     }
-    /// An unknown G or M code.
+    /// A G or M code that the dialect does not have.
     CODE_NOT_KNOWN: UnknownWord {
         en: "{dialect} does not know {word}",
         de: "{dialect} kennt {word} nicht",
         help_en: "read the file as another dialect with --dialect, or write it for this one with `pathbuild post FILE --post {dialect}`",
         help_de: "die Datei mit --dialect als anderen Dialekt lesen oder sie mit `pathbuild post DATEI --post {dialect}` für diesen schreiben",
     }
-    /// An unknown letter.
+    /// A word with a letter that the dialect does not have.
     LETTER_NOT_KNOWN: UnknownWord {
         en: "{dialect} does not know the letter {word}",
         de: "{dialect} kennt den Buchstaben {word} nicht",
         help_en: "read the file as another dialect with --dialect, or remove the word",
         help_de: "die Datei mit --dialect als anderen Dialekt lesen oder das Wort entfernen",
     }
-    /// `#` or `[ ]` in a dialect without expressions.
+    /// `#` or `[ ]` in a dialect that has neither parameters nor expressions.
     UNKNOWN_EXPRESSION: UnknownWord {
         en: "{dialect} has neither parameters nor expressions; the line is left out",
         de: "{dialect} kennt weder Parameter noch Ausdrücke; die Zeile bleibt unbeachtet",
@@ -356,7 +356,7 @@ messages! {
         help_en: "remove one of them, or give it another number",
         help_de: "eines davon entfernen oder anders nummerieren",
     }
-    /// A subprogram that calls itself.
+    /// A subprogram that calls itself, which is not followed again.
     CALLED_BY_ITSELF: WordNotFollowed {
         en: "the subprogram {name} calls itself: it is not followed again",
         de: "das Unterprogramm {name} ruft sich selbst auf: es wird nicht noch einmal verfolgt",
@@ -412,7 +412,7 @@ messages! {
         help_en: "check how often loops and subprograms are repeated",
         help_de: "prüfen, wie oft Schleifen und Unterprogramme wiederholt werden",
     }
-    /// A command with unknown effects on later moves, which is not interpreted.
+    /// A command that is not interpreted, although it may affect later moves.
     NOT_FOLLOWED: WordNotFollowed {
         en: "{word} is not followed: from here on the machine may move differently",
         de: "{word} wird nicht verfolgt: ab hier kann sich die Maschine anders bewegen",
@@ -433,7 +433,7 @@ messages! {
         help_en: "write the program without it; if the machine's firmware was built with it, accept this warning with `--accept`",
         help_de: "das Programm ohne dieses Wort schreiben; ist die Firmware der Maschine damit übersetzt, die Warnung mit `--accept` hinnehmen",
     }
-    /// An axis that is not interpreted.
+    /// A word for an axis that is not interpreted.
     AXIS_NOT_FOLLOWED: WordNotFollowed {
         en: "the axis {word} is not followed",
         de: "die Achse {word} wird nicht verfolgt",
@@ -466,7 +466,7 @@ messages! {
         help_en: "put them into two lines",
         help_de: "auf zwei Zeilen verteilen",
     }
-    /// A repeated letter.
+    /// A letter that occurs twice in one line.
     LETTER_TWICE: ConflictingWords {
         en: "{letter} occurs twice in one line",
         de: "{letter} kommt in einer Zeile zweimal vor",
@@ -487,14 +487,14 @@ messages! {
         help_en: "add the word to the line",
         help_de: "das Wort in die Zeile schreiben",
     }
-    /// Coordinates without a motion mode.
+    /// Coordinates in a line while no motion mode is active.
     NO_MOTION: MissingWord {
         en: "there are coordinates without a motion: none of G0 to G3 is active here",
         de: "hier stehen Koordinaten ohne Bewegung: keines von G0 bis G3 ist aktiv",
         help_en: "put G0 or G1 in front",
         help_de: "G0 oder G1 davorsetzen",
     }
-    /// A value that is out of range.
+    /// A word with a value outside of the permitted range.
     OUT_OF_RANGE: ValueOutOfRange {
         en: "{word} cannot be {value}",
         de: "{word} kann nicht {value} sein",
@@ -632,7 +632,7 @@ messages! {
         help_en: "write short lines instead",
         help_de: "stattdessen kurze Strecken schreiben",
     }
-    /// A cut without a feed.
+    /// A cut while no feed is set.
     NO_FEED: MissingFeed {
         en: "this cutting move has no feed",
         de: "diese Fräsbewegung hat keinen Vorschub",
@@ -700,7 +700,7 @@ messages! {
         help_en: "R must be at least half of that",
         help_de: "R muss mindestens die Hälfte davon sein",
     }
-    /// A radius of zero.
+    /// An arc given by a radius of 0.
     RADIUS_ZERO: InvalidArc {
         en: "the arc's radius is 0",
         de: "der Radius des Bogens ist 0",

@@ -8,7 +8,7 @@ messages! {
         help_en: "pathbuild reads the answer of GRBL and grblHAL to $$, FluidNC's YAML, LinuxCNC's ini file and tool table, and tools of FreeCAD and Fusion 360 (.json, .tools)",
         help_de: "gelesen werden die Antwort von GRBL und grblHAL auf $$, FluidNCs YAML, ini-Datei und Werkzeugtabelle von LinuxCNC sowie Werkzeuge von FreeCAD und Fusion 360 (.json, .tools)",
     }
-    /// A file that cannot be read.
+    /// A description that the system refuses to read.
     DESCRIPTION_UNREADABLE: UnreadableDescription {
         en: "cannot read the file: {reason}",
         de: "die Datei ist nicht lesbar: {reason}",
@@ -113,7 +113,7 @@ messages! {
         help_en: "set `travel` in pathbuild.toml by hand",
         help_de: "`travel` in pathbuild.toml von Hand setzen",
     }
-    /// A tool without a diameter.
+    /// A tool with a diameter that is unknown or lacks a unit.
     NO_DIAMETER: UnusableValue {
         en: "the diameter of tool {number} ({name}) or its unit is unknown; the tool is not imported",
         de: "der Durchmesser von Werkzeug {number} ({name}) oder seine Einheit ist unbekannt; es wird nicht übernommen",

@@ -22,21 +22,21 @@ messages! {
         help_en: "a path's layer has a name that matches {pattern}",
         help_de: "der Layer eines Pfads hat einen Namen, der {pattern} entspricht",
     }
-    /// Directories without drawings.
+    /// Searched directories that contain no drawing.
     NO_DRAWING: NothingFound {
         en: "there is no drawing in {directories}",
         de: "es gibt keine Zeichnung in {directories}",
         help_en: "name a directory that holds .dxf files; hidden ones and those that .gitignore or .ignore excludes do not count",
         help_de: "ein Verzeichnis mit .dxf-Dateien nennen; versteckte und durch .gitignore oder .ignore ausgeschlossene zählen nicht",
     }
-    /// A directory without programs.
+    /// A searched directory that contains no program.
     NO_PROGRAM: NothingFound {
         en: "there is no G-code program in {directory}",
         de: "es gibt kein G-Code-Programm in {directory}",
         help_en: "name a directory that holds .nc, .ngc, .gcode, .tap, .cnc or .din files, or the program itself; hidden files and those that .gitignore or .ignore excludes do not count",
         help_de: "ein Verzeichnis mit .nc-, .ngc-, .gcode-, .tap-, .cnc- oder .din-Dateien nennen, oder das Programm selbst; versteckte und durch .gitignore oder .ignore ausgeschlossene Dateien zählen nicht",
     }
-    /// Drawings without paths.
+    /// Several drawings, none of which contains a path.
     NO_PATH_ANYWHERE: NothingFound {
         en: "none of the {count} drawings contains a path",
         de: "keine der {count} Zeichnungen enthält einen Pfad",

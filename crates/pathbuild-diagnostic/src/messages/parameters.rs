@@ -57,7 +57,7 @@ messages! {
         help_en: "separate them with spaces: write \"{text}\"",
         help_de: "mit Leerzeichen trennen: \"{text}\"",
     }
-    /// A text that is a remark.
+    /// A text that looks like a remark, because it contains no parameters.
     REMARK: UnknownParameter {
         en: "\"{text}\" looks like a remark and contains no parameters",
         de: "\"{text}\" sieht nach einer Bemerkung aus und enthält keine Parameter",
@@ -302,28 +302,28 @@ messages! {
         help_en: "give this path a greater S, or raise the material less (H)",
         help_de: "diesem Pfad ein größeres S geben oder das Material weniger anheben (H)",
     }
-    /// A sweep's own S below material or a probe that H raises.
+    /// A sweep with an S of its own that is below material or a probe raised by H.
     SWEEP_BELOW_RAISED: ParameterOutOfRange {
         en: "this sweep runs at {value}, but what the path embeds, or a probe, reaches up to {limit}: the rapid move may hit it",
         de: "diese Leerfahrt läuft auf {value}, aber was der Pfad einbettet, oder eine Probe, reicht bis {limit}: der Eilgang kann damit kollidieren",
         help_en: "remove S from the sweep, so that it has the S of the path, or give it one above {limit}",
         help_de: "das S der Leerfahrt weglassen, dann gilt das des Pfads, oder eines über {limit} angeben",
     }
-    /// A repeated letter.
+    /// A parameter that is given twice in one text.
     TWICE: DuplicateParameter {
         en: "{letter} is given twice",
         de: "{letter} ist zweimal angegeben",
         help_en: "remove one of them; pathbuild does not guess which one you mean",
         help_de: "eines davon entfernen; pathbuild rät nicht, welches gemeint ist",
     }
-    /// A repeated variable.
+    /// A variable that is given twice in one text.
     VARIABLE_TWICE: DuplicateParameter {
         en: "variable \"{variable}\" is given twice",
         de: "Variable \"{variable}\" ist zweimal angegeben",
         help_en: "remove one of them; a variable's name is one character",
         help_de: "eine davon entfernen; der Name einer Variablen ist ein Zeichen",
     }
-    /// A value that is not a number.
+    /// A parameter with a value that is not a number.
     NOT_A_NUMBER: NotANumber {
         en: "{letter} needs a number, not \"{value}\"",
         de: "{letter} braucht eine Zahl, nicht \"{value}\"",
@@ -365,7 +365,7 @@ messages! {
         help_en: "type an ordinary space instead",
         help_de: "dafür ein gewöhnliches Leerzeichen schreiben",
     }
-    /// A value that is not an integer.
+    /// A parameter with a value that is not an integer.
     NOT_AN_INTEGER: NotANumber {
         en: "{letter} needs a whole number, not \"{value}\"",
         de: "{letter} braucht eine ganze Zahl, nicht \"{value}\"",
@@ -463,21 +463,21 @@ messages! {
         help_en: "write it on the chain's first segment, or on the path's start marker",
         help_de: "ans erste Segment der Kette schreiben oder an die Anfangsmarke des Pfads",
     }
-    /// A malformed definition.
+    /// A malformed definition of the values of a variable.
     INVALID_DEFINITION: InvalidVariableDefinition {
         en: "\"{definition}\" does not define the values of a variable",
         de: "\"{definition}\" legt keine Variablenwerte fest",
         help_en: "write a range (:A-0.5~1.2), a list (:BP1,P2,P3) or single characters (:C?PQRS)",
         help_de: "einen Bereich (:A-0.5~1.2), eine Liste (:BP1,P2,P3) oder einzelne Zeichen (:C?PQRS) schreiben",
     }
-    /// A range from a greater to a lesser number.
+    /// A definition of a variable with a range from a greater to a lesser number.
     REVERSED_RANGE: InvalidVariableDefinition {
         en: "the range \"{definition}\" ends below its beginning",
         de: "der Bereich \"{definition}\" endet unter seinem Anfang",
         help_en: "write the smaller number first",
         help_de: "die kleinere Zahl zuerst schreiben",
     }
-    /// A list with an empty element.
+    /// A definition of a variable with an empty element in its list.
     EMPTY_ELEMENT: InvalidVariableDefinition {
         en: "\"{definition}\" has an empty element",
         de: "\"{definition}\" hat ein leeres Element",
@@ -526,7 +526,7 @@ messages! {
         help_en: "use a value that path {name} allows: {definition}",
         help_de: "einen Wert verwenden, den Pfad {name} erlaubt: {definition}",
     }
-    /// A cyclic reference.
+    /// A variable with a value that refers to itself.
     ENDLESS: EndlessVariable {
         en: "the value of \"{variable}\" refers to itself",
         de: "der Wert von \"{variable}\" verweist auf sich selbst",

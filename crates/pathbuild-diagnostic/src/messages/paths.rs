@@ -189,14 +189,14 @@ messages! {
         help_en: "write the name of the path, and a space before what follows",
         help_de: "den Namen des Pfads schreiben und vor dem, was folgt, ein Leerzeichen",
     }
-    /// A path that is not found.
+    /// A path that no searched drawing contains.
     NOT_FOUND: PathNotFound {
         en: "path {name} was not found",
         de: "Pfad {name} wurde nicht gefunden",
         help_en: "correct the name, or add the directory of its drawing to `search`; searched in {directories}; files that could contain it: {files}",
         help_de: "den Namen berichtigen oder das Verzeichnis seiner Zeichnung zu `search` hinzufügen; gesucht in {directories}; Dateien, die ihn enthalten könnten: {files}",
     }
-    /// Note: similar names.
+    /// Note: names of existing paths that are similar to the one that was not found.
     NEAR_NAMES: PathNotFound {
         en: "similar names: {names}",
         de: "ähnliche Namen: {names}",
@@ -211,7 +211,7 @@ messages! {
         en: "the library contains it in {file}: add {directory} to `search`",
         de: "die Bibliothek enthält ihn in {file}: {directory} zu `search` hinzufügen",
     }
-    /// A path that is defined twice.
+    /// A path that is defined at two places.
     DEFINED_TWICE: PathDefinedTwice {
         en: "path {name} is defined twice: in {first} and in {second}",
         de: "Pfad {name} ist zweimal festgelegt: in {first} und in {second}",
@@ -274,14 +274,14 @@ messages! {
         help_en: "embed another path, or change the rule: the path's E, or --restrict (`restrict` in pathbuild.toml)",
         help_de: "einen anderen Pfad einbetten oder die Regel ändern: das E des Pfads oder --restrict (`restrict` in pathbuild.toml)",
     }
-    /// Embedding that is nested too deeply.
+    /// Embeddings that are nested more deeply than the limit.
     TOO_DEEP: NestingTooDeep {
         en: "path {name} is embedded more than {limit} levels deep: {chain}",
         de: "Pfad {name} ist mehr als {limit} Ebenen tief eingebettet: {chain}",
         help_en: "embed it in a project with fewer levels above it",
         help_de: "in einem Projekt einbetten, über dem weniger Ebenen liegen",
     }
-    /// A path that embeds itself.
+    /// A path that embeds itself, directly or through others.
     CYCLE: SubpathCycle {
         en: "path {name} embeds itself: {chain}",
         de: "Pfad {name} bettet sich selbst ein: {chain}",

@@ -48,7 +48,7 @@ messages! {
         en: "the definition cannot be read: {reason}",
         de: "die Definition ist nicht lesbar: {reason}",
     }
-    /// A definition that is too large.
+    /// A definition file that is larger than the limit.
     POST_TOO_LARGE: InvalidPost {
         en: "the definition has {size} bytes; the limit is {limit}",
         de: "die Definition hat {size} Bytes; die Grenze ist {limit}",
@@ -60,12 +60,12 @@ messages! {
         help_en: "a CamBam definition begins with <PostProcessor>",
         help_de: "eine CamBam-Definition beginnt mit <PostProcessor>",
     }
-    /// An invalid value of an option.
+    /// An option of a definition with an invalid value.
     POST_OPTION: InvalidPost {
         en: "{option} is \"{value}\", but must be {expected}",
         de: "{option} ist \"{value}\", muss aber {expected} sein",
     }
-    /// An unclosed macro.
+    /// A macro without its closing brace.
     POST_UNCLOSED_MACRO: InvalidPost {
         en: "a macro in {section} is not closed",
         de: "ein Makro in {section} ist nicht geschlossen",
@@ -150,7 +150,7 @@ messages! {
         help_en: "raise the post's tolerance for arcs",
         help_de: "die Toleranz für Bögen im Postprozessor erhöhen",
     }
-    /// A value that the program does not have.
+    /// A macro for a value that the program does not have.
     VALUE_MISSING: MissingPostValue {
         en: "{macro} in {section} has no value in {operation}",
         de: "{macro} in {section} hat in {operation} keinen Wert",
@@ -249,7 +249,7 @@ messages! {
         help_en: "check the output on the control before milling, or remove `unchecked` under [post] in pathbuild.toml",
         help_de: "die Ausgabe vor dem Fräsen an der Steuerung prüfen oder `unchecked` unter [post] in pathbuild.toml entfernen",
     }
-    /// A text that the control would execute, because it would be outside a comment.
+    /// A text that is written outside of a comment, where the control would execute it.
     TEXT_AMONG_WORDS: RejectedWord {
         en: "{macro} in {section} puts \"{text}\" outside a comment, where the machine would execute it",
         de: "{macro} in {section} setzt \"{text}\" außerhalb eines Kommentars, wo die Maschine es ausführen würde",
@@ -277,21 +277,21 @@ messages! {
         help_en: "take {axis} out of the post's texts",
         help_de: "{axis} aus den Texten des Postprozessors nehmen",
     }
-    /// A missing spindle speed.
+    /// A cutter without a known spindle speed.
     SPINDLE_UNKNOWN: MissingPostValue {
         en: "no spindle speed is known for {operation} (cutter O = {diameter}): the spindle would not turn",
         de: "für {operation} (Fräser O = {diameter}) ist keine Spindeldrehzahl bekannt: die Spindel stünde still",
         help_en: "add it to pathbuild.toml as spindle = 12000 in [tool.NAME] with diameter = {diameter}; if the spindle is switched by hand: spindle = \"manual\" outside all tables",
         help_de: "in pathbuild.toml spindle = 12000 in [tool.NAME] mit diameter = {diameter} eintragen; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen",
     }
-    /// A missing spindle speed for a program with an unknown tool number.
+    /// A tool without a known spindle speed, in a program that states only the number of the tool.
     SPINDLE_UNKNOWN_OF_NUMBER: MissingPostValue {
         en: "no spindle speed is known for {operation} (T{index}): the spindle would not turn",
         de: "für {operation} (T{index}) ist keine Spindeldrehzahl bekannt: die Spindel stünde still",
         help_en: "put S and M3 into the program, or add [tool.NAME] with number = {index}, diameter and spindle to pathbuild.toml; if the spindle is switched by hand: spindle = \"manual\" outside all tables",
         help_de: "S und M3 in das Programm aufnehmen oder [tool.NAME] mit number = {index}, diameter und spindle in pathbuild.toml; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen",
     }
-    /// A missing spindle speed for a program without a tool.
+    /// A program without a known spindle speed and without a tool.
     SPINDLE_UNSTATED: MissingPostValue {
         en: "no spindle speed is known for {operation}: the program has no S with M3 or M4, and names no tool",
         de: "für {operation} ist keine Spindeldrehzahl bekannt: das Programm hat kein S mit M3 oder M4 und nennt kein Werkzeug",
@@ -471,14 +471,14 @@ messages! {
         en: "{text}, line {line}, column {column}: only whole numbers have bits",
         de: "{text}, Zeile {line}, Spalte {column}: nur ganze Zahlen haben Bits",
     }
-    /// An unknown function.
+    /// A term with an unknown function.
     TERM_FUNCTION: InvalidControlText {
         en: "{text}, line {line}, column {column}: there is no function {name}",
         de: "{text}, Zeile {line}, Spalte {column}: es gibt keine Funktion {name}",
         help_en: "known functions: abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, and pi",
         help_de: "bekannte Funktionen: abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, und pi",
     }
-    /// A function with a wrong number of arguments.
+    /// A function of a term with a wrong number of arguments.
     TERM_ARGUMENTS: InvalidControlText {
         en: "{text}, line {line}, column {column}: {name} has the wrong number of arguments",
         de: "{text}, Zeile {line}, Spalte {column}: {name} hat die falsche Zahl von Argumenten",
@@ -605,7 +605,7 @@ messages! {
         help_en: "remove `/` from the text of the definition",
         help_de: "`/` aus dem Text der Definition entfernen",
     }
-    /// A line of output that is too long.
+    /// A line of output that is longer than the dialect accepts.
     LINE_TOO_LONG: LineTooLong {
         en: "line {line} of the output has {length} characters; {dialect} accepts at most {longest}",
         de: "Zeile {line} der Ausgabe hat {length} Zeichen; {dialect} nimmt höchstens {longest} an",
@@ -619,7 +619,7 @@ messages! {
         help_en: "check the post's text for this line; if you take responsibility for the output, set unchecked = true in [post] of pathbuild.toml",
         help_de: "den Text im Postprozessor für diese Zeile prüfen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
     }
-    /// Output that ends too early.
+    /// Output that ends before all moves of the program are made.
     MOVES_LOST: PostDiffers {
         en: "the output ends before all moves of the program are complete",
         de: "die Ausgabe endet, bevor alle Bewegungen des Programms ausgeführt sind",
@@ -658,7 +658,7 @@ messages! {
         en: "the spindle speed is {found} here, but {expected} in the program",
         de: "die Drehzahl ist hier {found}, im Programm aber {expected}",
     }
-    /// Note: a cut with another tool.
+    /// Note: a cut with another tool than in the program.
     TOOL_OTHER: PostDiffers {
         en: "the output makes this cut with T{found}, but the program with T{expected}",
         de: "die Ausgabe führt diesen Schnitt mit T{found} aus, das Programm aber mit T{expected}",
@@ -678,12 +678,12 @@ messages! {
         en: "the beam is still on during this rapid move, and the post does not raise it: it writes no Z",
         de: "der Strahl ist während dieses Eilgangs noch an, und der Postprozessor hebt ihn nicht ab: er schreibt kein Z",
     }
-    /// Note: a move to another point.
+    /// Note: a move to another point than in the program.
     GOES_ELSEWHERE: PostDiffers {
         en: "here the tool goes to {found}, in the program to {expected}",
         de: "hier fährt das Werkzeug nach {found}, im Programm nach {expected}",
     }
-    /// Note: a move along another curve.
+    /// Note: a move to the right point along another curve than in the program.
     GOES_ANOTHER_WAY: PostDiffers {
         en: "the tool goes to {place} as in the program, but by a different route",
         de: "das Werkzeug fährt wie im Programm nach {place}, aber auf anderem Weg",
@@ -693,7 +693,7 @@ messages! {
         en: "this is {found}, in the program it is {expected}",
         de: "das ist {found}, im Programm {expected}",
     }
-    /// Note: a move with another feed.
+    /// Note: a move with another feed than in the program.
     GOES_WITH_ANOTHER_FEED: PostDiffers {
         en: "the feed is {found} here and {expected} in the program",
         de: "der Vorschub ist hier {found}, im Programm {expected}",

@@ -8,7 +8,7 @@ messages! {
         help_en: "a line has the form ([X Y]/T=HEIGHT) #NUMBER=VALUE; enter only the value by hand",
         help_de: "eine Zeile hat die Form ([X Y]/T=HÖHE) #NUMMER=WERT; von Hand nur den Wert eintragen",
     }
-    /// A missing measured value.
+    /// A probe without a measured value.
     NO_VALUE: InvalidProbeLine {
         en: "#{probe} has no value",
         de: "#{probe} hat keinen Wert",
@@ -36,7 +36,7 @@ messages! {
         help_en: "remove the wrong one: the value here, or --log",
         help_de: "das Falsche entfernen: den Wert hier oder --log",
     }
-    /// A probe without contact.
+    /// A probe that made no contact, according to the log.
     PROBE_FAILED: InvalidProbeLine {
         en: "this probe made no contact",
         de: "diese Probe hatte keinen Kontakt",
@@ -106,14 +106,14 @@ messages! {
         help_en: "write the line as ([X Y]/T=HEIGHT) #{probe}=VALUE, or emit again and measure with the new program",
         help_de: "die Zeile als ([X Y]/T=HÖHE) #{probe}=WERT schreiben oder noch einmal ausgeben und mit dem neuen Programm messen",
     }
-    /// A missing value in a formula.
+    /// A formula that lacks a value.
     VALUE_EXPECTED: InvalidFormula {
         en: "the formula needs a number, #51 or a bracket here",
         de: "die Formel braucht hier eine Zahl, #51 oder eine Klammer",
         help_en: "it was damaged or edited: emit again and use the new program",
         help_de: "sie wurde beschädigt oder bearbeitet: noch einmal ausgeben und das neue Programm verwenden",
     }
-    /// A missing operator in a formula.
+    /// A formula that lacks an operator.
     OPERATOR_EXPECTED: InvalidFormula {
         en: "the formula is malformed here",
         de: "die Formel ist hier fehlerhaft",
@@ -141,7 +141,7 @@ messages! {
         help_en: "no formula of pathbuild has more than one: emit again and use the new program",
         help_de: "keine Formel von pathbuild hat mehr als eine: noch einmal ausgeben und das neue Programm verwenden",
     }
-    /// A division by zero.
+    /// A formula that divides by zero.
     DIVISION_BY_ZERO: InvalidFormula {
         en: "the formula divides by 0 here",
         de: "die Formel teilt hier durch 0",
@@ -169,14 +169,14 @@ messages! {
         help_en: "the drawing's probes have changed since; nothing was written for this path. Measure anew and use --force",
         help_de: "die Proben der Zeichnung haben sich seither geändert; für diesen Pfad wurde nichts geschrieben. Neu messen und --force verwenden",
     }
-    /// Milling outside of the probed area.
+    /// A path that mills outside of the area that its probes enclose.
     OUTSIDE: OutsideProbes {
         en: "the path mills up to {distance} mm outside the probes, at {at} in the program",
         de: "der Pfad fräst bis zu {distance} mm außerhalb der Proben, bei {at} im Programm",
         help_en: "draw probes at the outer corners of what is milled; outside them heights are only guessed",
         help_de: "Proben an die äußeren Ecken dessen zeichnen, was gefräst wird; außerhalb sind Höhen nur geschätzt",
     }
-    /// A probe that differs from its neighbours.
+    /// A measured height that differs strongly from those of the neighbouring probes.
     ODD: OddProbe {
         en: "#{probe} is {off} mm {direction} than expected from its neighbours",
         de: "#{probe} ist {off} mm {direction}, als nach den Nachbarn zu erwarten wäre",

@@ -15,7 +15,7 @@ messages! {
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: another coolant word, M7 to M9.
+    /// `verify --against`: a coolant word (M7 to M9) other than that for the drawing's cutter.
     COOLANT_DIFFERS: MovesDiffer {
         en: "the coolant is `{found}`, but for the drawing's cutter it must be `{expected}`",
         de: "die Kühlung ist `{found}`, für den Fräser der Zeichnung muss sie aber `{expected}` sein",
@@ -29,7 +29,7 @@ messages! {
         help_en: "remove it, or write the program again with `pathbuild emit`",
         help_de: "das Wort entfernen oder das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: a move to another point.
+    /// `verify --against`: a move to another point than in the drawing's program.
     DRAWN_ELSEWHERE: MovesDiffer {
         en: "the tool goes to {found}; the drawing says {expected}",
         de: "das Werkzeug fährt nach {found}; die Zeichnung sagt {expected}",
@@ -50,7 +50,7 @@ messages! {
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: another feed.
+    /// `verify --against`: a move with another feed than in the drawing's program.
     DRAWN_WITH_ANOTHER_FEED: MovesDiffer {
         en: "the feed is {found}; the drawing says {expected}",
         de: "der Vorschub ist {found}; die Zeichnung sagt {expected}",
@@ -71,14 +71,14 @@ messages! {
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: another move of a probing program.
+    /// `verify --against`: a probing program with another move than the drawing's.
     PROBING_NOT_DRAWN: MovesDiffer {
         en: "the drawing's probing run has `{expected}` here",
         de: "das Antastprogramm der Zeichnung hat hier `{expected}`",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: another tool.
+    /// `verify --against`: another tool than the drawing needs.
     TOOLS_DIFFER: MovesDiffer {
         en: "the tool is T{found}, but the drawing needs T{expected}",
         de: "das Werkzeug ist T{found}, die Zeichnung braucht aber T{expected}",
@@ -99,21 +99,21 @@ messages! {
         help_en: "remove `unchecked` in pathbuild.toml and emit the program again, or check its moves by hand",
         help_de: "`unchecked` in der pathbuild.toml entfernen und das Programm neu ausgeben, oder seine Bewegungen selbst prüfen",
     }
-    /// `verify --against`: another program number (O).
+    /// `verify --against`: another program number (O) than that of the drawing's program.
     NUMBERS_DIFFER: MovesDiffer {
         en: "the program's number is O{found}, but the drawing's is O{expected}: on the control, O{found} may be another program",
         de: "die Programmnummer ist O{found}, für die Zeichnung ist sie O{expected}: in der Steuerung kann O{found} ein anderes Programm sein",
         help_en: "write the program again with `pathbuild emit`; set `program-number` if the control has another number for it",
         help_de: "das Programm mit `pathbuild emit` neu schreiben; hat die Steuerung eine andere Nummer dafür, `program-number` setzen",
     }
-    /// `verify --against`: another tool length offset (G43, H).
+    /// `verify --against`: a tool length offset (G43, H) other than that of the tool in the spindle.
     LENGTHS_DIFFER: MovesDiffer {
         en: "the tool length in effect is not that of the tool in the spindle",
         de: "es gilt nicht die Länge des eingewechselten Werkzeugs",
         help_en: "use G43 H with the number of the tool that M6 changed to; native programs use none",
         help_de: "G43 H mit der Nummer des mit M6 eingewechselten Werkzeugs schreiben; in nativen Programmen steht keines",
     }
-    /// `verify --against`: another spindle direction or speed.
+    /// `verify --against`: a spindle direction or speed other than that for the drawing's cutter.
     SPINDLES_DIFFER: MovesDiffer {
         en: "the spindle runs with `{found}`, but the drawing's cutter needs `{expected}`",
         de: "die Spindel läuft mit `{found}`, der Fräser der Zeichnung braucht aber `{expected}`",

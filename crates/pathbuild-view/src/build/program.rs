@@ -275,8 +275,8 @@ fn lines_of_moves(program: &Program, text: &[u8], dialect: Dialect) -> Vec<Optio
 }
 
 struct Finder {
-    /// The written moves that may still be matched. They are read ahead as far as they are searched, because all of a long program would
-    /// take more memory than its scene.
+    /// The written moves that may still be matched. Moves are read only as far as they are searched, because all moves of a long program
+    /// would take more memory than its scene.
     written: Vec<(u32, Move)>,
     /// Index of the first written move that is not matched yet.
     next: usize,

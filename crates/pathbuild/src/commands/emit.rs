@@ -78,7 +78,7 @@ fn conclude(context: &Context, task: Task, emission: Emission) -> ExitStatus {
     if findings.errors() > 0 || !is_current { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-/// Returns a line for each path with entities that are on its layer but not part of its program, counted by type.
+/// Returns a line for each path that has entities on its layer which are not part of its program. The line counts them by type.
 fn left_out(diagnostics: &[Diagnostic]) -> Vec<String> {
     let curves = diagnostics.iter().filter(|found| found.code() == Code::UnsupportedCurve);
     let curves: BTreeSet<_> = curves.map(|found| (&found.path, &found.file, &found.place)).collect();

@@ -76,7 +76,8 @@ pub(crate) fn run(
     })
 }
 
-/// Prints the first check as `check` does, then one line per changed file. Forwards all events to the page, if one is served.
+/// Listener that prints the first check as `check` does, then one line per changed file. It forwards all events to the page, if one is
+/// served.
 struct WatchPrinter<'a> {
     context: &'a Context,
     page: Option<Box<dyn Listener + 'a>>,

@@ -22,7 +22,7 @@ use crate::args::{Address, Host};
 /// Port used by default.
 pub(super) const PORT: u16 = 8347;
 
-/// The address of a listening socket, and what requests to it must contain.
+/// The address of a listening socket, and the requirements for requests to it.
 pub(super) struct Endpoint {
     /// Host that was requested on the command line.
     host: Host,

@@ -33,7 +33,7 @@ pub(super) struct Routes {
     endpoint: Endpoint,
     hub: Arc<Hub>,
     lang: Lang,
-    /// Identifies this run of the server. Pages of an earlier run reload everything.
+    /// Random identifier of this run of the server. Pages of an earlier run reload everything.
     run: String,
     /// Number of open pages.
     pages: watch::Sender<usize>,

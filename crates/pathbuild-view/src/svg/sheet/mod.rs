@@ -67,7 +67,7 @@ pub(crate) fn metadata(head: &[String; 2]) -> String {
     format!("<metadata>\n{provenance}\n{title}\n</metadata>\n")
 }
 
-/// Formats the same two lines as XMP metadata of a PDF.
+/// Formats the two lines that identify a sheet, as in the header of a program, as XMP metadata of a PDF.
 #[cfg(feature = "pictures")]
 pub(crate) fn xmp(head: &[String; 2]) -> String {
     let [provenance, title] = head.each_ref().map(|line| escaped(line));

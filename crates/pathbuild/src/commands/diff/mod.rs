@@ -123,7 +123,7 @@ pub(super) enum Failure {
     Found(Vec<Diagnostic>),
 }
 
-/// The kinds of arguments that can be compared.
+/// The kind of an argument of `diff`.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum ArgumentKind {
     Drawings,
@@ -245,8 +245,8 @@ fn path(
     })
 }
 
-/// Returns the configured post-processor if it has written a program. If the path's program is also written by it, its rounding and its
-/// additional moves do not count as differences.
+/// Returns the configured post-processor if it has written a program. If the path's program is written by the same post-processor, rounding
+/// and additional moves do not count as differences.
 fn post_processor_of(context: &Context, program: &Utf8Path) -> Option<PostProcessor> {
     let head = context.system.read_head(program, HEAD).ok()?;
     let (provenance, _) = Provenance::of_head(&head)?;

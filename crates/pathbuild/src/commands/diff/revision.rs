@@ -80,7 +80,7 @@ fn report_left_out(context: &Context, left_out: &[String]) {
 /// Size in bytes up to which files are written even if the current limit is lower, because the revision's configuration may permit more.
 const MIN_SIZE_LIMIT: u64 = 1 << 30;
 
-/// Writes the files of a tree into a directory.
+/// A checkout in progress, which writes the files of a tree into a directory.
 struct Checkout<'a> {
     repository: &'a Repository<'a>,
     whole: &'a Utf8Path,
