@@ -205,7 +205,7 @@ fn the_page_and_markdown_explain_as_well() {
     assert!(place.read("d.md").contains("explained by"));
 }
 
-/// The post has rounded the program, and the drawing from which it was written is unknown.
+/// A program is not explained by a drawing: the post has rounded it, and the drawing from which it was written is unknown.
 #[test]
 fn programs_are_not_explained() {
     let place = two(

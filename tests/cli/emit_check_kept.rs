@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crate::support::{Place, Run};
 
-/// A library of two components, and a project of each.
+/// A library of two components, each of which is embedded by a project.
 const LIBRARY: &str = r#"
 == pathbuild.toml ==
 library = ["components", "projects"]
@@ -80,7 +80,7 @@ fn is_known(place: &Place, arguments: &str) -> bool {
     paths.0 == paths.1 && drawings.0 == drawings.1
 }
 
-/// Returns the numbers of cached and of all paths, and those of drawings.
+/// Returns the number of cached paths and that of all paths, then the same for drawings.
 fn known(run: &Run) -> ((u32, u32), (u32, u32)) {
     let count = |phrase: &str| {
         let line =

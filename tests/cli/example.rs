@@ -1,4 +1,4 @@
-//! Tests `init --example`, which creates the library for learning, and the hints at its existence.
+//! Tests `init --example`, which creates the library for learning, and the messages that point to it.
 
 use crate::support::Place;
 

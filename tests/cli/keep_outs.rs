@@ -126,7 +126,7 @@ fn probes_and_the_ways_between_them_count() {
     assert_probing(&probes("19.99", across), &["rapid move, lowest Z 19.99, moves: 2"]);
 }
 
-/// One finding for each element, regardless of the number of passes.
+/// Each element has one finding, regardless of the number of its passes.
 #[test]
 fn passes_are_counted() {
     let drawing = path("21", "mill 0,0 0,15\nmill 0,15 50,15\nend 50,15").replace("I5", "I1");

@@ -131,7 +131,7 @@ fn what_is_found_does_not_depend_on_how_drawings_are_gone_through() {
     assert_eq!(found, mistakes);
 }
 
-/// Returns a finding without the chain of embeddings that led to it, of which only one of several is shown.
+/// Returns a finding without the chain of embeddings that led to it: if there are several chains, a run shows only one of them.
 fn without_trace(line: &str) -> String {
     let mut finding: serde_json::Value = serde_json::from_str(line).expect("each line is a finding");
     finding["trace"].take();

@@ -10,7 +10,7 @@ use pathbuild_testkit::sheet;
 
 const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n";
 
-/// File of a definition in CamBam's language, which writes the native moves in its own way.
+/// File name of a definition in CamBam's language, which writes the native moves in its own way.
 const CAMBAM: &str = "m.cbpp";
 
 fn place(limits: &str, parameters: &str) -> Place {

@@ -196,7 +196,7 @@ fn the_feed_of_paths_without_f_is_held_against_the_machine_s() {
     ));
 }
 
-/// Windows takes such a name for a device, whatever follows its first dot.
+/// Windows takes a name such as `CON` for a device, whatever follows its first dot.
 #[test]
 fn a_joined_program_is_not_named_like_a_device() {
     let is_device = |name: &str| {
@@ -775,7 +775,7 @@ fn a_program_with_a_rapid_move_through_material_is_not_written() {
     assert!(other_cutter.status == Some(0) && other_cutter.stderr.contains("PB777"), "{other_cutter}");
 }
 
-/// `verify` compares with a drawing or a travel if the configuration demands it; `post` has no drawing.
+/// `verify` compares with a drawing, or checks the travel, if the configuration demands it; `post` has no drawing.
 #[test]
 fn demanded_checks_do_not_concern_post() {
     let options = "[verify]\nrequire = [\"drawing\"]\n[tool.a]\ndiameter = 6\nnumber = 1\nspindle = 12000\n";

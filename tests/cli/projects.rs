@@ -202,7 +202,7 @@ fn a_second_definition_is_noticed_even_in_the_drawing_that_embeds_it() {
     }
 }
 
-/// The command helps to resolve PB504.
+/// `where` helps to resolve PB504.
 #[test]
 fn where_lists_every_definition_of_a_path_that_has_two() {
     let second = "== projects/1234.1.dxf ==\nlayer 1234_1P\nstart 0,0 \"T5 O2\"\nend 0,0\n";

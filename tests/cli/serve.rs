@@ -542,7 +542,7 @@ fn connections_that_say_nothing_are_closed() {
     events.after(first);
 }
 
-/// Written programs are current, even through a post.
+/// Programs that `--emit` has written are shown as current, even if a post wrote them.
 #[test]
 fn with_emit_the_state_is_that_after_writing() {
     for post in ["", "post = \"linuxcnc\"\nspindle = \"manual\"\n"] {
@@ -582,7 +582,7 @@ fn ctrl_c_ends_it_without_an_error() {
     let _open = served.events();
     served.interrupt();
     assert_eq!(served.child.wait().unwrap().code(), Some(0));
-    // This also works while nothing can be checked.
+    // Ctrl+C also ends the run while nothing can be checked.
     let mut served = Served::begin(&place, "watch --serve 127.0.0.1:0");
     served.write("pathbuild.toml", "feed = \n");
     served.until("until this is fixed");

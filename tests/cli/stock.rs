@@ -207,7 +207,7 @@ impl ExactStock {
         let mut exact = Exact { height: self.top, through: f64::NEG_INFINITY, is_hit: false };
         for movement in self.moves.iter().filter(|movement| movement.is_near(at, 0.0)) {
             for [from, to] in movement.heights_over(at) {
-                // On a slope that descends rapidly, the highest position counts.
+                // On a sloping rapid move, the highest position counts.
                 let rapid =
                     if movement.is_vertical() { from.min(to) } else { movement.from[2].max(movement.to[2]) };
                 if !movement.is_rapid && from.min(to) < exact.height {
@@ -227,7 +227,7 @@ impl ExactStock {
     }
 }
 
-/// Returns points around another one.
+/// Returns 16 points on a circle around a point.
 fn ring([x, y]: Point, away: f64) -> [Point; 16] {
     std::array::from_fn(|number| {
         let (sin, cos) = libm::sincos(TAU * number as f64 / 16.0);
@@ -235,7 +235,7 @@ fn ring([x, y]: Point, away: f64) -> [Point; 16] {
     })
 }
 
-/// A stroke of the picture, along a course.
+/// A stroke of the picture along the course of a tool.
 struct Stroke {
     color: String,
     radius: f64,

@@ -644,7 +644,7 @@ fn options_for_programs_are_refused_for_drawings() {
     assert_eq!(place.run("view 1234.1P --stock -o a.svg").status, Some(0));
 }
 
-/// As in `verify`: the picture shows the larger cutter.
+/// As in `verify`, an option that differs from the header is reported. The picture shows the larger cutter.
 #[test]
 fn a_cutter_other_than_that_of_the_header_is_a_warning() {
     let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0\nend 40,0";

@@ -36,7 +36,7 @@ fn mistakes_of_draughtsmen_are_named() {
     assert_snapshot!(mistakes.map(said).join("\n"));
 }
 
-/// A stray element on a wrong layer is named if the path lacks it, whichever way round it is drawn.
+/// A stray element on a wrong layer is named if the path lacks it, in whichever direction it is drawn.
 #[test]
 fn elements_on_a_wrong_layer_are_named() {
     let said = |own: &str, other: &str| {

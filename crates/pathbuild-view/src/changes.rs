@@ -465,7 +465,7 @@ mod tests {
         assert!(passes[0].starts_with("passes: 4 instead of 2"), "{passes:?}");
         let deeper = described(&groove(&["-1", "-2"]), &groove(&["-1", "-2.2"]));
         assert!(deeper[0].starts_with("0.2 mm deeper"), "{deeper:?}");
-        // Other intermediate heights, but the same final depth.
+        // The intermediate heights differ, but the final depth is the same.
         let other = described(&groove(&["-1", "-2"]), &groove(&["-0.5", "-2"]));
         assert!(other[0].starts_with("the same in the end"), "{other:?}");
     }

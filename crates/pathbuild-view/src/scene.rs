@@ -151,7 +151,7 @@ pub struct EmbeddedPath {
     pub sweep_height: f64,
 }
 
-/// A drawn element, or a special circle.
+/// A drawn element, a marker or a probe.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Element {
     /// Path that the element belongs to, as an index into [`ScenePath::embedded`].
@@ -651,7 +651,7 @@ impl Serialize for SceneMove {
     }
 }
 
-/// Precision of numbers in JSON, in units per mm. Six decimals, so that a scene has the same bytes everywhere.
+/// Precision of numbers in JSON, in units per mm: numbers have six decimals, so that a scene has the same bytes everywhere.
 const MILLIONTHS: f64 = 1e6;
 
 /// Rounds a coordinate or length, and avoids a negative 0.

@@ -109,7 +109,7 @@ fn with_line(drawn: &str) -> String {
     entities(&(line((0.0, 0.0), (9.0, 0.0)) + drawn), (9.0, 0.0))
 }
 
-/// Returns layers with a line each, and as many texts near each line.
+/// Returns layers with one line each, all lines at the same place, and as many texts near them on a further layer.
 pub fn lost_texts(count: usize) -> String {
     let lines: String = (0..count).map(|layer| on_layer(layer, &line((20.0, 0.0), (30.0, 0.0)))).collect();
     with_line(&(lines + &on_layer(count, &text((25.0, 0.0), "B1")).repeat(count)))

@@ -37,7 +37,7 @@ const AT_ONCE: usize = 100;
 /// Of the reported changes, one in this many is also read by an independent reader.
 const SAMPLED: usize = 10;
 
-/// Distance in mm from which a move goes elsewhere. It exceeds the tolerance of any dialect that is written with arcs.
+/// Distance in mm from which on a move counts as going elsewhere. It exceeds the tolerance of any dialect that is written with arcs.
 const ELSEWHERE: f64 = 0.01;
 
 /// Tolerance in mm of chords that replace a helix: the post permits 0.01 mm, and the ends are rounded. A program may stay within that even without
@@ -598,7 +598,7 @@ fn changed_byte(text: &[u8], dice: &mut Dice) -> (String, Vec<u8>) {
     (format!("byte {at} {what}: {}", around(&changed, at)), changed)
 }
 
-/// Returns the line around a byte.
+/// Returns the line that contains a byte, with special characters escaped.
 fn around(text: &[u8], at: usize) -> String {
     let at = at.min(text.len().saturating_sub(1));
     let begin = text[..at].iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);

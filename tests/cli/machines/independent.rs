@@ -96,7 +96,8 @@ fn without_way_up(text: &str) -> String {
     text.lines().filter(|line| !is_own(line)).flat_map(|line| [line, "\n"]).collect()
 }
 
-/// Whether a line only retracts the tool to a position of the machine. Stopping there changes nothing.
+/// Whether a line only retracts the tool to a position of the machine. M0 and M1 in the line are ignored, because stopping there changes
+/// nothing.
 fn is_way_up(line: &str) -> bool {
     let mut found: Vec<(u8, f64)> = words(line)
         .into_iter()

@@ -134,7 +134,7 @@ fn adjust_says_where_it_cannot_compare() {
     assert!(run.status == Some(1) && run.stderr.contains("PB608"), "{run}");
 }
 
-/// If the programs are not beside the drawing, it is found by the path's name.
+/// If the programs are not beside the drawing, the drawing is found by the path's name.
 #[test]
 fn adjust_finds_the_drawing_in_the_library() {
     let settings = "library = [\"drawings\"]\nout-dir = \"out\"\n";

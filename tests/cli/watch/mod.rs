@@ -300,7 +300,7 @@ fn changes_that_come_while_others_are_worked_on_are_not_lost() {
         place.file(&format!("library/projects/{name}.dxf"), dxf(&name, 5, &["1001.1P"]))
     });
     let watch = Watch::begin(&place, "watch --emit --format concise");
-    // Each project is wrong, including 8001; 1002, and 8002, which embeds it, lack a path.
+    // Each project is wrong, including 8001. In addition, 1002 lacks a path, and so does 8002, which embeds it.
     let wrong = i64::try_from(PROJECTS).unwrap() + 1 + 2;
     for pause in [65, 90, 120, 180, 260, 400] {
         watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));

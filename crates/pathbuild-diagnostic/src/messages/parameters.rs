@@ -57,7 +57,7 @@ messages! {
         help_en: "separate them with spaces: write \"{text}\"",
         help_de: "mit Leerzeichen trennen: \"{text}\"",
     }
-    /// A text that looks like a remark, because it contains no parameters.
+    /// A text that looks like a remark and contains no parameters.
     REMARK: UnknownParameter {
         en: "\"{text}\" looks like a remark and contains no parameters",
         de: "\"{text}\" sieht nach einer Bemerkung aus und enthält keine Parameter",
@@ -281,14 +281,14 @@ messages! {
         help_en: "the tool may break; lower F, raise the speed, or change `chip-load` of the tool ({least} to {most})",
         help_de: "das Werkzeug kann brechen; F senken, die Drehzahl erhöhen oder `chip-load` des Werkzeugs ändern ({least} bis {most})",
     }
-    /// A default sweep height that is too low.
+    /// A default sweep height that is not above T.
     DEFAULT_SWEEP_TOO_LOW: ParameterOutOfRange {
         en: "the sweep height {value} used for this path is not greater than T, which is {limit}",
         de: "die für diesen Pfad geltende Leerfahrthöhe {value} ist nicht größer als T ({limit})",
         help_en: "give the path an S, or raise sweep-height",
         help_de: "dem Pfad ein S geben oder sweep-height erhöhen",
     }
-    /// A sweep height of an embedded path that is too low.
+    /// An embedded path without S: its sweep height T + O is not above the material where it is embedded.
     EMBEDDED_SWEEP_TOO_LOW: ParameterOutOfRange {
         en: "this path has no S: where it is embedded, it sweeps at T + O = {value}, which is not above the material there (T{limit})",
         de: "dieser Pfad hat kein S: eingebettet liegen seine Leerfahrten auf T + O = {value}, nicht über dem Material dort (T{limit})",

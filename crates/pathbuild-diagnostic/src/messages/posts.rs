@@ -633,7 +633,7 @@ messages! {
         help_en: "begin the program with absolute moves in Z, X and Y",
         help_de: "das Programm mit absoluten Bewegungen in Z, X und Y beginnen",
     }
-    /// Note: a dwell of another length.
+    /// Note: a dwell of another length than in the program.
     DWELL_DIFFERS: PostDiffers {
         en: "the program dwells for {seconds} s, but the output for {found} s",
         de: "das Programm verweilt {seconds} s, die Ausgabe aber {found} s",

@@ -14,7 +14,7 @@ pub(super) struct Canvas {
     text: String,
 }
 
-/// The part of a text that is placed at its point.
+/// The part of a text that is placed at the text's point.
 #[derive(Clone, Copy)]
 pub(super) enum Anchor {
     Start,

@@ -148,7 +148,7 @@ impl Hub {
         std::mem::take(&mut self.state().questions)
     }
 
-    /// Requests that watching ends.
+    /// Asks the watching thread to end.
     pub(super) fn end(&self) {
         let mut state = self.state();
         state.is_over = true;
