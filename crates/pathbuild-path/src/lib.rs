@@ -51,8 +51,8 @@ pub use names::files::{
 pub use names::{LayerPattern, PathLayer, PathName, PathPattern, PatternError, SpeltName};
 pub use part::{
     CutElement, DrawnParts, EmbeddedPlace, LeftMaterial, LostBar, NeighbourCuts, NeighbourGouge, Part,
-    PartCut, PartFindings, PartRing, PartSettings, PathCuts, PlacedCuts, SlotPaths, StandingBar, THROUGH,
-    check_parts, check_path, gouging_moves,
+    PartCut, PartFindings, PartRing, PartSettings, PathCuts, PlacedCuts, SeveredPart, SlotPaths, StandingBar,
+    THROUGH, check_parts, check_path, gouging_moves,
 };
 pub use path::{
     Bars, ChainParameters, CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath,

@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{
-    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PlacedCuts, Placement, TipMove, Xy, gouging_moves,
+    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PlacedCuts, Placement, SeveredPart, TipMove, Xy,
+    gouging_moves,
 };
 use pathbuild_toolpath::way;
 
@@ -18,17 +19,11 @@ use crate::queries::index::lower_to_warnings;
 use crate::queries::part::{file_parts, part_findings, parts_of, path_cuts};
 use crate::queries::programs::{TracedProgram, traced_program};
 
-/// Returns PB214 for cuts of one embedded path into the part of another, and PB218 for cuts through its support bars: one per part or bar and
-/// element, reported in the path that contains both.
+/// Returns PB214 for cuts of one embedded path into the part of another, PB218 for cuts through its support bars, and PB217 for parts that they leave
+/// without a hold: one per part or bar and element, reported in the path that contains both.
 pub(super) fn harmed_neighbours(db: &dyn Db, target: Target) -> &[Diagnostic] {
     // Most paths embed no others; no query is needed then.
     if has_neighbours(db, target) { cuts_into_neighbours(db, target) } else { &[] }
-}
-
-/// The middle lines of the support bars that cuts of other paths remove, in the program's coordinates.
-fn bars_lost_to_neighbours(db: &dyn Db, target: Target) -> Vec<Curve> {
-    let program = has_neighbours(db, target).then(|| placed_program(db, target)).flatten();
-    program.map(|program| program.lost_bars()).unwrap_or_default()
 }
 
 fn has_neighbours(db: &dyn Db, target: Target) -> bool {
@@ -52,7 +47,12 @@ fn placed_program(db: &dyn Db, target: Target) -> Option<PlacedProgram<'_>> {
     if !is_known || !closure.files(db).into_iter().any(has_parts) {
         return None;
     }
-    let mut program = PlacedProgram { db, tolerance: settings.tolerance, paths: Vec::new() };
+    let mut program = PlacedProgram {
+        db,
+        tolerance: settings.tolerance,
+        is_held_otherwise: settings.is_held_otherwise,
+        paths: Vec::new(),
+    };
     let start = path_cuts(db, root).map_or(Xy::origin(), |cuts| cuts.ends.0);
     program.add(root, Placement::from_origin(start), 0.0, None);
     Some(program)
@@ -62,6 +62,8 @@ fn placed_program(db: &dyn Db, target: Target) -> Option<PlacedProgram<'_>> {
 struct PlacedProgram<'db> {
     db: &'db dyn Db,
     tolerance: f64,
+    /// Whether something else than support bars holds the parts.
+    is_held_otherwise: bool,
     /// The paths, each after the path that embeds it.
     paths: Vec<PlacedPath<'db>>,
 }
@@ -75,6 +77,12 @@ struct PlacedPath<'db> {
 
 /// Distance in mm below which two placements of one drawing count as the same, because its paths were embedded together.
 const PLACEMENT_TOLERANCE: f64 = 0.01;
+
+/// Whether two placements of one drawing are the same.
+fn is_same(one: &Placement, other: &Placement) -> bool {
+    let corners = [Xy::new(0.0, 0.0), Xy::new(1000.0, 0.0)];
+    corners.into_iter().all(|at| (one.place(at) - other.place(at)).norm() <= PLACEMENT_TOLERANCE)
+}
 
 impl<'db> PlacedProgram<'db> {
     /// Adds a path with all that it embeds.
@@ -119,10 +127,7 @@ impl<'db> PlacedProgram<'db> {
 
     /// Whether the drawings of two paths have the same place in the program.
     fn is_at(&self, other: &PlacedPath<'_>, instance: Instance<'db>, placement: &Placement) -> bool {
-        let corners = [Xy::new(0.0, 0.0), Xy::new(1000.0, 0.0)];
-        let is_near =
-            |at| (other.cuts.placement.place(at) - placement.place(at)).norm() <= PLACEMENT_TOLERANCE;
-        other.instance.file(self.db) == instance.file(self.db) && corners.into_iter().all(is_near)
+        other.instance.file(self.db) == instance.file(self.db) && is_same(&other.cuts.placement, placement)
     }
 
     fn findings(&self) -> Vec<Diagnostic> {
@@ -150,8 +155,41 @@ impl<'db> PlacedProgram<'db> {
                 self.at(path, origin, self.gouge_problem(owner, cutting, &gouge))
             }));
             found.append(&mut bars);
+            found.extend(self.severed(owner).iter().map(|severed| {
+                let (path, origin) = self.innermost_common_path(severed.path, severed.element, owner);
+                self.at(path, origin, self.severed_problem(owner, severed))
+            }));
         }
         found
+    }
+
+    /// The parts of a path that cuts of other paths leave without a hold.
+    fn severed(&self, owner: usize) -> Vec<SeveredPart> {
+        if self.is_held_otherwise {
+            return Vec::new();
+        }
+        let (others, own): (Vec<_>, Vec<_>) =
+            (0..self.paths.len()).partition(|path| self.is_foreign(owner, *path));
+        let own: Vec<_> = own.into_iter().map(|path| &self.paths[path].cuts).collect();
+        let others: Vec<_> = others.into_iter().map(|path| (path, &self.paths[path].cuts)).collect();
+        self.paths[owner].cuts.severed_by(&own, &others)
+    }
+
+    fn severed_problem(&self, owner: usize, severed: &SeveredPart) -> Diagnostic {
+        let owner = &self.paths[owner].cuts;
+        let place = owner.start_of(severed.part);
+        Diagnostic::new(&messages::SEVERED_PART)
+            .quoting("other", owner.cuts.name.as_str())
+            .with("place", Point::new(place.x, place.y))
+    }
+
+    /// The parts that cuts of other paths leave without a hold, with their placements.
+    fn severed_parts(&self) -> Vec<(&'db Part, Placement)> {
+        let parts = (0..self.paths.len()).flat_map(|owner| {
+            let PlacedCuts { parts, placement, .. } = &self.paths[owner].cuts;
+            self.severed(owner).into_iter().map(move |severed| (parts[severed.part], *placement))
+        });
+        parts.collect()
     }
 
     /// The middle lines of the bars that cuts of other paths take away.
@@ -248,7 +286,9 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     let Some(settings) = &Settings::get(db).language(db).part else { return Vec::new() };
     let Some(traced) = traced_program(db, target).as_deref() else { return Vec::new() };
     let mut all = Vec::new();
-    let mut foreign = bars_lost_to_neighbours(db, target);
+    let program = has_neighbours(db, target).then(|| placed_program(db, target)).flatten();
+    let mut foreign = program.as_ref().map(PlacedProgram::lost_bars).unwrap_or_default();
+    let severed = program.as_ref().map(PlacedProgram::severed_parts).unwrap_or_default();
     let radius = traced.program.tool / 2.0;
     let ways = milled_moves(traced);
     for (number, occurrence) in (0_u32..).zip(&traced.trace.occurrences) {
@@ -267,6 +307,9 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
                 *by == number || other.file != cutting.file || drawn.may_belong_to(&other.path.name)
             });
             let ways = near.map(|(_, way)| way);
+            let is_drawn = |(other, placement): &(&Part, Placement)| {
+                std::ptr::eq(*other, drawn) && is_same(placement, &occurrence.placement)
+            };
             let [tolerance, raised] = [settings.tolerance, occurrence.raised];
             all.push(PlacedPart {
                 drawn,
@@ -274,7 +317,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
                 lost_bars: std::mem::take(&mut lost_bars),
                 bars_lost_to_neighbours: std::mem::take(&mut foreign),
                 gouges: gouging_moves(drawn, &occurrence.placement, raised, ways, [radius, tolerance]),
-                is_loose: findings.loose.contains(part),
+                is_loose: findings.loose.contains(part) || severed.iter().any(is_drawn),
                 radius,
                 placement: occurrence.placement,
                 top: raised + cutting.path.thickness,

@@ -254,6 +254,27 @@ fn only_paths_with_through_cuts_leave_material() {
     assert!(left("0"), "it goes through elsewhere");
 }
 
+/// A neighbour's contour that meets the cuts beside the support bars takes the plate from them, though it leaves the bars.
+#[test]
+fn neighbours_leave_the_plate_behind_support_bars() {
+    let component = "layer 1234.1P\nstart 0,0 \"T2 O2 I0.5 B0 D0.8 P2 U8 MX\"\nsweep 0,0 -1,-1\n\
+                     bars -1,-1 41,-1\nmill to 41,20 -1,20 -1,-1\nsweep -1,-1 50,0\nend 50,0\n\
+                     layer Part\npolyline 0,0 40,0 40,19 0,19 closed\n";
+    let loose = |gap: f64| {
+        let y = -19.0 - gap;
+        let project = format!(
+            "layer 8001.1P\nstart 0,0 \"T2 O2 MX\"\nsubpath 0,0 50,0 \">1234.1P\"\n\
+             sweep 50,0 0,{y}\nsubpath 0,{y} 50,{y} \">1234.1P\"\nend 50,{y}\n"
+        );
+        let found = PartTest::default().diagnostics(&[("8001.1P.dxf", &project), ("1234.1P.dxf", component)]);
+        let found = found.iter().filter(|found| found.code().to_string() != "PB210");
+        found.map(|found| format!("{} {}", found.code(), found.text(Lang::En))).collect::<Vec<_>>()
+    };
+    assert_eq!(loose(4.01), [""; 0], "some plate remains between the cuts");
+    let found = loose(3.99);
+    assert!(found.len() == 1 && found[0].starts_with("PB217 with this cut"), "{found:?}");
+}
+
 /// A cut of another component beside the part does not enter the part, but cuts through its bar, down to Z0 or above the bar.
 #[test]
 fn bars_must_not_be_cut_by_other_components() {

@@ -50,6 +50,13 @@ messages! {
         help_en: "draw parts of its contour with support bars (BORDER), or set part-held = \"otherwise\" if tape or vacuum holds it",
         help_de: "Teile der Kontur mit Stützstegen (BORDER) zeichnen oder part-held = \"otherwise\" setzen, wenn Klebeband oder Vakuum es hält",
     }
+    /// A part that only its own path leaves a hold.
+    SEVERED_PART: LoosePart {
+        en: "with this cut, nothing holds the part of path {other} whose outline begins at {place}: it meets the cuts between the support bars",
+        de: "mit diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss bei {place} beginnt: Er trifft auf die Schnitte zwischen den Stützstegen",
+        help_en: "place the parts farther apart, or draw support bars on a side where the plate remains",
+        help_de: "die Teile weiter auseinander setzen oder Stützstege auf einer Seite zeichnen, an der die Platte stehen bleibt",
+    }
     /// A support bar that another cut removes.
     BAR_CUT_AWAY: BarCutAway {
         en: "this cut removes {lost} of the {length} mm of the support bar at {point} of path {other}",

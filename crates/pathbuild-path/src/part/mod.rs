@@ -28,7 +28,7 @@ pub use check::{PartFindings, check_parts, check_path};
 pub use cuts::{CutElement, EmbeddedPlace, PartCut, PathCuts, StandingBar, THROUGH};
 pub use gouge::gouging_moves;
 pub use leftover::LeftMaterial;
-pub use neighbours::{NeighbourCuts, NeighbourGouge, PlacedCuts};
+pub use neighbours::{NeighbourCuts, NeighbourGouge, PlacedCuts, SeveredPart};
 
 /// Settings of the part check.
 #[derive(Clone, Debug)]

@@ -1,10 +1,12 @@
-//! Cuts of one placed path into the parts and support bars of another. (book: language/part)
+//! Cuts of one placed path into the parts and support bars of another, and what they leave to hold the parts. (book: language/part)
 
 use rstar::{AABB, Envelope as _};
 
 use super::bars::{LostBar, lost_bars};
-use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar};
+use super::boxes::may_be_near;
+use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar, THROUGH};
 use super::gouge::{gouges, judged};
+use super::loose::is_cut_out;
 use super::prepared::PreparedPart;
 use super::{Part, placed_part};
 use crate::geometry::{Curve, Placement, Xy};
@@ -49,6 +51,25 @@ pub struct NeighbourCuts {
     pub bars: Vec<LostBar>,
 }
 
+/// A part that the cuts of other paths separate from what its support bars lead to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeveredPart {
+    /// Index into [`PlacedCuts::parts`].
+    pub part: usize,
+    /// Index of the other path whose cut is nearest to a bar.
+    pub path: usize,
+    /// Index into [`PathCuts::elements`] of that path.
+    pub element: u32,
+}
+
+/// A cut of another path that goes through the plate.
+struct ForeignCut {
+    curve: Curve,
+    radius: f64,
+    path: usize,
+    element: u32,
+}
+
 impl<'c> PlacedCuts<'c> {
     /// Places a path.
     pub fn new(cuts: &'c PathCuts, parts: Vec<&'c Part>, placement: Placement, raised: f64) -> Self {
@@ -85,6 +106,66 @@ impl<'c> PlacedCuts<'c> {
         NeighbourCuts { gouges: gouged, bars }
     }
 
+    /// Returns the parts that nothing holds because of the cuts of other paths at their contours, though the cuts of `own` alone leave support bars.
+    /// `own` are the paths that belong to the same drawing at the same place, including this one; `others` are the remaining paths by their index.
+    pub fn severed_by(&self, own: &[&Self], others: &[(usize, &Self)]) -> Vec<SeveredPart> {
+        let is_near = |other: &&(usize, &Self)| {
+            self.swept.zip(other.1.swept).is_some_and(|(own, swept)| own.intersects(&swept))
+        };
+        let others: Vec<&(usize, &Self)> = others.iter().filter(is_near).collect();
+        if self.parts.is_empty() || others.is_empty() {
+            return Vec::new();
+        }
+        let own: Vec<PathCuts> = own.iter().map(|path| path.placed(self.raised)).collect();
+        let sweeps: Vec<(Curve, f64)> =
+            own.iter().flat_map(through_cuts).map(|(way, cut)| (way, cut.0)).collect();
+        let foreign: Vec<ForeignCut> = others
+            .iter()
+            .flat_map(|(path, other)| {
+                let cuts = other.placed(self.raised);
+                let cut = |(curve, (radius, element))| ForeignCut { curve, radius, path: *path, element };
+                through_cuts(&cuts).map(cut).collect::<Vec<_>>()
+            })
+            .collect();
+        let severed = |part: usize| self.severed(part, &own, &sweeps, &foreign);
+        (0..self.parts.len()).filter_map(severed).collect()
+    }
+
+    fn severed(
+        &self,
+        part: usize,
+        own: &[PathCuts],
+        sweeps: &[(Curve, f64)],
+        foreign: &[ForeignCut],
+    ) -> Option<SeveredPart> {
+        let placed = placed_part(self.parts[part], &self.placement);
+        let prepared = PreparedPart::new(&placed);
+        let outer = &placed.rings[0].curves;
+        // Only cuts that meet the cut around the part can take the plate from its bars.
+        let meets = |cut: &&ForeignCut| {
+            let reach = 2.0 * self.cuts.radius + cut.radius;
+            outer.iter().any(|ring| may_be_near(ring, &cut.curve, reach) && ring.distance(&cut.curve) < reach)
+        };
+        let foreign: Vec<&ForeignCut> = foreign.iter().filter(meets).collect();
+        let bars = || own.iter().flat_map(|path| path.bars.iter().map(|bar| (bar, path.radius)));
+        let is_at_part = |(bar, radius): &(&StandingBar, f64)| {
+            around(&bar.foot, 2.0 * radius).intersects(&prepared.extent())
+        };
+        let bars = bars().filter(is_at_part);
+        let distance = |cut: &ForeignCut| {
+            let distances = bars.clone().map(|(bar, _)| bar.foot.distance(&cut.curve));
+            distances.fold(f64::INFINITY, f64::min)
+        };
+        let nearest = foreign.iter().min_by(|one, other| distance(one).total_cmp(&distance(other)))?;
+        let all = foreign.iter().map(|cut| (cut.curve, cut.radius)).chain(sweeps.iter().copied());
+        let is_loose = |cuts: &[(Curve, f64)]| is_cut_out(&prepared, cuts, &bars);
+        (is_loose(&all.collect::<Vec<_>>()) && !is_loose(sweeps)).then_some(SeveredPart {
+            part,
+            path: nearest.path,
+            element: nearest.element,
+        })
+    }
+
     /// The start of a part's outermost ring, as placed.
     pub fn start_of(&self, part: usize) -> Xy {
         self.placement.place(self.parts[part].rings[0].curves[0].start())
@@ -115,6 +196,11 @@ impl<'c> PlacedCuts<'c> {
         });
         placed
     }
+}
+
+/// The sections of a path's cuts that go through the plate, each with its radius and element.
+fn through_cuts(path: &PathCuts) -> impl Iterator<Item = (Curve, (f64, u32))> {
+    path.cuts.iter().filter_map(|cut| Some((cut.way.below(THROUGH)?, (path.radius, cut.element))))
 }
 
 /// The bounding box of a box after placing it.
