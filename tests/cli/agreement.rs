@@ -9,8 +9,8 @@ use std::sync::Arc;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::MemorySystem;
 use pathbuild_db::{
-    Database, Db, Role, Settings, SourceFile, Target, check_file, check_target, closure, locate, path_names,
-    q_project_findings,
+    Database, Db, Role, SecondDefinition, Settings, SourceFile, Target, check_file, check_target, closure,
+    locate, path_names, q_project_findings, second_definitions,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{FilePattern, PathOptions, Restriction};
@@ -174,6 +174,9 @@ impl TargetDatabase {
                 found.extend(self.path(path, &name));
             }
         }
+        let drawings = files.iter().map(|path| Utf8Path::new(path.as_str()));
+        let drawings = drawings.map(|path| (path, path_names(&self.db, self.db.file(path))));
+        found.extend(second_definitions(&self.db, drawings).iter().map(SecondDefinition::diagnostic));
         for path in &files {
             let Some(q_project) = files.iter().find(|it| **it == &path.replace(".dxf", "_Q.dxf")) else {
                 continue;

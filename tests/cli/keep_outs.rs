@@ -390,3 +390,35 @@ fn a_comparison_that_stopped_does_not_count_as_made() {
     let run = place.run(verify);
     assert!(run.status == Some(1) && codes(&run).contains(&"523".to_owned()), "{run}");
 }
+
+/// A single drawing need not have clamps, but a pattern that matches no layer of the whole library is probably wrong.
+#[test]
+fn a_pattern_that_matches_no_layer_of_the_library_is_doubtful() {
+    let path = |name: &str, others: &str| {
+        dxf(&format!("layer {name}\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0\n{others}"))
+    };
+    let clamp = "layer Spanner\nmill circle 90,90 d 9\ntext 90,90 \"Z25\" height 2 align centre middle";
+    let place = |configuration: &str, others: &str| {
+        Place::new()
+            .file("pathbuild.toml", format!("library = [\".\"]\n{configuration}"))
+            .file("1234.1P.dxf", path("1234.1P", "layer Other\nmill circle 90,90 d 9"))
+            .file("1234.2P.dxf", path("1234.2P", others))
+    };
+    let found = |place: &Place, arguments: &str| {
+        let run = place.run(&format!("{arguments} --format concise"));
+        let found = run.stderr.lines().filter(|line| line.contains("[PB527]"));
+        found.map(|line| line.split('`').nth(1).unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let both = "keep-out = 'Spanner'\npart = 'Teil'\n";
+    let without = place(both, "");
+    let with_clamps = place(both, clamp);
+    for arguments in ["check --no-cache", "check", "check"] {
+        assert_eq!(found(&without, arguments), ["keep-out", "part"], "{arguments}");
+        assert_eq!(found(&with_clamps, arguments), ["part"], "{arguments}");
+    }
+    assert_eq!(found(&without, "check ."), [""; 0], "a directory");
+    assert_eq!(found(&without, "check 1234.1P.dxf"), [""; 0], "a drawing");
+    assert_eq!(found(&place("", ""), "check"), [""; 0], "no patterns");
+    let unread = place(both, "").file("1234.3P.dxf", "nothing");
+    assert_eq!(found(&unread, "check"), [""; 0], "another drawing may have such layers");
+}

@@ -1,5 +1,7 @@
 //! Tests commands about embeddings and the locations of paths. (book: reference/commands, book: language/layers-and-names)
 
+use std::fs;
+
 use crate::support::{Place, runs};
 use insta::assert_snapshot;
 
@@ -73,6 +75,56 @@ fn directories_of_the_command_line_are_searched_as_well() {
     assert_eq!(codes(&definition("2051.2P"), "--search more"), [""; 0]);
     assert_eq!(codes(&definition("2051.1P"), "--search components"), [""; 0]);
     assert_eq!(codes(&definition("2051.1P"), "--search more"), ["504"]);
+}
+
+const SECOND: &str = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 MPlate\"\nmill 0,0 40,0\nend 40,0\n";
+
+/// Whether `check` reports PB504, once, with and without cached results.
+fn is_ambiguous(place: &Place, arguments: &str) -> bool {
+    let check = || {
+        let run = place.run(&format!("check --format concise {arguments}"));
+        let count = run.stderr.matches("error[PB504]").count();
+        assert!(count < 2 && run.status == Some(i32::try_from(count).unwrap()), "{run}");
+        count == 1
+    };
+    let is_ambiguous = check();
+    assert_eq!(is_ambiguous, check());
+    is_ambiguous
+}
+
+/// `check` reports a second definition of a path that no project embeds, if a project would find both.
+#[test]
+fn a_second_definition_is_noticed_although_nothing_embeds_the_path() {
+    let place = |directories: &str, search: &str, file: &str| {
+        let library =
+            LIBRARY.replace("library = [\"components\", \"projects\"]", &format!("library = {directories}"));
+        let library = library.replace("search = [\"components\"]", &format!("search = {search}"));
+        Place::of(&format!("{library}== {file} ==\n{SECOND}"))
+    };
+    let beside = |file: &str| is_ambiguous(&place("['components']", "[]", file), "");
+    assert!(beside("components/1234 old.dxf"));
+    assert!(!beside("components/5678.dxf"), "its file name does not cover the path");
+    let apart = |search: &str| is_ambiguous(&place("['components', 'more']", search, "more/1234.dxf"), "");
+    assert!(apart("['components']") && apart("['more']"));
+    assert!(!apart("[]"), "nothing finds both");
+}
+
+/// Only drawings that are checked count.
+#[test]
+fn a_second_definition_is_noticed_among_the_drawings_that_are_checked() {
+    let place = Place::of(&format!("{LIBRARY}== components/1234-1235.dxf ==\n{SECOND}"));
+    let both = "components/1234.dxf components/1234-1235.dxf";
+    assert!(is_ambiguous(&place, "components") && is_ambiguous(&place, both));
+    assert!(!is_ambiguous(&place, "components/1234.dxf"));
+}
+
+/// The finding is at the first of the drawings, and comes and goes with the other one.
+#[test]
+fn a_second_definition_is_reported_at_the_first() {
+    let place = Place::of(&format!("{LIBRARY}== components/1234 old.dxf ==\n{SECOND}"));
+    assert_snapshot!(runs(&place, ["check components", "check components --lang de"]));
+    fs::remove_file(place.path().join("components/1234 old.dxf")).unwrap();
+    assert_eq!(place.run("check components").status, Some(0));
 }
 
 /// `--restrict` adds rules: it cannot switch off those of the configuration.

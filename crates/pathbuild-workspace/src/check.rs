@@ -8,16 +8,18 @@ use std::ops::ControlFlow;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, is_drawing, join};
 use pathbuild_db::{
-    Database, Db, Role, SourceFile, Target, Trace, check_file, combinations, locate, path_names,
+    Database, Db, Role, SecondDefinition, SourceFile, Target, Trace, check_file, combinations, locate,
+    path_names,
 };
-use pathbuild_diagnostic::messages::configuration;
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Place, TextFault, Value};
 use pathbuild_path::{Bindings, PathName};
 
+use crate::common_findings::{patterns_without_layer, unused_configurations};
 use crate::config::ResultKind;
 use crate::memo::{
-    Answer, Coverage, Dependencies, DrawingResult, Memo, check_query, find, read_drawings, subject,
+    Answer, Coverage, Dependencies, DrawingResult, Memo, NamedLayers, check_query, find, read_drawings,
+    subject,
 };
 use crate::session::timings::{FINDING, KEEPING, VERIFYING};
 use crate::session::{
@@ -26,7 +28,7 @@ use crate::session::{
 };
 use crate::workspace::Failure;
 use crate::workspace::{Workspace, relative};
-use crate::{Input, Inputs, files, waivers};
+use crate::{Input, Inputs, waivers};
 
 /// A request to check drawings.
 #[derive(Clone, Debug)]
@@ -154,8 +156,14 @@ impl Request<'_> {
             let parts = each.iter().map(|answer| answer.value.parts());
             checked.diagnostics.extend(session.no_path_anywhere(parts));
         }
+        checked.diagnostics.extend(second_definitions(session, &each, &filter));
+        if self.inputs.inputs.is_empty() {
+            let results = each.iter().map(|answer| &answer.value);
+            checked.diagnostics.extend(patterns_without_layer(session, results));
+        }
         for answer in each.into_iter().filter(|answer| filter.contains(answer)) {
-            let (file, DrawingResult { names, diagnostics }) = (answer.drawing().to_owned(), answer.value);
+            let (file, DrawingResult { names, diagnostics, .. }) =
+                (answer.drawing().to_owned(), answer.value);
             checked.files.push(CheckedFile { file, paths: names });
             checked.diagnostics.extend(diagnostics);
         }
@@ -261,7 +269,7 @@ fn compare_q_projects(
         let found = session.compare_q_projects(&open).into_iter().zip(&open);
         let result = |(diagnostics, pair): (_, &Pair)| {
             let trace = Trace { files: pair.to_vec(), lookups: Vec::new() };
-            DrawingResult { names: Vec::new(), diagnostics }.with_inputs(vec![trace])
+            DrawingResult { diagnostics, ..DrawingResult::default() }.with_inputs(vec![trace])
         };
         found.map(result).collect()
     };
@@ -269,28 +277,21 @@ fn compare_q_projects(
     memo.get_or(&pairs, subject, |_, result| Some(result), compare)
 }
 
-/// Warns about each configuration in the searched directories that does not apply to the run. Directories outside the tree of the applied
-/// configuration are skipped: `--config` has then named a configuration from elsewhere for them.
-fn unused_configurations(session: &Session<'_>, directories: &[Utf8PathBuf]) -> Vec<Diagnostic> {
-    let system = session.db().system();
-    let used = session.workspace().settings.file.as_deref().map(|file| session.normal(file));
-    let tree = used.as_deref().and_then(Utf8Path::parent);
-    let files = directories.iter().map(|directory| join(directory, files::FILE_NAME));
-    let is_unused = |file: &Utf8PathBuf| {
-        tree.is_none_or(|tree| file.starts_with(tree))
-            && used.as_ref() != Some(file)
-            && system.kind(file) != FileKind::Missing
-    };
-    let warning = |file: Utf8PathBuf| {
-        let problem = match &used {
-            Some(used) => {
-                Diagnostic::new(&configuration::UNUSED_CONFIGURATION).quoting("used", used.as_str())
-            }
-            None => Diagnostic::new(&configuration::UNUSED_WITHOUT_ANY),
-        };
-        problem.in_file(&file)
-    };
-    files.filter(is_unused).map(warning).collect()
+/// Returns PB504 for each path that two of the checked drawings define, if the filter selects one of them.
+fn second_definitions(
+    session: &Session<'_>,
+    each: &[Answer<DrawingResult>],
+    filter: &ChangeFilter<'_>,
+) -> Vec<Diagnostic> {
+    let drawings = each.iter().map(|answer| (answer.drawing(), &*answer.value.names));
+    let found = pathbuild_db::second_definitions(session.db(), drawings);
+    if found.is_empty() {
+        return Vec::new();
+    }
+    let shown = each.iter().filter(|answer| filter.contains(answer)).map(Answer::drawing);
+    let shown: HashSet<&Utf8Path> = shown.collect();
+    let found = found.iter().filter(|found| found.files.iter().any(|file| shown.contains(file)));
+    found.map(SecondDefinition::diagnostic).collect()
 }
 
 /// Leaks a value instead of dropping it: freeing a million values takes longer than process exit.
@@ -356,7 +357,8 @@ fn check_drawing(
             traces.extend(checked.trace);
         }
     }
-    (combine_result(db, names, diagnostics, reached), traces)
+    let result = combine_result(db, names, diagnostics, reached);
+    (DrawingResult { layers: NamedLayers::of(db, file), ..result }, traces)
 }
 
 /// Combines the diagnostics of a drawing's paths with those of all files that the paths reach.
@@ -371,7 +373,7 @@ fn combine_result(
     reached.sort_by(|a, b| by_place(a.path(db), b.path(db)));
     reached.dedup();
     diagnostics.extend(reached.iter().flat_map(|file| check_file(db, *file)).cloned());
-    DrawingResult { names: names.to_vec(), diagnostics }
+    DrawingResult { names: names.to_vec(), diagnostics, ..DrawingResult::default() }
 }
 
 /// Returns the inputs of a drawing's result that do not depend on its paths: the drawing itself. Empty if inputs are not traced.

@@ -4,6 +4,7 @@
 
 pub mod baseline;
 pub mod check;
+mod common_findings;
 pub mod config;
 pub mod diff;
 pub mod dropped;

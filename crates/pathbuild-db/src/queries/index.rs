@@ -32,6 +32,8 @@ pub struct FileIndex {
     diagnostics: Vec<Diagnostic>,
     /// The clamps, if any layer has some.
     keep_outs: Option<Arc<KeepOuts>>,
+    /// Whether any layer is one with finished parts.
+    has_part_layer: bool,
     /// The parts and cuts, if the settings name layers with parts and the drawing has any, or embeds paths that may.
     pub(super) parts: Option<Arc<FileParts>>,
     content: Content,
@@ -175,6 +177,16 @@ pub(super) fn keep_out_problems(db: &dyn Db, file: SourceFile) -> &[Diagnostic] 
     keep_outs_of_file(db, file).map_or(&[], |found| &found.problems)
 }
 
+/// Whether a drawing has a layer with clamps.
+pub fn has_clamp_layer(db: &dyn Db, file: SourceFile) -> bool {
+    file_index(db, file).keep_outs.is_some()
+}
+
+/// Whether a drawing has a layer with finished parts.
+pub fn has_part_layer(db: &dyn Db, file: SourceFile) -> bool {
+    file_index(db, file).has_part_layer
+}
+
 fn keep_outs_of_file(db: &dyn Db, file: SourceFile) -> Option<&KeepOuts> {
     // Most libraries have no clamps; no query is needed then.
     Settings::get(db).language(db).keep_out.as_ref()?;
@@ -197,6 +209,7 @@ impl FileIndex {
     ) -> Self {
         let names: Vec<PathName> = raw.paths.iter().map(|(raw, _)| (*raw.name).clone()).collect();
         let is_checked = Settings::get(db).language(db).part.is_some();
+        let has_part_layer = parts.is_some();
         let has_parts = parts.as_ref().is_some_and(|drawn| !drawn.parts.is_empty());
         // Without parts in its drawing, the cuts of a path matter only to projects, which query them when needed.
         let is_needed = |walked: &WalkedPath| {
@@ -224,7 +237,7 @@ impl FileIndex {
         let mut shared = Vec::with_capacity(paths.len());
         shared.extend(paths.into_iter().map(Arc::new));
         let paths = shared;
-        Self { names, paths, diagnostics, keep_outs: None, parts, content }
+        Self { names, paths, diagnostics, keep_outs: None, has_part_layer, parts, content }
     }
 
     /// Adds findings about the file's name, unless errors leave the drawing's paths unknown.
@@ -285,11 +298,12 @@ fn in_name_order(mut cuts: Vec<PathCuts>) -> Vec<PathCuts> {
 
 impl PartialEq for FileIndex {
     fn eq(&self, other: &Self) -> bool {
-        let Self { names, paths, diagnostics, keep_outs, parts, content: _ } = self;
+        let Self { names, paths, diagnostics, keep_outs, has_part_layer, parts, content: _ } = self;
         *names == other.names
             && *paths == other.paths
             && *diagnostics == other.diagnostics
             && *keep_outs == other.keep_outs
+            && *has_part_layer == other.has_part_layer
             && *parts == other.parts
     }
 }

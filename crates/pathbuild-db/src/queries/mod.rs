@@ -12,6 +12,7 @@
 //! drawing again for programs, other values of variables, and the places of findings.
 
 mod closures;
+mod definitions;
 mod embedding;
 mod index;
 mod keep_outs;
@@ -27,11 +28,12 @@ mod results;
 pub use closures::{
     Closure, Destination, Edge, MissingOption, NameLookup, ReachedPath, Trace, closure, trace,
 };
+pub use definitions::{SecondDefinition, second_definitions};
 pub use embedding::{Embedding, Outcome, embeds};
 pub use embedding::{Instance, chains, path, summary};
 pub use index::{
-    FileIndex, NameKey, PathIndex, PathSummary, content, content_hash, file_index, keep_outs, path_index,
-    path_names,
+    FileIndex, NameKey, PathIndex, PathSummary, content, content_hash, file_index, has_clamp_layer,
+    has_part_layer, keep_outs, path_index, path_names,
 };
 pub use keep_outs::{Collision, PlacedKeepOut, placed_keep_outs};
 pub use lookup::{

@@ -43,6 +43,20 @@ messages! {
         help_en: "a path's layer has a name that matches {pattern}; `path-pattern` in pathbuild.toml sets another pattern",
         help_de: "der Layer eines Pfads hat einen Namen, der {pattern} entspricht; `path-pattern` in pathbuild.toml setzt ein anderes Muster",
     }
+    /// A pattern for clamps that matches no layer of the library.
+    NO_CLAMP_LAYER: PatternWithoutLayer {
+        en: "`keep-out` ({pattern}) matches no layer in any drawing of the library, so nothing is checked for clamps",
+        de: "auf `keep-out` ({pattern}) passt kein Layer in irgendeiner Zeichnung der Bibliothek: Spannmittel werden nicht geprüft",
+        help_en: "correct the pattern, which must match the whole name of a layer, or remove the key",
+        help_de: "das Muster berichtigen, das auf den ganzen Namen eines Layers passen muss, oder den Schlüssel entfernen",
+    }
+    /// A pattern for finished parts that matches no layer of the library.
+    NO_PART_LAYER: PatternWithoutLayer {
+        en: "`part` ({pattern}) matches no layer in any drawing of the library, so no cut is compared with a finished part",
+        de: "auf `part` ({pattern}) passt kein Layer in irgendeiner Zeichnung der Bibliothek: kein Schnitt wird mit einem fertigen Teil verglichen",
+        help_en: "correct the pattern, which must match the whole name of a layer, or remove the key",
+        help_de: "das Muster berichtigen, das auf den ganzen Namen eines Layers passen muss, oder den Schlüssel entfernen",
+    }
     /// A path that the file's name contains, but not the drawing.
     PROMISED_PATH: PromisedPath {
         en: "the file is named after path {name}, but the drawing has nothing on a layer of that name",

@@ -87,7 +87,25 @@ impl Model {
             }
         }
         found.extend(self.q_projects(&numbers));
+        found.extend(self.second_definitions(&numbers));
         each_once(found)
+    }
+
+    /// PB504 for each path that two of these drawings define, if a project beside one of them finds both; at the first of them.
+    fn second_definitions(&self, checked: &[usize]) -> Vec<Finding> {
+        let paths = checked.iter().flat_map(|from| {
+            self.drawings[*from].content.paths.iter().map(move |(raw, _)| (*from, &*raw.name))
+        });
+        let second_definition = |(from, name): (usize, &PathName)| {
+            let mut defining = self.searched(from, name);
+            defining.retain(|number| checked.contains(number) && self.defines(*number, name));
+            defining.sort_by_key(|number| &self.drawings[*number].path);
+            let [first, second, ..] = defining[..] else { return None };
+            let [first, second] = [first, second].map(|number| self.drawings[number].path.as_str());
+            let words = [name.as_str(), first, second].map(str::to_owned).to_vec();
+            Some(Finding { code: "PB504".to_owned(), file: first.to_owned(), words, ..Finding::default() })
+        };
+        paths.filter_map(second_definition).collect()
     }
 
     /// The findings of checking a single path; none if the drawing does not exist.

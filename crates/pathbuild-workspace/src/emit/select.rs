@@ -95,7 +95,7 @@ impl TargetCollector<'_> {
         let mut configured = TargetPatterns::new(&self.session.workspace().settings);
         for drawing in library {
             // An unreadable drawing may contain a target, so its errors are reported.
-            let DrawingResult { names, diagnostics } = &drawing.value;
+            let DrawingResult { names, diagnostics, .. } = &drawing.value;
             self.diagnostics.extend(diagnostics.iter().filter(|found| found.is_error()).cloned());
             for name in names.iter().filter(|name| configured.matches(name.as_str())) {
                 self.add(drawing.drawing(), name);
@@ -118,7 +118,7 @@ impl TargetCollector<'_> {
         let db = self.session.db();
         let get = |file: SourceFile| find(named, file.path(db));
         for drawing in resolved.named.iter().filter_map(|file| get(*file)) {
-            let (path, DrawingResult { names, diagnostics }) = (drawing.drawing(), &drawing.value);
+            let (path, DrawingResult { names, diagnostics, .. }) = (drawing.drawing(), &drawing.value);
             self.diagnostics.extend_from_slice(diagnostics);
             match names.as_slice() {
                 [] => self.diagnostics.extend(self.session.no_path(path, names, diagnostics)),

@@ -8,7 +8,8 @@ use std::hash::Hash;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Catalogue, DirectoryFact, FileFact, FileState, Lookup, Record};
 use pathbuild_db::{
-    Database, Db, NameLookup, SourceFile, Trace, check_file, content, drawing_names, path_names,
+    Database, Db, NameLookup, SourceFile, Trace, check_file, content, drawing_names, has_clamp_layer,
+    has_part_layer, path_names,
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
 use pathbuild_files::{Clock, Stamp};
@@ -328,9 +329,32 @@ pub struct DrawingResult {
     pub names: Vec<PathName>,
     /// Diagnostics of the drawing; those of a check also include its paths and everything that they embed.
     pub diagnostics: Vec<Diagnostic>,
+    /// Whether the drawing has layers that the configuration names.
+    pub layers: NamedLayers,
+}
+
+/// Whether a drawing has layers that the configuration names.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct NamedLayers {
+    /// Whether it has a layer with clamps.
+    pub has_clamps: bool,
+    /// Whether it has a layer with finished parts.
+    pub has_parts: bool,
+}
+
+impl NamedLayers {
+    /// Returns those of a drawing.
+    pub fn of(db: &Database, file: SourceFile) -> Self {
+        Self { has_clamps: has_clamp_layer(db, file), has_parts: has_part_layer(db, file) }
+    }
 }
 
 impl DrawingResult {
+    /// Whether an error kept the drawing, or a part of it, from being read.
+    pub fn is_unread(&self) -> bool {
+        self.diagnostics.iter().any(|problem| problem.is_error() && problem.code().number() < 100)
+    }
+
     /// Returns the names and the diagnostics as slices.
     pub fn parts(&self) -> (&[PathName], &[Diagnostic]) {
         (&self.names, &self.diagnostics)
@@ -371,7 +395,7 @@ pub(crate) fn read_drawings(
         let read = |file: SourceFile| {
             let (names, diagnostics) = (path_names(db, file).to_vec(), check_file(db, file).to_vec());
             let trace = Trace { files: vec![file], lookups: Vec::new() };
-            DrawingResult { names, diagnostics }.with_inputs(vec![trace])
+            DrawingResult { names, diagnostics, layers: NamedLayers::of(db, file) }.with_inputs(vec![trace])
         };
         files.into_iter().map(read).collect()
     };
@@ -397,7 +421,7 @@ impl Session<'_> {
             self.parse_ahead(&open);
             let read = |file: SourceFile| {
                 let names = path_names(self.db(), file).to_vec();
-                (DrawingResult { names, diagnostics: Vec::new() }, Inputs::default())
+                (DrawingResult { names, ..DrawingResult::default() }, Inputs::default())
             };
             open.into_iter().map(read).collect()
         };

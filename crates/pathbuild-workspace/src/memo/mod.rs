@@ -15,7 +15,7 @@ use crate::session::{ArgumentMatches, Session};
 use crate::workspace::Workspace;
 
 use crate::memo::store::Scope;
-pub use builder::{DrawingResult, is_transient};
+pub use builder::{DrawingResult, NamedLayers, is_transient};
 pub(crate) use builder::{find, read_drawings, subject};
 use store::Store;
 pub use store::{Answer, Dependencies, FreshResult, GeneratedFile, Inputs, OutputState, hash_output};

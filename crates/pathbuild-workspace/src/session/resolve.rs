@@ -8,7 +8,9 @@ use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{Entry, EntryKind, FileKind, is_drawing, join};
-use pathbuild_db::{Db, Role, SourceFile, Target, catch_bugs, check_file, defining_files, path_names};
+use pathbuild_db::{
+    Db, Role, SecondDefinition, SourceFile, Target, catch_bugs, check_file, defining_files, path_names,
+};
 use pathbuild_diagnostic::messages::{configuration, files, outputs, outputs as messages, paths};
 use pathbuild_diagnostic::{Diagnostic, Message, Value, nearest};
 use pathbuild_path::{PathName, with_near_names};
@@ -115,7 +117,8 @@ impl Session<'_> {
                         selection.paths.push(SelectedPath { file: *file, name: spelled.clone() });
                     }
                     ([first, second, ..], ..) => {
-                        selection.problems.push(self.defined_twice(name, *first, *second));
+                        let files = [first, second].map(|file| file.path(&self.db).as_path());
+                        selection.problems.push(SecondDefinition { name, files }.diagnostic());
                     }
                     ([], Some(drawing), _) => selection.name(*drawing),
                     // A directory in the working directory, as in `check components`, if neither a path nor a drawing has that name.
@@ -166,15 +169,6 @@ impl Session<'_> {
     fn distinct(&self, files: impl Iterator<Item = SourceFile>) -> Vec<SourceFile> {
         let mut seen = FxHashSet::default();
         files.filter(|file| seen.insert(self.db.system().canonical(file.path(&self.db)))).collect()
-    }
-
-    fn defined_twice(&self, name: &PathName, first: SourceFile, second: SourceFile) -> Diagnostic {
-        let path = |file: SourceFile| file.path(&self.db).as_str();
-        Diagnostic::new(&paths::DEFINED_TWICE)
-            .quoting("name", name.as_str())
-            .quoting("first", path(first))
-            .quoting("second", path(second))
-            .in_file(first.path(&self.db))
     }
 }
 

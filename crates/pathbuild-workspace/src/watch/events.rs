@@ -58,6 +58,8 @@ pub struct FirstCheck {
     pub paths: usize,
     /// All diagnostics of the first check.
     pub diagnostics: Vec<Diagnostic>,
+    /// Those of them that belong to no single drawing.
+    pub problems: Vec<Diagnostic>,
     /// Duration of the first check.
     pub time: Duration,
 }
@@ -71,7 +73,7 @@ pub struct Update {
     pub changed: BTreeSet<Utf8PathBuf>,
     /// The changed files that no longer exist.
     pub removed: BTreeSet<Utf8PathBuf>,
-    /// Diagnostics of arguments and directories, if they have changed; they are part of `now` as well.
+    /// Diagnostics that belong to no single drawing, if they have changed; they are part of `now` as well.
     pub problems: Option<Vec<Diagnostic>>,
     /// Unchanged drawings that were checked again because of transient diagnostics, and directories that can be listed again.
     pub tried_again: BTreeSet<Utf8PathBuf>,

@@ -5,13 +5,15 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, is_drawing, join};
-use pathbuild_db::{Db, SourceFile, Trace, drawing_names};
+use pathbuild_db::{Db, SecondDefinition, SourceFile, Trace, drawing_names, second_definitions};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
 use super::events::Changes;
 use crate::Inputs;
 use crate::check::check_drawings;
+use crate::common_findings::{patterns_without_layer, unused_configurations};
+use crate::files::FILE_NAME;
 use crate::memo::{Coverage, DrawingResult, is_transient};
 use crate::session::{IGNORE_FILES, Pair, Selection, Session, is_ignore_file, q_project_pairs};
 
@@ -23,6 +25,10 @@ pub(super) struct Library<'a> {
     drawings: BTreeMap<Utf8PathBuf, DrawingResult>,
     /// Diagnostics of arguments and directories.
     problems: Vec<Diagnostic>,
+    /// Diagnostics that follow from all drawings together.
+    common_problems: Vec<Diagnostic>,
+    /// Whether drawings, paths or layers have come or gone since the common diagnostics were determined.
+    has_other_content: bool,
     q_projects: BTreeMap<[Utf8PathBuf; 2], Vec<Diagnostic>>,
     /// Each drawing that has a Q-project, with that Q-project; computed on demand.
     pairs: Option<BTreeSet<[Utf8PathBuf; 2]>>,
@@ -53,7 +59,7 @@ pub(super) struct Batch {
     pub(super) before: Vec<Diagnostic>,
     /// Current diagnostics of the drawings in this batch.
     pub(super) now: Vec<Diagnostic>,
-    /// Diagnostics of arguments and directories, if they have changed.
+    /// Diagnostics that belong to no single drawing, if they have changed.
     pub(super) problems: Option<Vec<Diagnostic>>,
 }
 
@@ -73,6 +79,8 @@ impl<'a> Library<'a> {
             inputs,
             drawings: BTreeMap::new(),
             problems: Vec::new(),
+            common_problems: Vec::new(),
+            has_other_content: true,
             q_projects: BTreeMap::new(),
             pairs: None,
             reverse: ReverseIndex::default(),
@@ -107,8 +115,20 @@ impl<'a> Library<'a> {
         let db = self.session.db();
         self.open = drawings.into_iter().map(|file| (file.path(db).clone(), file)).collect();
         self.unfollowed.extend(self.open.keys().cloned().chain(ignore_files(&selection)));
-        self.problems.clone_from(&selection.problems);
-        Batch { now: selection.problems, ..Batch::default() }
+        self.problems = self.problems_of(selection);
+        Batch { now: self.problems.clone(), ..Batch::default() }
+    }
+
+    /// Returns the diagnostics of arguments and directories.
+    fn problems_of(&self, selection: Selection) -> Vec<Diagnostic> {
+        let mut problems = selection.problems;
+        problems.extend(unused_configurations(&self.session, &selection.below));
+        problems
+    }
+
+    /// Returns the diagnostics that belong to no single drawing.
+    pub(super) fn all_problems(&self) -> Vec<Diagnostic> {
+        [&*self.problems, &*self.common_problems].concat()
     }
 
     /// Applies changes to the database and marks the affected drawings to be checked.
@@ -121,7 +141,7 @@ impl<'a> Library<'a> {
             concerned.extend(self.reverse.of_file(self.session.db().file(path)));
             self.session.touch_file(path);
         }
-        is_other_library |= changes.paths.iter().any(|path| path.file_name().is_some_and(is_ignore_file));
+        is_other_library |= changes.paths.iter().any(|path| self.may_be_other_library(path));
         if is_other_library {
             self.find_drawings(&mut concerned, &mut update);
         }
@@ -218,6 +238,15 @@ impl<'a> Library<'a> {
         self.drawings.contains_key(drawing) || self.open.contains_key(drawing)
     }
 
+    /// Whether a change of this file or directory may decide which drawings or configurations there are, even if no drawing changed.
+    fn may_be_other_library(&self, path: &Utf8Path) -> bool {
+        let decides = |name: &str| is_ignore_file(name) || name == FILE_NAME;
+        let mut named = self.problems.iter().filter_map(|problem| problem.file.as_ref());
+        path.file_name().is_some_and(decides)
+            || self.session.is_directory(path)
+            || named.any(|file| file.starts_with(path))
+    }
+
     /// Returns the files that the changes affect: changed files, and the files in changed directories.
     fn changed_files(&self, changes: &Changes) -> BTreeSet<Utf8PathBuf> {
         let db = self.session.db();
@@ -311,14 +340,34 @@ impl<'a> Library<'a> {
         for (drawing, result) in gone {
             self.reverse.remove(db.file(&drawing));
             self.pairs = None;
+            self.has_other_content = true;
             update.before.extend(result.diagnostics);
             update.changed.insert(drawing.clone());
             update.removed.insert(drawing);
         }
-        if self.problems != selection.problems {
-            update.now.extend_from_slice(&selection.problems);
-            update.problems = Some(selection.problems.clone());
-            update.before.extend(std::mem::replace(&mut self.problems, selection.problems));
+        let problems = self.problems_of(selection);
+        if self.problems != problems {
+            update.now.extend_from_slice(&problems);
+            update.before.extend(std::mem::replace(&mut self.problems, problems));
+            update.problems = Some(self.all_problems());
+        }
+    }
+
+    /// Determines the diagnostics that follow from all drawings together, once all are checked.
+    pub(super) fn check_common(&mut self, update: &mut Batch) {
+        if self.has_backlog() || !std::mem::take(&mut self.has_other_content) {
+            return;
+        }
+        let drawings = self.drawings.iter().map(|(file, result)| (&**file, &*result.names));
+        let found = second_definitions(self.session.db(), drawings);
+        let mut found: Vec<Diagnostic> = found.iter().map(SecondDefinition::diagnostic).collect();
+        if self.inputs.inputs.is_empty() {
+            found.extend(patterns_without_layer(&self.session, self.drawings.values()));
+        }
+        if self.common_problems != found {
+            update.now.extend_from_slice(&found);
+            update.before.extend(std::mem::replace(&mut self.common_problems, found));
+            update.problems = Some(self.all_problems());
         }
     }
 
@@ -337,7 +386,10 @@ impl<'a> Library<'a> {
             );
             self.reverse.set(*file, traces);
             update.now.extend_from_slice(&result.diagnostics);
-            let before = self.drawings.insert(file.path(self.session.db()).clone(), result);
+            let path = file.path(self.session.db());
+            self.has_other_content |=
+                self.drawings.get(path).is_none_or(|before| has_other_content(before, &result));
+            let before = self.drawings.insert(path.clone(), result);
             if before.is_none() {
                 self.pairs = None;
             }
@@ -373,6 +425,12 @@ impl<'a> Library<'a> {
         update.before.extend(gone.into_iter().flat_map(|(_, found)| found));
         self.pairs = Some(pairs);
     }
+}
+
+/// Whether the common diagnostics may change because of a drawing's new result.
+fn has_other_content(before: &DrawingResult, now: &DrawingResult) -> bool {
+    let content = |result: &DrawingResult| (result.layers, result.is_unread());
+    before.names != now.names || content(before) != content(now)
 }
 
 /// Returns the directory that a diagnostic is about, in which `.` stands for the working directory.

@@ -95,6 +95,7 @@ impl WatchLoop<'_> {
             self.follow_links();
             self.tell(&portion);
         }
+        self.library.check_common(&mut found);
         let written = self.writer.begin(self.library.session_mut(), &found.checked_files);
         let programs = self.writer.written(self.library.session(), &found.checked_files);
         if !programs.is_empty() {
@@ -104,7 +105,8 @@ impl WatchLoop<'_> {
         let (drawings, paths) = self.library.counts();
         let diagnostics = self.library.session().with_hints([found.now, written].concat());
         self.tally.replace(&[], &diagnostics);
-        self.listener.first_check_done(&FirstCheck { drawings, paths, diagnostics, time });
+        let problems = self.library.all_problems();
+        self.listener.first_check_done(&FirstCheck { drawings, paths, diagnostics, problems, time });
     }
 
     fn update(&mut self, changes: &Changes) {
@@ -141,6 +143,7 @@ impl WatchLoop<'_> {
                 break;
             }
         }
+        self.library.check_common(&mut found);
         self.library.postpone_rest(&mut found);
         let time = begun.elapsed();
         let library::Batch { changed, checked_files, open, removed, tried_again, before, now, problems } =

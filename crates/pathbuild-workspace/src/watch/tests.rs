@@ -53,6 +53,11 @@ impl Place {
         self.system.put(file, sheet(&DRAWING.replace("1001.1P", name)).unwrap().to_dxf());
     }
 
+    /// Draws path 1001.1P in a file of another name.
+    fn draw_again(&self, file: &str) {
+        self.system.put(file, sheet(DRAWING).unwrap().to_dxf());
+    }
+
     fn remove(&self, file: &str) {
         self.system.remove(Utf8Path::new(file)).unwrap();
     }
@@ -71,6 +76,54 @@ fn check_all(library: &mut Library<'_>, found: &mut Batch) {
     while library.has_backlog() {
         library.check_portion(64, found);
     }
+    library.check_common(found);
+}
+
+/// Applies changes, checks what they affect, and returns the codes of the findings before and now.
+fn update(library: &mut Library<'_>, paths: &[&str]) -> [Vec<Code>; 2] {
+    let mut found = library.apply(&changed(paths));
+    check_all(library, &mut found);
+    if let Some(problems) = &found.problems {
+        assert_eq!(*problems, library.all_problems());
+    }
+    [codes(&found.before), codes(&found.now)]
+}
+
+/// A second definition comes and goes with its drawing, or with its name in the drawing.
+#[test]
+fn a_second_definition_of_a_path_is_noticed() {
+    let place = Place::new();
+    let mut library = place.watched();
+    let twice = vec![Code::PathDefinedTwice];
+    let other = ["lib/1001.dxf"];
+    place.draw_again(other[0]);
+    assert_eq!(update(&mut library, &other), [vec![], twice.clone()]);
+    assert_eq!(update(&mut library, &other), [vec![], vec![]], "nothing has changed");
+    place.draw(other[0]);
+    assert_eq!(update(&mut library, &other)[0], twice);
+    place.draw_again(other[0]);
+    assert_eq!(update(&mut library, &other)[1], twice);
+    place.remove(other[0]);
+    assert_eq!(update(&mut library, &other), [twice, vec![]]);
+    place.draw_again("lib/apart/1001.dxf");
+    assert_eq!(update(&mut library, &["lib/apart/1001.dxf"]), [vec![], vec![]], "nothing finds both");
+}
+
+/// A configuration below the library does not apply, and is reported for as long as it is there.
+#[test]
+fn a_configuration_without_effect_is_noticed() {
+    let place = Place::new();
+    let mut library = place.watched();
+    place.draw("lib/sub/1002.1P.dxf");
+    assert_eq!(update(&mut library, &["lib/sub"]), [vec![], vec![]]);
+    let unused = vec![Code::UnusedConfiguration];
+    let file = ["lib/sub/pathbuild.toml"];
+    place.system.put(file[0], "feed = 99\n");
+    assert_eq!(update(&mut library, &file), [vec![], unused.clone()]);
+    place.remove(file[0]);
+    assert_eq!(update(&mut library, &["lib/sub"]), [unused, vec![]], "only the directory is reported");
+    place.system.put("lib/sub/pathbuild.txt", "feed = 99\n");
+    assert_eq!(update(&mut library, &["lib/sub/pathbuild.txt"]), [vec![], vec![]]);
 }
 
 fn changed(paths: &[&str]) -> Changes {

@@ -117,7 +117,7 @@ impl Listener for WatchPrinter<'_> {
         if let Some(page) = &self.page {
             page.first_check_done(beginning);
         }
-        let FirstCheck { drawings, paths, diagnostics, time } = beginning;
+        let FirstCheck { drawings, paths, diagnostics, time, .. } = beginning;
         let context = self.context;
         let findings = context.findings(diagnostics.clone());
         context.show(&findings);

@@ -117,8 +117,12 @@ impl Listener for Page<'_> {
         });
     }
 
-    fn first_check_done(&self, _: &FirstCheck) {
-        self.hub.publish(|state, _| state.is_complete = true);
+    fn first_check_done(&self, check: &FirstCheck) {
+        let problems = self.context.findings(check.problems.clone());
+        self.hub.publish(|state, _| {
+            state.set_problems(&problems.diagnostics);
+            state.is_complete = true;
+        });
     }
 
     fn batch_done(&self, Update { removed, problems, .. }: &Update) {

@@ -1,0 +1,91 @@
+//! Finds paths that two drawings define, among drawings whose paths are known. No directory is listed for it. (book: language/embedding)
+
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::paths as messages;
+use pathbuild_path::{PathKey, PathName};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::database::Db;
+use crate::inputs::Settings;
+
+/// A path that two drawings define.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SecondDefinition<'a> {
+    /// Name of the path, as the first drawing spells it.
+    pub name: &'a PathName,
+    /// Paths of the two drawings.
+    pub files: [&'a Utf8Path; 2],
+}
+
+impl SecondDefinition<'_> {
+    /// Returns PB504 at the first drawing.
+    pub fn diagnostic(&self) -> Diagnostic {
+        let [first, second] = self.files;
+        Diagnostic::new(&messages::DEFINED_TWICE)
+            .quoting("name", self.name.as_str())
+            .quoting("first", first.as_str())
+            .quoting("second", second.as_str())
+            .in_file(first)
+    }
+}
+
+/// Returns the paths that two of these drawings define, if a project beside one of them would find both by their names. Each drawing comes with the
+/// names of its paths.
+pub fn second_definitions<'a>(
+    db: &dyn Db,
+    drawings: impl IntoIterator<Item = (&'a Utf8Path, &'a [PathName])>,
+) -> Vec<SecondDefinition<'a>> {
+    let mut first: FxHashMap<&PathName, &Utf8Path> = FxHashMap::default();
+    let mut repeated: BTreeMap<&PathName, BTreeMap<&str, &PathName>> = BTreeMap::new();
+    for (file, names) in drawings {
+        for name in names {
+            match first.entry(name) {
+                Entry::Vacant(entry) => _ = entry.insert(file),
+                Entry::Occupied(entry) => {
+                    let files =
+                        repeated.entry(name).or_insert_with(|| [(entry.get().as_str(), *entry.key())].into());
+                    files.insert(file.as_str(), name);
+                }
+            }
+        }
+    }
+    let found: BTreeSet<_> = repeated.into_values().flat_map(|files| ambiguous(db, files)).collect();
+    found.into_iter().collect()
+}
+
+/// Returns the pairs that a project beside one of these drawings would find, all of which define the same path.
+fn ambiguous<'a>(
+    db: &dyn Db,
+    mut files: BTreeMap<&'a str, &'a PathName>,
+) -> impl Iterator<Item = SecondDefinition<'a>> {
+    files.retain(|file, name| may_define(db, Utf8Path::new(*file), name));
+    let directories: BTreeSet<&Utf8Path> = files.keys().map(|file| directory(file)).collect();
+    directories.into_iter().filter_map(move |from| {
+        let search = Settings::get(db).search(db);
+        let is_searched = |at: &Utf8Path| at == from || search.iter().any(|searched| searched == at);
+        // A file that is reached under two names counts once.
+        let mut seen = FxHashSet::default();
+        let mut found = files
+            .iter()
+            .filter(|(file, _)| is_searched(directory(file)))
+            .filter(|(file, _)| seen.insert(db.system().canonical(Utf8Path::new(*file))));
+        let ((first, name), (second, _)) = (found.next()?, found.next()?);
+        Some(SecondDefinition { name, files: [first, second].map(|file| Utf8Path::new(*file)) })
+    })
+}
+
+/// Whether the name of a drawing's file says that it may define a path.
+fn may_define(db: &dyn Db, file: &Utf8Path, name: &PathName) -> bool {
+    let settings = Settings::get(db);
+    let Some(key) = PathKey::new(name.as_str(), &settings.language(db).path_pattern) else { return false };
+    let ranges = settings.file_pattern(db).ranges(file.file_stem().unwrap_or_default());
+    ranges.iter().any(|range| range.holds(&key))
+}
+
+fn directory(file: &str) -> &Utf8Path {
+    Utf8Path::new(file).parent().unwrap_or(Utf8Path::new(""))
+}
