@@ -569,21 +569,21 @@ messages! {
         help_en: "write F again in the new unit",
         help_de: "F in der neuen Einheit noch einmal angeben",
     }
-    /// A move with G52 or G92 that was stated before a change of the unit, on a control that may keep the numbers.
+    /// A move with a G52 or G92 that was stated before a change of the unit, on a control that may keep its numbers.
     OFFSET_IN_OTHER_UNIT: UnitChanged {
         en: "this move counts from the offset of line {line}, which is in {unit}: after the change of the unit, {dialect} may take its numbers for {other}",
         de: "diese Bewegung zählt ab der Verschiebung aus Zeile {line}, die in {unit} angegeben ist: nach dem Wechsel der Einheit kann {dialect} die Zahlen für {other} nehmen",
         help_en: "cancel the offset before the change of the unit, and set it again after it",
         help_de: "die Verschiebung vor dem Wechsel der Einheit aufheben und danach neu setzen",
     }
-    /// A hole whose R, Z or Q was stated before a change of the unit.
+    /// A hole with an R, Z or Q that was stated before a change of the unit.
     CYCLE_IN_OTHER_UNIT: UnitChanged {
         en: "this hole takes {word} from line {line}, in {unit}: after the change of the unit, controls such as LinuxCNC take the number for {other}",
         de: "diese Bohrung nimmt {word} aus Zeile {line}, in {unit}: nach dem Wechsel der Einheit nehmen Steuerungen wie LinuxCNC die Zahl für {other}",
         help_en: "write R, Z and Q again in the new unit",
         help_de: "R, Z und Q in der neuen Einheit noch einmal angeben",
     }
-    /// G20 and G21 in one program, for a control whose unit is a setting of the machine.
+    /// G20 and G21 in one program, for a control on which the unit is a setting of the machine.
     UNIT_IS_SETTING: UnitChanged {
         en: "{word} contradicts the unit before it: {dialect} has one unit, that of Setting 9, and stops with an alarm",
         de: "{word} widerspricht der Einheit davor: {dialect} hat nur eine Einheit, die aus Setting 9, und hält mit einem Alarm an",
@@ -597,7 +597,7 @@ messages! {
         help_en: "write G80 before the tool change, and the cycle again with the R and Z of the new tool if it is to drill",
         help_de: "vor dem Wechsel G80 schreiben, und den Zyklus mit R und Z des neuen Werkzeugs neu, falls es bohren soll",
     }
-    /// G53 with a low Z, over a known place.
+    /// G53 with a low Z, while the tool is at a known position in the plane and thus may be over the part.
     LOW_MACHINE_HEIGHT: UnknownOffset {
         en: "only the machine knows whether Z {z} of G53 is above the material",
         de: "nur die Maschine weiß, ob Z {z} von G53 über dem Material liegt",

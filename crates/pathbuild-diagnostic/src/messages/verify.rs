@@ -519,21 +519,21 @@ messages! {
         help_en: "raise the cutter before M6",
         help_de: "den Fräser vor M6 anheben",
     }
-    /// A stop (M0, M1, M60) below the surface.
+    /// A stop for the operator (M0, M1, M60) below the surface of the material.
     STOP_AT_DEPTH: StopAtDepth {
         en: "the program stops for the operator at Z {z}, below the material's surface at {surface}",
         de: "das Programm hält auf Z {z} für den Bediener an, unter der Oberfläche des Materials bei {surface}",
         help_en: "raise the cutter before the stop",
         help_de: "den Fräser vor dem Halt anheben",
     }
-    /// A stop at the depth of the cut before it, where the surface is unknown.
+    /// A stop at the depth of the previous cut, while the surface of the material is unknown.
     STOP_AT_CUT: StopAtDepth {
         en: "the program stops for the operator at Z {z}, as deep as the cut before: the cutter is probably in the material",
         de: "das Programm hält auf Z {z} für den Bediener an, so tief wie der Schnitt davor: der Fräser steht wohl im Material",
         help_en: "raise the cutter before the stop",
         help_de: "den Fräser vor dem Halt anheben",
     }
-    /// A tool change at the depth of the cut before it, where the surface is unknown.
+    /// A tool change at the depth of the previous cut, while the surface of the material is unknown.
     CHANGE_AT_CUT: ToolChangeAtDepth {
         en: "the tool is changed at Z {z}, as deep as the cut before: the cutter is probably in the material",
         de: "das Werkzeug wird auf Z {z} gewechselt, so tief wie der Schnitt davor: der Fräser steht wohl im Material",

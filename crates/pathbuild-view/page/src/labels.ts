@@ -11,7 +11,7 @@ export interface Spot {
 /** Left, top, right and bottom side of a rectangle, in px. */
 type Box = [number, number, number, number];
 
-/** Classes of labels in order of priority. Labels of the first ones are shown even if there is no room. */
+/** Classes of labels in order of priority. Labels of the first `ALWAYS` classes are shown even if there is no space. */
 const RANKS = ["finding", "cross", "zero", "probe", "clamp", "text", "order", "name"];
 const ALWAYS = 5;
 

@@ -13,7 +13,7 @@ const scale = $("scale");
 const depths = $("depths");
 const items = $("meanings");
 
-/** The things besides cuts that the picture shows. */
+/** The kinds of things that the picture shows in addition to cuts. */
 export interface Shown {
   rapids: boolean;
   stock: boolean;

@@ -6,7 +6,7 @@ import { live } from "./live.js";
 import { DroppedProgram, isProgram } from "./programs.js";
 import { show } from "./viewer.js";
 
-/** Programs can be dropped or picked; drawings are those of the library. */
+/** Opens programs that the user drops or picks. Dropped drawings are ignored: the page shows those of the library. */
 function takePrograms(open: (program: DroppedProgram) => void): void {
   const take = async (given: ReturnType<typeof picked>) => {
     const { isFolder, files } = await given;

@@ -45,7 +45,7 @@ export interface LibraryNews {
   halted: string | null;
   problems: Finding[];
   statistics: Statistics | null;
-  /** Changed drawings. A drawing whose `rows` are `null` was removed. */
+  /** Changed drawings. If `rows` is `null`, the drawing was removed. */
   drawings: { file: string; rows: LibraryRow[] | null }[];
   /** Whether there are more drawings than requested. */
   more: boolean;

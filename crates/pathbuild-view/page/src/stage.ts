@@ -17,7 +17,7 @@ import { StockPicture } from "./stock/picture.js";
 import { Stock } from "./stock/stock.js";
 import { wayUpTo } from "./timeline.js";
 
-/** Lines of the picture, of which a given number is drawn. */
+/** Lines of the picture. Only the first ones are drawn, up to a given number. */
 interface Strokes {
   object: THREE.Object3D;
   draw(count: number): void;
@@ -395,7 +395,7 @@ export class Stage {
     return kept;
   }
 
-  /** Creates the lines of pending cuts: faint, and behind all completed ones. Very many are part of the picture of the cuts instead. */
+  /** Creates the lines of pending cuts: faint, and behind all completed ones. Very many lines become part of the picture of the cuts instead. */
   private strokesAhead(pieces: Pieces): Strokes {
     const lines = this.thin(pieces.step.length > MOST_THICK ? [] : pieces.points, hex("ahead"));
     lines.material.depthTest = lines.material.depthWrite = false;

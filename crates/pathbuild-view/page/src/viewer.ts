@@ -161,7 +161,7 @@ function number(): void {
   linesOf = null;
 }
 
-/** The listed text of a path. */
+/** Returns the listed text of a path. */
 function listed(path: Path | undefined): string {
   return (isNative ? path?.native?.gcode : undefined) ?? path?.gcode ?? "";
 }
@@ -183,7 +183,7 @@ export function hide(): void {
   if (frame) play();
 }
 
-/** Identifies a step by its element and move, in a form that survives an edit. */
+/** The path and the element of a step, and the number of earlier steps on that element. The step is found again by them after an edit. */
 interface Mark {
   path: string;
   handle: string;
@@ -239,7 +239,7 @@ function start(keepsView: boolean): void {
   else stage?.fit(space);
 }
 
-/** The values entered where the program states none. */
+/** Returns the values to assume: those that the user entered, and the program's surface if none was entered. */
 function assumed(): Assumed {
   const typed = (id: string) => $<HTMLInputElement>(id).valueAsNumber;
   const [tool, thickness] = [typed("assumedTool"), typed("assumedThickness")];
@@ -330,7 +330,7 @@ function mark(index: number | null): void {
   if (row && $<HTMLDetailsElement>("work").open) row.scrollIntoView({ block: "nearest" });
 }
 
-/** The last operation that begins at or before a move, unless it has ended. */
+/** Returns the index of the operation that a move belongs to; `null` if the move is between operations. */
 function operationAt(step: number): number | null {
   let [low, high] = [0, work.length];
   while (low < high) {
@@ -406,7 +406,7 @@ function spots(): void {
   stage?.setSpots([...everyNth(all.filter(isNumber), MOST_SPOTS - others.length), ...others]);
 }
 
-/** At most so many of these, evenly distributed. */
+/** Returns at most `most` of the elements, evenly distributed. */
 function everyNth<T>(all: T[], most: number): T[] {
   const step = Math.ceil(all.length / most);
   return all.filter((_, index) => most > 0 && index % step === 0);
@@ -458,7 +458,7 @@ function coordinates(place: (number | null)[], format: (value: number) => string
   return place.flatMap((value, axis) => (value === null ? [] : [`${"XYZ"[axis]}${format(value)}`])).join(" ");
 }
 
-/** The current line of G-code. */
+/** Returns the current line of G-code; `null` if the step has no line or nothing is done yet. */
 function current(): number | null {
   return share > 0 ? lineOf[count] : count === 0 ? null : lineOf[count - 1];
 }
@@ -567,7 +567,7 @@ const TOTALS = { milling: "mill", drilling: "drilling", sweeps: "sweep" } as con
 
 const extents = new WeakMap<Path, string>();
 
-/** The extent of a program's cuts; slow to compute for a long program. */
+/** Formats the extent of a program's cuts. It is stored, because computing it is slow for a long program. */
 function extent(path: Path): string {
   const known = extents.get(path);
   if (known !== undefined) return known;
