@@ -58,45 +58,45 @@ pub(crate) use words;
 words! {
     /// Text for an empty list.
     NONE: "none", "keine";
-    /// The text of a start marker, which gives the path's own parameters.
+    /// Name of the text of a start marker, which gives the path's own parameters.
     PATH_START: "a path start", "ein Pfadanfang";
-    /// A CONTINUOUS line or arc.
+    /// Name of a CONTINUOUS line or arc.
     MILLING_SEGMENT: "a milling segment", "ein Frässegment";
-    /// A DIVIDE line or arc.
+    /// Name of a DIVIDE line or arc.
     MARKING_SEGMENT: "a marking segment", "ein Markierungssegment";
-    /// A BORDER or CENTER line or arc.
+    /// Name of a BORDER or CENTER line or arc.
     SUPPORT_SEGMENT: "a segment with support bars", "ein Segment mit Stützstegen";
-    /// A DASHED line or arc.
+    /// Name of a DASHED line or arc.
     SWEEP: "a sweep", "eine Leerfahrt";
-    /// A circle of the cutter's diameter.
+    /// Name of a circle of the cutter's diameter.
     DRILLED_HOLE: "a drilled hole", "ein Bohrloch";
-    /// A hole to marking depth.
+    /// Name of a hole to marking depth.
     DRILLED_MARK: "a drilled mark", "eine Bohrmarkierung";
-    /// A circle larger than the cutter.
+    /// Name of a circle larger than the cutter.
     HELICAL_CIRCLE: "a helical circle", "ein Helixkreis";
-    /// A helical circle to marking depth.
+    /// Name of a helical circle to marking depth.
     HELICAL_MARK: "a helical mark", "eine Helixmarkierung";
-    /// A helical circle with support bars.
+    /// Name of a helical circle with support bars.
     HELICAL_SUPPORT: "a helical circle with support bars", "ein Helixkreis mit Stützstegen";
-    /// A circle that may be a hole or a helical circle.
+    /// Name of a circle that may be a hole or a helical circle.
     CIRCLE: "a circle", "ein Kreis";
-    /// A DASHDOT line or arc.
+    /// Name of a DASHDOT line or arc.
     SUBPATH: "a subpath", "ein Unterpfad";
-    /// A PHANTOM circle of 6 mm.
+    /// Name of a PHANTOM circle of 6 mm.
     PROBE: "a Z-probe", "eine Z-Probe";
-    /// An element of any kind.
+    /// Name of an element of any kind.
     ELEMENT: "an element", "ein Element";
-    /// A line, whatever its meaning.
+    /// Name of a line, whatever its meaning.
     LINE: "a line", "eine Linie";
-    /// An arc, whatever its meaning.
+    /// Name of an arc, whatever its meaning.
     ARC: "an arc", "ein Bogen";
-    /// A move with G00.
+    /// Name of a move with G00.
     RAPID_MOVE: "rapid move", "Eilgang";
-    /// A move straight down with G01.
+    /// Name of a move straight down with G01.
     PLUNGE: "plunge", "Eintauchen";
-    /// A move with G01, G02 or G03.
+    /// Name of a move with G01, G02 or G03.
     CUT: "cut", "Schnitt";
-    /// A move with G38.2 or G31.
+    /// Name of a move with G38.2 or G31.
     PROBING_MOVE: "probing move", "Antastbewegung";
     /// Source of a value: the element's own text.
     OWN_TEXT: "own text", "eigener Text";

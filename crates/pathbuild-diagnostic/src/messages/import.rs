@@ -15,7 +15,7 @@ messages! {
         help_en: "export the settings again, as text",
         help_de: "die Einstellungen noch einmal als Text exportieren",
     }
-    /// A file with a syntax error.
+    /// A description with a syntax error.
     BROKEN_DESCRIPTION: UnreadableDescription {
         en: "the file is broken here: {reason}",
         de: "die Datei ist hier fehlerhaft: {reason}",

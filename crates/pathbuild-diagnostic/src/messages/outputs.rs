@@ -15,7 +15,7 @@ messages! {
         help_en: "name one of them",
         help_de: "einen davon nennen",
     }
-    /// A drawing without a path.
+    /// A drawing in which no layer has the name of a path.
     NO_PATH: NoPath {
         en: "the drawing contains no path",
         de: "die Zeichnung enthält keinen Pfad",

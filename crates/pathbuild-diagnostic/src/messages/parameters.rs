@@ -50,7 +50,7 @@ messages! {
         help_en: "letters are upper case: write \"{text}\"",
         help_de: "Buchstaben werden groß geschrieben: \"{text}\"",
     }
-    /// Parameters separated by commas.
+    /// A text with commas between its parameters, where spaces are required.
     COMMAS: UnknownParameter {
         en: "parameters are separated by commas here",
         de: "hier sind Parameter durch Kommas getrennt",
@@ -64,7 +64,7 @@ messages! {
         help_en: "move a remark to a layer without a path; Q puts a comment into the program",
         help_de: "eine Bemerkung auf einen Layer legen, der kein Pfadlayer ist; mit Q kommt ein Kommentar ins Programm",
     }
-    /// A word among parameters.
+    /// A word that is not a parameter, among parameters.
     WORD: UnknownParameter {
         en: "\"{word}\" is not a parameter: {element} accepts {known}",
         de: "\"{word}\" ist kein Parameter: {element} kennt {known}",
@@ -148,7 +148,7 @@ messages! {
         help_en: "remove it: {letter} has no effect here; line type CONTINUOUS goes down to B, DIVIDE to D",
         help_de: "entfernen: {letter} hat hier keine Wirkung; der Linientyp CONTINUOUS geht bis B, DIVIDE bis D",
     }
-    /// A value that must be positive.
+    /// A parameter that must be positive, with a value of 0 or less.
     NOT_POSITIVE: ParameterOutOfRange {
         en: "{letter} is {value}, but must be greater than 0",
         de: "{letter} ist {value}, muss aber größer als 0 sein",
@@ -162,7 +162,7 @@ messages! {
         help_en: "write a feed in mm/min, for example {example}",
         help_de: "einen Vorschub in mm/min schreiben, zum Beispiel {example}",
     }
-    /// Joined paths with different M.
+    /// Joined paths with different materials (M).
     JOINED_MATERIAL: DoubtfulValue {
         en: "M is {material} here, but {other} in path {path} of the same program",
         de: "M ist hier {material}, in Pfad {path} desselben Programms aber {other}",
@@ -176,14 +176,14 @@ messages! {
         help_en: "name each path once",
         help_de: "jeden Pfad nur einmal nennen",
     }
-    /// Joined paths with different T.
+    /// Joined paths with different thicknesses (T).
     JOINED_THICKNESS: DoubtfulValue {
         en: "T is {thickness} here, but {other} in path {path} of the same program: rapid moves of one may run through material of the other",
         de: "T ist hier {thickness}, in Pfad {path} desselben Programms aber {other}: Eilgänge des einen können durch Material des anderen führen",
         help_en: "join only paths whose plates do not overlap on the table, or give both the same T",
         help_de: "nur Pfade verbinden, deren Platten auf dem Tisch nicht übereinanderliegen, oder beiden dasselbe T geben",
     }
-    /// A bottom far below the plate.
+    /// A bottom (B) far below the plate.
     BELOW_PLATE: DoubtfulValue {
         en: "B is {value}: {depth} mm below the plate",
         de: "B ist {value}: {depth} mm unter der Platte",
@@ -330,7 +330,7 @@ messages! {
         help_en: "write digits with at most one decimal point or comma, and a sign if needed, for example {letter}-0.3",
         help_de: "Ziffern mit höchstens einem Dezimalpunkt oder -komma schreiben, wenn nötig mit Vorzeichen, zum Beispiel {letter}-0.3",
     }
-    /// A number with a unit.
+    /// A number that is followed by a unit, such as `O3mm`.
     NUMBER_WITH_UNIT: NotANumber {
         en: "\"{letter}{value}\" is not a number",
         de: "\"{letter}{value}\" ist keine Zahl",

@@ -50,7 +50,7 @@ messages! {
         help_en: "draw parts of its contour with support bars (BORDER), or set part-held = \"otherwise\" if tape or vacuum holds it",
         help_de: "Teile der Kontur mit Stützstegen (BORDER) zeichnen oder part-held = \"otherwise\" setzen, wenn Klebeband oder Vakuum es hält",
     }
-    /// A part that only its own path leaves a hold.
+    /// A part that is held after the cuts of its own path, but not after those of another one.
     SEVERED_PART: LoosePart {
         en: "with this cut, nothing holds the part of path {other} whose outline begins at {place}: it meets the cuts between the support bars",
         de: "mit diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss bei {place} beginnt: Er trifft auf die Schnitte zwischen den Stützstegen",
