@@ -1,4 +1,4 @@
-//! Messages about pathbuild.toml and the values of options. (PB003; book: reference/configuration)
+//! Messages about pathbuild.toml and the values of options. (PB003, PB526, PB610; book: reference/configuration)
 
 use crate::words::words;
 

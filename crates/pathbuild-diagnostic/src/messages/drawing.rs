@@ -1,4 +1,4 @@
-//! Messages about reading drawings as DXF, and about their elements. (PB002, PB007 to PB121)
+//! Messages about reading drawings as DXF, and about their elements. (PB002, PB007, PB008, PB101 to PB121)
 
 messages! {
     /// A path without a start marker.

@@ -1,4 +1,4 @@
-//! Messages about files: reading, writing, limits. (PB001 to PB008, PB113)
+//! Messages about files: reading, writing, limits. (PB001 to PB006, PB113)
 
 messages! {
     /// A file that the system refuses to open or read.

@@ -1,5 +1,5 @@
 //! Messages about reading and interpreting G-code. Those about verifying it are in the module `verify` and are exported here as well.
-//! (PB701 to PB779; book: program/reading)
+//! (PB701 to PB738, PB773 to PB789; book: program/reading)
 //!
 //! `{dialect}` is the name of the dialect in which the file is read.
 

@@ -1,4 +1,4 @@
-//! Messages about output files and Q-projects. (PB512 to PB524)
+//! Messages about output files and Q-projects. (PB512 to PB527)
 
 messages! {
     /// A drawing with several paths where one is needed.

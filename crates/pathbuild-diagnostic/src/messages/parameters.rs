@@ -1,4 +1,4 @@
-//! Messages about parameters and variables. (PB201 to PB305; book: language/letters, language/variables)
+//! Messages about parameters and variables. (PB201 to PB212, PB301 to PB305, PB790; book: language/letters, language/variables)
 
 messages! {
     /// A required value that is neither given nor inherited.

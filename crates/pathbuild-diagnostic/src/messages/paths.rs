@@ -1,4 +1,4 @@
-//! Messages about the segments of a path in milling order, and about the paths that it embeds. (PB401 to PB517)
+//! Messages about the segments of a path in milling order, and about the paths that it embeds. (PB401 to PB511, PB525)
 
 messages! {
     /// A dead end without a turn marker.

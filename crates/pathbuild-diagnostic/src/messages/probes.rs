@@ -1,4 +1,4 @@
-//! Messages about Z-probes. (PB601 to PB608)
+//! Messages about Z-probes. (PB601 to PB609)
 
 messages! {
     /// A malformed line in a file of measured values.

@@ -1,4 +1,4 @@
-//! Messages about verifying G-code. (PB739 to PB781; book: program/reading)
+//! Messages about verifying G-code. (PB739 to PB791; book: program/reading)
 
 messages! {
     /// `verify --against`: no T word selects the tool before the first cut.
