@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use crate::support::{Place, Run};
 use camino::Utf8PathBuf;
 use pathbuild_testkit::sheet;
-use pathbuild_workspace::session::{by_name, by_place};
+use pathbuild_workspace::session::{compare_names, compare_paths};
 
 const CONFIGURATION: &str = "library = [\"library\"]\nsearch = [\"library/parts\", \"spare\"]\n";
 
@@ -483,7 +483,7 @@ fn paths_are_ordered_part_by_part() {
     paths.sort();
     for (index, a) in paths.iter().enumerate() {
         for (other, b) in paths.iter().enumerate() {
-            assert_eq!(by_place(a, b), index.cmp(&other), "{a} {b}");
+            assert_eq!(compare_paths(a, b), index.cmp(&other), "{a} {b}");
         }
     }
 }
@@ -508,7 +508,7 @@ fn names_are_ordered_as_texts() {
     names.sort_unstable();
     for (index, a) in names.iter().enumerate() {
         for (other, b) in names.iter().enumerate() {
-            assert_eq!(by_name(a, b), index.cmp(&other), "{a} {b}");
+            assert_eq!(compare_names(a, b), index.cmp(&other), "{a} {b}");
         }
     }
 }

@@ -11,8 +11,8 @@ use pathbuild_path::PathName;
 use pathbuild_workspace::check;
 use pathbuild_workspace::emit::{self, SceneReport, ShownText, State, Task};
 use pathbuild_workspace::list;
-use pathbuild_workspace::posting::{PostArguments, PostProcessor};
-use pathbuild_workspace::session::{NamedPaths, NotOnePath, Session, several_paths};
+use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
+use pathbuild_workspace::session::{NamedPaths, NotOnePath, Session, several_paths_error};
 use pathbuild_workspace::{Inputs, Workspace, verify, watch};
 
 use crate::options::Source;
@@ -322,7 +322,7 @@ fn serve(
 
 /// Opens a session that caches results if the workspace does.
 fn new_session(workspace: &Workspace) -> Session<'_> {
-    if workspace.keeps_results() { Session::traced(workspace) } else { Session::new(workspace) }
+    if workspace.keeps_results() { Session::with_tracing(workspace) } else { Session::new(workspace) }
 }
 
 /// Creates the error for a thread that has ended, which only an internal error can cause.
@@ -347,7 +347,7 @@ fn named_path(session: &Session<'_>, argument: &str) -> Result<(SourceFile, Path
         Ok(target) => Ok((target.file(db), PathName::new(target.name(db)))),
         Err(NotOnePath::Wrong(found)) => Err(Error::from_findings(workspace, found)),
         Err(NotOnePath::Several(NamedPaths { file, names })) => {
-            Err(Error::from_findings(workspace, vec![several_paths(file.path(db), &names)]))
+            Err(Error::from_findings(workspace, vec![several_paths_error(file.path(db), &names)]))
         }
         Err(NotOnePath::Directory) => {
             let [en, de] = ["`{}` is a directory, not a path", "`{}` ist ein Verzeichnis, kein Pfad"];

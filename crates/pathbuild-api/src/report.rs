@@ -3,7 +3,7 @@
 use pathbuild_workspace::Workspace;
 use pathbuild_workspace::emit::{ProgramOutcome, State};
 use pathbuild_workspace::list::{self, ListedPath};
-use pathbuild_workspace::session::{End, Graph, GraphOutcome, Node};
+use pathbuild_workspace::session::{EmbeddingEnd, Graph, GraphOutcome, Node};
 
 use crate::Finding;
 
@@ -210,7 +210,7 @@ impl GraphEdge {
         let names = |node: &Node| (node.file.to_string(), node.name.as_str().to_owned());
         let edge = |embedding: &pathbuild_workspace::session::Embedding| {
             // Segments that embed no existing path are omitted: `check` reports them.
-            let End::Node(to) = embedding.to else { return None };
+            let EmbeddingEnd::Node(to) = embedding.to else { return None };
             let (file, path) = names(&graph.nodes[embedding.from]);
             let (embedded_file, embedded_path) = names(&graph.nodes[to]);
             Some(Self { file, path, embedded_file, embedded_path })

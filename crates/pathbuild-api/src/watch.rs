@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Update};
+use pathbuild_workspace::watch::{FirstCheck, Listener, Update, WakeHandle};
 use pathbuild_workspace::{SilentReporter, Workspace};
 
 use crate::Finding;
@@ -52,7 +52,7 @@ pub(crate) struct ReportForwarder<'w, F> {
     /// The workspace of the library, which names files relative to its directory.
     workspace: &'w Workspace,
     seen: RefCell<F>,
-    bell: RefCell<Option<Bell>>,
+    bell: RefCell<Option<WakeHandle>>,
 }
 
 impl<'w, F: FnMut(WatchReport) -> bool> ReportForwarder<'w, F> {
@@ -86,7 +86,7 @@ impl<'w, F: FnMut(WatchReport) -> bool> ReportForwarder<'w, F> {
 }
 
 impl<F: FnMut(WatchReport) -> bool> Listener for ReportForwarder<'_, F> {
-    fn set_bell(&self, bell: Bell) {
+    fn set_wake_handle(&self, bell: WakeHandle) {
         *self.bell.borrow_mut() = Some(bell);
     }
 

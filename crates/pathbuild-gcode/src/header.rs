@@ -126,17 +126,17 @@ macro_rules! header_forms {
 
 header_forms! {
     "pathbuild", "provenance.rs",
-        "pathbuild 0.2.0 3f2a9c0d41b7e685-09c1d2e3 grbl O2 T5", => pathbuild;
+        "pathbuild 0.2.0 3f2a9c0d41b7e685-09c1d2e3 grbl O2 T5", => pathbuild_tool;
     "Fusion 360", "shooshx/led_floor, cad/nc/6mm/1022_block2x2_17bit.nc; posts that Autodesk publishes",
-        "T1  D=1.7 CR=0 - ZMIN=-3 - flat end mill", => fusion;
+        "T1  D=1.7 CR=0 - ZMIN=-3 - flat end mill", => fusion_tool;
     "CutViewer", "TOOL/MILL, diameter, corner radius, height, taper angle: Carbide Create, CamBam, HeeksCNC",
         "TOOL/MILL,3.17, 0.00, 12.70, 0.00", => cut_viewer_tool;
     "CutViewer", "STOCK/BLOCK, sizes, program zero from the lower corner: Carbide Create, posts for Fusion",
         "STOCK/BLOCK,100.00, 100.00, 1.00,0.00, 0.00, 1.00", => cut_viewer_stock;
     "Carbide Create", "written above STOCK/BLOCK",
-        "stockMin:0.00mm, 0.00mm, -1.00mm", => carbide_create;
+        "stockMin:0.00mm, 0.00mm, -1.00mm", => carbide_create_tool;
     "VCarve", "the form named in issue 35; seen only in samples written in its style",
-        "1 = End Mill {3.175 mm}", => vcarve;
+        "1 = End Mill {3.175 mm}", => vcarve_tool;
     "FreeCAD", "programs by grbl_post and linuxcnc_post",
         "TC: 3.175mm Endmill", "Exported by FreeCAD" => freecad_label;
     "FreeCAD", "SergeyPopovGit/CNC, Cicloid_Gear/Ecscentrick_0.5_8_12_mm_slote_33MM_cut.nc; FreeCAD calculates in millimetres",
@@ -144,15 +144,18 @@ header_forms! {
     "FreeCAD", "grbl_post, because GRBL has no M6",
         "M6 T4.0", "Exported by FreeCAD" => freecad_change;
     "Kiri:Moto", "its list of tools",
-        "tool#=1 flute=6 len=20 unit=metric", => kiri_moto;
+        "tool#=1 flute=6 len=20 unit=metric", => kiri_moto_tool;
     "pcb2gcode", "programs by pcb2gcode 2.5, in mm or in",
-        "MSG, Change tool bit to cutter diameter 1.5mm", => pcb2gcode;
+        "MSG, Change tool bit to cutter diameter 1.5mm", => pcb2gcode_tool;
     "CamBam", "programs posted by CamBam's post-processor Default, with ( T2 : 2.0 ) before T2 M6",
-        "T2 : 2.0", "Made using CamBam" => cambam;
+        "T2 : 2.0", "Made using CamBam" => cambam_tool;
 }
 
 /// Parses a comment, without its brackets, by the first form that fits. `is_signed` reports whether a form's signature has been found.
-pub fn stated(comment: &str, is_signed: &dyn Fn(&str) -> bool) -> Option<(&'static HeaderForm, Statement)> {
+pub fn parse_comment(
+    comment: &str,
+    is_signed: &dyn Fn(&str) -> bool,
+) -> Option<(&'static HeaderForm, Statement)> {
     let signed = |form: &&HeaderForm| form.signature.is_none_or(is_signed);
     FORMS.iter().filter(signed).find_map(|form| Some((form, (form.read)(comment.trim())?)))
 }
@@ -199,7 +202,7 @@ impl HeaderReader {
     }
 
     /// Processes the comments at the beginning of a text. Translated programs need this, because their steps contain no comments.
-    pub fn head_of(&mut self, text: &[u8]) {
+    pub fn read_head_comments(&mut self, text: &[u8]) {
         let steps = std::mem::take(&mut self.events);
         head_remarks(text).for_each(|remark| self.comment(0, &remark));
         self.events.extend(steps);
@@ -208,7 +211,7 @@ impl HeaderReader {
     fn comment(&mut self, line: u32, text: &str) {
         let signed = FORMS.iter().filter_map(|form| form.signature);
         self.signatures.extend(signed.filter(|signature| text.trim().starts_with(signature)));
-        let found = stated(text, &|signature| self.signatures.contains(&signature));
+        let found = parse_comment(text, &|signature| self.signatures.contains(&signature));
         self.events.extend(found.map(|(_, statement)| (line, Event::Statement(statement))));
     }
 
@@ -235,7 +238,7 @@ impl HeaderReader {
             collector.only_tool();
         }
         if !header.has_calls {
-            collector.never_selected(&header.changes);
+            collector.report_unselected_tools(&header.changes);
         }
         header.tools = collector.tools;
         header.surface = collector.surface;
@@ -370,7 +373,7 @@ impl Collector {
                     let Scope::Number(number) = tool.scope else { continue };
                     let cutter = StatedCutter::new(*line, tool, in_inches);
                     let known = self.numbered.get(&number).copied();
-                    let cutter = self.combined(known, cutter, Some(number));
+                    let cutter = self.combine(known, cutter, Some(number));
                     self.numbered.insert(number, cutter);
                 }
                 _ => {}
@@ -380,7 +383,7 @@ impl Collector {
 
     /// Reports listed tools to which the program never changes; if it changes to none of them, only the first one. Nothing is reported for a program
     /// without tool changes, which leaves the choice of the tool to the operator.
-    fn never_selected(&mut self, changes: &[(u32, u32)]) {
+    fn report_unselected_tools(&mut self, changes: &[(u32, u32)]) {
         let is_used = |number: &u32| changes.iter().any(|(_, change)| change == number);
         let most = match changes {
             [] => 0,
@@ -403,7 +406,7 @@ impl Collector {
         }
         match event {
             Event::Unit(code) => self.in_inches = *code == inch,
-            Event::Cut => self.cut(),
+            Event::Cut => self.assign_tool_to_cut(),
             Event::Statement(statement) => self.statement(line, statement),
             Event::Select(_) | Event::Insert(_) => {}
         }
@@ -417,7 +420,7 @@ impl Collector {
                 Scope::Program => self.of_program = Some(cutter),
                 Scope::Following => {
                     let known = self.of_current.filter(|(_, has_cut)| !has_cut).map(|(known, _)| known);
-                    self.of_current = Some((self.combined(known, cutter, None), false));
+                    self.of_current = Some((self.combine(known, cutter, None), false));
                     self.since.get_or_insert(line);
                 }
             }
@@ -453,7 +456,7 @@ impl Collector {
         self.corners[index] = Some((line, highest));
     }
 
-    fn cut(&mut self) {
+    fn assign_tool_to_cut(&mut self) {
         if let Some((_, has_cut)) = &mut self.of_current {
             *has_cut = true;
         }
@@ -465,7 +468,7 @@ impl Collector {
         let of_number = self.number.and_then(|number| self.numbered.get(&number).copied());
         let of_current = self.of_current.map(|(cutter, _)| cutter);
         let stated = [self.of_program, of_number, of_current].into_iter().flatten();
-        let cutter = stated.fold(None, |known, next| Some(self.combined(known, next, self.number)));
+        let cutter = stated.fold(None, |known, next| Some(self.combine(known, next, self.number)));
         self.tools.push(CuttingTool { line, number: self.number, cutter });
     }
 
@@ -479,7 +482,7 @@ impl Collector {
     }
 
     /// Combines a description with a known one, and reports a contradiction between them.
-    fn combined(
+    fn combine(
         &mut self,
         known: Option<StatedCutter>,
         next: StatedCutter,
@@ -503,14 +506,14 @@ fn tool(scope: Scope, diameter: f64, tip: Tip, unit: StatedUnit) -> Statement {
     Statement { tool: Some(StatedTool { scope, diameter, tip, unit }), ..Statement::default() }
 }
 
-fn pathbuild(comment: &str) -> Option<Statement> {
+fn pathbuild_tool(comment: &str) -> Option<Statement> {
     let provenance: Provenance = comment.parse().ok()?;
     let flat = |diameter| tool(Scope::Program, diameter, Tip::Flat, StatedUnit::Millimetre);
     let stated = provenance.cutter.map_or_else(Statement::default, flat);
     Some(Statement { surface: provenance.thickness, ..stated })
 }
 
-fn fusion(comment: &str) -> Option<Statement> {
+fn fusion_tool(comment: &str) -> Option<Statement> {
     let mut parts = comment.split(" - ").map(str::trim);
     let mut words = parts.next()?.split_whitespace();
     let number = words.next()?.strip_prefix(['T', 't'])?.parse().ok()?;
@@ -557,7 +560,7 @@ fn cut_viewer_stock(comment: &str) -> Option<Statement> {
     Some(Statement { stock: Some(stock), ..Statement::default() })
 }
 
-fn carbide_create(comment: &str) -> Option<Statement> {
+fn carbide_create_tool(comment: &str) -> Option<Statement> {
     let (key, fields) = comment.split_once(':')?;
     let unit = if fields.ends_with("mm") { StatedUnit::Millimetre } else { StatedUnit::Inch };
     let suffix = if unit == StatedUnit::Inch { "in" } else { "mm" };
@@ -572,7 +575,7 @@ fn carbide_create(comment: &str) -> Option<Statement> {
     Some(Statement { stock: Some(stock), ..Statement::default() })
 }
 
-fn vcarve(comment: &str) -> Option<Statement> {
+fn vcarve_tool(comment: &str) -> Option<Statement> {
     let (number, description) = comment.split_once(" = ")?;
     let (name, size) = description.trim().strip_suffix('}')?.split_once('{')?;
     let (diameter, unit) = size.trim().split_once(' ')?;
@@ -605,7 +608,7 @@ fn freecad_change(comment: &str) -> Option<Statement> {
     Some(Statement { change: Some(change), ..Statement::default() })
 }
 
-fn kiri_moto(comment: &str) -> Option<Statement> {
+fn kiri_moto_tool(comment: &str) -> Option<Statement> {
     let mut fields = comment.split_whitespace();
     let number = fields.next()?.strip_prefix("tool#=")?.parse().ok()?;
     let diameter = positive(fields.next()?.strip_prefix("flute=")?)?;
@@ -618,7 +621,7 @@ fn kiri_moto(comment: &str) -> Option<Statement> {
 }
 
 /// Parses the size of a cutter of pcb2gcode, for outlines or for isolation; the latter is often pointed.
-fn pcb2gcode(comment: &str) -> Option<Statement> {
+fn pcb2gcode_tool(comment: &str) -> Option<Statement> {
     let text = comment.strip_prefix("MSG, Change tool bit to ")?;
     let size = text.strip_prefix("cutter diameter ").or_else(|| text.strip_prefix("mill diameter "))?;
     let (diameter, unit) = size.split_at(size.find(|letter: char| letter.is_ascii_alphabetic())?);
@@ -626,7 +629,7 @@ fn pcb2gcode(comment: &str) -> Option<Statement> {
 }
 
 /// Parses a tool of CamBam, whose diameter is 0 if the user specified none.
-fn cambam(comment: &str) -> Option<Statement> {
+fn cambam_tool(comment: &str) -> Option<Statement> {
     let (number, diameter) = comment.strip_prefix('T')?.split_once(" : ")?;
     let scope = Scope::Number(number.trim().parse().ok()?);
     Some(tool(scope, positive(diameter)?, Tip::Unknown, StatedUnit::OfProgram))

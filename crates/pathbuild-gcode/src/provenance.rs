@@ -47,7 +47,7 @@ const NAME: &str = "pathbuild";
 const HEAD_LINES: usize = 40;
 
 /// Number of bytes at the beginning of a file in which the header line is searched for.
-pub const HEAD: usize = 4096;
+pub const HEAD_BYTES: usize = 4096;
 
 impl Provenance {
     /// Computes the provenance of programs, in the order in which they are milled. `options` are the bytes of everything else that the text depends
@@ -80,8 +80,9 @@ impl Provenance {
 
 /// Returns the first lines of a program, without block numbers and comment marks.
 pub(crate) fn head_remarks(head: &[u8]) -> impl Iterator<Item = String> {
-    let text = String::from_utf8_lossy(&head[..head.len().min(HEAD)]);
-    let lines: Vec<String> = text.lines().take(HEAD_LINES).map(|line| remark(line).to_owned()).collect();
+    let text = String::from_utf8_lossy(&head[..head.len().min(HEAD_BYTES)]);
+    let lines: Vec<String> =
+        text.lines().take(HEAD_LINES).map(|line| without_comment_marks(line).to_owned()).collect();
     lines.into_iter()
 }
 
@@ -102,11 +103,11 @@ pub fn is_same_program(a: &[u8], b: &[u8]) -> bool {
 
 /// Finds the position of the version in a program.
 fn version_in(program: &[u8]) -> Option<Range<usize>> {
-    let head = &program[..program.len().min(HEAD)];
+    let head = &program[..program.len().min(HEAD_BYTES)];
     let mut begin = 0;
     for line in head.split_inclusive(|byte| *byte == b'\n').take(HEAD_LINES) {
         if let Ok(text) = str::from_utf8(line)
-            && let Ok(found) = remark(text).parse::<Provenance>()
+            && let Ok(found) = without_comment_marks(text).parse::<Provenance>()
         {
             let name = text.find(|c: char| c.eq_ignore_ascii_case(&'p'))? + NAME.len() + 1;
             return Some(begin + name..begin + name + found.version.len());
@@ -117,7 +118,7 @@ fn version_in(program: &[u8]) -> Option<Range<usize>> {
 }
 
 /// Strips the block number and the comment marks from a line.
-fn remark(line: &str) -> &str {
+fn without_comment_marks(line: &str) -> &str {
     let line = line.trim();
     let digits =
         line.strip_prefix(['N', 'n']).map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
@@ -185,7 +186,7 @@ impl Provenance {
 pub(super) fn hash<'a>(programs: impl Iterator<Item = &'a Program>) -> Hash {
     let mut hasher = Hasher::new();
     for program in programs {
-        let mut bytes = Bytes(Vec::with_capacity(48 * program.steps.len()));
+        let mut bytes = HashedBytes(Vec::with_capacity(48 * program.steps.len()));
         bytes.number(program.tool);
         bytes.number(program.sweep_height);
         program.steps.iter().for_each(|step| bytes.step(program, step));
@@ -196,9 +197,9 @@ pub(super) fn hash<'a>(programs: impl Iterator<Item = &'a Program>) -> Hash {
     hasher.finalize()
 }
 
-struct Bytes(Vec<u8>);
+struct HashedBytes(Vec<u8>);
 
-impl Bytes {
+impl HashedBytes {
     /// Appends a number, rounded to thousandths.
     #[expect(clippy::cast_possible_truncation, reason = "saturates far beyond any machine")]
     fn number(&mut self, number: f64) {

@@ -196,7 +196,7 @@ impl Collector {
     fn step(&mut self, step: &Step) {
         let has_length = self.counting.counts(step);
         match &step.action {
-            Action::Move(movement) if !movement.is_nothing() => self.go(movement, has_length),
+            Action::Move(movement) if !movement.is_standstill() => self.add_move(movement, has_length),
             Action::Dwell(seconds) => self.summary.dwell += seconds,
             Action::SelectTool(tool) if !self.has_changes => self.tool = Some(*tool),
             Action::ChangeTool(tool) => {
@@ -212,7 +212,7 @@ impl Collector {
         }
     }
 
-    fn go(&mut self, movement: &Move, has_length: bool) {
+    fn add_move(&mut self, movement: &Move, has_length: bool) {
         self.summary.total.add(movement, has_length);
         if movement.named.is_none() {
             widen(&mut self.summary.extent, movement);
@@ -221,15 +221,15 @@ impl Collector {
             widen(&mut self.summary.cut, movement);
         }
         let speed = self.spindle.speed;
-        let (used, known) = self.used();
+        let (used, known) = self.tool_in_use();
         used.tally.add(movement, has_length);
         if let Pace::Feed(feed) = movement.pace {
-            note(&mut used.feeds, &mut known.feeds, feed);
-            note(&mut used.speeds, &mut known.speeds, speed.unwrap_or_default());
+            add_distinct_value(&mut used.feeds, &mut known.feeds, feed);
+            add_distinct_value(&mut used.speeds, &mut known.speeds, speed.unwrap_or_default());
         }
     }
 
-    fn used(&mut self) -> (&mut ToolTotals, &mut KnownTool) {
+    fn tool_in_use(&mut self) -> (&mut ToolTotals, &mut KnownTool) {
         let tools = &mut self.summary.tools;
         let known = self.known.entry(self.tool).or_insert_with(|| {
             tools.push(ToolTotals { tool: self.tool, ..ToolTotals::default() });
@@ -240,7 +240,7 @@ impl Collector {
 }
 
 /// Adds a positive value unless it is already known. Positive numbers are equal if and only if their bits are.
-fn note(values: &mut Vec<f64>, known: &mut HashSet<u64>, value: f64) {
+fn add_distinct_value(values: &mut Vec<f64>, known: &mut HashSet<u64>, value: f64) {
     if value > 0.0 && known.insert(value.to_bits()) {
         values.push(value);
     }

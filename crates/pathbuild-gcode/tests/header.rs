@@ -2,7 +2,7 @@
 //! not copied from it.
 
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::header::{FORMS, Header, HeaderReader, stated};
+use pathbuild_gcode::header::{FORMS, Header, HeaderReader, parse_comment};
 use pathbuild_gcode::interpret::{Options, interpret_each};
 
 fn header(program: &str) -> Header {
@@ -36,7 +36,7 @@ const CUT: &str = "G0 X0 Y0 Z5\nG1 Z-1 F100\nG1 X9\nG0 Z5\n";
 #[test]
 fn samples_are_read_in_their_own_form() {
     for form in FORMS {
-        let found = stated(form.sample, &|signature| form.signature == Some(signature));
+        let found = parse_comment(form.sample, &|signature| form.signature == Some(signature));
         assert!(found.is_some_and(|(found, _)| std::ptr::eq(found, form)), "{}", form.sample);
     }
 }
@@ -44,7 +44,7 @@ fn samples_are_read_in_their_own_form() {
 #[test]
 fn forms_that_could_be_free_text_need_their_signature() {
     for form in FORMS.iter().filter(|form| form.signature.is_some()) {
-        assert!(stated(form.sample, &|_| false).is_none(), "{}", form.sample);
+        assert!(parse_comment(form.sample, &|_| false).is_none(), "{}", form.sample);
     }
 }
 
@@ -82,7 +82,7 @@ fn free_text_states_nothing() {
         "Operation: Outside Offset, 0, T1: 3 mm end mill, 2 mm Deep",
     ];
     for comment in comments {
-        assert_eq!(stated(comment, &|_| true).map(|(form, _)| form.name), None, "{comment}");
+        assert_eq!(parse_comment(comment, &|_| true).map(|(form, _)| form.name), None, "{comment}");
     }
 }
 

@@ -10,7 +10,7 @@ use pathbuild_gcode::dialect::Dialect::{Native, Xpertmill};
 use pathbuild_gcode::interpret::{Heights, Interpretation, Options, interpret};
 use pathbuild_gcode::read::quote;
 use pathbuild_gcode::verify::{
-    BlindRapidRules, Cutter, DepthRules, Machine, MachineRules, Stock, StockSpan, Travel, coarse_arcs,
+    BlindRapidRules, Cutter, DepthRules, Machine, MachineRules, Stock, StockSpan, Travel, coarse_arc_finding,
 };
 use pathbuild_motion::Step;
 
@@ -510,7 +510,7 @@ fn the_spindle_stands_at_the_end() {
 
 #[test]
 fn arcs_have_three_decimals() {
-    let coarse = |program: &str| coarse_arcs(program.as_bytes(), Native).is_some();
+    let coarse = |program: &str| coarse_arc_finding(program.as_bytes(), Native).is_some();
     assert!(!coarse("G21\nG2 X1.5 Y1.5 I1.5"), "numbers that fit each other exactly");
     assert!(coarse("G21\nG2 X1.5 Y1.51 I1.5"));
     assert!(coarse("G21\nG2 X1.25 Y1.5 I1.5"));

@@ -292,7 +292,7 @@ fn weights_have_up_to_six_decimals_and_their_own_sign() {
 fn programs_without_probes_are_not_cut() {
     let program = program(&[], vec![line((100.0, 0.0), 1.0, (0.0, 0.0))]);
     assert_eq!(moves(&program, TIN), ["G01 F200.000 X100.000 Y0.000 Z1.000"]);
-    assert_eq!((TIN.count(&program), TIN.outside(&program)), (1, None));
+    assert_eq!((TIN.count(&program), TIN.farthest_unprobed_point(&program)), (1, None));
 }
 
 #[test]
@@ -407,7 +407,7 @@ fn the_header_says_what_the_program_was_made_with() {
 #[test]
 fn milling_outside_the_probes_is_found() {
     let outside = |model, steps: Vec<ProgramStep>| {
-        let found = Correction { model, longest: 20.0 }.outside(&program(&grid(), steps));
+        let found = Correction { model, longest: 20.0 }.farthest_unprobed_point(&program(&grid(), steps));
         found.map(|outside| (outside.at.x, outside.at.y, outside.distance))
     };
     for model in [ZModel::Plane, ZModel::Tin] {
@@ -440,7 +440,7 @@ fn milling_outside_the_probes_is_found() {
 fn fewer_than_three_probes_have_nothing_inside() {
     let distance = |points: &[(f64, f64)], to| {
         let program = program(points, vec![line(to, 1.0, (0.0, 0.0))]);
-        TIN.outside(&program).map(|outside| outside.distance)
+        TIN.farthest_unprobed_point(&program).map(|outside| outside.distance)
     };
     assert_eq!(distance(&[(0.0, 0.0)], (0.0, 10.0)), Some(10.0));
     assert_eq!(distance(&[(0.0, 0.0), (0.0, 20.0)], (0.0, 10.0)), None);

@@ -159,7 +159,7 @@ pub struct Arc {
 
 /// Difference in radians up to which two directions count as equal. An arc with both ends in equal directions from its centre is a full circle, as in
 /// GRBL.
-const SAME_DIRECTION: f64 = 5e-7;
+const DIRECTION_TOLERANCE: f64 = 5e-7;
 
 /// Maximum rounding error of an angle after a rotation, in radians.
 const ROUNDING: f64 = 1e-12;
@@ -170,39 +170,40 @@ const ROUNDING: f64 = 1e-12;
 pub fn is_full_turn(ahead: f64) -> bool {
     let beyond = ahead - TAU * libm::round(ahead / TAU);
     let is_whole = beyond < 0.0 || ahead > PI;
-    beyond.abs() <= if is_whole { SAME_DIRECTION } else { ROUNDING }
+    beyond.abs() <= if is_whole { DIRECTION_TOLERANCE } else { ROUNDING }
 }
 
 /// Returns the angle in radians from one direction to another in the direction of travel: greater than 0, and a full turn if the directions are
 /// equal.
-pub fn turn([a, b]: [f64; 2], [c, d]: [f64; 2], clockwise: bool) -> f64 {
+pub fn turn_angle([a, b]: [f64; 2], [c, d]: [f64; 2], clockwise: bool) -> f64 {
     let counterclockwise = libm::atan2(a * d - b * c, a * c + b * d);
     let turn = if clockwise { -counterclockwise } else { counterclockwise };
-    if turn <= SAME_DIRECTION { turn + TAU } else { turn }
+    if turn <= DIRECTION_TOLERANCE { turn + TAU } else { turn }
 }
 
 impl Arc {
     /// Returns the distance of a position from the centre, in mm.
     pub fn radius(&self, end: &Position) -> f64 {
-        let [a, b] = self.spoke(&end.at);
+        let [a, b] = self.radius_vector(&end.at);
         libm::hypot(a, b)
     }
 
     /// Returns the swept angle in radians, including extra turns.
     pub fn sweep(&self, from: &Position, to: &Position) -> f64 {
-        turn(self.spoke(&from.at), self.spoke(&to.at), self.clockwise) + TAU * f64::from(self.extra_turns)
+        turn_angle(self.radius_vector(&from.at), self.radius_vector(&to.at), self.clockwise)
+            + TAU * f64::from(self.extra_turns)
     }
 
     /// Returns the angle in radians from one position to another around the centre, in the direction of the arc, between -pi and pi.
     pub fn angle_ahead(&self, from: &[f64; 3], to: &[f64; 3]) -> f64 {
-        let ([a, b], [c, d]) = (self.spoke(from), self.spoke(to));
+        let ([a, b], [c, d]) = (self.radius_vector(from), self.radius_vector(to));
         let counterclockwise = libm::atan2(a * d - b * c, a * c + b * d);
         if self.clockwise { -counterclockwise } else { counterclockwise }
     }
 
     /// Returns the direction of travel at an end of the arc, as a unit vector along the plane's axes.
     pub fn tangent(&self, at: &[f64; 3]) -> [f64; 2] {
-        let [a, b] = self.spoke(at);
+        let [a, b] = self.radius_vector(at);
         let radius = libm::hypot(a, b);
         if radius == 0.0 {
             return [0.0, 0.0];
@@ -211,7 +212,7 @@ impl Arc {
     }
 
     /// Returns the vector from the centre to a position, in the plane.
-    fn spoke(&self, at: &[f64; 3]) -> [f64; 2] {
+    fn radius_vector(&self, at: &[f64; 3]) -> [f64; 2] {
         let [a, b] = self.plane.project(at);
         [a - self.centre[0], b - self.centre[1]]
     }
@@ -221,7 +222,7 @@ impl Arc {
         if !from.known.and(to.known).has(self.plane.axes_of_plane()) {
             return;
         }
-        let [a, b] = self.spoke(&from.at);
+        let [a, b] = self.radius_vector(&from.at);
         let (radius, sweep) = (libm::hypot(a, b), self.sweep(from, to));
         let start = libm::atan2(b, a);
         for (quarter, (slot, sign)) in [(0, 1.0), (1, 1.0), (0, -1.0), (1, -1.0)].into_iter().enumerate() {
@@ -270,7 +271,7 @@ impl Course {
     /// Returns the directions from the centre to both ends, in radians from the plane's first axis. The direction to the end is not reduced to the
     /// first turn.
     pub fn directions(&self) -> [f64; 2] {
-        let [a, b] = self.arc.spoke(&self.from);
+        let [a, b] = self.arc.radius_vector(&self.from);
         let start = libm::atan2(b, a);
         [start, start + if self.arc.clockwise { -self.sweep } else { self.sweep }]
     }
@@ -303,28 +304,28 @@ impl Course {
 
     /// Returns the position at a fraction (0 to 1) of the arc.
     pub fn point(&self, share: f64) -> [f64; 3] {
-        self.place(turned(self.arc.spoke(&self.from), self.turn(share)), share)
+        self.place_at_share(rotated(self.arc.radius_vector(&self.from), self.turn_sin_cos(share)), share)
     }
 
     /// Returns the positions at a quarter, half and three quarters of the arc, each rotated from the previous one.
     pub fn quarters(&self) -> [[f64; 3]; 3] {
-        let quarter = self.turn(0.25);
-        let mut spoke = self.arc.spoke(&self.from);
+        let quarter = self.turn_sin_cos(0.25);
+        let mut spoke = self.arc.radius_vector(&self.from);
         [0.25, 0.5, 0.75].map(|share| {
-            spoke = turned(spoke, quarter);
-            self.place(spoke, share)
+            spoke = rotated(spoke, quarter);
+            self.place_at_share(spoke, share)
         })
     }
 
     /// Returns the sine and cosine of the angle swept by a fraction of the arc.
-    fn turn(&self, share: f64) -> (f64, f64) {
+    fn turn_sin_cos(&self, share: f64) -> (f64, f64) {
         let angle = self.sweep * share;
         libm::sincos(if self.arc.clockwise { -angle } else { angle })
     }
 
     /// Returns the position at a fraction of the arc. `[a, b]` is the vector from the centre to the start, already rotated by that fraction of the
     /// swept angle.
-    fn place(&self, [a, b]: [f64; 2], share: f64) -> [f64; 3] {
+    fn place_at_share(&self, [a, b]: [f64; 2], share: f64) -> [f64; 3] {
         let stretch = 1.0 + share * self.growth;
         let [first, second] = self.arc.plane.axes();
         let third = self.arc.plane.third();
@@ -336,7 +337,7 @@ impl Course {
     }
 }
 
-fn turned([a, b]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 2] {
+fn rotated([a, b]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 2] {
     [a * cos - b * sin, a * sin + b * cos]
 }
 
@@ -368,7 +369,7 @@ impl WrittenArc<'_> {
     ///
     /// # Errors
     /// The written radii at both ends, if no centre nearby makes them agree. An arc that is wrong before rounding is never adjusted.
-    pub fn fit(&self) -> Result<[f64; 2], [f64; 2]> {
+    pub fn centre_correction(&self) -> Result<[f64; 2], [f64; 2]> {
         let nearest = self.radii([0.0; 2]);
         if difference(nearest) <= self.tolerance() {
             return Ok([0.0; 2]);
@@ -421,13 +422,13 @@ mod tests {
 
     const QUARTER: Arc = Arc { plane: Plane::Xy, centre: [0.0; 2], clockwise: false, extra_turns: 0 };
 
-    fn along(arc: Arc, to: [f64; 3]) -> Move {
+    fn arc_move(arc: Arc, to: [f64; 3]) -> Move {
         let (from, to) = (Position::known(10.0, 0.0, 0.0), Position::known(to[0], to[1], to[2]));
         Move { from, to, shape: MoveShape::Arc(arc), pace: Pace::Feed(100.0), named: None }
     }
 
     fn sweep(arc: Arc, to: [f64; 3]) -> f64 {
-        let movement = along(arc, to);
+        let movement = arc_move(arc, to);
         arc.sweep(&movement.from, &movement.to)
     }
 
@@ -457,7 +458,7 @@ mod tests {
 
     #[test]
     fn chords_stay_within_the_tolerance() {
-        let course = along(QUARTER, [0.0, 10.0, -1.0]).course().unwrap();
+        let course = arc_move(QUARTER, [0.0, 10.0, -1.0]).course().unwrap();
         let widest = widest_chord(10.0, 0.01);
         let count = (course.sweep() / widest).ceil();
         let sagitta = |count: f64| Course { sweep: course.sweep() / count, ..course }.sagitta();
@@ -467,7 +468,7 @@ mod tests {
 
     #[test]
     fn pieces_join_and_end_exactly_where_the_arc_does() {
-        let pieces: Vec<Move> = along(QUARTER, [0.0, 10.0, -1.0]).split(2).collect();
+        let pieces: Vec<Move> = arc_move(QUARTER, [0.0, 10.0, -1.0]).split(2).collect();
         assert_eq!(pieces[0].to, pieces[1].from);
         assert_eq!(pieces[1].to.at, [0.0, 10.0, -1.0]);
         let [x, y, z] = pieces[0].to.at;

@@ -8,7 +8,7 @@ mod geometry;
 mod step;
 
 pub use chip_load::ChipLoad;
-pub use geometry::{Arc, Axes, Course, Plane, Position, WrittenArc, is_full_turn, turn, widest_chord};
+pub use geometry::{Arc, Axes, Course, Plane, Position, WrittenArc, is_full_turn, turn_angle, widest_chord};
 pub use step::{
     Action, Change, Coolant, Corners, Group, Move, MoveShape, NamedPosition, Pace, Spindle, StatedWord, Step,
     ToolLength, Turning, WordEffect, WorkSystem,

@@ -462,7 +462,7 @@ impl Move {
     }
 
     /// Whether the tool stays where it is.
-    pub fn is_nothing(&self) -> bool {
+    pub fn is_standstill(&self) -> bool {
         matches!(self.shape, MoveShape::Line) && self.from == self.to
     }
 

@@ -39,7 +39,7 @@ fn a_centre_beside_the_nearest_one_fits_both_ends() {
     for [from, to, centre] in UNLUCKY {
         let arc = WrittenArc { from, to, centre, length: &thousandths, is_absolute: false, unit: 1.0 };
         assert!(difference(&arc, [0.0; 2]) > 0.002);
-        let by = arc.fit().unwrap();
+        let by = arc.centre_correction().unwrap();
         assert!(difference(&arc, by) < 0.001 && by.iter().all(|by| by.abs() <= 0.001), "{by:?}");
         // In inches with four decimals everything is the same, but 2.54 times as coarse.
         let large = |point: [f64; 2]| point.map(|at| at * 2.54);
@@ -47,7 +47,7 @@ fn a_centre_beside_the_nearest_one_fits_both_ends() {
         let [from, to, centre] = [large(from), large(to), large(centre)];
         let arc = WrittenArc { from, to, centre, length: &inches, is_absolute: false, unit: 25.4 };
         assert!(difference(&arc, [0.0; 2]) > 0.000_2);
-        assert!(difference(&arc, arc.fit().unwrap()) < 0.000_1);
+        assert!(difference(&arc, arc.centre_correction().unwrap()) < 0.000_1);
     }
 }
 
@@ -56,7 +56,7 @@ fn a_centre_that_fits_stays_the_nearest_one() {
     let centre = [-10.0, 0.0];
     let (from, to) = ([10.0, 0.0], [0.0, 10.001_4]);
     let arc = WrittenArc { from, to, centre, length: &thousandths, is_absolute: false, unit: 1.0 };
-    assert_eq!(arc.fit(), Ok([0.0; 2]));
+    assert_eq!(arc.centre_correction(), Ok([0.0; 2]));
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn an_arc_that_is_wrong_before_it_is_rounded_is_not_made_to_fit() {
         let centre = if is_absolute { [0.0; 2] } else { [-10.0, 0.0] };
         let (from, to) = ([10.0, 0.0], [0.0, 10.003]);
         let arc = WrittenArc { from, to, centre, length: &thousandths, is_absolute, unit: 1.0 };
-        let [start, end] = arc.fit().unwrap_err();
+        let [start, end] = arc.centre_correction().unwrap_err();
         assert!((start - 10.0).abs() < 1e-9 && (end - 10.003).abs() < 1e-9);
     }
 }
@@ -79,5 +79,5 @@ fn absolute_centres_are_fitted_as_they_are_written() {
     let centre = [17.828_481_979_091_805, 13.756_508_019_173_125];
     let arc = WrittenArc { from, to, centre, length: &thousandths, is_absolute: true, unit: 1.0 };
     assert!(difference(&arc, [0.0; 2]) > 0.002);
-    assert!(difference(&arc, arc.fit().unwrap()) < 0.001);
+    assert!(difference(&arc, arc.centre_correction().unwrap()) < 0.001);
 }

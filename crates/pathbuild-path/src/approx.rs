@@ -26,6 +26,6 @@ pub fn coincide(a: Point2<f64>, b: Point2<f64>) -> bool {
 }
 
 /// Whether a distance in mm is negligible (about 1e-9 mm), to skip moves that would not move.
-pub fn is_nothing(distance: f64) -> bool {
+pub fn is_negligible(distance: f64) -> bool {
     near(distance, 0.0)
 }

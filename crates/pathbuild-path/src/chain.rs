@@ -91,7 +91,7 @@ pub struct PlacedSubpath {
 
 impl WalkedPath {
     /// A walk that failed.
-    pub fn failed(problem: Diagnostic) -> Self {
+    pub fn from_failure(problem: Diagnostic) -> Self {
         Self { diagnostics: vec![problem], ..Self::default() }
     }
 
@@ -125,7 +125,7 @@ impl<'a> ChainBuilder<'a> {
             return self.walked.members.push(ChainSegment { segment, cut, is_return, is_turned, moved });
         }
         self.finish_chain();
-        self.walked.items.extend(self.single(segment, &passage, is_return));
+        self.walked.items.extend(self.single_item(segment, &passage, is_return));
     }
 
     /// Returns the items of the whole walk, and the diagnostics.
@@ -135,7 +135,7 @@ impl<'a> ChainBuilder<'a> {
     }
 
     /// The item for a segment outside of chains. Going back over such a segment is a sweep.
-    fn single(&self, segment: usize, passage: &Passage, is_return: bool) -> Option<Item> {
+    fn single_item(&self, segment: usize, passage: &Passage, is_return: bool) -> Option<Item> {
         let Passage { start, end, .. } = *passage;
         Some(match &self.path.segments[segment].kind {
             SegmentKind::Cut(_) => return None,
@@ -167,7 +167,7 @@ impl<'a> ChainBuilder<'a> {
                 diagnostics.extend(doubt.filter(|doubt| is_new(diagnostics, doubt)));
                 items.push(Item::Chain(chain));
             }
-            None => diagnostics.push(first.without_infeed(path)),
+            None => diagnostics.push(first.missing_infeed(path)),
         }
         *chained = members.len();
     }
@@ -241,7 +241,7 @@ impl ChainSegment {
         curve(path, segment, self.is_turned, self.moved.as_deref()).expect("what is in a chain is a curve")
     }
 
-    fn without_infeed(&self, path: &Path) -> Diagnostic {
+    fn missing_infeed(&self, path: &Path) -> Diagnostic {
         let problem = Diagnostic::new(&messages::MISSING).with("letter", 'I');
         self.origin(path).at(problem.with("element", self.cut(path).word()))
     }
@@ -274,19 +274,19 @@ pub(crate) struct Passage {
 
 impl Passage {
     /// The passage in the drawn direction.
-    pub(crate) fn drawn([start, end]: [Xy; 2]) -> Self {
+    pub(crate) fn in_drawn_direction([start, end]: [Xy; 2]) -> Self {
         Self { start, end, is_turned: false, moved: None }
     }
 
     /// The passage in the opposite direction. A subpath is then embedded the other way round, so that its start is where the walk comes
     /// from.
-    pub(crate) fn turned_round(self) -> Self {
-        self.turned_if(true)
+    pub(crate) fn reversed(self) -> Self {
+        self.reversed_if(true)
     }
 
     /// Returns the passage, reversed if `is_turned`. Ends are selected by index and not by an `if`, which the processor would often mispredict.
     #[inline]
-    pub(crate) fn turned_if(mut self, is_turned: bool) -> Self {
+    pub(crate) fn reversed_if(mut self, is_turned: bool) -> Self {
         let (ends, first) = ([self.start, self.end], usize::from(is_turned));
         (self.start, self.end) = (ends[first], ends[1 - first]);
         self.is_turned ^= is_turned;

@@ -102,7 +102,7 @@ impl Provider {
     }
 
     /// The name of the lending path or of the option, for providers that have a name.
-    pub fn which(&self) -> Option<&str> {
+    pub fn provider_name(&self) -> Option<&str> {
         match self {
             Self::Lender(path) => Some(path.as_str()),
             Self::Option(name) => Some(name),

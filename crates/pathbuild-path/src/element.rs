@@ -104,7 +104,7 @@ pub(crate) enum CircleMeaning {
 
 /// The marker that a meaningless circle was probably meant to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum MeantMarker {
+pub(crate) enum IntendedMarker {
     Start,
     End,
     Other,
@@ -114,7 +114,7 @@ impl Origin {
     /// The location of an entity that starts, or has its centre, at a point.
     pub(crate) fn new(source: Source, layer: &SmolStr, point: Xy) -> Self {
         let Source { id, entity, .. } = source;
-        Self { id, entity, layer: layer.clone(), point: shown(point) }
+        Self { id, entity, layer: layer.clone(), point: diagnostic_point(point) }
     }
 
     /// Places a diagnostic at this element.
@@ -198,12 +198,12 @@ impl ElementClass {
 }
 
 /// Tolerance in mm for the diameter of a drilled hole to equal the cutter's: numbers with three decimals cannot distinguish them.
-const AS_DRILLED: f64 = 0.001;
+const DRILLED_DIAMETER_TOLERANCE: f64 = 0.001;
 
 /// The class of a circle. One with the cutter's diameter is a drilled hole, whatever its line type.
 fn circle_class(cut: Cut, radius: f64, tool: Option<f64>) -> ElementClass {
     let Some(tool) = tool else { return ElementClass::UnknownCircle };
-    if at_least(AS_DRILLED, (2.0 * radius - tool).abs()) {
+    if at_least(DRILLED_DIAMETER_TOLERANCE, (2.0 * radius - tool).abs()) {
         if cut == Cut::Mark { ElementClass::DrilledMark } else { ElementClass::DrilledHole }
     } else if radius < tool / 2.0 {
         ElementClass::UnknownCircle
@@ -257,12 +257,12 @@ pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning 
 }
 
 /// Largest difference in mm between the radius of a PHANTOM circle and that of the marker it was probably meant as.
-const RADIUS_SLIP: f64 = 0.1;
+const MAX_RADIUS_SLIP: f64 = 0.1;
 
-impl MeantMarker {
+impl IntendedMarker {
     /// Returns the marker that a PHANTOM circle was probably meant as, although it does not have the radius of any marker.
     pub(crate) fn of_radius(radius: f64) -> Self {
-        let is_about = |known: f64| (radius - known).abs() <= RADIUS_SLIP;
+        let is_about = |known: f64| (radius - known).abs() <= MAX_RADIUS_SLIP;
         if is_about(START_RADIUS) {
             Self::Start
         } else if is_about(END_RADIUS) {
@@ -283,6 +283,6 @@ impl MeantMarker {
 }
 
 /// Converts a point of the drawing for diagnostics.
-pub(crate) fn shown(point: Xy) -> Point {
+pub(crate) fn diagnostic_point(point: Xy) -> Point {
     Point::new(point.x, point.y)
 }

@@ -13,7 +13,7 @@ use crate::effective::{PathNumbers, PathOptions, PathRole};
 use crate::element::Origin;
 use crate::language::Language;
 use crate::letter::{Letter, Letters};
-use crate::names::{PathName, SpeltName};
+use crate::names::{CaseSensitiveName, PathName};
 use crate::path::{Path, Segment, SegmentKind, Subpath, SubpathName, SubpathValue};
 use crate::raw::RawPath;
 use crate::text::TextId;
@@ -23,7 +23,7 @@ use crate::variables::{Bindings, Definition};
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathHeader {
     /// The name as spelt by its layer.
-    pub name: SpeltName,
+    pub name: CaseSensitiveName,
     /// Whether the drawing of the path has no errors, apart from its values.
     pub is_sound: bool,
     /// The definitions of the path's variables, in the order written.
@@ -34,7 +34,7 @@ pub struct PathHeader {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathSignature {
     /// The name as spelt by its layer.
-    pub name: SpeltName,
+    pub name: CaseSensitiveName,
     /// Cutter diameter (O).
     pub tool: f64,
     /// Thickness of the material (T).
@@ -81,7 +81,7 @@ pub struct SubpathCall {
 }
 
 /// The letters of a subpath segment that are compared with the paths on both sides.
-const COMPARED: [Letter; 5] = [Letter::Embed, Letter::T, Letter::O, Letter::M, Letter::H];
+const COMPARED_LETTERS: [Letter; 5] = [Letter::Embed, Letter::T, Letter::O, Letter::M, Letter::H];
 
 impl PathHeader {
     /// The header of a path.
@@ -131,7 +131,7 @@ impl SubpathCall {
             segment: segment_index,
             origin: path.origin(segment),
             subpath: subpath.clone(),
-            faults: COMPARED.into_iter().filter_map(fault).collect(),
+            faults: COMPARED_LETTERS.into_iter().filter_map(fault).collect(),
         }
     }
 
@@ -214,8 +214,9 @@ impl PathSignature {
     /// Returns PB203 for each of the path's own probes that reaches the sweep height, in mm.
     pub fn raised_probe_problems(&self, sweep_height: f64) -> Vec<Diagnostic> {
         let too_high = self.raised_probes.iter().filter(|probe| !above(sweep_height, probe.height));
-        let problem =
-            |probe: &ProbeTop| self.reached(sweep_height, probe.height, probe.fault.clone(), &probe.origin);
+        let problem = |probe: &ProbeTop| {
+            self.reached_problem(sweep_height, probe.height, probe.fault.clone(), &probe.origin)
+        };
         too_high.map(problem).collect()
     }
 
@@ -228,10 +229,16 @@ impl PathSignature {
         top: f64,
     ) -> Option<Diagnostic> {
         let fault = call.fault(Letter::H).or_else(|| call.fault(Letter::Embed)).cloned();
-        (!above(sweep_height, top)).then(|| self.reached(sweep_height, top, fault, &call.origin))
+        (!above(sweep_height, top)).then(|| self.reached_problem(sweep_height, top, fault, &call.origin))
     }
 
-    fn reached(&self, sweep_height: f64, top: f64, fault: Option<TextFault>, origin: &Origin) -> Diagnostic {
+    fn reached_problem(
+        &self,
+        sweep_height: f64,
+        top: f64,
+        fault: Option<TextFault>,
+        origin: &Origin,
+    ) -> Diagnostic {
         let mut problem = Diagnostic::new(&parameters::RAISED_INTO_SWEEPS)
             .with("value", sweep_height)
             .with("limit", top)
@@ -244,7 +251,7 @@ impl PathSignature {
 /// The upper faces that a path's sweeps must clear. Empty if the path gives its own S, which is checked together with its other values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepLimits {
-    path: SpeltName,
+    path: CaseSensitiveName,
     faces: Box<[UpperFace]>,
 }
 
@@ -318,7 +325,7 @@ impl Restriction {
     }
 
     /// Whether the rule applies to the embeddings of this path.
-    fn concerns(&self, parent: &PathName) -> bool {
+    fn applies_to(&self, parent: &PathName) -> bool {
         parent.is_match(&self.parent)
     }
 
@@ -330,7 +337,7 @@ impl Restriction {
 
 /// Checks the subpath segments of one path. All diagnostics carry the path and the place of the segment.
 #[derive(Debug)]
-pub struct Judge<'a> {
+pub struct SubpathChecker<'a> {
     outer: &'a PathSignature,
     language: &'a Language,
     rule: Rule<'a>,
@@ -352,7 +359,7 @@ enum Rule<'a> {
 /// Tolerance in mm for the length of a segment and the path it embeds.
 pub(crate) const CHORD_TOLERANCE: f64 = 0.001;
 
-impl<'a> Judge<'a> {
+impl<'a> SubpathChecker<'a> {
     /// Creates a judge for the embeddings of a path, by its E or else by these restrictions.
     pub fn new(
         outer: &'a PathSignature,
@@ -360,7 +367,7 @@ impl<'a> Judge<'a> {
         language: &'a Language,
         is_compatible: bool,
     ) -> Self {
-        let restriction = || restrictions.iter().find(|rule| rule.concerns(&outer.name));
+        let restriction = || restrictions.iter().find(|rule| rule.applies_to(&outer.name));
         let rule = match &outer.embeds_only {
             Some(own) => Rule::Own(own, Regex::new(own).ok()),
             None if outer.unknown.contains(Letter::E) => Rule::Any,
@@ -505,21 +512,22 @@ impl<'a> Judge<'a> {
     }
 
     /// Returns the mismatches in M, T, O and size between a segment and the path that it embeds (PB201, PB505, PB506, PB510).
-    pub fn misfits(&self, call: &SubpathCall, inner: &PathSignature) -> Vec<Diagnostic> {
+    pub fn mismatches(&self, call: &SubpathCall, inner: &PathSignature) -> Vec<Diagnostic> {
         let subpath = &call.subpath;
-        let mut problems: Vec<Diagnostic> = self.material(call, inner).into_iter().collect();
+        let mut problems: Vec<Diagnostic> = self.material_mismatch(call, inner).into_iter().collect();
         for (letter, here, there) in
             [(Letter::T, subpath.thickness, inner.thickness), (Letter::O, subpath.tool, inner.tool)]
         {
             if !subpath.hides(letter) && !near(here, there) {
-                problems.push(self.differs(call, letter, &here.into(), &there.into(), inner));
+                problems.push(self.mismatch(call, letter, &here.into(), &there.into(), inner));
             }
         }
         let differs_here = !subpath.hides(Letter::O) && !near(subpath.tool, inner.tool);
         let is_known = !self.outer.unknown.and(inner.unknown).contains(Letter::O);
         if is_known && !differs_here {
             let is_same = near(self.outer.tool, inner.tool);
-            let problem = if is_same { self.other_tool(inner) } else { Some(self.other_cutter(inner)) };
+            let problem =
+                if is_same { self.other_tool_problem(inner) } else { Some(self.other_cutter_problem(inner)) };
             let at = |problem| self.at(call, problem, call.fault(Letter::O));
             let soften = |problem| if self.is_compatible { as_warning(problem) } else { problem };
             problems.extend(problem.map(at).map(soften));
@@ -543,7 +551,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Reports a path that is drawn for another cutter: a program has a single one, that of the emitted path, whatever O a segment gives.
-    fn other_cutter(&self, inner: &PathSignature) -> Diagnostic {
+    fn other_cutter_problem(&self, inner: &PathSignature) -> Diagnostic {
         Diagnostic::new(&messages::CUTTER_OF_PROJECT)
             .quoting("outer", self.outer.name.as_str())
             .with("here", self.outer.tool)
@@ -553,7 +561,7 @@ impl<'a> Judge<'a> {
 
     /// Reports an embedded path whose name selects another tool of the same diameter. A path whose tool is found by its diameter alone can be milled
     /// with any tool of that diameter.
-    fn other_tool(&self, inner: &PathSignature) -> Option<Diagnostic> {
+    fn other_tool_problem(&self, inner: &PathSignature) -> Option<Diagnostic> {
         let tool = |path: &PathSignature| self.language.tools.of(path.name.as_str(), path.tool);
         let (here, there) = (tool(self.outer)?, tool(inner)?);
         let problem = || {
@@ -566,14 +574,14 @@ impl<'a> Judge<'a> {
         (there.is_named && here.name != there.name).then(problem)
     }
 
-    fn material(&self, call: &SubpathCall, inner: &PathSignature) -> Option<Diagnostic> {
+    fn material_mismatch(&self, call: &SubpathCall, inner: &PathSignature) -> Option<Diagnostic> {
         if call.subpath.hides(Letter::M) {
             return None;
         }
         let place = match (&call.subpath.material, &inner.material) {
             (Some(here), Some(there)) => {
                 let differs =
-                    || self.differs(call, Letter::M, &Value::quoted(here), &Value::quoted(there), inner);
+                    || self.mismatch(call, Letter::M, &Value::quoted(here), &Value::quoted(there), inner);
                 return (here != there).then(differs);
             }
             (None, None) => format!("{} / {}", self.outer.name, inner.name),
@@ -583,7 +591,7 @@ impl<'a> Judge<'a> {
         Some(self.at(call, Diagnostic::new(&parameters::MISSING_MATERIAL).quoting("where", place), None))
     }
 
-    fn differs(
+    fn mismatch(
         &self,
         call: &SubpathCall,
         letter: Letter,

@@ -218,8 +218,8 @@ impl Curve {
         if self.crosses(other) {
             return 0.0;
         }
-        let to_other = [self.start(), self.end()].into_iter().chain(self.towards(other));
-        let to_self = [other.start(), other.end()].into_iter().chain(other.towards(self));
+        let to_other = [self.start(), self.end()].into_iter().chain(self.nearest_candidates(other));
+        let to_self = [other.start(), other.end()].into_iter().chain(other.nearest_candidates(self));
         let to_other = to_other.map(|point| other.distance_to(point));
         to_other.chain(to_self.map(|point| self.distance_to(point))).fold(f64::INFINITY, f64::min)
     }
@@ -233,7 +233,7 @@ impl Curve {
     }
 
     /// The interior points of a curve that may be nearest to another arc.
-    fn towards(&self, other: &Self) -> Vec<Xy> {
+    fn nearest_candidates(&self, other: &Self) -> Vec<Xy> {
         match (self, other) {
             (Self::Line(line), Self::Arc(arc)) => vec![line.nearest(arc.centre)],
             (Self::Arc(arc), Self::Arc(other)) => arc.on_line_through(other.centre),

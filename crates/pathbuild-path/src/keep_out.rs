@@ -84,12 +84,12 @@ impl KeepOutMap {
 
     /// Returns the indices of the clamps that a tool of this radius hits in a move, in ascending order. `slack`: tolerance in mm for rounding
     /// errors.
-    pub fn entered(&self, way: &TipMove, radius: f64, slack: f64) -> Vec<usize> {
+    pub fn entered_clamps(&self, way: &TipMove, radius: f64, slack: f64) -> Vec<usize> {
         let radius = (radius - slack).max(0.0);
-        let near = self.boxes.locate_in_envelope_intersecting(around(&way.curve, radius));
+        let near = self.boxes.locate_in_envelope_intersecting(widened_box(&way.curve, radius));
         let is_entered = |number: &usize| {
             let clamp = &self.clamps[*number];
-            let below = way.below(clamp.height - slack);
+            let below = way.part_below(clamp.height - slack);
             below.is_some_and(|curve| clamp.outline.is_entered(&curve, radius))
         };
         let mut entered: Vec<usize> = near.map(|clamp| clamp.data).filter(is_entered).collect();
@@ -105,7 +105,7 @@ impl TipMove {
     }
 
     /// The part of the move below a height, as a curve in the plane.
-    pub(crate) fn below(&self, height: f64) -> Option<Curve> {
+    pub(crate) fn part_below(&self, height: f64) -> Option<Curve> {
         let (from, to) = (above(height, self.from_z), above(height, self.to_z));
         let length = self.curve.length();
         if from == to || length == 0.0 {
@@ -146,7 +146,7 @@ impl Outline {
         let pieces = monotone.into_iter().map(|curve| {
             let piece = OutlinePiece { curve, from, to: curve.end().y };
             from = piece.to;
-            GeomWithData::new(Rectangle::from_aabb(around(&curve, BOX_MARGIN)), piece)
+            GeomWithData::new(Rectangle::from_aabb(widened_box(&curve, BOX_MARGIN)), piece)
         });
         Self { pieces: RTree::bulk_load(pieces.collect()) }
     }
@@ -159,7 +159,7 @@ impl Outline {
     /// Whether any part of a disc enters the outline while its centre moves along a curve. Touching the outline is not entering. The radius
     /// is in mm.
     fn is_entered(&self, way: &Curve, radius: f64) -> bool {
-        let mut near = self.pieces.locate_in_envelope_intersecting(around(way, radius + BOX_MARGIN));
+        let mut near = self.pieces.locate_in_envelope_intersecting(widened_box(way, radius + BOX_MARGIN));
         near.any(|piece| above(radius, way.distance(&piece.data.curve))) || self.contains(way.start())
     }
 
@@ -215,7 +215,7 @@ fn monotone(curve: &Curve) -> Vec<Curve> {
 }
 
 /// The bounding box of a curve, widened by `near`; an arc gets that of its whole circle.
-pub(crate) fn around(curve: &Curve, near: f64) -> AABB<[f64; 2]> {
+pub(crate) fn widened_box(curve: &Curve, near: f64) -> AABB<[f64; 2]> {
     let (a, b) = match curve {
         Curve::Line(line) => (line.start, line.end),
         Curve::Arc(arc) => {

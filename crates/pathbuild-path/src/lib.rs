@@ -10,9 +10,9 @@ mod chain;
 mod changes;
 mod effective;
 mod element;
+mod element_parameters;
 mod embedding;
 mod geometry;
-mod in_force;
 mod keep_out;
 mod language;
 mod letter;
@@ -34,10 +34,9 @@ pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep, WalkedPath};
 pub use changes::{DrawnChange, DrawnChanges, DrawnSide, ElementChange, ElementKind, drawn_changes};
 pub use effective::{PathNumbers, PathOptions, PathRole, Provider, fallback};
 pub use element::{Cut, END_RADIUS, Element, Marker, Origin, Role, START_RADIUS, Shape, Source};
-pub use embedding::{Judge, with_near_names};
+pub use embedding::{SubpathChecker, with_near_names};
 pub use embedding::{OwnSweep, PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
-pub use in_force::{ElementParameters, Parameter, parameters_in_force};
 pub use keep_out::{KeepOut, KeepOutMap, KeepOuts, TipMove};
 pub use language::{DoubtThresholds, Language, PathTool, PathTools};
 pub use letter::Letter;
@@ -45,20 +44,20 @@ pub use letter::{ElementClass, LetterUse};
 pub use line_type::{LineType, LineTypeAliases};
 pub use look_alikes::near_layer;
 pub use names::files::{
-    FilePattern, NameRange, PathKey, RangeTable, is_q_project, judge_file_name, q_project_name,
+    FilePattern, NameRange, PathKey, RangeTable, check_file_name, is_q_project, q_project_name,
     tested_by_q_project,
 };
-pub use names::{LayerPattern, PathLayer, PathName, PathPattern, PatternError, SpeltName};
+pub use names::{CaseSensitiveName, LayerPattern, PathLayer, PathName, PathPattern, PatternError};
 pub use part::{
     CutElement, DrawnParts, EmbeddedPlace, LeftMaterial, LostBar, NeighbourCuts, NeighbourGouge, Part,
     PartCut, PartFindings, PartRing, PartSettings, PathCuts, PlacedCuts, SeveredPart, SlotPaths, StandingBar,
-    THROUGH, check_parts, check_path, gouging_moves,
+    THROUGH_HEIGHT, check_parts, check_path, gouging_moves,
 };
 pub use path::{
     Bars, ChainParameters, CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath,
     SubpathName, SubpathValue, Turn,
 };
-pub use q_project::{Component, QProject, QProjectFindings, QProjectLine, judge_q_project, plan_q_project};
+pub use q_project::{Component, QProject, QProjectFindings, QProjectLine, compare_q_project, plan_q_project};
 pub use raw::{DrawnElements, Position, RawFile, RawPath, SourceMap};
 pub use read::{
     AssignedElement, AssignedText, NearNames, ProxyLine, TextCircle, assigned_texts, has_text_on_part,

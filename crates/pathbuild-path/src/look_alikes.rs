@@ -24,21 +24,21 @@ pub(crate) fn ascii(character: char) -> Option<char> {
 }
 
 /// A text with all characters replaced by those that they look like.
-pub(crate) fn replaced(text: &str) -> String {
+pub(crate) fn with_keyboard_characters(text: &str) -> String {
     text.chars().map(|character| ascii(character).unwrap_or(character)).collect()
 }
 
 /// The first look-alike in a text, as arguments of a message.
-pub(crate) fn first(text: &str) -> Option<Vec<(&'static str, Value)>> {
+pub(crate) fn first_look_alike(text: &str) -> Option<Vec<(&'static str, Value)>> {
     let (character, plain) = text.chars().find_map(|character| Some((character, ascii(character)?)))?;
     let code = Value::quoted(format!("U+{:04X}", u32::from(character)));
     Some(vec![("character", character.into()), ("code", code), ("plain", plain.into())])
 }
 
 /// A problem with the first look-alike in a text; `None` if there is none.
-pub(crate) fn problem(message: &'static Message, text: &str) -> Option<Diagnostic> {
+pub(crate) fn look_alike_problem(message: &'static Message, text: &str) -> Option<Diagnostic> {
     let mut problem = Diagnostic::new(message);
-    problem.arguments.extend(first(text)?);
+    problem.arguments.extend(first_look_alike(text)?);
     Some(problem)
 }
 
@@ -54,9 +54,11 @@ pub(crate) fn with_digits(value: &str) -> String {
 
 /// A note about the layer whose name is most like that of a path.
 pub fn near_layer<'l>(path: &str, layers: impl Iterator<Item = &'l str> + Clone) -> Option<Note> {
-    let is_alike = |layer: &&str| replaced(layer).eq_ignore_ascii_case(path) && first(layer).is_some();
+    let is_alike = |layer: &&str| {
+        with_keyboard_characters(layer).eq_ignore_ascii_case(path) && first_look_alike(layer).is_some()
+    };
     if let Some(layer) = layers.clone().find(is_alike) {
-        let mut arguments = first(layer)?;
+        let mut arguments = first_look_alike(layer)?;
         arguments.push(("layer", Value::quoted(layer)));
         return Some(Note { message: &outputs::LOOK_ALIKE_LAYER, arguments });
     }

@@ -10,7 +10,7 @@ use crate::effective::{PathNumbers, PathOptions, PathRole};
 use crate::element::{Cut, Element, Origin, Shape};
 use crate::geometry::{Curve, Xy};
 use crate::letter::{Letter, Letters};
-use crate::names::SpeltName;
+use crate::names::CaseSensitiveName;
 use crate::raw::{DrawnElements, Faults};
 use crate::text::TextId;
 
@@ -18,7 +18,7 @@ use crate::text::TextId;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// The name as spelt by its layer.
-    pub name: SpeltName,
+    pub name: CaseSensitiveName,
     /// Cutter diameter (O) in mm.
     pub tool: f64,
     /// Thickness of the material (T) in mm.
@@ -234,7 +234,7 @@ pub enum SubpathName {
     },
     /// `has_more`: the whole value, if it contains more than the name.
     Found {
-        name: SpeltName,
+        name: CaseSensitiveName,
         has_more: Option<Box<str>>,
     },
 }

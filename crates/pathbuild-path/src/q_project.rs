@@ -96,7 +96,7 @@ pub struct QProjectLine {
 /// proxy line, or its own. Paths with errors are left out.
 pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
     let mut by_cutter: Vec<Vec<(Path, QProjectLine)>> = Vec::new();
-    for planned in component.paths.iter().filter_map(|raw| line(component, raw)) {
+    for planned in component.paths.iter().filter_map(|raw| planned_line(component, raw)) {
         let is_same = |group: &&mut Vec<(Path, QProjectLine)>| near(group[0].0.tool, planned.0.tool);
         match by_cutter.iter_mut().find(is_same) {
             Some(group) => group.push(planned),
@@ -115,15 +115,16 @@ fn of_cutter(planned: Vec<(Path, QProjectLine)>) -> QProject {
     QProject { parameters, lines: planned.into_iter().map(|(_, line)| line).collect() }
 }
 
-fn line(component: &Component<'_>, raw: &RawPath) -> Option<(Path, QProjectLine)> {
+fn planned_line(component: &Component<'_>, raw: &RawPath) -> Option<(Path, QProjectLine)> {
     let proxy = component.proxies(&raw.name).first().copied();
     let path = component.path(raw, proxy)?;
-    let line = QProjectLine { length: (path.end - path.start).norm(), text: text(raw, &path, proxy) };
+    let line =
+        QProjectLine { length: (path.end - path.start).norm(), text: completed_text(raw, &path, proxy) };
     Some((path, line))
 }
 
 /// The text of a proxy line, completed by the values it leaves open.
-fn text(raw: &RawPath, path: &Path, proxy: Option<&ProxyLine>) -> String {
+fn completed_text(raw: &RawPath, path: &Path, proxy: Option<&ProxyLine>) -> String {
     let mut pieces = vec![format!(">{}", path.name)];
     if let Some(proxy) = proxy {
         let others = proxy.text().pieces().iter();
@@ -156,13 +157,17 @@ pub struct QProjectFindings {
 
 /// Compares a component with its Q-project. `paths`: the paths of the Q-project, unless one has errors and its embeddings are unknown.
 /// `drawing`: the file name of the component.
-pub fn judge_q_project(component: &Component<'_>, drawing: &str, paths: Option<&[Path]>) -> QProjectFindings {
-    let judge = Judge { component, drawing };
+pub fn compare_q_project(
+    component: &Component<'_>,
+    drawing: &str,
+    paths: Option<&[Path]>,
+) -> QProjectFindings {
+    let judge = QProjectComparison { component, drawing };
     let in_q_project = paths.map(|paths| judge.embeddings(paths)).unwrap_or_default();
-    QProjectFindings { in_component: judge.proxies(), in_q_project }
+    QProjectFindings { in_component: judge.proxy_problems(), in_q_project }
 }
 
-struct Judge<'a> {
+struct QProjectComparison<'a> {
     component: &'a Component<'a>,
     drawing: &'a str,
 }
@@ -170,9 +175,9 @@ struct Judge<'a> {
 /// A difference between two texts: the letter or variable, and both values.
 type Difference = (String, Value, Value, Option<TextFault>);
 
-impl<'a> Judge<'a> {
+impl<'a> QProjectComparison<'a> {
     /// Returns PB517 for each proxy line that disagrees with its own path.
-    fn proxies(&self) -> Vec<Diagnostic> {
+    fn proxy_problems(&self) -> Vec<Diagnostic> {
         let of_proxy = |proxy| self.problems(proxy).into_iter().map(|problem| at_proxy(proxy, problem));
         self.component.proxies.iter().flat_map(of_proxy).collect()
     }
@@ -190,7 +195,7 @@ impl<'a> Judge<'a> {
             let problem = Diagnostic::new(&messages::PROXY_OF_NOTHING).quoting("name", written);
             return vec![problem.with("names", names).with_text(fault)];
         };
-        if let Some(other) = self.other(proxy, &name) {
+        if let Some(other) = self.connected_path(proxy, &name) {
             let problem = Diagnostic::new(&messages::PROXY_OF_OTHER).quoting("name", name.as_str());
             return vec![problem.quoting("other", other.as_str()).with_text(fault)];
         }
@@ -208,7 +213,7 @@ impl<'a> Judge<'a> {
     }
 
     /// The path whose ends a proxy line connects, if these are not the ends of the path that it names.
-    fn other(&self, proxy: &ProxyLine, named: &PathName) -> Option<&'a PathName> {
+    fn connected_path(&self, proxy: &ProxyLine, named: &PathName) -> Option<&'a PathName> {
         let (start, end) = (proxy.curve.start(), proxy.curve.end());
         let joined = self.component.paths.iter().filter(|raw| {
             let ends = raw.start.as_ref().zip(raw.end.as_ref()).map(|(from, to)| (from.at, to.at));

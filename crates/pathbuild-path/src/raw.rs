@@ -10,7 +10,7 @@ use smol_str::SmolStr;
 use crate::element::{Element, Marker, Origin};
 use crate::geometry::Xy;
 use crate::letter::{Letter, Letters};
-use crate::names::{PathName, SpeltName};
+use crate::names::{CaseSensitiveName, PathName};
 use crate::text::{ParameterText, ParameterTexts, TextId, ValueKind};
 use crate::variables::{Bindings, Definition};
 
@@ -18,7 +18,7 @@ use crate::variables::{Bindings, Definition};
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawPath {
     /// The path's name as spelt by its first layer in the file.
-    pub name: SpeltName,
+    pub name: CaseSensitiveName,
     /// The start marker. Its text is the path's own, even if @ refers to the text of another path.
     pub start: Option<Marker>,
     /// The end marker; `None` if it is missing.
@@ -75,7 +75,7 @@ impl RawPath {
 
     /// The findings about the drawing without those that `problems` repeats: a letter without an effect (PB210) whose value is outside
     /// its limits (PB203) is one mistake.
-    pub fn findings_beside(&self, problems: &[Diagnostic]) -> Vec<Diagnostic> {
+    pub fn findings_except(&self, problems: &[Diagnostic]) -> Vec<Diagnostic> {
         let is_same = |found: &Diagnostic, problem: &Diagnostic| {
             problem.code() == Code::ParameterOutOfRange
                 && (&problem.text, &problem.place) == (&found.text, &found.place)
@@ -141,7 +141,7 @@ impl RawPath {
     pub fn tool(&self) -> Option<f64> {
         let parameters = self.parameters();
         match parameters.piece(Letter::O)?.written {
-            ValueKind::Number(number) if number > 0.0 && !parameters.repeats(Letter::O) => Some(number),
+            ValueKind::Number(number) if number > 0.0 && !parameters.is_repeated(Letter::O) => Some(number),
             _ => None,
         }
     }

@@ -74,13 +74,13 @@ impl ParameterTexts {
     pub(crate) fn push_drawn(&mut self, text: &str) -> TextId {
         // Texts with the same content are usually near each other.
         let is_same = |known: &&Text| self.string[range(&known.string)] == *text;
-        if let Some(same) = self.texts.iter().rev().take(NEARBY).find(is_same) {
+        if let Some(same) = self.texts.iter().rev().take(COMPARED_TEXTS).find(is_same) {
             let same = same.clone();
             return self.add(same);
         }
         // Most texts contain neither codes nor continuation lines.
         let is_plain = !text.bytes().any(|byte| matches!(byte, b'%' | b'~'));
-        if is_plain { self.push(text) } else { self.push(&joined(&without_percent_codes(text))) }
+        if is_plain { self.push(text) } else { self.push(&join_lines(&without_percent_codes(text))) }
     }
 
     /// Adds a text with its lines joined and its codes replaced.
@@ -131,7 +131,7 @@ impl ParameterTexts {
 }
 
 /// Number of preceding texts that a new text is compared with before it is parsed.
-const NEARBY: usize = 8;
+const COMPARED_TEXTS: usize = 8;
 
 fn number(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(u32::MAX)
@@ -145,7 +145,7 @@ impl From<&str> for ParameterTexts {
     /// Creates a single text with its `%%` codes already replaced.
     fn from(text: &str) -> Self {
         let mut texts = Self::default();
-        texts.push(&joined(text));
+        texts.push(&join_lines(text));
         texts
     }
 }
@@ -199,7 +199,7 @@ impl<'t> ParameterText<'t> {
     }
 
     /// All letters that the text may have been meant to give to some element.
-    pub(crate) fn meant_letters(self) -> Letters {
+    pub(crate) fn possible_letters(self) -> Letters {
         match mistake_in_text(self, ElementClass::Unread) {
             Some(misreading) => misreading.unread,
             None => self.letters.and(self.unread_letters()),
@@ -207,7 +207,7 @@ impl<'t> ParameterText<'t> {
     }
 
     /// Whether a letter occurs more than once.
-    pub(crate) fn repeats(self, letter: Letter) -> bool {
+    pub(crate) fn is_repeated(self, letter: Letter) -> bool {
         !self.is_plain && self.pieces.iter().filter(|piece| piece.letter == Some(letter)).nth(1).is_some()
     }
 
@@ -222,7 +222,7 @@ impl<'t> ParameterText<'t> {
     }
 
     /// The whole text, underlined.
-    pub fn whole(self) -> TextFault {
+    pub fn whole_text_fault(self) -> TextFault {
         TextFault::new(self.string, 0..self.string.len())
     }
 
@@ -253,14 +253,14 @@ impl<'t> ParameterText<'t> {
         let first = self.string[piece.span()].chars().next()?;
         let Some(letter) = piece.letter else {
             if class == ElementClass::PathStart
-                && let Some((definition, meant)) = definition_apart(self, piece)
+                && let Some((definition, meant)) = separated_definition(self, piece)
             {
                 let is_first =
                     self.pieces.iter().skip_while(|other| *other != definition).nth(1) == Some(piece);
                 let problem = Diagnostic::new(&messages::VALUE_APART).quoting("meant", meant);
                 return is_first.then_some(problem);
             }
-            let mistake = mistake_in_piece(self, piece, class).or_else(|| self.word(piece, class));
+            let mistake = mistake_in_piece(self, piece, class).or_else(|| self.word_problem(piece, class));
             return Some(mistake.unwrap_or_else(|| unknown_letter(first, class)));
         };
         let how = class.use_of(letter);
@@ -272,19 +272,19 @@ impl<'t> ParameterText<'t> {
                         .with("element", class.word()),
                 );
             }
-            return Some(self.word(piece, class).unwrap_or_else(|| unknown_letter(first, class)));
+            return Some(self.word_problem(piece, class).unwrap_or_else(|| unknown_letter(first, class)));
         }
         if is_repeated {
-            return Some(self.twice(letter, piece));
+            return Some(self.repeated_letter(letter, piece));
         }
         if letter.is_literal() && self.value(piece).contains('=') {
             return Some(Diagnostic::new(&messages::VARIABLE_NOT_ALLOWED).with("letter", first));
         }
-        (how == LetterUse::Ignored).then(|| self.without_effect(letter, piece, class))
+        (how == LetterUse::Ignored).then(|| self.no_effect_problem(letter, piece, class))
     }
 
     /// Returns PB202 for a word among parameters: `B2 tief`.
-    fn word(self, piece: &LetterValue, class: ElementClass) -> Option<Diagnostic> {
+    fn word_problem(self, piece: &LetterValue, class: ElementClass) -> Option<Diagnostic> {
         let word = self.piece_text(piece);
         let is_word = word.chars().nth(2).is_some() && word.chars().all(char::is_alphabetic);
         let known: pathbuild_diagnostic::Value =
@@ -299,7 +299,7 @@ impl<'t> ParameterText<'t> {
 
     /// Returns PB210. The advice depends on the intention: a depth whose letter has no effect should be replaced by the other depth, not just
     /// removed.
-    fn without_effect(self, letter: Letter, piece: &LetterValue, class: ElementClass) -> Diagnostic {
+    fn no_effect_problem(self, letter: Letter, piece: &LetterValue, class: ElementClass) -> Diagnostic {
         let counts = |other| class.use_of(other) == LetterUse::Needed;
         let problem = match letter {
             Letter::B if counts(Letter::D) => Diagnostic::new(&messages::BOTTOM_OF_MARK),
@@ -309,7 +309,7 @@ impl<'t> ParameterText<'t> {
         problem.with("letter", letter.as_char()).quoting("value", self.value(piece))
     }
 
-    fn twice(self, letter: Letter, piece: &LetterValue) -> Diagnostic {
+    fn repeated_letter(self, letter: Letter, piece: &LetterValue) -> Diagnostic {
         match (letter, self.value(piece).chars().next()) {
             (Letter::Variable, Some(name)) => {
                 Diagnostic::new(&messages::VARIABLE_TWICE).with("variable", name)
@@ -359,7 +359,7 @@ fn unknown_letter(letter: char, class: ElementClass) -> Diagnostic {
 
 /// Joins lines ending in `~`, by which a long value continues on the next line. Spaces after the `~` are ignored, because they are
 /// invisible in a CAD program.
-fn joined(text: &str) -> Cow<'_, str> {
+fn join_lines(text: &str) -> Cow<'_, str> {
     if !text.contains('~') {
         return Cow::Borrowed(text);
     }
@@ -442,17 +442,19 @@ pub(crate) fn mistake_in_text(text: ParameterText<'_>, class: ElementClass) -> O
     if text.is_plain {
         return None;
     }
-    let mistake = commas(text).or_else(|| lower_case(text, class)).or_else(|| run_together(text, class));
+    let mistake = comma_mistake(text)
+        .or_else(|| lower_case_mistake(text, class))
+        .or_else(|| run_together_mistake(text, class));
     if let Some(problem) = mistake {
         return Some(Misreading { problem, unread: Letters::ALL });
     }
     // A remark gives no parameters, but in place of the path's own text it may hide them.
     let unread = if class == ElementClass::PathStart { Letters::ALL } else { Letters::default() };
-    remark(text, class).map(|problem| Misreading { problem, unread })
+    remark_mistake(text, class).map(|problem| Misreading { problem, unread })
 }
 
 /// Recognises commas as separators: `O2,T2,B0`.
-fn commas(text: ParameterText<'_>) -> Option<Diagnostic> {
+fn comma_mistake(text: ParameterText<'_>) -> Option<Diagnostic> {
     let is_separator =
         |value: &str, at: usize| value[at + 1..].chars().next().and_then(Letter::new).is_some();
     let has_separator = |piece: &&LetterValue| {
@@ -470,7 +472,7 @@ fn commas(text: ParameterText<'_>) -> Option<Diagnostic> {
 }
 
 /// Recognises lower case: `o2 t2 i0.5 b0`.
-fn lower_case(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
+fn lower_case_mistake(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
     let upper = |piece: &LetterValue| {
         let letter = text.letter(piece)?.to_ascii_uppercase();
         piece
@@ -488,11 +490,15 @@ fn lower_case(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic
         None => format!("{}{}", text.letter(piece).unwrap_or_default(), text.value(piece)),
     };
     let written = text.pieces().iter().map(written).collect::<Vec<_>>().join(" ");
-    Some(Diagnostic::new(&messages::LOWER_CASE_TEXT).quoting("text", written).with_text(text.whole()))
+    Some(
+        Diagnostic::new(&messages::LOWER_CASE_TEXT)
+            .quoting("text", written)
+            .with_text(text.whole_text_fault()),
+    )
 }
 
 /// Recognises letters with numbers that are not separated by spaces: `B2F100` or `B2;F100`.
-fn run_together(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
+fn run_together_mistake(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
     let parts = |piece: &LetterValue| {
         let is_faulty = piece.written == ValueKind::NoNumber;
         is_faulty.then(|| parameters_in(text.piece_text(piece), class)).flatten()
@@ -523,7 +529,7 @@ fn parameters_in(word: &str, class: ElementClass) -> Option<Vec<&str>> {
 
 /// Recognises remarks: words or numbers of pieces without any effective parameter, such as `Deckel links`, `Halter rechts, 2 Stück` or
 /// `3x M3`.
-fn remark(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
+fn remark_mistake(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
     let counts = |piece: &LetterValue| piece.letter.is_some_and(|letter| class.use_of(letter).counts());
     let is_word = |piece: &LetterValue| {
         let value = text.value(piece).trim_end_matches([',', ';', '.', ':', '!', '?']);
@@ -543,8 +549,9 @@ fn remark(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
     let pieces = text.pieces();
     let is_remark =
         pieces.iter().any(|piece| is_word(piece) || is_count(piece)) && !pieces.iter().any(is_parameter);
-    is_remark
-        .then(|| Diagnostic::new(&messages::REMARK).quoting("text", text.as_str()).with_text(text.whole()))
+    is_remark.then(|| {
+        Diagnostic::new(&messages::REMARK).quoting("text", text.as_str()).with_text(text.whole_text_fault())
+    })
 }
 
 /// Recognises a number with a unit or a punctuation mark: `O3mm`.
@@ -552,7 +559,7 @@ pub(crate) fn unit_mistake(letter: Letter, value: &str) -> Option<Diagnostic> {
     let end = value.find(|character: char| !matches!(character, '+' | '-' | '.' | ',' | '0'..='9'));
     let (number, rest) = value.split_at(end.unwrap_or(value.len()));
     let number = number.trim_end_matches(['.', ',']);
-    let is_unit = UNITS.iter().any(|unit| rest.eq_ignore_ascii_case(unit));
+    let is_unit = UNIT_SUFFIXES.iter().any(|unit| rest.eq_ignore_ascii_case(unit));
     if !is_unit || number.len() == value.len() || parse_number(number).is_none() {
         return None;
     }
@@ -561,7 +568,7 @@ pub(crate) fn unit_mistake(letter: Letter, value: &str) -> Option<Diagnostic> {
 }
 
 /// Suffixes of numbers in mm or mm/min.
-const UNITS: [&str; 8] = ["", ";", ":", "mm", "mm;", "mm,", "mm/min", "/min"];
+const UNIT_SUFFIXES: [&str; 8] = ["", ";", ":", "mm", "mm;", "mm,", "mm/min", "/min"];
 
 /// Recognises an equals sign between letter and number: `B=2`. `problem`: the error about the reference.
 pub(crate) fn equals_sign_mistake(letter: Letter, value: &str, problem: &Diagnostic) -> Option<Diagnostic> {
@@ -580,7 +587,10 @@ pub(crate) fn is_without_value(text: ParameterText<'_>, piece: &LetterValue) -> 
 }
 
 /// Returns the definition of a variable that spaces have separated from this piece, and the definition as it was meant: `:D 0 ~ 1`.
-fn definition_apart<'t>(text: ParameterText<'t>, piece: &LetterValue) -> Option<(&'t LetterValue, String)> {
+fn separated_definition<'t>(
+    text: ParameterText<'t>,
+    piece: &LetterValue,
+) -> Option<(&'t LetterValue, String)> {
     let at = text.pieces().iter().position(|other| other == piece)?;
     let definition = text.pieces()[..at].iter().rfind(|other| other.letter.is_some())?;
     Some((definition, definition_in_pieces(text, definition)?))
@@ -632,8 +642,11 @@ fn mistake_in_piece(text: ParameterText<'_>, piece: &LetterValue, class: Element
         }
         '_' if value.starts_with(['D', 'G', '+']) => return Some(drawn_code(text, piece)),
         first if look_alikes::ascii(first).and_then(Letter::new).is_some() => {
-            let problem = look_alikes::problem(&messages::LOOK_ALIKE_LETTER, text.piece_text(piece))?;
-            return Some(problem.quoting("meant", look_alikes::replaced(text.piece_text(piece))));
+            let problem =
+                look_alikes::look_alike_problem(&messages::LOOK_ALIKE_LETTER, text.piece_text(piece))?;
+            return Some(
+                problem.quoting("meant", look_alikes::with_keyboard_characters(text.piece_text(piece))),
+            );
         }
         digit if class == ElementClass::Subpath && digit.is_ascii_digit() && !has_name() => {
             (&messages::NAME_WITHOUT_SIGN, format!(">{digit}{value}"))
@@ -681,7 +694,7 @@ pub fn parse_number(text: &str) -> Option<f64> {
     if count == 0 {
         return None;
     }
-    if count <= MOST_DIGITS {
+    if count <= MAX_FAST_DIGITS {
         // Both operands are exact, so the quotient is the number nearest to the decimal notation.
         let decimals = point.map_or(0, |before| count - before);
         let number = value as f64 / POWERS_OF_TEN[decimals];
@@ -692,9 +705,9 @@ pub fn parse_number(text: &str) -> Option<f64> {
 }
 
 /// Maximum number of digits for the fast path: whole numbers of this length are exact in f64.
-const MOST_DIGITS: usize = 15;
+const MAX_FAST_DIGITS: usize = 15;
 
-const POWERS_OF_TEN: [f64; MOST_DIGITS + 1] =
+const POWERS_OF_TEN: [f64; MAX_FAST_DIGITS + 1] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 /// Parses an integer: an optional sign and digits.

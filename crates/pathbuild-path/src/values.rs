@@ -59,7 +59,7 @@ impl GivenNumber {
     }
 
     /// Returns this value, or `other` if this one is absent.
-    pub(crate) fn or(self, other: Self) -> Self {
+    pub(crate) fn or_value(self, other: Self) -> Self {
         if self == Self::Absent { other } else { self }
     }
 }
@@ -86,7 +86,7 @@ impl<'t> Values<'t> {
         let is_value = |letter: &Letter| {
             !matches!(class.use_of(*letter), LetterUse::Unknown | LetterUse::PathOnly)
                 && !is_definition(*letter)
-                && (*letter == Letter::Variable || !text.repeats(*letter))
+                && (*letter == Letter::Variable || !text.is_repeated(*letter))
         };
         let has_unread = values.unread != Letters::default();
         let is_apart = |piece: &LetterValue| {
@@ -116,7 +116,7 @@ impl<'t> Values<'t> {
     ) -> FilledValue<'t> {
         match interpolation.fill(self.text.value(piece)) {
             Ok(value) => match ValueKind::of(letter, &value) {
-                ValueKind::NoNumber => self.report(piece, no_number(letter, &value)),
+                ValueKind::NoNumber => self.report(piece, not_a_number(letter, &value)),
                 written => return FilledValue::Value(written, value),
             },
             Err(Some(problem)) => {
@@ -209,11 +209,11 @@ impl<'t> Values<'t> {
     }
 }
 
-fn no_number(letter: Letter, value: &str) -> Diagnostic {
+fn not_a_number(letter: Letter, value: &str) -> Diagnostic {
     if let Some(problem) = unit_mistake(letter, value) {
         return problem;
     }
-    if let Some(problem) = other_characters(letter, value) {
+    if let Some(problem) = look_alike_mistake(letter, value) {
         return problem;
     }
     let is_integer = letter == Letter::N;
@@ -227,12 +227,12 @@ fn no_number(letter: Letter, value: &str) -> Diagnostic {
 }
 
 /// Recognises a number with characters that look like others, or with letters instead of digits.
-fn other_characters(letter: Letter, value: &str) -> Option<Diagnostic> {
+fn look_alike_mistake(letter: Letter, value: &str) -> Option<Diagnostic> {
     let meant = |value: &str| format!("{}{value}", letter.as_char());
     let is_number = |value: &str| matches!(ValueKind::of(letter, value), ValueKind::Number(_));
-    let (plain, digits) = (look_alikes::replaced(value), look_alikes::with_digits(value));
+    let (plain, digits) = (look_alikes::with_keyboard_characters(value), look_alikes::with_digits(value));
     let problem = if plain != value && is_number(&plain) {
-        look_alikes::problem(&messages::LOOK_ALIKE, value)?.quoting("meant", meant(&plain))
+        look_alikes::look_alike_problem(&messages::LOOK_ALIKE, value)?.quoting("meant", meant(&plain))
     } else if is_number(&digits) {
         Diagnostic::new(&messages::LETTERS_FOR_DIGITS).quoting("meant", meant(&digits))
     } else {
@@ -246,7 +246,7 @@ const POSITIVE: [Letter; 8] =
     [Letter::F, Letter::I, Letter::C, Letter::O, Letter::T, Letter::A, Letter::W, Letter::Z];
 
 /// Feed in mm/min below which a program, which gives three decimals, would give a feed of 0.
-const SLOWEST: f64 = 0.0005;
+const MIN_FEED: f64 = 0.0005;
 
 /// Letters that must be positive on paths and on elements with bars.
 const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
@@ -298,7 +298,7 @@ impl LimitCheck<'_> {
         for letter in letters {
             let GivenNumber::Number(value) = self.own.number(letter) else { continue };
             let is_feed = matches!(letter, Letter::F | Letter::Z);
-            let is_rounded_off = is_feed && value > 0.0 && value < SLOWEST;
+            let is_rounded_off = is_feed && value > 0.0 && value < MIN_FEED;
             if is_rounded_off || !above(value, 0.0) {
                 let message =
                     if is_rounded_off { &messages::FEED_ROUNDED_OFF } else { &messages::NOT_POSITIVE };
@@ -316,7 +316,7 @@ impl LimitCheck<'_> {
         if !self.own.has(upper) && !self.own.has(lower) {
             return;
         }
-        let value = |letter| -> GivenNumber { self.own.number(letter).or(self.path.number(letter)) };
+        let value = |letter| -> GivenNumber { self.own.number(letter).or_value(self.path.number(letter)) };
         let (GivenNumber::Number(high), GivenNumber::Number(low)) = (value(upper), value(lower)) else {
             return;
         };
@@ -369,12 +369,12 @@ pub(crate) fn check_mark(
 const USUAL_MARK_DEPTH: f64 = 0.2;
 
 /// Thickness in mm below which a support bar holds nothing, in material of twice that thickness or more.
-const THINNEST_BAR: f64 = 0.1;
+const MIN_BAR_THICKNESS: f64 = 0.1;
 
 /// The finding about support bars with this upper edge in mm. `is_path`: whether that is the path's D rather than their own.
 pub(crate) fn check_bar(top: f64, own: &Values<'_>, path: &Values<'_>) -> Option<(Diagnostic, bool)> {
     let thickness = path.number(Letter::T).number()?;
-    if !above(THINNEST_BAR.min(thickness / 2.0), top) {
+    if !above(MIN_BAR_THICKNESS.min(thickness / 2.0), top) {
         return None;
     }
     let problem = Diagnostic::new(&messages::THIN_BARS).with("value", top);

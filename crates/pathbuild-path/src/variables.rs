@@ -29,7 +29,7 @@ type Problem = Option<Box<Diagnostic>>;
 
 /// Maximum depth of references in values: more than there are letters and digits for names. Without a limit, thousands of variables would each
 /// cause a pass over the whole text.
-const MOST_LEVELS: usize = 64;
+const MAX_REFERENCE_DEPTH: usize = 64;
 
 impl Bindings {
     /// Binds names to values; the first value for a name wins.
@@ -76,7 +76,7 @@ impl Interpolation<'_> {
     pub(crate) fn fill<'t>(&self, value: &'t str) -> Result<Cow<'t, str>, Problem> {
         let mut filled = Cow::Borrowed(value);
         // Unless there is a cycle, each pass resolves at least one level, and there are at most as many levels as variables.
-        for _ in 0..=self.bindings.0.len().min(MOST_LEVELS) {
+        for _ in 0..=self.bindings.0.len().min(MAX_REFERENCE_DEPTH) {
             if !filled.contains('=') {
                 return Ok(filled);
             }
@@ -86,15 +86,15 @@ impl Interpolation<'_> {
             None => Ok(filled),
             Some((_, rest)) => {
                 let name = rest.chars().next().map(String::from).unwrap_or_default();
-                Err(Some(self.endless(name)))
+                Err(Some(self.endless_reference(name)))
             }
         }
     }
 
     /// Returns PB305 for the variable with references left in its value.
-    fn endless(&self, name: String) -> Box<Diagnostic> {
-        let problem = if self.bindings.0.len() > MOST_LEVELS {
-            Diagnostic::new(&messages::TOO_DEEP).with("limit", MOST_LEVELS)
+    fn endless_reference(&self, name: String) -> Box<Diagnostic> {
+        let problem = if self.bindings.0.len() > MAX_REFERENCE_DEPTH {
+            Diagnostic::new(&messages::TOO_DEEP).with("limit", MAX_REFERENCE_DEPTH)
         } else {
             Diagnostic::new(&messages::ENDLESS)
         };
@@ -110,8 +110,9 @@ impl Interpolation<'_> {
             if name.is_some_and(|name| self.unknown.contains(&name)) {
                 return Err(None);
             }
-            let replacement =
-                name.and_then(|name| self.bindings.get(name)).ok_or_else(|| Some(self.undefined(name)))?;
+            let replacement = name
+                .and_then(|name| self.bindings.get(name))
+                .ok_or_else(|| Some(self.undefined_variable(name)))?;
             filled.push_str(before);
             filled.push_str(replacement);
             if filled.len() > self.limit {
@@ -123,7 +124,7 @@ impl Interpolation<'_> {
         Ok(filled)
     }
 
-    fn undefined(&self, name: Option<char>) -> Box<Diagnostic> {
+    fn undefined_variable(&self, name: Option<char>) -> Box<Diagnostic> {
         let known: Value = self.bindings.iter().map(|(name, _)| name.to_string()).collect();
         let problem = Diagnostic::new(&messages::UNKNOWN_REFERENCE)
             .quoting("variable", name.map(String::from).unwrap_or_default())
@@ -165,9 +166,10 @@ impl Definition {
     /// PB301, without a place.
     pub fn parse(value: &str) -> Result<Self, Box<Diagnostic>> {
         let mut characters = value.chars();
-        let name = characters.next().ok_or_else(|| invalid(&messages::INVALID_DEFINITION, value))?;
+        let name =
+            characters.next().ok_or_else(|| invalid_definition(&messages::INVALID_DEFINITION, value))?;
         let written = characters.as_str();
-        Ok(Self { name, values: allowed(written)?, written: written.into() })
+        Ok(Self { name, values: parse_allowed_values(written)?, written: written.into() })
     }
 
     /// Whether a value is permitted.
@@ -213,36 +215,36 @@ impl fmt::Display for Definition {
 }
 
 /// Tries the forms in this order: a range may contain decimal commas, and a list may begin with a question mark.
-fn allowed(written: &str) -> Result<AllowedValues, Box<Diagnostic>> {
-    if let Some(range) = range(written) {
+fn parse_allowed_values(written: &str) -> Result<AllowedValues, Box<Diagnostic>> {
+    if let Some(range) = parse_range(written) {
         return range;
     }
     if written.contains(',') {
         let clean = written.replace('?', "");
         let values: Vec<SmolStr> = clean.split(',').map(|value| value.trim().into()).collect();
         if values.iter().any(SmolStr::is_empty) {
-            return Err(invalid(&messages::EMPTY_ELEMENT, written));
+            return Err(invalid_definition(&messages::EMPTY_ELEMENT, written));
         }
         return Ok(AllowedValues::List(values));
     }
     match written.strip_prefix('?') {
-        Some("") => Err(invalid(&messages::EMPTY_ELEMENT, written)),
+        Some("") => Err(invalid_definition(&messages::EMPTY_ELEMENT, written)),
         Some(characters) => Ok(AllowedValues::Characters(characters.chars().collect())),
-        None => Err(invalid(&messages::INVALID_DEFINITION, written)),
+        None => Err(invalid_definition(&messages::INVALID_DEFINITION, written)),
     }
 }
 
 /// Parses a range; `None` if it is not one.
-fn range(written: &str) -> Option<Result<AllowedValues, Box<Diagnostic>>> {
+fn parse_range(written: &str) -> Option<Result<AllowedValues, Box<Diagnostic>>> {
     let (from_text, to_text) = written.split_once('~')?;
     let (from, to) = (parse_number(from_text)?, parse_number(to_text)?);
     if from > to {
-        return Some(Err(invalid(&messages::REVERSED_RANGE, written)));
+        return Some(Err(invalid_definition(&messages::REVERSED_RANGE, written)));
     }
     Some(Ok(AllowedValues::Range { from, to, from_text: from_text.into(), to_text: to_text.into() }))
 }
 
-fn invalid(message: &'static pathbuild_diagnostic::Message, written: &str) -> Box<Diagnostic> {
+fn invalid_definition(message: &'static pathbuild_diagnostic::Message, written: &str) -> Box<Diagnostic> {
     Box::new(Diagnostic::new(message).quoting("definition", written))
 }
 
@@ -266,10 +268,10 @@ impl Combinations {
         let longest = counts().max().unwrap_or(1);
         // Diagonal combinations first: number k takes value k + i of the i-th variable, as the example values do. Then all others in
         // counting order.
-        let diagonal = (0..longest).map(|k| at(&values, |index, count| (k + index) % count));
+        let diagonal = (0..longest).map(|k| combination(&values, |index, count| (k + index) % count));
         let counted = (0..all).map(|number| {
             let mut rest = number;
-            at(&values, |_, count| {
+            combination(&values, |_, count| {
                 let index = rest % count as u64;
                 rest /= count as u64;
                 usize::try_from(index).unwrap_or_default()
@@ -293,7 +295,7 @@ fn corners(definition: &Definition) -> Vec<SmolStr> {
 }
 
 /// The combination in which `choose` selects the value of each variable, given the variable's index and number of values.
-fn at(values: &[(char, Vec<SmolStr>)], mut choose: impl FnMut(usize, usize) -> usize) -> Bindings {
+fn combination(values: &[(char, Vec<SmolStr>)], mut choose: impl FnMut(usize, usize) -> usize) -> Bindings {
     let value = |(index, (name, values)): (usize, &(char, Vec<SmolStr>))| {
         (*name, values[choose(index, values.len())].clone())
     };

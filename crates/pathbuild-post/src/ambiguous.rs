@@ -14,7 +14,7 @@ fn misreading_error(problem: &Diagnostic, translation: &[u8]) -> Option<Diagnost
     let line = problem.place.line?;
     let message = problem.message;
     let found = if message == &gcode::SAME_GROUP {
-        let [first, second] = [quoted(problem, "first")?, quoted(problem, "second")?];
+        let [first, second] = [quoted_argument(problem, "first")?, quoted_argument(problem, "second")?];
         if !is_exclusive(first, second) {
             return None;
         }
@@ -35,7 +35,7 @@ fn misreading_error(problem: &Diagnostic, translation: &[u8]) -> Option<Diagnost
     Some(found.at_line(line, None))
 }
 
-fn quoted<'d>(problem: &'d Diagnostic, name: &str) -> Option<&'d str> {
+fn quoted_argument<'d>(problem: &'d Diagnostic, name: &str) -> Option<&'d str> {
     problem.arguments.iter().find(|(known, _)| *known == name).and_then(|(_, value)| match value {
         Value::Quoted(text) => Some(&**text),
         _ => None,

@@ -7,13 +7,13 @@ use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
 use pathbuild_motion::{Course, Move, MoveShape, WrittenArc, widest_chord};
 
 /// Maximum number of chords per arc.
-pub(crate) const MOST_CHORDS: u32 = 100_000;
+pub(crate) const MAX_CHORDS: u32 = 100_000;
 
 /// Returns the number of chords needed to stay within `tolerance` mm of the arc, or `None` if that would be too many.
 pub(crate) fn chords(course: &Course, tolerance: f64) -> Option<u32> {
     let count = (course.sweep() / widest_chord(course.radius(), tolerance)).ceil().max(1.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
-    (count <= f64::from(MOST_CHORDS)).then_some(count as u32)
+    (count <= f64::from(MAX_CHORDS)).then_some(count as u32)
 }
 
 /// Returns the number of equal parts into which an arc must be split so that none sweeps more than `widest` radians. It is at most 255.
@@ -24,13 +24,13 @@ pub(crate) fn pieces_of(course: &Course, widest: f64) -> u32 {
 }
 
 /// Moves the centre of an arc so that it is equidistant from start and end, if it almost is.
-pub(crate) fn centre(movement: &mut Move) {
+pub(crate) fn equalize_radii(movement: &mut Move) {
     let MoveShape::Arc(arc) = &mut movement.shape else { return };
     let difference = (arc.radius(&movement.from) - arc.radius(&movement.to)).abs();
     let [from, to] = [movement.from, movement.to].map(|end| arc.plane.project(&end.at));
     let chord = [to[0] - from[0], to[1] - from[1]];
     let square = chord[0] * chord[0] + chord[1] * chord[1];
-    if !(WIDEST_OF_MM..=WIDEST_OF_INCHES).contains(&difference) || square == 0.0 {
+    if !(MAX_RADIUS_DIFFERENCE_MM..=MAX_RADIUS_DIFFERENCE_INCHES).contains(&difference) || square == 0.0 {
         return;
     }
     let middle = [0, 1].map(|axis| f64::midpoint(from[axis], to[axis]));
@@ -41,21 +41,21 @@ pub(crate) fn centre(movement: &mut Move) {
 }
 
 /// Greatest permitted difference of an arc's radii in mm, for programs in mm (NIST RS274/NGC).
-const WIDEST_OF_MM: f64 = 0.002;
+const MAX_RADIUS_DIFFERENCE_MM: f64 = 0.002;
 /// Greatest permitted difference of an arc's radii in mm, for programs in inches.
-const WIDEST_OF_INCHES: f64 = 0.005_08;
+const MAX_RADIUS_DIFFERENCE_INCHES: f64 = 0.005_08;
 
 /// The rules by which a post rounds the numbers of an arc.
-pub(crate) struct Rounding<'r> {
+pub(crate) struct ArcRounding<'r> {
     /// Converts a length in mm to the number that is written, in the output unit.
     pub(crate) length: &'r dyn Fn(f64) -> f64,
     /// Whether centres are absolute instead of relative to the start of the arc.
     pub(crate) is_absolute: bool,
 }
 
-impl Rounding<'_> {
+impl ArcRounding<'_> {
     /// Whether the arc would be read as a full circle because its ends are equal after rounding.
-    pub(crate) fn closes(&self, movement: &Move) -> bool {
+    pub(crate) fn becomes_full_circle(&self, movement: &Move) -> bool {
         let MoveShape::Arc(arc) = movement.shape else { return false };
         let alike =
             |axis: usize| (self.length)(movement.from.at[axis]) == (self.length)(movement.to.at[axis]);
@@ -63,7 +63,7 @@ impl Rounding<'_> {
     }
 
     /// Adjusts the centre so that after rounding it is equidistant from start and end: see [`WrittenArc::fit`].
-    pub(crate) fn fitted(&self, movement: &Move, unit: f64) -> Result<Move, Box<Diagnostic>> {
+    pub(crate) fn fit_centre(&self, movement: &Move, unit: f64) -> Result<Move, Box<Diagnostic>> {
         let MoveShape::Arc(mut arc) = movement.shape else { return Ok(*movement) };
         let [from, to] = [movement.from, movement.to].map(|end| arc.plane.project(&end.at));
         let origin = if self.is_absolute { [0.0; 2] } else { from };
@@ -75,13 +75,13 @@ impl Rounding<'_> {
             is_absolute: self.is_absolute,
             unit,
         };
-        let by = written.fit().map_err(|radii| not_round(movement, radii))?;
+        let by = written.centre_correction().map_err(|radii| unequal_radii_error(movement, radii))?;
         arc.centre = [arc.centre[0] + by[0], arc.centre[1] + by[1]];
         Ok(Move { shape: MoveShape::Arc(arc), ..*movement })
     }
 }
 
-fn not_round(movement: &Move, radii: [f64; 2]) -> Box<Diagnostic> {
+fn unequal_radii_error(movement: &Move, radii: [f64; 2]) -> Box<Diagnostic> {
     let [start, end] = radii.map(|radius| format!("{radius:.4}"));
     let diagnostic =
         Diagnostic::new(&posts::ARC_ROUNDED).with("place", Point::new(movement.to.x(), movement.to.y()));

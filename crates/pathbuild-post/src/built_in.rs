@@ -29,15 +29,15 @@ pub static BUILT_IN: &[BuiltIn] = &[
         name: "native",
         language: Language::Native,
         description: "What pathbuild writes by default, with Z correction and statistics",
-        text: NATIVE,
+        text: NATIVE_EXPLANATION,
     },
-    cambam("grbl", "GRBL 1.1", include_str!("../posts/grbl.cbpp")),
-    cambam("linuxcnc", "LinuxCNC, mill", include_str!("../posts/linuxcnc.cbpp")),
-    cambam("mach3", "Mach3 and Mach4, mill", include_str!("../posts/mach3.cbpp")),
-    cambam("fanuc", "Fanuc and controls like it, mill", include_str!("../posts/fanuc.cbpp")),
-    cambam("haas", "Haas mills", include_str!("../posts/haas.cbpp")),
-    cambam("marlin", "Marlin 2 on a mill", include_str!("../posts/marlin.cbpp")),
-    cambam("estlcam", "Estlcam CNC controller", include_str!("../posts/estlcam.cbpp")),
+    cambam_post("grbl", "GRBL 1.1", include_str!("../posts/grbl.cbpp")),
+    cambam_post("linuxcnc", "LinuxCNC, mill", include_str!("../posts/linuxcnc.cbpp")),
+    cambam_post("mach3", "Mach3 and Mach4, mill", include_str!("../posts/mach3.cbpp")),
+    cambam_post("fanuc", "Fanuc and controls like it, mill", include_str!("../posts/fanuc.cbpp")),
+    cambam_post("haas", "Haas mills", include_str!("../posts/haas.cbpp")),
+    cambam_post("marlin", "Marlin 2 on a mill", include_str!("../posts/marlin.cbpp")),
+    cambam_post("estlcam", "Estlcam CNC controller", include_str!("../posts/estlcam.cbpp")),
     BuiltIn {
         name: "din",
         language: Language::Cad6,
@@ -52,13 +52,13 @@ pub static BUILT_IN: &[BuiltIn] = &[
     },
 ];
 
-const NATIVE: &str = "\
+const NATIVE_EXPLANATION: &str = "\
 The native program has no definition: it is what pathbuild writes without a post. A hole runs at the feed that was last set, heights
 may have correction formulas, and the statistics stand at the end; the languages of definitions cannot say that. To change the words
 of a program, begin with a copy of another post, such as `pathbuild post show linuxcnc`.
 ";
 
-const fn cambam(name: &'static str, description: &'static str, text: &'static str) -> BuiltIn {
+const fn cambam_post(name: &'static str, description: &'static str, text: &'static str) -> BuiltIn {
     BuiltIn { name, language: Language::CamBam, description, text }
 }
 

@@ -52,10 +52,10 @@ pub struct Output {
 }
 
 /// Maximum rounding error of coordinates in mm that causes no warning: that of numbers in mm with two decimals.
-const FINE_ROUNDING: f64 = 0.005 * (1.0 + 1e-6);
+const MAX_UNREPORTED_ROUNDING: f64 = 0.005 * (1.0 + 1e-6);
 
 /// Maximum rounding error of coordinates in mm that causes no error: that of numbers in mm with one decimal.
-const LARGEST_ROUNDING: f64 = 0.05 * (1.0 + 1e-6);
+const MAX_ROUNDING: f64 = 0.05 * (1.0 + 1e-6);
 
 /// Maximum size in bytes of a definition. Larger ones are refused.
 const MAX_DEFINITION_BYTES: usize = 1 << 20;
@@ -103,7 +103,7 @@ impl PostDefinition {
     pub fn insertions(&self, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
         match &self.engine {
             Engine::CamBam(_) => BTreeSet::new(),
-            Engine::Cad6(definition) => cad6::foreseen(definition, macros),
+            Engine::Cad6(definition) => cad6::inserted_files(definition, macros),
         }
     }
 
@@ -154,17 +154,17 @@ impl PostDefinition {
         self.check_spindle(job, options).map_err(|error| vec![*error])?;
         let target = self.target(options)?;
         if !options.unchecked {
-            self.check_points(target.as_ref()).map_err(|error| vec![*error])?;
+            self.check_decimal_points(target.as_ref()).map_err(|error| vec![*error])?;
         }
         let rounding = self.check_rounding(job, options.unchecked).map_err(|error| vec![*error])?;
-        let options = &self.within(options, target.as_ref());
+        let options = &self.restricted_to(options, target.as_ref());
         let target = target.as_ref();
         let EngineOutput { text, shadow, origins, warnings, notes, post_build } = match &self.engine {
             Engine::CamBam(definition) => cambam::write(definition, &self.file, job, target, options)?,
             Engine::Cad6(definition) => cad6::write(definition, &self.file, job, target, options)?,
         };
         let mut output = Output {
-            text: target::plain(&text, target, options.charset),
+            text: target::with_permitted_characters(&text, target, options.charset),
             extension: self.extension().into(),
             notes,
             warnings: self.warnings.iter().cloned().chain(rounding).chain(warnings).collect(),
@@ -206,7 +206,7 @@ impl PostDefinition {
             Engine::CamBam(definition) => definition.chord(job.units),
             Engine::Cad6(definition) => definition.chord(),
         };
-        let half = self.half_digit(job) * (1.0 + 1e-6);
+        let half = self.rounding_error(job) * (1.0 + 1e-6);
         // Some definitions round feeds to integers.
         let tolerance = Tolerance { place: half, feed: half.max(0.5), chord, ends: Ends::Cutting };
         let target = target.filter(|_| !self.has_own_axes());
@@ -232,7 +232,7 @@ impl PostDefinition {
     }
 
     /// Returns half a unit of the last digit in mm: the largest rounding error of a coordinate.
-    fn half_digit(&self, job: &Job) -> f64 {
+    fn rounding_error(&self, job: &Job) -> f64 {
         let decimals = match &self.engine {
             Engine::CamBam(definition) => definition.decimals(),
             Engine::Cad6(definition) => definition.decimals(),
@@ -259,9 +259,9 @@ impl PostDefinition {
             operation.cuts() && (operation.speed.is_none() || !operation.spindle.is_some_and(Turning::is_on))
         };
         if let Engine::Cad6(definition) = &self.engine
-            && definition.has_one_speed_a_tool()
+            && definition.has_one_speed_per_tool()
         {
-            one_speed_a_tool(job)?;
+            check_one_speed_per_tool(job)?;
         }
         match job.operations.iter().find(stands).filter(|_| options.needs_speed && is_switched) {
             Some(operation) => {
@@ -279,11 +279,11 @@ impl PostDefinition {
     }
 
     /// Checks that whole numbers get a decimal point if the target may read them as thousandths without one.
-    fn check_points(&self, target: Option<&Target>) -> Result<(), Box<Diagnostic>> {
-        let Some(target) = target.filter(|target| target.needs_points()) else { return Ok(()) };
+    fn check_decimal_points(&self, target: Option<&Target>) -> Result<(), Box<Diagnostic>> {
+        let Some(target) = target.filter(|target| target.needs_decimal_points()) else { return Ok(()) };
         match &self.engine {
             Engine::CamBam(definition) if !definition.always_writes_point() => {
-                let problem = self.about_format(&posts::PATTERN_WITHOUT_POINT);
+                let problem = self.format_finding(&posts::PATTERN_WITHOUT_POINT);
                 Err(Box::new(problem.quoting("dialect", target.reader.name())))
             }
             _ => Ok(()),
@@ -292,15 +292,16 @@ impl PostDefinition {
 
     /// Checks how far coordinates are rounded. If the user takes responsibility for the moves, even the coarsest rounding is a warning.
     fn check_rounding(&self, job: &Job, is_unchecked: bool) -> Result<Option<Diagnostic>, Box<Diagnostic>> {
-        let error = self.half_digit(job);
-        if error > LARGEST_ROUNDING && !is_unchecked {
-            return Err(Box::new(self.about_format(&posts::NUMBERS_TOO_COARSE).with("error", error)));
+        let error = self.rounding_error(job);
+        if error > MAX_ROUNDING && !is_unchecked {
+            return Err(Box::new(self.format_finding(&posts::NUMBERS_TOO_COARSE).with("error", error)));
         }
-        Ok((error > FINE_ROUNDING).then(|| self.about_format(&posts::COARSE_NUMBERS).with("error", error)))
+        Ok((error > MAX_UNREPORTED_ROUNDING)
+            .then(|| self.format_finding(&posts::COARSE_NUMBERS).with("error", error)))
     }
 
     /// Creates a finding about the option that determines how numbers are written.
-    fn about_format(&self, message: &'static Message) -> Diagnostic {
+    fn format_finding(&self, message: &'static Message) -> Diagnostic {
         let option = match &self.engine {
             Engine::CamBam(definition) => definition.format_option(),
             Engine::Cad6(definition) => definition.format_option(),
@@ -318,7 +319,7 @@ impl PostDefinition {
 
     /// Restricts the options to the capabilities of the target. For a control without cycles, holes are written as moves, unless the
     /// definition replaces the word of the cycle by a text of its own.
-    fn within<'o>(&self, options: &PostOptions<'o>, target: Option<&Target>) -> PostOptions<'o> {
+    fn restricted_to<'o>(&self, options: &PostOptions<'o>, target: Option<&Target>) -> PostOptions<'o> {
         let (writes_cycles, is_wrapped) = match &self.engine {
             Engine::CamBam(definition) => {
                 (definition.writes_cycles(), definition.is_wrapped() || definition.is_flat())
@@ -355,7 +356,7 @@ fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, Box<Diagnostic>> {
 }
 
 /// Checks that the speed does not change without a tool change, for definitions that write the speed only at tool changes.
-fn one_speed_a_tool(job: &Job) -> Result<(), Box<Diagnostic>> {
+fn check_one_speed_per_tool(job: &Job) -> Result<(), Box<Diagnostic>> {
     let mut first_of = HashMap::new();
     for later in job.operations.iter().filter(|operation| operation.cuts()) {
         let first: &Operation = first_of.entry(later.tool.index).or_insert(later);

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, Note, Value};
 use crate::rs274_translation::TranslatedText;
 
 /// Maximum number of findings reported per definition. After correcting these, the user sees the next ones.
-pub(crate) const MOST_FINDINGS: usize = 100;
+pub(crate) const MAX_FINDINGS: usize = 100;
 
 /// Findings about a definition, in the order in which they were added. Their number is limited, because in a large file every byte might
 /// cause one.
@@ -21,7 +21,7 @@ pub(crate) struct Findings {
 impl Findings {
     /// Whether the limit is reached, so that a finding would be dropped. The first error is always accepted.
     pub(crate) fn is_full(&self, is_error: bool) -> bool {
-        self.found.len() >= MOST_FINDINGS && (self.has_error || !is_error)
+        self.found.len() >= MAX_FINDINGS && (self.has_error || !is_error)
     }
 
     /// Adds a finding, unless the limit is reached.
@@ -67,7 +67,7 @@ impl LineStarts {
 }
 
 /// Maximum number of warnings reported about the output of a post.
-pub(crate) const MOST_WARNINGS: usize = 50;
+pub(crate) const MAX_WARNINGS: usize = 50;
 
 /// The output of an engine: the text of a program, its translation, and findings about it.
 pub(crate) struct EngineOutput {
@@ -91,9 +91,9 @@ impl EngineOutput {
 }
 
 /// Number of bytes that may still be written. This limit ends the expansion of macros that multiply text.
-pub(crate) struct Fuel(usize);
+pub(crate) struct OutputBudget(usize);
 
-impl Fuel {
+impl OutputBudget {
     /// Creates a budget for a job with this number of steps: a fixed part, and a share for each step.
     pub(crate) fn new(steps: usize) -> Self {
         let mut fuel = Self(1 << 20);
@@ -105,7 +105,7 @@ impl Fuel {
         self.0 = self.0.saturating_add(steps.saturating_mul(1 << 12));
     }
 
-    pub(crate) fn burn(&mut self, cost: usize, file: &Utf8Path) -> Result<(), Box<Diagnostic>> {
+    pub(crate) fn spend(&mut self, cost: usize, file: &Utf8Path) -> Result<(), Box<Diagnostic>> {
         let rest = self.0.checked_sub(cost);
         self.0 = rest.ok_or_else(|| Box::new(Diagnostic::new(&posts::MACRO_SIZE).in_file(file)))?;
         Ok(())

@@ -16,7 +16,7 @@ use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, describe}
 
 /// Length in mm below which arcs are written as lines. A post might print the same coordinates for both ends of such an arc, which would
 /// be a full circle that cuts off the adjacent support bars. The line differs from the arc by less than any machine can resolve.
-const SHORTEST_ARC: f64 = 0.002;
+const MIN_ARC_LENGTH: f64 = 0.002;
 
 impl Job {
     /// Joins programs in the given order into one job. The tool is changed between two programs if O differs or the tool table requires
@@ -30,9 +30,9 @@ impl Job {
         tools: &ToolTable,
         pecks: bool,
     ) -> (Self, Vec<Diagnostic>) {
-        let mut fitter = Fitter::new(tools);
+        let mut fitter = ToolAssigner::new(tools);
         let operations = programs.iter().map(Borrow::borrow).flat_map(|program| {
-            let assignment = fitter.fit(&program.path, program.tool);
+            let assignment = fitter.assign_tool(&program.path, program.tool);
             Builder::new(program, assignment, pecks).run()
         });
         let mut operations: Vec<Operation> = operations.collect();
@@ -52,8 +52,8 @@ impl Job {
     /// Assigns the cutter of a path with diameter O to all operations, as in a job that is made from the path's program. Native programs
     /// always say T1, whatever the cutter. Returns warnings about the tool.
     pub fn set_cutter(&mut self, path: &str, diameter: f64, tools: &ToolTable) -> Vec<Diagnostic> {
-        let mut fitter = Fitter::new(tools);
-        let tool = fitter.fit(path, diameter).tool;
+        let mut fitter = ToolAssigner::new(tools);
+        let tool = fitter.assign_tool(path, diameter).tool;
         self.operations.iter_mut().for_each(|operation| operation.tool = tool.clone());
         fitter.warnings
     }
@@ -85,7 +85,7 @@ impl<'a> Builder<'a> {
             rest = match step {
                 ProgramStep::Comment(comment) => self.comment(comment, after),
                 ProgramStep::Move { to, count } => {
-                    self.go(to, count.length);
+                    self.add_planned_move(to, count.length);
                     after
                 }
             };
@@ -155,16 +155,16 @@ impl<'a> Builder<'a> {
         }
         let hole = Hole { at: [x, y], level, retract, bottom: bottom.z, exit, feed: Some(*feed), kind };
         let operation = self.operation();
-        drop_way_between_holes(&mut operation.steps, &hole);
+        drop_rapid_between_holes(&mut operation.steps, &hole);
         operation.steps.push(JobStep::Hole(hole));
         self.tool.lift(exit);
         Some(rest)
     }
 
     /// Adds a planned move. `length` is its length in mm.
-    fn go(&mut self, to: &PlannedMove, length: f64) {
-        let mut movement = self.tool.go(to, length);
-        if length < SHORTEST_ARC {
+    fn add_planned_move(&mut self, to: &PlannedMove, length: f64) {
+        let mut movement = self.tool.make_move(to, length);
+        if length < MIN_ARC_LENGTH {
             movement.shape = MoveShape::Line;
         }
         self.push(movement);
@@ -172,7 +172,7 @@ impl<'a> Builder<'a> {
 
     /// Adds a move, but not a rapid one that leads nowhere.
     fn push(&mut self, movement: motion::Move) {
-        if movement.pace != Pace::Rapid || !movement.is_nothing() {
+        if movement.pace != Pace::Rapid || !movement.is_standstill() {
             self.operation_from(movement.from.at).steps.push(JobStep::Move(movement));
         }
     }
@@ -223,7 +223,7 @@ fn as_comment(step: &ProgramStep) -> Option<&Comment> {
 }
 
 /// Removes a rapid move between two holes at the same level, because drilling the second hole includes this move.
-fn drop_way_between_holes(steps: &mut Vec<JobStep>, next: &Hole) {
+fn drop_rapid_between_holes(steps: &mut Vec<JobStep>, next: &Hole) {
     if let [.., JobStep::Hole(before), JobStep::Move(way)] = steps.as_slice() {
         let [x, y] = next.at;
         let leads_there = way.pace == Pace::Rapid && way.to.at == [x, y, next.level];
@@ -270,7 +270,7 @@ pub(super) struct ToolAssignment {
 }
 
 /// Assignment of cutters to paths, and of numbers to cutters that have none.
-pub(super) struct Fitter<'a> {
+pub(super) struct ToolAssigner<'a> {
     table: &'a ToolTable,
     /// Tool number of each entry of the table.
     numbers: Vec<u32>,
@@ -300,7 +300,7 @@ impl ToolTable {
     }
 
     /// Returns the same table with a number for each entry.
-    pub fn numbered(&self) -> Self {
+    pub fn with_numbers(&self) -> Self {
         let entries = self.entries.iter().zip(self.numbers());
         Self {
             entries: entries
@@ -318,17 +318,17 @@ impl ToolTable {
     }
 }
 
-impl<'a> Fitter<'a> {
+impl<'a> ToolAssigner<'a> {
     pub(super) fn new(table: &'a ToolTable) -> Self {
         Self { table, numbers: table.numbers(), fitted: Vec::new(), warnings: Vec::new() }
     }
 
     /// Returns the cutter and settings for a path with diameter O, and remembers the cutter for later paths.
-    pub(super) fn fit(&mut self, path: &str, diameter: f64) -> ToolAssignment {
+    pub(super) fn assign_tool(&mut self, path: &str, diameter: f64) -> ToolAssignment {
         let position = self.table.position(path, diameter);
         let entry = position.map(|index| &self.table.entries[index]);
         let key = position.map_or(Key::Diameter(diameter), Key::Entry);
-        let tool = match self.fitted.iter().find(|(known, _)| known.is(key)) {
+        let tool = match self.fitted.iter().find(|(known, _)| known.is_same(key)) {
             Some((_, tool)) => tool.clone(),
             None => self.add(key, entry, path, diameter),
         };
@@ -368,7 +368,7 @@ impl<'a> Fitter<'a> {
 }
 
 impl Key {
-    fn is(self, other: Self) -> bool {
+    fn is_same(self, other: Self) -> bool {
         match (self, other) {
             (Self::Entry(a), Self::Entry(b)) => a == b,
             (Self::Diameter(a), Self::Diameter(b)) => near(a, b),

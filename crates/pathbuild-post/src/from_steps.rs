@@ -156,7 +156,7 @@ impl Builder {
 
     fn step(&mut self, step: &Step, remark: &dyn Fn(&str) -> Remark<'_>) {
         match &step.action {
-            Action::Move(movement) => self.go(step.line, movement),
+            Action::Move(movement) => self.add_move(step.line, movement),
             Action::Dwell(seconds) => self.push(JobStep::Dwell { seconds: *seconds }),
             Action::SelectTool(tool) if !self.has_tool_changes => self.change_tool(step.line, Some(*tool)),
             Action::ChangeTool(tool) => self.change_tool(step.line, *tool),
@@ -196,7 +196,7 @@ impl Builder {
 
     /// Starts an operation at the current position. It replaces the last operation if that has not cut anything.
     fn begin(&mut self, name: &str) {
-        let mut operation = Operation::new(name, numbered(self.state.tool));
+        let mut operation = Operation::new(name, tool_with_number(self.state.tool));
         operation.part.clone_from(&self.job.name);
         if !self.has_cut {
             let idle = self.job.operations.pop();
@@ -207,7 +207,7 @@ impl Builder {
         self.has_cut = false;
         self.has_ended = false;
         self.job.operations.push(operation);
-        self.update();
+        self.update_operation();
     }
 
     fn entry(&self) -> Entry {
@@ -215,10 +215,10 @@ impl Builder {
     }
 
     /// Updates the last operation to the settings of the machine, unless it has already cut something.
-    fn update(&mut self) {
+    fn update_operation(&mut self) {
         let State { tool, spindle, speed, coolant, plane } = self.state;
         if let Some(operation) = self.job.operations.last_mut().filter(|_| !self.has_cut) {
-            operation.tool = numbered(tool);
+            operation.tool = tool_with_number(tool);
             operation.spindle = spindle;
             operation.speed = speed;
             operation.coolant = coolant;
@@ -281,7 +281,7 @@ impl Builder {
             let name = self.job.operations.last().map(|last| last.name.clone()).unwrap_or_default();
             self.begin(&name);
         } else {
-            self.update();
+            self.update_operation();
             let entry = self.entry();
             if let Some(operation) = self.job.operations.last_mut() {
                 operation.steps.retain(is_not_rapid);
@@ -297,17 +297,17 @@ impl Builder {
             turning => Some(turning),
         };
         self.state.speed = spindle.speed.filter(|speed| *speed > 0.0);
-        self.update();
+        self.update_operation();
     }
 
     fn set_coolant(&mut self, coolant: Coolant) {
         // Posts have no word for flood and mist together.
         self.state.coolant = Some(if coolant.flood { Coolant::FLOOD } else { coolant });
-        self.update();
+        self.update_operation();
     }
 
     fn hole(&mut self, hole: Hole) {
-        self.leave_change([Some(hole.at[0]), Some(hole.at[1])]);
+        self.retract_after_change([Some(hole.at[0]), Some(hole.at[1])]);
         self.is_raised = true;
         self.at = Position::known(hole.at[0], hole.at[1], hole.exit);
         self.cutting().steps.push(JobStep::Hole(hole));
@@ -315,7 +315,7 @@ impl Builder {
 
     /// After a tool change below the clearance plane, continues above the next position, because the new tool does not return to where the
     /// old one stopped.
-    fn leave_change(&mut self, [x, y]: [Option<f64>; 2]) {
+    fn retract_after_change(&mut self, [x, y]: [Option<f64>; 2]) {
         if !std::mem::take(&mut self.was_changed_low) {
             return;
         }
@@ -324,7 +324,7 @@ impl Builder {
         operation.steps.push(JobStep::rapid([x, y, None]));
     }
 
-    fn go(&mut self, line: u32, movement: &Move) {
+    fn add_move(&mut self, line: u32, movement: &Move) {
         if movement.named.is_some() {
             return self.refuse(line, &posts::JOB_NAMED_PLACE);
         }
@@ -332,7 +332,7 @@ impl Builder {
             (MoveShape::Line, Pace::Rapid | Pace::Feed(_) | Pace::Probe { toward: true, .. }) => {}
             (MoveShape::Arc(arc), _) if arc.extra_turns == 0 => {
                 self.state.plane = arc.plane;
-                self.update();
+                self.update_operation();
             }
             _ => return self.refuse(line, &posts::JOB_MOVE),
         }
@@ -340,7 +340,7 @@ impl Builder {
         if movement.pace == Pace::Rapid {
             if movement.to.z() != movement.from.z() {
                 let [x, y, _] = movement.to.axes();
-                self.leave_change([x, y]);
+                self.retract_after_change([x, y]);
             }
             self.push(step);
         } else {
@@ -388,7 +388,7 @@ fn is_not_rapid(step: &JobStep) -> bool {
 }
 
 /// Returns the tool with this number, or an unnamed tool if the program has not named any.
-fn numbered(tool: Option<u32>) -> Tool {
+fn tool_with_number(tool: Option<u32>) -> Tool {
     tool.map_or_else(Tool::unnamed, |index| Tool::new(index, 0.0, ""))
 }
 

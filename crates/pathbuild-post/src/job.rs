@@ -109,7 +109,7 @@ impl Job {
     pub fn centre_arcs(&mut self) {
         for step in self.operations.iter_mut().flat_map(|operation| &mut operation.steps) {
             if let JobStep::Move(movement) = step {
-                arcs::centre(movement);
+                arcs::equalize_radii(movement);
             }
         }
     }
@@ -444,7 +444,7 @@ impl Hole {
 }
 
 /// Maximum number of pecks per hole. More are taken for an error.
-const MOST_PECKS: usize = 1_000;
+const MAX_PECKS: usize = 1_000;
 /// Height in mm above the depth already drilled at which the tool changes from rapid to feed. LinuxCNC's G83 uses the same height.
 const PECK_GAP: f64 = 0.254;
 
@@ -479,10 +479,10 @@ impl Hole {
         let mut depths = Vec::new();
         let mut z = self.retract - depth;
         while z > self.bottom {
-            if depths.len() == MOST_PECKS {
+            if depths.len() == MAX_PECKS {
                 let place = Point::new(self.at[0], self.at[1]);
                 let diagnostic =
-                    Diagnostic::new(&posts::TOO_MANY_PECKS).with("limit", MOST_PECKS).with("place", place);
+                    Diagnostic::new(&posts::TOO_MANY_PECKS).with("limit", MAX_PECKS).with("place", place);
                 return Err(Box::new(diagnostic));
             }
             depths.push(z);

@@ -48,7 +48,7 @@ pub use definition::{Language, Output, PostDefinition, reference_table};
 pub use from_program::{ToolEntry, ToolTable};
 pub use from_steps::{Remark, is_of_head, native_remark};
 pub use job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, Units, VelocityMode, program_number};
-pub use options::{NoFiles, PostFiles, PostMacro, PostOptions};
+pub use options::{PostFiles, PostMacro, PostOptions, RefusedFiles};
 pub use rs274_translation::{Doubt, DoubtfulWord, TranslatedText};
 
 /// Parses the extension of a file name and removes its dot; `None` if it is not a valid extension.

@@ -25,7 +25,7 @@ pub(crate) struct FormatOption {
 }
 
 /// Maximum number of digits on either side of the decimal point. No control reads more, and an `f64` has no more.
-const MOST_DIGITS: usize = 15;
+const MAX_DIGITS: usize = 15;
 
 impl NumberFormat {
     /// Creates a pattern with at least one digit before the decimal point, and `least` to `most` digits after it.
@@ -70,7 +70,7 @@ impl FromStr for NumberFormat {
     fn from_str(pattern: &str) -> Result<Self, ()> {
         let (whole, decimals) = pattern.split_once('.').unwrap_or((pattern, ""));
         let is_pattern =
-            |part: &str| part.len() <= MOST_DIGITS && part.chars().all(|c| matches!(c, '0' | '#'));
+            |part: &str| part.len() <= MAX_DIGITS && part.chars().all(|c| matches!(c, '0' | '#'));
         if pattern.is_empty() || !is_pattern(whole) || !is_pattern(decimals) {
             return Err(());
         }

@@ -68,7 +68,7 @@ impl Default for PostOptions<'_> {
             spin_up: 0.0,
             machine: None,
             part_tolerance: 0.0,
-            files: &NoFiles,
+            files: &RefusedFiles,
         }
     }
 }
@@ -92,9 +92,9 @@ pub trait PostFiles: fmt::Debug + Sync {
 
 /// An implementation of [`PostFiles`] that refuses to read any file.
 #[derive(Clone, Copy, Debug)]
-pub struct NoFiles;
+pub struct RefusedFiles;
 
-impl PostFiles for NoFiles {
+impl PostFiles for RefusedFiles {
     fn read(&self, _: &Utf8Path) -> Result<Vec<u8>, Value> {
         Err(Value::Prose(&NO_DIRECTORY_OF_POST))
     }

@@ -52,34 +52,34 @@ pub(super) fn check(
     let options = Options { milliseconds: *milliseconds, ..Options::default() };
     let read = interpret::interpret(text, reader, &options);
     let mut problems: Vec<Diagnostic> =
-        read.problems.iter().filter(|problem| problem.is_error()).cloned().map(as_post_s).collect();
+        read.problems.iter().filter(|problem| problem.is_error()).cloned().map(as_finding_of_post).collect();
     if !problems.is_empty() && target.is_some() {
         return if tolerance.is_some() { Err(problems) } else { Ok(Vec::new()) };
     }
     if tolerance.is_some() && target.is_some() {
-        problems.extend(without_point(&read.problems));
+        problems.extend(length_without_point(&read.problems));
         if !problems.is_empty() {
             return Err(problems);
         }
     }
     problems = if tolerance.is_some() { ambiguous::errors(&read.problems, text) } else { Vec::new() };
     if tolerance.is_some() {
-        problems.extend(skippable(text, &read.steps));
+        problems.extend(skippable_line(text, &read.steps));
     }
     let (mut broken, mut doubts) = broken_rules(&read.steps, job, expected);
     if target.is_none() && (tolerance.is_none() || !is_started(&read.steps)) {
         // The text's words may mean something other than the spindle, or the operator switches it and the final M5 is only for safety.
         broken.retain(|problem| !is_rule_of_spindle(problem));
     }
-    doubts.extend(chosen_offsets(&read.steps));
+    doubts.extend(work_offset_warnings(&read.steps));
     if let Some(tolerance) = tolerance {
         let mut wanted = moves(job).map_err(|error| vec![*error])?;
         let mut clearance =
             job.operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
-        let mut found: Vec<(u32, Move)> = read.moves().into_iter().map(answered).collect();
+        let mut found: Vec<(u32, Move)> = read.moves().into_iter().map(with_equal_probes).collect();
         if *is_flat {
-            (wanted, found, clearance) = (flat(&wanted), flat(&found), 0.0);
-            problems.extend(check_beam(&read.steps).map(as_post_s));
+            (wanted, found, clearance) = (moves_in_plane(&wanted), moves_in_plane(&found), 0.0);
+            problems.extend(check_beam(&read.steps).map(as_finding_of_post));
         }
         match traverse::check(&found, &wanted, clearance, tolerance) {
             Ok(cuts) => {
@@ -88,15 +88,16 @@ pub(super) fn check(
                 let tools = tools::check(&read.steps, job, &cuts, reader, *is_manual, *is_flat);
                 let is_told =
                     |problem: &Diagnostic| is_spinning_told && problem.message == &gcode::SPINNING_AT_CHANGE;
-                problems.extend(tools.into_iter().filter(|problem| !is_told(problem)).map(as_post_s));
+                problems
+                    .extend(tools.into_iter().filter(|problem| !is_told(problem)).map(as_finding_of_post));
             }
-            Err(movement) => problems.push(as_post_s(*movement)),
+            Err(movement) => problems.push(as_finding_of_post(*movement)),
         }
         for word in translated.iter().flat_map(|translated| &translated.doubtful) {
             match word.doubt {
                 Doubt::Dangerous => {
                     let found = Diagnostic::new(&gcode::NOT_FOLLOWED).quoting("word", &*word.word);
-                    problems.push(as_post_s(found.at_line(word.line, None)));
+                    problems.push(as_finding_of_post(found.at_line(word.line, None)));
                 }
                 Doubt::Unknown => {
                     let doubt = Diagnostic::new(&posts::WORD_NOT_FOLLOWED).quoting("word", &*word.word);
@@ -107,10 +108,10 @@ pub(super) fn check(
         if target.is_none() {
             doubts.extend(unused_words(&read.problems));
         }
-        doubts.extend(translated.and_then(disputed));
+        doubts.extend(translated.and_then(disputed_words_warning));
         doubts.extend(translated.iter().flat_map(|translated| translated.unstated.iter().cloned()));
-        let shortest = tolerance.place.max(SHORTEST_DWELL);
-        problems.extend(dwells::check(&read.steps, *translated, job, shortest).map(as_post_s));
+        let shortest = tolerance.place.max(DWELL_TOLERANCE);
+        problems.extend(dwells::check(&read.steps, *translated, job, shortest).map(as_finding_of_post));
         if target.is_some() {
             doubts.extend(read.problems.into_iter().filter(is_of_modes));
         }
@@ -121,13 +122,17 @@ pub(super) fn check(
 
 /// Returns the finding about the first length without a decimal point, which the control may read as thousandths. It stands for all such
 /// words.
-fn without_point(problems: &[Diagnostic]) -> Option<Diagnostic> {
-    problems.iter().find(|problem| problem.message == &gcode::NO_DECIMAL_POINT).cloned().map(as_post_s)
+fn length_without_point(problems: &[Diagnostic]) -> Option<Diagnostic> {
+    problems
+        .iter()
+        .find(|problem| problem.message == &gcode::NO_DECIMAL_POINT)
+        .cloned()
+        .map(as_finding_of_post)
 }
 
 /// Returns a finding about the first line that a switch at the machine (block delete) can skip although it moves, changes the tool or its
 /// length, or switches the spindle.
-fn skippable(text: &[u8], steps: &[Step]) -> Option<Diagnostic> {
+fn skippable_line(text: &[u8], steps: &[Step]) -> Option<Diagnostic> {
     let is_needed = |action: &Action| match action {
         Action::Move(_) | Action::SelectTool(_) | Action::ChangeTool(_) | Action::Spindle(_) => true,
         Action::Change(change) => matches!(change, Change::ToolLength(_) | Change::Offsets { .. }),
@@ -158,7 +163,7 @@ fn begins_with_slash(line: &[u8]) -> bool {
 }
 
 /// Permitted deviation of dwells in seconds: half a millisecond and a margin for rounding.
-const SHORTEST_DWELL: f64 = 0.000_501;
+const DWELL_TOLERANCE: f64 = 0.000_501;
 
 /// Whether a problem is that the text does not state its unit, its distance mode or its plane, so that the control keeps those of the
 /// previous program.
@@ -167,7 +172,7 @@ fn is_of_modes(problem: &Diagnostic) -> bool {
 }
 
 /// Projects moves to the plane and drops those that do not move in it.
-fn flat(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
+fn moves_in_plane(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
     let level = |mut at: Position| {
         at.at[2] = 0.0;
         at.known = at.known.with(Axes::Z);
@@ -176,7 +181,8 @@ fn flat(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
     let seen = moves.iter().map(|(line, movement)| {
         (*line, Move { from: level(movement.from), to: level(movement.to), ..*movement })
     });
-    seen.filter(|(_, movement)| !movement.is_nothing() || movement.from.known != movement.to.known).collect()
+    seen.filter(|(_, movement)| !movement.is_standstill() || movement.from.known != movement.to.known)
+        .collect()
 }
 
 /// Returns one warning for each letter that nothing in its line uses, because other controls may use it.
@@ -194,14 +200,14 @@ fn unused_words(problems: &[Diagnostic]) -> Vec<Diagnostic> {
 }
 
 /// Returns one warning for all words on which dialects disagree; `None` if there are none.
-fn disputed(translated: &TranslatedText) -> Option<Diagnostic> {
+fn disputed_words_warning(translated: &TranslatedText) -> Option<Diagnostic> {
     let (line, names) = translated.disputed.as_ref()?;
     let doubt = Diagnostic::new(&posts::DIALECTS_DISAGREE).quoting("words", names.join(", "));
     Some(doubt.at_line(*line, None))
 }
 
 /// Warns about words that select a work offset, because the job does not specify any.
-fn chosen_offsets(steps: &[Step]) -> Vec<Diagnostic> {
+fn work_offset_warnings(steps: &[Step]) -> Vec<Diagnostic> {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for step in steps {
         let word = match &step.action {
@@ -209,7 +215,7 @@ fn chosen_offsets(steps: &[Step]) -> Vec<Diagnostic> {
             Action::Change(Change::ToolLength(ToolLength::Other)) => "G43.1, G43.2".into(),
             _ => continue,
         };
-        if doubts.len() < MOST_DOUBTS {
+        if doubts.len() < MAX_OFFSET_WARNINGS {
             let doubt = Diagnostic::new(&posts::OFFSET_CHOSEN).quoting("word", word);
             doubts.push(doubt.at_line(step.line, None));
         }
@@ -218,7 +224,7 @@ fn chosen_offsets(steps: &[Step]) -> Vec<Diagnostic> {
 }
 
 /// Maximum number of warnings about work offsets.
-const MOST_DOUBTS: usize = 5;
+const MAX_OFFSET_WARNINGS: usize = 5;
 
 /// Checks the rules of `verify` that do not depend on the material. (book: program/reading)
 fn broken_rules(
@@ -267,7 +273,7 @@ pub(super) fn in_output(mut problem: Diagnostic, output: &[u8], origins: &[LineO
         let line = String::from_utf8_lossy(line.trim_ascii_end());
         problem.text = Some(TextFault::new(&line, 0..line.len()));
     }
-    if !says_line(&problem) {
+    if !has_line_in_message(&problem) {
         let arguments = vec![("line", u64::from(number).into())];
         problem.notes.push(Note { message: &posts::IN_OUTPUT, arguments });
     }
@@ -281,20 +287,20 @@ pub(super) fn in_output(mut problem: Diagnostic, output: &[u8], origins: &[LineO
 }
 
 /// Whether the problem's message contains a line of the output.
-fn says_line(problem: &Diagnostic) -> bool {
+fn has_line_in_message(problem: &Diagnostic) -> bool {
     problem.arguments.iter().any(|(name, _)| *name == "line")
 }
 
 /// Makes all probing moves equal. Probing words differ between controls in whether a missing contact is an error, but the move is the
 /// same.
-fn answered((line, mut movement): (u32, Move)) -> (u32, Move) {
+fn with_equal_probes((line, mut movement): (u32, Move)) -> (u32, Move) {
     if let Pace::Probe { must_answer, .. } = &mut movement.pace {
         *must_answer = true;
     }
     (line, movement)
 }
 
-fn as_post_s(found: Diagnostic) -> Diagnostic {
+fn as_finding_of_post(found: Diagnostic) -> Diagnostic {
     if found.message.code == posts::POST_DIFFERS.code && found.place.line.is_none() {
         return found;
     }
@@ -316,7 +322,7 @@ fn moves(job: &Job) -> Result<Vec<(u32, Move)>, Box<Diagnostic>> {
             mover.step(step)?;
         }
     }
-    Ok(mover.moves.into_iter().map(answered).collect())
+    Ok(mover.moves.into_iter().map(with_equal_probes).collect())
 }
 
 struct Mover {
@@ -385,7 +391,7 @@ pub(super) fn check_beam(steps: &[Step]) -> Option<Diagnostic> {
             Action::Spindle(spindle) => {
                 is_on = spindle.turning.is_on();
             }
-            Action::Move(movement) if is_on && movement.pace == Pace::Rapid && !movement.is_nothing() => {
+            Action::Move(movement) if is_on && movement.pace == Pace::Rapid && !movement.is_standstill() => {
                 return Some(Diagnostic::new(&posts::BEAM_ON).at_line(step.line, None));
             }
             _ => {}

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode;
-use pathbuild_gcode::interpret::{Disputes, UnionWord, code_name, union_word};
+use pathbuild_gcode::interpret::{DisputedWords, UnionWord, code_name, union_word};
 
 use crate::job::Units;
 use crate::line_words::{LineWords, Word};
@@ -16,7 +16,7 @@ pub(crate) struct Rs274Translation {
     text: String,
     line: u32,
     doubtful: Vec<DoubtfulWord>,
-    disputes: Disputes,
+    disputes: DisputedWords,
     dwells: Vec<(u32, f64)>,
     /// Whether the definition of the blank (workpiece) has begun in a Heidenhain program. Such a definition begins with G30 and ends with G31.
     is_blank_open: bool,
@@ -101,7 +101,7 @@ pub enum Doubt {
 }
 
 /// Maximum number of doubtful words that are reported.
-const MOST_DOUBTFUL: usize = 20;
+const MAX_DOUBTFUL_WORDS: usize = 20;
 
 impl Rs274Translation {
     /// Creates an empty translation. Units and the mode of arc centres are those of the definition until a line changes them.
@@ -113,7 +113,7 @@ impl Rs274Translation {
             text,
             line: 1,
             doubtful: Vec::new(),
-            disputes: Disputes::default(),
+            disputes: DisputedWords::default(),
             dwells: Vec::new(),
             is_blank_open: false,
             modes: ModeWords::default(),
@@ -239,7 +239,7 @@ impl Rs274Translation {
 
     fn report(&mut self, word: String, doubt: Doubt) {
         let is_known = self.doubtful.iter().any(|known| known.word == word);
-        if !is_known && self.doubtful.len() < MOST_DOUBTFUL {
+        if !is_known && self.doubtful.len() < MAX_DOUBTFUL_WORDS {
             self.doubtful.push(DoubtfulWord { line: self.line, word, doubt });
         }
     }

@@ -6,7 +6,8 @@ use std::ops::Range;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 use pathbuild_gcode::dialect::{
-    Charset, Dialect, LineLength, Percent, Rules, Spelling, Style, ascii, is_active_comment, within_comment,
+    Charset, Dialect, LineLength, NotationSupport, Percent, Rules, Spelling, ascii, is_active_comment,
+    within_comment,
 };
 use pathbuild_gcode::read::LONGEST_LINE;
 
@@ -45,7 +46,7 @@ impl Target {
     }
 
     /// Whether some controls read lengths without a decimal point as thousandths.
-    pub(super) fn needs_points(&self) -> bool {
+    pub(super) fn needs_decimal_points(&self) -> bool {
         self.rules.least_increments
     }
 
@@ -54,8 +55,9 @@ impl Target {
     pub(super) fn comment_marks(&self, text: &str) -> Option<(usize, &'static str)> {
         let Spelling { round_comments, semicolon_comments, slash_comments, .. } = self.spelling;
         let signs = [(round_comments, "(", ")"), (semicolon_comments, ";", ""), (slash_comments, "//", "")];
-        let found =
-            signs.into_iter().find(|(style, open, _)| **style == Style::Usual && text.starts_with(open));
+        let found = signs
+            .into_iter()
+            .find(|(style, open, _)| **style == NotationSupport::Usual && text.starts_with(open));
         found.map(|(_, open, close)| (open.len(), close))
     }
 
@@ -120,7 +122,7 @@ enum LinePart<'a> {
 }
 
 /// Maximum number of errors reported by the check of a text.
-const MOST_ERRORS: usize = 20;
+const MAX_ERRORS: usize = 20;
 
 /// Returns an error for everything in a text that the target would refuse, with its line.
 pub(crate) fn check(text: &[u8], target: &Target) -> Vec<Diagnostic> {
@@ -129,7 +131,7 @@ pub(crate) fn check(text: &[u8], target: &Target) -> Vec<Diagnostic> {
         let line = String::from_utf8_lossy(line);
         let line = line.trim_end_matches('\r');
         Checker { target, number, line, after_change: false, errors: &mut errors }.line();
-        if errors.len() >= MOST_ERRORS {
+        if errors.len() >= MAX_ERRORS {
             break;
         }
     }
@@ -179,7 +181,7 @@ impl Checker<'_> {
     }
 
     fn report(&mut self, diagnostic: Diagnostic, span: Range<usize>) {
-        if self.errors.len() >= MOST_ERRORS {
+        if self.errors.len() >= MAX_ERRORS {
             return;
         }
         let diagnostic = diagnostic.quoting("dialect", self.target.reader.name()).with("line", self.number);
@@ -263,7 +265,7 @@ fn tenths(value: f64) -> Option<u16> {
 
 /// Replaces characters that the target or the configuration does not allow. In comments, this includes characters that the target would
 /// act on; in code those are kept, so that the check reports them. Lines that are not UTF-8 are not changed.
-pub(crate) fn plain(text: &[u8], target: Option<&Target>, charset: Charset) -> Vec<u8> {
+pub(crate) fn with_permitted_characters(text: &[u8], target: Option<&Target>, charset: Charset) -> Vec<u8> {
     let is_ascii = charset == Charset::Ascii || target.is_some_and(|target| target.spelling.real_time_bytes);
     let mut plain = Vec::with_capacity(text.len());
     for line in text.split_inclusive(|&byte| byte == b'\n') {
@@ -280,12 +282,12 @@ fn plain_line(line: &str, target: Option<&Target>, is_ascii: bool) -> String {
     let Some(target) = target else { return line };
     let piece = |piece| match piece {
         LinePart::Code(code) => code.to_owned(),
-        LinePart::Comment(comment) => harmless(comment, target),
+        LinePart::Comment(comment) => harmless_comment(comment, target),
     };
     target.pieces(&line).into_iter().map(piece).collect()
 }
 
-fn harmless(comment: &str, target: &Target) -> String {
+fn harmless_comment(comment: &str, target: &Target) -> String {
     let is_round = comment.starts_with('(');
     let replace = |(at, c): (usize, char)| match c {
         '(' if is_round && at > 0 && !target.spelling.nested_comments => '[',
@@ -299,27 +301,28 @@ fn harmless(comment: &str, target: &Target) -> String {
 
 /// Guard that inserts texts into the lines of a post in such a way that they cannot be executed. It knows which marks begin and end comments.
 #[derive(Debug)]
-pub(crate) struct Guard<'a> {
+pub(crate) struct TextInserter<'a> {
     target: Option<&'a Target>,
     marks: CommentMarks,
     charset: Charset,
 }
 
-impl<'a> Guard<'a> {
+impl<'a> TextInserter<'a> {
     /// Creates a guard with the comment marks of the target; without a target, with those of the definition and the usual ones.
     pub(crate) fn new(target: Option<&'a Target>, marks: CommentMarks, charset: Charset) -> Self {
         Self { target, marks, charset }
     }
 
     /// Returns the text in a form that may be appended to the line; `None` if it would be outside a comment and be read as words.
-    pub(crate) fn put(&self, line: &str, text: &str) -> Option<String> {
+    pub(crate) fn inserted_form(&self, line: &str, text: &str) -> Option<String> {
         let plain = within_comment(text, self.target.map(|target| target.reader), self.charset);
         let is_title = line.trim_start().starts_with('%');
         match self.open_comment(line) {
             Some((before, close)) => {
-                let plain = unclosing(&plain, close);
+                let plain = without_closing_mark(&plain, close);
                 let all = format!("{before}{plain}");
-                let guard = if is_active_comment(&all) && !is_active_comment(before) { GUARD } else { "" };
+                let guard =
+                    if is_active_comment(&all) && !is_active_comment(before) { TEXT_PREFIX } else { "" };
                 Some(format!("{guard}{plain}"))
             }
             None if is_title => Some(plain),
@@ -358,10 +361,10 @@ impl<'a> Guard<'a> {
 }
 
 /// Prefix for texts that a control would take for commands even within a comment.
-const GUARD: &str = "text: ";
+const TEXT_PREFIX: &str = "text: ";
 
 /// Replaces the mark that closes a comment within the comment's text. Definitions may use any mark.
-fn unclosing(text: &str, close: &str) -> String {
+fn without_closing_mark(text: &str, close: &str) -> String {
     let instead = if close.contains(' ') { "_" } else { " " };
     text.replace(|c| close.contains(c), instead)
 }

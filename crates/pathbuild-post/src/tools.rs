@@ -11,7 +11,7 @@ use crate::job::{Job, Operation};
 use crate::traverse::MatchedCut;
 
 /// Difference in spindle speed, in 1/min, that is attributed to rounding. Some definitions write whole numbers.
-const SAME_SPEED: f64 = 0.5 * (1.0 + 1e-6);
+const SPEED_TOLERANCE: f64 = 0.5 * (1.0 + 1e-6);
 
 /// Returns the first problem of each kind. `cuts` are the cuts of the text, in order. For `is_manual` and `is_flat`, see
 /// [`ReadBackOptions`](crate::read_back::ReadBackOptions).
@@ -36,7 +36,7 @@ pub(super) fn check(
             (current, rest) = (Some(*next), after);
         }
         if let Some((_, number)) = current.filter(|(line, _)| *line == step.line) {
-            checker.cut(step.line, movement, number);
+            checker.check_cut(step.line, movement, number);
         }
     }
     checker.problems
@@ -119,19 +119,19 @@ impl<'j> Checker<'j> {
     }
 
     /// Handles a cut that belongs to the step with this number (from 1) of the job.
-    fn cut(&mut self, line: u32, movement: &Move, number: u32) {
+    fn check_cut(&mut self, line: u32, movement: &Move, number: u32) {
         let index = usize::try_from(number).unwrap_or(usize::MAX).wrapping_sub(1);
         let Some(operation) = self.operations.get(index).copied() else { return };
         let is_low = movement.from.z().min(movement.to.z()) < self.surface;
-        if !matches!(movement.pace, Pace::Feed(_)) || movement.is_nothing() || !is_low {
+        if !matches!(movement.pace, Pace::Feed(_)) || movement.is_standstill() || !is_low {
             return;
         }
         if let Some(tool) = operation.tool.is_named.then_some(operation.tool.index) {
-            self.tool(line, tool);
-            self.length(line, tool);
+            self.check_tool(line, tool);
+            self.check_length(line, tool);
             self.last = Some(tool);
         }
-        self.spindle(line, operation);
+        self.check_spindle(line, operation);
         (self.has_stopped, self.spinning) = (false, None);
     }
 
@@ -146,7 +146,7 @@ impl<'j> Checker<'j> {
         }
     }
 
-    fn tool(&mut self, line: u32, expected: u32) {
+    fn check_tool(&mut self, line: u32, expected: u32) {
         let is_changed = self.last.is_some_and(|last| last != expected);
         if let Some(stop) = self.spinning.filter(|_| is_changed) {
             self.report(&gcode::SPINNING_AT_CHANGE, stop, |d| d);
@@ -166,7 +166,7 @@ impl<'j> Checker<'j> {
         }
     }
 
-    fn length(&mut self, line: u32, expected: u32) {
+    fn check_length(&mut self, line: u32, expected: u32) {
         let fits = match self.tools.length_fit_for(Some(expected)) {
             LengthFit::Fits | LengthFit::Unknown => true,
             LengthFit::Unstated | LengthFit::Off => !self.words.has_length,
@@ -178,12 +178,12 @@ impl<'j> Checker<'j> {
     }
 
     /// Compares the spindle with the operation, as far as both the job and the text switch it.
-    fn spindle(&mut self, line: u32, operation: &Operation) {
+    fn check_spindle(&mut self, line: u32, operation: &Operation) {
         let found = self.tools.spindle();
         let turning = operation.spindle.filter(|turning| turning.is_on() && !self.is_manual);
         let speed = operation.speed.filter(|_| found.speed.is_some());
         // Cuts with a spindle that does not turn are reported by the rules of `verify`.
-        if found.turning == Turning::Off || !self.tools.turns_otherwise(turning, speed, SAME_SPEED) {
+        if found.turning == Turning::Off || !self.tools.turns_otherwise(turning, speed, SPEED_TOLERANCE) {
             return;
         }
         match (turning, found.turning) {

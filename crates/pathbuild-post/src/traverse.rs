@@ -47,7 +47,7 @@ pub(crate) fn check(
         traverse.check(&found[..length])?;
         let (run, rest) = split(cuts, |movement| !is_rapid(movement));
         found = &found[length..];
-        let (run_moves, after) = found.split_at(cut(found, run, tolerance)?);
+        let (run_moves, after) = found.split_at(matching_cut_length(found, run, tolerance)?);
         match_cuts(run_moves, run, tolerance, &mut matched);
         end = run_moves.last().map(|(_, movement)| movement.to).or(end);
         found = after;
@@ -113,7 +113,7 @@ fn is_over(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
 }
 
 /// Returns the number of moves at the beginning of `found` that make the expected cuts.
-fn cut(
+fn matching_cut_length(
     found: NumberedMoves<'_>,
     expected: NumberedMoves<'_>,
     tolerance: &Tolerance,
@@ -131,7 +131,7 @@ fn cut(
 }
 
 /// Maximum number of steps that one move may comprise if the post joins straight moves.
-const MOST_JOINED: usize = 64;
+const MAX_JOINED_STEPS: usize = 64;
 
 /// Finds the step of each move in a run of cuts that equals the expected one. The runs may be divided into moves differently, so moves are
 /// matched by their ends.
@@ -151,7 +151,7 @@ fn match_cuts(
         let ends_there = |(_, step): &(u32, Move)| {
             (0..3).all(|axis| (step.to.at[axis] - movement.to.at[axis]).abs() <= slack)
         };
-        if let Some(index) = rest.iter().take(MOST_JOINED).position(ends_there) {
+        if let Some(index) = rest.iter().take(MAX_JOINED_STEPS).position(ends_there) {
             rest = &rest[index + 1..];
         }
     }
@@ -184,7 +184,7 @@ fn describe(difference: &Difference) -> Diagnostic {
 }
 
 /// Returns the error for a cut after the last one of the job.
-fn too_far(cut: (u32, Move)) -> Box<Diagnostic> {
+fn extra_cut_error(cut: (u32, Move)) -> Box<Diagnostic> {
     let found = Some(cut);
     Box::new(describe(&Difference { kind: DifferenceKind::Place, found, expected: None }))
 }
@@ -280,7 +280,7 @@ impl<'m> ExpectedTraverse<'m> {
                 }
             };
             if !is_fine {
-                return Err(self.not_free(line, &movement));
+                return Err(self.not_free_error(line, &movement));
             }
             // After a move to a machine position, the height is unknown, but the tool is above everything.
             is_home = !movement.to.known.has(Axes::Z) && (movement.named.is_some() || is_home);
@@ -289,9 +289,9 @@ impl<'m> ExpectedTraverse<'m> {
     }
 
     /// Returns the error for a move between two cuts that the job does not contain and that may hit material.
-    fn not_free(&self, line: u32, movement: &Move) -> Box<Diagnostic> {
+    fn not_free_error(&self, line: u32, movement: &Move) -> Box<Diagnostic> {
         if !is_rapid(movement) && self.expected.is_empty() {
-            return too_far((line, *movement));
+            return extra_cut_error((line, *movement));
         }
         let diagnostic = Diagnostic::new(&posts::WAY_NOT_FREE).with("found", movement.pace.word());
         let diagnostic = diagnostic.with("from", place_of(&movement.from)).with("to", place(movement));
@@ -303,7 +303,7 @@ impl<'m> ExpectedTraverse<'m> {
     fn check_after_last_cut(&self, found: NumberedMoves<'_>, end: Option<Position>) -> TraverseResult<()> {
         let is_high = |movement: &Move| movement.from.z().min(movement.to.z()) >= self.clearance - self.slack;
         if let Some(cut) = found.iter().find(|(_, movement)| !is_rapid(movement) && is_high(movement)) {
-            return Err(too_far(*cut));
+            return Err(extra_cut_error(*cut));
         }
         self.check(found)?;
         let Some((end, (_, expected))) = end.zip(self.expected.last()) else { return Ok(()) };
@@ -354,25 +354,29 @@ impl<'m> ExpectedTraverse<'m> {
             return true;
         }
         if !movement.is_known() {
-            if self.comes_lower(movement, lowest) {
+            if self.job_comes_lower(movement, lowest) {
                 return true;
             }
             // A descent from above everything must be vertical and end above a known position.
             return movement.to.known == Axes::ALL
                 && is_vertical
-                && self.floor(&movement.to.at).is_some_and(|floor| lowest >= floor - self.slack);
+                && self
+                    .lowest_rapid_height(&movement.to.at)
+                    .is_some_and(|floor| lowest >= floor - self.slack);
         }
         if is_vertical {
             if movement.to.z() >= movement.from.z() {
                 return true;
             }
-            return self.floor(&movement.to.at).is_some_and(|floor| lowest >= floor - self.slack);
+            return self
+                .lowest_rapid_height(&movement.to.at)
+                .is_some_and(|floor| lowest >= floor - self.slack);
         }
         self.is_covered(&movement.from.at, &movement.to.at)
     }
 
     /// Whether the job itself has a move to the same position that is no higher and whose start is known in the same axes.
-    fn comes_lower(&self, movement: &Move, lowest: f64) -> bool {
+    fn job_comes_lower(&self, movement: &Move, lowest: f64) -> bool {
         let end = in_plane(&movement.to);
         self.near([end, end]).any(|expected| {
             let highest = expected.from.z().max(expected.to.z());
@@ -387,20 +391,20 @@ impl<'m> ExpectedTraverse<'m> {
     }
 
     /// Returns the straight moves of the job between known positions that may pass over the rectangle between two corners.
-    fn legs(&self, corners: [[f64; 2]; 2]) -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
+    fn straight_moves_near(&self, corners: [[f64; 2]; 2]) -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
         self.near(corners)
             .filter(|movement| movement.is_known() && movement.named.is_none())
             .map(|movement| (movement.from.at, movement.to.at))
     }
 
     /// Returns the lowest height at which the job moves across a position, seen from above; `None` if it does not.
-    fn floor(&self, place: &[f64; 3]) -> Option<f64> {
+    fn lowest_rapid_height(&self, place: &[f64; 3]) -> Option<f64> {
         let here = [[place[0], place[1]]; 2];
         let ends =
             self.near(here).map(|movement| movement.to).filter(|to| to.known == Axes::ALL).map(|to| to.at);
-        let begins = self.legs(here).map(|(from, _)| from);
+        let begins = self.straight_moves_near(here).map(|(from, _)| from);
         let over = ends.chain(begins).filter(|at| is_over(at, place, self.slack)).map(|at| at[2]);
-        let along = self.legs(here).filter_map(|(from, to)| {
+        let along = self.straight_moves_near(here).filter_map(|(from, to)| {
             let share = share_of(&from, &to, place)?.clamp(0.0, 1.0);
             let at = between(&from, &to, share);
             is_over(&at, place, self.slack).then_some(at[2])
@@ -412,8 +416,8 @@ impl<'m> ExpectedTraverse<'m> {
     fn is_covered(&self, from: &[f64; 3], to: &[f64; 3]) -> bool {
         let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
         let grain = self.slack / length;
-        let low = below(from[2], to[2], self.clearance - self.slack);
-        let legs = self.legs([[from[0], from[1]], [to[0], to[1]]]);
+        let low = range_below(from[2], to[2], self.clearance - self.slack);
+        let legs = self.straight_moves_near([[from[0], from[1]], [to[0], to[1]]]);
         let mut spans: Vec<[f64; 2]> = legs.filter_map(|leg| self.span(from, to, low, leg)).collect();
         spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let reached = spans.iter().fold(low[0], |reached, span| {
@@ -450,7 +454,7 @@ fn in_plane(at: &Position) -> [f64; 2] {
 }
 
 /// Returns the range, as fractions of a move, in which a linearly changing height is below `height`.
-fn below(from: f64, to: f64, height: f64) -> [f64; 2] {
+fn range_below(from: f64, to: f64, height: f64) -> [f64; 2] {
     let crossing = if from == to { 0.0 } else { ((height - from) / (to - from)).clamp(0.0, 1.0) };
     match (from < height, to < height) {
         (true, true) => [0.0, 1.0],

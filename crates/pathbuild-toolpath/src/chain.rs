@@ -9,12 +9,12 @@ use pathbuild_path::{Chain, ChainSegment, Curve, Cut, CutParameters, Line, Path,
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
-use crate::fold::{Fold, Parts, PlacedPath, Tip, distance};
+use crate::fold::{Fold, FoldPaths, PlacedPath, Tip, distance};
 use crate::mill::{BarPlan, Section};
 use crate::program::ElementKind;
 
 /// A segment of the chain in program coordinates, with the depths of its edges from top to bottom.
-pub(crate) struct Strand<'a> {
+pub(crate) struct ChainEdge<'a> {
     /// The drawing's comment for the operator (Q).
     comment: Option<&'a str>,
     pub(crate) curve: Curve,
@@ -30,67 +30,73 @@ pub(crate) struct Strand<'a> {
 
 /// An edge to be milled: a strand at one of its depths, in one of the two directions.
 #[derive(Clone, Copy)]
-pub(crate) struct Run {
+pub(crate) struct EdgePass {
     strand: usize,
     pub(crate) edge: usize,
     is_backwards: bool,
 }
 
-impl<P: Parts> Fold<'_, P> {
-    pub(crate) fn chain(&mut self, place: &PlacedPath<'_>, chain: &Chain, members: &[ChainSegment]) {
+impl<P: FoldPaths> Fold<'_, P> {
+    pub(crate) fn mill_chain(&mut self, place: &PlacedPath<'_>, chain: &Chain, members: &[ChainSegment]) {
         let first = chain.first_depth.map_or(place.surface - chain.infeed, |depth| place.raised + depth);
-        let strands: Vec<Strand<'_>> =
-            members.iter().map(|member| self.strand(place, member, first, chain.infeed)).collect();
+        let strands: Vec<ChainEdge<'_>> =
+            members.iter().map(|member| self.chain_edge(place, member, first, chain.infeed)).collect();
         let bottom = strands.iter().map(|strand| strand.bottom).fold(f64::INFINITY, f64::min);
-        self.along(strands[0].element);
-        self.element(ElementKind::MillingChain, &members[0].origin(place.path), bottom, place, None);
+        self.begin_element(strands[0].element);
+        self.add_element_comment(
+            ElementKind::MillingChain,
+            &members[0].origin(place.path),
+            bottom,
+            place,
+            None,
+        );
         if chain.first_depth.is_some() {
-            self.sweepless(place, &strands);
+            self.mill_in_groove(place, &strands);
         } else {
-            self.pass_by_pass(place, &strands);
+            self.mill_nearest_first(place, &strands);
         }
     }
 
-    fn strand<'p>(
+    fn chain_edge<'p>(
         &self,
         place: &PlacedPath<'p>,
         member: &ChainSegment,
         first: f64,
         infeed: f64,
-    ) -> Strand<'p> {
+    ) -> ChainEdge<'p> {
         let (cut, curve) = (member.cut(place.path), member.curve(place.path));
         let bottom = place.raised + cut.bottom;
         let bars = planned_bars(cut, place.path.tool, &curve);
-        Strand {
+        ChainEdge {
             comment: cut.comment.as_deref(),
             curve: place.placement.place_curve(&curve),
             depths: depths(first, infeed, bottom),
             bottom,
             bars: bars.map(|(top, plan)| (place.raised + top, plan)),
-            feed: self.feed(cut.feed),
+            feed: self.feed_or_default(cut.feed),
             element: member.element(place.path),
         }
     }
 
     /// Mills the edge whose end is nearest to the tool first; each edge only after the one above it.
-    fn pass_by_pass(&mut self, place: &PlacedPath<'_>, strands: &[Strand<'_>]) {
+    fn mill_nearest_first(&mut self, place: &PlacedPath<'_>, strands: &[ChainEdge<'_>]) {
         let mut open = OpenEdges::new(strands);
         let mut tip = Tip { at: strands[0].curve.start(), z: strands[0].depths[0] };
         let mut last_pass = None;
         while let Some(run) = open.take_nearest(tip) {
             self.checkpoint();
             let strand = &strands[run.strand];
-            self.along(strand.element);
+            self.begin_element(strand.element);
             let z = strand.depths[run.edge];
             if last_pass != Some(run.edge) {
-                self.pass(u32::try_from(run.edge + 1).unwrap_or(u32::MAX), z);
+                self.add_pass_comment(u32::try_from(run.edge + 1).unwrap_or(u32::MAX), z);
                 last_pass = Some(run.edge);
             }
             let (from, to) = strand.ends(run.is_backwards);
             let entry = strand.entry(z, self.compatible);
             let feed = self.entry_feed(place, strand);
             self.travel(Tip { at: from, z: entry }, place.surface, place.sweep_height, feed);
-            self.edge(place, strand, z, run.is_backwards);
+            self.mill_edge(place, strand, z, run.is_backwards);
             tip = Tip { at: to, z };
         }
         let end = strands[strands.len() - 1].curve.end();
@@ -98,7 +104,7 @@ impl<P: Parts> Fold<'_, P> {
     }
 
     /// Mills to and fro in the groove without leaving it.
-    fn sweepless(&mut self, place: &PlacedPath<'_>, strands: &[Strand<'_>]) {
+    fn mill_in_groove(&mut self, place: &PlacedPath<'_>, strands: &[ChainEdge<'_>]) {
         let runs = strands.iter().map(|strand| strand.depths.len()).max().unwrap_or(0);
         let (start, end) = (strands[0].curve.start(), strands[strands.len() - 1].curve.end());
         let goes_back = runs > 1 && !coincide(start, end);
@@ -108,40 +114,44 @@ impl<P: Parts> Fold<'_, P> {
             for (index, strand) in strands.iter().enumerate() {
                 let edge = run.min(strand.depths.len() - 1);
                 let is_backwards = !strand.starts_nearer(self.tip.at);
-                way.push(Run { strand: index, edge, is_backwards });
-                self.run_in_groove(place, strands, way[index]);
+                way.push(EdgePass { strand: index, edge, is_backwards });
+                self.mill_pass_in_groove(place, strands, way[index]);
             }
             if goes_back && run + 1 < runs {
                 for forth in way.into_iter().rev() {
-                    self.run_in_groove(place, strands, Run { is_backwards: !forth.is_backwards, ..forth });
+                    self.mill_pass_in_groove(
+                        place,
+                        strands,
+                        EdgePass { is_backwards: !forth.is_backwards, ..forth },
+                    );
                 }
             }
         }
     }
 
-    fn run_in_groove(&mut self, place: &PlacedPath<'_>, strands: &[Strand<'_>], run: Run) {
+    fn mill_pass_in_groove(&mut self, place: &PlacedPath<'_>, strands: &[ChainEdge<'_>], run: EdgePass) {
         let strand = &strands[run.strand];
-        self.along(strand.element);
+        self.begin_element(strand.element);
         let z = strand.depths[run.edge];
         self.plunge(strand.entry(z, self.compatible), place.surface, self.entry_feed(place, strand));
-        self.edge(place, strand, z, run.is_backwards);
+        self.mill_edge(place, strand, z, run.is_backwards);
     }
 
     /// Returns the feed of the plunge to the start of an edge.
-    fn entry_feed(&self, place: &PlacedPath<'_>, strand: &Strand<'_>) -> f64 {
+    fn entry_feed(&self, place: &PlacedPath<'_>, strand: &ChainEdge<'_>) -> f64 {
         if self.compatible { place.feed } else { place.feed.min(strand.feed) }
     }
 
     /// Mills a segment at one depth, except for its bars.
-    fn edge(&mut self, place: &PlacedPath<'_>, strand: &Strand<'_>, z: f64, is_backwards: bool) {
-        self.question(strand.comment);
+    fn mill_edge(&mut self, place: &PlacedPath<'_>, strand: &ChainEdge<'_>, z: f64, is_backwards: bool) {
+        self.add_question_comment(strand.comment);
         for section in strand.sections(z, is_backwards) {
-            self.mill(&section, place.surface, strand.feed);
+            self.mill_section(&section, place.surface, strand.feed);
         }
     }
 }
 
-impl Strand<'_> {
+impl ChainEdge<'_> {
     /// Returns the start and the end of the strand in this direction.
     fn ends(&self, is_backwards: bool) -> (Xy, Xy) {
         let (start, end) = (self.curve.start(), self.curve.end());
@@ -225,7 +235,7 @@ fn depths(first: f64, infeed: f64, bottom: f64) -> Vec<f64> {
 
 /// The edges of a chain that have not been milled yet.
 pub(crate) struct OpenEdges<'a> {
-    strands: &'a [Strand<'a>],
+    strands: &'a [ChainEdge<'a>],
     /// Number of milled edges of each strand, counted from the top.
     done: Vec<usize>,
     /// Both ends of each strand, as indices into `points`.
@@ -246,7 +256,7 @@ struct Point {
 struct Coordinate(f64);
 
 impl<'a> OpenEdges<'a> {
-    pub(crate) fn new(strands: &'a [Strand<'a>]) -> Self {
+    pub(crate) fn new(strands: &'a [ChainEdge<'a>]) -> Self {
         let (mut points, mut known) = (Vec::new(), BTreeMap::new());
         let mut point = |at: Xy| {
             *known.entry((Coordinate(at.x), Coordinate(at.y))).or_insert_with(|| {
@@ -259,25 +269,25 @@ impl<'a> OpenEdges<'a> {
         let entry = |(number, point): (usize, &Point)| GeomWithData::new([point.at.x, point.at.y], number);
         let tree = RTree::bulk_load(points.iter().enumerate().map(entry).collect());
         let mut open = Self { strands, done: vec![0; strands.len()], ends, points, tree };
-        (0..strands.len()).for_each(|strand| open.enter(strand));
+        (0..strands.len()).for_each(|strand| open.insert_edge(strand));
         open
     }
 
     /// Takes the next edge: among those whose upper edges are milled, the one with an end nearest to the tip, and the first of these if there are
     /// several.
-    pub(crate) fn take_nearest(&mut self, tip: Tip) -> Option<Run> {
-        let mut best: Option<(f64, Run)> = None;
-        for index in self.contenders(tip) {
-            let (least, run) = self.run(index, tip);
+    pub(crate) fn take_nearest(&mut self, tip: Tip) -> Option<EdgePass> {
+        let mut best: Option<(f64, EdgePass)> = None;
+        for index in self.candidate_edges(tip) {
+            let (least, run) = self.next_pass(index, tip);
             if best.is_none_or(|(nearest, _)| above(nearest, least)) {
                 best = Some((least, run));
             }
         }
         let (_, run) = best?;
-        self.leave(run.strand);
+        self.remove_edge(run.strand);
         self.done[run.strand] += 1;
         if self.is_open(run.strand) {
-            self.enter(run.strand);
+            self.insert_edge(run.strand);
         } else {
             self.forget_points(run.strand);
         }
@@ -285,29 +295,29 @@ impl<'a> OpenEdges<'a> {
     }
 
     /// Returns the distance to the nearer end of a strand's next edge, and that edge.
-    fn run(&self, index: usize, tip: Tip) -> (f64, Run) {
+    fn next_pass(&self, index: usize, tip: Tip) -> (f64, EdgePass) {
         let (strand, edge) = (&self.strands[index], self.done[index]);
         let to = |at: Xy| distance(tip, Tip { at, z: strand.depths[edge] });
         let (to_start, to_end) = (to(strand.curve.start()), to(strand.curve.end()));
         let is_backwards = !above(to_end, to_start);
         let least = if is_backwards { to_end } else { to_start };
-        (least, Run { strand: index, edge, is_backwards })
+        (least, EdgePass { strand: index, edge, is_backwards })
     }
 
     /// Returns the strands that can affect the scan, in segment order: the nearest one, and all that approximate comparison cannot tell from it,
     /// directly or through others in between. Strands beyond the first distinguishable gap between distances never win, and neither do those whose
     /// next edge begins at the same point and depth as that of an earlier strand.
-    fn contenders(&self, tip: Tip) -> Vec<usize> {
+    fn candidate_edges(&self, tip: Tip) -> Vec<usize> {
         let place = [tip.at.x, tip.at.y];
         let mut found: Vec<(f64, usize)> = Vec::new();
         let mut reach = f64::INFINITY;
         if let Some(nearest) = self.tree.nearest_neighbor(place) {
-            self.look(nearest.data, tip, &mut found, &mut reach);
+            self.add_nearest_at_point(nearest.data, tip, &mut found, &mut reach);
         }
         // The distance in space is at least the distance in the plane, so this search misses nothing. Requesting points one by one would sort all
         // those at equal distance.
         for point in self.tree.locate_within_distance(place, reach * reach) {
-            self.look(point.data, tip, &mut found, &mut reach);
+            self.add_nearest_at_point(point.data, tip, &mut found, &mut reach);
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         let gap = found.windows(2).position(|pair| above(pair[1].0, pair[0].0));
@@ -325,14 +335,14 @@ impl<'a> OpenEdges<'a> {
     }
 
     /// Finds the first strand of each depth at a point within the reach, and reduces the reach accordingly.
-    fn look(&self, point: usize, tip: Tip, found: &mut Vec<(f64, usize)>, reach: &mut f64) {
+    fn add_nearest_at_point(&self, point: usize, tip: Tip, found: &mut Vec<(f64, usize)>, reach: &mut f64) {
         let Point { at, levels } = &self.points[point];
         let mut look = |(depth, strands): (&Coordinate, &BTreeSet<usize>)| {
             let is_near = distance(tip, Tip { at: *at, z: depth.0 }) <= *reach;
             if let Some(first) = strands.first().filter(|_| is_near) {
-                let (least, _) = self.run(*first, tip);
+                let (least, _) = self.next_pass(*first, tip);
                 found.push((least, *first));
-                *reach = reach.min(least * (1.0 + MARGIN) + MARGIN);
+                *reach = reach.min(least * (1.0 + SEARCH_MARGIN) + SEARCH_MARGIN);
             }
             is_near
         };
@@ -346,7 +356,7 @@ impl<'a> OpenEdges<'a> {
     }
 
     /// Inserts the next edge of a strand at both its ends.
-    fn enter(&mut self, strand: usize) {
+    fn insert_edge(&mut self, strand: usize) {
         let depth = Coordinate(self.strands[strand].depths[self.done[strand]]);
         for end in self.ends[strand] {
             self.points[end].levels.entry(depth).or_default().insert(strand);
@@ -354,7 +364,7 @@ impl<'a> OpenEdges<'a> {
     }
 
     /// Removes the next edge of a strand.
-    fn leave(&mut self, strand: usize) {
+    fn remove_edge(&mut self, strand: usize) {
         let depth = Coordinate(self.strands[strand].depths[self.done[strand]]);
         for end in self.ends[strand] {
             let levels = &mut self.points[end].levels;
@@ -379,7 +389,7 @@ impl<'a> OpenEdges<'a> {
 }
 
 /// Distance beyond the nearest edge to search, as a fraction of that edge's distance and in mm: many times the tolerance of comparisons.
-const MARGIN: f64 = 1e-4;
+const SEARCH_MARGIN: f64 = 1e-4;
 
 impl PartialEq for Coordinate {
     fn eq(&self, other: &Self) -> bool {

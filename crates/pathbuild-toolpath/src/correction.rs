@@ -6,7 +6,7 @@ use nalgebra::{Complex, UnitComplex};
 use pathbuild_path::Xy;
 
 use crate::program::{Count, Height, MoveClass, PlannedMove, Program, ProgramStep};
-use crate::z_model::{Tin, ZModel};
+use crate::z_model::{Triangulation, ZModel};
 
 /// The method by which the heights of a program with probes are corrected.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,10 +27,10 @@ pub struct UnprobedPoint {
 }
 
 /// Distance in mm outside the probes up to which milling is not reported. Numbers in programs are not more precise.
-const NEGLIGIBLE: f64 = 0.001;
+const NEGLIGIBLE_DISTANCE: f64 = 0.001;
 
-/// Part length used for [`Correction::outside`] if moves are not split.
-const LOOKED_AT: f64 = 20.0;
+/// Part length used for [`Correction::farthest_unprobed_point`] if moves are not split.
+const SAMPLE_LENGTH: f64 = 20.0;
 
 impl Correction {
     /// Whether the correction is that of the original tool, which corrects a move by the value at its start, and a helical circle by the
@@ -45,7 +45,7 @@ impl Correction {
         if program.probes.is_empty() || self.is_compatible() {
             return Cow::Borrowed(&program.steps);
         }
-        Cow::Owned(cut(program, self.longest).collect())
+        Cow::Owned(split_steps(program, self.longest).collect())
     }
 
     /// Returns the number of steps returned by [`steps`](Self::steps), without computing them; saturates.
@@ -53,46 +53,49 @@ impl Correction {
         if program.probes.is_empty() || self.is_compatible() {
             return program.steps.len() as u64;
         }
-        let steps = walk(program, self.longest).map(|(before, cut)| {
+        let steps = steps_or_moves(program, self.longest).map(|(before, cut)| {
             u64::from(before.is_some()).saturating_add(cut.map_or(0, |cut| cut.pieces()))
         });
         steps.fold(0, u64::saturating_add)
     }
 
     /// Returns the point at which the program mills farthest outside the probes, if there is one. `None` for models whose values are reliable there.
-    pub fn outside(self, program: &Program) -> Option<UnprobedPoint> {
+    pub fn farthest_unprobed_point(self, program: &Program) -> Option<UnprobedPoint> {
         if program.probes.is_empty() || self.model == ZModel::Idw4 {
             return None;
         }
         let places: Vec<Xy> = program.probes.iter().map(|probe| probe.at).collect();
-        let hull = Tin::new(&places);
-        let longest = if self.longest > 0.0 { self.longest } else { LOOKED_AT };
-        let milled = cut(program, longest).filter_map(|step| milled(&step));
+        let hull = Triangulation::new(&places);
+        let longest = if self.longest > 0.0 { self.longest } else { SAMPLE_LENGTH };
+        let milled = split_steps(program, longest).filter_map(|step| milled_point(&step));
         let distances = milled.map(|at| UnprobedPoint { at, distance: hull.distance(at) });
         let farthest = distances.reduce(|far, other| if other.distance > far.distance { other } else { far });
-        farthest.filter(|outside| outside.distance > NEGLIGIBLE)
+        farthest.filter(|outside| outside.distance > NEGLIGIBLE_DISTANCE)
     }
 }
 
 /// Returns the steps of a program after splitting.
-fn cut(program: &Program, longest: f64) -> impl Iterator<Item = ProgramStep> + '_ {
-    walk(program, longest).flat_map(|(before, cut)| {
+fn split_steps(program: &Program, longest: f64) -> impl Iterator<Item = ProgramStep> + '_ {
+    steps_or_moves(program, longest).flat_map(|(before, cut)| {
         let pieces = cut.into_iter().flat_map(|cut| (1..=cut.pieces()).map(move |number| cut.piece(number)));
         before.into_iter().chain(pieces)
     })
 }
 
 /// Yields each step, either unchanged or as a move to be split.
-fn walk(program: &Program, longest: f64) -> impl Iterator<Item = (Option<ProgramStep>, Option<Cut>)> {
-    let mut tool = Tool { at: Xy::origin(), z: program.start_height() };
+fn steps_or_moves(
+    program: &Program,
+    longest: f64,
+) -> impl Iterator<Item = (Option<ProgramStep>, Option<SplitMove>)> {
+    let mut tool = ToolPosition { at: Xy::origin(), z: program.start_height() };
     let mut is_settled = true;
     program.steps.iter().map(move |step| match step {
         ProgramStep::Comment(_) => (Some(*step), None),
         ProgramStep::Move { to, count } => {
             let begins_here = matches!(to, PlannedMove::Line { .. } | PlannedMove::Arc { .. });
-            let settling = (begins_here && !is_settled).then(|| settle(tool));
+            let settling = (begins_here && !is_settled).then(|| corrected_lift(tool));
             is_settled = !matches!(to, PlannedMove::Sweep { .. });
-            let cut = Cut::new(tool, *to, *count, longest);
+            let cut = SplitMove::new(tool, *to, *count, longest);
             tool = cut.end();
             (settling, Some(cut))
         }
@@ -101,13 +104,13 @@ fn walk(program: &Program, longest: f64) -> impl Iterator<Item = (Option<Program
 
 /// Creates a lift to the height corrected for the tool's current position: after a sweep the tool is still at the corrected height of its previous
 /// position, but a step that mills at once, such as a helical circle, must begin at the height corrected for its own position.
-fn settle(tool: Tool) -> ProgramStep {
+fn corrected_lift(tool: ToolPosition) -> ProgramStep {
     let count = Count { class: MoveClass::Sweep, length: 0.0, feed: None };
     ProgramStep::Move { to: PlannedMove::Lift { z: Height { z: tool.z, at: tool.at } }, count }
 }
 
 /// Returns the point at which a step cuts material; `None` if it cuts nothing.
-fn milled(step: &ProgramStep) -> Option<Xy> {
+fn milled_point(step: &ProgramStep) -> Option<Xy> {
     match step {
         ProgramStep::Move { to: PlannedMove::Line { to, .. } | PlannedMove::Arc { to, .. }, .. } => Some(*to),
         ProgramStep::Move { to: PlannedMove::Drill { z: Height { at, .. }, .. }, .. } => Some(*at),
@@ -119,7 +122,7 @@ fn milled(step: &ProgramStep) -> Option<Xy> {
 
 /// Position of the tool.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Tool {
+pub(crate) struct ToolPosition {
     pub(crate) at: Xy,
     pub(crate) z: f64,
 }
@@ -127,35 +130,35 @@ pub(crate) struct Tool {
 /// Deviation of a part of an arc from its chord, as a fraction of the maximum length, up to which the part is not divided. Within a part the height
 /// changes linearly along the arc, whereas that of a tilted plate changes linearly along the chord. The error is at most the tilt times this
 /// deviation.
-const DEPARTURE: f64 = 0.01;
+const MAX_CHORD_DEPARTURE: f64 = 0.01;
 
 /// Relative increase in length that rounding may cause for a move of an exact number of parts.
 const ROUNDING: f64 = 1e-9;
 
 /// A move and the number of parts it is split into.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cut {
-    from: Tool,
+pub(crate) struct SplitMove {
+    from: ToolPosition,
     to: PlannedMove,
     count: Count,
     pieces: u64,
 }
 
-impl Cut {
+impl SplitMove {
     /// Divides a move from `from`; `longest` is the maximum length of a part in mm, with 0 for not splitting at all.
-    pub(crate) fn new(from: Tool, to: PlannedMove, count: Count, longest: f64) -> Self {
+    pub(crate) fn new(from: ToolPosition, to: PlannedMove, count: Count, longest: f64) -> Self {
         let parts = match to {
             _ if longest <= 0.0 => 1.0,
             PlannedMove::Line { .. } => count.length / longest,
             PlannedMove::Arc { centre, .. } => {
                 let radius = centre.coords.norm();
                 // The deviation of an arc is radius * (1 - cos(angle / 2)), approximately radius * angle² / 8.
-                let angle = libm::sqrt(8.0 * DEPARTURE * longest / radius);
+                let angle = libm::sqrt(8.0 * MAX_CHORD_DEPARTURE * longest / radius);
                 (count.length / longest).max(count.length / radius / angle)
             }
             PlannedMove::Sweep { .. } | PlannedMove::Lift { .. } | PlannedMove::Drill { .. } => 1.0,
         };
-        Self { from, to, count, pieces: whole(parts - ROUNDING) }
+        Self { from, to, count, pieces: round_up(parts - ROUNDING) }
     }
 
     /// Returns the number of parts, at least 1.
@@ -164,17 +167,19 @@ impl Cut {
     }
 
     /// Returns the position of the tool at the end of the move.
-    pub(crate) fn end(&self) -> Tool {
+    pub(crate) fn end(&self) -> ToolPosition {
         match self.to {
-            PlannedMove::Sweep { to } => Tool { at: to, ..self.from },
-            PlannedMove::Lift { z } | PlannedMove::Drill { z, .. } => Tool { z: z.z, ..self.from },
-            PlannedMove::Line { to, z, .. } | PlannedMove::Arc { to, z, .. } => Tool { at: to, z: z.z },
+            PlannedMove::Sweep { to } => ToolPosition { at: to, ..self.from },
+            PlannedMove::Lift { z } | PlannedMove::Drill { z, .. } => ToolPosition { z: z.z, ..self.from },
+            PlannedMove::Line { to, z, .. } | PlannedMove::Arc { to, z, .. } => {
+                ToolPosition { at: to, z: z.z }
+            }
         }
     }
 
     /// Returns a part, counted from 1, corrected at its end.
     pub(crate) fn piece(&self, number: u64) -> ProgramStep {
-        let Tool { at: to, z } = self.after(number);
+        let ToolPosition { at: to, z } = self.after(number);
         let z = Height { z, at: to };
         let moved = match self.to {
             PlannedMove::Sweep { .. } => PlannedMove::Sweep { to },
@@ -195,7 +200,7 @@ impl Cut {
     }
 
     /// Returns the position of the tool after this number of parts.
-    fn after(&self, number: u64) -> Tool {
+    fn after(&self, number: u64) -> ToolPosition {
         let end = self.end();
         if number == self.pieces {
             return end;
@@ -205,7 +210,7 @@ impl Cut {
             PlannedMove::Arc { centre, clockwise, .. } => self.along_arc(centre, clockwise, part),
             _ => self.from.at + (end.at - self.from.at) * part,
         };
-        Tool { at, z: self.from.z + (end.z - self.from.z) * part }
+        ToolPosition { at, z: self.from.z + (end.z - self.from.z) * part }
     }
 
     fn along_arc(&self, centre: Xy, clockwise: bool, part: f64) -> Xy {
@@ -217,6 +222,6 @@ impl Cut {
 
 /// Rounds up, to at least 1.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, and is positive")]
-fn whole(parts: f64) -> u64 {
+fn round_up(parts: f64) -> u64 {
     parts.ceil().max(1.0) as u64
 }

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use pathbuild_path::approx::{at_least, coincide, is_nothing, near};
+use pathbuild_path::approx::{at_least, coincide, is_negligible, near};
 use pathbuild_path::{
     ElementClass, Hole, Item, Letter, Origin, Path, PathOptions, PathRole, PlacedSubpath, Placement,
     SegmentKind, Sweep, WalkedPath, Xy, fallback,
@@ -11,12 +11,12 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::program::{
-    Comment, Count, ElementKind, FIRST_FEED, Height, LeftOut, MoveClass, Names, Occurrence, PlannedMove,
-    ProbeOrigin, ProbePoint, Program, ProgramStep, StepOrigin, Trace,
+    Comment, Count, ElementKind, FIRST_FEED, Height, MoveClass, Names, Occurrence, OmittedCurves,
+    PlannedMove, ProbeOrigin, ProbePoint, Program, ProgramStep, StepOrigin, Trace,
 };
 
 /// Provides the paths to be joined: the emitted path and all paths it embeds.
-pub trait Parts {
+pub trait FoldPaths {
     /// Identifier of a path with given values of its variables.
     type Id: Copy;
 
@@ -34,12 +34,18 @@ pub trait Parts {
 }
 
 /// Computes the program of a path. `moves` is an estimate of the number of moves. None of the paths may have errors.
-pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: PathOptions, moves: u64) -> Program {
+pub fn fold<P: FoldPaths>(
+    parts: &P,
+    root: P::Id,
+    drawing: &str,
+    options: PathOptions,
+    moves: u64,
+) -> Program {
     fold_with(parts, root, drawing, options, moves, None).0
 }
 
 /// Like [`fold`], but also returns the origin of each step.
-pub fn fold_traced<P: Parts>(
+pub fn fold_traced<P: FoldPaths>(
     parts: &P,
     root: P::Id,
     drawing: &str,
@@ -49,7 +55,7 @@ pub fn fold_traced<P: Parts>(
     (program, trace.unwrap_or_default())
 }
 
-fn fold_with<P: Parts>(
+fn fold_with<P: FoldPaths>(
     parts: &P,
     root: P::Id,
     drawing: &str,
@@ -78,7 +84,7 @@ fn fold_with<P: Parts>(
         clearance: sweep_height,
         last_feed: FIRST_FEED,
         tip: Tip { at: Xy::origin(), z: program.start_height() },
-        steps: Vec::with_capacity(usize::try_from(moves).unwrap_or(0).min(MOST_FORESEEN)),
+        steps: Vec::with_capacity(usize::try_from(moves).unwrap_or(0).min(MAX_RESERVED_STEPS)),
         names: Names::default(),
         probes: Vec::new(),
         left_out: BTreeMap::new(),
@@ -86,13 +92,13 @@ fn fold_with<P: Parts>(
         here: StepOrigin::default(),
         trace,
     };
-    fold.path(root, Placement::from_origin(path.start), 0.0, sweep_height);
+    fold.add_path(root, Placement::from_origin(path.start), 0.0, sweep_height);
     program.steps = fold.steps;
     // Steps beyond those foreseen may have taken twice their memory.
     program.steps.shrink_to_fit();
     program.names = fold.names;
     program.left_out = fold.left_out.into_values().collect();
-    let order = in_order(&fold.probes);
+    let order = nearest_neighbour_order(&fold.probes);
     program.probes = order.iter().map(|number| fold.probes[*number].clone()).collect();
     let trace = fold
         .trace
@@ -101,7 +107,7 @@ fn fold_with<P: Parts>(
 }
 
 /// Maximum number of steps for which memory is reserved in advance. Beyond that, reallocation is cheap compared with computing the steps.
-pub(crate) const MOST_FORESEEN: usize = 1 << 16;
+pub(crate) const MAX_RESERVED_STEPS: usize = 1 << 16;
 
 /// Position of the tool tip.
 #[derive(Clone, Copy, Debug)]
@@ -110,7 +116,7 @@ pub(crate) struct Tip {
     pub(crate) z: f64,
 }
 
-pub(crate) struct Fold<'a, P: Parts> {
+pub(crate) struct Fold<'a, P: FoldPaths> {
     parts: &'a P,
     options: PathOptions,
     /// Default feed F in mm/min, for elements without a feed in paths without a feed.
@@ -125,7 +131,7 @@ pub(crate) struct Fold<'a, P: Parts> {
     names: Names,
     probes: Vec<ProbePoint>,
     /// Curves on the layers that are left out of the program, by name of the path.
-    left_out: BTreeMap<Box<str>, LeftOut>,
+    left_out: BTreeMap<Box<str>, OmittedCurves>,
     /// Index of the last sweep as long as only comments follow it. A further sweep replaces that one.
     mergeable: Option<usize>,
     /// The path and element from which the current steps originate.
@@ -149,10 +155,10 @@ pub(crate) struct PlacedPath<'a> {
     pub(crate) feed: f64,
 }
 
-impl<'a, P: Parts> Fold<'a, P> {
-    fn path(&mut self, id: P::Id, placement: Placement, raised: f64, sweep_height: f64) {
+impl<'a, P: FoldPaths> Fold<'a, P> {
+    fn add_path(&mut self, id: P::Id, placement: Placement, raised: f64, sweep_height: f64) {
         self.parts.checkpoint();
-        let outside = self.enter(id, placement, raised, sweep_height);
+        let outside = self.begin_path(id, placement, raised, sweep_height);
         let path = self.parts.path(id);
         self.note_left_out(path);
         let place = PlacedPath {
@@ -181,18 +187,18 @@ impl<'a, P: Parts> Fold<'a, P> {
         let walked = self.parts.walked(id);
         for item in &walked.items {
             if let Some(segment) = item.segment() {
-                self.along(path.segments[segment].element);
+                self.begin_element(path.segments[segment].element);
             }
             match item {
-                Item::Chain(chain) => self.chain(&place, chain, walked.members(chain)),
+                Item::Chain(chain) => self.mill_chain(&place, chain, walked.members(chain)),
                 Item::Hole { segment, hole } => {
-                    self.hole(&place, &origin(*segment), &path.holes[*hole as usize]);
+                    self.drill_hole(&place, &origin(*segment), &path.holes[*hole as usize]);
                 }
                 Item::Helix { segment, helix } => {
-                    self.helix(&place, &origin(*segment), &path.helices[*helix as usize]);
+                    self.mill_helix(&place, &origin(*segment), &path.helices[*helix as usize]);
                 }
                 Item::Sweep(sweep) => self.sweep_along(&place, sweep),
-                Item::Subpath(subpath) => self.subpath(&place, id, subpath),
+                Item::Subpath(subpath) => self.add_subpath(&place, id, subpath),
             }
         }
         self.here = outside;
@@ -208,12 +214,12 @@ impl<'a, P: Parts> Fold<'a, P> {
             for (kind, _) in &path.left_out {
                 *entities.entry(*kind).or_default() += 1;
             }
-            LeftOut { path: path.name.as_str().into(), entities: entities.into_iter().collect() }
+            OmittedCurves { path: path.name.as_str().into(), entities: entities.into_iter().collect() }
         });
     }
 
     /// Makes the given path the current one and returns the previous element.
-    fn enter(&mut self, id: P::Id, placement: Placement, raised: f64, sweep_height: f64) -> StepOrigin {
+    fn begin_path(&mut self, id: P::Id, placement: Placement, raised: f64, sweep_height: f64) -> StepOrigin {
         let outside = self.here;
         if let Some(trace) = &mut self.trace {
             let parent = (!trace.occurrences.is_empty()).then_some(outside);
@@ -225,13 +231,13 @@ impl<'a, P: Parts> Fold<'a, P> {
     }
 
     /// Makes the given element of the path the current one.
-    pub(crate) fn along(&mut self, element: u32) {
+    pub(crate) fn begin_element(&mut self, element: u32) {
         self.here.element = Some(element);
     }
 
     /// Adds an embedded path, which begins exactly at the start of the segment. The next element begins at the end of the segment, even if
     /// the embedded path ended up to 0.001 mm away from it.
-    fn subpath(&mut self, outer: &PlacedPath<'a>, id: P::Id, subpath: &PlacedSubpath) {
+    fn add_subpath(&mut self, outer: &PlacedPath<'a>, id: P::Id, subpath: &PlacedSubpath) {
         let Some(embedded) = self.parts.embedded(id, subpath.segment) else { return };
         let SegmentKind::Subpath(parameters) = &outer.path.segments[subpath.segment].kind else { return };
         let path = self.parts.path(embedded);
@@ -239,7 +245,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         let placement = Placement::aligning((path.start, path.end), (start, end), &outer.placement);
         let name = self.names.intern(path.name.as_str());
         self.comment(Comment::StartSubpath(name));
-        self.path(embedded, placement, outer.raised + parameters.height, path.embedded_sweep_height());
+        self.add_path(embedded, placement, outer.raised + parameters.height, path.embedded_sweep_height());
         self.comment(Comment::EndSubpath(name));
         self.tip.at = end;
     }
@@ -251,10 +257,10 @@ impl<'a, P: Parts> Fold<'a, P> {
     }
 
     /// Drills a hole. The tool stays at the bottom; the next element retracts it.
-    fn hole(&mut self, place: &PlacedPath<'_>, origin: &Origin, hole: &Hole) {
+    fn drill_hole(&mut self, place: &PlacedPath<'_>, origin: &Origin, hole: &Hole) {
         let bottom = place.raised + hole.bottom;
-        self.element(ElementKind::DrilledHole, origin, bottom, place, hole.peck);
-        self.question(hole.comment.as_deref());
+        self.add_element_comment(ElementKind::DrilledHole, origin, bottom, place, hole.peck);
+        self.add_question_comment(hole.comment.as_deref());
         self.plunge(bottom, place.surface, hole.feed.unwrap_or(self.feed));
     }
 
@@ -265,7 +271,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         }
         self.plunge(sweep_height, surface, feed);
         let distance = distance(Tip { at: self.tip.at, z: sweep_height }, to);
-        if !is_nothing(distance) {
+        if !is_negligible(distance) {
             self.sweep(to.at, distance);
         }
         self.plunge(to.z, surface, feed);
@@ -340,7 +346,7 @@ impl<'a, P: Parts> Fold<'a, P> {
     }
 
     /// Adds the comment `(Q:...)`, if there is one.
-    pub(crate) fn question(&mut self, text: Option<&str>) {
+    pub(crate) fn add_question_comment(&mut self, text: Option<&str>) {
         if let Some(text) = text {
             let name = self.names.intern(text);
             self.comment(Comment::Question(name));
@@ -348,7 +354,7 @@ impl<'a, P: Parts> Fold<'a, P> {
     }
 
     /// Adds a comment for the start of a drawn element.
-    pub(crate) fn element(
+    pub(crate) fn add_element_comment(
         &mut self,
         kind: ElementKind,
         origin: &Origin,
@@ -368,12 +374,12 @@ impl<'a, P: Parts> Fold<'a, P> {
     }
 
     /// Adds a comment for the start of a pass.
-    pub(crate) fn pass(&mut self, number: u32, z: f64) {
+    pub(crate) fn add_pass_comment(&mut self, number: u32, z: f64) {
         self.comment(Comment::Pass { number, z });
     }
 
     /// Returns the feed of a segment, or the default feed (--feed), in mm/min.
-    pub(crate) fn feed(&self, own: Option<f64>) -> f64 {
+    pub(crate) fn feed_or_default(&self, own: Option<f64>) -> f64 {
         own.unwrap_or(self.feed)
     }
 
@@ -394,7 +400,7 @@ pub(crate) fn distance(a: Tip, b: Tip) -> f64 {
 const ROUNDING: f64 = 1e-12;
 
 /// Starts at (0, 0) and repeatedly visits the nearest remaining probe; the first of these if there are several. Returns the indices of the probes.
-fn in_order(found: &[ProbePoint]) -> Vec<usize> {
+fn nearest_neighbour_order(found: &[ProbePoint]) -> Vec<usize> {
     let mut waiting = UnvisitedProbes::new(found);
     let mut at = Xy::origin();
     let next = || {
@@ -469,7 +475,7 @@ mod tests {
             let probes: Vec<ProbePoint> =
                 points.into_iter().enumerate().map(|(number, at)| probe(at, number)).collect();
             let ordered: Vec<ProbePoint> =
-                in_order(&probes).into_iter().map(|number| probes[number].clone()).collect();
+                nearest_neighbour_order(&probes).into_iter().map(|number| probes[number].clone()).collect();
             assert_eq!(ordered, one_by_one(probes));
         }
     }

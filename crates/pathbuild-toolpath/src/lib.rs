@@ -1,7 +1,7 @@
 //! The moves of a path, and the fold that places, joins and merges them into a program.
 //!
 //! [`fold`] walks over a path and all its embedded paths and records every step of the machine. It gets the embedded paths from a
-//! [`Parts`]. This crate does not format text. (book: program/gcode, book: language/probes)
+//! [`FoldPaths`]. This crate does not format text. (book: program/gcode, book: language/probes)
 
 mod chain;
 mod correction;
@@ -13,13 +13,13 @@ mod program;
 mod z_model;
 
 pub use correction::{Correction, UnprobedPoint};
-pub use fold::{Parts, fold, fold_traced};
+pub use fold::{FoldPaths, fold, fold_traced};
 pub use mill::support_bars;
-pub use moves::{LAST_DIGIT, ToolTip, is_doubtful, is_point, kind_of_move, way};
+pub use moves::{LAST_DIGIT, ToolTip, is_doubtful, is_point, kind_of_move, tip_move};
 pub use part_cuts::part_cuts;
 pub use pathbuild_path::Xy;
 pub use program::{
-    Comment, Count, ElementKind, Height, LeftOut, MoveClass, NameId, Names, Occurrence, PlannedMove,
+    Comment, Count, ElementKind, Height, MoveClass, NameId, Names, Occurrence, OmittedCurves, PlannedMove,
     ProbeOrigin, ProbePoint, Program, ProgramStep, StepOrigin, Trace, memory, own_moves,
 };
 pub use program::{Statistics, Total};

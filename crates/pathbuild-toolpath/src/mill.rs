@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use pathbuild_path::approx::{above, at_least};
 use pathbuild_path::{Arc, Bars, Curve, Helix, Origin, Xy};
 
-use crate::fold::{Fold, MOST_FORESEEN, Parts, PlacedPath, Tip};
+use crate::fold::{Fold, FoldPaths, MAX_RESERVED_STEPS, PlacedPath, Tip};
 use crate::program::{Count, ElementKind, Height, MoveClass, PlannedMove};
 
 /// A part of a segment with the heights at its ends, in mm.
@@ -23,9 +23,9 @@ impl Section {
     }
 }
 
-impl<P: Parts> Fold<'_, P> {
+impl<P: FoldPaths> Fold<'_, P> {
     /// Mills a section, which is in program coordinates, after moving to the height of its start.
-    pub(crate) fn mill(&mut self, section: &Section, surface: f64, feed: f64) {
+    pub(crate) fn mill_section(&mut self, section: &Section, surface: f64, feed: f64) {
         self.plunge(section.from_z, surface, feed);
         let to = section.curve.end();
         let z = Height { z: section.to_z, at: section.curve.start() };
@@ -85,16 +85,17 @@ impl BarPlan {
             reason = "a whole number, 1 or more"
         )]
         let gaps = count as usize;
-        let mut plan =
-            Self { pieces: Vec::with_capacity(PIECES_OF_BAR.saturating_mul(gaps).min(MOST_FORESEEN) + 1) };
-        plan.piece(0.0, edge, false, false);
+        let mut plan = Self {
+            pieces: Vec::with_capacity(SPANS_PER_BAR.saturating_mul(gaps).min(MAX_RESERVED_STEPS) + 1),
+        };
+        plan.add_span(0.0, edge, false, false);
         for k in 0..gaps - 1 {
             let start = edge + k as f64 * pitch;
-            let end = plan.gap(start, slope, between);
-            plan.piece(end, end + bars.length + tool, false, false);
+            let end = plan.add_gap(start, slope, between);
+            plan.add_span(end, end + bars.length + tool, false, false);
         }
-        let end = plan.gap(length - edge - 2.0 * slope - between, slope, between);
-        plan.piece(end, length, false, false);
+        let end = plan.add_gap(length - edge - 2.0 * slope - between, slope, between);
+        plan.add_span(end, length, false, false);
         Some(plan)
     }
 
@@ -105,15 +106,15 @@ impl BarPlan {
     }
 
     /// Adds a gap: down, along the bottom, and up. Returns the position of the gap's end.
-    fn gap(&mut self, start: f64, slope: f64, between: f64) -> f64 {
+    fn add_gap(&mut self, start: f64, slope: f64, between: f64) -> f64 {
         let (low, high) = (start + slope, start + slope + between);
-        self.piece(start, low, false, true);
-        self.piece(low, high, true, true);
-        self.piece(high, high + slope, true, false);
+        self.add_span(start, low, false, true);
+        self.add_span(low, high, true, true);
+        self.add_span(high, high + slope, true, false);
         high + slope
     }
 
-    fn piece(&mut self, from: f64, to: f64, starts_low: bool, ends_low: bool) {
+    fn add_span(&mut self, from: f64, to: f64, starts_low: bool, ends_low: bool) {
         self.pieces.push(BarSpan { from, to, starts_low, ends_low });
     }
 
@@ -130,7 +131,7 @@ impl BarPlan {
 }
 
 /// Number of pieces from one bar to the next: down, along the bottom, up, and the bar.
-const PIECES_OF_BAR: usize = 4;
+const SPANS_PER_BAR: usize = 4;
 
 // Helical circles. (book: program/gcode)
 
@@ -166,21 +167,21 @@ impl Circle {
     }
 }
 
-impl<P: Parts> Fold<'_, P> {
-    pub(crate) fn helix(&mut self, place: &PlacedPath<'_>, origin: &Origin, helix: &Helix) {
+impl<P: FoldPaths> Fold<'_, P> {
+    pub(crate) fn mill_helix(&mut self, place: &PlacedPath<'_>, origin: &Origin, helix: &Helix) {
         let circle = Circle {
             centre: place.placement.place(helix.centre),
             radius: helix.axis_radius(place.path.tool),
-            feed: self.feed(helix.feed),
+            feed: self.feed_or_default(helix.feed),
         };
         let bottom = place.raised + helix.bottom;
-        self.element(ElementKind::HelicalCircle, origin, bottom, place, None);
+        self.add_element_comment(ElementKind::HelicalCircle, origin, bottom, place, None);
         self.plunge(place.surface + place.path.tool, place.surface, circle.feed);
-        self.question(helix.comment.as_deref());
+        self.add_question_comment(helix.comment.as_deref());
         self.sweep(circle.low(), circle.radius);
-        let mut done = self.spiral(&circle, place.surface, helix.infeed, bottom);
+        let mut done = self.mill_half_circles(&circle, place.surface, helix.infeed, bottom);
         if let Some((depth, bars)) = &helix.bars {
-            done = self.circles_with_bars(place, &circle, (done, helix.infeed), *depth, bars);
+            done = self.mill_circles_with_bars(place, &circle, (done, helix.infeed), *depth, bars);
         }
         if !at_least(place.path.tool, helix.radius) {
             self.lift_corrected_at(place.sweep_height, circle.centre, place.sweep_height - done);
@@ -189,15 +190,15 @@ impl<P: Parts> Fold<'_, P> {
     }
 
     /// Mills half circles down to the bottom, the last two at the bottom. Returns the depth at which the last full circle began.
-    fn spiral(&mut self, circle: &Circle, surface: f64, infeed: f64, bottom: f64) -> f64 {
+    fn mill_half_circles(&mut self, circle: &Circle, surface: f64, infeed: f64, bottom: f64) -> f64 {
         let mut depth = surface;
         if at_least(bottom, surface) {
             return surface;
         }
         loop {
             let half = (depth - infeed / 2.0).max(bottom);
-            self.half_circle(circle, circle.high(), circle.radius, half);
-            self.half_circle(circle, circle.low(), -circle.radius, (half - infeed / 2.0).max(bottom));
+            self.mill_half_circle(circle, circle.high(), circle.radius, half);
+            self.mill_half_circle(circle, circle.low(), -circle.radius, (half - infeed / 2.0).max(bottom));
             if at_least(bottom, depth) {
                 return depth;
             }
@@ -205,7 +206,7 @@ impl<P: Parts> Fold<'_, P> {
         }
     }
 
-    fn half_circle(&mut self, circle: &Circle, to: Xy, j: f64, z: f64) {
+    fn mill_half_circle(&mut self, circle: &Circle, to: Xy, j: f64, z: f64) {
         let height = Height { z, at: circle.centre };
         let half = PlannedMove::Arc {
             feed: circle.feed,
@@ -221,7 +222,7 @@ impl<P: Parts> Fold<'_, P> {
 
     /// Mills full circles with bars below D, pass by pass down to B. Returns the depth of the last one, or that of the spiral if there is
     /// none.
-    fn circles_with_bars(
+    fn mill_circles_with_bars(
         &mut self,
         place: &PlacedPath<'_>,
         circle: &Circle,
@@ -238,7 +239,7 @@ impl<P: Parts> Fold<'_, P> {
             self.checkpoint();
             z = if above(z - infeed, low) { z - infeed } else { low };
             for section in plan.sections(&circle.curve(), z, high) {
-                self.mill(&section, place.surface, circle.feed);
+                self.mill_section(&section, place.surface, circle.feed);
             }
         }
         z

@@ -17,7 +17,7 @@ impl Program {
         let last = u32::try_from(self.steps.len()).unwrap_or(u32::MAX).saturating_add(1);
         let steps = (1_u32..).zip(self.steps.iter().map(Some)).chain(std::iter::once((last, None)));
         steps.filter_map(move |(number, step)| match step {
-            Some(ProgramStep::Move { to, count }) => Some((number, tool.go(to, count.length))),
+            Some(ProgramStep::Move { to, count }) => Some((number, tool.make_move(to, count.length))),
             Some(ProgramStep::Comment(_)) => None,
             None => Some((number, tool.lift(height))),
         })
@@ -55,7 +55,7 @@ impl ToolTip {
     }
 
     /// Makes a move to its target and returns it. `length` is the move's length in mm for the statistics.
-    pub fn go(&mut self, to: &PlannedMove, length: f64) -> Move {
+    pub fn make_move(&mut self, to: &PlannedMove, length: f64) -> Move {
         match *to {
             PlannedMove::Sweep { to } => self.straight(place(to, self.at.z()), Pace::Rapid),
             PlannedMove::Lift { z } => self.lift(z.z),
@@ -73,7 +73,7 @@ impl ToolTip {
                 let is_next_to_nothing = length < radius && sweep > PI || is_point(relative);
                 let path = if is_next_to_nothing { MoveShape::Line } else { MoveShape::Arc(arc) };
                 let to = if is_whole { self.at_height(z.z) } else { to };
-                self.along(to, path, Pace::Feed(feed))
+                self.move_along(to, path, Pace::Feed(feed))
             }
         }
     }
@@ -88,10 +88,10 @@ impl ToolTip {
     }
 
     fn straight(&mut self, to: Position, pace: Pace) -> Move {
-        self.along(to, MoveShape::Line, pace)
+        self.move_along(to, MoveShape::Line, pace)
     }
 
-    fn along(&mut self, to: Position, shape: MoveShape, pace: Pace) -> Move {
+    fn move_along(&mut self, to: Position, shape: MoveShape, pace: Pace) -> Move {
         let from = std::mem::replace(&mut self.at, to);
         Move { from, to, shape, pace, named: None }
     }
@@ -120,7 +120,7 @@ const DOUBTFUL_ARC_LENGTH: f64 = 10.0 * LAST_DIGIT;
 
 /// Returns the [`TipMove`] of a move. If only the end of the move is known, it is a curve without length at that point; `None` if even the end is
 /// unknown.
-pub fn way(movement: &Move) -> Option<TipMove> {
+pub fn tip_move(movement: &Move) -> Option<TipMove> {
     let [from, to] = [movement.from, movement.to].map(|end| Xy::new(end.x(), end.y()));
     if !movement.to.known.has(Axes::ALL) {
         return None;
@@ -165,7 +165,7 @@ mod tests {
     fn arc(centre: Xy, to: Xy, length: f64) -> Move {
         let z = Height { z: 1.0, at: to };
         let planned = PlannedMove::Arc { feed: 1.0, clockwise: false, centre, to, z, is_spiral: false };
-        ToolTip::new(1.0).go(&planned, length)
+        ToolTip::new(1.0).make_move(&planned, length)
     }
 
     #[test]

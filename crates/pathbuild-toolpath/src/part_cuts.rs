@@ -110,7 +110,7 @@ fn bars(path: &Path) -> Vec<StandingBar> {
                 else {
                     continue;
                 };
-                let of_segment = BarsAlong { bars, bottom: cut.bottom, curve };
+                let of_segment = SegmentBars { bars, bottom: cut.bottom, curve };
                 halves.extend([curve.start(), curve.end()]);
                 all.extend(of_segment.places(path.tool));
             }
@@ -119,18 +119,18 @@ fn bars(path: &Path) -> Vec<StandingBar> {
                 let Some((bottom, bars)) = &helix.bars else { continue };
                 let curve = axis_circle(helix, path.tool);
                 halves.extend([curve.start(), curve.end()]);
-                all.extend(BarsAlong { bars, bottom: *bottom, curve }.places(path.tool));
+                all.extend(SegmentBars { bars, bottom: *bottom, curve }.places(path.tool));
             }
             SegmentKind::Hole(_) | SegmentKind::Sweep { .. } | SegmentKind::Subpath(_) => {}
         }
     }
     // A half bar at the end of a segment either continues in another segment, or the cut that follows mills half of O away from it.
     let goes_on = |at: Xy| halves.iter().filter(|half| approx::coincide(**half, at)).count() > 1;
-    all.into_iter().map(|bar: BarPlace| bar.standing(path.tool / 2.0, &goes_on)).collect()
+    all.into_iter().map(|bar: BarPlace| bar.standing_bar(path.tool / 2.0, &goes_on)).collect()
 }
 
 /// The bars of a segment, and the segment that they lie on.
-struct BarsAlong<'b> {
+struct SegmentBars<'b> {
     bars: &'b Bars,
     bottom: f64,
     curve: Curve,
@@ -146,7 +146,7 @@ struct BarPlace {
     top: f64,
 }
 
-impl BarsAlong<'_> {
+impl SegmentBars<'_> {
     fn places(&self, tool: f64) -> Vec<BarPlace> {
         let length = self.curve.length();
         let plan = BarPlan::new(self.bars, self.bottom, tool, length);
@@ -164,16 +164,16 @@ impl BarsAlong<'_> {
 
 impl BarPlace {
     /// Returns the bar as the cuts beside it leave it.
-    fn standing(&self, radius: f64, goes_on: &dyn Fn(Xy) -> bool) -> StandingBar {
+    fn standing_bar(&self, radius: f64, goes_on: &dyn Fn(Xy) -> bool) -> StandingBar {
         let length = self.curve.length();
         let is_whole = |end: f64, at: Xy| approx::near(end, 0.0) && goes_on(at);
         let from = if is_whole(self.from, self.curve.start()) { 0.0 } else { self.from + radius };
         let to = if is_whole(length - self.to, self.curve.end()) { length } else { self.to - radius };
         let foot = self.curve.section((self.from - self.slope).max(0.0), (self.to + self.slope).min(length));
-        let middle = (to - from > MIN_BAR_REST).then(|| self.curve.section(from, to));
+        let middle = (to - from > MAX_NEGLIGIBLE_REMNANT).then(|| self.curve.section(from, to));
         StandingBar { middle, foot, top: self.top }
     }
 }
 
 /// Length in mm up to which the remnant of a bar does not count.
-const MIN_BAR_REST: f64 = 0.01;
+const MAX_NEGLIGIBLE_REMNANT: f64 = 0.01;

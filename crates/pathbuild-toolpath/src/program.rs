@@ -35,12 +35,12 @@ pub struct Program {
     /// Z-probes in the order in which they are measured, starting with #51.
     pub probes: Vec<ProbePoint>,
     /// Curves on the layers of the program's paths that do not belong to these paths (PB111).
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<OmittedCurves>,
 }
 
 /// Curves on the layers of a path that do not belong to its program (PB111).
 #[derive(Clone, Debug, PartialEq)]
-pub struct LeftOut {
+pub struct OmittedCurves {
     /// Name of the path on whose layers the curves lie.
     pub path: Box<str>,
     /// Types of the curves, with the number of curves of each.
@@ -378,7 +378,7 @@ pub struct Total {
 }
 
 /// Factor by which a machine is slower than length / feed.
-const SLOWDOWN: f64 = 1.4;
+const SLOWDOWN_FACTOR: f64 = 1.4;
 
 impl Statistics {
     /// Returns the statistics that `PathDxf2GCode` writes for a program, with a rapid feed in mm/min. They use planned lengths, which can differ from
@@ -425,7 +425,7 @@ impl Add for Total {
 impl Total {
     /// Returns the estimated real time in whole minutes, rounded up after discarding less than 0.0000001 s.
     pub fn minutes(&self) -> f64 {
-        let seconds = SLOWDOWN * self.time * 60.0;
+        let seconds = SLOWDOWN_FACTOR * self.time * 60.0;
         ((seconds * 1e7).round() / 1e7 / 60.0).ceil()
     }
 }

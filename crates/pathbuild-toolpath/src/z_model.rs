@@ -34,18 +34,18 @@ pub struct Surface {
 
 #[derive(Clone, Debug)]
 enum Model {
-    Nearest(Nearest),
+    Nearest(NearestProbes),
     Plane(Plane),
-    Tin(Tin),
+    Tin(Triangulation),
 }
 
 impl Surface {
     /// Creates a model for probes at these positions.
     pub fn new(model: ZModel, places: &[Xy]) -> Self {
         let model = match model {
-            ZModel::Idw4 => Model::Nearest(Nearest::new(places)),
+            ZModel::Idw4 => Model::Nearest(NearestProbes::new(places)),
             ZModel::Plane => Model::Plane(Plane::new(places)),
-            ZModel::Tin => Model::Tin(Tin::new(places)),
+            ZModel::Tin => Model::Tin(Triangulation::new(places)),
         };
         Self { model }
     }
@@ -172,16 +172,16 @@ impl Plane {
 const PROBES_PER_POINT: usize = 4;
 
 /// Relative difference of weights below which the tree may order them wrongly, so that they are ordered by index.
-const SAME_WEIGHT: f64 = 1e-12;
+const WEIGHT_TOLERANCE: f64 = 1e-12;
 
 /// The model of the original tool. (book: language/probes)
 #[derive(Clone, Debug)]
-pub(super) struct Nearest {
+pub(super) struct NearestProbes {
     /// Positions with the indices of their probes. Only the first few at the same position can be used.
     places: RTree<GeomWithData<[f64; 2], Vec<usize>>>,
 }
 
-impl Nearest {
+impl NearestProbes {
     pub(super) fn new(probes: &[Xy]) -> Self {
         let mut places: BTreeMap<[u64; 2], GeomWithData<[f64; 2], Vec<usize>>> = BTreeMap::new();
         for (number, at) in probes.iter().enumerate() {
@@ -203,7 +203,7 @@ impl Nearest {
             // All further probes have lower weights.
             if weights
                 .get(PROBES_PER_POINT - 1)
-                .is_some_and(|(_, least)| weight < least * (1.0 - SAME_WEIGHT))
+                .is_some_and(|(_, least)| weight < least * (1.0 - WEIGHT_TOLERANCE))
             {
                 break;
             }
@@ -219,7 +219,7 @@ impl Nearest {
 // Finds probes that do not fit their neighbours. (PB607)
 //
 // Each probe is compared with the plane through all the others. It is odd if its distance from that plane exceeds [`MIN_ODD_DISTANCE`] and also
-// [`FACTOR`] times the scatter of the others around it (externally studentized residual). So a bent sheet, on which all probes
+// [`MIN_ODD_RATIO`] times the scatter of the others around it (externally studentized residual). So a bent sheet, on which all probes
 // scatter, has no odd probes, but a single typing error stands out. This requires five probes: three others always lie on a plane,
 // so that with four it is impossible to tell which one is wrong.
 
@@ -227,10 +227,10 @@ impl Nearest {
 const MIN_ODD_DISTANCE: f64 = 0.1;
 
 /// Minimum ratio of a probe's distance from the plane to the scatter of the other probes.
-const FACTOR: f64 = 4.0;
+const MIN_ODD_RATIO: f64 = 4.0;
 
 /// Number of degrees of freedom of a plane.
-const PLANE_FREEDOM: f64 = 3.0;
+const PLANE_DEGREES_OF_FREEDOM: f64 = 3.0;
 
 /// A probe that does not fit its neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -246,16 +246,16 @@ pub fn odd_probes(probes: &[(Xy, f64)]) -> Vec<OddProbe> {
     if probes.len() < 5 {
         return Vec::new();
     }
-    let fit = Fit::new(probes);
+    let fit = PlaneFit::new(probes);
     let odd = probes.iter().enumerate().filter_map(|(probe, measured)| {
-        let off = fit.odd(*measured)?;
+        let off = fit.distance_if_odd(*measured)?;
         Some(OddProbe { probe, off })
     });
     odd.collect()
 }
 
 /// The plane through all probes, and their scatter around it.
-struct Fit {
+struct PlaneFit {
     scatter: Scatter,
     inverse: Matrix2<f64>,
     mean: f64,
@@ -264,7 +264,7 @@ struct Fit {
     residue: f64,
 }
 
-impl Fit {
+impl PlaneFit {
     fn new(probes: &[(Xy, f64)]) -> Self {
         let places: Vec<Xy> = probes.iter().map(|(place, _)| *place).collect();
         let scatter = Scatter::new(&places);
@@ -283,7 +283,7 @@ impl Fit {
 
     /// Returns the distance of a probe from the plane through the others, if the probe is odd. That plane need not be fitted: it follows from the
     /// influence of the probe on the plane through all probes.
-    fn odd(&self, probe: (Xy, f64)) -> Option<f64> {
+    fn distance_if_odd(&self, probe: (Xy, f64)) -> Option<f64> {
         let place = probe.0 - self.scatter.middle;
         if !self.scatter.without(probe.0).is_wide() {
             return None;
@@ -291,15 +291,16 @@ impl Fit {
         let free = 1.0 - 1.0 / self.scatter.count - place.dot(&(self.inverse * place));
         let residual = self.residual(probe);
         let off = residual / free;
-        let others = (self.residue - residual * off).max(0.0) / (self.scatter.count - 1.0 - PLANE_FREEDOM);
+        let others =
+            (self.residue - residual * off).max(0.0) / (self.scatter.count - 1.0 - PLANE_DEGREES_OF_FREEDOM);
         let expected = libm::sqrt(others / free);
-        (off.abs() > MIN_ODD_DISTANCE && off.abs() > FACTOR * expected).then_some(off)
+        (off.abs() > MIN_ODD_DISTANCE && off.abs() > MIN_ODD_RATIO * expected).then_some(off)
     }
 }
 
 /// A triangulation of the probes.
 #[derive(Clone, Debug)]
-pub(crate) struct Tin {
+pub(crate) struct Triangulation {
     places: Vec<ProbedPoint>,
     triangles: Vec<[usize; 3]>,
     /// The edges of the hull, or the segments of the line if all probes are collinear.
@@ -321,9 +322,9 @@ struct ProbedPoint {
 const ROUNDING: f64 = 1e-9;
 
 /// Difference of squared distances in mm² below which the tree may order edges wrongly, so that they are compared exactly.
-const AS_NEAR: f64 = 1e-12;
+const DISTANCE_TOLERANCE: f64 = 1e-12;
 
-impl Tin {
+impl Triangulation {
     pub(crate) fn new(probes: &[Xy]) -> Self {
         let places = places(probes);
         let points: Vec<Point> = places.iter().map(|place| Point { x: place.at.x, y: place.at.y }).collect();
@@ -334,22 +335,23 @@ impl Tin {
             border.push([*last, *first]);
         }
         let corner = |place: &usize| [places[*place].at.x, places[*place].at.y];
-        let boxes = triangles.iter().map(|corners| wide(AABB::from_points(&corners.each_ref().map(corner))));
+        let boxes =
+            triangles.iter().map(|corners| enlarged(AABB::from_points(&corners.each_ref().map(corner))));
         let edges =
             border.iter().map(|edge| edge.each_ref().map(corner)).map(|[from, to]| Line::new(from, to));
-        Self { boxes: numbered(boxes), edges: numbered(edges), places, triangles, border }
+        Self { boxes: indexed_tree(boxes), edges: indexed_tree(edges), places, triangles, border }
     }
 
     fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
-        match self.around(at) {
-            Some((number, parts)) => self.shared(self.triangles[number].into_iter().zip(parts)),
+        match self.containing_triangle(at) {
+            Some((number, parts)) => self.shared_weights(self.triangles[number].into_iter().zip(parts)),
             None => self.on_border(at),
         }
     }
 
     /// Returns the distance in mm from the triangles (or from the line or the single probe); 0 inside.
     pub(crate) fn distance(&self, at: Xy) -> f64 {
-        if self.around(at).is_some() {
+        if self.containing_triangle(at).is_some() {
             return 0.0;
         }
         match self.nearest(at) {
@@ -359,15 +361,16 @@ impl Tin {
     }
 
     /// Returns the first triangle that contains a point, with the barycentric coordinates of the point.
-    fn around(&self, at: Xy) -> Option<(usize, [f64; 3])> {
+    fn containing_triangle(&self, at: Xy) -> Option<(usize, [f64; 3])> {
         let near = self.boxes.locate_in_envelope_intersecting(AABB::from_point([at.x, at.y]));
-        let around = near
-            .filter_map(|candidate| Some((candidate.data, self.inside(self.triangles[candidate.data], at)?)));
+        let around = near.filter_map(|candidate| {
+            Some((candidate.data, self.barycentric(self.triangles[candidate.data], at)?))
+        });
         around.min_by_key(|(number, _)| *number)
     }
 
     /// Returns the barycentric coordinates of a point with respect to a triangle, if the point is inside.
-    fn inside(&self, corners: [usize; 3], at: Xy) -> Option<[f64; 3]> {
+    fn barycentric(&self, corners: [usize; 3], at: Xy) -> Option<[f64; 3]> {
         let [a, b, c] = corners.map(|corner| self.places[corner].at);
         let (ab, ac, ap) = (b - a, c - a, at - a);
         let area = ab.perp(&ac);
@@ -379,8 +382,8 @@ impl Tin {
 
     fn on_border(&self, at: Xy) -> Vec<(usize, f64)> {
         match self.nearest(at) {
-            Some(([start, end], along, _)) => self.shared([(start, 1.0 - along), (end, along)]),
-            None => self.shared(self.places.first().map(|_| (0, 1.0))),
+            Some(([start, end], along, _)) => self.shared_weights([(start, 1.0 - along), (end, along)]),
+            None => self.shared_weights(self.places.first().map(|_| (0, 1.0))),
         }
     }
 
@@ -388,7 +391,8 @@ impl Tin {
     fn nearest(&self, at: Xy) -> Option<([usize; 2], f64, f64)> {
         let mut near = self.edges.nearest_neighbor_iter_with_distance_2([at.x, at.y]).peekable();
         let (_, least) = *near.peek()?;
-        let near = near.take_while(|(_, distance)| *distance <= least * (1.0 + ROUNDING) + AS_NEAR);
+        let near =
+            near.take_while(|(_, distance)| *distance <= least * (1.0 + ROUNDING) + DISTANCE_TOLERANCE);
         let nearest = near.map(|(edge, _)| (self.along(edge.data, at), edge.data));
         let first =
             nearest.min_by(|((_, a), first), ((_, b), second)| a.total_cmp(b).then(first.cmp(second)));
@@ -404,7 +408,7 @@ impl Tin {
     }
 
     /// Divides the weight of a position among its probes.
-    fn shared(&self, parts: impl IntoIterator<Item = (usize, f64)>) -> Vec<(usize, f64)> {
+    fn shared_weights(&self, parts: impl IntoIterator<Item = (usize, f64)>) -> Vec<(usize, f64)> {
         let mut weights = Vec::new();
         for (place, part) in parts {
             let probes = &self.places[place].probes;
@@ -416,7 +420,7 @@ impl Tin {
 }
 
 /// Enlarges a rectangle so that no point considered to be inside is missed.
-fn wide(tight: AABB<[f64; 2]>) -> Rectangle<[f64; 2]> {
+fn enlarged(tight: AABB<[f64; 2]>) -> Rectangle<[f64; 2]> {
     let (lower, upper) = (tight.lower(), tight.upper());
     let margin = 4.0 * ROUNDING * (upper[0] - lower[0]).max(upper[1] - lower[1]);
     Rectangle::from_corners(
@@ -426,7 +430,7 @@ fn wide(tight: AABB<[f64; 2]>) -> Rectangle<[f64; 2]> {
 }
 
 /// Builds a tree of shapes with their indices.
-fn numbered<T: rstar::RTreeObject>(shapes: impl Iterator<Item = T>) -> RTree<GeomWithData<T, usize>> {
+fn indexed_tree<T: rstar::RTreeObject>(shapes: impl Iterator<Item = T>) -> RTree<GeomWithData<T, usize>> {
     RTree::bulk_load(shapes.enumerate().map(|(number, shape)| GeomWithData::new(shape, number)).collect())
 }
 

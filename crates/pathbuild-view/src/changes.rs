@@ -52,16 +52,16 @@ const ORIGIN: Point = [0.0; 2];
 /// Equal moves are ignored. Among the others, a run of moves that occurs at another place is shifted; every other move is classified by
 /// comparing the final depth, the feed and the number of passes along its line in the plane.
 pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> Vec<Change> {
-    let rows = differing(old, new);
+    let rows = differing_runs(old, new);
     if rows.is_empty() {
         return Vec::new();
     }
     let comparison = Comparison { old, new, was: lines(old), is: lines(new) };
-    rows.into_iter().flat_map(|(old, new)| comparison.changed(&old, &new)).collect()
+    rows.into_iter().flat_map(|(old, new)| comparison.classify_runs(&old, &new)).collect()
 }
 
 /// Returns the runs of moves in which two programs differ, as pairs of ranges in the old and the new one.
-fn differing(old: &[SceneMove], new: &[SceneMove]) -> Vec<(Range<usize>, Range<usize>)> {
+fn differing_runs(old: &[SceneMove], new: &[SceneMove]) -> Vec<(Range<usize>, Range<usize>)> {
     // Moves before the first fully known position depend on the machine and are not compared.
     let begin = |moves: &[SceneMove]| {
         moves.iter().take_while(|movement| !movement.way.from.known.has(Axes::ALL)).count()
@@ -85,23 +85,23 @@ struct Comparison<'a> {
 
 impl Comparison<'_> {
     /// Classifies the moves in a pair of differing runs.
-    fn changed(&self, old: &Range<usize>, new: &Range<usize>) -> Vec<Change> {
+    fn classify_runs(&self, old: &Range<usize>, new: &Range<usize>) -> Vec<Change> {
         let mut changes = Vec::new();
-        match self.shifted(old, new) {
+        match self.shift_of_runs(old, new) {
             Some(core) => {
-                self.judge(old.start..core.old.start, new.start..core.new.start, &mut changes);
+                self.classify_moves(old.start..core.old.start, new.start..core.new.start, &mut changes);
                 let behind = (core.old.end..old.end, core.new.end..new.end);
                 changes.push(core);
-                self.judge(behind.0, behind.1, &mut changes);
+                self.classify_moves(behind.0, behind.1, &mut changes);
             }
-            None => self.judge(old.clone(), new.clone(), &mut changes),
+            None => self.classify_moves(old.clone(), new.clone(), &mut changes),
         }
         changes
     }
 
     /// Returns a shift if the cuts of both runs and the moves between the cuts are equal except for their position. The approach and the
     /// departure are not compared, because their outer ends did not move.
-    fn shifted(&self, old: &Range<usize>, new: &Range<usize>) -> Option<Change> {
+    fn shift_of_runs(&self, old: &Range<usize>, new: &Range<usize>) -> Option<Change> {
         let (old, new) = (cuts(self.old, old)?, cuts(self.new, new)?);
         let by = [0, 1].map(|axis| self.new[new.start].to()[axis] - self.old[old.start].to()[axis]);
         let is_same =
@@ -112,7 +112,7 @@ impl Comparison<'_> {
     }
 
     /// Classifies each move by the line that it follows.
-    fn judge(&self, old: Range<usize>, new: Range<usize>, changes: &mut Vec<Change>) {
+    fn classify_moves(&self, old: Range<usize>, new: Range<usize>, changes: &mut Vec<Change>) {
         let (behind, before) = (old.end, new.start);
         for index in old {
             let movement = &self.old[index];
@@ -225,8 +225,9 @@ impl MoveIdentity {
     /// Returns the identity of a move, with coordinates relative to a point in the plane.
     pub(super) fn of(movement: &SceneMove, origin: Point) -> Self {
         let shift = |axis: usize| origin.get(axis).copied().unwrap_or_default();
-        let end =
-            |end: &Position| [0, 1, 2].map(|axis| known(end, axis).map(|at| micrometres(at - shift(axis))));
+        let end = |end: &Position| {
+            [0, 1, 2].map(|axis| known_coordinate(end, axis).map(|at| micrometres(at - shift(axis))))
+        };
         // A rapid move is identified by its end only: it starts where the previous move ends, which is unknown at the beginning of a
         // program.
         let (kind, from) = if is_rapid(movement) {
@@ -306,7 +307,7 @@ fn is_rapid(movement: &SceneMove) -> bool {
     matches!(movement.kind, MoveKind::Sweep | MoveKind::Lift)
 }
 
-fn known(end: &Position, axis: usize) -> Option<f64> {
+fn known_coordinate(end: &Position, axis: usize) -> Option<f64> {
     end.known.has(Axes::of(axis)).then(|| end.at[axis])
 }
 

@@ -31,6 +31,6 @@ pub use scene::{
 #[cfg(not(feature = "pictures"))]
 pub use svg::sheet_pdf;
 pub use svg::{
-    Picture, Sheet, SheetProbe, SheetTool, Spot, StockChange, VisibleParts, changes_svg, cutout_svg, escaped,
-    has_stock, sheet_html, sheet_pages, sheet_svg, stock_change_svg, stock_cutout_svg, svg,
+    FindingPlace, Picture, Sheet, SheetProbe, SheetTool, StockChange, VisibleParts, changes_svg, cutout_svg,
+    escaped, has_stock, sheet_html, sheet_pages, sheet_svg, stock_change_svg, stock_cutout_svg, svg,
 };

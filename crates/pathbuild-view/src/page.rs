@@ -26,13 +26,13 @@ pub fn page(scene: &Scene, lang: Lang) -> String {
         .replace("=\"url(#frame)", "=\"url(#still-frame)");
     // Only `<` could end the script element that contains the data.
     let data = scene.to_json().replace('<', "\\u003c");
-    let viewer = filled(VIEWER, &|name| match name {
+    let viewer = fill_placeholders(VIEWER, &|name| match name {
         "title" => &title,
         "svg" => &still,
         _ => "",
     });
-    filled(TEMPLATE, &|name| match name {
-        "lang" => code(lang),
+    fill_placeholders(TEMPLATE, &|name| match name {
+        "lang" => lang_code(lang),
         "title" => &title,
         "style" => STYLE,
         "viewer" => &viewer,
@@ -44,15 +44,15 @@ pub fn page(scene: &Scene, lang: Lang) -> String {
 
 /// Returns the live page, which requests its script ([`SCRIPT`]), its style ([`LIVE_STYLE`]) and its data from the server.
 pub fn live_page(lang: Lang) -> String {
-    let viewer = filled(VIEWER, &|_| "");
-    filled(LIVE_TEMPLATE, &|name| match name {
-        "lang" => code(lang),
+    let viewer = fill_placeholders(VIEWER, &|_| "");
+    fill_placeholders(LIVE_TEMPLATE, &|name| match name {
+        "lang" => lang_code(lang),
         "viewer" => &viewer,
         _ => "",
     })
 }
 
-fn code(lang: Lang) -> &'static str {
+fn lang_code(lang: Lang) -> &'static str {
     match lang {
         Lang::De => "de",
         Lang::En => "en",
@@ -60,7 +60,7 @@ fn code(lang: Lang) -> &'static str {
 }
 
 /// Replaces the placeholders `{{name}}` of a template by their values.
-fn filled<'a>(template: &str, value: &dyn Fn(&str) -> &'a str) -> String {
+fn fill_placeholders<'a>(template: &str, value: &dyn Fn(&str) -> &'a str) -> String {
     let mut page = String::with_capacity(template.len());
     let mut rest = template;
     while let Some((before, (name, after))) =

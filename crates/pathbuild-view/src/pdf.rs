@@ -16,10 +16,10 @@ use usvg::tiny_skia_path::{PathSegment, Transform};
 use usvg::{FillRule, Group, LineCap, LineJoin, Node, Paint, PaintOrder, Path, Stroke, Text, Tree};
 
 /// Points of PDF per px of SVG.
-const POINTS: f32 = 72.0 / 96.0;
+const POINTS_PER_PX: f32 = 72.0 / 96.0;
 
 /// Distance in px up to which a glyph counts as continuing the previous run.
-const SAME_PLACE: f32 = 0.02;
+const GLYPH_TOLERANCE: f32 = 0.02;
 
 /// Resource name of the font within the document.
 const FONT: Name<'static> = Name(b"F");
@@ -30,7 +30,7 @@ const FONT_NAME: Name<'static> = Name(b"PATHBD+DejaVuSans");
 /// Height of capital letters and width of stems in thousandths of an em. They are copied from the font's tables, because skrifa does not
 /// read those.
 const CAP_HEIGHT: f32 = 729.0;
-const STEM: f32 = 80.0;
+const STEM_WIDTH: f32 = 80.0;
 
 /// The character collection which states that the code of a glyph in a text is its number in the font.
 const GLYPH_NUMBERS: SystemInfo<'static> =
@@ -56,7 +56,7 @@ pub(crate) fn document(trees: &[Tree], font: &[u8], metadata: Option<&str>) -> R
     let mut pages = Vec::new();
     for (tree, content) in trees.iter().zip(&contents) {
         let (id, stream) = (refs.next(), refs.next());
-        let [width, height] = [tree.size().width(), tree.size().height()].map(|px| px * POINTS);
+        let [width, height] = [tree.size().width(), tree.size().height()].map(|px| px * POINTS_PER_PX);
         let mut page = pdf.page(id);
         page.media_box(Rect::new(0.0, 0.0, width, height)).parent(all).contents(stream);
         let mut resources = page.resources();
@@ -107,7 +107,14 @@ struct Page<'a> {
 fn content(tree: &Tree, face: &FontRef<'_>, resources: &mut Resources) -> Vec<u8> {
     let mut page = Page { content: Content::new(), resources, face };
     // The y axis of PDF points up.
-    page.content.transform([POINTS, 0.0, 0.0, -POINTS, 0.0, tree.size().height() * POINTS]);
+    page.content.transform([
+        POINTS_PER_PX,
+        0.0,
+        0.0,
+        -POINTS_PER_PX,
+        0.0,
+        tree.size().height() * POINTS_PER_PX,
+    ]);
     page.group(tree.root());
     compressed(&page.content.finish())
 }
@@ -221,10 +228,10 @@ impl Page<'_> {
             let Ok(id) = u16::try_from(glyph.id.0) else { continue };
             let place = glyph.transform().pre_scale(1.0 / em, -1.0 / em);
             let continues = next.is_some_and(|next| {
-                (next.tx - place.tx).abs() < SAME_PLACE && (next.ty - place.ty).abs() < SAME_PLACE
+                (next.tx - place.tx).abs() < GLYPH_TOLERANCE && (next.ty - place.ty).abs() < GLYPH_TOLERANCE
             });
             if !continues {
-                self.show(&mut run);
+                self.show_run(&mut run);
                 self.content.set_text_matrix(matrix(place));
             }
             run.extend(id.to_be_bytes());
@@ -232,11 +239,11 @@ impl Page<'_> {
             let advance = metrics.advance_width(skrifa::GlyphId::from(id)).unwrap_or_default();
             next = Some(place.pre_translate(advance, 0.0));
         }
-        self.show(&mut run);
+        self.show_run(&mut run);
         self.content.end_text();
     }
 
-    fn show(&mut self, run: &mut Vec<u8>) {
+    fn show_run(&mut self, run: &mut Vec<u8>) {
         if !run.is_empty() {
             self.content.show(Str(run));
             run.clear();
@@ -329,7 +336,7 @@ fn embed(
         .ascent(metrics.ascent)
         .descent(metrics.descent)
         .cap_height(CAP_HEIGHT)
-        .stem_v(STEM)
+        .stem_v(STEM_WIDTH)
         .font_file2(data);
     pdf.stream(data, &compressed(font))
         .filter(Filter::FlateDecode)

@@ -20,7 +20,7 @@ const FONT: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");
 const FAMILY: &str = "DejaVu Sans";
 
 /// Pixels of a PNG per px of the SVG.
-const PIXELS: f32 = 2.0;
+const PIXELS_PER_PX: f32 = 2.0;
 
 /// The font database, loaded once.
 static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
@@ -41,10 +41,10 @@ pub fn png(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
     let size = tree
         .size()
         .to_int_size()
-        .scale_by(PIXELS)
+        .scale_by(PIXELS_PER_PX)
         .ok_or_else(|| Value::foreign("the picture has no size"))?;
     let mut pixels = Pixmap::new(size.width(), size.height()).ok_or(&PICTURE_TOO_LARGE)?;
-    resvg::render(&tree, Transform::from_scale(PIXELS, PIXELS), &mut pixels.as_mut());
+    resvg::render(&tree, Transform::from_scale(PIXELS_PER_PX, PIXELS_PER_PX), &mut pixels.as_mut());
     pixels.encode_png().map_err(Value::foreign)
 }
 

@@ -428,7 +428,7 @@ impl Scene {
             schema: SCHEMA,
             version: VERSION,
             title: title.to_owned(),
-            through: pathbuild_path::THROUGH,
+            through: pathbuild_path::THROUGH_HEIGHT,
             paths: Vec::new(),
             other_layers: Vec::new(),
             keep_outs: Vec::new(),
@@ -476,7 +476,7 @@ impl Shape {
     /// Returns the lower left and upper right corner of the bounding box.
     pub fn extent(&self) -> [Point; 2] {
         match self {
-            Self::Line { from, to } => hull(*from, *to),
+            Self::Line { from, to } => box_of_points(*from, *to),
             Self::Circle { centre: [x, y], radius: r } => [[x - r, y - r], [x + r, y + r]],
             Self::Arc(arc) => arc.extent(),
         }
@@ -493,7 +493,7 @@ impl ArcShape {
     }
 
     fn extent(&self) -> [Point; 2] {
-        let [mut low, mut high] = hull(self.from, self.to);
+        let [mut low, mut high] = box_of_points(self.from, self.to);
         let start = libm::atan2(self.from[1] - self.centre[1], self.from[0] - self.centre[0]).to_degrees();
         for (axis, outermost, sign) in [(0, 0.0, 1.0), (1, 90.0, 1.0), (0, 180.0, -1.0), (1, 270.0, -1.0)] {
             let ahead = if self.clockwise { start - outermost } else { outermost - start };
@@ -507,7 +507,7 @@ impl ArcShape {
     }
 }
 
-fn hull(a: Point, b: Point) -> [Point; 2] {
+fn box_of_points(a: Point, b: Point) -> [Point; 2] {
     [[a[0].min(b[0]), a[1].min(b[1])], [a[0].max(b[0]), a[1].max(b[1])]]
 }
 
@@ -652,11 +652,11 @@ impl Serialize for SceneMove {
 }
 
 /// Precision of numbers in JSON, in units per mm: numbers have six decimals, so that a scene has the same bytes everywhere.
-const MILLIONTHS: f64 = 1e6;
+const UNITS_PER_MM: f64 = 1e6;
 
 /// Rounds a coordinate or length, and avoids a negative 0.
 fn rounded(value: f64) -> f64 {
-    (value * MILLIONTHS).round() / MILLIONTHS + 0.0
+    (value * UNITS_PER_MM).round() / UNITS_PER_MM + 0.0
 }
 
 #[cfg_attr(target_pointer_width = "64", expect(clippy::trivially_copy_pass_by_ref, reason = "serde's form"))]

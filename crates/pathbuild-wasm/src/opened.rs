@@ -18,7 +18,7 @@ use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::dropped::DroppedProgram;
 use pathbuild_workspace::emit::{self, FileOwners, SceneReport, ShownText, TargetPatterns};
 use pathbuild_workspace::list::{self, ListedPath, Row, Stats, drawing_json, path_json, stats_json};
-use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, SilentReporter, Workspace};
 use serde_json::{Value, json};
@@ -102,18 +102,18 @@ impl OpenedFiles {
             Question::Statistics => json!({ "statistics": self.statistics() }).into(),
             Question::Scene(place) => {
                 let bytes = self.scene(&place).map(|scene| scene.to_json().into_bytes());
-                seen(bytes)
+                scene_answer(bytes)
             }
             Question::Picture(place) => {
                 let lang = self.session.workspace().lang();
                 let svg =
                     self.scene(&place).map(|scene| pathbuild_view::svg(&scene, VisibleParts::all(lang)));
-                seen(svg.map(String::into_bytes))
+                scene_answer(svg.map(String::into_bytes))
             }
             Question::Emit { places } => self.emit(&places),
             Question::Program { name, assumptions } => {
                 let program = DroppedProgram { name, text: bytes.to_vec(), assumptions };
-                seen(Some(program.scene(&mut self.session).into_bytes()))
+                scene_answer(Some(program.scene(&mut self.session).into_bytes()))
             }
             Question::Put { .. } | Question::Open { .. } => Answer::default(),
         }
@@ -234,7 +234,7 @@ impl OpenedFiles {
     }
 }
 
-fn seen(bytes: Option<Vec<u8>>) -> Answer {
+fn scene_answer(bytes: Option<Vec<u8>>) -> Answer {
     match bytes {
         Some(bytes) => Answer { head: json!({ "seen": true }), bytes },
         None => json!({ "seen": false }).into(),
@@ -308,14 +308,14 @@ impl Files {
         bytes
     }
 
-    fn holding(&self, path: &Utf8Path) -> &MemorySystem {
+    fn layer_of(&self, path: &Utf8Path) -> &MemorySystem {
         if self.written.kind(path) == FileKind::File { &self.written } else { &self.given }
     }
 }
 
 impl System for Files {
     fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
-        self.holding(path).read_into(path, limit, room)
+        self.layer_of(path).read_into(path, limit, room)
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
@@ -323,7 +323,7 @@ impl System for Files {
     }
 
     fn kind(&self, path: &Utf8Path) -> FileKind {
-        self.holding(path).kind(path)
+        self.layer_of(path).kind(path)
     }
 
     fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf {

@@ -50,7 +50,7 @@ struct FindingKey {
 impl Baseline {
     /// Creates a baseline without entries for this file.
     pub fn new(file: &Utf8Path) -> Self {
-        Self { file: file.to_owned(), text: HEAD.to_owned(), entries: BTreeMap::new() }
+        Self { file: file.to_owned(), text: HEADER_TEXT.to_owned(), entries: BTreeMap::new() }
     }
 
     /// Reads a baseline file of at most `limit` bytes. Also returns diagnostics of its lines.
@@ -76,9 +76,14 @@ impl Baseline {
 
     /// Returns the text of a baseline that contains all these findings. Entries that still match keep their reasons and dates. Entries for files that
     /// the run did not cover stay as they are.
-    pub fn rewritten(&self, findings: &[Diagnostic], workspace: &Workspace, coverage: &Coverage) -> String {
+    pub fn rewritten_text(
+        &self,
+        findings: &[Diagnostic],
+        workspace: &Workspace,
+        coverage: &Coverage,
+    ) -> String {
         let run = Run::new(workspace, coverage);
-        let mut text = HEAD.to_owned();
+        let mut text = HEADER_TEXT.to_owned();
         let mut found = BTreeSet::new();
         for (diagnostic, key) in findings.iter().zip(self.keys(findings, &workspace.working_directory)) {
             let none = Waiver::default();
@@ -95,7 +100,7 @@ impl Baseline {
     }
 
     /// Returns the text of this baseline, extended by a waiver for each finding with `code`, and the number of these findings.
-    pub fn accepting(
+    pub fn text_accepting(
         &self,
         findings: &[Diagnostic],
         code: Code,
@@ -152,7 +157,7 @@ impl Baseline {
             .filter(|(known, entry)| !found.contains(known.as_str()) && run.covers(self, entry));
         let unused = unused.map(|(_, entry)| {
             let text = TextFault::new(&entry.line, 0..entry.line.len());
-            Diagnostic { notes: Vec::new(), ..entry.waiver.unused(&self.file) }.with_text(text)
+            Diagnostic { notes: Vec::new(), ..entry.waiver.unused_warning(&self.file) }.with_text(text)
         });
         unused.collect()
     }
@@ -310,7 +315,7 @@ impl Entry {
     }
 }
 
-const HEAD: &str = "\
+const HEADER_TEXT: &str = "\
 # Known findings of pathbuild. `pathbuild check --baseline FILE --update-baseline` rewrites this file.
 # Only the fingerprint at the beginning of a line counts, with until=DATE and reason=\"TEXT\" after it; the rest describes the finding.
 ";
@@ -334,11 +339,11 @@ fn depth(diagnostic: &Diagnostic) -> Option<f64> {
         },
         _ => return None,
     };
-    Some((depth * 100.0 - ROUNDING).ceil() / 100.0)
+    Some((depth * 100.0 - ROUNDING_SHARE).ceil() / 100.0)
 }
 
 /// Share of 0.01 mm that counts as a rounding error and is not rounded up.
-const ROUNDING: f64 = 1e-6;
+const ROUNDING_SHARE: f64 = 1e-6;
 
 /// Formats the line of a baseline for a finding.
 fn line(fingerprint: &str, waiver: &Waiver, diagnostic: &Diagnostic, base: &Utf8Path) -> String {

@@ -21,9 +21,9 @@ use crate::memo::{
     Answer, Coverage, Dependencies, DrawingResult, Memo, NamedLayers, check_query, find, read_drawings,
     subject,
 };
-use crate::session::timings::{FINDING, KEEPING, VERIFYING};
+use crate::session::timings::{FINDING_DRAWINGS, STORING_RESULTS, VERIFYING_CACHE};
 use crate::session::{
-    ArgumentMatches, CheckedTarget, Checker, Pair, SelectedPath, Selection, Session, by_place,
+    ArgumentMatches, CheckedTarget, Checker, Pair, SelectedPath, Selection, Session, compare_paths,
     q_project_pairs,
 };
 use crate::workspace::Failure;
@@ -77,7 +77,7 @@ impl Request<'_> {
     /// Opens a session that suits this request: it traces inputs if results are cached or filtered by changes.
     pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
         if workspace.keeps_results() || self.changed.is_some() {
-            Session::traced(workspace)
+            Session::with_tracing(workspace)
         } else {
             Session::new(workspace)
         }
@@ -91,10 +91,10 @@ impl Request<'_> {
         if !session.is_traced() {
             session.prefetch(self.inputs, &|_| false);
         }
-        let mut matches = session.timings.measure(&FINDING, || session.match_arguments(self.inputs));
+        let mut matches = session.timings.measure(&FINDING_DRAWINGS, || session.match_arguments(self.inputs));
         let query = check_query(self.with_all_values);
         let open = || Memo::open(session, ResultKind::Check, &query, self.inputs, &mut matches);
-        let memo = session.timings.measure(&VERIFYING, open);
+        let memo = session.timings.measure(&VERIFYING_CACHE, open);
         let mut checked = self.check(session, &matches, &memo)?;
         checked.diagnostics = session.with_hints(checked.diagnostics);
         leak((memo, matches));
@@ -129,7 +129,7 @@ impl Request<'_> {
         memo: &Memo,
     ) -> Result<CheckOutcome, Failure> {
         let Results { selection, named, each } =
-            session.with_stable_files(|session| self.results(session, matches, memo));
+            session.with_stable_files(|session| self.check_or_take_cached(session, matches, memo));
         if self.changed.is_some() && !(selection.named.is_empty() && selection.paths.is_empty()) {
             // A drawing that depends on a changed one is only found if whole directories are checked.
             let reason = session.workspace().choose(
@@ -140,8 +140,10 @@ impl Request<'_> {
         }
         let q_projects = session.with_stable_files(|session| compare_q_projects(session, memo, &selection));
         let answers = named.iter().chain(&each).chain(&q_projects);
-        session.timings.measure(&KEEPING, || memo.keep(session, answers.filter_map(Answer::fresh)));
-        let past = self.since(session, matches);
+        session
+            .timings
+            .measure(&STORING_RESULTS, || memo.store_results(session, answers.filter_map(Answer::fresh)));
+        let past = self.changes_since(session, matches);
         let filter = ChangeFilter::new(session, memo, past, each.iter().chain(&q_projects));
         let mut checked = CheckOutcome { diagnostics: matches.problems.clone(), ..CheckOutcome::default() };
         checked.diagnostics.extend(selection.problems);
@@ -167,14 +169,19 @@ impl Request<'_> {
             checked.files.push(CheckedFile { file, paths: names });
             checked.diagnostics.extend(diagnostics);
         }
-        checked.files.sort_by(|a, b| by_place(&a.file, &b.file));
+        checked.files.sort_by(|a, b| compare_paths(&a.file, &b.file));
         let q_projects = q_projects.into_iter().filter(|answer| filter.contains(answer));
         checked.diagnostics.extend(q_projects.flat_map(|answer| answer.value.diagnostics));
         Ok(checked)
     }
 
     /// Resolves the arguments, and checks the drawings or takes their results from the cache.
-    fn results(&self, session: &mut Session<'_>, matches: &ArgumentMatches, memo: &Memo) -> Results {
+    fn check_or_take_cached(
+        &self,
+        session: &mut Session<'_>,
+        matches: &ArgumentMatches,
+        memo: &Memo,
+    ) -> Results {
         let mut named: Vec<Utf8PathBuf> =
             matches.candidates().map(|file| file.path(session.db()).clone()).collect();
         named.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
@@ -203,7 +210,7 @@ impl Request<'_> {
 
     /// Returns the earlier state with which drawings are compared. `None` selects all drawings: the request does not ask for changed ones only, or a
     /// file that affects all results has changed.
-    fn since(&self, session: &Session<'_>, matches: &ArgumentMatches) -> Option<&dyn EarlierFiles> {
+    fn changes_since(&self, session: &Session<'_>, matches: &ArgumentMatches) -> Option<&dyn EarlierFiles> {
         let past = self.changed?;
         let directories: Vec<Utf8PathBuf> =
             matches.directories().flat_map(|directory| &directory.directories).cloned().collect();
@@ -347,7 +354,7 @@ fn check_drawing(
         let checked = targets.into_iter().map(|target| checker.check(target)).collect::<Vec<_>>();
         diagnostics.extend(warning);
         if with_all_values {
-            diagnostics.extend(checker.merged(&checked));
+            diagnostics.extend(checker.merge_combinations(&checked));
         }
         for checked in checked {
             if !with_all_values {
@@ -370,7 +377,7 @@ fn combine_result(
 ) -> DrawingResult {
     // Most files have no diagnostics; skipping them first makes the sort cheap.
     reached.retain(|file| !check_file(db, *file).is_empty());
-    reached.sort_by(|a, b| by_place(a.path(db), b.path(db)));
+    reached.sort_by(|a, b| compare_paths(a.path(db), b.path(db)));
     reached.dedup();
     diagnostics.extend(reached.iter().flat_map(|file| check_file(db, *file)).cloned());
     DrawingResult { names: names.to_vec(), diagnostics, ..DrawingResult::default() }
@@ -382,14 +389,14 @@ fn own_trace(is_traced: bool, file: SourceFile) -> Vec<Trace> {
 }
 
 /// Upper bound on the combinations of values that are checked per path.
-const MOST_COMBINATIONS: usize = 1000;
+const MAX_COMBINATIONS: usize = 1000;
 
 impl Checker<'_> {
     /// Returns one target per combination of values, and a warning if there are too many combinations. A path without variables has a single
     /// target.
     pub fn combined_targets(&self, file: SourceFile, name: &PathName) -> (Vec<Target>, Option<Diagnostic>) {
         let target = |role| self.db().target(file, name.as_str(), role);
-        match combinations(self.db(), file, name, MOST_COMBINATIONS) {
+        match combinations(self.db(), file, name, MAX_COMBINATIONS) {
             None => (vec![target(Role::Checked)], None),
             Some((values, warning)) => {
                 let targets = values.into_iter().map(|values| target(Role::CheckedWith(values))).collect();
@@ -399,7 +406,7 @@ impl Checker<'_> {
     }
 
     /// Merges the results of all combinations of a path. Each fault is reported once, with values that cause it unless all of them do.
-    pub fn merged(&self, results: &[CheckedTarget]) -> Vec<Diagnostic> {
+    pub fn merge_combinations(&self, results: &[CheckedTarget]) -> Vec<Diagnostic> {
         let mut merged: Vec<MergedFault<'_>> = Vec::new();
         let mut indices: BTreeMap<Identity<'_>, usize> = BTreeMap::new();
         for result in results {
@@ -424,7 +431,7 @@ impl Checker<'_> {
         let target = merged.first.target;
         let Role::CheckedWith(values) = target.role(self.db()) else { return diagnostic };
         let named = vec![
-            ("values", Value::quoted(shown(values))),
+            ("values", Value::quoted(format_values(values))),
             ("name", Value::quoted(&**target.name(self.db()))),
         ];
         match merged.count {
@@ -470,7 +477,7 @@ impl<'a> Identity<'a> {
 }
 
 /// Formats values as in the text of a subpath: `:A0,5 :BX`.
-fn shown(values: &Bindings) -> String {
+fn format_values(values: &Bindings) -> String {
     let values: Vec<String> = values.iter().map(|(name, value)| format!(":{name}{value}")).collect();
     values.join(" ")
 }
@@ -575,11 +582,11 @@ impl ChangedDrawings {
     /// Whether a result depends on one of the changed drawings.
     fn affects(&self, facts: &Dependencies<'_>) -> bool {
         facts.files.iter().any(|file| self.files.contains(*file))
-            || facts.lookups.iter().any(|(directory, name)| self.answers(directory, name))
+            || facts.lookups.iter().any(|(directory, name)| self.may_answer_with(directory, name))
     }
 
     /// Whether a lookup of `name` in this directory may find one of the changed drawings.
-    fn answers(&self, directory: &Utf8Path, name: &str) -> bool {
+    fn may_answer_with(&self, directory: &Utf8Path, name: &str) -> bool {
         let names = self.names.get(directory);
         names.is_some_and(|names| names.iter().any(|file| self.coverage.may_hold(file, name)))
     }

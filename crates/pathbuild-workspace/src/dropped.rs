@@ -89,15 +89,15 @@ impl DroppedProgram {
             }
         };
         let rapids = verified.checks.iter().find_map(CheckRecord::values);
-        let (cutters, surface) = stated(&program, rapids);
+        let (cutters, surface) = stated_cutters_and_surface(&program, rapids);
         let mut path = program.scene_path(workspace);
-        equip(&mut path, cutter, &cutters, rapids);
+        set_cutters(&mut path, cutter, &cutters, rapids);
         scene.paths.push(path);
         let (scene, _) = SceneReport { scene, diagnostics }.with_findings(workspace, &self.name);
         let record = ProgramRecord {
             dialect: program.shown.name(),
             dialects: Dialect::ALL.iter().map(|dialect| dialect.name()).collect(),
-            read_as: bilingual(|lang| program.read_as(lang)),
+            read_as: bilingual(|lang| program.describe_reading(lang)),
             checks: verified.checks.iter().map(shown_check).collect(),
             cutters,
             surface,
@@ -126,7 +126,10 @@ impl Assumptions {
 }
 
 /// Returns the cutters that a program states, and the height of the material's upper face; `None` if it does not state that height.
-fn stated(program: &Program, rapids: Option<&RapidValues>) -> (Vec<ToolSpan>, Option<f64>) {
+fn stated_cutters_and_surface(
+    program: &Program,
+    rapids: Option<&RapidValues>,
+) -> (Vec<ToolSpan>, Option<f64>) {
     let mut header = HeaderReader::default();
     for step in &program.read.steps {
         header.step(step);
@@ -140,7 +143,7 @@ fn stated(program: &Program, rapids: Option<&RapidValues>) -> (Vec<ToolSpan>, Op
 }
 
 /// Sets the cutters with which a path is shown: the diameter that the user typed in, or those with which its rapid moves were checked.
-fn equip(path: &mut ScenePath, cutter: Option<f64>, stated: &[ToolSpan], rapids: Option<&RapidValues>) {
+fn set_cutters(path: &mut ScenePath, cutter: Option<f64>, stated: &[ToolSpan], rapids: Option<&RapidValues>) {
     let mut diameters: Vec<f64> = match (cutter, rapids) {
         (Some(cutter), _) => vec![cutter],
         (None, Some(values)) => values.cutters.clone(),

@@ -26,7 +26,7 @@ pub struct ExtraInput {
 }
 
 /// Whether this name exists and is not a directory. Unreadable files are reported when they are read.
-pub fn is_there(file: &Utf8Path) -> bool {
+pub fn is_file_name_taken(file: &Utf8Path) -> bool {
     file.as_std_path().metadata().is_ok_and(|data| !data.is_dir())
 }
 
@@ -62,16 +62,14 @@ pub fn create(context: &Workspace, files: &[(Utf8PathBuf, &[u8])]) -> Result<(),
     let confined = context.settings.confined.as_ref();
     let leads_out =
         |(file, _): &&(Utf8PathBuf, &[u8])| confined.is_some_and(|confined| !confined.allows(file));
-    let outside: Vec<Diagnostic> = files
-        .iter()
-        .filter(leads_out)
-        .map(|(file, _)| cannot_write(file, Value::Prose(&LEADS_OUT)))
-        .collect();
+    let outside: Vec<Diagnostic> =
+        files.iter().filter(leads_out).map(|(file, _)| write_error(file, Value::Prose(&LEADS_OUT))).collect();
     if !outside.is_empty() {
         return Err(outside);
     }
     let is_there = |(file, _): &&(Utf8PathBuf, &[u8])| file.as_std_path().symlink_metadata().is_ok();
-    let old: Vec<Diagnostic> = files.iter().filter(is_there).map(|(file, _)| already_there(file)).collect();
+    let old: Vec<Diagnostic> =
+        files.iter().filter(is_there).map(|(file, _)| already_exists_error(file)).collect();
     if !old.is_empty() {
         return Err(old);
     }
@@ -79,7 +77,7 @@ pub fn create(context: &Workspace, files: &[(Utf8PathBuf, &[u8])]) -> Result<(),
         if let Err(error) = create_new(file, content) {
             // Undo the creation, so that the next attempt does not find these files.
             files[..index].iter().for_each(|(created, _)| _ = fs::remove_file(created));
-            return Err(vec![cannot_write(file, reason(&error))]);
+            return Err(vec![write_error(file, reason(&error))]);
         }
     }
     Ok(())
@@ -97,8 +95,8 @@ fn write_whole(mut file: fs::File, content: &[u8]) -> std::io::Result<()> {
     file.write_all(content)
 }
 
-fn already_there(file: &Utf8Path) -> Diagnostic {
-    cannot_write(file, Value::Prose(&IS_THERE))
+fn already_exists_error(file: &Utf8Path) -> Diagnostic {
+    write_error(file, Value::Prose(&IS_THERE))
 }
 
 /// Atomically replaces a report or a baseline. Refuses a name under which a source or a program lies, or would lie.
@@ -107,7 +105,7 @@ fn already_there(file: &Utf8Path) -> Diagnostic {
 /// A diagnostic with the reason why the file cannot be written.
 pub fn replace_report(context: &Workspace, file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     match name_of_source_or_program(context, file) {
-        Some(reason) => Err(Box::new(would_replace(file, reason))),
+        Some(reason) => Err(Box::new(replace_error(file, reason))),
         None => replace(context, file, text),
     }
 }
@@ -146,7 +144,7 @@ pub(crate) fn is_program(path: &Utf8Path) -> bool {
 /// A diagnostic with the reason why the file cannot be written.
 pub fn replace(context: &Workspace, file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     if !file.parent().is_none_or(|parent| parent.as_str().is_empty() || parent.as_std_path().is_dir()) {
-        return Err(Box::new(cannot_write(file, Value::Prose(&NO_DIRECTORY))));
+        return Err(Box::new(write_error(file, Value::Prose(&NO_DIRECTORY))));
     }
     let is_stream = file.as_std_path().metadata().is_ok_and(|data| !data.is_file() && !data.is_dir());
     let is_allowed = context.settings.confined.as_ref().is_none_or(|confined| confined.allows(file));
@@ -156,7 +154,7 @@ pub fn replace(context: &Workspace, file: &Utf8Path, text: &str) -> Result<(), B
     } else {
         context.system.write(file, text.as_bytes()).map(|_| ())
     };
-    written.map_err(|reason| Box::new(cannot_write(file, reason)))
+    written.map_err(|reason| Box::new(write_error(file, reason)))
 }
 
 /// Opens a device or a pipe for writing. Fails if the pipe has no reader, but waits for a slow reader.
@@ -176,13 +174,13 @@ fn open_stream(path: &Utf8Path) -> std::io::Result<fs::File> {
 }
 
 /// Returns PB004 for an output that would replace a drawing, the configuration or a program.
-pub fn would_replace(file: &Utf8Path, reason: &'static Text) -> Diagnostic {
+pub fn replace_error(file: &Utf8Path, reason: &'static Text) -> Diagnostic {
     let name = file.file_name().unwrap_or_default();
     Diagnostic::new(&files::WOULD_REPLACE).quoting("name", name).with("reason", reason).in_file(file)
 }
 
 /// Returns PB004 for a file that cannot be written.
-pub fn cannot_write(file: &Utf8Path, reason: impl Into<Value>) -> Diagnostic {
+pub fn write_error(file: &Utf8Path, reason: impl Into<Value>) -> Diagnostic {
     let name = file.file_name().unwrap_or_default();
     Diagnostic::new(&files::CANNOT_WRITE).quoting("name", name).with("reason", reason).in_file(file)
 }

@@ -61,7 +61,7 @@ impl Workspace {
     pub fn findings(&self, diagnostics: Vec<Diagnostic>) -> Findings {
         let severities = self.severities();
         let mut waived: Vec<(Diagnostic, Waiver)> = Vec::new();
-        let judge = |diagnostic: Diagnostic| match severities.judge(diagnostic) {
+        let judge = |diagnostic: Diagnostic| match severities.apply_severity(diagnostic) {
             Verdict::Reported(diagnostic) => Some(diagnostic),
             Verdict::Ignored => None,
             Verdict::Waived(diagnostic, waiver) => {
@@ -102,7 +102,7 @@ impl Workspace {
             })
         };
         let unused = entries.filter(|entry| !is_used(entry) && entry.files.iter().all(is_covered));
-        unused.map(|entry| entry.waiver.unused(configuration)).collect()
+        unused.map(|entry| entry.waiver.unused_warning(configuration)).collect()
     }
 
     fn has_configured(&self, file: &str) -> bool {
@@ -141,7 +141,7 @@ impl Fingerprint {
         let mut fingerprint = |diagnostic: &Diagnostic| {
             let hash = fnv(diagnostic, &diagnostic.file.as_deref().map(place).unwrap_or_default());
             let number = met.entry(hash.0).and_modify(|number| *number += 1).or_insert(0);
-            Self(hash.and(&number.to_le_bytes()).0)
+            Self(hash.add_bytes(&number.to_le_bytes()).0)
         };
         diagnostics.iter().map(&mut fingerprint).collect()
     }
@@ -158,12 +158,12 @@ fn fnv(diagnostic: &Diagnostic, file: &str) -> Fnv {
     let point = place.point.map(|point| format!("{:.3} {:.3}", point.x.0 + 0.0, point.y.0 + 0.0));
     let fault = diagnostic.text.as_ref().map(|fault| &fault.text[fault.span()]);
     Fnv::NEW
-        .and(diagnostic.code().to_string().as_bytes())
-        .and(file.as_bytes())
-        .and(diagnostic.path.as_deref().unwrap_or_default().to_uppercase().as_bytes())
-        .and(place.entity.map_or("", |entity| entity.name()).as_bytes())
-        .and(point.unwrap_or_default().as_bytes())
-        .and(fault.unwrap_or_default().as_bytes())
+        .add_bytes(diagnostic.code().to_string().as_bytes())
+        .add_bytes(file.as_bytes())
+        .add_bytes(diagnostic.path.as_deref().unwrap_or_default().to_uppercase().as_bytes())
+        .add_bytes(place.entity.map_or("", |entity| entity.name()).as_bytes())
+        .add_bytes(point.unwrap_or_default().as_bytes())
+        .add_bytes(fault.unwrap_or_default().as_bytes())
 }
 
 /// State of the 128-bit FNV-1a hash, which is the same on every machine and in every version.
@@ -175,7 +175,7 @@ impl Fnv {
     const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
 
     /// Adds bytes, followed by a separator that does not occur in UTF-8.
-    fn and(self, bytes: &[u8]) -> Self {
+    fn add_bytes(self, bytes: &[u8]) -> Self {
         bytes
             .iter()
             .chain(&[0xff])

@@ -16,7 +16,7 @@ pub mod list;
 #[cfg(not(target_family = "wasm"))]
 pub mod machine;
 pub mod memo;
-pub mod posting;
+pub mod post_processor;
 pub mod program;
 pub mod session;
 mod severities;

@@ -13,7 +13,7 @@ use serde_json::{Value as Json, json};
 use crate::config::types::Pattern;
 use crate::findings::Findings;
 use crate::inputs::Input;
-use crate::posting::{PostArguments, PostProcessor};
+use crate::post_processor::{PostArguments, PostProcessor};
 use crate::session::{CheckedTarget, Session};
 use crate::workspace::Failure;
 use crate::workspace::Workspace;
@@ -111,7 +111,7 @@ impl ListArguments {
         (listed.paths, unmade) = list_paths(session, &paths, post_processor);
         listed.diagnostics.extend(unmade);
         let unmatched = self
-            .unmatched(&listed.paths)
+            .unmatched_patterns(&listed.paths)
             .map(|text| Diagnostic::new(&messages::NO_PATH_LIKE).quoting("name", text));
         listed.diagnostics.extend(unmatched);
         listed.diagnostics = session.with_hints(std::mem::take(&mut listed.diagnostics));
@@ -149,13 +149,13 @@ fn list_paths(
     paths: &[(SourceFile, PathName)],
     post_processor: Option<&PostProcessor>,
 ) -> (Vec<ListedPath>, Vec<Diagnostic>) {
-    let mut listed = session.in_batches_of_programs(paths, known);
-    let unmade = compare(session, post_processor, paths, &mut listed);
+    let mut listed = session.in_batches_of_programs(paths, list_without_programs);
+    let unmade = compare_programs_on_disk(session, post_processor, paths, &mut listed);
     (listed, unmade)
 }
 
 /// Compares the programs on disk with the paths. Returns the errors that kept programs from being generated but that `check` does not report.
-fn compare(
+fn compare_programs_on_disk(
     session: &mut Session<'_>,
     post_processor: Option<&PostProcessor>,
     paths: &[(SourceFile, PathName)],
@@ -182,7 +182,7 @@ fn compare(
     problems
 }
 
-fn not_a_pattern(session: &Session<'_>, name: &str, reason: &Value) -> String {
+fn invalid_pattern_error(session: &Session<'_>, name: &str, reason: &Value) -> String {
     let what =
         session.workspace().phrase("`{}` is not a pattern of names", "`{}` ist kein Muster für Namen", name);
     format!("{what}: {}", reason.render(session.workspace().lang()))
@@ -200,7 +200,7 @@ impl ListArguments {
         for (input, text) in inputs.iter().zip(&inputs.inputs) {
             match input {
                 Input::Name(name) if !session.is_directory(name.into()) => {
-                    let wrong = |reason: Value| not_a_pattern(session, name, &reason);
+                    let wrong = |reason: Value| invalid_pattern_error(session, name, &reason);
                     patterns.push(Pattern::new(name).map_err(wrong)?);
                 }
                 Input::Name(name) => places.inputs.push(format!("./{name}")),
@@ -224,7 +224,7 @@ impl ListArguments {
     }
 
     /// Returns the patterns that match no path.
-    fn unmatched<'a>(&'a self, paths: &'a [ListedPath]) -> impl Iterator<Item = &'a str> {
+    fn unmatched_patterns<'a>(&'a self, paths: &'a [ListedPath]) -> impl Iterator<Item = &'a str> {
         let is_unmet = |pattern: &&Pattern| !paths.iter().any(|path| pattern.matches(path.name.as_str()));
         self.patterns.iter().filter(is_unmet).map(Pattern::text)
     }
@@ -235,7 +235,7 @@ impl ListArguments {
 }
 
 /// Lists paths without the state of their programs on disk.
-fn known(session: &Session<'_>, paths: &[(SourceFile, PathName)]) -> Vec<ListedPath> {
+fn list_without_programs(session: &Session<'_>, paths: &[(SourceFile, PathName)]) -> Vec<ListedPath> {
     let checked =
         session.map_with_checker(paths, |checker, (file, name)| checker.check_leniently(*file, name));
     let rapid = session.workspace().settings.general.rapid.value;

@@ -10,7 +10,7 @@ use pathbuild_diagnostic::messages::{files, gcode};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{
-    Disputes, Evidence, EvidenceKind, Guess, Heights, Interpretation, Options, Text, UnitCodes, guess,
+    DisputedWords, Evidence, EvidenceKind, Guess, Heights, Interpretation, Options, Text, UnitCodes, guess,
     interpret_until,
 };
 use pathbuild_gcode::read::quote;
@@ -75,17 +75,17 @@ pub struct Program {
     /// Steps and diagnostics of the program.
     pub read: Interpretation,
     /// The translation of the program, if it was read by means of the post definition that wrote it and not in a dialect.
-    pub by_definition: Option<ByDefinition>,
+    pub by_definition: Option<DefinitionTranslation>,
     options: Options,
 }
 
 /// A function that translates a text by means of the post definition that wrote it, if the definition is known. The second argument is the guessed
 /// dialect; `None` if a dialect was specified.
-pub type Translate<'t> = dyn Fn(&[u8], Option<&Guess>) -> Option<ByDefinition> + 't;
+pub type Translate<'t> = dyn Fn(&[u8], Option<&Guess>) -> Option<DefinitionTranslation> + 't;
 
 /// The translation of a program by means of the post definition that wrote it.
 #[derive(Debug)]
-pub struct ByDefinition {
+pub struct DefinitionTranslation {
     /// Name of the definition.
     pub name: String,
     /// The program in the words of RS274, line for line.
@@ -165,7 +165,7 @@ impl Program {
         let shown = reading.dialect.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
         let dialect = if by_definition.is_some() { Dialect::LinuxCnc } else { shown };
         let options = reading.with_settings(settings);
-        let mut disputes = Disputes::default();
+        let mut disputes = DisputedWords::default();
         let code = by_definition.as_ref().map_or(&*text, |by| by.translated.text.as_bytes());
         let mut problems = interpret_until(code, dialect, &options, &mut |step| {
             if let Action::Word(StatedWord { letter, code, .. }) = step.action {
@@ -185,7 +185,7 @@ impl Program {
         }
         let is_weak = guessed.is_some_and(|guess| guess.evidence.kind == EvidenceKind::Words);
         if is_weak && by_definition.is_none() {
-            problems.extend(dialect_not_named(&disputes, dialect));
+            problems.extend(unnamed_dialect_warning(&disputes, dialect));
         }
         place(&mut problems, file, &text);
         let evidence = guessed.map(|guess| guess.evidence);
@@ -194,7 +194,7 @@ impl Program {
     }
 
     /// Returns the program at its nominal heights, without the correction formulas.
-    pub fn drawn(&self) -> Text<'_> {
+    pub fn at_nominal_heights(&self) -> Text<'_> {
         let options = Options { heights: Heights::Nominal, ..self.options.clone() };
         Text { text: self.code(), dialect: self.dialect, options }
     }
@@ -215,7 +215,7 @@ impl Program {
     }
 
     /// Returns the name of the dialect, or of the definition by means of which the program was read.
-    pub fn manner(&self) -> &str {
+    pub fn reading_name(&self) -> &str {
         self.by_definition.as_ref().map_or_else(|| self.dialect.name(), |by| &by.name)
     }
 
@@ -230,8 +230,8 @@ impl Program {
     }
 
     /// Returns the name of the dialect, with the reason if it was guessed.
-    pub fn read_as(&self, lang: Lang) -> String {
-        let mut text = self.manner().to_owned();
+    pub fn describe_reading(&self, lang: Lang) -> String {
+        let mut text = self.reading_name().to_owned();
         if let Some(evidence) = self.evidence.filter(|_| self.by_definition.is_none()) {
             let reason = evidence.reason.in_lang(lang);
             text.push_str(" (");
@@ -248,7 +248,7 @@ impl Program {
     }
 
     /// Returns the first line with unknown moves, for example a call of a subprogram. Lengths and times are unknown as well if there is one.
-    pub fn first_unfollowed_line(&self) -> Option<u32> {
+    pub fn first_line_with_unknown_moves(&self) -> Option<u32> {
         let is_unfollowed =
             |problem: &&Diagnostic| problem.is_error() && problem.code() == Code::WordNotFollowed;
         self.read.problems.iter().find(is_unfollowed).map(|problem| problem.place.line.unwrap_or(0))
@@ -264,7 +264,7 @@ impl Program {
             rapid: workspace.settings.general.rapid.value,
         };
         let path = gcode_path(&source);
-        let totals = path.totals.filter(|_| self.first_unfollowed_line().is_none());
+        let totals = path.totals.filter(|_| self.first_line_with_unknown_moves().is_none());
         ScenePath { totals, ..path }
     }
 
@@ -289,7 +289,7 @@ pub(crate) fn read(
 }
 
 /// Returns PB779 for words that have different meanings in the dialects that the program may be in.
-fn dialect_not_named(disputes: &Disputes, dialect: Dialect) -> Option<Diagnostic> {
+fn unnamed_dialect_warning(disputes: &DisputedWords, dialect: Dialect) -> Option<Diagnostic> {
     let (line, words) = disputes.finish()?;
     let found = Diagnostic::new(&gcode::DIALECT_NOT_NAMED).quoting("words", words.join(", "));
     Some(found.quoting("dialect", dialect.name()).at_line(line, None))

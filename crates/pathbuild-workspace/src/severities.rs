@@ -55,7 +55,7 @@ impl Workspace {
 impl Severities<'_> {
     /// Whether any of these diagnostics counts as an error under the configuration.
     pub(crate) fn has_error<'d>(&self, diagnostics: impl IntoIterator<Item = &'d Diagnostic>) -> bool {
-        let is_error = |diagnostic: &Diagnostic| match self.judge(diagnostic.clone()) {
+        let is_error = |diagnostic: &Diagnostic| match self.apply_severity(diagnostic.clone()) {
             Verdict::Reported(diagnostic) => diagnostic.is_error(),
             Verdict::Ignored | Verdict::Waived(..) => false,
         };
@@ -63,7 +63,7 @@ impl Severities<'_> {
     }
 
     /// Applies the configured severities and their waivers to a diagnostic.
-    pub(crate) fn judge(&self, diagnostic: Diagnostic) -> Verdict {
+    pub(crate) fn apply_severity(&self, diagnostic: Diagnostic) -> Verdict {
         let code = diagnostic.code();
         let run = self.settings.date;
         let file = diagnostic.file.as_deref().map(|file| self.configured(file));

@@ -98,16 +98,16 @@ impl Waiver {
 
     /// Adds a note to a finding that the waiver, which is in `file`, no longer covers.
     pub fn note_end(&self, diagnostic: Diagnostic, file: &str, run: Option<RunDate>) -> Diagnostic {
-        self.noted(&messages::WAIVER_ENDED, diagnostic, file, run)
+        self.with_note(&messages::WAIVER_ENDED, diagnostic, file, run)
     }
 
     /// Adds a note to a finding that got its severity from this waiver, which is in `file`.
     pub fn note_severity(&self, diagnostic: Diagnostic, file: &str, run: Option<RunDate>) -> Diagnostic {
-        self.noted(&messages::SEVERITY_UNTIL, diagnostic, file, run)
+        self.with_note(&messages::SEVERITY_UNTIL, diagnostic, file, run)
     }
 
     /// Adds a note with the date and the reason of the waiver to a finding.
-    fn noted(
+    fn with_note(
         &self,
         message: &'static Message,
         mut diagnostic: Diagnostic,
@@ -134,7 +134,7 @@ impl Waiver {
     }
 
     /// Returns PB610, the warning that the waiver, which is in `file`, matches no finding.
-    pub fn unused(&self, file: &Utf8Path) -> Diagnostic {
+    pub fn unused_warning(&self, file: &Utf8Path) -> Diagnostic {
         let unused = Diagnostic::new(&messages::UNUSED_WAIVER).in_file(file).at_line(self.line, Some(1));
         match &self.reason {
             Some(reason) => unused.note(&messages::WAIVER_REASON, vec![("reason", Value::quoted(reason))]),

@@ -41,11 +41,11 @@ impl Workspace {
 
     /// Whether results are cached for later runs; this requires a configuration.
     pub fn keeps_results(&self) -> bool {
-        self.cache_place().is_some()
+        self.cache_store().is_some()
     }
 
     /// Returns the cache of this tree; `None` without a configuration, or if caching is disabled.
-    pub fn cache_place(&self) -> Option<TreeStore> {
+    pub fn cache_store(&self) -> Option<TreeStore> {
         Some(TreeStore::of_tree(self.cache.as_ref()?, self.settings.directory()?))
     }
 

@@ -70,7 +70,7 @@ fn update(context: &Context, file: &Utf8Path, findings: &[Diagnostic], coverage:
     }
     let known = [["known finding", "known findings"], ["bekannte Meldung", "bekannte Meldungen"]];
     let known = counted(findings.len(), known, context.lang());
-    write(context, file, &baseline.rewritten(findings, context, coverage), &known)
+    write(context, file, &baseline.rewritten_text(findings, context, coverage), &known)
 }
 
 /// Adds waivers for all findings with a code to the baseline.
@@ -88,7 +88,7 @@ fn accept(
         Ok((baseline, faults)) if faults.is_empty() => baseline,
         Ok((_, faults)) | Err(faults) => return context.refuse(faults),
     };
-    let (text, count) = baseline.accepting(findings, code, waiver, context);
+    let (text, count) = baseline.text_accepting(findings, code, waiver, context);
     if count == 0 {
         return context.usage(&context.phrase(
             "there is no finding {} to accept",

@@ -13,7 +13,7 @@ use pathbuild_gcode::dialect::{Charset, Dialect};
 use pathbuild_gcode::interpret::{Heights, Options, guess, interpret, interpret_each};
 use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_gcode::verify::{
-    DrawingComparison, ExpectedProgram, PostWords, Rules, Stock, ToolUse, coarse_arcs,
+    DrawingComparison, ExpectedProgram, PostWords, Rules, Stock, ToolUse, coarse_arc_finding,
 };
 use pathbuild_motion::{Action, Change, Corners, Move, Pace, Position, Spindle, Step, Turning};
 use pathbuild_post::{BUILT_IN, Job, Language, PostOptions, ToolEntry, ToolTable, load, samples};
@@ -151,7 +151,7 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
         it.severity = Severity::Error;
     }
     found.extend(rules.finish());
-    found.extend(coarse_arcs(text.as_bytes(), dialect));
+    found.extend(coarse_arc_finding(text.as_bytes(), dialect));
     found.extend(against.finish().differences);
     found
 }
@@ -180,13 +180,13 @@ fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
     let mut has_length = false;
     for Step { action, .. } in interpret(text.as_bytes(), dialect, &options).steps {
         // A tool length takes effect with the next move. If there are several before the move, the last one counts.
-        if matches!(&action, Action::Move(it) if !it.is_nothing()) && std::mem::take(&mut has_length) {
+        if matches!(&action, Action::Move(it) if !it.is_standstill()) && std::mem::take(&mut has_length) {
             effects.push((nothing(), None));
         }
         match action {
             Action::Change(Change::ToolLength(_)) => has_length = true,
             Action::Spindle(now) => spindle = now,
-            Action::Move(it) if it.is_nothing() => {}
+            Action::Move(it) if it.is_standstill() => {}
             Action::Move(it) if it.pace != Pace::Rapid => effects.push((it, Some(spindle))),
             Action::Move(it) if it.to.z() < low || it.from.z() < low => effects.push((it, None)),
             Action::Change(Change::Corners(Corners::Exact) | Change::RapidFeed(_)) => {}

@@ -3,7 +3,8 @@
 
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{
-    Bindings, Judge, Origin, PathName, PathSignature, SpeltName, SubpathCall, SubpathName, WalkedPath,
+    Bindings, CaseSensitiveName, Origin, PathName, PathSignature, SubpathCall, SubpathChecker, SubpathName,
+    WalkedPath,
 };
 
 use crate::database::Db;
@@ -23,7 +24,7 @@ pub struct Embedding<'db> {
     /// The element that draws the segment.
     pub origin: Origin,
     /// The name of the embedded path, if the segment has one.
-    pub name: Option<SpeltName>,
+    pub name: Option<CaseSensitiveName>,
     /// The result of resolving the segment.
     pub outcome: Outcome<'db>,
     /// Warnings about the segment.
@@ -60,8 +61,12 @@ pub fn embeds<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Embedding<
 fn embeddings<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Embedding<'db>> {
     let Some(outer) = summary(db, instance).known_signature() else { return Vec::new() };
     let settings = Settings::get(db);
-    let judge =
-        Judge::new(outer, settings.restrictions(db), settings.language(db), settings.reading(db).compatible);
+    let judge = SubpathChecker::new(
+        outer,
+        settings.restrictions(db),
+        settings.language(db),
+        settings.reading(db).compatible,
+    );
     let read_all = || read_layers(db, instance.file(db), &|_| true);
     let embedder = Embedder { db, file: instance.file(db), judge, ends: LayerEnds::new(&read_all) };
     outer.subpaths.iter().map(|call| embedder.embedding(call)).collect()
@@ -71,7 +76,7 @@ struct Embedder<'a, 'db> {
     db: &'db dyn Db,
     /// The drawing of the embedding path.
     file: SourceFile,
-    judge: Judge<'db>,
+    judge: SubpathChecker<'db>,
     ends: LayerEnds<'a>,
 }
 
@@ -148,7 +153,7 @@ impl<'db> Embedder<'_, 'db> {
         }
         let child = Instance::new(self.db, file, name, call.bindings());
         let inner: Option<&PathSignature> = summary(self.db, child).signature.as_ref();
-        let problems = inner.map(|inner| self.judge.misfits(call, inner)).unwrap_or_default();
+        let problems = inner.map(|inner| self.judge.mismatches(call, inner)).unwrap_or_default();
         Outcome::Found { child, problems }
     }
 }

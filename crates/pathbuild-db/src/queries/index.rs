@@ -10,8 +10,8 @@ use pathbuild_dxf::Drawing;
 use pathbuild_files::Stamp;
 use pathbuild_path::{
     Bindings, DrawnParts, ExaminedPath, Item, KeepOut, KeepOuts, Language, NearNames, Part, Path, PathCuts,
-    PathHeader, PathName, PathRole, PathSignature, RawFile, RawPath, WalkedPath, Xy, has_text_on_part,
-    is_near_clamps_or_parts, judge_file_name, stray_findings,
+    PathHeader, PathName, PathRole, PathSignature, RawFile, RawPath, WalkedPath, Xy, check_file_name,
+    has_text_on_part, is_near_clamps_or_parts, stray_findings,
 };
 use pathbuild_toolpath::{own_moves, part_cuts};
 use smol_str::SmolStr;
@@ -246,7 +246,7 @@ impl FileIndex {
             let settings = Settings::get(db);
             let stem = file.path(db).file_stem().unwrap_or_default();
             let (files, paths) = (settings.file_pattern(db), &settings.language(db).path_pattern);
-            let found = judge_file_name(stem, &self.names, files, paths);
+            let found = check_file_name(stem, &self.names, files, paths);
             self.diagnostics.extend(found.into_iter().map(|found| ends.with_near_layer(found)));
         }
         self
@@ -333,7 +333,7 @@ impl PathIndex {
 impl<'db> NameKey<'db> {
     /// Returns the key of a name.
     pub fn of(db: &'db dyn Db, name: &PathName) -> Self {
-        Self::new(db, name.folded().into_boxed_str())
+        Self::new(db, name.canonical().into_boxed_str())
     }
 
     /// Returns the folded name.
@@ -448,7 +448,7 @@ fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> BoundPath
     let examined = catch_bugs(|| pathbuild_path::examine(raw, bindings, language));
     let ExaminedPath { path, problems } = examined
         .unwrap_or_else(|bug| ExaminedPath { path: None, problems: vec![bug.in_path(raw.name.as_str())] });
-    let mut diagnostics = raw.findings_beside(&problems);
+    let mut diagnostics = raw.findings_except(&problems);
     diagnostics.extend(problems);
     BoundPath { path, diagnostics }
 }
@@ -458,7 +458,7 @@ pub(super) fn walk(db: &dyn Db, path: &Path, language: &Language) -> WalkedPath 
     catch_bugs(|| walk_within_limit(db, path, language)).unwrap_or_else(|problem| {
         // The machine may be less busy next time, so the result is not memoized beyond this revision.
         db.report_untracked_read();
-        WalkedPath::failed(problem.in_path(path.name.as_str()))
+        WalkedPath::from_failure(problem.in_path(path.name.as_str()))
     })
 }
 

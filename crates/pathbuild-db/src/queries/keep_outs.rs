@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::paths as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Number, Point, Text, words};
 use pathbuild_path::{Curve, KeepOut, KeepOutMap, TipMove};
-use pathbuild_toolpath::{ProbeOrigin, StepOrigin, kind_of_move, way};
+use pathbuild_toolpath::{ProbeOrigin, StepOrigin, kind_of_move, tip_move};
 use rustc_hash::FxHashSet;
 
 use super::programs::Occurrences;
@@ -148,9 +148,9 @@ impl<'t> Search<'t> {
             (StepOrigin { occurrence: probe.occurrence, element: None }, Some(probe), it)
         });
         for (step, probe, it) in milling.chain(probing) {
-            let Some(way) = way(&it) else { continue };
+            let Some(way) = tip_move(&it) else { continue };
             let what = kind_of_move(&it);
-            for clamp in map.entered(&way, radius, 0.0) {
+            for clamp in map.entered_clamps(&way, radius, 0.0) {
                 let (occurrence, element) =
                     self.occurrences().innermost_common_path(step, self.clamps[clamp].occurrence);
                 let entry = Entry { clamp, occurrence, element, probe, what: what.en };

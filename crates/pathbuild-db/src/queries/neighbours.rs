@@ -9,7 +9,7 @@ use pathbuild_path::{
     Curve, LeftMaterial, NeighbourGouge, Origin, Part, PlacedCuts, Placement, SeveredPart, TipMove, Xy,
     gouging_moves,
 };
-use pathbuild_toolpath::way;
+use pathbuild_toolpath::tip_move;
 
 use crate::database::Db;
 use crate::inputs::{Settings, Target};
@@ -136,7 +136,7 @@ impl<'db> PlacedProgram<'db> {
             let mut gouges: BTreeMap<_, (NeighbourGouge, usize, &Origin)> = BTreeMap::new();
             let mut bars = Vec::new();
             for cutting in (0..self.paths.len()).filter(|cutting| self.is_foreign(owner, *cutting)) {
-                let taken = self.paths[owner].cuts.taken_by(&self.paths[cutting].cuts, self.tolerance);
+                let taken = self.paths[owner].cuts.cuts_made_by(&self.paths[cutting].cuts, self.tolerance);
                 for gouge in taken.gouges {
                     let (path, origin) = self.innermost_common_path(cutting, gouge.element, owner);
                     let key = (gouge.part, path, origin.id.0);
@@ -198,7 +198,7 @@ impl<'db> PlacedProgram<'db> {
         let pairs = numbers.clone().flat_map(|owner| numbers.clone().map(move |cutting| (owner, cutting)));
         let foreign = pairs.filter(|(owner, cutting)| self.is_foreign(*owner, *cutting));
         let taken = foreign.flat_map(|(owner, cutting)| {
-            self.paths[owner].cuts.taken_by(&self.paths[cutting].cuts, self.tolerance).bars
+            self.paths[owner].cuts.cuts_made_by(&self.paths[cutting].cuts, self.tolerance).bars
         });
         taken.map(|lost| lost.middle).collect()
     }
@@ -332,7 +332,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
 fn milled_moves(traced: &TracedProgram) -> Vec<(u32, TipMove)> {
     let milled = traced.program.moves().filter(|(_, movement)| movement.pace.feed().is_some());
     let ways = milled.filter_map(|(step, movement)| {
-        Some((traced.trace.steps.get(step as usize - 1)?.occurrence, way(&movement)?))
+        Some((traced.trace.steps.get(step as usize - 1)?.occurrence, tip_move(&movement)?))
     });
     ways.collect()
 }

@@ -7,9 +7,9 @@ use pathbuild_diagnostic::{Diagnostic, TraceStep};
 use pathbuild_dxf::Drawing;
 use pathbuild_path::{
     Bindings, ElementParameters, Origin, Path, PathName, PathRole, RawPath, SourceMap, WalkedPath,
-    parameters_in_force,
+    element_parameters,
 };
-use pathbuild_toolpath::{Occurrence, Parts, Program, StepOrigin, Trace, fold_traced};
+use pathbuild_toolpath::{FoldPaths, Occurrence, Program, StepOrigin, Trace, fold_traced};
 use rustc_hash::FxHashMap;
 
 use super::embedding::{Instance, chains, path};
@@ -106,7 +106,7 @@ pub fn effective_parameters(
     let options = settings.fold(db);
     let is_emitted = is_emitted && bindings.is_empty() && options.sweep_height.is_some();
     let role = if is_emitted { PathRole::Emitted } else { PathRole::Embedded };
-    let of_path = |raw: &RawPath| parameters_in_force(raw, bindings, &options, role, settings.language(db));
+    let of_path = |raw: &RawPath| element_parameters(raw, bindings, &options, role, settings.language(db));
     raw_file(db, file).entry(name).map(|entry| of_path(&entry.raw)).unwrap_or_default()
 }
 
@@ -123,7 +123,7 @@ pub(super) struct ClosurePaths<'db> {
     pub(super) db: &'db dyn Db,
 }
 
-impl<'db> Parts for ClosurePaths<'db> {
+impl<'db> FoldPaths for ClosurePaths<'db> {
     type Id = Instance<'db>;
 
     fn path(&self, id: Instance<'db>) -> &Path {

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, Severity};
 use pathbuild_dxf::Drawing;
 use pathbuild_path::{
-    AssignedText, Bindings, Combinations, PathName, Position, RawPath, SourceMap, SpeltName,
+    AssignedText, Bindings, CaseSensitiveName, Combinations, PathName, Position, RawPath, SourceMap,
 };
 
 use crate::database::catch_bugs;
@@ -65,7 +65,7 @@ pub(super) struct PathEntry {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathPlace {
     /// The name as spelt by its layer.
-    pub name: SpeltName,
+    pub name: CaseSensitiveName,
     /// The first of the path's layers.
     pub layer: Box<str>,
     /// The path's start marker, or its first element if it has none.

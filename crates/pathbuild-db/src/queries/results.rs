@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{
-    Bindings, Component, Path, PathName, ProxyLine, QProject, judge_q_project, plan_q_project,
+    Bindings, Component, Path, PathName, ProxyLine, QProject, compare_q_project, plan_q_project,
 };
 use pathbuild_toolpath::{Program, fold};
 
@@ -74,7 +74,7 @@ pub fn q_project(db: &dyn Db, drawing: SourceFile) -> Vec<QProject> {
 pub fn q_project_findings(db: &dyn Db, drawing: SourceFile, q_project: SourceFile) -> Vec<Diagnostic> {
     let paths = sound_paths(db, q_project);
     let name = drawing.path(db).file_name().unwrap_or_default();
-    let found = judge_q_project(&component(db, drawing), name, paths.as_deref());
+    let found = compare_q_project(&component(db, drawing), name, paths.as_deref());
     let in_component = found.in_component.into_iter().map(|problem| problem.in_file(drawing.path(db)));
     let in_q_project = found.in_q_project.into_iter().map(|problem| problem.in_file(q_project.path(db)));
     in_component.chain(in_q_project).collect()

@@ -25,7 +25,7 @@ pub(super) struct Check<'c, 'a> {
 }
 
 /// Minimum difference, in mm, at which two positions or heights count as different: both are written with three decimals.
-pub(super) const DIFFERENT: f64 = 0.000_5;
+pub(super) const MIN_DIFFERENCE: f64 = 0.000_5;
 
 impl Check<'_, '_> {
     /// Checks every value and returns the usable ones by probe number; errors are added to `problems`.
@@ -37,7 +37,7 @@ impl Check<'_, '_> {
                 Err(problem) => problems.push(*problem),
             }
         }
-        problems.extend(self.unknown(lines));
+        problems.extend(self.report_unknown_probes(lines));
         values
     }
 
@@ -48,7 +48,7 @@ impl Check<'_, '_> {
             EnteredValue::Wrong => return Ok(None),
             EnteredValue::Value(value) => value,
         };
-        for expected in self.expected(line)? {
+        for expected in self.expected_heights(line)? {
             let off = (value - expected).abs();
             if above(off, self.inputs.max_correction) {
                 let problem = line.value_fault(&messages::TOO_FAR).with("value", value).with("off", off);
@@ -56,7 +56,7 @@ impl Check<'_, '_> {
                 return Err(Box::new(problem.with("limit", self.inputs.max_correction)));
             }
         }
-        Ok(Some(as_stated(value)))
+        Ok(Some(rounded_to_printed(value)))
     }
 
     /// Checks that the program lists this probe, at the same position and height. A program that lists no probes passes.
@@ -72,7 +72,7 @@ impl Check<'_, '_> {
         let Some(program_probe) = self.table.probes.get(&line.probe) else {
             return Err(Box::new(fault(&messages::PROBE_OF_OTHER_PROGRAM)));
         };
-        let is_other = |(a, b): (f64, f64)| (a - b).abs() > DIFFERENT;
+        let is_other = |(a, b): (f64, f64)| (a - b).abs() > MIN_DIFFERENCE;
         let height = line.height.unwrap_or(program_probe.height);
         let pairs = [
             (line.place[0], program_probe.place[0]),
@@ -82,12 +82,12 @@ impl Check<'_, '_> {
         let is_moved =
             line.at.zip(program_probe.at).is_some_and(|(a, b)| is_other((a.x, b.x)) || is_other((a.y, b.y)));
         if is_moved || pairs.into_iter().any(is_other) {
-            let position = described(
+            let position = describe_probe(
                 program_probe.place,
                 program_probe.height,
                 program_probe.at.filter(|_| line.at.is_some()),
             );
-            let here = described(line.place, height, line.at);
+            let here = describe_probe(line.place, height, line.at);
             return Err(Box::new(
                 fault(&messages::OTHER_PROBE).quoting("here", here).quoting("there", position),
             ));
@@ -97,7 +97,7 @@ impl Check<'_, '_> {
 
     /// Returns the heights at which the probe was drawn. If neither the line nor the program's list of probes states one, returns the least and the
     /// greatest height in the formulas.
-    fn expected(&self, line: &ProbeLine<'_>) -> Result<Vec<f64>, Box<Diagnostic>> {
+    fn expected_heights(&self, line: &ProbeLine<'_>) -> Result<Vec<f64>, Box<Diagnostic>> {
         let program_probe = self.table.probes.get(&line.probe).map(|program_probe| program_probe.height);
         if let Some(height) = line.height.or(program_probe) {
             return Ok(vec![height]);
@@ -112,7 +112,7 @@ impl Check<'_, '_> {
     }
 
     /// Reports probes that formulas use but the file does not list, each at its first use. At most one per line of the program is reported.
-    fn unknown(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
+    fn report_unknown_probes(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
         let file = self.inputs.values.file.file_name().unwrap_or_default();
         let known: BTreeSet<u32> = lines.iter().map(|line| line.probe).collect();
         let mut told = BTreeSet::new();
@@ -125,7 +125,7 @@ impl Check<'_, '_> {
     }
 
     /// Reports probes that were measured but are not used by any formula, because formulas were removed or changed.
-    pub(super) fn unused(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
+    pub(super) fn report_unused_probes(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
         let file = self.inputs.program.file.file_name().unwrap_or_default();
         let is_stated = |line: &&ProbeLine<'_>| {
             self.table.probes.is_empty() || self.table.probes.contains_key(&line.probe)
@@ -158,13 +158,13 @@ impl Check<'_, '_> {
 }
 
 /// Rounds a measured height to six decimals, as in the adjusted program, so that evaluating its formulas gives the same result.
-fn as_stated(value: f64) -> f64 {
+fn rounded_to_printed(value: f64) -> f64 {
     let mut text = String::new();
     push_exact(&mut text, value);
     text.parse().unwrap_or(value)
 }
 
-fn described(place: ProbePoint, height: f64, at: Option<Xy>) -> String {
+fn describe_probe(place: ProbePoint, height: f64, at: Option<Xy>) -> String {
     let at = at.map(|at| format!(" @ [{}|{}]", f3(at.x), f3(at.y))).unwrap_or_default();
     format!("[{} {}] T={}{at}", f3(place[0]), f3(place[1]), f3(height))
 }

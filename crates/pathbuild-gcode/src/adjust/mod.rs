@@ -17,7 +17,10 @@ use crate::native::{f3, push_exact};
 use crate::provenance::is_same_program;
 
 use check::{Check, Values};
-use scan::{Fault, Line, Probes, Spot, in_line, lines, located, mark, number, spots, value_of};
+use scan::{
+    Fault, FormulaSpan, Line, Probes, byte_order_mark, formula_spans, in_line, lines, located, number,
+    value_of,
+};
 use values::{ProbeTable, entry_of_line, is_header};
 pub(crate) use values::{ProgramProbe, probe_entry};
 
@@ -60,7 +63,7 @@ pub struct AdjustedProgram {
 
 /// Returns the first line, counted from 1, with a formula that has not been applied: `Z1.000(=...)` as opposed to `(==...)`.
 pub fn first_open_formula(program: &[u8]) -> Option<u32> {
-    let is_open = |line: &[u8]| spots(line).any(|spot| line.get(spot.formula.start) != Some(&b'='));
+    let is_open = |line: &[u8]| formula_spans(line).any(|spot| line.get(spot.formula.start) != Some(&b'='));
     (1..).zip(program.split(|byte| *byte == b'\n')).find(|(_, line)| is_open(line)).map(|(number, _)| number)
 }
 
@@ -77,7 +80,7 @@ pub(crate) struct FormulaText {
 /// Returns the formulas of a program, in order.
 pub(crate) fn formula_texts(program: &[u8]) -> impl Iterator<Item = FormulaText> {
     (1..).zip(program.split(|byte| *byte == b'\n')).flat_map(|(line, content)| {
-        spots(content).map(move |spot| {
+        formula_spans(content).map(move |spot| {
             let text = String::from_utf8_lossy(&content[spot.formula]).into_owned();
             let applied = text.strip_prefix('=').map(str::to_owned);
             FormulaText { line, is_applied: applied.is_some(), text: applied.unwrap_or(text) }
@@ -87,7 +90,7 @@ pub(crate) fn formula_texts(program: &[u8]) -> impl Iterator<Item = FormulaText>
 
 /// Returns the probes listed in the header of a program, without measured heights.
 pub(crate) fn probe_entries(program: &[u8]) -> Vec<FormulaText> {
-    let program = &program[mark(program).len()..];
+    let program = &program[byte_order_mark(program).len()..];
     let lines = (1..).zip(program.split(|byte| *byte == b'\n')).take_while(|(_, line)| is_header(line));
     let entries = lines.filter_map(|(line, content)| {
         let (number, probe) = entry_of_line(content)?;
@@ -99,7 +102,8 @@ pub(crate) fn probe_entries(program: &[u8]) -> Vec<FormulaText> {
 /// Removes the comments from a line. Formulas are kept.
 pub(crate) fn without_comments(line: &str) -> String {
     let bytes = line.as_bytes();
-    let mut formulas = spots(bytes).map(|spot| spot.formula.start - 2..spot.formula.end + 1).peekable();
+    let mut formulas =
+        formula_spans(bytes).map(|spot| spot.formula.start - 2..spot.formula.end + 1).peekable();
     let (mut kept, mut at) = (String::with_capacity(line.len()), 0);
     while at < line.len() {
         if let Some(formula) = formulas.next_if(|formula| formula.start == at) {
@@ -133,7 +137,7 @@ pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>>
     let survey = scan::ProbeSurvey::of(clean, &mut problems);
     let has_all = problems.is_empty() && survey.probes.keys().all(|probe| values.contains_key(probe));
     let inputs = Inputs { program: clean, values: program, log: None, max_correction: f64::INFINITY };
-    has_all.then(|| adjusted(&inputs, &values).ok()).flatten().map(|adjusted| adjusted.program)
+    has_all.then(|| evaluate_formulas(&inputs, &values).ok()).flatten().map(|adjusted| adjusted.program)
 }
 
 /// Whether the header of a program lists measured heights, that is, whether it was adjusted.
@@ -146,7 +150,9 @@ pub fn states_other_values(program: Source<'_>, values: Source<'_>) -> bool {
     let stated = ProbeTable::read(program).probes;
     let lines = values::read(values, &mut Vec::new());
     lines.iter().any(|line| match (line.value, stated.get(&line.probe).and_then(|probe| probe.measured)) {
-        (values::EnteredValue::Value(value), Some(measured)) => (value - measured).abs() > check::DIFFERENT,
+        (values::EnteredValue::Value(value), Some(measured)) => {
+            (value - measured).abs() > check::MIN_DIFFERENCE
+        }
         _ => false,
     })
 }
@@ -168,9 +174,9 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     if !problems.is_empty() {
         return Err(problems);
     }
-    let mut adjusted = adjusted(inputs, &values)?;
+    let mut adjusted = evaluate_formulas(inputs, &values)?;
     adjusted.warnings = check.odd_probes(&lines);
-    adjusted.unused = check.unused(&lines);
+    adjusted.unused = check.report_unused_probes(&lines);
     Ok(adjusted)
 }
 
@@ -182,11 +188,14 @@ const CORRECTION_SLACK: (f64, f64) = (1.002, 0.002);
 ///
 /// # Errors
 /// Formulas that cannot be evaluated, or whose result is too large.
-pub(super) fn adjusted(inputs: &Inputs<'_>, values: &Values) -> Result<AdjustedProgram, Vec<Diagnostic>> {
+pub(super) fn evaluate_formulas(
+    inputs: &Inputs<'_>,
+    values: &Values,
+) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     let bytes = inputs.program.bytes;
     let mut writer = Writer { inputs, values, adjusted: AdjustedProgram::default(), problems: Vec::new() };
     writer.adjusted.program.reserve(bytes.len() + bytes.len() / 32);
-    writer.adjusted.program.extend_from_slice(mark(bytes));
+    writer.adjusted.program.extend_from_slice(byte_order_mark(bytes));
     let mut is_in_header = true;
     for line in lines(inputs.program) {
         is_in_header &= is_header(line.content());
@@ -227,7 +236,7 @@ impl Writer<'_> {
 
     fn line(&mut self, line: Line<'_>) {
         let mut done = 0;
-        for spot in spots(line.content()) {
+        for spot in formula_spans(line.content()) {
             match self.height(line, &spot) {
                 Ok(height) => {
                     let program = &mut self.adjusted.program;
@@ -245,7 +254,7 @@ impl Writer<'_> {
         self.adjusted.program.extend_from_slice(&line.bytes[done..]);
     }
 
-    fn height(&mut self, line: Line<'_>, spot: &Spot) -> Result<f64, Box<Diagnostic>> {
+    fn height(&mut self, line: Line<'_>, spot: &FormulaSpan) -> Result<f64, Box<Diagnostic>> {
         let formula = &line.content()[spot.formula.clone()];
         let told = |fault: Fault| Box::new(located(line, &fault));
         let height = value_of(formula, &mut MeasuredHeights(self.values))
@@ -261,7 +270,7 @@ impl Writer<'_> {
     }
 
     /// Checks that a correction is within the limit, because a plane far outside the probes can exceed all measured values.
-    fn check(&mut self, line: Line<'_>, spot: &Spot, correction: f64) -> Result<(), Box<Diagnostic>> {
+    fn check(&mut self, line: Line<'_>, spot: &FormulaSpan, correction: f64) -> Result<(), Box<Diagnostic>> {
         let limit = self.inputs.max_correction;
         if correction.abs() > CORRECTION_SLACK.0 * limit + CORRECTION_SLACK.1 {
             let whole = spot.number.start..spot.formula.end;
@@ -284,7 +293,7 @@ fn without_last_word(text: &[u8]) -> &[u8] {
 }
 
 /// Whether the number before a formula belongs to a Z word.
-fn is_height(line: &[u8], spot: &Spot) -> bool {
+fn is_height(line: &[u8], spot: &FormulaSpan) -> bool {
     line[..spot.number.start].trim_ascii_end().last().is_some_and(|letter| letter.eq_ignore_ascii_case(&b'Z'))
 }
 

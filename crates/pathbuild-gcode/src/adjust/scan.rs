@@ -20,14 +20,14 @@ pub(super) struct Line<'a> {
 }
 
 /// Returns the byte order mark that some editors write at the start of a file; empty if there is none.
-pub(super) fn mark(bytes: &[u8]) -> &[u8] {
+pub(super) fn byte_order_mark(bytes: &[u8]) -> &[u8] {
     let mark = b"\xef\xbb\xbf";
     if bytes.starts_with(mark) { &bytes[..mark.len()] } else { &[] }
 }
 
 /// Returns the lines of a file, without the byte order mark.
 pub(super) fn lines(source: Source<'_>) -> impl Iterator<Item = Line<'_>> {
-    let bytes = &source.bytes[mark(source.bytes).len()..];
+    let bytes = &source.bytes[byte_order_mark(source.bytes).len()..];
     let lines = bytes.split_inclusive(|byte| *byte == b'\n');
     (1..).zip(lines).map(move |(number, bytes)| Line { source, number, bytes })
 }
@@ -61,7 +61,7 @@ const EXCERPT_BYTES: usize = 500;
 
 /// A number with its formula, as byte ranges of the line.
 #[derive(Clone, Debug)]
-pub(super) struct Spot {
+pub(super) struct FormulaSpan {
     /// Digits with an optional sign and decimal point. If there are several points, this is not a valid number.
     pub(super) number: Range<usize>,
     /// The text between `(=` and the closing bracket.
@@ -71,7 +71,7 @@ pub(super) struct Spot {
 }
 
 /// Returns the formulas of a line, in order. Formulas within comments are ignored.
-pub(super) fn spots(line: &[u8]) -> impl Iterator<Item = Spot> {
+pub(super) fn formula_spans(line: &[u8]) -> impl Iterator<Item = FormulaSpan> {
     let mut rest = 0;
     std::iter::from_fn(move || {
         loop {
@@ -81,10 +81,10 @@ pub(super) fn spots(line: &[u8]) -> impl Iterator<Item = Spot> {
             }
             let number = number_before(line, open);
             if line.get(open + 1) == Some(&b'=') && !number.is_empty() {
-                let closed = closing(line, open);
+                let closed = closing_bracket(line, open);
                 let end = closed.unwrap_or(line.len());
                 rest = (end + 1).min(line.len());
-                return Some(Spot { number, formula: open + 2..end, is_closed: closed.is_some() });
+                return Some(FormulaSpan { number, formula: open + 2..end, is_closed: closed.is_some() });
             }
             rest = open + 1 + line[open..].iter().position(|byte| *byte == b')')?;
         }
@@ -101,7 +101,7 @@ fn number_before(line: &[u8], end: usize) -> Range<usize> {
 }
 
 /// Returns the position of the bracket that closes the one at `open`.
-fn closing(line: &[u8], open: usize) -> Option<usize> {
+fn closing_bracket(line: &[u8], open: usize) -> Option<usize> {
     let mut depth = 0_usize;
     line.iter().enumerate().skip(open).find_map(|(at, byte)| {
         match byte {
@@ -134,7 +134,7 @@ impl<'a> ProbeSurvey<'a> {
     pub(super) fn of(program: Source<'a>, problems: &mut Vec<Diagnostic>) -> Self {
         let mut survey = Self::default();
         for line in lines(program) {
-            for spot in spots(line.content()) {
+            for spot in formula_spans(line.content()) {
                 let mut reader = ProbeReader { survey: &mut survey, line, start: spot.formula.start };
                 if let Err(fault) = check(line.content(), &spot, &mut reader) {
                     problems.push(located(line, &fault));
@@ -153,12 +153,12 @@ pub(super) fn located(line: Line<'_>, fault: &Fault) -> Diagnostic {
 }
 
 /// Converts the position of an error from the formula to the line.
-pub(super) fn in_line(fault: &Fault, spot: &Spot) -> Fault {
+pub(super) fn in_line(fault: &Fault, spot: &FormulaSpan) -> Fault {
     let start = spot.formula.start;
     Fault { at: fault.at.start + start..fault.at.end + start, ..*fault }
 }
 
-fn check(line: &[u8], spot: &Spot, probes: &mut impl Probes) -> Result<(), Fault> {
+fn check(line: &[u8], spot: &FormulaSpan, probes: &mut impl Probes) -> Result<(), Fault> {
     let formula = &line[spot.formula.clone()];
     if formula.first() == Some(&b'=') {
         let at = spot.formula.start..spot.formula.start + 1;
@@ -175,7 +175,7 @@ fn check(line: &[u8], spot: &Spot, probes: &mut impl Probes) -> Result<(), Fault
 }
 
 /// Parses the number before a formula.
-pub(super) fn number(line: &[u8], spot: &Spot) -> Option<f64> {
+pub(super) fn number(line: &[u8], spot: &FormulaSpan) -> Option<f64> {
     let text = str::from_utf8(&line[spot.number.clone()]).ok()?;
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }
@@ -268,8 +268,8 @@ impl<P: Probes> Parser<'_, P> {
                 (b'-', Form::Probe(probe), Form::Number) => {
                     Term { value: sum.value - term.value, form: Form::Difference(probe, term.value) }
                 }
-                (b'-', ..) => other(sum.value - term.value),
-                _ => other(sum.value + term.value),
+                (b'-', ..) => other_term(sum.value - term.value),
+                _ => other_term(sum.value + term.value),
             };
         }
         Ok(sum)
@@ -282,9 +282,9 @@ impl<P: Probes> Parser<'_, P> {
             self.at += 1;
             let factor = self.factor()?;
             product = match operator {
-                b'*' => other(product.value * factor.value),
+                b'*' => other_term(product.value * factor.value),
                 _ if factor.value == 0.0 => return Err(fault(&messages::DIVISION_BY_ZERO, at..self.at)),
-                _ => other(product.value / factor.value),
+                _ => other_term(product.value / factor.value),
             };
         }
         Ok(product)
@@ -299,8 +299,8 @@ impl<P: Probes> Parser<'_, P> {
         let term = self.primary()?;
         match signs {
             0 => Ok(term),
-            _ if signs.is_multiple_of(2) => Ok(other(term.value)),
-            _ => Ok(other(-term.value)),
+            _ if signs.is_multiple_of(2) => Ok(other_term(term.value)),
+            _ => Ok(other_term(-term.value)),
         }
     }
 
@@ -329,7 +329,7 @@ impl<P: Probes> Parser<'_, P> {
         if let Form::Difference(probe, height) = inner.form {
             self.probes.drawn(probe, height);
         }
-        Ok(other(inner.value))
+        Ok(other_term(inner.value))
     }
 
     fn number(&mut self) -> Result<Term, Fault> {
@@ -366,7 +366,7 @@ impl<P: Probes> Parser<'_, P> {
     }
 }
 
-fn other(value: f64) -> Term {
+fn other_term(value: f64) -> Term {
     Term { value, form: Form::Other }
 }
 

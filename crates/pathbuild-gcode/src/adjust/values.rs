@@ -214,33 +214,33 @@ pub(super) fn fill_from_log<'a>(
     let before = problems.len();
     let measured = read_log(log, problems);
     if problems.len() > before {
-        return give_up(probes);
+        return mark_reported(probes);
     }
     if measured.len() != probes.len() {
         let problem = Diagnostic::new(&messages::LOG_COUNT).in_file(log.file).with("found", measured.len());
         let file = values.file.file_name().unwrap_or_default();
         problems.push(problem.quoting("file", file).with("expected", probes.len()));
-        return give_up(probes);
+        return mark_reported(probes);
     }
     let mut in_order: Vec<&mut ProbeLine<'_>> = probes.iter_mut().collect();
     in_order.sort_by_key(|probe| probe.probe);
-    if let Some(problem) = misplaced(&in_order, &measured) {
+    if let Some(problem) = misplaced_result(&in_order, &measured) {
         problems.push(problem);
-        return give_up(probes);
+        return mark_reported(probes);
     }
     for (probe, measured) in in_order.into_iter().zip(measured) {
-        take(probe, measured, problems);
+        take_measured(probe, measured, problems);
     }
 }
 
 /// Marks missing values as already reported, because the problem is the log and not each single value.
-fn give_up(probes: &mut [ProbeLine<'_>]) {
+fn mark_reported(probes: &mut [ProbeLine<'_>]) {
     for probe in probes.iter_mut().filter(|probe| probe.value == EnteredValue::Nothing) {
         probe.value = EnteredValue::Wrong;
     }
 }
 
-fn take<'a>(probe: &mut ProbeLine<'a>, measured: LoggedHeight<'a>, problems: &mut Vec<Diagnostic>) {
+fn take_measured<'a>(probe: &mut ProbeLine<'a>, measured: LoggedHeight<'a>, problems: &mut Vec<Diagnostic>) {
     match probe.value {
         EnteredValue::Nothing => {
             probe.value = EnteredValue::Value(measured.place[2]);
@@ -281,7 +281,7 @@ fn read_log<'a>(log: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<LoggedHe
 
 /// Reports the first result that was measured at another position than that of its probe. A displacement that all results share is ignored, because
 /// the log may lack the offset of the workpiece. Probes whose position in the program is not stated are not compared.
-fn misplaced(probes: &[&mut ProbeLine<'_>], measured: &[LoggedHeight<'_>]) -> Option<Diagnostic> {
+fn misplaced_result(probes: &[&mut ProbeLine<'_>], measured: &[LoggedHeight<'_>]) -> Option<Diagnostic> {
     let mut common: Option<[f64; 2]> = None;
     probes.iter().zip(measured).find_map(|(probe, measured)| {
         let at = probe.at?;

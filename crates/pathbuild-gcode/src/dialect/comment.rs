@@ -5,8 +5,8 @@ use std::borrow::Cow;
 
 use pathbuild_diagnostic::shown;
 
-use super::rules::OBEYED;
-use super::{Dialect, Percent, Style};
+use super::rules::OBEYED_COMMENTS;
+use super::{Dialect, NotationSupport, Percent};
 
 /// The characters that may be written. (book: reference/configuration, `charset`)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -25,8 +25,8 @@ impl Dialect {
         let spelling = &self.rules().spelling;
         let text = within_comment(text, Some(self), charset);
         match spelling {
-            spelling if spelling.round_comments == Style::Usual => format!("({text})"),
-            spelling if spelling.slash_comments == Style::Usual => format!("// {text}"),
+            spelling if spelling.round_comments == NotationSupport::Usual => format!("({text})"),
+            spelling if spelling.slash_comments == NotationSupport::Usual => format!("// {text}"),
             _ => format!("; {text}"),
         }
     }
@@ -129,7 +129,7 @@ fn transliterated(character: char) -> &'static str {
 
 /// Whether a control acts on a comment with this text: it opens a file, prints, hides moves or runs a program.
 pub fn is_active_comment(text: &str) -> bool {
-    beginning_of(text, OBEYED).or_else(|| beginning_of(text, DISPLAY_WORDS)).is_some()
+    beginning_of(text, OBEYED_COMMENTS).or_else(|| beginning_of(text, DISPLAY_WORDS)).is_some()
 }
 
 /// Returns the word from `words` with which a comment begins, ignoring blanks and case.

@@ -209,11 +209,11 @@ const GRBL_RADIUS: RadiusTolerance = RadiusTolerance::Relative { most: 0.5, leas
 
 const BASE_SPELLING: Spelling = Spelling {
     small_letters: true,
-    round_comments: Style::Usual,
+    round_comments: NotationSupport::Usual,
     nested_comments: false,
-    semicolon_comments: Style::Unknown,
-    slash_comments: Style::Unknown,
-    bang_comments: Style::Unknown,
+    semicolon_comments: NotationSupport::Unknown,
+    slash_comments: NotationSupport::Unknown,
+    bang_comments: NotationSupport::Unknown,
     blanks: Blanks::Ignored,
     percent: Percent::Frame,
     slash: Slash::Optional,
@@ -296,7 +296,7 @@ pub(super) static RS274: Rules = Rules {
 pub(super) static LINUXCNC: Rules = Rules {
     dialect: Dialect::LinuxCnc,
     spelling: Spelling {
-        semicolon_comments: Style::Usual,
+        semicolon_comments: NotationSupport::Usual,
         line_length: Some(LineLength::Whole(255)),
         block_numbers: Some(u32::MAX),
         fractional_block_numbers: true,
@@ -307,7 +307,7 @@ pub(super) static LINUXCNC: Rules = Rules {
             parameters: 5602,
             o_words: true,
         }),
-        active_comments: OBEYED,
+        active_comments: OBEYED_COMMENTS,
         ..BASE_SPELLING
     },
     // interp_convert.cc, convert_length_units: G92 is converted; the feed was passed on in mm/min when F was read.
@@ -331,7 +331,7 @@ pub(super) static GRBL: Rules = Rules {
     dialect: Dialect::Grbl,
     spelling: Spelling {
         nested_comments: true,
-        semicolon_comments: Style::Usual,
+        semicolon_comments: NotationSupport::Usual,
         percent: Percent::Refused,
         slash: Slash::Dropped,
         line_length: Some(LineLength::Bare(79)),
@@ -355,11 +355,11 @@ pub(super) static GRBL: Rules = Rules {
 pub(super) static XPERTMILL: Rules = Rules {
     dialect: Dialect::Xpertmill,
     spelling: Spelling {
-        round_comments: Style::Doubtful,
+        round_comments: NotationSupport::Doubtful,
         nested_comments: true,
-        semicolon_comments: Style::Doubtful,
-        slash_comments: Style::Usual,
-        bang_comments: Style::Usual,
+        semicolon_comments: NotationSupport::Doubtful,
+        slash_comments: NotationSupport::Usual,
+        bang_comments: NotationSupport::Usual,
         blanks: Blanks::Separate,
         percent: Percent::Start,
         slash: Slash::Unknown,
@@ -380,10 +380,10 @@ pub(super) static NATIVE: Rules = Rules {
     dialect: Dialect::Native,
     spelling: Spelling {
         nested_comments: true,
-        semicolon_comments: Style::Usual,
+        semicolon_comments: NotationSupport::Usual,
         block_numbers: Some(10_000_000),
         formulas: true,
-        active_comments: OBEYED,
+        active_comments: OBEYED_COMMENTS,
         ..BASE_SPELLING
     },
     words: &codes::NATIVE,
@@ -468,8 +468,8 @@ pub(super) static MARLIN: Rules = Rules {
     dialect: Dialect::Marlin,
     spelling: Spelling {
         small_letters: false,
-        round_comments: Style::Unknown,
-        semicolon_comments: Style::Usual,
+        round_comments: NotationSupport::Unknown,
+        semicolon_comments: NotationSupport::Usual,
         percent: Percent::Refused,
         slash: Slash::Unknown,
         line_length: Some(LineLength::Whole(96)),
@@ -498,7 +498,7 @@ pub(super) static MARLIN: Rules = Rules {
 pub(super) static ESTLCAM: Rules = Rules {
     dialect: Dialect::Estlcam,
     spelling: Spelling {
-        semicolon_comments: Style::Usual,
+        semicolon_comments: NotationSupport::Usual,
         percent: Percent::Refused,
         slash: Slash::Unknown,
         ..BASE_SPELLING
@@ -533,15 +533,15 @@ pub struct Spelling {
     /// Whether words may have lower-case letters.
     pub small_letters: bool,
     /// Support for comments in `( )`.
-    pub round_comments: Style,
+    pub round_comments: NotationSupport,
     /// Whether `(` within a round comment is an ordinary character; otherwise it is an error.
     pub nested_comments: bool,
     /// Support for comments from `;` to the end of the line.
-    pub semicolon_comments: Style,
+    pub semicolon_comments: NotationSupport,
     /// Support for comments from `//` to the end of the line.
-    pub slash_comments: Style,
+    pub slash_comments: NotationSupport,
     /// Support for comments from `!` to the end of the line.
-    pub bang_comments: Style,
+    pub bang_comments: NotationSupport,
     /// Whether blanks separate words or are ignored.
     pub blanks: Blanks,
     /// Meaning of a line that begins with `%`.
@@ -574,7 +574,7 @@ pub struct Spelling {
 
 /// Degree to which a dialect supports a notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Style {
+pub enum NotationSupport {
     /// The dialect supports the notation.
     Usual,
     /// The notation is read with a warning, because the dialect is not known to support it.
@@ -651,7 +651,7 @@ pub enum Operators {
 
 /// First words of comments that LinuxCNC acts on: it writes files, runs programs or stops. A comma is included if the word only has an effect with
 /// it.
-pub(super) const OBEYED: &[&str] = &[
+pub(super) const OBEYED_COMMENTS: &[&str] = &[
     "LOG,",
     "LOGOPEN,",
     "LOGAPPEND,",

@@ -19,11 +19,11 @@ use crate::read::{Block, BlockReader, Code, OWord, OWordKind, Place, Value};
 const MAX_CALL_DEPTH: usize = 10;
 
 /// Maximum number of lines executed by all calls and loops of a file, so that a few bytes cannot describe hours of work.
-const MOST_LINES: u32 = 1_000_000;
+const MAX_REPEATED_LINES: u32 = 1_000_000;
 
 /// The reason why the execution of consecutive lines ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Outcome {
+enum RunEnd {
     Returned,
     Repeated,
     /// A `break` or `continue` ended a pass of the loop that [`Runner::left`] names.
@@ -104,27 +104,27 @@ impl<'r, 'i> Runner<'r, 'i> {
 
     /// Executes a file to its end.
     pub(super) fn run_file(&mut self, reader: &mut BlockReader<'_>) {
-        while self.run(reader) == Outcome::Ended {
+        while self.run(reader) == RunEnd::Ended {
             reader.end_program();
         }
     }
 
-    fn run(&mut self, reader: &mut BlockReader<'_>) -> Outcome {
+    fn run(&mut self, reader: &mut BlockReader<'_>) -> RunEnd {
         loop {
             let before = reader.place();
-            let Some(block) = reader.next_block() else { return Outcome::NoLines };
+            let Some(block) = reader.next_block() else { return RunEnd::NoLines };
             self.has_words |= !block.words.is_empty() || !block.settings.is_empty() || block.o_word.is_some();
             self.interpreter.block(&block);
             let line = block.line;
             let is_unwanted = self.interpreter.out.drain(..).try_for_each(&mut *self.each).is_break();
             if is_unwanted || self.interpreter.ended {
-                return Outcome::Ended;
+                return RunEnd::Ended;
             }
             if self.depth > 0 {
                 self.lines += 1;
-                if self.lines > MOST_LINES {
-                    self.report(&say::CALLS_TOO_LONG, line, "", u64::from(MOST_LINES));
-                    return Outcome::Ended;
+                if self.lines > MAX_REPEATED_LINES {
+                    self.report(&say::CALLS_TOO_LONG, line, "", u64::from(MAX_REPEATED_LINES));
+                    return RunEnd::Ended;
                 }
             }
             let outcome = match self.interpreter.jump.take() {
@@ -133,13 +133,13 @@ impl<'r, 'i> Runner<'r, 'i> {
                     self.report(&say::END_WITHOUT_CALL, line, "", 0);
                     continue;
                 }
-                Some(Jump::Return) => return Outcome::Returned,
-                Some(Jump::EndRepeat) => return Outcome::Repeated,
-                Some(Jump::Pass(name, end)) => self.pass(reader, &name, end, line),
-                Some(Jump::Branch(name)) => self.branch(reader, &name, line),
+                Some(Jump::Return) => return RunEnd::Returned,
+                Some(Jump::EndRepeat) => return RunEnd::Repeated,
+                Some(Jump::Pass(name, end)) => self.skip_to_end(reader, &name, end, line),
+                Some(Jump::Branch(name)) => self.skip_to_branch(reader, &name, line),
                 Some(Jump::Call(name, times, values)) => self.call(reader, name, times, &values, line),
                 Some(Jump::Repeat(name, times)) => self.repeat(reader, &name, times, line),
-                Some(Jump::While(name)) if self.is_end_of_do(&name) => return Outcome::Repeated,
+                Some(Jump::While(name)) if self.is_end_of_do(&name) => return RunEnd::Repeated,
                 Some(Jump::While(name)) => self.repeat_while(reader, name, before, line),
                 Some(Jump::Do(name)) => self.repeat_do(reader, name, line),
                 Some(Jump::Leave(name, exit)) => {
@@ -150,13 +150,13 @@ impl<'r, 'i> Runner<'r, 'i> {
                             (LoopExit::Continue, false) | (LoopExit::Break, true) => {}
                         }
                         self.left = name;
-                        return Outcome::Left(exit);
+                        return RunEnd::Left(exit);
                     }
                     self.report(&say::LEFT_WITHOUT_LOOP, line, &format!("o{name}"), 0);
                     continue;
                 }
             };
-            if outcome != Outcome::Repeated {
+            if outcome != RunEnd::Repeated {
                 return outcome;
             }
         }
@@ -174,23 +174,23 @@ impl<'r, 'i> Runner<'r, 'i> {
         times: u32,
         values: &[f64],
         line: u32,
-    ) -> Outcome {
-        let shown = name.shown();
+    ) -> RunEnd {
+        let shown = name.display_name();
         let Some((name, Definition { place, second }, times)) = self.definition(reader, name, times) else {
             self.report(&say::CALLED_ELSEWHERE, line, &shown, 0);
-            return Outcome::Repeated;
+            return RunEnd::Repeated;
         };
         if let Some(second) = second {
-            self.report(&say::DEFINED_TWICE, second, &name.shown(), 0);
+            self.report(&say::DEFINED_TWICE, second, &name.display_name(), 0);
         }
         let is_main =
             matches!(name, SubprogramName::Program(number) if self.interpreter.main_number == Some(number));
         if is_main || self.active.contains(&name) {
             self.report(&say::CALLED_BY_ITSELF, line, &shown, 0);
-            return Outcome::Repeated;
+            return RunEnd::Repeated;
         }
         if !self.enter(line) {
-            return Outcome::Repeated;
+            return RunEnd::Repeated;
         }
         if reader.is_before(place) {
             reader.allow_subprograms();
@@ -199,11 +199,11 @@ impl<'r, 'i> Runner<'r, 'i> {
         self.active.push(name);
         let saved = is_local.then(|| self.interpreter.parameters.enter(values));
         let loops = std::mem::take(&mut self.loops);
-        let mut outcome = Outcome::Returned;
+        let mut outcome = RunEnd::Returned;
         for _ in 0..times {
             self.interpreter.begins_subprogram = true;
-            outcome = self.body(reader, place);
-            if outcome != Outcome::Returned {
+            outcome = self.run_body(reader, place);
+            if outcome != RunEnd::Returned {
                 break;
             }
         }
@@ -214,32 +214,32 @@ impl<'r, 'i> Runner<'r, 'i> {
         self.loops = loops;
         self.depth -= 1;
         match outcome {
-            Outcome::Ended => Outcome::Ended,
-            Outcome::Returned => Outcome::Repeated,
-            Outcome::NoLines | Outcome::Repeated | Outcome::Left(_) => {
+            RunEnd::Ended => RunEnd::Ended,
+            RunEnd::Returned => RunEnd::Repeated,
+            RunEnd::NoLines | RunEnd::Repeated | RunEnd::Left(_) => {
                 self.report(&say::CALLED_WITHOUT_END, line, &shown, 0);
-                Outcome::Repeated
+                RunEnd::Repeated
             }
         }
     }
 
-    fn repeat(&mut self, reader: &mut BlockReader<'_>, name: &str, times: u32, line: u32) -> Outcome {
+    fn repeat(&mut self, reader: &mut BlockReader<'_>, name: &str, times: u32, line: u32) -> RunEnd {
         let start = reader.place();
-        let outcome = self.pass(reader, name, OWordKind::EndRepeat, line);
-        if outcome != Outcome::Repeated || !self.enter(line) {
+        let outcome = self.skip_to_end(reader, name, OWordKind::EndRepeat, line);
+        if outcome != RunEnd::Repeated || !self.enter(line) {
             return outcome;
         }
-        let mut outcome = Outcome::Repeated;
+        let mut outcome = RunEnd::Repeated;
         for _ in 0..times {
-            outcome = self.body(reader, start);
-            if outcome != Outcome::Repeated {
+            outcome = self.run_body(reader, start);
+            if outcome != RunEnd::Repeated {
                 break;
             }
         }
         match outcome {
-            Outcome::Repeated if times > 0 => self.end_after_continue(name, line),
+            RunEnd::Repeated if times > 0 => self.end_after_continue(name, line),
             // LinuxCNC restarts this loop, but runs no further pass.
-            Outcome::Repeated => self.stale.continue_line = None,
+            RunEnd::Repeated => self.stale.continue_line = None,
             _ => {}
         }
         self.depth -= 1;
@@ -253,19 +253,19 @@ impl<'r, 'i> Runner<'r, 'i> {
         name: Box<str>,
         condition: Place,
         line: u32,
-    ) -> Outcome {
+    ) -> RunEnd {
         let start = reader.place();
-        match self.end(reader, &name, OWordKind::EndWhile, line) {
+        match self.find_end(reader, &name, OWordKind::EndWhile, line) {
             Some(_) => self.repeat_if(reader, OpenLoop { name, is_do: false }, start, condition, line),
-            None => Outcome::NoLines,
+            None => RunEnd::NoLines,
         }
     }
 
-    fn repeat_do(&mut self, reader: &mut BlockReader<'_>, name: Box<str>, line: u32) -> Outcome {
+    fn repeat_do(&mut self, reader: &mut BlockReader<'_>, name: Box<str>, line: u32) -> RunEnd {
         let start = reader.place();
-        match self.end(reader, &name, OWordKind::While, line) {
+        match self.find_end(reader, &name, OWordKind::While, line) {
             Some(condition) => self.repeat_if(reader, OpenLoop { name, is_do: true }, start, condition, line),
-            None => Outcome::NoLines,
+            None => RunEnd::NoLines,
         }
     }
 
@@ -277,32 +277,32 @@ impl<'r, 'i> Runner<'r, 'i> {
         start: Place,
         condition: Place,
         line: u32,
-    ) -> Outcome {
+    ) -> RunEnd {
         if !self.enter(line) {
-            return Outcome::Repeated;
+            return RunEnd::Repeated;
         }
         let (name, is_do) = (open.name.clone(), open.is_do);
         let mut is_first = true;
         self.loops.push(open);
         let outcome = loop {
             let is_tested = !(std::mem::take(&mut is_first) && is_do);
-            if is_tested && !self.goes_on(reader, &name, is_do, condition) {
-                break Outcome::Repeated;
+            if is_tested && !self.loop_continues(reader, &name, is_do, condition) {
+                break RunEnd::Repeated;
             }
-            match self.body(reader, start) {
-                Outcome::Repeated => {}
-                Outcome::Left(LoopExit::Continue) if self.left == name => {
+            match self.run_body(reader, start) {
+                RunEnd::Repeated => {}
+                RunEnd::Left(LoopExit::Continue) if self.left == name => {
                     if !is_do {
                         self.stale.continue_line = None;
                     }
                 }
-                Outcome::Left(LoopExit::Break) if self.left == name => {
+                RunEnd::Left(LoopExit::Break) if self.left == name => {
                     if is_do {
                         self.stale.break_line = None;
                     } else {
                         self.end_after_continue(&name, line);
                     }
-                    break Outcome::Repeated;
+                    break RunEnd::Repeated;
                 }
                 outcome => break outcome,
             }
@@ -313,8 +313,14 @@ impl<'r, 'i> Runner<'r, 'i> {
     }
 
     /// Tests the condition in the line after the place `condition`. Returns true if another pass of the loop follows.
-    fn goes_on(&mut self, reader: &BlockReader<'_>, name: &str, is_do: bool, condition: Place) -> bool {
-        let mut reader = reader.again_from(condition);
+    fn loop_continues(
+        &mut self,
+        reader: &BlockReader<'_>,
+        name: &str,
+        is_do: bool,
+        condition: Place,
+    ) -> bool {
+        let mut reader = reader.reader_from(condition);
         let Some(block) = reader.next_block() else { return false };
         let holds = self.interpreter.condition(&block);
         if is_do {
@@ -342,34 +348,40 @@ impl<'r, 'i> Runner<'r, 'i> {
     }
 
     /// Skips the lines up to the next branch whose condition holds, or to the end of the branches.
-    fn branch(&mut self, reader: &mut BlockReader<'_>, name: &str, line: u32) -> Outcome {
+    fn skip_to_branch(&mut self, reader: &mut BlockReader<'_>, name: &str, line: u32) -> RunEnd {
         while let Some(block) = reader.next_block() {
             let word = block.o_word.filter(|word| &*name_of_o_word(&block, *word) == name);
             match word.map(|word| word.kind) {
-                Some(OWordKind::Else | OWordKind::EndIf) => return Outcome::Repeated,
-                Some(OWordKind::ElseIf) if self.interpreter.condition(&block) => return Outcome::Repeated,
+                Some(OWordKind::Else | OWordKind::EndIf) => return RunEnd::Repeated,
+                Some(OWordKind::ElseIf) if self.interpreter.condition(&block) => return RunEnd::Repeated,
                 _ => {}
             }
         }
         self.report(&say::CALLED_WITHOUT_END, line, &format!("o{name}"), 0);
-        Outcome::NoLines
+        RunEnd::NoLines
     }
 
     /// Executes the lines from a place on.
-    fn body(&mut self, reader: &BlockReader<'_>, place: Place) -> Outcome {
-        let mut body = reader.again_from(place);
+    fn run_body(&mut self, reader: &BlockReader<'_>, place: Place) -> RunEnd {
+        let mut body = reader.reader_from(place);
         let outcome = self.run(&mut body);
         self.interpreter.problems.append(body.into_problems());
         outcome
     }
 
     /// Skips the lines up to the end of a subroutine, a loop or an `if`.
-    fn pass(&mut self, reader: &mut BlockReader<'_>, name: &str, end: OWordKind, line: u32) -> Outcome {
-        self.end(reader, name, end, line).map_or(Outcome::NoLines, |_| Outcome::Repeated)
+    fn skip_to_end(&mut self, reader: &mut BlockReader<'_>, name: &str, end: OWordKind, line: u32) -> RunEnd {
+        self.find_end(reader, name, end, line).map_or(RunEnd::NoLines, |_| RunEnd::Repeated)
     }
 
     /// Skips the lines up to the end of a subroutine, a loop or an `if`, and returns the place before that end.
-    fn end(&mut self, reader: &mut BlockReader<'_>, name: &str, end: OWordKind, line: u32) -> Option<Place> {
+    fn find_end(
+        &mut self,
+        reader: &mut BlockReader<'_>,
+        name: &str,
+        end: OWordKind,
+        line: u32,
+    ) -> Option<Place> {
         loop {
             let before = reader.place();
             let Some(block) = reader.next_block() else { break };
@@ -399,7 +411,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         name: SubprogramName,
         times: u32,
     ) -> Option<(SubprogramName, Definition, u32)> {
-        let definitions = self.definitions.get_or_insert_with(|| definitions(reader.again()));
+        let definitions = self.definitions.get_or_insert_with(|| definitions(reader.reader_from_start()));
         if let Some(definition) = definitions.get(&name) {
             return Some((name, *definition, times));
         }
@@ -514,7 +526,7 @@ impl Interpreter<'_> {
     }
 
     /// Executes M97, M98 and M99.
-    pub(super) fn subprogram(&mut self, block: &Block<'_>) {
+    pub(super) fn execute_subprogram_word(&mut self, block: &Block<'_>) {
         let Some((code, span)) = self.words.m_code(CALLS).filter(|(code, _)| self.calls(*code)) else {
             return;
         };
@@ -536,8 +548,10 @@ impl Interpreter<'_> {
                         };
                         self.jump = Some(Jump::Call(name, times, Vec::new()));
                     }
-                    (None, _) => self.out_of_range(block, "P", place, &limits::COUNT),
-                    (_, None) => self.out_of_range(block, "L", repeats.unwrap_or(place), &limits::COUNT),
+                    (None, _) => self.report_out_of_range(block, "P", place, &limits::COUNT),
+                    (_, None) => {
+                        self.report_out_of_range(block, "L", repeats.unwrap_or(place), &limits::COUNT)
+                    }
                 }
             }
         }

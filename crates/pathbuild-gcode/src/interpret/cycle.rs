@@ -13,10 +13,10 @@ use crate::read::{Block, Span};
 
 /// Distance above the last depth at which a pecking cycle stops its rapid descent, and by which a chip-breaking cycle retracts: 0.010
 /// inches.
-const CLEARANCE: f64 = 0.254;
+const PECK_CLEARANCE: f64 = 0.254;
 
 /// Maximum number of moves per line, so that `Q0.000001 L99999` cannot exhaust the memory.
-const MOST_MOVES: f64 = 100_000.0;
+const MAX_MOVES_PER_LINE: f64 = 100_000.0;
 
 /// The values of a cycle, in mm and seconds.
 #[derive(Clone, Copy, Debug)]
@@ -44,21 +44,21 @@ impl Interpreter<'_> {
         let axis = self.state.plane.third();
         if self.is_only_stored(&coordinates) {
             self.words.values.take(self.rules.repeats);
-            return self.remember(block, coordinates[axis]);
+            return self.store_cycle_words(block, coordinates[axis]);
         }
         let repeats = self.take_repeat_count(block);
         self.check_change_within_cycle(block);
         self.check_unit_of_cycle(block, coordinates[axis].is_some());
-        self.remember(block, coordinates[axis]);
+        self.store_cycle_words(block, coordinates[axis]);
         let Some(hole) = self.hole(block, cycle) else { return };
-        let mut old = self.old_height();
+        let mut old = self.retract_height();
         self.mark_axis_stated(axis);
         if old < hole.r && self.rules.rises_before_holes {
             self.lift_to(block, hole.r);
             old = hole.r;
         }
         let hole = Hole { clear: if self.state.retract_to_r { hole.r } else { old }, ..hole };
-        if f64::from(repeats) * moves_of(&hole) > MOST_MOVES {
+        if f64::from(repeats) * moves_of(&hole) > MAX_MOVES_PER_LINE {
             return self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
                 d.quoting("word", "Q, L")
                     .with("value", f64::from(repeats))
@@ -121,7 +121,7 @@ impl Interpreter<'_> {
             Some(repeats) if repeats >= 1 => repeats,
             _ => {
                 let letter = if letter == b'L' { "L" } else { "K" };
-                self.out_of_range(block, letter, slot, &limits::HOLES);
+                self.report_out_of_range(block, letter, slot, &limits::HOLES);
                 1
             }
         }
@@ -129,9 +129,9 @@ impl Interpreter<'_> {
 
     /// Stores R, Z, P and Q for this line and the following lines of the same cycle. R and Z are stored as heights, so that in relative mode the next
     /// line drills to the same depth.
-    fn remember(&mut self, block: &Block<'_>, z: Option<Slot>) {
+    fn store_cycle_words(&mut self, block: &Block<'_>, z: Option<Slot>) {
         let shift = self.state.offsets.shift(self.state.plane.third());
-        let old = self.old_height();
+        let old = self.retract_height();
         let r = self.words.values.take_slot(b'R').map(|slot| self.millimetres(slot));
         let q = self.words.values.take_slot(b'Q').map(|slot| self.millimetres(slot));
         let p = self.words.values.take_slot(b'P').map(|slot| self.seconds(block, slot));
@@ -186,7 +186,7 @@ impl Interpreter<'_> {
 
     /// Returns the height of the tool before the hole: with G98, its height at the start of the series, to which it retracts afterwards; with G99,
     /// its current height.
-    fn old_height(&self) -> f64 {
+    fn retract_height(&self) -> f64 {
         let axis = self.state.plane.third();
         if self.state.retract_to_r { self.state.position.at[axis] } else { self.state.cycle.initial[axis] }
     }
@@ -198,7 +198,7 @@ impl Interpreter<'_> {
             if hole.cycle == Cycle::Pecking {
                 self.lift_to(block, hole.r);
             }
-            self.lift_to(block, (depth + CLEARANCE).min(hole.r));
+            self.lift_to(block, (depth + PECK_CLEARANCE).min(hole.r));
             depth -= hole.step;
         }
         self.feed_to(block, hole.bottom);

@@ -43,10 +43,10 @@ pub(super) struct LocalParameters {
 }
 
 /// The last numbered parameter that is local to a subroutine.
-const LOCAL: u32 = 30;
+const LAST_LOCAL_PARAMETER: u32 = 30;
 
 /// The last parameter that programs use. Those above hold positions, offsets and the state of the machine.
-const LAST_OF_PROGRAMS: u32 = 5000;
+const LAST_PROGRAM_PARAMETER: u32 = 5000;
 
 impl Parameters {
     pub(super) fn set(&mut self, number: u32, value: f64) {
@@ -59,7 +59,7 @@ impl Parameters {
 
     /// Saves the caller's local parameters and sets those of a subroutine. Returns the saved ones.
     pub(super) fn enter(&mut self, values: &[f64]) -> LocalParameters {
-        let own = (1..=LOCAL).zip(values.iter().copied().chain(std::iter::repeat(0.0)));
+        let own = (1..=LAST_LOCAL_PARAMETER).zip(values.iter().copied().chain(std::iter::repeat(0.0)));
         let numbered = own.filter_map(|(number, value)| Some((number, self.numbered.insert(number, value)?)));
         let numbered = numbered.collect();
         let (global, named) =
@@ -70,7 +70,7 @@ impl Parameters {
 
     /// Restores the parameters of the caller.
     pub(super) fn leave(&mut self, of_caller: LocalParameters) {
-        self.numbered.retain(|number, _| *number > LOCAL);
+        self.numbered.retain(|number, _| *number > LAST_LOCAL_PARAMETER);
         self.named.retain(|name, _| name.starts_with('_'));
         self.numbered.extend(of_caller.numbered);
         self.named.extend(of_caller.named);
@@ -100,14 +100,14 @@ impl Parameters {
         for op in code {
             let value = match *op {
                 Op::Number(value) => value,
-                Op::Named(name) => self.by_name(&name_of(block, name), scope)?,
+                Op::Named(name) => self.parameter_by_name(&name_of(block, name), scope)?,
                 Op::Exists(name) => {
                     let name = name_of(block, name);
                     f64::from(u8::from(self.named.contains_key(&name) || is_predefined(&name)))
                 }
                 Op::Parameter => {
                     let index = pop(stack);
-                    self.by_number(index, scope)?
+                    self.parameter_by_number(index, scope)?
                 }
                 Op::Function(function) => apply(function, pop(stack))?,
                 Op::Atan => {
@@ -127,12 +127,12 @@ impl Parameters {
         Ok(pop(stack))
     }
 
-    fn by_number(&mut self, index: f64, scope: &Scope<'_>) -> Result<f64, Fault> {
+    fn parameter_by_number(&mut self, index: f64, scope: &Scope<'_>) -> Result<f64, Fault> {
         let number = parameter_number(index, scope.most)?;
         if let Some(value) = self.numbered.get(&number) {
             return Ok(*value);
         }
-        if number <= LAST_OF_PROGRAMS {
+        if number <= LAST_PROGRAM_PARAMETER {
             return Err(NEVER_SET);
         }
         let known = match number {
@@ -145,7 +145,7 @@ impl Parameters {
         Ok(known.unwrap_or_else(|| self.machine_value(format!("#{number}"))))
     }
 
-    fn by_name(&mut self, name: &str, scope: &Scope<'_>) -> Result<f64, Fault> {
+    fn parameter_by_name(&mut self, name: &str, scope: &Scope<'_>) -> Result<f64, Fault> {
         if let Some(value) = self.named.get(name) {
             return Ok(*value);
         }

@@ -10,7 +10,7 @@ use super::codes::Command;
 use super::evaluate::{Fault, Parameters, StatedProbes};
 use super::state::{Heights, Options, State};
 use crate::dialect::{Percent, Rules, beginning_of};
-use crate::read::{At, Block, OWordKind, Problems, Span};
+use crate::read::{Block, OWordKind, Problems, SourcePosition, Span};
 
 /// Interpreter of a program, with the modal state of the control and the effects of the last block.
 pub(super) struct Interpreter<'i> {
@@ -87,7 +87,7 @@ impl<'i> Interpreter<'i> {
             self.set_parameters();
         }
         self.check_conflicts(block);
-        self.state_words(block);
+        self.emit_word_steps(block);
         self.execute(block);
         self.report_unused(block);
     }
@@ -140,7 +140,8 @@ impl<'i> Interpreter<'i> {
         values: impl FnOnce(Diagnostic) -> Diagnostic,
     ) {
         let dialect = self.rules.dialect.name();
-        self.problems.add(message, At::block(block, span), |d| values(d).quoting("dialect", dialect));
+        self.problems
+            .add(message, SourcePosition::block(block, span), |d| values(d).quoting("dialect", dialect));
     }
 
     /// Reports a word or notation that the dialect does not support; as a warning if the control ignores it.
@@ -166,24 +167,24 @@ impl<'i> Interpreter<'i> {
         self.set_feed_mode(block);
         self.set_feed(block);
         self.set_speed(block);
-        self.tool(block);
+        self.apply_tool_words(block);
         let stops_last = self.rules.stops_last && self.words.m_code(&[50, 90]).is_some();
         if !stops_last {
-            self.spindle_and_coolant(block);
+            self.apply_spindle_and_coolant(block);
         }
         if let Some(seconds) = pause {
             self.step(block, Action::Dwell(seconds));
         }
-        self.modes(block);
+        self.apply_modes(block);
         self.take_inert(block);
-        let has_moved = self.coordinates_taken(block) || self.motion(block);
+        let has_moved = self.execute_coordinate_command(block) || self.motion(block);
         if stops_last {
-            self.spindle_and_coolant(block);
+            self.apply_spindle_and_coolant(block);
         } else if has_moved {
             self.check_stop_before_motion(block);
         }
-        self.stop(block);
-        self.subprogram(block);
+        self.apply_stop(block);
+        self.execute_subprogram_word(block);
         self.begins_subprogram = false;
     }
 
@@ -383,7 +384,7 @@ pub(super) enum LoopExit {
 }
 
 impl SubprogramName {
-    pub(super) fn shown(&self) -> String {
+    pub(super) fn display_name(&self) -> String {
         match self {
             Self::Subroutine(name) if name.bytes().all(|byte| byte.is_ascii_digit()) => format!("o{name}"),
             Self::Subroutine(name) => format!("o<{name}>"),

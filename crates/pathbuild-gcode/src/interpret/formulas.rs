@@ -9,7 +9,7 @@ use crate::provenance::Provenance;
 use crate::read::{Block, Formula, Span};
 
 /// Permitted difference in mm between a formula and its number, which has three decimals.
-const ROUNDING: f64 = 0.001 * (1.0 + 1e-6);
+const ROUNDING_TOLERANCE: f64 = 0.001 * (1.0 + 1e-6);
 
 impl Interpreter<'_> {
     /// Stores the probes and the provenance that comments state before the first word of a native program.
@@ -43,7 +43,7 @@ impl Interpreter<'_> {
         let code = block.code(formula.code);
         let drawn = match self.stated.evaluate(code, ProbeHeight::Drawn) {
             Ok(drawn) => drawn,
-            Err(fault) => return self.no_value(block, formula, &fault),
+            Err(fault) => return self.report_no_value(block, formula, &fault),
         };
         if !formula.applied {
             self.compare(block, formula, number, drawn);
@@ -61,11 +61,11 @@ impl Interpreter<'_> {
                 // Another tool wrote the program and did not list measured heights, which `verify` reports.
                 number - drawn
             }
-            Err(fault) => self.no_value(block, formula, &fault),
+            Err(fault) => self.report_no_value(block, formula, &fault),
         }
     }
 
-    fn no_value(&mut self, block: &Block<'_>, formula: &Formula, fault: &NoValue) -> f64 {
+    fn report_no_value(&mut self, block: &Block<'_>, formula: &Formula, fault: &NoValue) -> f64 {
         let (message, probe) = match fault {
             NoValue::UnknownProbe(probe) => (&say::PROBE_NOT_STATED, *probe),
             NoValue::Unmeasured(probe) => (&say::HEIGHT_NOT_MEASURED, *probe),
@@ -76,7 +76,7 @@ impl Interpreter<'_> {
     }
 
     fn compare(&mut self, block: &Block<'_>, formula: &Formula, number: f64, value: f64) {
-        if libm::fabs(number - value) > ROUNDING {
+        if libm::fabs(number - value) > ROUNDING_TOLERANCE {
             self.report(block, &say::FORMULA_DIFFERS, formula.span, |d| {
                 d.with("number", number).with("value", libm::round(value * 1000.0) / 1000.0)
             });
@@ -89,7 +89,7 @@ impl Interpreter<'_> {
             return;
         }
         let start = *self.stated.start_height.get_or_insert(number);
-        if libm::fabs(number - start) > ROUNDING {
+        if libm::fabs(number - start) > ROUNDING_TOLERANCE {
             self.report(block, &say::HEIGHT_WITHOUT_FORMULA, span, |d| d);
         }
     }

@@ -14,7 +14,7 @@ use crate::provenance::Provenance;
 use crate::read::{BlockReader, Value, Word};
 
 /// Number of bytes inspected at the beginning of a file.
-const LOOKED_AT: usize = 65_536;
+const INSPECTED_BYTES: usize = 65_536;
 
 /// A dialect, and the evidence for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,19 +41,19 @@ pub enum EvidenceKind {
     /// The program's header names the dialect.
     Header,
     /// A line has a sign that only this dialect has.
-    Sign,
+    Feature,
     /// The dialect knows the program's words, but other dialects may know them as well.
     Words,
 }
 
 /// Guesses the dialect of a file from features that only one dialect has, otherwise from the dialect that accepts most of its words.
 pub fn guess(text: &[u8]) -> Guess {
-    let head = &text[..text.len().min(LOOKED_AT)];
-    by_header(head).or_else(|| by_sign(head)).unwrap_or_else(|| by_words(head))
+    let head = &text[..text.len().min(INSPECTED_BYTES)];
+    guess_by_header(head).or_else(|| guess_by_feature(head)).unwrap_or_else(|| guess_by_words(head))
 }
 
 /// Returns the dialect that the header of a program written by pathbuild names.
-fn by_header(head: &[u8]) -> Option<Guess> {
+fn guess_by_header(head: &[u8]) -> Option<Guess> {
     let (provenance, _) = Provenance::of_head(head)?;
     let reason = &Text { en: "named in its header", de: "im Programmkopf genannt" };
     Some(Guess {
@@ -63,16 +63,16 @@ fn by_header(head: &[u8]) -> Option<Guess> {
 }
 
 /// A feature of a dialect, with a function that detects it in a line.
-type Sign = (Dialect, fn(&[u8]) -> bool, &'static Text);
+type DialectFeature = (Dialect, fn(&[u8]) -> bool, &'static Text);
 
 macro_rules! signs {
     ($($dialect:ident $has_sign:expr, $en:literal, $de:literal;)*) => {
-        const SIGNS: &[Sign] = &[$((Dialect::$dialect, $has_sign, &Text { en: $en, de: $de }),)*];
+        const FEATURES: &[DialectFeature] = &[$((Dialect::$dialect, $has_sign, &Text { en: $en, de: $de }),)*];
     };
 }
 
 signs! {
-    Native |line| has(line, b"(=") && line.first().is_some_and(u8::is_ascii_alphabetic),
+    Native |line| contains(line, b"(=") && line.first().is_some_and(u8::is_ascii_alphabetic),
         "it has correction formulas", "es hat Korrekturformeln";
     Xpertmill |line| without_round_comments(line).windows(2).any(|pair| pair == b"//"),
         "it has comments with //", "es hat Kommentare mit //";
@@ -90,28 +90,28 @@ signs! {
             .any(|word| line.starts_with(word))
     },
         "it has words of Marlin", "es hat Wörter von Marlin";
-    LinuxCnc |line| has(line, b"#<"), "it has parameters with names", "es hat Parameter mit Namen";
+    LinuxCnc |line| contains(line, b"#<"), "it has parameters with names", "es hat Parameter mit Namen";
     LinuxCnc |line| matches!(line, [b'O' | b'o', b'0'..=b'9' | b'<', ..]) && ends_in_keyword(line),
         "it has O words", "es hat O-Wörter";
     Native |line| line == b"G17 G21 G40 G49 G54 G80 G90 G94",
         "it has the native program's head", "es hat den Kopf des eigenen Programms";
     Mach3 |line| {
         let names = [&b"mach2/3"[..], b"mach3", b"mach4"];
-        line.first() == Some(&b'(') && names.iter().any(|name| has(&line.to_ascii_lowercase(), name))
+        line.first() == Some(&b'(') && names.iter().any(|name| contains(&line.to_ascii_lowercase(), name))
     },
         "a comment names it", "ein Kommentar nennt es";
-    Grbl |line| matches!(line.first(), Some(b'(' | b';')) && has(&line.to_ascii_lowercase(), b"grbl"),
+    Grbl |line| matches!(line.first(), Some(b'(' | b';')) && contains(&line.to_ascii_lowercase(), b"grbl"),
         "a comment names it", "ein Kommentar nennt es";
 }
 
-fn by_sign(head: &[u8]) -> Option<Guess> {
+fn guess_by_feature(head: &[u8]) -> Option<Guess> {
     let lines = || (1_u32..).zip(head.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii));
-    SIGNS.iter().find_map(|&(dialect, has_sign, reason)| {
+    FEATURES.iter().find_map(|&(dialect, has_sign, reason)| {
         let (line, _) = lines().find(|(_, line)| has_sign(line))?;
         if dialect == Dialect::Xpertmill && states_modes(head) {
             return None;
         }
-        Some(Guess { dialect, evidence: Evidence { reason, line: Some(line), kind: EvidenceKind::Sign } })
+        Some(Guess { dialect, evidence: Evidence { reason, line: Some(line), kind: EvidenceKind::Feature } })
     })
 }
 
@@ -132,7 +132,7 @@ fn states_modes(head: &[u8]) -> bool {
 }
 
 /// Guesses the dialect with the fewest unknown words; among equals, the first.
-fn by_words(head: &[u8]) -> Guess {
+fn guess_by_words(head: &[u8]) -> Guess {
     let candidates = [Dialect::Rs274, Dialect::LinuxCnc, Dialect::Grbl];
     let strangers = candidates.map(|dialect| unknown_words(head, dialect));
     let fewest = strangers.iter().min().copied().unwrap_or(0);
@@ -156,7 +156,7 @@ fn unknown_words(head: &[u8], dialect: Dialect) -> usize {
     problems.iter().filter(|problem| is_stranger(problem.code())).count()
 }
 
-fn has(line: &[u8], sign: &[u8]) -> bool {
+fn contains(line: &[u8], sign: &[u8]) -> bool {
     memmem::find(line, sign).is_some()
 }
 
@@ -184,7 +184,7 @@ fn ends_in_keyword(line: &[u8]) -> bool {
     const KEYWORDS: [&[u8]; 10] =
         [b"sub", b"endsub", b"call", b"if", b"else", b"endif", b"while", b"do", b"repeat", b"return"];
     let lower = line.to_ascii_lowercase();
-    KEYWORDS.iter().any(|keyword| has(&lower, keyword))
+    KEYWORDS.iter().any(|keyword| contains(&lower, keyword))
 }
 
 /// The interpretation of a word if no dialect is named.
@@ -254,12 +254,12 @@ enum WordMeaning {
 
 /// Collector of a program's G words whose meanings differ among the dialects that know all of its words.
 #[derive(Clone, Debug, Default)]
-pub struct Disputes {
+pub struct DisputedWords {
     /// G and M words by letter and ten times their number, each with its first line.
     words: BTreeMap<(char, u16), u32>,
 }
 
-impl Disputes {
+impl DisputedWords {
     /// Adds a G or M word; `code` is ten times its number.
     pub fn add(&mut self, line: u32, letter: char, code: u16) {
         self.words.entry((letter, code)).or_insert(line);
@@ -271,7 +271,7 @@ impl Disputes {
         let knows = |rules: &&&Rules| self.words.keys().all(|(letter, code)| is_known(rules, *letter, *code));
         let candidates: Vec<&Rules> = rules.iter().filter(knows).copied().collect();
         let is_disputed = |code: u16| {
-            let mut meanings = candidates.iter().filter_map(|rules| meaning(rules, code));
+            let mut meanings = candidates.iter().filter_map(|rules| word_meaning(rules, code));
             meanings.next().is_some_and(|first| meanings.any(|other| other != first))
         };
         let disputed: Vec<(u32, u16)> = self
@@ -290,7 +290,7 @@ fn is_known(rules: &Rules, letter: char, code: u16) -> bool {
     if letter == 'M' { words.has_m(code) || words.m_ignored.contains(&code) } else { words.has_g(code) }
 }
 
-fn meaning(rules: &Rules, code: u16) -> Option<WordMeaning> {
+fn word_meaning(rules: &Rules, code: u16) -> Option<WordMeaning> {
     let [inch, mm] = rules.unit_words;
     if !rules.words.has_g(code) {
         return None;

@@ -22,7 +22,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode::{EMPTY_PROGRAM, NOT_G_CODE};
 use pathbuild_motion::{Move, Step};
 
-pub use self::guess::{Disputes, UnionWord, union_word};
+pub use self::guess::{DisputedWords, UnionWord, union_word};
 pub use self::state::{Heights, MachineOffsets, Options, UnitCodes};
 pub use codes::name as code_name;
 pub use guess::{Evidence, EvidenceKind, Guess, guess};
@@ -146,12 +146,12 @@ fn interpret_parts_until(
         let text = part.as_ref();
         let mut reader = match before.take() {
             None => BlockReader::new(text, rules),
-            Some(reader) => reader.go_on(text),
+            Some(reader) => reader.continue_with(text),
         };
         let mut runner = calls::Runner::new(&mut interpreter, &mut *each);
         runner.run_file(&mut reader);
         has_words |= runner.has_words;
-        before = Some(reader.go_on(&[]));
+        before = Some(reader.continue_with(&[]));
     }
     let reader = before.unwrap_or_else(|| BlockReader::new(&[], rules));
     let mut problems = interpreter.finish(reader.line(), reader.is_ended());

@@ -54,7 +54,7 @@ impl Interpreter<'_> {
                 self.straight(block, Pace::Probe { feed: 0.0, toward, must_answer }, false);
             }
             Motion::Cycle(cycle) => self.cycle(block, cycle),
-            Motion::Unfollowed => self.jump(),
+            Motion::Unfollowed => self.update_after_unsupported_motion(),
         }
         motion != Motion::None
     }
@@ -192,7 +192,7 @@ impl Interpreter<'_> {
         let mut movement = Move { from, to, shape: MoveShape::Line, pace, named };
         movement.pace = match pace {
             Pace::Rapid => {
-                self.rapid_feed(block);
+                self.record_rapid_feed(block);
                 Pace::Rapid
             }
             Pace::Feed(_) => Pace::Feed(self.feed(block, &movement)),
@@ -207,16 +207,16 @@ impl Interpreter<'_> {
     }
 
     /// Updates the position after an unsupported motion, as far as the block's words state it.
-    fn jump(&mut self) {
+    fn update_after_unsupported_motion(&mut self) {
         let coordinates = self.words.values.take_coordinates();
         self.state.position = self.target(coordinates);
-        self.use_all_words();
+        self.mark_all_used();
     }
 }
 
 impl Interpreter<'_> {
     /// Executes the command of the block that uses coordinates without being a motion. Returns whether there is one.
-    pub(super) fn coordinates_taken(&mut self, block: &Block<'_>) -> bool {
+    pub(super) fn execute_coordinate_command(&mut self, block: &Block<'_>) -> bool {
         let Some((command, code, span)) = self.words.of_group(Group::NonModal) else { return false };
         if !matches!(command, Command::Home(_) | Command::Reference) {
             let are_shifted = self.are_shifted(command);
@@ -229,7 +229,7 @@ impl Interpreter<'_> {
         match command {
             Command::SetOffsets => self.set_offsets(block, span),
             Command::Home(which) => self.home(block, which, code),
-            Command::Reference => self.reference(block, code),
+            Command::Reference => self.move_to_reference(block, code),
             Command::StoreHome(which) => {
                 let here = self.state.position;
                 self.state.offsets.store_home(which, &here);
@@ -273,7 +273,7 @@ impl Interpreter<'_> {
         let is_own =
             self.rules.keeps_offsets && (kind == Some(20) || number == Some(0) || self.state.incremental);
         let (Some(kind @ (2 | 20)), Some(number), false) = (kind, number, is_own) else {
-            self.use_all_words();
+            self.mark_all_used();
             return self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", "G10"));
         };
         if self.rules.offsets_need_axis && given_axes(&coordinates).is_empty() {
@@ -341,13 +341,13 @@ impl Interpreter<'_> {
         let Some(slot) = self.words.values.take_slot(b'P') else { return false };
         let number = whole(slot.value);
         if !matches!(number, Some(2..=4)) {
-            self.out_of_range(block, "P", slot, &limits::REFERENCES);
+            self.report_out_of_range(block, "P", slot, &limits::REFERENCES);
         }
         number != Some(2)
     }
 
     /// Moves the axes in the line, or all of them, to their reference switches. Their positions in the program are unknown afterwards.
-    fn reference(&mut self, block: &Block<'_>, code: u16) {
+    fn move_to_reference(&mut self, block: &Block<'_>, code: u16) {
         self.state.offsets.fix_base();
         let given = given_axes(&self.words.values.take_coordinates());
         let axes = if given.is_empty() { Axes::ALL } else { given };
@@ -430,7 +430,7 @@ impl Interpreter<'_> {
             Some(additional) => WorkSystem::additional(additional),
         });
         if system.is_none() {
-            self.out_of_range(block, "P", slot, &limits::SYSTEMS);
+            self.report_out_of_range(block, "P", slot, &limits::SYSTEMS);
         }
         system
     }
@@ -467,14 +467,14 @@ fn given_axes(coordinates: &[Option<Slot>; 3]) -> Axes {
 }
 
 /// An arc of almost 180 degrees given by R is doubtful if the last digit of R moves its centre by more than this, in mm.
-const CENTRE_SHIFT: f64 = 0.05;
+const MAX_CENTRE_SHIFT: f64 = 0.05;
 
 /// Maximum distance in mm between different ends at which an almost full circle is doubtful: their last digit decides whether nearly all of it
 /// is milled or nearly nothing.
-const NEAR_ENDS: f64 = 0.002;
+const NEAR_ENDS_DISTANCE: f64 = 0.002;
 
 /// Maximum number of turns of an arc, so that a few bytes cannot describe days of milling. The message for a greater P states this number.
-const MOST_TURNS: u32 = 100_000;
+const MAX_TURNS: u32 = 100_000;
 
 impl Interpreter<'_> {
     pub(super) fn arc(&mut self, block: &Block<'_>, clockwise: bool) {
@@ -490,14 +490,14 @@ impl Interpreter<'_> {
         if !self.rules.arcs.helix && from.at[plane.third()] != to.at[plane.third()] {
             self.report(block, &say::HELIX_DOUBTFUL, whole_line(block), |d| d);
         }
-        let extra_turns = self.turns(block);
+        let extra_turns = self.extra_turns(block);
         let Some(centre) = self.centre(block, plane, clockwise, &from, &to) else {
-            return self.leave_out(to);
+            return self.omit_arc(to);
         };
         let arc = Arc { plane, centre, clockwise, extra_turns };
         if arc.radius(&from) == 0.0 {
             self.report(block, &say::RADIUS_ZERO, whole_line(block), |d| d);
-            return self.leave_out(to);
+            return self.omit_arc(to);
         }
         let mut movement = Move { from, to, shape: MoveShape::Arc(arc), pace: Pace::Feed(0.0), named: None };
         if from.known.and(to.known).has(plane.axes_of_plane()) {
@@ -509,13 +509,13 @@ impl Interpreter<'_> {
     }
 
     /// Omits an impossible arc and continues as if the tool were at the arc's end.
-    fn leave_out(&mut self, to: Position) {
+    fn omit_arc(&mut self, to: Position) {
         self.state.position = to;
-        self.use_all_words();
+        self.mark_all_used();
     }
 
     /// Reads P as the number of full turns in addition to the arc.
-    fn turns(&mut self, block: &Block<'_>) -> u32 {
+    fn extra_turns(&mut self, block: &Block<'_>) -> u32 {
         if !self.rules.arcs.turns {
             return 0;
         }
@@ -524,9 +524,9 @@ impl Interpreter<'_> {
             self.report(block, &say::OFF_IN_BUILDS, slot.span, |d| d.quoting("word", "P"));
         }
         match whole(slot.value) {
-            Some(turns) if (1..=MOST_TURNS).contains(&turns) => turns - 1,
+            Some(turns) if (1..=MAX_TURNS).contains(&turns) => turns - 1,
             _ => {
-                self.out_of_range(block, "P", slot, &limits::TURNS);
+                self.report_out_of_range(block, "P", slot, &limits::TURNS);
                 0
             }
         }
@@ -619,7 +619,7 @@ impl Interpreter<'_> {
         let height = height_over_chord(radius, half);
         let unit_of_last_digit = self.state.unit * libm::pow(10.0, -f64::from(slot.decimals));
         let shift = height_over_chord(radius + unit_of_last_digit, half) - height;
-        if shift > CENTRE_SHIFT && half <= radius {
+        if shift > MAX_CENTRE_SHIFT && half <= radius {
             self.report(block, &say::NEAR_HALF_CIRCLE, slot.span, |d| d.with("shift", shift));
         }
         // The centre of a short clockwise arc is to the right of its chord.
@@ -648,7 +648,10 @@ impl Interpreter<'_> {
     fn check_ends(&mut self, block: &Block<'_>, arc: &Arc, movement: &Move) {
         let (start, end) = (arc.plane.project(&movement.from.at), arc.plane.project(&movement.to.at));
         let gap = libm::hypot(end[0] - start[0], end[1] - start[1]);
-        if gap > 0.0 && gap <= NEAR_ENDS && arc.sweep(&movement.from, &movement.to) > std::f64::consts::PI {
+        if gap > 0.0
+            && gap <= NEAR_ENDS_DISTANCE
+            && arc.sweep(&movement.from, &movement.to) > std::f64::consts::PI
+        {
             let degrees = libm::round(arc.sweep(&movement.from, &movement.to).to_degrees());
             self.report(block, &say::NEAR_FULL_CIRCLE, whole_line(block), |d| {
                 d.with("gap", gap).with("degrees", degrees)

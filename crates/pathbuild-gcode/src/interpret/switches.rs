@@ -21,7 +21,7 @@ const UNSUPPORTED_M_CODES: &[u16] = &[470, 610, 700, 710, 720, 730, 970, 980, 99
 pub(super) const CALLS: &[u16] = &[970, 980, 990];
 
 impl Interpreter<'_> {
-    pub(super) fn tool(&mut self, block: &Block<'_>) {
+    pub(super) fn apply_tool_words(&mut self, block: &Block<'_>) {
         let change = self.words.m_code(&[60]);
         if let Some(slot) = self.words.values.take_slot(b'T') {
             match whole(slot.value) {
@@ -31,7 +31,7 @@ impl Interpreter<'_> {
                         self.step(block, Action::SelectTool(number));
                     }
                 }
-                None => self.out_of_range(block, "T", slot, &limits::COUNT),
+                None => self.report_out_of_range(block, "T", slot, &limits::COUNT),
             }
         }
         let Some((_, span)) = change else { return };
@@ -68,7 +68,7 @@ impl Interpreter<'_> {
         }
     }
 
-    pub(super) fn spindle_and_coolant(&mut self, block: &Block<'_>) {
+    pub(super) fn apply_spindle_and_coolant(&mut self, block: &Block<'_>) {
         let turning = self.words.m_code(SPINDLE).and_then(|(code, _)| match code {
             30 => Some(Turning::Clockwise),
             40 => Some(Turning::CounterClockwise),
@@ -93,7 +93,7 @@ impl Interpreter<'_> {
         }
         for index in 0..self.words.m_codes.len() {
             let (code, _) = self.words.m_codes[index];
-            if is_other(code) {
+            if has_no_step(code) {
                 self.step(block, Action::Change(Change::Switch(code)));
             }
         }
@@ -101,10 +101,10 @@ impl Interpreter<'_> {
             self.step(block, Action::Coolant(self.state.coolant));
         }
         if let Some((code, span)) =
-            self.words.m_codes.iter().find(|(code, _)| self.is_unfollowed(*code)).copied()
+            self.words.m_codes.iter().find(|(code, _)| self.is_unsupported(*code)).copied()
         {
             self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", codes::name('M', code)));
-            self.use_all_words();
+            self.mark_all_used();
         }
     }
 
@@ -113,7 +113,7 @@ impl Interpreter<'_> {
         self.rules.program_numbers && CALLS.contains(&m_code)
     }
 
-    fn is_unfollowed(&self, m_code: u16) -> bool {
+    fn is_unsupported(&self, m_code: u16) -> bool {
         let is_own = self.rules.words.own_m_codes && (1000..2000).contains(&m_code);
         is_jump(m_code) && !self.calls(m_code) || is_own
     }
@@ -130,7 +130,7 @@ impl Interpreter<'_> {
             (None, None) => self.words.values.take_slot(b'P').map(|slot| (slot, self.seconds(block, slot))),
         };
         match time {
-            Some((slot, time)) if time < 0.0 => self.out_of_range(block, "P", slot, &limits::SECONDS),
+            Some((slot, time)) if time < 0.0 => self.report_out_of_range(block, "P", slot, &limits::SECONDS),
             Some((_, time)) => return Some(time),
             None => {
                 self.report(block, &say::NEEDS, span, |d| d.quoting("word", "G4").quoting("missing", "P"));
@@ -164,7 +164,7 @@ impl Interpreter<'_> {
     pub(super) fn program_number(&mut self, block: &Block<'_>) {
         let Some(slot) = self.words.values.take_slot(b'O') else { return };
         let Some(number) = whole(slot.value).filter(|number| *number > 0) else {
-            return self.out_of_range(block, "O", slot, &limits::POSITIVE_COUNT);
+            return self.report_out_of_range(block, "O", slot, &limits::POSITIVE_COUNT);
         };
         if self.begins_subprogram {
             return;
@@ -176,7 +176,7 @@ impl Interpreter<'_> {
         self.step(block, Action::ProgramNumber(number));
     }
 
-    pub(super) fn modes(&mut self, block: &Block<'_>) {
+    pub(super) fn apply_modes(&mut self, block: &Block<'_>) {
         for index in 0..self.words.commands.len() {
             let (command, code, span) = self.words.commands[index];
             match command {
@@ -187,10 +187,10 @@ impl Interpreter<'_> {
                     self.state.plane = plane;
                     self.state.stated.plane = true;
                 }
-                Command::Inches(inches) => self.units(block, inches, code, span),
+                Command::Inches(inches) => self.set_units(block, inches, code, span),
                 Command::NoEffect(Group::ToolLength) => self.tool_length(block, code, span),
                 Command::LengthByNumber => self.length_by_number(block, code, span),
-                Command::NoEffect(Group::PathControl) => self.corners(block, code),
+                Command::NoEffect(Group::PathControl) => self.set_corners(block, code),
                 Command::Incremental(incremental) => {
                     self.state.incremental = incremental;
                     self.state.stated.distance = true;
@@ -211,7 +211,7 @@ impl Interpreter<'_> {
                     self.report(block, &say::NOT_FOLLOWED, span, |d| {
                         d.quoting("word", codes::name('G', code))
                     });
-                    self.use_all_words();
+                    self.mark_all_used();
                 }
                 _ => {}
             }
@@ -278,7 +278,7 @@ impl Interpreter<'_> {
         self.step(block, Action::Change(Change::ToolLength(length)));
     }
 
-    fn corners(&mut self, block: &Block<'_>, code: u16) {
+    fn set_corners(&mut self, block: &Block<'_>, code: u16) {
         let corners = if code == 640 {
             let unit = self.state.unit;
             let most = self.words.values.take(b'P').map(|most| most * unit);
@@ -291,13 +291,13 @@ impl Interpreter<'_> {
     }
 
     /// Marks the values of the letters D to W as used, so that those of an unsupported command are not reported separately.
-    pub(super) fn use_all_words(&mut self) {
+    pub(super) fn mark_all_used(&mut self) {
         for letter in b'D'..=b'W' {
             self.words.values.take(letter);
         }
     }
 
-    pub(super) fn stop(&mut self, block: &Block<'_>) {
+    pub(super) fn apply_stop(&mut self, block: &Block<'_>) {
         match self.words.m_code(STOPS) {
             Some((20 | 300, _)) => {
                 self.ended = true;
@@ -344,11 +344,11 @@ pub(super) fn is_jump(m_code: u16) -> bool {
 
 /// Whether the interpreter executes an M code: stops, tools, spindle, coolant.
 pub(super) fn is_followed_m(m_code: u16) -> bool {
-    !is_other(m_code) && m_code != 190
+    !has_no_step(m_code) && m_code != 190
 }
 
 /// Whether an M code produces no step of its own kind.
-fn is_other(m_code: u16) -> bool {
+fn has_no_step(m_code: u16) -> bool {
     let has_step = [STOPS, TOOL, COOLANT].iter().any(|group| group.contains(&m_code));
     !has_step && !matches!(m_code, 30 | 40 | 50)
 }
@@ -387,11 +387,11 @@ impl Interpreter<'_> {
         let Some(slot) = self.words.values.peek(b'S').filter(|_| !belongs_elsewhere) else { return };
         self.words.values.take(b'S');
         if slot.value < 0.0 {
-            return self.out_of_range(block, "S", slot, &limits::NOT_NEGATIVE);
+            return self.report_out_of_range(block, "S", slot, &limits::NOT_NEGATIVE);
         }
         // XpertMILL starts the spindle of a layer by the layer's S, and has no M5: S0 would cut with the spindle at rest.
         if self.rules.layers && slot.value == 0.0 {
-            return self.out_of_range(block, "S", slot, &limits::POSITIVE);
+            return self.report_out_of_range(block, "S", slot, &limits::POSITIVE);
         }
         self.state.spindle.speed = Some(slot.value);
         if !self.rules.layers {
@@ -427,7 +427,7 @@ impl Interpreter<'_> {
                 Diagnostic { severity: Severity::Error, ..d }
             });
         }
-        let Some(said) = self.rules.layers.then(|| unit_said(block)).flatten() else { return };
+        let Some(said) = self.rules.layers.then(|| unit_in_comment(block)).flatten() else { return };
         if said != inches {
             let (taken, comment) = if inches { (&INCHES, &MILLIMETRES) } else { (&MILLIMETRES, &INCHES) };
             self.report(block, &say::UNITS_CONTRADICTED, span, |d| {
@@ -437,7 +437,7 @@ impl Interpreter<'_> {
     }
 
     /// Records the speed of rapid moves from here on, if it depends on F.
-    pub(super) fn rapid_feed(&mut self, block: &Block<'_>) {
+    pub(super) fn record_rapid_feed(&mut self, block: &Block<'_>) {
         let feed = self.state.feed;
         if self.rules.rapids_at_feed && self.state.rapid_feed != Some(feed) {
             self.state.rapid_feed = Some(feed);
@@ -455,10 +455,10 @@ impl Interpreter<'_> {
         };
         // With this option the feeds of the layers apply, which are not in the file.
         let is_layers = self.rules.layers && self.options.ignore_feed;
-        if self.state.feed_unit != FeedUnit::InverseTime && !movement.is_nothing() {
+        if self.state.feed_unit != FeedUnit::InverseTime && !movement.is_standstill() {
             self.check_unit_of_feed(block);
         }
-        if per_minute == 0.0 && !movement.is_nothing() && !is_layers {
+        if per_minute == 0.0 && !movement.is_standstill() && !is_layers {
             self.report_missing_feed(block);
         }
         per_minute
@@ -521,7 +521,7 @@ fn unit_of(inches: bool) -> f64 {
 }
 
 /// Returns whether a comment of the block mentions inches (true) or millimetres (false); `None` if none mentions a unit.
-fn unit_said(block: &Block<'_>) -> Option<bool> {
+fn unit_in_comment(block: &Block<'_>) -> Option<bool> {
     block.comments.iter().find_map(|comment| {
         let text = block.text_of(comment.text).to_lowercase();
         let names = |words: &[&str]| words.iter().any(|word| text.contains(word));

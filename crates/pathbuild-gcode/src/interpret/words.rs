@@ -8,7 +8,7 @@ use super::codes::{self, Command, Motion};
 use super::evaluate::{Scope, name_of, parameter_number};
 use super::execute::{AssignedParameter, Interpreter, Slot, ValueFault, limits};
 use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
-use crate::read::{At, Block, Span, Target, Value, Word};
+use crate::read::{Block, SourcePosition, Span, Target, Value, Word};
 
 impl Interpreter<'_> {
     /// Sorts the words of a block and evaluates them.
@@ -140,14 +140,14 @@ impl Interpreter<'_> {
             return self.report(block, &say::AXIS_NOT_FOLLOWED, slot.span, |d| d.with("word", word));
         }
         if letter == b'F' && slot.value < 0.0 {
-            return self.out_of_range(block, "F", slot, &limits::NOT_NEGATIVE);
+            return self.report_out_of_range(block, "F", slot, &limits::NOT_NEGATIVE);
         }
         if !self.words.values.set(letter, slot) {
             self.report(block, &say::LETTER_TWICE, slot.span, |d| d.with("letter", char::from(letter)));
         }
     }
 
-    pub(super) fn out_of_range(
+    pub(super) fn report_out_of_range(
         &mut self,
         block: &Block<'_>,
         word: &'static str,
@@ -215,7 +215,7 @@ impl Interpreter<'_> {
     }
 
     /// Adds a step for each G or M word of the block, except for motions.
-    pub(super) fn state_words(&mut self, block: &Block<'_>) {
+    pub(super) fn emit_word_steps(&mut self, block: &Block<'_>) {
         let moves_beside = self.words.values.has_coordinates();
         for index in 0..self.words.commands.len() {
             let (command, code, _) = self.words.commands[index];
@@ -272,7 +272,13 @@ impl Interpreter<'_> {
             let earlier =
                 self.words.commands[..index].iter().find(|(other, ..)| other.group() == command.group());
             if let Some(&(_, first, _)) = earlier {
-                self.conflict(block, &say::SAME_GROUP, codes::name('G', first), codes::name('G', code), span);
+                self.report_conflict(
+                    block,
+                    &say::SAME_GROUP,
+                    codes::name('G', first),
+                    codes::name('G', code),
+                    span,
+                );
                 break;
             }
         }
@@ -281,7 +287,13 @@ impl Interpreter<'_> {
                 |other: u16| M_GROUPS.iter().any(|group| group.contains(&other) && group.contains(&code));
             if let Some(&(first, _)) = self.words.m_codes[..index].iter().find(|(other, _)| excludes(*other))
             {
-                self.conflict(block, &say::SAME_GROUP, codes::name('M', first), codes::name('M', code), span);
+                self.report_conflict(
+                    block,
+                    &say::SAME_GROUP,
+                    codes::name('M', first),
+                    codes::name('M', code),
+                    span,
+                );
                 break;
             }
         }
@@ -291,7 +303,7 @@ impl Interpreter<'_> {
                 (takers().next(), takers().nth(1))
             && first_command.group() != second_command.group()
         {
-            self.conflict(
+            self.report_conflict(
                 block,
                 &say::AXES_WANTED_TWICE,
                 codes::name('G', first),
@@ -301,7 +313,7 @@ impl Interpreter<'_> {
         }
     }
 
-    fn conflict(
+    fn report_conflict(
         &mut self,
         block: &Block<'_>,
         message: &'static Message,
@@ -310,7 +322,7 @@ impl Interpreter<'_> {
         span: Span,
     ) {
         let dialect = self.rules.dialect.name();
-        self.problems.add(message, At::block(block, span), |d| {
+        self.problems.add(message, SourcePosition::block(block, span), |d| {
             d.quoting("first", first).quoting("second", second).quoting("dialect", dialect)
         });
     }

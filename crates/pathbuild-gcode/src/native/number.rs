@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use pathbuild_motion::turn;
+use pathbuild_motion::turn_angle;
 use pathbuild_toolpath::{Correction, Height, LAST_DIGIT, ProbePoint, Program, ProgramStep, Surface, Xy};
 
 /// Formats a number with three decimals. The exact binary value is rounded, with ties to even, and zero has no sign.
@@ -23,10 +23,10 @@ pub(super) fn push_f3(text: &mut String, number: f64) {
     if number < 0.0 && thousandths > 0 {
         text.push('-');
     }
-    let (whole, fraction) = (thousandths / 1000, place(thousandths % 1000));
+    let (whole, fraction) = (thousandths / 1000, thousandths_offset(thousandths % 1000));
     if whole < 1000 {
         let digits = 1 + usize::from(whole > 9) + usize::from(whole > 99);
-        let end = place(whole) + 4;
+        let end = thousandths_offset(whole) + 4;
         text.push_str(&THOUSANDTHS[end - digits..end]);
     } else {
         _ = write!(text, "{whole}");
@@ -61,7 +61,7 @@ const fn all_thousandths() -> [u8; 4000] {
 
 /// Returns the offset of a number below a thousand, with its point, in [`THOUSANDTHS`].
 #[expect(clippy::cast_possible_truncation, reason = "below 4000")]
-fn place(number: u64) -> usize {
+fn thousandths_offset(number: u64) -> usize {
     4 * number as usize
 }
 
@@ -129,7 +129,7 @@ impl PrintedArc {
     /// Returns the angle in radians that a controller sweeps to an end; 2 pi if the end equals the start.
     fn angle(&self, end: Xy) -> f64 {
         let (spoke, other) = (-self.centre.coords, end - (self.from + self.centre.coords));
-        turn(spoke.into(), other.into(), self.clockwise)
+        turn_angle(spoke.into(), other.into(), self.clockwise)
     }
 }
 

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_motion::WrittenArc;
 use pathbuild_toolpath::{
-    Comment, Correction, ElementKind, Height, LeftOut, PlannedMove, ProbePoint, Program, ProgramStep,
+    Comment, Correction, ElementKind, Height, OmittedCurves, PlannedMove, ProbePoint, Program, ProgramStep,
     Statistics, Total, Xy, is_doubtful, is_point,
 };
 
@@ -58,7 +58,7 @@ pub fn title(drawing: &str, path: &str) -> String {
 /// none.
 pub fn left_out_lines(program: &Program, lang: Lang) -> Vec<String> {
     let left_out = program.left_out.iter().filter(|_| !program.compatible);
-    let line = |left_out: &LeftOut| {
+    let line = |left_out: &OmittedCurves| {
         let entities = left_out.entities.iter().map(|(kind, count)| format!("{count} {}", kind.name()));
         let (entities, path) = (entities.collect::<Vec<_>>().join(", "), &left_out.path);
         match lang {
@@ -271,7 +271,7 @@ impl Writer<'_> {
             is_absolute: false,
             unit: 1.0,
         };
-        let [x, y] = written.fit().unwrap_or_default();
+        let [x, y] = written.centre_correction().unwrap_or_default();
         Xy::new(centre.x + x, centre.y + y)
     }
 
@@ -301,7 +301,7 @@ impl Writer<'_> {
             Comment::StartSubpath(name) => format!("START Subpath {}", names.get(name)),
             Comment::EndSubpath(name) => format!("END Subpath {}", names.get(name)),
             Comment::Element { kind, at, bottom, .. } => {
-                format!("{} [{}|{}] Z{}", self.kind(kind), f3(at.x), f3(at.y), f3(bottom))
+                format!("{} [{}|{}] Z{}", self.kind_name(kind), f3(at.x), f3(at.y), f3(bottom))
             }
             Comment::Pass { number, z } => {
                 format!("{} {number}: Z{}", self.options.lang.choose("Pass", "Durchgang"), f3(z))
@@ -310,7 +310,7 @@ impl Writer<'_> {
         self.comment(&text);
     }
 
-    fn kind(&self, kind: ElementKind) -> &'static str {
+    fn kind_name(&self, kind: ElementKind) -> &'static str {
         match kind {
             ElementKind::MillingChain => self.options.lang.choose("Milling chain", "Fräskette"),
             ElementKind::DrilledHole => self.options.lang.choose("Drilled hole", "Bohrloch"),
@@ -337,12 +337,12 @@ pub fn probing_program(program: &Program, header: &Header, options: &WriteOption
     for (index, probe) in program.probes.iter().enumerate() {
         let name = name_and_place(probe, program);
         _ = writeln!(text, "{}", remarks.comment(&format!("Probe #{} {name}", FIRST_PARAMETER + index)));
-        if !pathbuild_path::approx::is_nothing((probe.at - at).norm()) {
+        if !pathbuild_path::approx::is_negligible((probe.at - at).norm()) {
             _ = writeln!(text, "G00 X{} Y{}", f3(probe.at.x), f3(probe.at.y));
         }
         at = probe.at;
         _ = writeln!(text, "G00 Z{}", f3(probe.height + program.tool));
-        _ = writeln!(text, "{} Z0 F{}\n{DWELL}\nG00 Z{clearance}", code(program), f3(probe.feed));
+        _ = writeln!(text, "{} Z0 F{}\n{DWELL}\nG00 Z{clearance}", probing_code(program), f3(probe.feed));
     }
     _ = writeln!(text, "G00 X0.000 Y0.000\nG00 Z{clearance}\nM30\n%");
     text
@@ -376,7 +376,7 @@ fn name_and_place(probe: &ProbePoint, program: &Program) -> String {
 }
 
 /// Returns the code for probing. If the tool makes no contact, G38.2 raises an alarm; with G38.3, which PathDxf2GCode writes, the machine continues.
-fn code(program: &Program) -> &'static str {
+fn probing_code(program: &Program) -> &'static str {
     if program.compatible { "G38.3" } else { "G38.2" }
 }
 

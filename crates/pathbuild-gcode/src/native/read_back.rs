@@ -34,16 +34,16 @@ pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
     match difference(&exactly) {
         Some(_) if has_doubtful_arcs(program) => {
             let place = exactly.place + LAST_DIGIT;
-            difference(&Tolerance { place, ..exactly }).map_or(Ok(()), |found| Err(differs(&found)))
+            difference(&Tolerance { place, ..exactly }).map_or(Ok(()), |found| Err(difference_error(&found)))
         }
-        found => found.map_or(Ok(()), |found| Err(differs(&found))),
+        found => found.map_or(Ok(()), |found| Err(difference_error(&found))),
     }
 }
 
 /// Checks that the text follows those rules of `verify` that do not depend on the material.
 fn check_rules(text: &str) -> Result<(), Box<Diagnostic>> {
     let mut rules = Rules::new(None);
-    interpret_each(text.as_bytes(), Dialect::Native, &nominal(), &mut |step| rules.step(&step));
+    interpret_each(text.as_bytes(), Dialect::Native, &nominal_options(), &mut |step| rules.step(&step));
     let broken = rules.finish().into_iter().find(is_broken);
     broken.map_or(Ok(()), |broken| Err(read_back_error(&broken)))
 }
@@ -64,7 +64,7 @@ pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: 
             abreast.step(&it);
         }
     };
-    let (problems, _) = interpret_parts(parts, Dialect::Native, &nominal(), &mut each);
+    let (problems, _) = interpret_parts(parts, Dialect::Native, &nominal_options(), &mut each);
     let is_fine = |problems: &[Diagnostic]| !problems.iter().any(is_broken);
     is_fine(&problems) && is_fine(&rules.finish()) && abreast.end_together()
 }
@@ -81,7 +81,7 @@ pub fn read_probing_back(text: &str, probes: &[ProbePoint]) -> Result<(), Box<Di
         (it.to.x() - probe.at.x).abs() <= slack && (it.to.y() - probe.at.y).abs() <= slack
     };
     let is_same = found.len() == probes.len() && found.iter().zip(probes).all(is_at);
-    if is_same { Ok(()) } else { Err(internal("the probing run probes elsewhere")) }
+    if is_same { Ok(()) } else { Err(internal_error("the probing run probes elsewhere")) }
 }
 
 /// Comparison of the moves found with the expected ones, one by one. Nearly all programs are as expected, and building both lists for comparison
@@ -133,11 +133,11 @@ fn each_move(text: &str, mut take: impl FnMut(u32, motion::Move)) -> Result<(), 
             take(line, it);
         }
     };
-    let problems = interpret_each(text.as_bytes(), Dialect::Native, &nominal(), &mut each);
+    let problems = interpret_each(text.as_bytes(), Dialect::Native, &nominal_options(), &mut each);
     problems.iter().find(|problem| problem.is_error()).map_or(Ok(()), |problem| Err(read_back_error(problem)))
 }
 
-fn nominal() -> Options {
+fn nominal_options() -> Options {
     Options { heights: Heights::Nominal, ..Options::default() }
 }
 
@@ -155,7 +155,7 @@ fn has_doubtful_arcs(program: &Program) -> bool {
     program.steps.iter().any(is_one)
 }
 
-fn differs(found: &Difference) -> Box<Diagnostic> {
+fn difference_error(found: &Difference) -> Box<Diagnostic> {
     read_back_error(&found.diagnostic())
 }
 
@@ -163,10 +163,10 @@ fn differs(found: &Difference) -> Box<Diagnostic> {
 fn read_back_error(problem: &Diagnostic) -> Box<Diagnostic> {
     let line = problem.place.line.map(|line| format!(" (line {line})")).unwrap_or_default();
     let message = problem.text(pathbuild_diagnostic::Lang::En);
-    internal(&format!("the program, read back, is not what it was made from: {message}{line}"))
+    internal_error(&format!("the program, read back, is not what it was made from: {message}{line}"))
 }
 
-fn internal(reason: &str) -> Box<Diagnostic> {
+fn internal_error(reason: &str) -> Box<Diagnostic> {
     Box::new(Diagnostic::new(&files::INTERNAL).with("reason", Value::foreign(reason)))
 }
 
@@ -188,13 +188,13 @@ pub fn formula_differences(text: &[u8], program: &Program, correction: Correctio
         match (found.next(), expected.next()) {
             (None, None) => break None,
             (Some(found), Some(expected)) if found.text == expected => {}
-            (found, expected) => break Some(not_drawn(found, expected)),
+            (found, expected) => break Some(not_drawn_error(found, expected)),
         }
     };
     probe_difference(text, &program.probes).into_iter().chain(difference).collect()
 }
 
-fn not_drawn(found: Option<FormulaText>, expected: Option<String>) -> Diagnostic {
+fn not_drawn_error(found: Option<FormulaText>, expected: Option<String>) -> Diagnostic {
     let none = || "-".to_owned();
     let line = found.as_ref().map(|found| found.line);
     let problem = Diagnostic::new(&say::FORMULA_NOT_DRAWN)

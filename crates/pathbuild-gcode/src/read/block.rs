@@ -288,13 +288,13 @@ pub(crate) fn column(line: &[u8], byte: usize) -> u32 {
 pub(crate) fn fault(line: &[u8], span: Span) -> TextFault {
     let start = (span.start as usize).min(line.len());
     let end = (span.end as usize).clamp(start, line.len()).min(start + EXCERPT_BYTES);
-    let before = shown_before(&line[..start]);
+    let before = excerpt_before(&line[..start]);
     let marked = decode(&line[start..end]);
-    let after = shown_after(&line[end..]);
+    let after = excerpt_after(&line[end..]);
     TextFault::new(&format!("{before}{marked}{after}"), before.len()..before.len() + marked.len())
 }
 
-fn shown_before(bytes: &[u8]) -> Cow<'_, str> {
+fn excerpt_before(bytes: &[u8]) -> Cow<'_, str> {
     if bytes.len() <= EXCERPT_BYTES {
         return decode(bytes);
     }
@@ -304,7 +304,7 @@ fn shown_before(bytes: &[u8]) -> Cow<'_, str> {
     format!("...{}", decode(&bytes[cut..])).into()
 }
 
-fn shown_after(bytes: &[u8]) -> Cow<'_, str> {
+fn excerpt_after(bytes: &[u8]) -> Cow<'_, str> {
     if bytes.len() <= EXCERPT_BYTES {
         return decode(bytes);
     }

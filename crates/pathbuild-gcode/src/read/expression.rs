@@ -137,9 +137,9 @@ impl Line<'_> {
     fn value(&mut self, syntax: Syntax, depth: u8) -> Result<(), UnreadableLine> {
         self.skip_blanks();
         if depth > MAX_NESTING {
-            return Err(
-                self.fault(&say::NESTED_TOO_DEEPLY, self.here(), |d| d.with("most", u64::from(MAX_NESTING)))
-            );
+            return Err(self.fault(&say::NESTED_TOO_DEEPLY, self.current_span(), |d| {
+                d.with("most", u64::from(MAX_NESTING))
+            }));
         }
         match self.peek() {
             Some(sign @ (b'+' | b'-')) if syntax.signs() && !self.number_follows_sign() => {
@@ -160,7 +160,7 @@ impl Line<'_> {
             Some(byte) if byte.is_ascii_alphabetic() && syntax != Syntax::Formula => {
                 self.function(syntax, depth)
             }
-            _ => Err(self.fault(&say::VALUE_EXPECTED, self.here(), |d| d)),
+            _ => Err(self.fault(&say::VALUE_EXPECTED, self.current_span(), |d| d)),
         }
     }
 
@@ -185,13 +185,13 @@ impl Line<'_> {
             self.at += 1;
             return Ok(());
         }
-        Err(self.fault(&say::OPERATOR_EXPECTED, self.here(), |d| {
+        Err(self.fault(&say::OPERATOR_EXPECTED, self.current_span(), |d| {
             d.with("bracket", char::from(closing)).quoting("operators", "+ - * / ** MOD AND OR XOR")
         }))
     }
 
     fn bracket_expected(&mut self, bracket: u8) -> UnreadableLine {
-        self.fault(&say::BRACKET_EXPECTED, self.here(), |d| d.with("bracket", char::from(bracket)))
+        self.fault(&say::BRACKET_EXPECTED, self.current_span(), |d| d.with("bracket", char::from(bracket)))
     }
 
     fn parameter(&mut self, syntax: Syntax, depth: u8) -> Result<(), UnreadableLine> {
@@ -227,7 +227,7 @@ impl Line<'_> {
         }
         let Some((spelling, function)) = FUNCTIONS.iter().find(|(spelling, _)| begins_with(rest, spelling))
         else {
-            return Err(self.fault(&say::VALUE_EXPECTED, self.here(), |d| d));
+            return Err(self.fault(&say::VALUE_EXPECTED, self.current_span(), |d| d));
         };
         self.at += spelling.len();
         self.skip_blanks();

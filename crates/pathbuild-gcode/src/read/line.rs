@@ -6,7 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, Message};
 
 use super::block::{Assignment, Code, Comment, Formula, Number, OWord, Op, Span, Value, Word, decode};
 use super::number;
-use super::problems::{At, Problems};
+use super::problems::{Problems, SourcePosition};
 use crate::dialect::{Rules, Slash, Spelling};
 
 /// Error for a line that cannot be read, whose reason has been reported.
@@ -15,7 +15,7 @@ pub(super) struct UnreadableLine;
 
 /// The parts of the current line. They are reused for the next line to avoid allocations.
 #[derive(Debug, Default)]
-pub(super) struct Parts {
+pub(super) struct LineParts {
     pub(super) number: Option<Number>,
     pub(super) optional: bool,
     pub(super) words: Vec<Word>,
@@ -27,7 +27,7 @@ pub(super) struct Parts {
     pub(super) code: Vec<Op>,
 }
 
-impl Parts {
+impl LineParts {
     pub(super) fn clear(&mut self) {
         self.number = None;
         self.optional = false;
@@ -68,7 +68,7 @@ pub(super) fn plain_words(bytes: &[u8], start: usize, words: &mut Vec<Word>) -> 
 pub(super) struct Line<'l> {
     pub(super) bytes: &'l [u8],
     pub(super) at: usize,
-    pub(super) out: &'l mut Parts,
+    pub(super) out: &'l mut LineParts,
     pub(super) rules: &'static Rules,
     pub(super) problems: &'l mut Problems,
     /// Line number, counted from 1.
@@ -115,7 +115,7 @@ impl Line<'_> {
     }
 
     /// Returns the range of the next character.
-    pub(super) fn here(&self) -> Span {
+    pub(super) fn current_span(&self) -> Span {
         let length = self.bytes[self.at..]
             .iter()
             .skip(1)
@@ -142,7 +142,7 @@ impl Line<'_> {
         values: impl FnOnce(Diagnostic) -> Diagnostic,
     ) {
         let dialect = self.rules.dialect.name();
-        let at = At { line: self.number, text: self.bytes, span };
+        let at = SourcePosition { line: self.number, text: self.bytes, span };
         self.problems.add(message, at, |diagnostic| values(diagnostic).quoting("dialect", dialect));
     }
 
@@ -182,7 +182,7 @@ impl Line<'_> {
     /// Reports a lower-case letter if the control reads only upper case. The word is read nevertheless.
     fn small_letter(&mut self, letter: u8) -> Result<(), UnreadableLine> {
         let letter = letter.to_ascii_uppercase();
-        self.report(&say::SMALL_LETTER, self.here(), |d| d.with("letter", char::from(letter)));
+        self.report(&say::SMALL_LETTER, self.current_span(), |d| d.with("letter", char::from(letter)));
         self.word(letter)
     }
 
@@ -194,15 +194,15 @@ impl Line<'_> {
         match self.spelling().slash {
             Slash::Optional => {
                 self.out.optional = true;
-                self.report(&say::OPTIONAL_LINE, self.here(), |d| d);
+                self.report(&say::OPTIONAL_LINE, self.current_span(), |d| d);
             }
-            _ => self.report(&say::SLASH_DROPPED, self.here(), |d| d),
+            _ => self.report(&say::SLASH_DROPPED, self.current_span(), |d| d),
         }
         self.at += 1;
     }
 
     pub(super) fn unknown_character(&mut self) -> Result<(), UnreadableLine> {
-        let span = self.here();
+        let span = self.current_span();
         let found = decode(&self.bytes[span.range()]).into_owned();
         if !self.rules.words.lenient {
             return Err(self.fault(&say::UNKNOWN_CHARACTER, span, |d| d.quoting("found", found)));

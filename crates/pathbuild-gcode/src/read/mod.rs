@@ -15,6 +15,6 @@ pub use block::{
     Assignment, Binary, Block, Code, Comment, CommentStyle, Formula, Function, Number, OWord, OWordKind, Op,
     Span, Target, Value, Word, quote,
 };
-pub use problems::{At, Problems};
+pub use problems::{Problems, SourcePosition};
 pub(crate) use reader::Place;
 pub use reader::{BlockReader, LONGEST_LINE};

@@ -19,12 +19,12 @@ pub(super) struct ScannedNumber {
     /// Offset of the first byte after the number.
     pub(super) end: usize,
     /// Unusual feature of the number's notation, if any.
-    pub(super) oddity: Option<Oddity>,
+    pub(super) oddity: Option<UnusualNotation>,
 }
 
 /// Notations that are read with a warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Oddity {
+pub(super) enum UnusualNotation {
     BlankInside,
     DecimalComma,
 }
@@ -45,11 +45,13 @@ pub(super) fn scan(line: &[u8], start: usize, spelling: &Spelling) -> Result<Sca
     let digits = Digits::scan(line, start);
     match line.get(digits.end) {
         Some(b'.') => Err(MalformedNumber { end: run_end(line, digits.end, begins) }),
-        Some(b' ' | b'\t') if spelling.blanks == Blanks::Ignored && goes_on(line, digits.end) => {
-            rewritten(line, start, Oddity::BlankInside)
+        Some(b' ' | b'\t')
+            if spelling.blanks == Blanks::Ignored && continues_after_blanks(line, digits.end) =>
+        {
+            rewritten(line, start, UnusualNotation::BlankInside)
         }
         Some(b',') if spelling.decimal_comma && !digits.point && is_digit(line, digits.end + 1) => {
-            rewritten(line, start, Oddity::DecimalComma)
+            rewritten(line, start, UnusualNotation::DecimalComma)
         }
         _ => digits.number(line, start).map(|number| ScannedNumber { number, end: digits.end, oddity: None }),
     }
@@ -152,10 +154,10 @@ impl Digits {
 }
 
 /// Reads a number with blanks inside or a decimal comma by converting it to the usual notation.
-fn rewritten(line: &[u8], start: usize, oddity: Oddity) -> Result<ScannedNumber, MalformedNumber> {
+fn rewritten(line: &[u8], start: usize, oddity: UnusualNotation) -> Result<ScannedNumber, MalformedNumber> {
     let end = match oddity {
-        Oddity::BlankInside => last_digit(line, start),
-        Oddity::DecimalComma => run_end(line, start, |byte| begins(byte) || byte == b','),
+        UnusualNotation::BlankInside => last_digit(line, start),
+        UnusualNotation::DecimalComma => run_end(line, start, |byte| begins(byte) || byte == b','),
     };
     let usual: Vec<u8> = line[start..end]
         .iter()
@@ -173,7 +175,7 @@ fn rewritten(line: &[u8], start: usize, oddity: Oddity) -> Result<ScannedNumber,
 /// Returns the offset after the last digit or point of a number that contains blanks.
 fn last_digit(line: &[u8], start: usize) -> usize {
     let mut end = run_end(line, start, begins);
-    while goes_on(line, end) {
+    while continues_after_blanks(line, end) {
         let next = run_end(line, end, |byte| matches!(byte, b' ' | b'\t'));
         end = run_end(line, next, |byte| byte.is_ascii_digit() || byte == b'.');
     }
@@ -181,7 +183,7 @@ fn last_digit(line: &[u8], start: usize) -> usize {
 }
 
 /// Whether blanks follow, and after them more of the number.
-fn goes_on(line: &[u8], at: usize) -> bool {
+fn continues_after_blanks(line: &[u8], at: usize) -> bool {
     let next = run_end(line, at, |byte| matches!(byte, b' ' | b'\t'));
     next > at && line.get(next).is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.')
 }

@@ -12,7 +12,7 @@ const MAX_REPORTS_PER_MESSAGE: u64 = 20;
 
 /// A position in a file, with the text of its line.
 #[derive(Clone, Copy, Debug)]
-pub struct At<'a> {
+pub struct SourcePosition<'a> {
     /// Line number, counted from 1.
     pub line: u32,
     /// The entire line.
@@ -21,7 +21,7 @@ pub struct At<'a> {
     pub span: Span,
 }
 
-impl<'a> At<'a> {
+impl<'a> SourcePosition<'a> {
     /// Returns the position of a part of a block.
     pub fn block(block: &Block<'a>, span: Span) -> Self {
         Self { line: block.line, text: block.text, span }
@@ -51,7 +51,7 @@ impl Problems {
     pub fn add(
         &mut self,
         message: &'static Message,
-        at: At<'_>,
+        at: SourcePosition<'_>,
         values: impl FnOnce(Diagnostic) -> Diagnostic,
     ) {
         self.push(message, || at.place(values(Diagnostic::new(message))));

@@ -5,8 +5,8 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Severity, Text};
 
 use super::block::{Block, Comment, CommentStyle, Span, end_of_line};
-use super::line::{Line, Parts, plain_words};
-use super::problems::{At, Problems};
+use super::line::{Line, LineParts, plain_words};
+use super::problems::{Problems, SourcePosition};
 use super::word::plain_formula;
 use crate::dialect::{LineLength, Percent, Rules};
 
@@ -31,7 +31,7 @@ pub struct BlockReader<'t> {
     /// The line last read, counted from 1.
     line: u32,
     state: State,
-    parts: Parts,
+    parts: LineParts,
     problems: Problems,
     /// Whether subprograms may follow the end of the program.
     has_subprograms: bool,
@@ -67,7 +67,7 @@ impl<'t> BlockReader<'t> {
             at: 0,
             line: 0,
             state: State::Leader,
-            parts: Parts::default(),
+            parts: LineParts::default(),
             problems: Problems::default(),
             has_subprograms: false,
         }
@@ -79,12 +79,12 @@ impl<'t> BlockReader<'t> {
     }
 
     /// Creates another reader of the same file, from a place within its program.
-    pub(crate) fn again_from(&self, Place { at, line }: Place) -> Self {
+    pub(crate) fn reader_from(&self, Place { at, line }: Place) -> Self {
         Self { at, line, state: State::Program, ..Self::new(self.text, self.rules) }
     }
 
     /// Creates another reader of the same file, from its beginning.
-    pub(crate) fn again(&self) -> Self {
+    pub(crate) fn reader_from_start(&self) -> Self {
         Self::new(self.text, self.rules)
     }
 
@@ -99,7 +99,7 @@ impl<'t> BlockReader<'t> {
     }
 
     /// Continues the same file with further bytes. The bytes read so far must have ended with a line break.
-    pub(crate) fn go_on(self, text: &[u8]) -> BlockReader<'_> {
+    pub(crate) fn continue_with(self, text: &[u8]) -> BlockReader<'_> {
         let Self { rules, line, state, parts, problems, has_subprograms, .. } = self;
         let end_of_line = end_of_line(text);
         BlockReader { text, rules, end_of_line, at: 0, line, state, parts, problems, has_subprograms }
@@ -314,12 +314,12 @@ impl<'t> BlockReader<'t> {
     }
 
     fn check_real_time(&mut self, line: &[u8]) {
-        let Some((byte, effect)) = first(line) else { return };
+        let Some((byte, effect)) = first_real_time_byte(line) else { return };
         let found = match line[byte] {
             printable @ b' '..=b'~' => char::from(printable).to_string(),
             other => format!("0x{other:02X}"),
         };
-        let at = At { line: self.line, text: line, span: Span::new(byte, byte + 1) };
+        let at = SourcePosition { line: self.line, text: line, span: Span::new(byte, byte + 1) };
         let dialect = self.rules.dialect.name();
         self.problems.add(&say::REAL_TIME_CHARACTER, at, |d| {
             d.quoting("dialect", dialect).quoting("found", found).with("effect", effect)
@@ -328,7 +328,7 @@ impl<'t> BlockReader<'t> {
 
     /// Reports a carriage return within a line: controls that end the line there obey the rest, even if it is in a comment.
     fn report_return(&mut self, line: &[u8], at: usize) {
-        let at = At { line: self.line, text: line, span: Span::new(at, at + 1) };
+        let at = SourcePosition { line: self.line, text: line, span: Span::new(at, at + 1) };
         self.problems.add(&say::RETURN_IN_LINE, at, |d| d);
     }
 
@@ -345,9 +345,14 @@ impl<'t> BlockReader<'t> {
 
     /// Returns the length of the line without blanks and comments.
     fn bare_length(&self, line: &[u8]) -> usize {
-        let words: usize = self.parts.words.iter().map(|word| bare(&line[word.span.range()])).sum();
-        let settings: usize =
-            self.parts.settings.iter().map(|setting| bare(&line[setting.span.range()])).sum();
+        let words: usize =
+            self.parts.words.iter().map(|word| length_without_blanks(&line[word.span.range()])).sum();
+        let settings: usize = self
+            .parts
+            .settings
+            .iter()
+            .map(|setting| length_without_blanks(&line[setting.span.range()]))
+            .sum();
         let number = self.parts.number.map_or(0, |_| {
             let digits = line.iter().skip_while(|byte| !byte.is_ascii_alphabetic()).skip(1);
             1 + digits.take_while(|byte| byte.is_ascii_digit()).count()
@@ -361,7 +366,7 @@ impl<'t> BlockReader<'t> {
         line: &[u8],
         values: impl FnOnce(Diagnostic) -> Diagnostic,
     ) {
-        let at = At { line: self.line, text: line, span: Span::new(0, line.len()) };
+        let at = SourcePosition { line: self.line, text: line, span: Span::new(0, line.len()) };
         let dialect = self.rules.dialect.name();
         self.problems.add(message, at, |diagnostic| values(diagnostic).quoting("dialect", dialect));
     }
@@ -383,7 +388,7 @@ fn title_number(line: &[u8]) -> usize {
     1 + digits.iter().take_while(|byte| matches!(byte, b'0'..=b'9' | b' ' | b'\t')).count()
 }
 
-fn bare(bytes: &[u8]) -> usize {
+fn length_without_blanks(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| !matches!(byte, b' ' | b'\t')).count()
 }
 
@@ -403,11 +408,11 @@ fn trim_end(line: &[u8]) -> &[u8] {
 
 /// Finds the first byte on which the control acts immediately, even within a comment, and returns its offset in the line and its effect. The control
 /// discards other bytes above 127.
-pub(super) fn first(line: &[u8]) -> Option<(usize, &'static Text)> {
-    line.iter().enumerate().find_map(|(at, &byte)| effect(byte).map(|effect| (at, effect)))
+pub(super) fn first_real_time_byte(line: &[u8]) -> Option<(usize, &'static Text)> {
+    line.iter().enumerate().find_map(|(at, &byte)| real_time_effect(byte).map(|effect| (at, effect)))
 }
 
-fn effect(byte: u8) -> Option<&'static Text> {
+fn real_time_effect(byte: u8) -> Option<&'static Text> {
     Some(match byte {
         0x18 => &Text { en: "reset", de: "Zurücksetzen" },
         b'!' => &Text { en: "feed hold", de: "Vorschub anhalten" },

@@ -8,9 +8,9 @@ use super::block::{
     Value, Word, decode,
 };
 use super::expression::Syntax;
-use super::line::{Line, Parts, UnreadableLine};
-use super::number::{self, Oddity};
-use crate::dialect::{Blanks, Grammar, Spelling, Style};
+use super::line::{Line, LineParts, UnreadableLine};
+use super::number::{self, UnusualNotation};
+use crate::dialect::{Blanks, Grammar, NotationSupport, Spelling};
 
 impl Line<'_> {
     pub(super) fn word(&mut self, letter: u8) -> Result<(), UnreadableLine> {
@@ -58,7 +58,7 @@ impl Line<'_> {
     fn value_of_word(&mut self, start: usize, letter: u8) -> Result<Value, UnreadableLine> {
         let syntax = match self.spelling().grammar.as_ref() {
             Some(grammar) if !self.letter_follows_without_bracket() => syntax_of(grammar),
-            None if matches!(self.peek(), Some(b'#' | b'[')) => return Err(self.no_expressions(start)),
+            None if matches!(self.peek(), Some(b'#' | b'[')) => return Err(self.report_no_expressions(start)),
             _ => return Err(self.word_without_number(start, letter)),
         };
         self.compiled_value(syntax).map(Value::Expression)
@@ -75,7 +75,7 @@ impl Line<'_> {
         self.fault(&say::WORD_WITHOUT_NUMBER, span, |d| d.with("letter", char::from(letter)))
     }
 
-    fn no_expressions(&mut self, start: usize) -> UnreadableLine {
+    fn report_no_expressions(&mut self, start: usize) -> UnreadableLine {
         self.fault(&say::UNKNOWN_EXPRESSION, Span::new(start, self.bytes.len()), |d| d)
     }
 
@@ -90,7 +90,7 @@ impl Line<'_> {
             Ok(scanned) => {
                 self.at = scanned.end;
                 if let Some(oddity) = scanned.oddity {
-                    self.odd_number(oddity, Span::new(start, scanned.end));
+                    self.report_unusual_number(oddity, Span::new(start, scanned.end));
                 }
                 Ok(scanned.number)
             }
@@ -102,7 +102,7 @@ impl Line<'_> {
         }
     }
 
-    fn odd_number(&mut self, oddity: Oddity, span: Span) {
+    fn report_unusual_number(&mut self, oddity: UnusualNotation, span: Span) {
         let letter = self.bytes[..span.start as usize].iter().rev().find(|byte| byte.is_ascii_alphabetic());
         let letter = letter.map_or(String::new(), |byte| char::from(byte.to_ascii_uppercase()).to_string());
         let number: String = decode(&self.bytes[span.range()])
@@ -110,8 +110,8 @@ impl Line<'_> {
             .filter(|character| !character.is_whitespace())
             .collect();
         let message = match oddity {
-            Oddity::BlankInside => &say::BLANK_IN_NUMBER,
-            Oddity::DecimalComma => &say::COMMA_FOR_POINT,
+            UnusualNotation::BlankInside => &say::BLANK_IN_NUMBER,
+            UnusualNotation::DecimalComma => &say::COMMA_FOR_POINT,
         };
         self.report(message, span, |d| d.quoting("letter", letter).quoting("number", number));
     }
@@ -157,7 +157,9 @@ impl Line<'_> {
 
     pub(super) fn setting(&mut self) -> Result<(), UnreadableLine> {
         let start = self.at;
-        let Some(grammar) = self.spelling().grammar.as_ref() else { return Err(self.no_expressions(start)) };
+        let Some(grammar) = self.spelling().grammar.as_ref() else {
+            return Err(self.report_no_expressions(start));
+        };
         let syntax = syntax_of(grammar);
         self.at += 1;
         self.skip_blanks();
@@ -168,7 +170,7 @@ impl Line<'_> {
         };
         self.skip_blanks();
         if self.peek() != Some(b'=') {
-            return Err(self.fault(&say::ASSIGNMENT_EXPECTED, self.here(), |d| d));
+            return Err(self.fault(&say::ASSIGNMENT_EXPECTED, self.current_span(), |d| d));
         }
         self.at += 1;
         let value = Value::Expression(self.compiled_value(syntax)?);
@@ -327,24 +329,29 @@ impl Line<'_> {
         self.at += length;
     }
 
-    fn check_comment(&mut self, style: Style, sign: &'static str, span: Span) -> Result<(), UnreadableLine> {
+    fn check_comment(
+        &mut self,
+        style: NotationSupport,
+        sign: &'static str,
+        span: Span,
+    ) -> Result<(), UnreadableLine> {
         match style {
-            Style::Usual => Ok(()),
-            Style::Doubtful => {
+            NotationSupport::Usual => Ok(()),
+            NotationSupport::Doubtful => {
                 let comment = comment_sign(self.spelling());
                 self.report(&say::FOREIGN_COMMENT, span, |d| {
                     d.quoting("sign", sign).quoting("comment", comment)
                 });
                 Ok(())
             }
-            Style::Unknown => self.unknown_character(),
+            NotationSupport::Unknown => self.unknown_character(),
         }
     }
 }
 
 /// Returns the mark that begins a comment in a dialect.
 pub(super) fn comment_sign(spelling: &Spelling) -> &'static str {
-    if spelling.slash_comments == Style::Usual { "//" } else { "(" }
+    if spelling.slash_comments == NotationSupport::Usual { "//" } else { "(" }
 }
 
 /// Reads `(=1.000+0.441*[#51-2.000]+...)` at `start` as the formula of the last word and returns the offset after it. Returns `None` for any other
@@ -352,7 +359,7 @@ pub(super) fn comment_sign(spelling: &Spelling) -> &'static str {
 ///
 /// In a program with probes, nearly all bytes belong to such formulas.
 #[inline]
-pub(super) fn plain_formula(bytes: &[u8], start: usize, parts: &mut Parts) -> Option<usize> {
+pub(super) fn plain_formula(bytes: &[u8], start: usize, parts: &mut LineParts) -> Option<usize> {
     let word = parts.words.len().checked_sub(1)?;
     if bytes.get(start..start + 2) != Some(b"(=") || parts.words[word].span.end as usize != start {
         return None;
@@ -386,11 +393,11 @@ fn sum(bytes: &[u8], start: usize, code: &mut Vec<Op>) -> Option<usize> {
 /// Reads the term of a probe: `0.441*[#51-2.000]`.
 fn term(bytes: &[u8], start: usize, code: &mut Vec<Op>) -> Option<usize> {
     let (weight, at) = number::plain(bytes, start)?;
-    let at = passed(bytes, at, b"*[#")?;
+    let at = offset_after(bytes, at, b"*[#")?;
     let (probe, at) = number::plain(bytes, at)?;
-    let at = passed(bytes, at, b"-")?;
+    let at = offset_after(bytes, at, b"-")?;
     let (height, at) = number::plain(bytes, at)?;
-    let at = passed(bytes, at, b"]")?;
+    let at = offset_after(bytes, at, b"]")?;
     code.extend([
         Op::Number(weight.value),
         Op::Number(probe.value),
@@ -403,6 +410,6 @@ fn term(bytes: &[u8], start: usize, code: &mut Vec<Op>) -> Option<usize> {
     Some(at)
 }
 
-fn passed(bytes: &[u8], at: usize, signs: &[u8]) -> Option<usize> {
+fn offset_after(bytes: &[u8], at: usize, signs: &[u8]) -> Option<usize> {
     bytes[at..].starts_with(signs).then_some(at + signs.len())
 }

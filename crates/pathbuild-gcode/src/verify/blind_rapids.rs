@@ -6,7 +6,7 @@
 use pathbuild_motion::{Action, Axes, Move, NamedPosition, Pace, Position, Step};
 use serde::{Deserialize, Serialize};
 
-use super::height_map::RESIDUE;
+use super::height_map::RESIDUE_HEIGHT;
 use super::material::Stock;
 use crate::interpret::LOWEST_RETRACT;
 
@@ -81,7 +81,7 @@ impl BlindRapidRules {
         }
         let unknown = self.is_raised.then_some(f64::INFINITY);
         let height = |at: &Position, known: Axes| if known.has(Axes::Z) { Some(at.z()) } else { unknown };
-        let is_above = |height: Option<f64>| height.is_some_and(|z| z >= self.surface - RESIDUE);
+        let is_above = |height: Option<f64>| height.is_some_and(|z| z >= self.surface - RESIDUE_HEIGHT);
         let begins_above = is_above(height(&movement.from, from)) || is_vertical;
         !(begins_above && is_above(height(&movement.to, to)))
     }

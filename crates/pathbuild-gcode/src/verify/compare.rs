@@ -68,7 +68,7 @@ pub enum DifferenceKind {
 
 /// Compares the moves found with those expected. Returns `None` if they are equal.
 pub fn compare(found: &[(u32, Move)], expected: &[(u32, Move)], tolerance: &Tolerance) -> Option<Difference> {
-    let (found, expected) = (counting(found, tolerance.ends), counting(expected, tolerance.ends));
+    let (found, expected) = (counting_moves(found, tolerance.ends), counting_moves(expected, tolerance.ends));
     let (mut found, mut expected) = (Walker::new(&found), Walker::new(&expected));
     if let Err(kind) = begin_together(&mut found, &mut expected, tolerance) {
         return Some(difference(kind, &found, &expected));
@@ -118,7 +118,7 @@ impl Difference {
     /// Converts the difference to a diagnostic in the line of the move that was found.
     pub fn diagnostic(&self) -> Diagnostic {
         let diagnostic = match (&self.found, &self.expected) {
-            (Some(found), Some(expected)) => between(self.kind, found, expected),
+            (Some(found), Some(expected)) => diagnostic_of_kind(self.kind, found, expected),
             (None, Some((line, _))) => Diagnostic::new(&say::MOVES_MISSING).with("line", u64::from(*line)),
             (Some(_), None) => Diagnostic::new(&say::MOVES_TOO_MANY).with("line", 0_u64),
             (None, None) => Diagnostic::new(&say::SHAPES_DIFFER).with("line", 0_u64),
@@ -160,7 +160,7 @@ impl Difference {
     }
 }
 
-fn between(kind: DifferenceKind, found: &(u32, Move), expected: &(u32, Move)) -> Diagnostic {
+fn diagnostic_of_kind(kind: DifferenceKind, found: &(u32, Move), expected: &(u32, Move)) -> Diagnostic {
     let report = |message: &'static Message| Diagnostic::new(message).with("line", u64::from(expected.0));
     match kind {
         DifferenceKind::Place => report(&say::PATHS_DIFFER)
@@ -190,7 +190,7 @@ fn difference(kind: DifferenceKind, found: &Walker<'_>, expected: &Walker<'_>) -
 }
 
 /// Selects the moves to be compared: those to known positions, and at both ends of the program only those that `ends` requires.
-fn counting(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
+fn counting_moves(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
     let is_known = |(_, movement): &(u32, Move)| movement.to.known == Axes::ALL;
     let is_cut = |movement: &(u32, Move)| is_known(movement) && movement.1.pace != Pace::Rapid;
     let (first, end) = match ends {
@@ -260,11 +260,11 @@ fn step(
         return Ok(());
     }
     if ours.length < theirs.length {
-        let share = meet(ours, theirs, theirs.radius_error(), tolerance)?;
+        let share = meeting_fraction(ours, theirs, theirs.radius_error(), tolerance)?;
         found.finish_move();
         expected.go_to(share);
     } else {
-        let share = meet(theirs, ours, theirs.radius_error(), tolerance)?;
+        let share = meeting_fraction(theirs, ours, theirs.radius_error(), tolerance)?;
         expected.finish_move();
         found.go_to(share);
     }
@@ -272,7 +272,7 @@ fn step(
 }
 
 /// Returns the fraction of the longer stretch at which the shorter one ends.
-pub(super) fn meet(
+pub(super) fn meeting_fraction(
     shorter: &Stretch,
     longer: &Stretch,
     radius_error: f64,
@@ -486,11 +486,11 @@ pub(super) fn are_alike(one: f64, other: f64, slack: f64) -> bool {
 ///
 /// Comments (including correction formulas), blanks, leading zeros, line breaks, and lines without X, Y, Z, G and M are ignored.
 pub fn same_move_lines(found: &str, expected: &str) -> bool {
-    let (mut found, mut expected) = (moves(found), moves(expected));
+    let (mut found, mut expected) = (move_lines(found), move_lines(expected));
     loop {
         match (found.next(), expected.next()) {
             (None, None) => return true,
-            (Some(Some(found)), Some(Some(expected))) if same(&found, &expected) => {}
+            (Some(Some(found)), Some(Some(expected))) if is_same_line(&found, &expected) => {}
             _ => return false,
         }
     }
@@ -500,10 +500,10 @@ pub fn same_move_lines(found: &str, expected: &str) -> bool {
 type Word = (char, f64);
 
 /// One unit of the last printed digit in mm, plus the error of doubles.
-const UNIT: f64 = 0.001 * (1.0 + 1e-6);
+const LAST_DIGIT_UNIT: f64 = 0.001 * (1.0 + 1e-6);
 
 /// Returns the words of each line that moves the tool or sets a mode; `None` for a line that cannot be read.
-fn moves(text: &str) -> impl Iterator<Item = Option<Vec<Word>>> {
+fn move_lines(text: &str) -> impl Iterator<Item = Option<Vec<Word>>> {
     let is_move = |words: &Option<Vec<Word>>| {
         let counts = |(letter, _): &Word| matches!(letter, 'X' | 'Y' | 'Z' | 'G' | 'M');
         words.as_ref().is_none_or(|words| words.iter().any(counts))
@@ -542,9 +542,9 @@ fn without_comments(line: &str) -> String {
     plain
 }
 
-fn same(found: &[Word], expected: &[Word]) -> bool {
+fn is_same_line(found: &[Word], expected: &[Word]) -> bool {
     let same_word = |((a, found), (b, expected)): (&Word, &Word)| {
-        let slack = if *a == 'G' { 0.0 } else { UNIT };
+        let slack = if *a == 'G' { 0.0 } else { LAST_DIGIT_UNIT };
         a == b && libm::fabs(found - expected) <= slack
     };
     found.len() == expected.len() && found.iter().zip(expected).all(same_word)

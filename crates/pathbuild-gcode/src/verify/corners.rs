@@ -34,7 +34,7 @@ impl CornerRules {
     pub fn step(&mut self, step: &Step) {
         match &step.action {
             Action::Change(Change::Corners(corners)) => self.corners = Some((step.line, *corners)),
-            Action::Move(motion) if matches!(motion.pace, Pace::Feed(_)) && !motion.is_nothing() => {
+            Action::Move(motion) if matches!(motion.pace, Pace::Feed(_)) && !motion.is_standstill() => {
                 self.cut()
             }
             _ => {}

@@ -10,7 +10,7 @@ use pathbuild_diagnostic::{Diagnostic, Message};
 use pathbuild_motion::{Action, Axes, Move, Pace, Step};
 
 use super::frames::Frames;
-use super::height_map::RESIDUE;
+use super::height_map::RESIDUE_HEIGHT;
 use super::material::{self, Stock};
 use crate::interpret::Program;
 use crate::read::Problems;
@@ -121,16 +121,16 @@ impl Depths {
         match movement.pace {
             Pace::Rapid if !is_known => self.top = movement.to.known.has(Axes::Z).then(|| movement.to.z()),
             _ if !is_known => {}
-            Pace::Rapid => self.rapid(index, movement),
-            Pace::Feed(_) => self.feed(movement),
+            Pace::Rapid => self.add_rapid(index, movement),
+            Pace::Feed(_) => self.add_feed_move(movement),
             Pace::Probe { .. } => {}
         }
     }
 
-    fn rapid(&mut self, index: usize, movement: &Move) {
+    fn add_rapid(&mut self, index: usize, movement: &Move) {
         let height = movement.from.z().max(movement.to.z());
         if !movement.keeps_xy() {
-            if self.cut.is_some_and(|cut| height <= cut + RESIDUE) {
+            if self.cut.is_some_and(|cut| height <= cut + RESIDUE_HEIGHT) {
                 self.found.insert(index);
             } else {
                 self.pending.push((index, height));
@@ -141,16 +141,18 @@ impl Depths {
         let is_up = to >= movement.from.z();
         if is_up {
             self.top = Some(self.top.map_or(to, |top| top.max(to)));
-        } else if self.cut.is_none_or(|cut| to > cut + RESIDUE) {
+        } else if self.cut.is_none_or(|cut| to > cut + RESIDUE_HEIGHT) {
             self.top = Some(to);
         }
     }
 
-    fn feed(&mut self, movement: &Move) {
+    fn add_feed_move(&mut self, movement: &Move) {
         let low = movement.from.z().min(movement.to.z());
         let pending = self.pending.drain(..);
-        if self.top.is_some_and(|top| low < top - RESIDUE) {
-            self.found.extend(pending.filter(|(_, height)| *height <= low + RESIDUE).map(|(index, _)| index));
+        if self.top.is_some_and(|top| low < top - RESIDUE_HEIGHT) {
+            self.found.extend(
+                pending.filter(|(_, height)| *height <= low + RESIDUE_HEIGHT).map(|(index, _)| index),
+            );
             self.cut = Some(low);
         }
     }

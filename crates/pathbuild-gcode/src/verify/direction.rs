@@ -31,7 +31,7 @@ impl DirectionRules {
                 self.turning = spindle.turning;
                 self.has_speed |= spindle.speed.is_some_and(|speed| speed > 0.0);
             }
-            Action::Move(motion) if matches!(motion.pace, Pace::Feed(_)) && !motion.is_nothing() => {
+            Action::Move(motion) if matches!(motion.pace, Pace::Feed(_)) && !motion.is_standstill() => {
                 self.check(step.line);
             }
             _ => {}
@@ -66,7 +66,7 @@ impl DirectionRules {
 
     /// Reports a program that never switches the spindle, in a dialect that can do so, although a speed of the tool table or an S shows that it
     /// should. (A spindle that is switched later is reported by [`Rules`](super::Rules).)
-    pub fn never_started(&self) -> Option<Diagnostic> {
+    pub fn never_started_finding(&self) -> Option<Diagnostic> {
         if self.turning != Turning::Unstated {
             return None;
         }

@@ -5,7 +5,7 @@
 use pathbuild_diagnostic::Point;
 use pathbuild_motion::{Move, Pace};
 
-use super::height_map::RESIDUE;
+use super::height_map::RESIDUE_HEIGHT;
 
 /// The excursion in progress while the moves of a program are processed.
 #[derive(Debug, Default)]
@@ -37,7 +37,7 @@ impl Excursions {
         let open = self.open.take().filter(|open| open.continues_with(movement));
         if let Some(mut open) = open {
             open.moves.push(*movement);
-            if !movement.is_known() || movement.to.z() >= open.surface - RESIDUE {
+            if !movement.is_known() || movement.to.z() >= open.surface - RESIDUE_HEIGHT {
                 return Some(open);
             }
             self.open = Some(open);
@@ -46,7 +46,7 @@ impl Excursions {
         let surface = surface.filter(|surface| surface.is_finite())?;
         let is_descent =
             movement.pace == Pace::Rapid && movement.is_known() && movement.to.z() < movement.from.z();
-        if is_descent && movement.to.z() < surface - RESIDUE && may_begin(movement) {
+        if is_descent && movement.to.z() < surface - RESIDUE_HEIGHT && may_begin(movement) {
             self.open = Some(Excursion { line, surface, moves: vec![*movement] });
         }
         None

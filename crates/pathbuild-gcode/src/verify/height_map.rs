@@ -6,14 +6,14 @@ mod tests;
 use std::collections::BTreeMap;
 
 /// Height in mm above the tip up to which material is attributed to rounding.
-pub(super) const RESIDUE: f64 = 0.002;
+pub(super) const RESIDUE_HEIGHT: f64 = 0.002;
 
 /// Number of cells along the side of a tile.
 const CELLS_PER_SIDE: i32 = 64;
 const CELLS: usize = (CELLS_PER_SIDE * CELLS_PER_SIDE) as usize;
 
 /// Cost of each row of a capsule, in cells, besides the cells that are visited in it. A capsule without material costs as much as one row.
-const ROW: u64 = 16;
+const ROW_COST: u64 = 16;
 
 /// A sparse grid of heights. Each cell has a single height.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ pub(super) struct HeightMap {
 }
 
 /// The key of a tile, a row, and the first and last column of the row.
-type Stretch = ((i32, i32), i32, (i32, i32));
+type TileRowSpan = ((i32, i32), i32, (i32, i32));
 
 impl HeightMap {
     /// Creates a map on which at most `cells` cells may be visited, counting repeated visits. After that, nothing changes and
@@ -96,10 +96,10 @@ impl HeightMap {
     /// capsule's columns in that row.
     ///
     /// The loop visits tiles, so that the cost of a long move depends on the known material and not on the length of the move.
-    fn stretches(&mut self, capsule: &Capsule) -> Vec<Stretch> {
+    fn stretches(&mut self, capsule: &Capsule) -> Vec<TileRowSpan> {
         let (first, last) = self.centres_within(capsule.rows());
         let mut found = Vec::new();
-        self.left = self.left.saturating_sub(ROW);
+        self.left = self.left.saturating_sub(ROW_COST);
         let mut row = first;
         while row <= last {
             let Some(((known, _), _)) = self.tiles.range((row.div_euclid(CELLS_PER_SIDE), i32::MIN)..).next()
@@ -121,7 +121,7 @@ impl HeightMap {
         found
     }
 
-    fn stretches_of_row(&mut self, row: i32, column: i32, last: i32, found: &mut Vec<Stretch>) {
+    fn stretches_of_row(&mut self, row: i32, column: i32, last: i32, found: &mut Vec<TileRowSpan>) {
         let tile_row = row.div_euclid(CELLS_PER_SIDE);
         let tiles =
             (tile_row, column.div_euclid(CELLS_PER_SIDE))..=(tile_row, last.div_euclid(CELLS_PER_SIDE));
@@ -137,7 +137,7 @@ impl HeightMap {
     /// not be visited.
     fn spend(&mut self, column: i32, last: i32) -> bool {
         let cells = u64::try_from(i64::from(last) - i64::from(column)).unwrap_or(0);
-        self.left = self.left.saturating_sub(ROW + cells);
+        self.left = self.left.saturating_sub(ROW_COST + cells);
         !self.is_exhausted()
     }
 
@@ -173,12 +173,12 @@ fn rounded(height: f64) -> f32 {
 }
 
 /// Maximum absolute value of a cell's index, far enough from the limits of its type to prevent overflow.
-const MOST_INDEX: f64 = 1e9;
+const MAX_CELL_INDEX: f64 = 1e9;
 
 /// Converts an index to an integer, clamping extreme values.
 fn whole(index: f64) -> i32 {
     #[expect(clippy::cast_possible_truncation, reason = "cut to the range")]
-    let whole = index.clamp(-MOST_INDEX, MOST_INDEX) as i32;
+    let whole = index.clamp(-MAX_CELL_INDEX, MAX_CELL_INDEX) as i32;
     whole
 }
 

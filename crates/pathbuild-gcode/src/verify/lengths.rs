@@ -77,7 +77,7 @@ impl<'c> LengthRules<'c> {
     pub fn step(&mut self, step: &Step) {
         self.tools.step(step);
         match &step.action {
-            Action::SelectTool(number) => self.select(step.line, *number),
+            Action::SelectTool(number) => self.check_selected_tool(step.line, *number),
             Action::ChangeTool(number) => {
                 self.is_judged = false;
                 self.has_changed = true;
@@ -89,22 +89,22 @@ impl<'c> LengthRules<'c> {
                     self.first.get_or_insert(step.line);
                 }
             }
-            Action::Move(movement) => self.moves(step.line, movement),
+            Action::Move(movement) => self.check_move(step.line, movement),
             _ => {}
         }
     }
 
-    fn moves(&mut self, line: u32, movement: &Move) {
+    fn check_move(&mut self, line: u32, movement: &Move) {
         if let Some(waiting) = &mut self.waiting {
             waiting.has_cut |= is_cut_in_stock(line, movement, self.stock);
         }
         if !self.is_judged {
-            self.cut(line, movement);
+            self.check_cut(line, movement);
         }
     }
 
     /// Handles a T word, which on controls with a tool changer may only prepare the next change.
-    fn select(&mut self, line: u32, number: u32) {
+    fn check_selected_tool(&mut self, line: u32, number: u32) {
         self.leave_waiting(Some(number));
         let is_new = self.has_changed && self.tools.inserted() != Some(number);
         self.waiting = is_new.then_some(WaitingTool { line, number, has_cut: false });
@@ -121,7 +121,7 @@ impl<'c> LengthRules<'c> {
         });
     }
 
-    fn cut(&mut self, line: u32, movement: &Move) {
+    fn check_cut(&mut self, line: u32, movement: &Move) {
         let rises = movement.keeps_xy() && movement.to.z() > movement.from.z();
         if movement.named.is_some() || rises || !is_cut_in_stock(line, movement, self.stock) {
             return;

@@ -10,21 +10,21 @@ use pathbuild_toolpath as toolpath;
 use pathbuild_toolpath::{Comment, ProgramStep as Emitted};
 
 use super::excursion::Excursions;
-use super::height_map::{Capsule, HeightMap, RESIDUE};
+use super::height_map::{Capsule, HeightMap, RESIDUE_HEIGHT};
 use crate::interpret::Program;
 use crate::read::Problems;
 
 /// Maximum number of cells in memory. A resolution of the stock that would require more cells is made coarser.
-const MOST_KEPT: f64 = 16e6;
+const MAX_CELLS_IN_MEMORY: f64 = 16e6;
 
 /// Minimum number of cells across the cutter for a useful map.
-const FEWEST_ACROSS: f64 = 4.0;
+const MIN_CELLS_ACROSS_CUTTER: f64 = 4.0;
 
 /// Divisor of the side of a cell that gives the greatest distance of chords from their arc.
-const CHORDS: f64 = 4.0;
+const CELL_PER_SAGITTA: f64 = 4.0;
 
 /// Half the width of a centre line, as a share of the side of a cell: more than half the diagonal of a cell.
-const CENTRE_LINE: f64 = 0.75;
+const CENTRE_LINE_HALF_WIDTH: f64 = 0.75;
 
 /// Upper bound on the visits per cell within O of a cut: one to add the material, half a visit on average to cut it, because a cut is only half as
 /// wide, and the cost of the rows.
@@ -32,10 +32,10 @@ const VISITS_PER_CELL: f64 = 3.0;
 
 /// Applies the moves of a program to the stock and reports rapid moves that hit material.
 pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
-    follow(program, stock, problems, &mut |bench, line, movement, problems| {
-        bench.excursion(line, movement, problems);
+    apply_moves(program, stock, problems, &mut |bench, line, movement, problems| {
+        bench.check_excursion(line, movement, problems);
         if movement.pace == Pace::Rapid {
-            bench.pass(line, movement, problems);
+            bench.check_rapid(line, movement, problems);
         }
     });
 }
@@ -43,8 +43,8 @@ pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: 
 /// Returns the lines of the rapid moves that hit material, in ascending order; empty for programs that are too large for the map.
 pub fn rapid_hits(program: &(impl Program + ?Sized), stock: &Stock) -> Vec<u32> {
     let mut lines = Vec::new();
-    follow(program, stock, &mut Problems::default(), &mut |bench, line, movement, _| {
-        if movement.pace == Pace::Rapid && bench.hit(line, movement).is_some() {
+    apply_moves(program, stock, &mut Problems::default(), &mut |bench, line, movement, _| {
+        if movement.pace == Pace::Rapid && bench.first_hit(line, movement).is_some() {
             lines.push(line);
         }
     });
@@ -53,7 +53,7 @@ pub fn rapid_hits(program: &(impl Program + ?Sized), stock: &Stock) -> Vec<u32> 
 
 /// Applies the moves of a program to the stock. Each move is passed to the caller before it cuts. The program is processed three times: to find the
 /// size of the map, to find where there is material, and to remove it.
-fn follow(
+fn apply_moves(
     program: &(impl Program + ?Sized),
     stock: &Stock,
     problems: &mut Problems,
@@ -67,7 +67,9 @@ fn follow(
             d.with("count", extent.pieces).with("limit", limit).quoting("key", "verify-pieces")
         });
     }
-    let Some(resolution) = extent.resolution(stock) else { return too_large(extent.line, stock, problems) };
+    let Some(resolution) = extent.resolution(stock) else {
+        return report_too_large(extent.line, stock, problems);
+    };
     let mut bench = KnownMaterial::new(stock, resolution, stock.cells());
     let mut reached = 0;
     let mut each = |take: &mut dyn FnMut(&mut KnownMaterial<'_>, u32, &Move)| {
@@ -78,19 +80,19 @@ fn follow(
             }
         });
     };
-    each(&mut |bench, line, movement| bench.lay(line, movement));
+    each(&mut |bench, line, movement| bench.add_material(line, movement));
     each(&mut |bench, line, movement| {
         look(bench, line, movement, problems);
         if movement.pace != Pace::Rapid {
-            bench.mill(line, movement);
+            bench.remove_material(line, movement);
         }
     });
     if bench.map.is_exhausted() {
-        too_large(reached, stock, problems);
+        report_too_large(reached, stock, problems);
     }
 }
 
-fn too_large(line: u32, stock: &Stock, problems: &mut Problems) {
+fn report_too_large(line: u32, stock: &Stock, problems: &mut Problems) {
     problems.add_at_line(&say::TOO_LARGE_TO_FOLLOW, line, |d| {
         d.with("limit", stock.cells()).quoting("key", "verify-cells")
     });
@@ -98,7 +100,7 @@ fn too_large(line: u32, stock: &Stock, problems: &mut Problems) {
 
 /// Whether the given cuts, which are entirely below a rapid move, have cleared its path, assuming material up to `surface` all around. Returns false
 /// as well if the number of cells does not suffice.
-pub(super) fn has_room<'c>(
+pub(super) fn have_cleared_path<'c>(
     line: u32,
     movement: &Move,
     surface: f64,
@@ -111,12 +113,12 @@ pub(super) fn has_room<'c>(
     for part in bench.parts(movement) {
         bench.map.add(&capsule(&part, piece.cutter.diameter / 2.0), surface);
     }
-    let height = movement.from.z().min(movement.to.z()) + RESIDUE;
+    let height = movement.from.z().min(movement.to.z()) + RESIDUE_HEIGHT;
     for (line, cut) in cuts.into_iter().filter(|(_, cut)| cut.from.z().max(cut.to.z()) <= height) {
-        bench.mill(*line, cut);
+        bench.remove_material(*line, cut);
     }
     let mut problems = Problems::default();
-    bench.pass(line, movement, &mut problems);
+    bench.check_rapid(line, movement, &mut problems);
     problems.into_diagnostics().is_empty() && !bench.map.is_exhausted()
 }
 
@@ -166,7 +168,7 @@ impl MaterialEstimate {
         let Some(piece) = cutting_piece(line, movement, stock) else { return };
         self.line = line;
         self.area += covered_area(movement, piece.cutter.diameter);
-        self.pieces += u64::from(count(movement, stock.resolution() / CHORDS)) - 1;
+        self.pieces += u64::from(part_count(movement, stock.resolution() / CELL_PER_SAGITTA)) - 1;
         let sides = self.sides.get_or_insert([(f64::INFINITY, f64::NEG_INFINITY); 2]);
         for (side, extent) in sides.iter_mut().zip(movement.extent()) {
             let Some((low, high)) = extent else { continue };
@@ -182,8 +184,8 @@ impl MaterialEstimate {
         #[expect(clippy::cast_precision_loss, reason = "a limit")]
         let cells = stock.cells() as f64;
         let resolution =
-            stock.resolution().max(libm::sqrt(visited / cells)).max(libm::sqrt(kept / MOST_KEPT));
-        let is_of_use = stock.narrowest().is_none_or(|cutter| resolution * FEWEST_ACROSS <= cutter);
+            stock.resolution().max(libm::sqrt(visited / cells)).max(libm::sqrt(kept / MAX_CELLS_IN_MEMORY));
+        let is_of_use = stock.narrowest().is_none_or(|cutter| resolution * MIN_CELLS_ACROSS_CUTTER <= cutter);
         (is_of_use && resolution.is_finite()).then_some(resolution)
     }
 }
@@ -202,7 +204,7 @@ impl<'s> KnownMaterial<'s> {
     }
 
     /// Adds the material within O of a cutting move. Where the surface is unknown, material is only added along the rapid moves to be checked.
-    fn lay(&mut self, line: u32, movement: &Move) {
+    fn add_material(&mut self, line: u32, movement: &Move) {
         let is_unknown = |piece: &StockSpan| piece.surface == f64::INFINITY;
         if self.stock.at(line).is_some_and(is_unknown) {
             if movement.pace == Pace::Rapid && movement.is_known() {
@@ -222,7 +224,7 @@ impl<'s> KnownMaterial<'s> {
 
     /// Reports rapid moves down and up again without any other move between them, as if a hole were drilled or a slot milled with them. Where the
     /// material is known, the map decides instead.
-    fn excursion(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
+    fn check_excursion(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
         let Some(piece) = self.stock.at(line) else { return };
         let is_unknown = |descent: &Move| {
             let place = [descent.to.x(), descent.to.y()];
@@ -238,7 +240,7 @@ impl<'s> KnownMaterial<'s> {
 
     /// Removes the material along a cutting move. Cells that are only touched count as removed, so that the grid never causes a false
     /// report.
-    fn mill(&mut self, line: u32, movement: &Move) {
+    fn remove_material(&mut self, line: u32, movement: &Move) {
         let Some(piece) = cutting_piece(line, movement, self.stock) else { return };
         let highest = self.stock.highest().unwrap_or(piece.surface);
         for part in self.parts(movement).filter(|part| part.lowest() < highest) {
@@ -247,8 +249,8 @@ impl<'s> KnownMaterial<'s> {
     }
 
     /// Reports material along a rapid move.
-    fn pass(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
-        let Some(Hit { message, z, height, at: [x, y] }) = self.hit(line, movement) else { return };
+    fn check_rapid(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
+        let Some(Hit { message, z, height, at: [x, y] }) = self.first_hit(line, movement) else { return };
         let resolution = self.resolution;
         problems.add_at_line(message, line, |diagnostic| {
             diagnostic
@@ -261,7 +263,7 @@ impl<'s> KnownMaterial<'s> {
     }
 
     /// Returns the first material that a rapid move hits. Cells that are only touched do not count.
-    fn hit(&mut self, line: u32, movement: &Move) -> Option<Hit> {
+    fn first_hit(&mut self, line: u32, movement: &Move) -> Option<Hit> {
         let piece = self.stock.at(line).filter(|_| is_low_rapid(movement, self.stock))?;
         let is_plunge = movement.keeps_xy();
         let message = match is_plunge {
@@ -272,9 +274,14 @@ impl<'s> KnownMaterial<'s> {
         self.parts(movement).find_map(|part| {
             let z = if is_plunge { part.lowest() } else { part.highest() };
             // The capsule of a centre line contains at least one cell centre, and is narrower than the area that a cut along it clears.
-            let least = CENTRE_LINE * self.slack();
+            let least = CENTRE_LINE_HALF_WIDTH * self.slack();
             let cutter = capsule(&part, (piece.cutter.colliding / 2.0 - self.slack()).max(least));
-            self.map.highest_above(&cutter, z + RESIDUE).map(|(height, at)| Hit { message, z, height, at })
+            self.map.highest_above(&cutter, z + RESIDUE_HEIGHT).map(|(height, at)| Hit {
+                message,
+                z,
+                height,
+                at,
+            })
         })
     }
 
@@ -284,7 +291,7 @@ impl<'s> KnownMaterial<'s> {
     }
 
     fn parts(&self, movement: &Move) -> impl Iterator<Item = MovePiece> + use<> {
-        pieces(movement, self.resolution / CHORDS)
+        pieces(movement, self.resolution / CELL_PER_SAGITTA)
     }
 }
 
@@ -319,12 +326,12 @@ fn is_low_rapid(movement: &Move, stock: &Stock) -> bool {
 /// Returns an upper bound of the area in mm² within O of a move. An arc with different radii at its ends extends to the larger one.
 fn covered_area(movement: &Move, cutter: f64) -> f64 {
     let widest = movement.extent().iter().take(2).flatten().map(|(low, high)| high - low).fold(0.0, f64::max);
-    let tips = 2.0 * cutter * slopes(movement);
+    let tips = 2.0 * cutter * slope_parts(movement);
     2.0 * cutter * (movement.length().max(widest) + tips)
 }
 
 /// Maximum height of a part of a slope, in mm.
-const STEP: f64 = 0.05;
+const MAX_PART_HEIGHT: f64 = 0.05;
 
 /// Maximum number of parts per move.
 const MAX_PARTS_PER_MOVE: f64 = 4096.0;
@@ -347,15 +354,15 @@ impl MovePiece {
 }
 
 /// Returns the number of parts required because a move is not level, at least 1.
-pub(super) fn slopes(movement: &Move) -> f64 {
+pub(super) fn slope_parts(movement: &Move) -> f64 {
     let is_plunge = movement.keeps_xy() && matches!(movement.shape, MoveShape::Line);
     let rise = libm::fabs(movement.to.z() - movement.from.z());
-    if is_plunge { 1.0 } else { (rise / STEP).ceil().clamp(1.0, MAX_PARTS_PER_MOVE) }
+    if is_plunge { 1.0 } else { (rise / MAX_PART_HEIGHT).ceil().clamp(1.0, MAX_PARTS_PER_MOVE) }
 }
 
 /// Returns the number of parts into which a move is divided, at least 1.
-pub(super) fn count(movement: &Move, sagitta: f64) -> u32 {
-    let slope = slopes(movement);
+pub(super) fn part_count(movement: &Move, sagitta: f64) -> u32 {
+    let slope = slope_parts(movement);
     let count = match movement.shape {
         MoveShape::Line => slope,
         MoveShape::Arc(arc) => slope
@@ -372,20 +379,22 @@ pub(super) fn count(movement: &Move, sagitta: f64) -> u32 {
 
 /// Divides a move into straight parts. Arcs become chords at a distance of at most `sagitta` mm.
 pub(super) fn pieces(movement: &Move, sagitta: f64) -> impl Iterator<Item = MovePiece> + use<> {
-    movement.split(count(movement, sagitta)).map(|piece| MovePiece { from: piece.from.at, to: piece.to.at })
+    movement
+        .split(part_count(movement, sagitta))
+        .map(|piece| MovePiece { from: piece.from.at, to: piece.to.at })
 }
 
 /// The finest useful resolution in mm; programs have three decimals.
-const FINEST: f64 = 0.01;
+const MIN_RESOLUTION: f64 = 0.01;
 
 /// The smallest width in mm of a cutter that counts as a centre line.
-const FINEST_POINT: f64 = 1.0;
+const MIN_CENTRE_LINE_CUTTER: f64 = 1.0;
 
 /// Default for the maximum number of visited cells.
-const MOST_VISITED: u64 = 1_000_000_000;
+const DEFAULT_MAX_VISITED_CELLS: u64 = 1_000_000_000;
 
 /// Default for the number of cells across the narrowest cutter.
-const CELLS_ACROSS: f64 = 12.0;
+const DEFAULT_CELLS_ACROSS_CUTTER: f64 = 12.0;
 
 /// The upper face of the material and the cutter, as they change over the lines of a program.
 #[derive(Clone, Debug, PartialEq)]
@@ -436,7 +445,7 @@ impl Cutter {
             self.removed.max(self.diameter / 4.0)
         } else if self.colliding == 0.0 {
             // The diameter that a program states for a V-bit may be that of its point.
-            self.diameter.max(FINEST_POINT)
+            self.diameter.max(MIN_CENTRE_LINE_CUTTER)
         } else {
             self.diameter
         }
@@ -462,8 +471,15 @@ impl Stock {
     /// Creates stock whose surface or cutter changes; the pieces must be in the order of their lines.
     pub fn of_pieces(pieces: Vec<StockSpan>) -> Self {
         let highest = pieces.iter().map(|piece| piece.surface).reduce(f64::max);
-        let stock = Self { pieces, highest, resolution: FINEST, cells: MOST_VISITED, most_pieces: u64::MAX };
-        let resolution = stock.narrowest().map_or(FINEST, |cutter| cutter / CELLS_ACROSS);
+        let stock = Self {
+            pieces,
+            highest,
+            resolution: MIN_RESOLUTION,
+            cells: DEFAULT_MAX_VISITED_CELLS,
+            most_pieces: u64::MAX,
+        };
+        let resolution =
+            stock.narrowest().map_or(MIN_RESOLUTION, |cutter| cutter / DEFAULT_CELLS_ACROSS_CUTTER);
         stock.with_resolution(resolution)
     }
 
@@ -494,16 +510,16 @@ impl Stock {
     /// (book: program/gcode), separately for each embedded path. `None` if there is no such move.
     pub fn of_native_text(program: &(impl Program + ?Sized), cutter: Cutter) -> Option<Self> {
         let mut pieces = Vec::new();
-        let mut section = Section { line: 0, surface: None };
+        let mut section = PathSection { line: 0, surface: None };
         let mut before: Option<Move> = None;
         program.each(&mut |step| match &step.action {
             Action::Comment(text) if is_subpath_border(text) => {
                 pieces.extend(section.piece(cutter));
-                section = Section { line: step.line, surface: None };
+                section = PathSection { line: step.line, surface: None };
             }
             Action::Move(movement) => {
                 if let Some(last) = before.replace(*movement) {
-                    section.hand_over(&last, movement);
+                    section.check_plunge_after_rapid(&last, movement);
                 }
             }
             _ => {}
@@ -514,7 +530,7 @@ impl Stock {
 
     /// Raises the surface to `surface` wherever it is lower or unknown.
     #[must_use]
-    pub fn reaching(self, surface: f64) -> Self {
+    pub fn raised_to(self, surface: f64) -> Self {
         let first = self.pieces.first().map(|first| StockSpan { line: 0, surface, ..*first });
         let raised = |piece: StockSpan| StockSpan { surface: piece.surface.max(surface), ..piece };
         let begins_late = |first: &StockSpan| self.pieces.iter().all(|piece| piece.line > first.line);
@@ -539,7 +555,7 @@ impl Stock {
 
     /// Sets the side of a cell in mm. If it is too fine to be useful, a coarser one is used.
     pub fn with_resolution(self, resolution: f64) -> Self {
-        Self { resolution: resolution.max(FINEST), ..self }
+        Self { resolution: resolution.max(MIN_RESOLUTION), ..self }
     }
 
     /// Sets the maximum number of visited cells. (`[limits] verify-cells`)
@@ -580,14 +596,14 @@ impl Stock {
 }
 
 /// The lines of a native program that belong to a single path.
-struct Section {
+struct PathSection {
     line: u32,
     surface: Option<f64>,
 }
 
-impl Section {
+impl PathSection {
     /// Checks two consecutive moves for a descent by rapid followed by a descent at feed.
-    fn hand_over(&mut self, first: &Move, second: &Move) {
+    fn check_plunge_after_rapid(&mut self, first: &Move, second: &Move) {
         let is_vertical = |movement: &Move| movement.keeps_xy() && movement.to.z() < movement.from.z();
         if is_vertical(first)
             && is_vertical(second)

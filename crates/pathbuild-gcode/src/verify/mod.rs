@@ -20,7 +20,7 @@ mod material;
 mod modes;
 mod rapids;
 mod rules;
-mod stated;
+mod stated_statistics;
 mod tool_state;
 mod words;
 
@@ -28,8 +28,8 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_motion::Step;
 
 pub use self::compare::same_move_lines;
-pub use self::rules::coarse_arcs;
-pub use against::{Agreement, Clamps, DrawingComparison, ExpectedProgram, PastClamps, ToolUse};
+pub use self::rules::coarse_arc_finding;
+pub use against::{Agreement, ClampCollisions, Clamps, DrawingComparison, ExpectedProgram, ToolUse};
 pub use blind_rapids::{BlindRapidRules, BlindRapids};
 pub use chip_load::ChipLoadRules;
 pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};
@@ -43,7 +43,7 @@ pub use material::{Cutter, Stock, StockSpan, rapid_hits};
 pub use modes::foreign_modes;
 pub use rapids::{beyond_machine, rapids_into_material};
 pub use rules::Rules;
-pub use stated::StatedStatistics;
+pub use stated_statistics::StatedStatistics;
 pub use tool_state::{LengthFit, ToolState};
 pub use words::{PostWords, WordRules};
 

@@ -15,7 +15,7 @@ use pathbuild_motion::{Move, MoveShape, Pace, Position, Step};
 use pathbuild_toolpath as toolpath;
 
 use super::excursion::Excursions;
-use super::height_map::RESIDUE;
+use super::height_map::RESIDUE_HEIGHT;
 use super::machine::{Machine, MachineRules};
 use super::material;
 use super::material::{Stock, StockSpan, cutting_piece};
@@ -23,13 +23,13 @@ use crate::interpret::Program;
 use crate::read::Problems;
 
 /// Maximum number of preceding cuts examined for a rapid move. It covers the last turns of a helical circle and the end of a chain.
-const MOST_CUTS: usize = 64;
+const MAX_EXAMINED_CUTS: usize = 64;
 
 /// Number of suspect rapid moves above which all moves are examined.
-const MOST_SUSPECTS: usize = 16;
+const MAX_SUSPECTS: usize = 16;
 
 /// Maximum number of cells visited for a rapid move.
-const MOST_CELLS: u64 = 1_000_000;
+const MAX_VISITED_CELLS: u64 = 1_000_000;
 
 /// Returns the moves of a drawing's program that exceed the machine's capabilities, by step number.
 pub fn beyond_machine(drawn: &toolpath::Program, machine: &Machine) -> Vec<Diagnostic> {
@@ -45,7 +45,7 @@ pub fn rapids_into_material(drawn: &toolpath::Program) -> Vec<Diagnostic> {
     if suspects.is_empty() {
         return Vec::new();
     }
-    let places = (suspects.len() <= MOST_SUSPECTS).then(|| suspects.iter().map(sides).collect());
+    let places = (suspects.len() <= MAX_SUSPECTS).then(|| suspects.iter().map(sides).collect());
     let mut problems = Problems::default();
     material::check(&NearbyMoves { drawn, places, reach: 2.0 * stock.widest() }, &stock, &mut problems);
     problems.into_diagnostics()
@@ -54,7 +54,7 @@ pub fn rapids_into_material(drawn: &toolpath::Program) -> Vec<Diagnostic> {
 /// Returns the rapid moves whose path the preceding cuts may not have cleared.
 fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
     let tops = LazyCell::new(|| CutGrid::of(drawn, stock));
-    let mut recent: VecDeque<(u32, Move)> = VecDeque::with_capacity(MOST_CUTS);
+    let mut recent: VecDeque<(u32, Move)> = VecDeque::with_capacity(MAX_EXAMINED_CUTS);
     let (mut excursions, mut found) = (Excursions::default(), Vec::new());
     for (line, movement) in drawn.moves() {
         let surface = stock.at(line).map(|piece| piece.surface);
@@ -66,16 +66,23 @@ fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
                     return true;
                 };
                 is_in_circle(&movement, piece.cutter.diameter, &recent)
-                    || material::has_room(line, &movement, surface, &recent, stock, MOST_CELLS)
+                    || material::have_cleared_path(
+                        line,
+                        &movement,
+                        surface,
+                        &recent,
+                        stock,
+                        MAX_VISITED_CELLS,
+                    )
             };
             if !has_room() {
                 found.push(movement);
             }
-            if found.len() > MOST_SUSPECTS {
+            if found.len() > MAX_SUSPECTS {
                 break;
             }
         } else {
-            if recent.len() == MOST_CUTS {
+            if recent.len() == MAX_EXAMINED_CUTS {
                 recent.pop_front();
             }
             recent.push_back((line, movement));
@@ -91,7 +98,7 @@ fn stock_below_surface<'s>(
     stock: &'s Stock,
     tops: &LazyCell<CutGrid, impl FnOnce() -> CutGrid>,
 ) -> Option<(&'s StockSpan, f64)> {
-    let low = movement.from.z().min(movement.to.z()) + RESIDUE;
+    let low = movement.from.z().min(movement.to.z()) + RESIDUE_HEIGHT;
     let goes_up = movement.keeps_xy() && movement.to.z() >= movement.from.z();
     if goes_up || stock.highest().is_none_or(|highest| low >= highest) {
         return None;
@@ -107,7 +114,7 @@ fn is_in_circle(movement: &Move, cutter: f64, recent: &VecDeque<(u32, Move)>) ->
     let Some(MoveShape::Arc(last)) = recent.back().map(|(_, cut)| cut.shape) else { return false };
     let from_centre = |at: &Position| libm::hypot(at.x() - last.centre[0], at.y() - last.centre[1]);
     let radius = from_centre(&movement.from);
-    let low = movement.from.z().min(movement.to.z()) + RESIDUE;
+    let low = movement.from.z().min(movement.to.z()) + RESIDUE_HEIGHT;
     // The angle of a cut on that circle, if the cut is deep enough for the rapid move.
     let angle = |(_, cut): &(u32, Move)| match cut.shape {
         MoveShape::Arc(arc) => {

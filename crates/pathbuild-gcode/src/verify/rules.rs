@@ -15,7 +15,7 @@ use crate::interpret::{Options, code_name, interpret_each};
 use crate::read::{BlockReader, Problems, Value, Word};
 
 /// Heights are equal if they differ by less than this, in mm.
-const SAME_HEIGHT: f64 = 0.002;
+const HEIGHT_TOLERANCE: f64 = 0.002;
 
 /// The rules that need no map of the material: pass every step of a program, then call [`finish`](Self::finish). The cost is
 /// proportional to the number of steps.
@@ -98,16 +98,16 @@ impl<'c> Rules<'c> {
         let line = step.line;
         self.changes_frame |= self.frames.step(step);
         match &step.action {
-            Action::Move(movement) => self.moves(line, movement),
-            Action::Spindle(spindle) => self.switch(line, *spindle),
+            Action::Move(movement) => self.check_move(line, movement),
+            Action::Spindle(spindle) => self.check_spindle_switch(line, *spindle),
             Action::Change(Change::Offsets { code, are_shifted: Some(are_shifted) }) => {
                 self.shifted = are_shifted.then_some((line, *code, self.has_cut));
             }
             Action::End => self.spindle.turning = Turning::Unstated,
-            Action::ChangeTool(_) => self.tool_change(line),
+            Action::ChangeTool(_) => self.check_tool_change(line),
             Action::SelectTool(_) => {
                 self.by_hand.is_selected = true;
-                self.change_by_hand(line);
+                self.check_change_by_hand(line);
             }
             Action::Stop { optional } => {
                 if self.at.known.has(Axes::Z) && self.surface_above(line, self.at.z()).is_some() {
@@ -116,7 +116,7 @@ impl<'c> Rules<'c> {
                 if !optional {
                     self.by_hand.is_stopped = true;
                     self.by_hand.spinning = self.spindle.turning.is_on().then_some(line);
-                    self.change_by_hand(line);
+                    self.check_change_by_hand(line);
                 }
             }
             _ => {}
@@ -125,22 +125,22 @@ impl<'c> Rules<'c> {
 
     /// Returns all problems, ordered by line.
     pub fn finish(mut self) -> Vec<Diagnostic> {
-        self.end();
+        self.check_end();
         self.problems.into_diagnostics()
     }
 
-    fn moves(&mut self, line: u32, movement: &Move) {
+    fn check_move(&mut self, line: u32, movement: &Move) {
         self.line = line;
         self.by_hand = ChangeByHand::default();
         self.report_stop();
-        self.first_move(line, movement);
-        self.diagonal(line, movement);
-        self.home(line, movement);
+        self.check_first_move(line, movement);
+        self.check_diagonal(line, movement);
+        self.check_home_move(line, movement);
         self.leave_frame(line, movement);
-        probe(line, movement, &mut self.problems);
-        self.turning_probe(line, movement);
-        self.after_probe(line, movement);
-        self.cutting(line, movement);
+        check_probe_direction(line, movement, &mut self.problems);
+        self.check_turning_probe(line, movement);
+        self.check_after_probe(line, movement);
+        self.check_cutting(line, movement);
         self.directions.add(line, movement, &mut self.problems);
         self.is_height_homed =
             !movement.to.known.has(Axes::Z) && (self.is_height_homed || movement.homes_z());
@@ -148,7 +148,7 @@ impl<'c> Rules<'c> {
     }
 
     /// Checks moves to machine positions, which are straight rapid moves from the position of the tool.
-    fn home(&mut self, line: u32, movement: &Move) {
+    fn check_home_move(&mut self, line: u32, movement: &Move) {
         let stays = movement.to.known.has(Axes::XY) && movement.keeps_xy();
         if movement.named.is_none() || stays || !movement.from.known.has(Axes::Z) {
             return;
@@ -174,7 +174,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    fn switch(&mut self, line: u32, spindle: Spindle) {
+    fn check_spindle_switch(&mut self, line: u32, spindle: Spindle) {
         let before = std::mem::replace(&mut self.spindle, spindle);
         if spindle.turning == Turning::Unstated {
             return;
@@ -192,12 +192,12 @@ impl<'c> Rules<'c> {
     /// Returns the surface of the material if it is above the tip of the tool.
     fn surface_above(&self, line: u32, z: f64) -> Option<f64> {
         let surface = self.stock?.at(line)?.surface;
-        (z < surface - SAME_HEIGHT).then_some(surface)
+        (z < surface - HEIGHT_TOLERANCE).then_some(surface)
     }
 
     /// Checks that the tool is raised before the first move in the plane. A move to a machine position that does not change X or Y, such as
     /// `G53 Z0` or `G28 Z0`, is assumed to raise it, although the height is unknown.
-    fn first_move(&mut self, line: u32, movement: &Move) {
+    fn check_first_move(&mut self, line: u32, movement: &Move) {
         if self.is_raised {
             return;
         }
@@ -211,7 +211,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    fn diagonal(&mut self, line: u32, movement: &Move) {
+    fn check_diagonal(&mut self, line: u32, movement: &Move) {
         let is_known = movement.is_known();
         let is_diagonal = !movement.keeps_xy() && movement.to.z() < movement.from.z();
         let z = movement.to.z();
@@ -226,12 +226,12 @@ impl<'c> Rules<'c> {
     }
 
     /// Checks that the spindle turns, but only in programs that switch it: on many machines the operator switches the spindle.
-    fn cutting(&mut self, line: u32, movement: &Move) {
+    fn check_cutting(&mut self, line: u32, movement: &Move) {
         if !is_cut(movement) {
             return;
         }
         self.has_cut = true;
-        self.position(line, movement);
+        self.check_cut_position(line, movement);
         if is_above_stock(line, movement, self.stock) {
             return;
         }
@@ -255,7 +255,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    fn turning_probe(&mut self, line: u32, movement: &Move) {
+    fn check_turning_probe(&mut self, line: u32, movement: &Move) {
         let is_probe = matches!(movement.pace, Pace::Probe { .. });
         if is_probe && self.spindle.turning.is_on() && !std::mem::replace(&mut self.turning_probe_said, true)
         {
@@ -264,7 +264,7 @@ impl<'c> Rules<'c> {
     }
 
     /// Reports the first cut at an unknown position in the plane, because other checks ignore such moves.
-    fn position(&mut self, line: u32, movement: &Move) {
+    fn check_cut_position(&mut self, line: u32, movement: &Move) {
         // Programs for a rotary axis use only X or Y, so one known axis suffices.
         let is_unknown = movement.from.known.and(movement.to.known).and(Axes::XY).is_empty();
         if is_unknown && movement.named.is_none() && !std::mem::replace(&mut self.position_said, true) {
@@ -280,7 +280,7 @@ impl<'c> Rules<'c> {
     }
 
     /// Checks the move after a probe, when the touched material is still below the tool.
-    fn after_probe(&mut self, line: u32, movement: &Move) {
+    fn check_after_probe(&mut self, line: u32, movement: &Move) {
         let stays_in_plane = movement.keeps_xy();
         let is_known = movement.from.known.and(movement.to.known).and(Axes::XY) == Axes::XY;
         let homed = movement.named.map_or(Axes::NONE, NamedPosition::axes);
@@ -288,12 +288,12 @@ impl<'c> Rules<'c> {
         if self.has_probed && (is_known && !stays_in_plane || goes_home) {
             self.problems.add_at_line(&say::PROBE_NOT_RAISED, line, |d| d);
         }
-        self.below_contact(line, movement);
+        self.check_below_contact(line, movement);
         self.has_probed = matches!(movement.pace, Pace::Probe { toward: true, .. }) && stays_in_plane;
     }
 
     /// Checks rapid moves after a downward probe: the material that the probe touched cannot be below the end of its move.
-    fn below_contact(&mut self, line: u32, movement: &Move) {
+    fn check_below_contact(&mut self, line: u32, movement: &Move) {
         let end = self.probe_end.take().filter(|_| !movement.from.known.has(Axes::Z) && !movement.homes_z());
         let is_probe = matches!(movement.pace, Pace::Probe { toward: true, .. });
         if let Some(end) = end.filter(|end| movement.pace == Pace::Rapid && movement.to.z() < *end) {
@@ -310,13 +310,13 @@ impl<'c> Rules<'c> {
     }
 
     /// Checks a tool change by hand: T and a stop, in any order, without a move between them.
-    fn change_by_hand(&mut self, line: u32) {
+    fn check_change_by_hand(&mut self, line: u32) {
         if self.by_hand.is_selected && self.by_hand.is_stopped {
             let ChangeByHand { spinning, .. } = std::mem::take(&mut self.by_hand);
             if let Some(stop) = spinning {
                 self.problems.add_at_line(&say::SPINNING_AT_CHANGE, stop, |d| d);
             }
-            self.tool_change(line);
+            self.check_tool_change(line);
         }
     }
 
@@ -329,7 +329,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    fn tool_change(&mut self, line: u32) {
+    fn check_tool_change(&mut self, line: u32) {
         self.stop_at_depth = None;
         let z = self.at.z();
         if !self.at.known.has(Axes::Z) {
@@ -341,7 +341,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    fn end(&mut self) {
+    fn check_end(&mut self) {
         if !matches!(self.spindle.turning, Turning::Off | Turning::Unstated) {
             self.problems.add_at_line(&say::SPINDLE_LEFT_ON, self.spindle_line, |d| d);
         }
@@ -388,7 +388,7 @@ impl ArcDirections {
         let (from, to) = (&movement.from, &movement.to);
         let before = std::mem::take(self);
         let is_level = from.known.and(to.known) == Axes::ALL && from.z() == to.z();
-        if !is_level || movement.is_nothing() || !matches!(movement.pace, Pace::Feed(_)) {
+        if !is_level || movement.is_standstill() || !matches!(movement.pace, Pace::Feed(_)) {
             return;
         }
         match movement.shape {
@@ -423,7 +423,7 @@ pub(super) fn is_cut_in_stock(line: u32, movement: &Move, stock: Option<&Stock>)
 }
 
 fn is_cut(movement: &Move) -> bool {
-    matches!(movement.pace, Pace::Feed(_)) && !movement.is_nothing() && !is_first_height(movement)
+    matches!(movement.pace, Pace::Feed(_)) && !movement.is_standstill() && !is_first_height(movement)
 }
 
 /// Whether a move stays above the material; false if that is unknown.
@@ -439,7 +439,7 @@ fn is_first_height(movement: &Move) -> bool {
 }
 
 /// Checks that a probe moves towards the material, which is below.
-fn probe(line: u32, movement: &Move, problems: &mut Problems) {
+fn check_probe_direction(line: u32, movement: &Move, problems: &mut Problems) {
     let Pace::Probe { toward: true, .. } = movement.pace else { return };
     let stays_in_plane = movement.keeps_xy();
     if !movement.is_known() || !stays_in_plane {
@@ -453,14 +453,14 @@ fn probe(line: u32, movement: &Move, problems: &mut Problems) {
 }
 
 /// Number of decimals that arc centres in millimetres require.
-const FINE: u8 = 3;
+const MIN_CENTRE_DECIMALS: u8 = 3;
 
 /// Radii are equal if they differ by less than this, in mm.
 const RADIUS_TOLERANCE: f64 = 1e-4;
 
 /// Reports the first arc of a program in millimetres if its arc centres have decimals but never three of them. Numbers without decimals are
 /// considered to be written by hand and exact.
-pub fn coarse_arcs(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
+pub fn coarse_arc_finding(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
     let mut reader = BlockReader::new(text, dialect.rules());
     let (mut finest, mut first) = (0, None);
     while let Some(block) = reader.next_block() {
@@ -473,7 +473,7 @@ pub fn coarse_arcs(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
             if is_centre || matches!(word.letter, b'X' | b'Y' | b'Z') {
                 finest = finest.max(number.decimals);
             }
-            if finest >= FINE {
+            if finest >= MIN_CENTRE_DECIMALS {
                 return None;
             }
             if is_centre && number.decimals > 0 {

@@ -14,7 +14,8 @@ use crate::interpret::{Options, code_name, interpret_each};
 use crate::read::Problems;
 
 /// Sample program with all words that native programs use: see [`crate::native`].
-const NATIVE: &[u8] = b"G17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z5\nG00 X0 Y0\nF40 G38.3 Z0\nG4 P4\nM30\n";
+const NATIVE_SAMPLE: &[u8] =
+    b"G17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z5\nG00 X0 Y0\nF40 G38.3 Z0\nG4 P4\nM30\n";
 
 /// The words that a post writes.
 #[derive(Clone, Debug, Default)]
@@ -41,7 +42,7 @@ pub struct PostWords {
 
 /// The part of a program that has been reached.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Progress {
+enum ReachedPart {
     /// The first move has not been reached.
     #[default]
     Head,
@@ -50,7 +51,7 @@ enum Progress {
     Cutting,
 }
 
-impl Progress {
+impl ReachedPart {
     fn step(&mut self, step: &Step) {
         match &step.action {
             Action::Move(movement) if movement.pace != Pace::Rapid => *self = Self::Cutting,
@@ -63,7 +64,7 @@ impl Progress {
 impl PostWords {
     /// Returns the words of the native program, for dialects that no post writes.
     pub fn native(dialect: Dialect) -> Self {
-        let words = Self::of_programs([NATIVE], Dialect::Native);
+        let words = Self::of_programs([NATIVE_SAMPLE], Dialect::Native);
         if dialect == Dialect::Native {
             words
         } else {
@@ -75,27 +76,27 @@ impl PostWords {
     pub fn of_programs<T: AsRef<[u8]>>(programs: impl IntoIterator<Item = T>, dialect: Dialect) -> Self {
         let mut words = Self::default();
         for (index, program) in programs.into_iter().enumerate() {
-            let mut progress = if index == 0 { Progress::Head } else { Progress::Approach };
+            let mut progress = if index == 0 { ReachedPart::Head } else { ReachedPart::Approach };
             interpret_each(program.as_ref(), dialect, &Options::default(), &mut |step| {
                 progress.step(&step);
-                words.take(&step, progress);
+                words.collect_words(&step, progress);
             });
         }
         words
     }
 
-    fn take(&mut self, step: &Step, progress: Progress) {
+    fn collect_words(&mut self, step: &Step, progress: ReachedPart) {
         match &step.action {
             Action::Move(movement) if moves_in_plane(movement) => {
                 self.raises_first.get_or_insert(movement.from.known.has(Axes::Z));
             }
             Action::Word(word) => {
                 self.codes.insert((word.letter, word.code));
-                if word.effect == WordEffect::Place && progress != Progress::Cutting {
+                if word.effect == WordEffect::Place && progress != ReachedPart::Cutting {
                     self.first_places.insert(word.code);
                 }
-                if let Some(group) = word.group.filter(|group| is_kept(*group))
-                    && progress == Progress::Head
+                if let Some(group) = word.group.filter(|group| is_retained(*group))
+                    && progress == ReachedPart::Head
                 {
                     self.lead.insert(group, word.code);
                 }
@@ -126,7 +127,7 @@ impl PostWords {
     }
 
     /// Creates the diagnostic about an unknown word.
-    fn foreign(&self, word: String, dialect: Dialect, is_strict: bool) -> Diagnostic {
+    fn foreign_word(&self, word: String, dialect: Dialect, is_strict: bool) -> Diagnostic {
         let severity = if is_strict { Severity::Error } else { Severity::Warning };
         let found = match &self.definition {
             Some(name) => Diagnostic::new(&say::FOREIGN_TO_DEFINITION).quoting("post", name.as_str()),
@@ -152,7 +153,7 @@ fn moves_in_plane(movement: &Move) -> bool {
 }
 
 /// Whether a control keeps the state of a group from one program to the next. Motions, tool lengths and corners are checked elsewhere.
-fn is_kept(group: Group) -> bool {
+fn is_retained(group: Group) -> bool {
     !matches!(
         group,
         Group::NonModal
@@ -171,7 +172,7 @@ pub struct WordRules<'w> {
     dialect: Dialect,
     /// Whether the program must agree with a drawing.
     is_strict: bool,
-    progress: Progress,
+    progress: ReachedPart,
     has_moved_in_plane: bool,
     /// Whether a move to a machine position has left X and Y unchanged, so that it is assumed to have raised the cutter.
     has_gone_home: bool,
@@ -189,7 +190,7 @@ impl<'w> WordRules<'w> {
             words,
             dialect,
             is_strict: false,
-            progress: Progress::Head,
+            progress: ReachedPart::Head,
             has_moved_in_plane: false,
             has_gone_home: false,
             early_places: Vec::new(),
@@ -206,7 +207,7 @@ impl<'w> WordRules<'w> {
     /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         self.progress.step(step);
-        if self.progress == Progress::Cutting {
+        if self.progress == ReachedPart::Cutting {
             for (line, word) in std::mem::take(&mut self.early_places) {
                 self.report(line, word);
             }
@@ -234,7 +235,7 @@ impl<'w> WordRules<'w> {
     }
 
     /// Checks a word that was omitted when the program was translated by the definition of its post.
-    pub fn left_out(&mut self, line: u32, word: &str) {
+    pub fn check_omitted_word(&mut self, line: u32, word: &str) {
         if !self.words.has_other(word) {
             self.report_name(line, word.to_owned());
         }
@@ -242,7 +243,7 @@ impl<'w> WordRules<'w> {
 
     fn report_name(&mut self, line: u32, word: String) {
         let (words, dialect, is_strict) = (self.words, self.dialect, self.is_strict);
-        self.problems.add_at_line(&say::FOREIGN_WORD, line, |_| words.foreign(word, dialect, is_strict));
+        self.problems.add_at_line(&say::FOREIGN_WORD, line, |_| words.foreign_word(word, dialect, is_strict));
     }
 
     /// Checks the first move in the plane. If it also changes the height, it is inclined and begins at an unknown height. This is a problem if
@@ -261,7 +262,7 @@ impl<'w> WordRules<'w> {
     fn is_early_place(&self, word: StatedWord) -> bool {
         self.is_strict
             && word.effect == WordEffect::Place
-            && self.progress != Progress::Cutting
+            && self.progress != ReachedPart::Cutting
             && !self.words.first_places.contains(&word.code)
     }
 

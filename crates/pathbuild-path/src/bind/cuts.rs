@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{drawing, paths};
 
 use crate::approx::{above, at_least};
-use crate::bind::{Binder, FaultSite, Scope, pushed};
+use crate::bind::{Binder, FaultSite, Scope, push_indexed};
 use crate::element::{Cut, Element};
 use crate::geometry::{Curve, Xy};
 use crate::letter::{CHAIN_LETTERS, ElementClass, Letter};
@@ -26,7 +26,7 @@ impl Binder<'_> {
         let scope = Scope { at: FaultSite::Element(element), class, values: &values };
         let parameters = self.cut_parameters(&scope, element.text, cut, curve, tool);
         let order = self.order(&scope);
-        (order, pushed(&mut self.cuts, parameters))
+        (order, push_indexed(&mut self.cuts, parameters))
     }
 
     fn cut_parameters(
@@ -85,7 +85,7 @@ impl Binder<'_> {
     }
 
     fn note_gap(&mut self, scope: &Scope<'_>, bars: &Bars, length: f64) {
-        match no_gap(bars, length) {
+        match missing_gap(bars, length) {
             None => self.has_gap = true,
             Some(problem) if self.gapless.is_none() => {
                 let problem = problem.in_path(self.raw.name.as_str());
@@ -97,7 +97,7 @@ impl Binder<'_> {
 }
 
 /// The finding about bars that leave no gap on this length.
-fn no_gap(bars: &Bars, length: f64) -> Option<Diagnostic> {
+fn missing_gap(bars: &Bars, length: f64) -> Option<Diagnostic> {
     (bars.count(length) == 0.0).then(|| {
         Diagnostic::new(&paths::NO_GAP_BETWEEN_BARS)
             .with("length", length)
@@ -107,7 +107,7 @@ fn no_gap(bars: &Bars, length: f64) -> Option<Diagnostic> {
 }
 
 /// Orders at a star: holes come first, then circles, from small to large. (book: language/chains-and-passes)
-const BEFORE_ALL: f64 = -1_000_000.0;
+const CIRCLE_ORDER_OFFSET: f64 = -1_000_000.0;
 
 impl Binder<'_> {
     /// The segment for a circle, with its order at a star.
@@ -125,7 +125,7 @@ impl Binder<'_> {
         match (class, tool) {
             (ElementClass::DrilledHole | ElementClass::DrilledMark, _) => {
                 let hole = self.hole(&scope, cut);
-                (BEFORE_ALL, SegmentKind::Hole(pushed(&mut self.holes, hole)))
+                (CIRCLE_ORDER_OFFSET, SegmentKind::Hole(push_indexed(&mut self.holes, hole)))
             }
             (ElementClass::UnknownCircle, _) | (_, None) => {
                 if let Some(tool) = tool {
@@ -138,11 +138,11 @@ impl Binder<'_> {
                 let class =
                     if cut == Cut::Mark { ElementClass::DrilledMark } else { ElementClass::DrilledHole };
                 let hole = self.hole(&Scope { class, ..scope }, cut);
-                (BEFORE_ALL, SegmentKind::Hole(pushed(&mut self.holes, hole)))
+                (CIRCLE_ORDER_OFFSET, SegmentKind::Hole(push_indexed(&mut self.holes, hole)))
             }
             (_, Some(tool)) => {
                 let helix = self.helix(&scope, cut, centre, radius, tool);
-                (BEFORE_ALL + radius, SegmentKind::Helix(pushed(&mut self.helices, helix)))
+                (CIRCLE_ORDER_OFFSET + radius, SegmentKind::Helix(push_indexed(&mut self.helices, helix)))
             }
         }
     }
@@ -162,7 +162,7 @@ impl Binder<'_> {
         let (infeed, bottom) = (self.value(scope, Letter::I), self.bottom(scope, cut));
         let length = std::f64::consts::TAU * Helix::radius_of_axis(radius, tool);
         let bars = (cut == Cut::Support).then(|| self.bars(scope, length, Some(tool))).flatten();
-        if let Some(problem) = bars.as_ref().and_then(|bars| no_gap(bars, length)) {
+        if let Some(problem) = bars.as_ref().and_then(|bars| missing_gap(bars, length)) {
             self.report(scope.at, problem);
         }
         let bottom = bottom.unwrap_or_default();

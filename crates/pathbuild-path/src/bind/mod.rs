@@ -23,7 +23,7 @@ use crate::path::{
     Surface, Turn,
 };
 use crate::raw::{DrawingFaults, Faults, RawPath};
-use crate::read::{Part, Ring, rings};
+use crate::read::{Ring, RingPart, rings};
 use crate::text::{LetterValue, ParameterText, TextId};
 use crate::values::{GivenNumber, Values, check_doubts, check_limits, check_mark};
 use crate::variables::{Bindings, Interpolation};
@@ -227,7 +227,7 @@ impl<'a> Binder<'a> {
     fn are_cuts_known(&self) -> bool {
         let mut errors = self.raw.diagnostics.iter().chain(&self.problems).filter(|found| found.is_error());
         !self.unknown.needed
-            && !self.raw.faults.stray_letters.has_any(CUT_LETTERS)
+            && !self.raw.faults.stray_letters.has_any(CUTTING_LETTERS)
             && errors.all(|error| error.code() == Code::TextWithoutElement)
     }
 
@@ -257,7 +257,7 @@ impl<'a> Binder<'a> {
         let is_missing = |letter: &Letter| !self.values.may_give(*letter);
         for letter in ElementClass::PathStart.needed_letters().filter(is_missing) {
             let missing = Diagnostic::new(&messages::MISSING_AT_START).with("letter", letter.as_char());
-            problems.push(missing.with_text(self.raw.parameters().whole()));
+            problems.push(missing.with_text(self.raw.parameters().whole_text_fault()));
         }
         if let Some(Err(error)) = self.values.text(Letter::E).map(Regex::new) {
             let problem = Diagnostic::new(&messages::INVALID_REGEX).with("reason", regex_reason(&error));
@@ -390,7 +390,7 @@ pub fn regex_reason(error: &regex::Error) -> Value {
 }
 
 /// Letters that decide where and how deep a path cuts.
-const CUT_LETTERS: Letters = Letters::of(&[
+const CUTTING_LETTERS: Letters = Letters::of(&[
     Letter::B,
     Letter::D,
     Letter::I,
@@ -432,14 +432,15 @@ impl Binder<'_> {
                 (Role::SilentSweep | Role::SkippedSubpath, _) => {
                     segments.push(segment(UNNUMBERED, SegmentKind::Sweep { height: None }));
                 }
-                _ => segments.extend(self.other(element).map(|(order, kind)| segment(order, kind))),
+                _ => segments
+                    .extend(self.bind_other_element(element).map(|(order, kind)| segment(order, kind))),
             }
         }
         self.segments = segments;
     }
 
     /// The segment for any other element, with its order at a star.
-    fn other(&mut self, element: &Element) -> Option<(f64, SegmentKind)> {
+    fn bind_other_element(&mut self, element: &Element) -> Option<(f64, SegmentKind)> {
         let Shape::Curve(curve) = element.shape else { return None };
         let class = element.class(None);
         let values =
@@ -450,7 +451,9 @@ impl Binder<'_> {
             return Some((order, SegmentKind::Sweep { height: self.value(&scope, Letter::S) }));
         }
         // A faulty text may hide the name of the embedded path, so it is not required.
-        if values.is_unknown(Letter::Embed) || values.text(Letter::Embed) == Some("") && has_unread(&values) {
+        if values.is_unknown(Letter::Embed)
+            || values.text(Letter::Embed) == Some("") && has_unreadable_pieces(&values)
+        {
             return Some((order, SegmentKind::Sweep { height: None }));
         }
         let subpath = self.subpath(element, &scope, curve);
@@ -495,7 +498,7 @@ impl Binder<'_> {
 
     fn subpath_name(&self, values: &Values<'_>, text: Option<ParameterText<'_>>) -> SubpathName {
         let Some(value) = values.text(Letter::Embed) else {
-            return SubpathName::Missing { text: text.map(ParameterText::whole) };
+            return SubpathName::Missing { text: text.map(ParameterText::whole_text_fault) };
         };
         match self.language.path_pattern.first_in(value) {
             None => SubpathName::Invalid { value: value.into() },
@@ -551,7 +554,7 @@ pub(crate) fn group_missing(problems: &mut Vec<Diagnostic>) {
 }
 
 /// Whether a text contains pieces that do not begin with a letter.
-fn has_unread(values: &Values<'_>) -> bool {
+fn has_unreadable_pieces(values: &Values<'_>) -> bool {
     values.unread != Letters::default()
 }
 
@@ -570,7 +573,7 @@ impl<'a> Scope<'a> {
 }
 
 /// Appends an item and returns its index.
-fn pushed<T>(list: &mut Vec<T>, thing: T) -> u32 {
+fn push_indexed<T>(list: &mut Vec<T>, thing: T) -> u32 {
     list.push(thing);
     u32::try_from(list.len() - 1).unwrap_or(u32::MAX)
 }
@@ -616,8 +619,8 @@ impl Binder<'_> {
             let Shape::Curve(curve) = elements[segment.element as usize].shape else { return None };
             (cut.cut == Cut::Mill && !above(cut.bottom, 0.0)).then_some((segment.element, curve))
         });
-        let part = |(entity, curve): (u32, Curve)| Part { curve, group: None, entity: entity as usize };
-        let parts: Vec<Part> = outline.map(part).collect();
+        let part = |(entity, curve): (u32, Curve)| RingPart { curve, group: None, entity: entity as usize };
+        let parts: Vec<RingPart> = outline.map(part).collect();
         let closed = rings(&parts).into_iter().find_map(|ring| match ring {
             Ring::Closed(parts) => parts.iter().map(|part| part.entity).min(),
             Ring::Open { part, curves } if tool.is_some_and(|tool| is_closed_by(tool, &curves)) => {

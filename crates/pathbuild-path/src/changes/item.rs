@@ -8,8 +8,8 @@ use pathbuild_diagnostic::{ElementId, Handle};
 use super::{DrawnSide, ElementChange, ElementKind};
 use crate::effective::Provider;
 use crate::element::{END_RADIUS, Element, Marker, PROBE_RADIUS, Role, START_RADIUS, Shape, TURN_RADIUS};
+use crate::element_parameters::{ElementParameters, Parameter};
 use crate::geometry::{Arc, Curve, Xy};
-use crate::in_force::{ElementParameters, Parameter};
 use crate::letter::Letter;
 use crate::line_type::LineType;
 use crate::text::{LetterValue, ParameterText};
@@ -48,11 +48,11 @@ pub(super) fn items(side: DrawnSide<'_>) -> Vec<Item<'_>> {
     items.extend(raw.start.iter().map(|start| marker(ElementKind::Start, START_RADIUS, start)));
     items.extend(raw.end.iter().map(|end| marker(ElementKind::End, END_RADIUS, end)));
     items.extend(raw.turns.iter().map(|turn| marker(ElementKind::Turn, TURN_RADIUS, turn)));
-    let rows = side.in_force.iter().skip(first + raw.drawn.elements.len());
+    let rows = side.parameters.iter().skip(first + raw.drawn.elements.len());
     for (probe, row) in raw.probes.iter().zip(rows) {
         let text = raw.drawn.text(probe.text).unwrap_or_default();
         let marker = marker(ElementKind::Probe, PROBE_RADIUS, probe);
-        items.push(Item { text, parameters: moving(row).collect(), ..marker });
+        items.push(Item { text, parameters: moving_parameters(row).collect(), ..marker });
     }
     items
 }
@@ -67,7 +67,7 @@ fn element_item<'a>(side: DrawnSide<'a>, element: &Element, number: usize, row: 
         shape: element.shape,
         role: Some(element.role),
         text: side.raw.drawn.text(element.text).unwrap_or_default(),
-        parameters: side.in_force.get(row).into_iter().flat_map(moving).collect(),
+        parameters: side.parameters.get(row).into_iter().flat_map(moving_parameters).collect(),
         handle: handle(side, element.source.id),
         number,
     }
@@ -78,7 +78,7 @@ fn handle(side: DrawnSide<'_>, element: ElementId) -> Option<Handle> {
 }
 
 /// The effective parameters that can change moves.
-fn moving(row: &ElementParameters) -> impl Iterator<Item = &Parameter> {
+fn moving_parameters(row: &ElementParameters) -> impl Iterator<Item = &Parameter> {
     row.parameters.iter().filter(|parameter| can_move(parameter.letter))
 }
 
@@ -97,13 +97,13 @@ impl Item<'_> {
     /// The effect of the element on the moves, apart from its shape. It is equal for elements that are treated alike.
     pub(super) fn effect(&self) -> Effect<'_> {
         let values = self.parameters.iter().map(|parameter| (parameter.letter, parameter.value.as_str()));
-        (self.role.map(swept), values.collect())
+        (self.role.map(comparable_role), values.collect())
     }
 
     /// The line types of both versions, if they have different meanings.
     pub(super) fn line_type_change(&self, new: &Self) -> Option<[&'static str; 2]> {
         let (old_role, new_role) = (self.role?, new.role?);
-        let is_changed = swept(old_role) != swept(new_role)
+        let is_changed = comparable_role(old_role) != comparable_role(new_role)
             || old_role != new_role && self.effect() != new.effect() && self.text_change(new).is_none();
         is_changed.then(|| [old_role, new_role].map(|role| line_type(role).name()))
     }
@@ -120,7 +120,7 @@ impl Item<'_> {
         let letters: Vec<Letter> = letters
             .filter(|letter| is_changed(*letter) && (gives(self, *letter) || gives(new, *letter)))
             .collect();
-        differing(self.text, new.text, &letters)
+        differing_pieces(self.text, new.text, &letters)
     }
 
     fn parameter(&self, letter: Letter) -> Option<&Parameter> {
@@ -140,12 +140,13 @@ pub(super) fn start_text(old: DrawnSide<'_>, new: DrawnSide<'_>) -> Option<Eleme
             let is_from_path = |from: &Provider| matches!(from, Provider::Path | Provider::Lender(_));
             row.parameters.iter().any(|own| own.letter == letter && is_from_path(&own.from))
         };
-        let is_taken =
-            |side: DrawnSide<'_>| side.in_force.iter().skip(usize::from(side.raw.start.is_some())).any(takes);
+        let is_taken = |side: DrawnSide<'_>| {
+            side.parameters.iter().skip(usize::from(side.raw.start.is_some())).any(takes)
+        };
         matches!(letter, Letter::F | Letter::O | Letter::S | Letter::T) || is_taken(old) || is_taken(new)
     };
     let value = |side: DrawnSide<'_>, letter| {
-        let row = side.in_force.first().filter(|_| side.raw.start.is_some())?;
+        let row = side.parameters.first().filter(|_| side.raw.start.is_some())?;
         let own = row.parameters.iter().find(|own| own.letter == letter)?;
         matches!(own.from, Provider::Path | Provider::Lender(_)).then(|| own.value.clone())
     };
@@ -153,11 +154,15 @@ pub(super) fn start_text(old: DrawnSide<'_>, new: DrawnSide<'_>) -> Option<Eleme
     let letters = letters.filter(|letter| can_move(*letter) && *letter != Letter::Variable);
     let letters: Vec<Letter> =
         letters.filter(|letter| value(old, *letter) != value(new, *letter) && is_used(*letter)).collect();
-    differing(old.raw.parameters(), new.raw.parameters(), &letters).map(ElementChange::Text)
+    differing_pieces(old.raw.parameters(), new.raw.parameters(), &letters).map(ElementChange::Text)
 }
 
 /// The pieces of two texts with one of these letters, without those that both have. `None` if nothing is left.
-fn differing(old: ParameterText<'_>, new: ParameterText<'_>, letters: &[Letter]) -> Option<[String; 2]> {
+fn differing_pieces(
+    old: ParameterText<'_>,
+    new: ParameterText<'_>,
+    letters: &[Letter],
+) -> Option<[String; 2]> {
     let pieces = |text: ParameterText<'_>, other: ParameterText<'_>| {
         let known: BTreeSet<&str> = other.pieces().iter().map(|piece| other.piece_text(piece)).collect();
         let has_letter = |piece: &&LetterValue| piece.letter.is_some_and(|letter| letters.contains(&letter));
@@ -169,18 +174,18 @@ fn differing(old: ParameterText<'_>, new: ParameterText<'_>, letters: &[Letter])
 }
 
 /// Upper bound on the characters that are shown of a text.
-const MOST_CHARACTERS: usize = 200;
+const MAX_SHOWN_CHARACTERS: usize = 200;
 
 /// The text, or its beginning if it is long.
 fn excerpt(text: &str) -> String {
-    match text.char_indices().nth(MOST_CHARACTERS) {
+    match text.char_indices().nth(MAX_SHOWN_CHARACTERS) {
         Some((end, _)) => format!("{}...", &text[..end]),
         None => text.to_owned(),
     }
 }
 
 /// Returns the role by which an element is compared: all sweeps are alike, whatever their line type.
-fn swept(role: Role) -> Role {
+fn comparable_role(role: Role) -> Role {
     match role {
         Role::SilentSweep | Role::SkippedSubpath => Role::Sweep,
         Role::Cut(_) | Role::Sweep | Role::Subpath => role,
@@ -213,7 +218,7 @@ pub(super) enum ShapeChange {
 }
 
 /// Difference in mm up to which places and lengths are equal. CAD programs write at least four decimals.
-pub(super) const SAME: f64 = 1e-4;
+pub(super) const EQUALITY_TOLERANCE: f64 = 1e-4;
 
 /// Returns the changes from one shape to another, apart from a move by `shift`. The drawn directions do not matter.
 pub(super) fn shape_changes(
@@ -227,7 +232,7 @@ pub(super) fn shape_changes(
             Shape::Circle { centre: new_centre, radius: new },
         ) => {
             let radius = (!is_same(*old, *new)).then_some(ShapeChange::Radius([*old, *new]));
-            [radius, moved(new_centre - old_centre - shift)]
+            [radius, move_change(new_centre - old_centre - shift)]
         }
         (Shape::Curve(old), Shape::Curve(new)) => [curve_change(old, new, shift), None],
         _ => [Some(ShapeChange::Reshaped), None],
@@ -240,24 +245,24 @@ pub(super) fn is_equal(old: &Shape, new: &Shape, shift: Vector2<f64>) -> bool {
     shape_changes(old, new, shift).next().is_none()
 }
 
-fn moved(by: Vector2<f64>) -> Option<ShapeChange> {
-    (!is_nothing(by)).then(|| ShapeChange::Moved(by.into()))
+fn move_change(by: Vector2<f64>) -> Option<ShapeChange> {
+    (!is_negligible(by)).then(|| ShapeChange::Moved(by.into()))
 }
 
 fn curve_change(old: &Curve, new: &Curve, shift: Vector2<f64>) -> Option<ShapeChange> {
-    let new = alike(old, new, shift);
+    let new = in_same_direction(old, new, shift);
     let ends @ [first, second] = [new.start() - old.start() - shift, new.end() - old.end() - shift];
     match (old, new) {
-        (Curve::Line(_), Curve::Line(_)) => ends_moved(first, second),
+        (Curve::Line(_), Curve::Line(_)) => ends_change(first, second),
         (Curve::Arc(old), Curve::Arc(new)) => arc_change(old, &new, shift, ends),
         _ => Some(ShapeChange::Reshaped),
     }
 }
 
-fn ends_moved(first: Vector2<f64>, second: Vector2<f64>) -> Option<ShapeChange> {
-    match (is_nothing(first), is_nothing(second)) {
+fn ends_change(first: Vector2<f64>, second: Vector2<f64>) -> Option<ShapeChange> {
+    match (is_negligible(first), is_negligible(second)) {
         (true, true) => None,
-        _ if is_nothing(first - second) => Some(ShapeChange::Moved(first.into())),
+        _ if is_negligible(first - second) => Some(ShapeChange::Moved(first.into())),
         (true, false) => Some(ShapeChange::EndMoved(second.into())),
         (false, true) => Some(ShapeChange::EndMoved(first.into())),
         (false, false) => Some(ShapeChange::Reshaped),
@@ -272,9 +277,9 @@ fn arc_change(
     [first, second]: [Vector2<f64>; 2],
 ) -> Option<ShapeChange> {
     let centre = new.centre - old.centre - shift;
-    let has_same_ends = is_nothing(first) && is_nothing(second);
+    let has_same_ends = is_negligible(first) && is_negligible(second);
     if !is_same(old.radius, new.radius) {
-        let is_concentric = is_nothing(centre);
+        let is_concentric = is_negligible(centre);
         let radii = [old.radius, new.radius];
         return Some(if is_concentric || has_same_ends {
             ShapeChange::Radius(radii)
@@ -282,15 +287,15 @@ fn arc_change(
             ShapeChange::Reshaped
         });
     }
-    match ends_moved(first, second) {
-        Some(ShapeChange::Moved(by)) if is_nothing(centre - first) => Some(ShapeChange::Moved(by)),
-        change @ (None | Some(ShapeChange::EndMoved(_))) if is_nothing(centre) => change,
+    match ends_change(first, second) {
+        Some(ShapeChange::Moved(by)) if is_negligible(centre - first) => Some(ShapeChange::Moved(by)),
+        change @ (None | Some(ShapeChange::EndMoved(_))) if is_negligible(centre) => change,
         _ => Some(ShapeChange::Reshaped),
     }
 }
 
 /// Returns the new curve in the direction of the old one: an arc turns the same way, and a line has its ends nearer to the old ones.
-fn alike(old: &Curve, new: &Curve, shift: Vector2<f64>) -> Curve {
+fn in_same_direction(old: &Curve, new: &Curve, shift: Vector2<f64>) -> Curve {
     let distance = |curve: &Curve| {
         (curve.start() - old.start() - shift).norm() + (curve.end() - old.end() - shift).norm()
     };
@@ -311,9 +316,9 @@ pub(super) fn middle(shape: &Shape) -> Xy {
 }
 
 fn is_same(old: f64, new: f64) -> bool {
-    (new - old).abs() <= SAME
+    (new - old).abs() <= EQUALITY_TOLERANCE
 }
 
-pub(super) fn is_nothing(by: Vector2<f64>) -> bool {
-    by.norm() <= SAME
+pub(super) fn is_negligible(by: Vector2<f64>) -> bool {
+    by.norm() <= EQUALITY_TOLERANCE
 }

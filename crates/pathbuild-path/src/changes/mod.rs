@@ -11,9 +11,9 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::drawn_changes as texts;
 use pathbuild_diagnostic::{Point, Sentence, Text, Value};
 
-use crate::element::shown;
+use crate::element::diagnostic_point;
+use crate::element_parameters::ElementParameters;
 use crate::geometry::Xy;
-use crate::in_force::ElementParameters;
 use crate::raw::{RawPath, SourceMap};
 
 use item::{Item, ShapeChange, items, shape_changes};
@@ -26,8 +26,8 @@ pub struct DrawnSide<'a> {
     pub raw: &'a RawPath,
     /// The positions of the path's elements in the file.
     pub positions: &'a SourceMap,
-    /// The effective parameters of the path: [`parameters_in_force`](crate::parameters_in_force).
-    pub in_force: &'a [ElementParameters],
+    /// The effective parameters of the path: [`element_parameters`](crate::element_parameters).
+    pub parameters: &'a [ElementParameters],
 }
 
 /// The drawn differences between two versions of a path.
@@ -105,7 +105,7 @@ pub fn drawn_changes(old: DrawnSide<'_>, new: DrawnSide<'_>) -> DrawnChanges {
     found.extend(pairs.removed.iter().map(|item| (*item, ElementChange::Removed)));
     found.extend(pairs.added.iter().map(|item| (*item, ElementChange::Added)));
     let is_reordered = found.is_empty() && pairs.is_reordered();
-    DrawnChanges { changes: grouped(found), is_reordered }
+    DrawnChanges { changes: group_changes(found), is_reordered }
 }
 
 /// A change with its element, which is that of the new drawing unless the element was removed.
@@ -129,8 +129,8 @@ fn element_changes(old: &Item<'_>, new: &Item<'_>, frame: &Frame) -> Vec<Element
 }
 
 /// Groups equal changes of elements of one kind. The first element by place stands for its group.
-fn grouped(mut found: Vec<FoundChange<'_>>) -> Vec<DrawnChange> {
-    found.sort_by(|(one, _), (other, _)| by_place(one.kind, one.at(), other.kind, other.at()));
+fn group_changes(mut found: Vec<FoundChange<'_>>) -> Vec<DrawnChange> {
+    found.sort_by(|(one, _), (other, _)| compare_positions(one.kind, one.at(), other.kind, other.at()));
     let mut groups: Vec<DrawnChange> = Vec::new();
     let mut numbers: BTreeMap<(ElementKind, String), usize> = BTreeMap::new();
     for (item, change) in found {
@@ -138,14 +138,19 @@ fn grouped(mut found: Vec<FoundChange<'_>>) -> Vec<DrawnChange> {
         match groups.get_mut(number) {
             Some(group) => group.count += 1,
             None => {
-                groups.push(DrawnChange { kind: item.kind, change, count: 1, at: shown(item.at()) });
+                groups.push(DrawnChange {
+                    kind: item.kind,
+                    change,
+                    count: 1,
+                    at: diagnostic_point(item.at()),
+                });
             }
         }
     }
     groups
 }
 
-fn by_place(kind: ElementKind, at: Xy, other_kind: ElementKind, other: Xy) -> std::cmp::Ordering {
+fn compare_positions(kind: ElementKind, at: Xy, other_kind: ElementKind, other: Xy) -> std::cmp::Ordering {
     kind.cmp(&other_kind).then(at.x.total_cmp(&other.x)).then(at.y.total_cmp(&other.y))
 }
 

@@ -7,7 +7,7 @@ use std::hash::Hash;
 use nalgebra::Vector2;
 
 use super::ElementKind;
-use super::item::{Item, is_equal, is_nothing, middle};
+use super::item::{Item, is_equal, is_negligible, middle};
 use crate::element::Shape;
 use crate::geometry::{Curve, Xy};
 
@@ -19,13 +19,13 @@ pub(super) struct Frame {
 
 /// The paired elements, and those of either side that have no counterpart.
 #[derive(Debug, Default)]
-pub(super) struct Pairs<'i> {
+pub(super) struct PairedElements<'i> {
     pub(super) both: Vec<(&'i Item<'i>, &'i Item<'i>)>,
     pub(super) removed: Vec<&'i Item<'i>>,
     pub(super) added: Vec<&'i Item<'i>>,
 }
 
-impl Pairs<'_> {
+impl PairedElements<'_> {
     /// Whether some elements follow each other in one file in another order than in the other file.
     pub(super) fn is_reordered(&self) -> bool {
         let elements = self.both.iter().filter(|(old, _)| old.role.is_some());
@@ -41,7 +41,7 @@ impl Frame {
         let start =
             |items: &[Item<'_>]| items.iter().find(|item| item.kind == ElementKind::Start).map(Item::at);
         let is_moved = match (start(old), start(new)) {
-            (Some(old), Some(new)) => !is_nothing(new - old),
+            (Some(old), Some(new)) => !is_negligible(new - old),
             _ => false,
         };
         let shift = is_moved.then(|| common_shift(old, new)).flatten();
@@ -75,25 +75,27 @@ fn common_shift(old: &[Item<'_>], new: &[Item<'_>]) -> Option<Vector2<f64>> {
 }
 
 /// Pairs elements by one criterion after another, from the most to the least reliable.
-pub(super) fn pair<'i>(old: &'i [Item<'i>], new: &'i [Item<'i>], frame: &Frame) -> Pairs<'i> {
+pub(super) fn pair<'i>(old: &'i [Item<'i>], new: &'i [Item<'i>], frame: &Frame) -> PairedElements<'i> {
     let mut pairing = Pairing {
         old: old.iter().collect(),
         new: new.iter().collect(),
         both: Vec::with_capacity(old.len()),
         shift: frame.shift,
     };
-    pairing.by_key(|item, place| Some((place, item.effect())));
-    pairing.by_key(|_, place| Some(place));
-    pairing.by_rounded_place();
+    pairing.pair_by_key(|item, place| Some((place, item.effect())));
+    pairing.pair_by_key(|_, place| Some(place));
+    pairing.pair_by_rounded_place();
     if pairing.has_lasting_handles() {
-        pairing.by_key(|item, _| item.handle.map(|handle| (item.kind, handle)));
+        pairing.pair_by_key(|item, _| item.handle.map(|handle| (item.kind, handle)));
     }
-    pairing.by_key(|item, _| matches!(item.kind, ElementKind::Start | ElementKind::End).then_some(item.kind));
-    pairing.by_form();
-    pairing.by_key(|item, place| centre(item, place));
-    pairing.by_key(|item, place| ends(item, place).map(|ends| (item.kind, ends)));
-    pairing.by_shared_end();
-    Pairs { both: pairing.both, removed: pairing.old, added: pairing.new }
+    pairing.pair_by_key(|item, _| {
+        matches!(item.kind, ElementKind::Start | ElementKind::End).then_some(item.kind)
+    });
+    pairing.pair_by_form();
+    pairing.pair_by_key(|item, place| centre(item, place));
+    pairing.pair_by_key(|item, place| ends(item, place).map(|ends| (item.kind, ends)));
+    pairing.pair_by_shared_end();
+    PairedElements { both: pairing.both, removed: pairing.old, added: pairing.new }
 }
 
 /// The elements that are not paired yet, and the pairs.
@@ -106,7 +108,7 @@ struct Pairing<'i> {
 
 impl<'i> Pairing<'i> {
     /// Pairs elements with equal keys, in the order of the files.
-    fn by_key<K: Eq + Hash>(&mut self, key: impl Fn(&'i Item<'i>, Place) -> Option<K>) {
+    fn pair_by_key<K: Eq + Hash>(&mut self, key: impl Fn(&'i Item<'i>, Place) -> Option<K>) {
         let mut known: HashMap<K, VecDeque<usize>> = HashMap::new();
         for (index, item) in self.new.iter().enumerate() {
             if let Some(key) = key(item, Place::of(item, Vector2::zeros())) {
@@ -114,14 +116,14 @@ impl<'i> Pairing<'i> {
             }
         }
         let shift = self.shift;
-        self.take(|_, old| {
+        self.pair_with(|_, old| {
             let key = key(old, Place::of(old, shift))?;
             known.get_mut(&key)?.pop_front()
         });
     }
 
     /// Pairs each old element with the new one whose index `find` returns. `find` must not return an index twice.
-    fn take(&mut self, mut find: impl FnMut(&[&'i Item<'i>], &'i Item<'i>) -> Option<usize>) {
+    fn pair_with(&mut self, mut find: impl FnMut(&[&'i Item<'i>], &'i Item<'i>) -> Option<usize>) {
         let mut is_taken = vec![false; self.new.len()];
         let (new, both) = (&self.new, &mut self.both);
         self.old.retain(|old| match find(new, old) {
@@ -137,13 +139,13 @@ impl<'i> Pairing<'i> {
     }
 
     /// Pairs elements whose coordinates were rounded.
-    fn by_rounded_place(&mut self) {
+    fn pair_by_rounded_place(&mut self) {
         let mut cells: HashMap<(ElementKind, [i64; 2]), Vec<usize>> = HashMap::new();
         for (index, item) in self.new.iter().enumerate() {
             cells.entry((item.kind, cell(middle(&item.shape)))).or_default().push(index);
         }
         let shift = self.shift;
-        self.take(|new, old| {
+        self.pair_with(|new, old| {
             let [x, y] = cell(middle(&old.shape) + shift);
             let around = [-1, 0, 1]
                 .into_iter()
@@ -151,7 +153,7 @@ impl<'i> Pairing<'i> {
             for cell in around {
                 let Some(there) = cells.get_mut(&(old.kind, cell)) else { continue };
                 let is_there = |index: &usize| is_equal(&old.shape, &new[*index].shape, shift);
-                if let Some(found) = there.iter().take(MOST_CANDIDATES).position(is_there) {
+                if let Some(found) = there.iter().take(MAX_CANDIDATES).position(is_there) {
                     return Some(there.swap_remove(found));
                 }
             }
@@ -168,7 +170,7 @@ impl<'i> Pairing<'i> {
     }
 
     /// Pairs elements of the same form, role and text that are elsewhere.
-    fn by_form(&mut self) {
+    fn pair_by_form(&mut self) {
         let mut groups: BTreeMap<_, [Vec<usize>; 2]> = BTreeMap::new();
         for (side, items) in [&self.old, &self.new].into_iter().enumerate() {
             for (index, item) in items.iter().enumerate() {
@@ -189,16 +191,16 @@ impl<'i> Pairing<'i> {
             for was in were {
                 let from = self.old[was].at() + self.shift;
                 let distance = |place: &usize| length(self.new[are[*place]].at() - from);
-                let nearest = (0..are.len().min(MOST_CANDIDATES)).min_by_key(distance);
+                let nearest = (0..are.len().min(MAX_CANDIDATES)).min_by_key(distance);
                 counterparts[was] = nearest.map(|place| are.swap_remove(place));
             }
         }
         let mut counterparts = counterparts.into_iter();
-        self.take(|_, _| counterparts.next().flatten());
+        self.pair_with(|_, _| counterparts.next().flatten());
     }
 
     /// Pairs lines and arcs that have kept one end.
-    fn by_shared_end(&mut self) {
+    fn pair_by_shared_end(&mut self) {
         let mut at_end: HashMap<(ElementKind, Micrometres), Vec<usize>> = HashMap::new();
         for (index, item) in self.new.iter().enumerate() {
             for end in ends(item, Place::of(item, Vector2::zeros())).into_iter().flatten() {
@@ -207,10 +209,10 @@ impl<'i> Pairing<'i> {
         }
         let mut is_taken = vec![false; self.new.len()];
         let shift = self.shift;
-        self.take(|new, old| {
+        self.pair_with(|new, old| {
             let ends = ends(old, Place::of(old, shift))?;
             let candidates = ends.iter().filter_map(|end| at_end.get(&(old.kind, *end)));
-            let open = candidates.flat_map(|indices| indices.iter().take(MOST_CANDIDATES));
+            let open = candidates.flat_map(|indices| indices.iter().take(MAX_CANDIDATES));
             let open = open.filter(|index| !is_taken[**index] && new[**index].role == old.role);
             let distance = |index: &&usize| length(middle(&new[**index].shape) - middle(&old.shape) - shift);
             let nearest = *open.min_by_key(distance)?;
@@ -221,7 +223,7 @@ impl<'i> Pairing<'i> {
 }
 
 /// Upper bound on the candidates among which the nearest one is looked for, so that hostile drawings do not take quadratic time.
-const MOST_CANDIDATES: usize = 64;
+const MAX_CANDIDATES: usize = 64;
 
 /// A vector rounded to whole micrometres, the last digit that programs show.
 type Micrometres = [i64; 2];

@@ -224,10 +224,11 @@ impl RangeTable {
                     self.integers().iter().for_each(|entry| take(&entry.range, entry.file));
                 }
                 if self.has_texts() {
-                    self.around(&FirstGroup::text(group)).for_each(|entry| take(&entry.range, entry.file));
+                    self.entries_around(&FirstGroup::text(group))
+                        .for_each(|entry| take(&entry.range, entry.file));
                 }
                 if first.is_integer() {
-                    self.around(&first).for_each(|entry| take(&entry.range, entry.file));
+                    self.entries_around(&first).for_each(|entry| take(&entry.range, entry.file));
                 }
             }
             None => self.sorted.iter().for_each(|entry| take(&entry.range, entry.file)),
@@ -239,7 +240,7 @@ impl RangeTable {
     }
 
     /// The entries with a range that contains a first group.
-    fn around(&self, first: &FirstGroup) -> impl Iterator<Item = &Entry> {
+    fn entries_around(&self, first: &FirstGroup) -> impl Iterator<Item = &Entry> {
         let begun = self.sorted.partition_point(|entry| entry.from <= *first);
         let reaching = self.sorted[..begun].iter().rev().take_while(move |entry| entry.latest >= *first);
         reaching.filter(move |entry| entry.to >= *first)
@@ -256,7 +257,7 @@ impl RangeTable {
 
 /// Returns PB519 for paths in the file's name that are on no layer, and PB521 for paths that are never searched in a file of this name. Q-projects
 /// are exempt, since they are named after the drawing that they test. `stem`: the name without `.dxf`.
-pub fn judge_file_name(
+pub fn check_file_name(
     stem: &str,
     held: &[PathName],
     files: &FilePattern,
@@ -271,7 +272,7 @@ pub fn judge_file_name(
         |name: &PathName| key(name).is_some_and(|key| ranges.iter().any(|range| range.holds(&key)));
     let keys: Vec<PathKey> = held.iter().filter_map(key).collect();
     let is_held = |name: &PathName| key(name).is_some_and(|key| keys.iter().any(|held| held.is_like(&key)));
-    let promised = promised(stem, files, paths).into_iter().filter(|name| !is_held(name));
+    let promised = names_in_file_name(stem, files, paths).into_iter().filter(|name| !is_held(name));
     let broken =
         promised.map(|name| Diagnostic::new(&messages::PROMISED_PATH).quoting("name", name.as_str()));
     let strays = held.iter().filter(|name| !is_covered(name)).map(|name| {
@@ -297,7 +298,7 @@ pub fn q_project_name(stem: &str) -> String {
 }
 
 /// The full path names in a file's name, without duplicates. The ends of a range are left out.
-fn promised(stem: &str, files: &FilePattern, paths: &PathPattern) -> Vec<PathName> {
+fn names_in_file_name(stem: &str, files: &FilePattern, paths: &PathPattern) -> Vec<PathName> {
     let ranges = files.range_spans(stem);
     let mut promised: Vec<PathName> = Vec::new();
     let mut from = 0;

@@ -22,7 +22,7 @@ pub struct PathName(SmolStr);
 
 /// A path name whose comparison respects case, so that results that show it are recomputed when only the case changes.
 #[derive(Clone)]
-pub struct SpeltName(PathName);
+pub struct CaseSensitiveName(PathName);
 
 /// The pattern for names of path layers. It must match the whole name, ignoring case.
 #[derive(Clone, Debug)]
@@ -37,13 +37,13 @@ pub struct PathLayer {
     pub tilde: bool,
 }
 
-impl From<PathName> for SpeltName {
+impl From<PathName> for CaseSensitiveName {
     fn from(name: PathName) -> Self {
         Self(name)
     }
 }
 
-impl Deref for SpeltName {
+impl Deref for CaseSensitiveName {
     type Target = PathName;
 
     fn deref(&self) -> &PathName {
@@ -51,21 +51,21 @@ impl Deref for SpeltName {
     }
 }
 
-impl PartialEq for SpeltName {
+impl PartialEq for CaseSensitiveName {
     fn eq(&self, other: &Self) -> bool {
         self.as_str() == other.as_str()
     }
 }
 
-impl Eq for SpeltName {}
+impl Eq for CaseSensitiveName {}
 
-impl fmt::Display for SpeltName {
+impl fmt::Display for CaseSensitiveName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)
     }
 }
 
-impl fmt::Debug for SpeltName {
+impl fmt::Debug for CaseSensitiveName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)
     }
@@ -142,7 +142,7 @@ impl PathName {
     }
 
     /// The canonical form, which is equal for equal names and determines their order.
-    pub fn folded(&self) -> String {
+    pub fn canonical(&self) -> String {
         if self.0.is_ascii() { self.0.to_ascii_uppercase() } else { self.0.to_uppercase() }
     }
 

@@ -6,10 +6,10 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::part as messages;
 
 use super::cuts::{CutIndex, PathCuts, StandingBar};
-use super::intervals::{GAP, Stretch, at as at_along, joined, within};
-use crate::element::shown;
+use super::intervals::{JOIN_GAP, Stretch, add_stretches_within, at as at_along, join_stretches};
+use crate::element::diagnostic_point;
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::around;
+use crate::keep_out::widened_box;
 
 /// Share of a bar that may be cut away.
 const BAR_LOSS: f64 = 0.05;
@@ -55,7 +55,7 @@ impl LostBar {
         Diagnostic::new(&messages::BAR_CUT_AWAY)
             .with("lost", self.lost)
             .with("length", self.length)
-            .with("point", shown(self.at))
+            .with("point", diagnostic_point(self.at))
             .quoting("other", path.name.as_str())
     }
 }
@@ -72,16 +72,17 @@ impl BarLoss<'_> {
     /// The elements that cut too much of the bar away, by path and element, each with the length in mm.
     fn elements(&self) -> Vec<((usize, u32), f64)> {
         let mut gone: BTreeMap<(usize, u32), Vec<Stretch>> = BTreeMap::new();
-        for number in self.cuts.near(around(self.middle, 0.0)) {
+        for number in self.cuts.near(widened_box(self.middle, 0.0)) {
             let cut = &self.cuts.cuts[number];
-            let Some(below) = cut.cut.way.below(self.bar.top - self.tolerance) else { continue };
+            let Some(below) = cut.cut.way.part_below(self.bar.top - self.tolerance) else { continue };
             let mut stretches = Vec::new();
-            within(self.middle, &below, cut.radius - self.tolerance, &mut stretches);
+            add_stretches_within(self.middle, &below, cut.radius - self.tolerance, &mut stretches);
             if !stretches.is_empty() {
                 gone.entry((cut.path, cut.cut.element)).or_default().append(&mut stretches);
             }
         }
-        let lost = |stretches| joined(stretches, GAP).iter().map(|(from, to)| to - from).sum::<f64>();
+        let lost =
+            |stretches| join_stretches(stretches, JOIN_GAP).iter().map(|(from, to)| to - from).sum::<f64>();
         let all = gone.into_iter().map(|(element, stretches)| (element, lost(stretches)));
         all.filter(|(_, lost)| *lost > BAR_LOSS * self.middle.length()).collect()
     }

@@ -4,7 +4,7 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, Envelope as _, RTree};
 
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::around;
+use crate::keep_out::widened_box;
 
 type IndexedBox = GeomWithData<Rectangle<[f64; 2]>, usize>;
 
@@ -53,7 +53,7 @@ impl BoxIndex {
 
 /// Whether two curves may be nearer to each other than `reach` mm. Most are not, and boxes tell that sooner than distances.
 pub(crate) fn may_be_near(one: &Curve, other: &Curve, reach: f64) -> bool {
-    around(one, reach).intersects(&around(other, 0.0))
+    widened_box(one, reach).intersects(&widened_box(other, 0.0))
 }
 
 /// The square whose sides are `reach` mm away from a point.

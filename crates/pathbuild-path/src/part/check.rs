@@ -7,14 +7,14 @@ use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 
 use super::bars::lost_bars;
 use super::cuts::{CutIndex, PathCuts};
-use super::gouge::{ClassifiedCut, Gouge, gouges, judged};
+use super::gouge::{ClassifiedCut, Gouge, classify_cuts, gouges};
 use super::leftover::{LeftMaterial, Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
 use super::loose::is_cut_out;
 use super::prepared::PreparedPart;
 use super::{Part, PartSettings};
-use crate::element::shown;
+use crate::element::diagnostic_point;
 use crate::geometry::Curve;
-use crate::keep_out::around;
+use crate::keep_out::widened_box;
 
 /// The result of checking a drawing's parts.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -94,7 +94,7 @@ pub fn check_path(parts: &[Part], path: &PathCuts, settings: &PartSettings) -> V
     let mut found = Vec::new();
     for part in parts {
         let part = PreparedPart::new(part);
-        found.extend(PartCheck::new(&part, &cuts, settings).gouged().map(|(_, problem)| problem));
+        found.extend(PartCheck::new(&part, &cuts, settings).gouge_findings().map(|(_, problem)| problem));
     }
     found
 }
@@ -122,7 +122,7 @@ impl<'s> PartCheck<'s> {
         let owners: Vec<bool> = (0..cuts.paths.len()).map(is_owner).collect();
         let contours = owners.iter().zip(&cuts.contours).map(|(own, contour)| *own && *contour).collect();
         let near = cuts.near(part.extent()).into_iter().filter(|cut| owners[cuts.cuts[*cut].path]);
-        let judged = judged(part, cuts, near, settings.tolerance);
+        let judged = classify_cuts(part, cuts, near, settings.tolerance);
         Self { part, cuts, settings, near_paths, owners, contours, judged }
     }
 
@@ -138,16 +138,16 @@ impl<'s> PartCheck<'s> {
 
     /// The findings about the owners, each with the index of its path. Whether material is left depends on the cuts of all owners together.
     fn problems(&self, is_complete: bool, leftovers: &Leftovers) -> Vec<(usize, Diagnostic)> {
-        let mut found: Vec<_> = self.gouged().collect();
+        let mut found: Vec<_> = self.gouge_findings().collect();
         found.extend(self.leftover_findings(leftovers));
         if is_complete {
-            found.extend(self.loose());
+            found.extend(self.loose_part_finding());
         }
         found
     }
 
     /// Returns PB213 for the cuts into the part.
-    fn gouged(&self) -> impl Iterator<Item = (usize, Diagnostic)> {
+    fn gouge_findings(&self) -> impl Iterator<Item = (usize, Diagnostic)> {
         let gouges = gouges(self.part, self.judged.values());
         gouges.into_iter().map(|((path, element), gouge)| {
             let path_cuts = self.cuts.paths[path];
@@ -178,7 +178,7 @@ impl<'s> PartCheck<'s> {
             let path_cuts = self.cuts.paths[*path];
             let problem = Diagnostic::new(&messages::UNREACHABLE_CORNER)
                 .with("tool", 2.0 * path_cuts.radius)
-                .with("point", shown(*at))
+                .with("point", diagnostic_point(*at))
                 .with("length", *length);
             (*path, path_cuts.at_element(*element, problem))
         }));
@@ -186,7 +186,7 @@ impl<'s> PartCheck<'s> {
     }
 
     /// Returns PB217 if the part is cut out all round, reported in the first of its paths.
-    fn loose(&self) -> Option<(usize, Diagnostic)> {
+    fn loose_part_finding(&self) -> Option<(usize, Diagnostic)> {
         if self.settings.is_held_otherwise {
             return None;
         }
@@ -194,7 +194,7 @@ impl<'s> PartCheck<'s> {
         let through: Vec<_> = own.filter_map(|cut| Some((cut, cut.through?))).collect();
         let sweeps: Vec<(Curve, f64)> = through.iter().map(|(cut, curve)| (*curve, cut.radius)).collect();
         let near = |curve: &Curve, radius: f64| {
-            rstar::Envelope::intersects(&around(curve, 2.0 * radius), &self.part.extent())
+            rstar::Envelope::intersects(&widened_box(curve, 2.0 * radius), &self.part.extent())
         };
         let paths = self.cuts.paths.iter().zip(&self.contours).filter(|(_, is_contour)| **is_contour);
         let bars = paths.flat_map(|(path, _)| path.bars.iter().map(|bar| (bar, path.radius)));
@@ -207,7 +207,8 @@ impl<'s> PartCheck<'s> {
             |curve: &Curve| outer.iter().map(|ring| ring.distance(curve)).fold(f64::INFINITY, f64::min);
         let near = through.iter().filter(|(cut, curve)| distance(curve) < 2.0 * cut.radius);
         let (cut, _) = near.min_by_key(|(cut, _)| (cut.path, cut.cut.element)).or(through.first())?;
-        let problem = Diagnostic::new(&messages::LOOSE_PART).with("point", shown(outer[0].start()));
+        let problem =
+            Diagnostic::new(&messages::LOOSE_PART).with("point", diagnostic_point(outer[0].start()));
         Some((cut.path, self.cuts.paths[cut.path].at_element(cut.cut.element, problem)))
     }
 }
@@ -217,7 +218,7 @@ fn near_paths(part: &Part, ring: &[Curve], cuts: &CutIndex<'_>) -> Vec<bool> {
     let may_cut: Vec<bool> = cuts.paths.iter().map(|path| part.may_belong_to(&path.name)).collect();
     let mut is_near = vec![false; may_cut.len()];
     for curve in ring {
-        for number in cuts.near(around(curve, 0.0)) {
+        for number in cuts.near(widened_box(curve, 0.0)) {
             let cut = &cuts.cuts[number];
             is_near[cut.path] = is_near[cut.path]
                 || may_cut[cut.path] && cut.cut.way.curve.distance(curve) < 2.0 * cut.radius;
@@ -235,7 +236,7 @@ fn gouge_problem(gouge: &Gouge, radius: f64) -> Diagnostic {
     } else {
         Diagnostic::new(&messages::GOUGE).with("length", gouge.length)
     };
-    let mut problem = problem.with("depth", gouge.depth).with("point", shown(gouge.at));
+    let mut problem = problem.with("depth", gouge.depth).with("point", diagnostic_point(gouge.at));
     if (1000.0 * gouge.depth).round() <= MAX_WARNING_DEPTH {
         problem.severity = Severity::Warning;
     }
@@ -250,7 +251,8 @@ fn leftover_problem(stretches: &[&Leftover]) -> Option<Diagnostic> {
         Some(height) => Diagnostic::new(&messages::NOT_CUT_THROUGH).with("height", height),
         None => Diagnostic::new(&messages::LEFTOVER).with("thickness", longest.thickness),
     };
-    let problem = problem.with("from", shown(longest.from)).with("to", shown(longest.to));
+    let problem =
+        problem.with("from", diagnostic_point(longest.from)).with("to", diagnostic_point(longest.to));
     Some(problem.with("length", longest.length).with("count", stretches.len()))
 }
 

@@ -4,17 +4,17 @@ use pathbuild_diagnostic::Diagnostic;
 use rstar::AABB;
 
 use super::boxes::BoxIndex;
-use super::intervals::GAP;
+use super::intervals::JOIN_GAP;
 use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::{TipMove, around};
-use crate::names::SpeltName;
+use crate::keep_out::{TipMove, widened_box};
+use crate::names::CaseSensitiveName;
 
 /// The cuts of a path, in the coordinates and heights of its drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathCuts {
     /// Name of the path.
-    pub name: SpeltName,
+    pub name: CaseSensitiveName,
     /// Half of O in mm.
     pub radius: f64,
     /// Whether the path is milled with a slot cutter.
@@ -76,7 +76,7 @@ pub struct StandingBar {
 }
 
 /// Z in mm up to which a cut counts as going through the plate: one that ends at Z0.001 still does.
-pub const THROUGH: f64 = 0.001 + 1e-6;
+pub const THROUGH_HEIGHT: f64 = 0.001 + 1e-6;
 
 impl PathCuts {
     /// A finding about an element, by its index into [`Self::elements`].
@@ -86,7 +86,7 @@ impl PathCuts {
 
     /// Whether the path cuts parts out: one of its cuts goes through the plate, and it is not milled with a slot cutter.
     fn is_contour(&self) -> bool {
-        !self.is_slot && self.elements.iter().any(|element| element.lowest <= THROUGH)
+        !self.is_slot && self.elements.iter().any(|element| element.lowest <= THROUGH_HEIGHT)
     }
 }
 
@@ -117,11 +117,11 @@ impl<'c> CutIndex<'c> {
                 path,
                 cut,
                 radius: cuts.radius,
-                through: cut.way.below(THROUGH),
+                through: cut.way.part_below(THROUGH_HEIGHT),
             })
         };
         let cuts: Vec<IndexedCut<'c>> = paths.iter().enumerate().flat_map(of_path).collect();
-        let boxes = cuts.iter().map(|cut| around(&cut.cut.way.curve, 2.0 * cut.radius + GAP));
+        let boxes = cuts.iter().map(|cut| widened_box(&cut.cut.way.curve, 2.0 * cut.radius + JOIN_GAP));
         let contours = paths.iter().map(|path| path.is_contour()).collect();
         Self { paths, contours, boxes: BoxIndex::new(boxes), cuts }
     }

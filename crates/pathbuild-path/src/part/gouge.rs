@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use rstar::Envelope as _;
 
-use super::cuts::{CutIndex, IndexedCut, THROUGH};
-use super::intervals::{GAP, Stretch};
-use super::prepared::{Passage, PreparedPart, Side};
+use super::cuts::{CutIndex, IndexedCut, THROUGH_HEIGHT};
+use super::intervals::{JOIN_GAP, Stretch};
+use super::prepared::{CutterPassage, PreparedPart, Side};
 use super::{Part, placed_part};
 use crate::geometry::{Curve, Placement, Xy};
-use crate::keep_out::{TipMove, around};
+use crate::keep_out::{TipMove, widened_box};
 
 /// A cut that may go into the part, or that may shape its outline.
 pub(super) struct ClassifiedCut<'c> {
@@ -35,7 +35,7 @@ pub(super) struct Gouge {
 
 /// Finds out on which side of a part each cut lies and where it goes into the part. `numbers` are those of the cuts. Cuts above the plate count
 /// only as far as they may shape the outline.
-pub(super) fn judged<'c>(
+pub(super) fn classify_cuts<'c>(
     part: &PreparedPart<'_>,
     index: &CutIndex<'c>,
     numbers: impl Iterator<Item = usize>,
@@ -47,14 +47,14 @@ pub(super) fn judged<'c>(
     for number in numbers {
         let cut = index.cuts[number];
         let element = cut.element(index);
-        let shapes = || cut.cut.way.lowest() <= element.lowest + GAP && !element.is_mark;
+        let shapes = || cut.cut.way.lowest() <= element.lowest + JOIN_GAP && !element.is_mark;
         let Some(curve) = cut.through.or_else(|| shapes().then_some(cut.cut.way.curve)) else { continue };
         let known = last.take().filter(|(number, _)| *number == cut.number()).map(|(_, side)| side);
         let clear = known.unwrap_or_else(|| {
             element.supported.and_then(|segment| part.clear_side(&segment, cut.radius, tolerance))
         });
-        let Passage { side, entered } = match &clear {
-            Some(side) => Passage::on_side(side.clone(), &curve),
+        let CutterPassage { side, entered } = match &clear {
+            Some(side) => CutterPassage::on_side(side.clone(), &curve),
             None => part.passage(&curve, cut.radius, tolerance),
         };
         last = Some((cut.number(), clear));
@@ -94,10 +94,10 @@ pub fn gouging_moves<'w>(
 ) -> Vec<Curve> {
     let part = placed_part(part, placement);
     let part = PreparedPart::new(&part);
-    let through = ways.into_iter().filter_map(|way| way.below(raised + THROUGH));
-    let near = through.filter(|way| around(way, radius).intersects(&part.extent()));
+    let through = ways.into_iter().filter_map(|way| way.part_below(raised + THROUGH_HEIGHT));
+    let near = through.filter(|way| widened_box(way, radius).intersects(&part.extent()));
     let stretches = near.flat_map(|way| {
-        let Passage { entered, .. } = part.passage(&way, radius, tolerance);
+        let CutterPassage { entered, .. } = part.passage(&way, radius, tolerance);
         entered.into_iter().map(move |(from, to)| way.section(from, to))
     });
     stretches.collect()
@@ -108,6 +108,6 @@ impl Gouge {
     /// matter.
     fn is_exceeded_by(&self, at: Xy, depth: f64) -> bool {
         let is_left = || (at.x, at.y) < (self.at.x, self.at.y);
-        depth > self.depth + GAP || (depth >= self.depth - GAP && is_left())
+        depth > self.depth + JOIN_GAP || (depth >= self.depth - JOIN_GAP && is_left())
     }
 }

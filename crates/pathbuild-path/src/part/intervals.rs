@@ -9,21 +9,21 @@ use crate::geometry::{Arc, Curve, Line, Xy};
 pub(crate) type Stretch = (f64, f64);
 
 /// Gap in mm below which two stretches count as one.
-pub(crate) const GAP: f64 = 1e-9;
+pub(crate) const JOIN_GAP: f64 = 1e-9;
 
 /// Gap in mm below which stretches of neighbouring curves count as one.
-pub(crate) const BETWEEN_CURVES: f64 = 1e-6;
+pub(crate) const NEIGHBOUR_JOIN_GAP: f64 = 1e-6;
 
 /// Adds the stretches of `along` that are nearer to `other` than `reach` mm.
 ///
 /// Candidates for their ends are the places where `along` crosses the border of the shape that a disc sweeps along `other`. Between two
 /// neighbouring candidates the distance of the middle decides, so that curves that touch or coincide need no special case.
-pub(crate) fn within(along: &Curve, other: &Curve, reach: f64, found: &mut Vec<Stretch>) {
+pub(crate) fn add_stretches_within(along: &Curve, other: &Curve, reach: f64, found: &mut Vec<Stretch>) {
     if !may_be_near(along, other, reach) {
         return;
     }
     let length = along.length();
-    let mut cuts = Candidates::default();
+    let mut cuts = BoundaryCandidates::default();
     cuts.extend([0.0, length]);
     cross_circle(along, other.start(), reach, &mut cuts);
     cross_circle(along, other.end(), reach, &mut cuts);
@@ -50,12 +50,12 @@ pub(crate) fn within(along: &Curve, other: &Curve, reach: f64, found: &mut Vec<S
 
 /// Places along a curve at which a stretch may begin or end: its ends, and two for each circle and line that borders a swept shape.
 #[derive(Default)]
-struct Candidates {
+struct BoundaryCandidates {
     places: [f64; 10],
     count: usize,
 }
 
-impl Candidates {
+impl BoundaryCandidates {
     fn extend(&mut self, places: impl IntoIterator<Item = f64>) {
         for place in places {
             self.places[self.count] = place;
@@ -89,7 +89,7 @@ pub(crate) fn at(curve: &Curve, along: f64) -> Xy {
 }
 
 /// Sorts stretches and joins those that touch.
-pub(crate) fn joined(mut stretches: Vec<Stretch>, gap: f64) -> Vec<Stretch> {
+pub(crate) fn join_stretches(mut stretches: Vec<Stretch>, gap: f64) -> Vec<Stretch> {
     stretches.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
     stretches.dedup_by(|next, last| {
         let is_joined = next.0 <= last.1 + gap;
@@ -102,7 +102,7 @@ pub(crate) fn joined(mut stretches: Vec<Stretch>, gap: f64) -> Vec<Stretch> {
 }
 
 /// The stretches of a range between joined stretches.
-pub(crate) fn rest(stretches: &[Stretch], (start, end): Stretch) -> Vec<Stretch> {
+pub(crate) fn gaps_between(stretches: &[Stretch], (start, end): Stretch) -> Vec<Stretch> {
     let mut at = start;
     let mut gaps = Vec::new();
     for (from, to) in stretches {
@@ -119,7 +119,7 @@ pub(crate) fn rest(stretches: &[Stretch], (start, end): Stretch) -> Vec<Stretch>
 }
 
 /// The intersection of two sequences of joined stretches.
-pub(crate) fn common(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
+pub(crate) fn intersection(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
     let mut all = Vec::new();
     let (mut a, mut b) = (one.iter().peekable(), other.iter().peekable());
     while let (Some(first), Some(second)) = (a.peek(), b.peek()) {
@@ -137,16 +137,16 @@ pub(crate) fn common(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
 }
 
 /// The difference of two sequences of joined stretches: what is in the first but not in the second.
-pub(crate) fn without(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
-    one.iter().flat_map(|stretch| rest(other, *stretch)).collect()
+pub(crate) fn difference(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
+    one.iter().flat_map(|stretch| gaps_between(other, *stretch)).collect()
 }
 
 /// Joins the last stretch of a ring with the first if they meet where the ring begins.
-pub(crate) fn closed(mut stretches: Vec<Stretch>, whole: f64) -> Vec<Stretch> {
+pub(crate) fn join_ends(mut stretches: Vec<Stretch>, whole: f64) -> Vec<Stretch> {
     let meets = |stretches: &[Stretch]| {
         stretches.len() > 1
-            && stretches[0].0 < BETWEEN_CURVES
-            && stretches[stretches.len() - 1].1 > whole - BETWEEN_CURVES
+            && stretches[0].0 < NEIGHBOUR_JOIN_GAP
+            && stretches[stretches.len() - 1].1 > whole - NEIGHBOUR_JOIN_GAP
     };
     if meets(&stretches)
         && let Some(last) = stretches.pop()
@@ -157,7 +157,7 @@ pub(crate) fn closed(mut stretches: Vec<Stretch>, whole: f64) -> Vec<Stretch> {
 }
 
 /// A curve shifted to the right, out of the material, by `distance` mm. `None` for an inner arc with a smaller radius.
-pub(crate) fn beside(curve: &Curve, distance: f64) -> Option<Curve> {
+pub(crate) fn offset_curve(curve: &Curve, distance: f64) -> Option<Curve> {
     match curve {
         Curve::Line(Line { start, end }) => {
             let way = (end - start).try_normalize(0.0)?;
@@ -167,7 +167,7 @@ pub(crate) fn beside(curve: &Curve, distance: f64) -> Option<Curve> {
         Curve::Arc(arc) => {
             let radius = if arc.clockwise { arc.radius - distance } else { arc.radius + distance };
             let scaled = |at: Xy| arc.centre + (at - arc.centre) * (radius / arc.radius);
-            (radius > GAP)
+            (radius > JOIN_GAP)
                 .then(|| Curve::Arc(Arc { radius, start: scaled(arc.start), end: scaled(arc.end), ..*arc }))
         }
     }
@@ -184,7 +184,7 @@ fn along_arc(arc: &Arc, out: Vector2<f64>) -> Option<f64> {
     Some(arc.radius * if ahead < 0.0 { ahead + std::f64::consts::TAU } else { ahead })
 }
 
-fn cross_circle(along: &Curve, centre: Xy, radius: f64, cuts: &mut Candidates) {
+fn cross_circle(along: &Curve, centre: Xy, radius: f64, cuts: &mut BoundaryCandidates) {
     match along {
         Curve::Line(line) => cuts.extend(line_and_circle(line, centre, radius).into_iter().flatten()),
         Curve::Arc(arc) => {
@@ -221,7 +221,7 @@ fn line_and_circle(line: &Line, centre: Xy, radius: f64) -> Option<[f64; 2]> {
     Some([(foot - half) * length, (foot + half) * length])
 }
 
-fn cross_line(along: &Curve, line: &Line, cuts: &mut Candidates) {
+fn cross_line(along: &Curve, line: &Line, cuts: &mut BoundaryCandidates) {
     let way = line.end - line.start;
     match along {
         Curve::Line(own) => {
@@ -250,8 +250,8 @@ mod tests {
 
     fn stretches(along: &Curve, other: &Curve, reach: f64) -> Vec<Stretch> {
         let mut found = Vec::new();
-        within(along, other, reach, &mut found);
-        joined(found, GAP)
+        add_stretches_within(along, other, reach, &mut found);
+        join_stretches(found, JOIN_GAP)
     }
 
     #[test]

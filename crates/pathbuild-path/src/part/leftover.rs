@@ -3,14 +3,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::boxes::square;
-use super::cuts::{CutIndex, IndexedCut, StandingBar, THROUGH};
+use super::cuts::{CutIndex, IndexedCut, StandingBar, THROUGH_HEIGHT};
 use super::gouge::ClassifiedCut;
 use super::intervals::{
-    BETWEEN_CURVES, GAP, Stretch, at as at_along, beside, closed, common, joined, rest, within, without,
+    JOIN_GAP, NEIGHBOUR_JOIN_GAP, Stretch, add_stretches_within, at as at_along, difference, gaps_between,
+    intersection, join_ends, join_stretches, offset_curve,
 };
 use super::prepared::{PreparedPart, Side};
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::around;
+use crate::keep_out::widened_box;
 
 /// Minimum length in mm of leftover material that is reported.
 const MIN_REPORTED_LENGTH: f64 = 0.1;
@@ -49,8 +50,8 @@ impl Leftover {
     /// Whether another stretch is longer. Of stretches that are equally long, the leftmost counts, as with cuts into the part.
     pub(super) fn is_exceeded_by(&self, other: &Self) -> bool {
         let is_left = || (other.from.x, other.from.y) < (self.from.x, self.from.y);
-        other.length > self.length + BETWEEN_CURVES
-            || (other.length >= self.length - BETWEEN_CURVES && is_left())
+        other.length > self.length + NEIGHBOUR_JOIN_GAP
+            || (other.length >= self.length - NEIGHBOUR_JOIN_GAP && is_left())
     }
 }
 
@@ -114,7 +115,7 @@ impl<'s> LeftoverSearch<'s> {
         tolerance: f64,
     ) -> Self {
         let enters = |judged: &&ClassifiedCut<'_>| {
-            !judged.entered.is_empty() && judged.cut.element(cuts).lowest > THROUGH
+            !judged.entered.is_empty() && judged.cut.element(cuts).lowest > THROUGH_HEIGHT
         };
         let grooves = judged.values().filter(enters).map(|judged| judged.cut.number());
         Self { part, cuts, judged, contours, tolerance, grooves: grooves.collect() }
@@ -148,19 +149,22 @@ impl<'s> LeftoverSearch<'s> {
         let mut is_near = false;
         let mut uncut = Vec::new();
         for curve in &self.part.part.rings[ring].curves {
-            let curve = RingCurve { ring, curve, near: self.cuts.near(around(curve, 0.0)) };
-            is_near = is_near || self.beside(&curve).next().is_some();
+            let curve = RingCurve { ring, curve, near: self.cuts.near(widened_box(curve, 0.0)) };
+            is_near = is_near || self.cuts_beside(&curve).next().is_some();
             let length = curve.curve.length();
-            let gaps = rest(&self.covered(&curve), (0.0, length));
+            let gaps = gaps_between(&self.covered_stretches(&curve), (0.0, length));
             if !gaps.is_empty() {
                 self.add_gaps(&curve, &gaps, &mut all, &mut uncut);
             }
             all.length += length;
         }
         let is_long = |(from, to): &Stretch| to - from >= MIN_REPORTED_LENGTH;
-        all.left = closed(joined(uncut, BETWEEN_CURVES), all.length).into_iter().filter(is_long).collect();
-        all.never = joined(all.never, BETWEEN_CURVES);
-        all.unreachable = closed(joined(all.unreachable, BETWEEN_CURVES), all.length);
+        all.left = join_ends(join_stretches(uncut, NEIGHBOUR_JOIN_GAP), all.length)
+            .into_iter()
+            .filter(is_long)
+            .collect();
+        all.never = join_stretches(all.never, NEIGHBOUR_JOIN_GAP);
+        all.unreachable = join_ends(join_stretches(all.unreachable, NEIGHBOUR_JOIN_GAP), all.length);
         all.unreachable.retain(is_long);
         is_near.then_some(all)
     }
@@ -177,23 +181,23 @@ impl<'s> LeftoverSearch<'s> {
         let start = all.length;
         let shifted =
             |stretches: Vec<Stretch>| stretches.into_iter().map(move |(from, to)| (from + start, to + start));
-        let gaps = without(gaps, &self.beside_bars(curve));
+        let gaps = difference(gaps, &self.beside_bars(curve));
         if gaps.is_empty() {
             return;
         }
-        let close = self.close(curve);
-        let open = common(&close, &gaps);
-        all.never.extend(shifted(without(&gaps, &close)));
+        let close = self.close_stretches(curve);
+        let open = intersection(&close, &gaps);
+        all.never.extend(shifted(difference(&gaps, &close)));
         if open.is_empty() {
             return;
         }
-        let corners = self.unreachable(curve);
-        uncut.extend(shifted(without(&open, &corners)));
-        all.unreachable.extend(shifted(common(&open, &corners)));
+        let corners = self.unreachable_stretches(curve);
+        uncut.extend(shifted(difference(&open, &corners)));
+        all.unreachable.extend(shifted(intersection(&open, &corners)));
     }
 
     /// The cuts near a curve that run beside the part, along this ring.
-    fn beside(&self, curve: &RingCurve<'_>) -> impl Iterator<Item = &'s ClassifiedCut<'s>> {
+    fn cuts_beside(&self, curve: &RingCurve<'_>) -> impl Iterator<Item = &'s ClassifiedCut<'s>> {
         let ring = curve.ring;
         let judged = curve.near.iter().filter_map(|number| self.judged.get(number));
         judged.filter(move |judged| {
@@ -206,13 +210,13 @@ impl<'s> LeftoverSearch<'s> {
             is_on_side
                 && self.contours[judged.cut.path]
                 && !element.is_mark
-                && judged.cut.cut.way.lowest() <= element.lowest + GAP
+                && judged.cut.cut.way.lowest() <= element.lowest + JOIN_GAP
                 && !self.grooves.contains(&judged.cut.number())
         })
     }
 
     /// The stretches of a curve that are within the tolerance of through cuts, or of the support bars between them.
-    fn covered(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
+    fn covered_stretches(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         let mut last = None;
         for judged in curve.near.iter().filter_map(|number| self.judged.get(number)) {
@@ -224,40 +228,44 @@ impl<'s> LeftoverSearch<'s> {
                 continue;
             }
             let way = supported.unwrap_or(judged.curve);
-            within(curve.curve, &way, judged.cut.radius + self.tolerance, &mut found);
+            add_stretches_within(curve.curve, &way, judged.cut.radius + self.tolerance, &mut found);
         }
-        joined(found, GAP)
+        join_stretches(found, JOIN_GAP)
     }
 
     /// The stretches of a curve near a cut beside the part: within O of a cut that goes through the plate, or reached by one that does not.
-    fn close(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
+    fn close_stretches(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
-        for judged in self.beside(curve) {
+        for judged in self.cuts_beside(curve) {
             let radius = judged.cut.radius;
             let reach = if judged.cut.through.is_some() { 2.0 * radius } else { radius + self.tolerance };
-            within(curve.curve, &judged.curve, reach, &mut found);
+            add_stretches_within(curve.curve, &judged.curve, reach, &mut found);
         }
-        joined(found, GAP)
+        join_stretches(found, JOIN_GAP)
     }
 
     /// The stretches that the smallest cutter beside a curve cannot reach without entering the part elsewhere.
-    fn unreachable(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
-        let radii = self.beside(curve).map(|judged| judged.cut.radius);
+    fn unreachable_stretches(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
+        let radii = self.cuts_beside(curve).map(|judged| judged.cut.radius);
         let Some(radius) = radii.min_by(f64::total_cmp) else { return Vec::new() };
         let length = curve.curve.length();
-        let Some(away) = beside(curve.curve, radius) else {
-            return if self.fits(curve.curve, radius) { Vec::new() } else { vec![(0.0, length)] };
+        let Some(away) = offset_curve(curve.curve, radius) else {
+            return if self.reaches_whole_arc(curve.curve, radius) {
+                Vec::new()
+            } else {
+                vec![(0.0, length)]
+            };
         };
         let scale = length / away.length();
         let mut found = Vec::new();
-        for (_, other) in self.part.curves_near(around(&away, radius)) {
-            within(&away, other, radius - self.tolerance, &mut found);
+        for (_, other) in self.part.curves_near(widened_box(&away, radius)) {
+            add_stretches_within(&away, other, radius - self.tolerance, &mut found);
         }
-        joined(found.into_iter().map(|(from, to)| (from * scale, to * scale)).collect(), GAP)
+        join_stretches(found.into_iter().map(|(from, to)| (from * scale, to * scale)).collect(), JOIN_GAP)
     }
 
     /// Whether a cutter reaches all of an inner arc that has its own radius: it does so from the arc's centre.
-    fn fits(&self, curve: &Curve, radius: f64) -> bool {
+    fn reaches_whole_arc(&self, curve: &Curve, radius: f64) -> bool {
         let Curve::Arc(arc) = curve else { return false };
         let reach = radius - self.tolerance;
         let mut near = self.part.curves_near(square(arc.centre, reach));
@@ -268,9 +276,9 @@ impl<'s> LeftoverSearch<'s> {
     fn beside_bars(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         for (bar, radius) in self.bars() {
-            within(curve.curve, &bar.foot, radius + self.tolerance, &mut found);
+            add_stretches_within(curve.curve, &bar.foot, radius + self.tolerance, &mut found);
         }
-        joined(found, GAP)
+        join_stretches(found, JOIN_GAP)
     }
 
     /// The bars of the paths that cut the part out, with half of O.
@@ -280,7 +288,7 @@ impl<'s> LeftoverSearch<'s> {
     }
 
     /// The cuts with these numbers whose paths cut the part out.
-    fn own(&self, numbers: &[usize]) -> impl Iterator<Item = &IndexedCut<'s>> {
+    fn contour_cuts(&self, numbers: &[usize]) -> impl Iterator<Item = &IndexedCut<'s>> {
         numbers.iter().map(|number| &self.cuts.cuts[*number]).filter(|cut| self.contours[cut.path])
     }
 
@@ -292,7 +300,7 @@ impl<'s> LeftoverSearch<'s> {
         let nearest = self.nearest(ring, place(f64::midpoint(from, to)))?;
         let is_end = |end: f64| {
             let wrapped = [end - whole, end, end + whole];
-            let touches = |at: f64| wrapped.iter().any(|end| (end - at).abs() <= BETWEEN_CURVES);
+            let touches = |at: f64| wrapped.iter().any(|end| (end - at).abs() <= NEIGHBOUR_JOIN_GAP);
             stretches.never.iter().any(|never| touches(never.0) || touches(never.1))
         };
         let length = to - from;
@@ -342,7 +350,7 @@ impl<'s> LeftoverSearch<'s> {
     /// The distance in mm from a point of an outline to the edge of the nearest cut of any depth, even above a bar.
     fn distance(&self, at: Xy) -> f64 {
         let near = self.cuts.near(square(at, 0.0));
-        let distances = self.own(&near).map(|cut| cut.cut.way.curve.distance_to(at) - cut.radius);
+        let distances = self.contour_cuts(&near).map(|cut| cut.cut.way.curve.distance_to(at) - cut.radius);
         distances.fold(f64::INFINITY, f64::min)
     }
 
@@ -352,7 +360,7 @@ impl<'s> LeftoverSearch<'s> {
         let curve = RingCurve { ring, curve: &point, near: self.cuts.near(square(at, 0.0)) };
         let distance = |judged: &ClassifiedCut<'_>| judged.curve.distance_to(at) - judged.cut.radius;
         let element = |judged: &ClassifiedCut<'_>| (judged.cut.path, judged.cut.cut.element);
-        self.beside(&curve).min_by(|one, other| {
+        self.cuts_beside(&curve).min_by(|one, other| {
             distance(one).total_cmp(&distance(other)).then_with(|| element(one).cmp(&element(other)))
         })
     }

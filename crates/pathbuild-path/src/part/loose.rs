@@ -4,17 +4,17 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use super::boxes::{BoxIndex, may_be_near, square};
 use super::cuts::StandingBar;
-use super::intervals::{at as at_along, beside};
+use super::intervals::{at as at_along, offset_curve};
 use super::prepared::PreparedPart;
 use crate::geometry::{Curve, Line, Xy};
-use crate::keep_out::around;
+use crate::keep_out::widened_box;
 
 /// Largest distance in mm between an arc and the chords that stand for it.
-const SAGITTA: f64 = 0.02;
+const MAX_SAGITTA: f64 = 0.02;
 
 /// The area that a cutter covers while it moves in a straight line.
 #[derive(Clone, Copy)]
-struct Sweep {
+struct SweptLine {
     line: Line,
     radius: f64,
 }
@@ -33,11 +33,12 @@ pub(super) fn is_cut_out<'b>(
     if beside().any(|(at, bar)| leads_straight_out(at, bar, cuts)) {
         return false;
     }
-    let sweeps: Vec<Sweep> = cuts.iter().flat_map(|(curve, radius)| sweeps(curve, *radius)).collect();
+    let sweeps: Vec<SweptLine> =
+        cuts.iter().flat_map(|(curve, radius)| swept_lines(curve, *radius)).collect();
     if beside().any(|(at, _)| can_escape(at, &sweeps)) {
         return false;
     }
-    let boxes = BoxIndex::new(cuts.iter().map(|(curve, radius)| around(curve, *radius)));
+    let boxes = BoxIndex::new(cuts.iter().map(|(curve, radius)| widened_box(curve, *radius)));
     let Some(centre) = point_in_material(part, cuts, &boxes) else { return false };
     !can_escape(centre, &sweeps) && is_ring_closed(centre, &sweeps)
 }
@@ -46,14 +47,15 @@ pub(super) fn is_cut_out<'b>(
 fn beside_bar(bar: &StandingBar, radius: f64) -> impl Iterator<Item = (Xy, Xy)> {
     let centre = |curve: &Curve| at_along(curve, curve.length() / 2.0);
     bar.middle.into_iter().flat_map(move |middle| {
-        let aside =
-            [radius, -radius].into_iter().filter_map(move |radius| beside(&middle, radius * BESIDE_BAR));
+        let aside = [radius, -radius]
+            .into_iter()
+            .filter_map(move |radius| offset_curve(&middle, radius * BESIDE_BAR_RADII));
         aside.map(move |curve| (centre(&curve), centre(&middle)))
     })
 }
 
 /// Distance in cutter radii between a bar's middle line and the part: just beyond the edge of the cut that the bar interrupts.
-const BESIDE_BAR: f64 = 1.01;
+const BESIDE_BAR_RADII: f64 = 1.01;
 
 /// Whether the straight line from a point beside a bar across the bar's middle meets no cut.
 fn leads_straight_out(at: Xy, bar: Xy, cuts: &[(Curve, f64)]) -> bool {
@@ -67,7 +69,7 @@ fn leads_straight_out(at: Xy, bar: Xy, cuts: &[(Curve, f64)]) -> bool {
 }
 
 /// Whether a straight line leads from a point to the border of the plate without meeting a cut.
-fn can_escape(at: Xy, sweeps: &[Sweep]) -> bool {
+fn can_escape(at: Xy, sweeps: &[SweptLine]) -> bool {
     let Some(mut hidden) = sweeps.iter().map(|sweep| sweep.seen_from(at)).collect::<Option<Vec<_>>>() else {
         return false;
     };
@@ -88,11 +90,11 @@ fn can_escape(at: Xy, sweeps: &[Sweep]) -> bool {
 ///
 /// A union-find over overlapping sweeps. Each sweep stores its angle around the point relative to its parent. If two sweeps of one group
 /// overlap at an angle that differs from the stored one, they close a ring.
-fn is_ring_closed(centre: Xy, sweeps: &[Sweep]) -> bool {
-    let boxes = BoxIndex::new(sweeps.iter().map(|sweep| around(&Curve::Line(sweep.line), sweep.radius)));
+fn is_ring_closed(centre: Xy, sweeps: &[SweptLine]) -> bool {
+    let boxes = BoxIndex::new(sweeps.iter().map(|sweep| widened_box(&Curve::Line(sweep.line), sweep.radius)));
     let mut groups = Groups { parents: (0..sweeps.len()).collect(), angles: vec![0.0; sweeps.len()] };
     for (number, sweep) in sweeps.iter().enumerate() {
-        for other in boxes.near(around(&Curve::Line(sweep.line), sweep.radius)) {
+        for other in boxes.near(widened_box(&Curve::Line(sweep.line), sweep.radius)) {
             if other <= number {
                 continue;
             }
@@ -120,11 +122,11 @@ fn turn(centre: Xy, from: Xy, to: Xy) -> f64 {
     libm::atan2(from.perp(&to), from.dot(&to))
 }
 
-impl Sweep {
+impl SweptLine {
     /// The range of directions in which the sweep is seen from a point, which begins between -pi and pi. It may be a little larger than needed.
     /// `None` if the point is under the sweep.
     fn seen_from(&self, at: Xy) -> Option<(f64, f64)> {
-        let radius = self.radius + SAGITTA;
+        let radius = self.radius + MAX_SAGITTA;
         if Curve::Line(self.line).distance_to(at) <= radius {
             return None;
         }
@@ -187,24 +189,24 @@ fn point_in_material(part: &PreparedPart<'_>, cuts: &[(Curve, f64)], boxes: &Box
     let depths = [0.001, 0.05, 0.3, 1.0, 3.0];
     depths.into_iter().find_map(|depth| {
         curves.iter().take(6).find_map(|curve| {
-            let inside = beside(curve, -depth)?;
+            let inside = offset_curve(curve, -depth)?;
             Some(inside.section(0.0, inside.length() / 2.0).end()).filter(|at| is_free(*at))
         })
     })
 }
 
-fn sweeps(curve: &Curve, radius: f64) -> Vec<Sweep> {
+fn swept_lines(curve: &Curve, radius: f64) -> Vec<SweptLine> {
     let Curve::Arc(arc) = curve else {
         let line = Line { start: curve.start(), end: curve.end() };
-        return vec![Sweep { line, radius }];
+        return vec![SweptLine { line, radius }];
     };
-    let step = 2.0 * libm::acos((1.0 - SAGITTA / arc.radius).clamp(-1.0, 1.0)).min(FRAC_PI_4);
+    let step = 2.0 * libm::acos((1.0 - MAX_SAGITTA / arc.radius).clamp(-1.0, 1.0)).min(FRAC_PI_4);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small number from 1 up")]
     let count = (arc.degrees.to_radians() / step).ceil().max(1.0) as u32;
     let length = arc.length();
     let place = |number: u32| at_along(curve, length * f64::from(number) / f64::from(count));
     (0..count)
-        .map(|number| Sweep { line: Line { start: place(number), end: place(number + 1) }, radius })
+        .map(|number| SweptLine { line: Line { start: place(number), end: place(number + 1) }, radius })
         .collect()
 }
 

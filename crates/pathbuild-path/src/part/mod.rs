@@ -21,11 +21,11 @@ use crate::geometry::{Curve, Placement};
 use crate::names::{LayerPattern, PathName};
 
 pub(crate) use boxes::{BoxIndex, square};
-pub(crate) use intervals::{Stretch, at as at_along, joined, within};
+pub(crate) use intervals::{Stretch, add_stretches_within, at as at_along, join_stretches};
 
 pub use bars::LostBar;
 pub use check::{PartFindings, check_parts, check_path};
-pub use cuts::{CutElement, EmbeddedPlace, PartCut, PathCuts, StandingBar, THROUGH};
+pub use cuts::{CutElement, EmbeddedPlace, PartCut, PathCuts, StandingBar, THROUGH_HEIGHT};
 pub use gouge::gouging_moves;
 pub use leftover::LeftMaterial;
 pub use neighbours::{NeighbourCuts, NeighbourGouge, PlacedCuts, SeveredPart};
@@ -120,7 +120,7 @@ impl Part {
     /// by letters.
     pub fn may_belong_to(&self, path: &PathName) -> bool {
         let Some(name) = &self.paths else { return true };
-        let path = path.folded();
+        let path = path.canonical();
         path.strip_prefix(name.as_str()).is_some_and(|rest| rest.chars().all(char::is_alphabetic))
     }
 }

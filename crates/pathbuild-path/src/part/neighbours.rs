@@ -5,12 +5,12 @@ use rstar::{AABB, Envelope as _};
 use super::bars::{LostBar, lost_bars};
 use super::boxes::may_be_near;
 use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar, THROUGH};
-use super::gouge::{gouges, judged};
+use super::gouge::{gouges, classify_cuts};
 use super::loose::is_cut_out;
 use super::prepared::PreparedPart;
 use super::{Part, placed_part};
 use crate::geometry::{Curve, Placement, Xy};
-use crate::keep_out::{TipMove, around};
+use crate::keep_out::{TipMove, widened_box};
 
 /// A path at its place in a program.
 #[derive(Clone, Debug)]
@@ -74,16 +74,16 @@ impl<'c> PlacedCuts<'c> {
     /// Places a path.
     pub fn new(cuts: &'c PathCuts, parts: Vec<&'c Part>, placement: Placement, raised: f64) -> Self {
         let merged = |one: AABB<[f64; 2]>, other: AABB<[f64; 2]>| one.merged(&other);
-        let swept = cuts.cuts.iter().map(|cut| around(&cut.way.curve, cuts.radius)).reduce(merged);
+        let swept = cuts.cuts.iter().map(|cut| widened_box(&cut.way.curve, cuts.radius)).reduce(merged);
         let rims = parts.iter().flat_map(|part| &part.rings[0].curves);
         let bars = cuts.bars.iter().filter_map(|bar| bar.middle.as_ref());
-        let kept = rims.chain(bars).map(|curve| around(curve, 0.0)).reduce(merged);
+        let kept = rims.chain(bars).map(|curve| widened_box(curve, 0.0)).reduce(merged);
         let placed = |extent: AABB<[f64; 2]>| placed_box(&placement, extent);
         Self { cuts, parts, placement, raised, swept: swept.map(placed), kept: kept.map(placed) }
     }
 
     /// Returns the cuts that another path makes into the parts and bars of this one.
-    pub fn taken_by(&self, other: &Self, tolerance: f64) -> NeighbourCuts {
+    pub fn cuts_made_by(&self, other: &Self, tolerance: f64) -> NeighbourCuts {
         let is_near = self.kept.zip(other.swept).is_some_and(|(kept, swept)| kept.intersects(&swept));
         if !is_near {
             return NeighbourCuts::default();
@@ -96,7 +96,7 @@ impl<'c> PlacedCuts<'c> {
             let part = placed_part(part, &self.placement);
             let prepared = PreparedPart::new(&part);
             let near = cuts.near(prepared.extent()).into_iter().filter(|cut| cuts.cuts[*cut].path == 1);
-            let judged = judged(&prepared, &cuts, near, tolerance);
+            let judged = classify_cuts(&prepared, &cuts, near, tolerance);
             gouged.extend(gouges(&prepared, judged.values()).into_iter().map(|((_, element), gouge)| {
                 NeighbourGouge { part: number, element, at: gouge.at, depth: gouge.depth }
             }));

@@ -5,10 +5,10 @@ use std::cell::OnceCell;
 use rstar::{AABB, Envelope as _};
 
 use super::boxes::{BoxIndex, square};
-use super::intervals::{GAP, Stretch, at as at_along, joined, within};
+use super::intervals::{JOIN_GAP, Stretch, add_stretches_within, at as at_along, join_stretches};
 use super::{Part, PartRing};
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::{Outline, around};
+use crate::keep_out::{Outline, widened_box};
 
 /// A part with its rings indexed.
 pub(crate) struct PreparedPart<'p> {
@@ -26,7 +26,7 @@ struct PreparedRing {
 }
 
 /// The result of moving a cutter past a part or into it.
-pub(crate) struct Passage {
+pub(crate) struct CutterPassage {
     /// The side of the part on which the midpoint of the cutter's path lies.
     pub(crate) side: Side,
     /// The stretches on which the cutter goes into the part.
@@ -42,7 +42,7 @@ pub(crate) enum Side {
     Openings(Vec<usize>),
 }
 
-impl Passage {
+impl CutterPassage {
     /// Returns the passage along a curve that lies on one side as a whole.
     pub(crate) fn on_side(side: Side, way: &Curve) -> Self {
         let entered = if side == Side::Material { vec![(0.0, way.length())] } else { Vec::new() };
@@ -53,7 +53,7 @@ impl Passage {
 impl<'p> PreparedPart<'p> {
     pub(crate) fn new(part: &'p Part) -> Self {
         let ring = |ring: &PartRing| {
-            let boxes = ring.curves.iter().map(|curve| around(curve, BOX_MARGIN));
+            let boxes = ring.curves.iter().map(|curve| widened_box(curve, BOX_MARGIN));
             let extent = boxes.reduce(|one, other| one.merged(&other)).unwrap_or_else(AABB::new_empty);
             PreparedRing { extent, outline: OnceCell::new() }
         };
@@ -63,7 +63,7 @@ impl<'p> PreparedPart<'p> {
         Self {
             part,
             rings: part.rings.iter().map(ring).collect(),
-            curve_boxes: BoxIndex::new(curves.iter().map(|(_, curve)| around(curve, BOX_MARGIN))),
+            curve_boxes: BoxIndex::new(curves.iter().map(|(_, curve)| widened_box(curve, BOX_MARGIN))),
             curves,
         }
     }
@@ -129,25 +129,25 @@ impl<'p> PreparedPart<'p> {
 
     /// Returns the side on which a whole curve lies; `None` if a cutter of this radius goes deeper than `tolerance` into a ring.
     pub(crate) fn clear_side(&self, way: &Curve, radius: f64, tolerance: f64) -> Option<Side> {
-        let reach = (radius - tolerance).max(GAP);
-        let mut near = self.curves_near(around(way, radius));
+        let reach = (radius - tolerance).max(JOIN_GAP);
+        let mut near = self.curves_near(widened_box(way, radius));
         (!near.any(|(_, curve)| curve.distance(way) < reach)).then(|| self.side(way.start()))
     }
 
     /// Returns the passage of a cutter of this radius along a curve: the stretches are those on which it goes deeper than `tolerance` into the part.
-    pub(crate) fn passage(&self, way: &Curve, radius: f64, tolerance: f64) -> Passage {
+    pub(crate) fn passage(&self, way: &Curve, radius: f64, tolerance: f64) -> CutterPassage {
         match self.clear_side(way, radius, tolerance) {
-            Some(side) => Passage::on_side(side, way),
-            None => Passage {
+            Some(side) => CutterPassage::on_side(side, way),
+            None => CutterPassage {
                 side: self.side(at_along(way, way.length() / 2.0)),
-                entered: self.entered(way, radius, tolerance),
+                entered: self.entered_stretches(way, radius, tolerance),
             },
         }
     }
 
     /// Returns the stretches of a curve on which a cutter of this radius goes deeper than `tolerance` into the part. A curve without length gives a
     /// stretch without length.
-    fn entered(&self, way: &Curve, radius: f64, tolerance: f64) -> Vec<Stretch> {
+    fn entered_stretches(&self, way: &Curve, radius: f64, tolerance: f64) -> Vec<Stretch> {
         let length = way.length();
         if length == 0.0 {
             let is_deep = self.depth(way.start(), radius) > tolerance;
@@ -155,17 +155,17 @@ impl<'p> PreparedPart<'p> {
         }
         // The depth is continuous and passes the tolerance only where a ring is exactly that far away.
         let mut cuts = Vec::new();
-        for (_, curve) in self.curves_near(around(way, radius)) {
-            within(way, curve, radius - tolerance, &mut cuts);
+        for (_, curve) in self.curves_near(widened_box(way, radius)) {
+            add_stretches_within(way, curve, radius - tolerance, &mut cuts);
         }
         let mut ends: Vec<f64> = cuts.into_iter().flat_map(|(from, to)| [from, to]).collect();
         ends.extend([0.0, length]);
         ends.sort_by(f64::total_cmp);
         let is_deep = |cut: &&[f64]| {
             let middle = at_along(way, f64::midpoint(cut[0], cut[1]));
-            cut[1] - cut[0] > GAP && self.depth(middle, radius) > tolerance
+            cut[1] - cut[0] > JOIN_GAP && self.depth(middle, radius) > tolerance
         };
-        joined(ends.windows(2).filter(is_deep).map(|cut| (cut[0], cut[1])).collect(), GAP)
+        join_stretches(ends.windows(2).filter(is_deep).map(|cut| (cut[0], cut[1])).collect(), JOIN_GAP)
     }
 
     /// The deepest place of a stretch, and its depth. The stretch is sampled, and the search refined around the best sample.
@@ -173,13 +173,13 @@ impl<'p> PreparedPart<'p> {
         let place = |along: f64| at_along(way, along);
         let depth = |along: f64| self.depth(place(along), radius);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-        let samples = ((to - from) / SAMPLED).ceil().clamp(8.0, 64.0) as u32;
+        let samples = ((to - from) / SAMPLE_DISTANCE).ceil().clamp(8.0, 64.0) as u32;
         let step = (to - from) / f64::from(samples);
         let sampled = (0..=samples).map(|number| from + step * f64::from(number));
         let deeper = |best: (f64, f64), next: (f64, f64)| if next.0 > best.0 { next } else { best };
         let best = sampled.map(|along| (depth(along), along)).fold((f64::NEG_INFINITY, from), deeper);
         let (mut low, mut high) = ((best.1 - step).max(from), (best.1 + step).min(to));
-        for _ in 0..REFINED {
+        for _ in 0..REFINEMENT_STEPS {
             let third = (high - low) / 3.0;
             if depth(low + third) < depth(high - third) { low += third } else { high -= third }
         }
@@ -196,7 +196,7 @@ const BOX_MARGIN: f64 = 1e-4;
 const MAX_DISTANCE: f64 = 1e7;
 
 /// Distance in mm between the samples of a stretch.
-const SAMPLED: f64 = 0.5;
+const SAMPLE_DISTANCE: f64 = 0.5;
 
 /// Number of steps of the search between two samples: their distance shrinks to less than a micrometre.
-const REFINED: usize = 20;
+const REFINEMENT_STEPS: usize = 20;

@@ -7,27 +7,27 @@ use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 
 use crate::approx::near;
-use crate::element::{Element, shown};
+use crate::element::{Element, diagnostic_point};
 use crate::letter::{LetterUse, Letters};
 use crate::read::candidates::{
     AssignedCandidate, Candidate, Owner, SearchBudget, find, find_taken, nearest_miss,
 };
 use crate::read::collect::PathCollector;
 use crate::read::entities::{FoundText, TextCircle};
-use crate::read::texts::{LayerTexts, MAX_SEARCHED_LAYERS, MOST_EXAMINED, Texts};
+use crate::read::texts::{LayerTexts, MAX_EXAMINED_ELEMENTS, MAX_SEARCHED_LAYERS, Texts};
 use crate::text::{ParameterText, ParameterTexts, TextId, without_percent_codes};
 
 /// Maximum number of layers to list on which a text would find an element.
-const MOST_NAMED: usize = 3;
+const MAX_LISTED_LAYERS: usize = 3;
 
 /// Upper bound on the elements that are examined for hints about texts without an element, in addition to those examined to assign texts.
-const MOST_EXAMINED_FOR_HINTS: usize = 1_000_000;
+const MAX_EXAMINED_FOR_HINTS: usize = 1_000_000;
 
 impl Texts<'_> {
     /// Assigns each text to its element; PB107 if there is none. `margin`: minimum difference in mm between the distances from this element
     /// and from another one; PB116 if it is less.
     pub(crate) fn assign(&mut self, path: &mut PathCollector<'_>, margin: f64) {
-        let budget = SearchBudget::new(MOST_EXAMINED);
+        let budget = SearchBudget::new(MAX_EXAMINED_ELEMENTS);
         for layer in &mut self.layers {
             if let Some(problem) = layer.assign(path, margin, &budget) {
                 // The elements of the remaining texts are unknown.
@@ -40,18 +40,19 @@ impl Texts<'_> {
             return;
         }
         self.prepare();
-        let budget = SearchBudget::new(MOST_EXAMINED_FOR_HINTS);
+        let budget = SearchBudget::new(MAX_EXAMINED_FOR_HINTS);
         for (number, layer) in self.layers.iter().enumerate() {
             for text in &layer.texts {
                 let others = self.layers.iter().enumerate().filter(|(other, _)| *other != number);
-                let problem = layer.without_element(text, others.map(|(_, other)| other), path, &budget);
+                let problem =
+                    layer.missing_element_problem(text, others.map(|(_, other)| other), path, &budget);
                 let problem = path.with_left_out(problem);
                 path.diagnostics.push(problem);
                 let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
                 if let Some(read) = texts.first() {
                     path.note_start_text(read, text.anchor());
                 }
-                let letters = texts.first().map(ParameterText::meant_letters);
+                let letters = texts.first().map(ParameterText::possible_letters);
                 path.faults.stray_letters = path.faults.stray_letters.and(letters.unwrap_or_default());
             }
         }
@@ -68,10 +69,11 @@ impl<'d> LayerTexts<'d> {
     ) -> Option<Diagnostic> {
         let last = self.each_match(budget, |layer, text, _, owners, found| {
             let has_owner = !owners.is_empty();
-            path.diagnostics.extend(found.and_then(|found| layer.doubt(text, found, margin, &path.elements)));
+            path.diagnostics
+                .extend(found.and_then(|found| layer.assignment_doubt(text, found, margin, &path.elements)));
             if has_owner {
                 let id = path.given.push_drawn(text.string());
-                layer.give(id, owners.clone(), path);
+                layer.give_text(id, owners.clone(), path);
                 let is_start = |owner: &Candidate| matches!(owner.owner, Owner::Start);
                 if !layer.candidates[owners].iter().any(is_start) {
                     path.note_given_start_text(id, text.anchor());
@@ -79,11 +81,11 @@ impl<'d> LayerTexts<'d> {
             }
             has_owner
         });
-        let problem = Diagnostic::new(&messages::TEXTS_IN_A_CROWD).with("limit", MOST_EXAMINED);
+        let problem = Diagnostic::new(&messages::TEXTS_IN_A_CROWD).with("limit", MAX_EXAMINED_ELEMENTS);
         last.map(|last| self.origin(last.source, last.anchor()).at(problem))
     }
 
-    fn give(&self, text: TextId, owners: Range<usize>, path: &mut PathCollector<'_>) {
+    fn give_text(&self, text: TextId, owners: Range<usize>, path: &mut PathCollector<'_>) {
         for owner in &self.candidates[owners] {
             let owner = match owner.owner {
                 Owner::Start => path.start.as_mut().map(|start| &mut start.text),
@@ -99,7 +101,7 @@ impl<'d> LayerTexts<'d> {
 
     /// Returns PB116 if another element of the same kind is about as near, or one of another kind is nearer. Other elements do not count if the text
     /// would be an error there: a marker instead of an element or the reverse, and elements that do not accept one of its letters.
-    fn doubt(
+    fn assignment_doubt(
         &self,
         text: &FoundText<'_>,
         found: AssignedCandidate,
@@ -130,15 +132,15 @@ impl<'d> LayerTexts<'d> {
         let mut doubt = Diagnostic::new(message)
             .quoting("text", string.replace('\n', " "))
             .with("element", element.word())
-            .with("point", shown(element.shape.point()))
+            .with("point", diagnostic_point(element.shape.point()))
             .with("other", other.word())
-            .with("other_point", shown(other.shape.point()))
+            .with("other_point", diagnostic_point(other.shape.point()))
             .with("margin", farther);
-        doubt.text = texts.first().map(ParameterText::whole);
+        doubt.text = texts.first().map(ParameterText::whole_text_fault);
         Some(self.origin(text.source, text.anchor()).at(doubt))
     }
 
-    fn without_element<'a>(
+    fn missing_element_problem<'a>(
         &self,
         text: &FoundText<'_>,
         elsewhere: impl Iterator<Item = &'a Self>,
@@ -151,15 +153,18 @@ impl<'d> LayerTexts<'d> {
         let (string, circle) = (without_percent_codes(text.string()), text.circle());
         let mut diagnostic = Diagnostic::new(&messages::TEXT_WITHOUT_ELEMENT)
             .quoting("text", string.replace('\n', " "))
-            .with("centre", shown(circle.centre))
+            .with("centre", diagnostic_point(circle.centre))
             .with("diameter", 2.0 * circle.radius);
-        diagnostic.text = ParameterTexts::from(&*string).first().map(ParameterText::whole);
+        diagnostic.text = ParameterTexts::from(&*string).first().map(ParameterText::whole_text_fault);
         let taken = find_taken(&circle, &self.candidates, &self.boxes, budget);
         if let Some(taken) = taken.map(|taken| &self.candidates[taken]) {
             let is_blank = path.text_of(taken.owner).is_some_and(|text| text.pieces().is_empty());
             diagnostic = diagnostic.note(
                 if is_blank { &messages::HAS_A_BLANK_TEXT } else { &messages::HAS_A_TEXT },
-                vec![("element", taken.word().into()), ("point", shown(taken.shape.point()).into())],
+                vec![
+                    ("element", taken.word().into()),
+                    ("point", diagnostic_point(taken.shape.point()).into()),
+                ],
             );
         } else if let Some(miss) = nearest_miss(&circle, &self.candidates, &self.boxes, budget) {
             let candidate = &self.candidates[miss.candidate];
@@ -167,26 +172,30 @@ impl<'d> LayerTexts<'d> {
                 &messages::NEAREST_ELEMENT,
                 vec![
                     ("element", candidate.word().into()),
-                    ("point", shown(candidate.shape.point()).into()),
+                    ("point", diagnostic_point(candidate.shape.point()).into()),
                     ("distance", miss.distance.into()),
                 ],
             );
         }
         let takers =
-            elsewhere.take(MAX_SEARCHED_LAYERS).filter_map(|layer| layer.would_take(&circle, budget));
+            elsewhere.take(MAX_SEARCHED_LAYERS).filter_map(|layer| layer.possible_owner(&circle, budget));
         let note = |diagnostic: Diagnostic, taker| diagnostic.note(&messages::ELEMENT_ON_OTHER_LAYER, taker);
-        let diagnostic = takers.take(MOST_NAMED).fold(diagnostic, note);
+        let diagnostic = takers.take(MAX_LISTED_LAYERS).fold(diagnostic, note);
         self.origin(text.source, text.anchor()).at(diagnostic)
     }
 
     /// The element that a text with this circle would belong to on this layer.
-    fn would_take(&self, circle: &TextCircle, budget: &SearchBudget) -> Option<Vec<(&'static str, Value)>> {
+    fn possible_owner(
+        &self,
+        circle: &TextCircle,
+        budget: &SearchBudget,
+    ) -> Option<Vec<(&'static str, Value)>> {
         let found = find(circle, &self.candidates, &self.boxes, budget)?;
         let candidate = &self.candidates[found.candidate];
         Some(vec![
             ("layer", Value::quoted(&self.name)),
             ("element", candidate.word().into()),
-            ("point", shown(candidate.shape.point()).into()),
+            ("point", diagnostic_point(candidate.shape.point()).into()),
         ])
     }
 }

@@ -8,22 +8,22 @@ use pathbuild_diagnostic::{Diagnostic, Message, Point};
 use rstar::primitives::GeomWithData;
 use rstar::{Envelope as _, RTree};
 
-use crate::element::shown;
+use crate::element::diagnostic_point;
 use crate::geometry::{Curve, Line, Xy};
 use crate::keep_out::Outline;
 use crate::part::{BoxIndex, at_along, square};
-use crate::read::outline_graph::{Graph, NEARLY_JOINED};
+use crate::read::outline_graph::{Graph, NEAR_MISS_DISTANCE};
 use crate::read::rings::{
-    Crossing, JOINED, MOST_COMPARED, NumberedCurves, crossings, curves_of, nesting, rims_crossed,
-    self_crossing,
+    Crossing, JOIN_DISTANCE, MAX_COMPARED_PAIRS, NumberedCurves, crossed_rings, crossings, curves_of,
+    nesting, self_crossing,
 };
 
 /// Largest gap that counts as a mistake, relative to the length of the outline. Arcs that represent threads, leaders and letters have
 /// larger gaps.
-const LARGEST_GAP: f64 = 0.1;
+const MAX_RELATIVE_GAP: f64 = 0.1;
 
 /// Minimum share of a chain that lies between its two passages through a crossing if its ends are overlong.
-const MOST_OF_CHAIN: f64 = 0.9;
+const MIN_CHAIN_SHARE: f64 = 0.9;
 
 /// An outline that cannot be compared with cuts.
 pub(super) struct BrokenOutline {
@@ -34,11 +34,11 @@ pub(super) struct BrokenOutline {
     pub(super) problem: Option<Diagnostic>,
     /// The ends of a chain that crosses itself.
     overlong: Option<(Point, Point)>,
-    border: Border,
+    border: EnclosedArea,
 }
 
 /// The area inside a closed sequence of curves.
-struct Border(Outline);
+struct EnclosedArea(Outline);
 
 /// The outlines of a layer, sorted into those that can be compared with cuts and those that cannot.
 pub(super) struct SortedOutlines {
@@ -61,15 +61,19 @@ impl SortedOutlines {
         for (number, ring) in rings.iter().enumerate() {
             let Some(crossing) = self_crossing(&curves_of(ring)) else { continue };
             is_left_out[number] = is_outermost[number];
-            broken.push(BrokenOutline::ring(&messages::OUTLINE_CROSSES_ITSELF, ring, &crossing));
+            broken.push(BrokenOutline::crossing_ring(&messages::OUTLINE_CROSSES_ITSELF, ring, &crossing));
         }
-        for (number, crossing) in rims_crossed(&rings, &is_outermost) {
+        for (number, crossing) in crossed_rings(&rings, &is_outermost) {
             if !std::mem::replace(&mut is_left_out[number], true) {
-                broken.push(BrokenOutline::ring(&messages::OUTLINE_CROSSES_RIM, &rings[number], &crossing));
+                broken.push(BrokenOutline::crossing_ring(
+                    &messages::OUTLINE_CROSSES_RIM,
+                    &rings[number],
+                    &crossing,
+                ));
             }
         }
         let outermost = rings.iter().zip(&is_outermost).filter(|(_, is_outermost)| **is_outermost);
-        let rims = Rims::new(outermost.map(|(ring, _)| curves_of(ring)).collect());
+        let rims = OutermostRings::new(outermost.map(|(ring, _)| curves_of(ring)).collect());
         let open_chains = graph.open_chains();
         let hanging = if open_chains.is_empty() { Vec::new() } else { graph.hanging_chains() };
         let mut curves_of_halves = BTreeSet::new();
@@ -103,57 +107,61 @@ impl SortedOutlines {
 
     /// Whether these are the ends of a chain that crosses itself: they are too long, and there is no gap.
     pub(super) fn are_overlong(&self, one: Xy, other: Xy) -> bool {
-        self.overlong.contains(&sorted(one, other))
+        self.overlong.contains(&points_in_order(one, other))
     }
 }
 
 impl BrokenOutline {
     /// A ring that crosses itself or another one.
-    fn ring(message: &'static Message, ring: &NumberedCurves, crossing: &Crossing) -> Self {
+    fn crossing_ring(message: &'static Message, ring: &NumberedCurves, crossing: &Crossing) -> Self {
         Self {
             curve: ring[crossing.first.0].0,
             at: crossing.at,
-            problem: Some(Diagnostic::new(message).with("point", shown(crossing.at))),
+            problem: Some(Diagnostic::new(message).with("point", diagnostic_point(crossing.at))),
             overlong: None,
-            border: Border::new(&curves_of(ring)),
+            border: EnclosedArea::new(&curves_of(ring)),
         }
     }
 
     /// The half of an outline that a line closes, while the other half has a gap.
     fn closed_half(ring: &NumberedCurves) -> Self {
-        let border = Border::new(&curves_of(ring));
+        let border = EnclosedArea::new(&curves_of(ring));
         Self { curve: ring[0].0, at: ring[0].1.start(), problem: None, overlong: None, border }
     }
 
     /// The outline that an open chain was probably meant to be: its ends cross or almost meet, or it is drawn round a ring.
-    fn of_chain(chain: &NumberedCurves, rims: &Rims) -> Option<Self> {
+    fn of_chain(chain: &NumberedCurves, rims: &OutermostRings) -> Option<Self> {
         Self::crossing(chain, rims).or_else(|| Self::with_gap(chain, rims))
     }
 
-    fn crossing(chain: &NumberedCurves, rims: &Rims) -> Option<Self> {
+    fn crossing(chain: &NumberedCurves, rims: &OutermostRings) -> Option<Self> {
         let own = curves_of(chain);
         let crossing = self_crossing(&own)?;
         let between = crossing.between(&own);
-        let border = Border::new(&between);
-        let is_most = length(&between) >= MOST_OF_CHAIN * length(&own);
+        let border = EnclosedArea::new(&between);
+        let is_most = length(&between) >= MIN_CHAIN_SHARE * length(&own);
         (is_most || rims.has_any_inside(&border)).then(|| Self {
-            overlong: own.first().zip(own.last()).map(|(first, last)| sorted(first.start(), last.end())),
+            overlong: own
+                .first()
+                .zip(own.last())
+                .map(|(first, last)| points_in_order(first.start(), last.end())),
             border,
-            ..Self::ring(&messages::OUTLINE_CROSSES_ITSELF, chain, &crossing)
+            ..Self::crossing_ring(&messages::OUTLINE_CROSSES_ITSELF, chain, &crossing)
         })
     }
 
-    fn with_gap(chain: &NumberedCurves, rims: &Rims) -> Option<Self> {
+    fn with_gap(chain: &NumberedCurves, rims: &OutermostRings) -> Option<Self> {
         let own = curves_of(chain);
         let (first, last) = (chain.first()?, chain.last()?);
         let (start, end) = (first.1.start(), last.1.end());
         let gap = (start - end).norm();
-        let border = Border::new(&[&own[..], &[Curve::Line(Line { start: end, end: start })]].concat());
-        if gap > NEARLY_JOINED && gap > LARGEST_GAP * length(&own) && !rims.has_any_inside(&border) {
+        let border = EnclosedArea::new(&[&own[..], &[Curve::Line(Line { start: end, end: start })]].concat());
+        if gap > NEAR_MISS_DISTANCE && gap > MAX_RELATIVE_GAP * length(&own) && !rims.has_any_inside(&border)
+        {
             return None;
         }
         let (curve, at, other) = if first.0 < last.0 { (first.0, start, end) } else { (last.0, end, start) };
-        let problem = (gap > NEARLY_JOINED).then(|| gap_problem(at, other));
+        let problem = (gap > NEAR_MISS_DISTANCE).then(|| gap_problem(at, other));
         Some(Self { curve, at, problem, overlong: None, border })
     }
 }
@@ -180,12 +188,14 @@ fn overshooting(chains: &[NumberedCurves]) -> Vec<BrokenOutline> {
         let whole: f64 = own.iter().map(|chain| length(&curves_of(&chains[*chain]))).sum();
         let inside = curves_of(&ring);
         let at = inside[0].start();
-        (length(&inside) >= MOST_OF_CHAIN * whole).then(|| BrokenOutline {
+        (length(&inside) >= MIN_CHAIN_SHARE * whole).then(|| BrokenOutline {
             curve: curves[pieces[ring[0].0].0].1,
             at,
-            problem: Some(Diagnostic::new(&messages::OUTLINE_CROSSES_ITSELF).with("point", shown(at))),
+            problem: Some(
+                Diagnostic::new(&messages::OUTLINE_CROSSES_ITSELF).with("point", diagnostic_point(at)),
+            ),
             overlong: None,
-            border: Border::new(&inside),
+            border: EnclosedArea::new(&inside),
         })
     };
     graph.rings().into_iter().filter_map(outline).collect()
@@ -234,20 +244,22 @@ fn sides_outside<'c>(
     hanging: &'c [NumberedCurves],
     nodes: &RTree<NumberedPoint>,
 ) -> Vec<OpenSide<'c>> {
-    let mut borders: BTreeMap<usize, Border> = BTreeMap::new();
-    let ring_at =
-        |at: Xy| nodes.locate_within_distance([at.x, at.y], JOINED * JOINED).map(|node| node.data).min();
+    let mut borders: BTreeMap<usize, EnclosedArea> = BTreeMap::new();
+    let ring_at = |at: Xy| {
+        nodes.locate_within_distance([at.x, at.y], JOIN_DISTANCE * JOIN_DISTANCE).map(|node| node.data).min()
+    };
     let mut sides: Vec<OpenSide<'c>> =
         hanging.iter().filter_map(|chain| OpenSide::new(chain, ring_at)).collect();
     sides.retain(|side| {
-        let border = borders.entry(side.ring).or_insert_with(|| Border::new(&curves_of(&rings[side.ring])));
+        let border =
+            borders.entry(side.ring).or_insert_with(|| EnclosedArea::new(&curves_of(&rings[side.ring])));
         !border.0.contains(side.middle())
     });
     sides
 }
 
 /// Upper bound on the ends that are compared with an end.
-const MOST_NEIGHBOURS: usize = 32;
+const MAX_NEIGHBOURS: usize = 32;
 
 /// A chain that leaves a ring.
 struct OpenSide<'c> {
@@ -272,12 +284,12 @@ impl<'c> OpenSide<'c> {
 
     /// Whether a place on the ring is another one than that where this chain begins.
     fn is_elsewhere(&self, at: Xy) -> bool {
-        (at - self.begin).norm() > JOINED
+        (at - self.begin).norm() > JOIN_DISTANCE
     }
 
     /// The half that this chain forms if its end is near a point of the ring.
     fn closed_at_ring(&self, nodes: &RTree<NumberedPoint>) -> Option<OpenHalf> {
-        let near = nodes.nearest_neighbor_iter([self.end.x, self.end.y]).take(MOST_NEIGHBOURS);
+        let near = nodes.nearest_neighbor_iter([self.end.x, self.end.y]).take(MAX_NEIGHBOURS);
         let mut points = near.filter(|node| node.data == self.ring).map(|node| Xy::from(*node.geom()));
         self.closed(points.find(|at| self.is_elsewhere(*at))?, None)
     }
@@ -289,7 +301,7 @@ impl<'c> OpenSide<'c> {
         sides: &[OpenSide<'_>],
         ends: &RTree<NumberedPoint>,
     ) -> Option<OpenHalf> {
-        let near = ends.nearest_neighbor_iter([self.end.x, self.end.y]).take(MOST_NEIGHBOURS);
+        let near = ends.nearest_neighbor_iter([self.end.x, self.end.y]).take(MAX_NEIGHBOURS);
         let mut others = near.map(|end| (end.data, &sides[end.data]));
         let is_other = |(number, other): &(usize, &OpenSide<'_>)| {
             *number != own && other.ring == self.ring && self.is_elsewhere(other.begin)
@@ -303,7 +315,7 @@ impl<'c> OpenSide<'c> {
     fn closed(&self, to: Xy, other: Option<&OpenSide<'_>>) -> Option<OpenHalf> {
         let gap = (to - self.end).norm();
         let whole = self.length + other.map_or(0.0, |other| other.length);
-        if gap > LARGEST_GAP * whole {
+        if gap > MAX_RELATIVE_GAP * whole {
             return None;
         }
         let line = |start, end| Curve::Line(Line { start, end });
@@ -314,13 +326,13 @@ impl<'c> OpenSide<'c> {
         border.push(line(other.map_or(to, |other| other.begin), self.begin));
         border.retain(|curve| curve.length() > 0.0);
         // Two ends that almost meet are reported in pairs.
-        let is_reported = gap <= JOINED || other.is_some() && gap <= NEARLY_JOINED;
+        let is_reported = gap <= JOIN_DISTANCE || other.is_some() && gap <= NEAR_MISS_DISTANCE;
         let outline = BrokenOutline {
             curve: self.chain.last()?.0,
             at: self.end,
             problem: (!is_reported).then(|| gap_problem(self.end, to)),
             overlong: None,
-            border: Border::new(&border),
+            border: EnclosedArea::new(&border),
         };
         let both = self.chain.iter().chain(other.into_iter().flat_map(|other| other.chain));
         Some(OpenHalf { ring: self.ring, outline, curves: both.map(|(number, _)| *number).collect() })
@@ -330,12 +342,12 @@ impl<'c> OpenSide<'c> {
 /// Returns PB219 for two ends that should meet.
 pub(super) fn gap_problem(end: Xy, other: Xy) -> Diagnostic {
     Diagnostic::new(&messages::OUTLINE_GAP)
-        .with("point", shown(end))
-        .with("other", shown(other))
+        .with("point", diagnostic_point(end))
+        .with("other", diagnostic_point(other))
         .with("distance", (other - end).norm())
 }
 
-impl Border {
+impl EnclosedArea {
     fn new(curves: &[Curve]) -> Self {
         Self(Outline::new(curves))
     }
@@ -351,7 +363,7 @@ impl Border {
 }
 
 /// Rings that lie in no other ring.
-struct Rims {
+struct OutermostRings {
     rings: Vec<Vec<Curve>>,
     /// Spatial index of one point of each ring.
     points: BoxIndex,
@@ -359,13 +371,13 @@ struct Rims {
     budget: Cell<usize>,
 }
 
-impl Rims {
+impl OutermostRings {
     fn new(rings: Vec<Vec<Curve>>) -> Self {
         let points = BoxIndex::new(rings.iter().map(|ring| square(ring[0].start(), 0.0)));
-        Self { rings, points, budget: Cell::new(MOST_COMPARED) }
+        Self { rings, points, budget: Cell::new(MAX_COMPARED_PAIRS) }
     }
 
-    fn has_any_inside(&self, border: &Border) -> bool {
+    fn has_any_inside(&self, border: &EnclosedArea) -> bool {
         let near = self.points.near(border.0.extent());
         self.budget.set(self.budget.get().saturating_sub(near.len()));
         self.budget.get() > 0 && near.into_iter().any(|ring| border.encloses(&self.rings[ring]))
@@ -373,8 +385,8 @@ impl Rims {
 }
 
 /// Two points in a fixed order, regardless of which comes first.
-fn sorted(one: Xy, other: Xy) -> (Point, Point) {
-    let (one, other) = (shown(one), shown(other));
+fn points_in_order(one: Xy, other: Xy) -> (Point, Point) {
+    let (one, other) = (diagnostic_point(one), diagnostic_point(other));
     (one.min(other), one.max(other))
 }
 

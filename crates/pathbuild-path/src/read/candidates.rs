@@ -85,7 +85,7 @@ impl SearchBudget {
     }
 
     /// Uses up one unit. Returns whether any units are left.
-    fn take(&self) -> bool {
+    fn spend(&self) -> bool {
         self.0.set(self.0.get().saturating_sub(1));
         !self.is_exhausted()
     }
@@ -111,7 +111,7 @@ pub(crate) fn find(
     };
     boxes.each_touched(circle, |index| {
         let candidate = &candidates[index];
-        if !budget.take() || candidate.is_taken {
+        if !budget.spend() || candidate.is_taken {
             return;
         }
         let Some((kind, distance)) = overlap(circle, &candidate.shape) else { return };
@@ -147,7 +147,7 @@ pub(crate) fn find_taken(
     let mut nearest: Option<(OverlapKind, f64, usize)> = None;
     boxes.each_touched(circle, |index| {
         let candidate = &candidates[index];
-        if budget.take()
+        if budget.spend()
             && candidate.is_taken
             && let Some((kind, distance)) = overlap(circle, &candidate.shape)
             && nearest.is_none_or(|nearest| (kind, distance, index) < nearest)
@@ -175,7 +175,7 @@ pub(crate) fn nearest_miss(
             break;
         }
         // The first few candidates of each text do not use up the budget.
-        if number >= MAX_SCANNED_CANDIDATES && !budget.take() {
+        if number >= MAX_SCANNED_CANDIDATES && !budget.spend() {
             return None;
         }
         if candidates[candidate].is_taken {
@@ -240,7 +240,7 @@ impl Default for CandidateIndex {
 
 impl CandidateIndex {
     pub(crate) fn new(candidates: &[Candidate]) -> Self {
-        let boxes = candidates.iter().map(|candidate| around(&candidate.shape));
+        let boxes = candidates.iter().map(|candidate| box_around(&candidate.shape));
         if candidates.len() <= MAX_SCANNED_CANDIDATES {
             return Self::List(boxes.collect());
         }
@@ -277,7 +277,7 @@ impl CandidateIndex {
 }
 
 /// The bounding box of a shape; an arc gets that of its whole circle.
-fn around(shape: &Shape) -> AABB<[f64; 2]> {
+fn box_around(shape: &Shape) -> AABB<[f64; 2]> {
     match shape {
         Shape::Circle { centre, radius } => square(*centre, *radius),
         Shape::Curve(Curve::Arc(arc)) => square(arc.centre, arc.radius),

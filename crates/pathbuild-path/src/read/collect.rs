@@ -10,8 +10,8 @@ use smol_str::SmolStr;
 
 use crate::approx::near;
 use crate::element::{
-    CircleMeaning, Cut, END_RADIUS, Element, Marker, MeantMarker, Origin, PROBE_RADIUS, Role, START_RADIUS,
-    Shape, Source, TURN_RADIUS, circle_meaning, curve_role,
+    CircleMeaning, Cut, END_RADIUS, Element, IntendedMarker, Marker, Origin, PROBE_RADIUS, Role,
+    START_RADIUS, Shape, Source, TURN_RADIUS, circle_meaning, curve_role,
 };
 use crate::geometry::{Curve, Line, Xy};
 use crate::language::Language;
@@ -56,7 +56,7 @@ pub(crate) struct UnclearCircle {
     pub(super) marker: Marker,
     pub(super) shape: Shape,
     /// The marker that the circle was probably meant to be.
-    pub(super) meant: MeantMarker,
+    pub(super) meant: IntendedMarker,
 }
 
 /// A problem that is reported once for all elements of a path that have it.
@@ -140,9 +140,9 @@ impl PathCollector<'_> {
 
     /// Assigns each text to its element.
     pub(crate) fn assign_texts(&mut self, language: &Language) {
-        self.settle_shared();
+        self.count_shared_problems();
         let mut texts = take(&mut self.texts);
-        self.settle_markers(&mut texts);
+        self.choose_missing_markers(&mut texts);
         let before = self.diagnostics.len();
         texts.assign(self, language.doubts.text_margin);
         self.texts = texts;
@@ -204,7 +204,7 @@ impl PathCollector<'_> {
     }
 
     /// Fills in the number of elements that share each problem.
-    fn settle_shared(&mut self) {
+    fn count_shared_problems(&mut self) {
         for shared in take(&mut self.shared) {
             self.diagnostics[shared.index].arguments.push(("count", shared.count.into()));
         }
@@ -423,7 +423,7 @@ impl<'d> PathCollector<'d> {
         let shape = Shape::Circle { centre, radius };
         let Some(line_type) = found.line_type else {
             let like = LineType::like(&found.entity.line_type).unwrap_or(LineType::Phantom);
-            self.add_unclear(found, shape, MeantMarker::of(like, radius));
+            self.add_unclear(found, shape, IntendedMarker::of(like, radius));
             return self.add_unknown(found, shape);
         };
         match circle_meaning(line_type, radius) {
@@ -440,17 +440,18 @@ impl<'d> PathCollector<'d> {
             CircleMeaning::UnknownDiameter => {
                 let diagnostic = Diagnostic::new(&messages::UNKNOWN_SPECIAL_CIRCLE)
                     .quoting("line_type", &*found.entity.line_type)
-                    .with("diameter", exact(2.0 * radius));
+                    .with("diameter", exact_length(2.0 * radius));
                 self.report(self.origin(found.source, centre).at(diagnostic));
                 let is_phantom = line_type == LineType::Phantom;
-                let meant = if is_phantom { MeantMarker::of_radius(radius) } else { MeantMarker::Other };
+                let meant =
+                    if is_phantom { IntendedMarker::of_radius(radius) } else { IntendedMarker::Other };
                 self.add_unclear(found, shape, meant);
                 self.candidate(found, shape, Owner::Faulty);
             }
         }
     }
 
-    fn add_unclear(&mut self, found: &LayerEntity<'_>, shape: Shape, meant: MeantMarker) {
+    fn add_unclear(&mut self, found: &LayerEntity<'_>, shape: Shape, meant: IntendedMarker) {
         let marker = self.marker(found, shape.point());
         self.faults.unclear_circles.push(marker.at);
         self.unclear.push(UnclearCircle { marker, shape, meant });
@@ -514,17 +515,18 @@ impl<'d> PathCollector<'d> {
 }
 
 /// A length with enough digits to distinguish it from a similar one: 1.0001, not 1.
-fn exact(length: f64) -> Value {
+fn exact_length(length: f64) -> Value {
     let is_shown = (length * 1000.0 - (length * 1000.0).round()).abs() <= 1e-6;
     if is_shown { length.into() } else { Value::quoted(format!("{length:.9}").trim_end_matches('0')) }
 }
 
 impl PathCollector<'_> {
     /// Chooses the circles that were probably meant as start and end. Each problem has been reported already, or is reported here.
-    fn settle_markers(&mut self, texts: &mut Texts<'_>) {
+    fn choose_missing_markers(&mut self, texts: &mut Texts<'_>) {
         let mut has_other_line_type = false;
         if self.start.is_none() {
-            self.start = self.take_unclear(MeantMarker::Start).or_else(|| self.circle_with_path_text(texts));
+            self.start =
+                self.take_unclear(IntendedMarker::Start).or_else(|| self.circle_with_path_text(texts));
             if self.start.is_none() {
                 self.start = self.element_with_path_text(texts);
                 has_other_line_type = self.start.is_some();
@@ -541,7 +543,7 @@ impl PathCollector<'_> {
             self.hints.swapped = end.map(|end| end.origin.point);
         }
         if self.ends.is_empty() {
-            let end = self.take_unclear(MeantMarker::End);
+            let end = self.take_unclear(IntendedMarker::End);
             let end = end.or_else(|| has_other_line_type.then(|| self.element_like_end(texts)).flatten());
             self.ends.extend(end);
         }
@@ -553,7 +555,7 @@ impl PathCollector<'_> {
     }
 
     /// The first circle of unknown line type with the diameter of this marker.
-    fn take_unclear(&mut self, meant: MeantMarker) -> Option<Marker> {
+    fn take_unclear(&mut self, meant: IntendedMarker) -> Option<Marker> {
         let index = self.unclear.iter().position(|circle| circle.meant == meant)?;
         let marker = self.unclear.remove(index).marker;
         self.faults.unclear_circles.retain(|point| *point != marker.at);
@@ -571,7 +573,7 @@ impl PathCollector<'_> {
         let (marker, radius) =
             circles.into_iter().find(|(marker, radius)| texts.has_path_text(marker, *radius))?;
         let marker = marker.clone();
-        let problem = self.missing(&messages::MISSING_START, &marker).note(
+        let problem = self.missing_marker(&messages::MISSING_START, &marker).note(
             &messages::MEANT_AS_START,
             vec![("point", marker.origin.point.into()), ("diameter", (2.0 * radius).into())],
         );
@@ -591,7 +593,7 @@ impl PathCollector<'_> {
             .map(|(index, _)| index)?;
         let marker = self.take_element(index, texts);
         let problem = self
-            .missing(&messages::MISSING_START, &marker)
+            .missing_marker(&messages::MISSING_START, &marker)
             .note(&messages::MEANT_AS_PHANTOM_START, vec![("point", marker.origin.point.into())]);
         self.report(marker.origin.at(problem));
         Some(marker)
@@ -608,13 +610,13 @@ impl PathCollector<'_> {
         let (Some((index, _)), None) = (like_end.next(), like_end.next()) else { return None };
         let marker = self.take_element(index, texts);
         let problem = self
-            .missing(&messages::MISSING_END, &marker)
+            .missing_marker(&messages::MISSING_END, &marker)
             .note(&messages::MEANT_AS_PHANTOM_END, vec![("point", marker.origin.point.into())]);
         self.report(marker.origin.at(problem));
         Some(marker)
     }
 
-    fn missing(&self, message: &'static Message, marker: &Marker) -> Diagnostic {
+    fn missing_marker(&self, message: &'static Message, marker: &Marker) -> Diagnostic {
         Diagnostic::new(message).quoting("name", self.name.as_str()).quoting("layer", &*marker.origin.layer)
     }
 

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, Place};
 use pathbuild_dxf::{Drawing, Geometry, HorizontalAlign, MText, Point3, Text, VerticalAlign};
 
 use crate::approx::above;
-use crate::element::{Source, shown};
+use crate::element::{Source, diagnostic_point};
 use crate::geometry::{Arc, Curve, Line, Xy, direction};
 
 /// A text of the drawing.
@@ -239,7 +239,7 @@ pub(super) fn at_entity(drawing: &Drawing, entity: usize, point: Xy, problem: Di
         handle: origin.handle,
         entity: Some(kind),
         layer: Some(layer.name.clone()),
-        point: Some(shown(point)),
+        point: Some(diagnostic_point(point)),
         ..Place::default()
     };
     Diagnostic { place, ..problem }

@@ -11,7 +11,7 @@ use rstar::primitives::GeomWithData;
 use smol_str::SmolStr;
 
 use crate::approx::{above, coincide, near};
-use crate::element::shown;
+use crate::element::diagnostic_point;
 use crate::geometry::{Arc, Curve, Line, Xy};
 use crate::keep_out::{KeepOut, KeepOutMap, KeepOuts, TipMove};
 use crate::language::Language;
@@ -28,7 +28,7 @@ pub fn keep_outs(drawing: &Drawing, language: &Language) -> KeepOuts {
         if !pattern.is_layer(&layer.name) {
             continue;
         }
-        let mut reading = Reading { drawing, language, layer, number, problems: Vec::new() };
+        let mut reading = ClampReader { drawing, language, layer, number, problems: Vec::new() };
         if language.path_pattern.is_layer(&layer.name) {
             reading.report_path();
         } else {
@@ -89,7 +89,7 @@ pub(super) fn unread_clamps(
             continue;
         }
         let (outlines, _) =
-            Reading { drawing, language, layer, number, problems: Vec::new() }.outlines(&entities);
+            ClampReader { drawing, language, layer, number, problems: Vec::new() }.outlines(&entities);
         let map = flat_map(outlines.iter().map(|closed| &*closed.outline));
         let is_inside = |(_, text): &&(usize, AnyText<'_>)| {
             let TextCircle { centre, radius } = text.circle();
@@ -113,7 +113,7 @@ fn flat_map<'k>(outlines: impl Iterator<Item = &'k [Curve]>) -> KeepOutMap {
 /// The numbers of the outlines that a disc around a point overlaps. `radius` in mm.
 fn at_point(map: &KeepOutMap, centre: Xy, radius: f64) -> Vec<usize> {
     let way = TipMove { curve: Curve::Line(Line { start: centre, end: centre }), from_z: 0.0, to_z: 0.0 };
-    map.entered(&way, radius, 0.0)
+    map.entered_clamps(&way, radius, 0.0)
 }
 
 /// The indices of the entities on each layer.
@@ -126,7 +126,7 @@ fn by_layer(drawing: &Drawing) -> Vec<Vec<usize>> {
 }
 
 /// State of reading the clamps of a layer.
-struct Reading<'d> {
+struct ClampReader<'d> {
     drawing: &'d Drawing,
     language: &'d Language,
     layer: &'d Layer,
@@ -143,10 +143,10 @@ struct OutlineTexts<'d> {
 }
 
 /// Maximum number of an outline's texts to list: in a crowd, each outline may contain all texts.
-const MOST_NAMED: usize = 3;
+const MAX_LISTED_TEXTS: usize = 3;
 
 /// Height in mm below which a clamp is doubted: it would be lower than any head of a screw.
-const LOWEST: f64 = 1.0;
+const MIN_PLAUSIBLE_HEIGHT: f64 = 1.0;
 
 /// An outline without its height.
 struct ClosedOutline {
@@ -156,13 +156,13 @@ struct ClosedOutline {
     at: Xy,
 }
 
-impl Reading<'_> {
+impl ClampReader<'_> {
     /// The clamps on the layer, unless the layer has errors.
     fn clamps(&mut self, entities: &[usize]) -> Vec<KeepOut> {
         if self.layer.hidden {
             self.report(on_layer(&self.layer.name, Diagnostic::new(&messages::CLAMPS_NOT_VISIBLE)));
         }
-        self.check_whole();
+        self.check_unreadable();
         if self.problems.iter().any(Diagnostic::is_error) {
             // The missing part may belong to an outline, or be its text.
             return Vec::new();
@@ -188,7 +188,7 @@ impl Reading<'_> {
     }
 
     /// Reports entities of the layer that could not be read, since they may be part of a clamp.
-    fn check_whole(&mut self) {
+    fn check_unreadable(&mut self) {
         let faults = self.drawing.faults.iter().filter(|fault| fault.layer == self.number);
         let mut problems: Vec<Diagnostic> = faults.map(|fault| fault.diagnostic.clone()).collect();
         for left_out in self.language.left_out(self.drawing).filter(|left_out| left_out.layer == self.number)
@@ -207,7 +207,7 @@ impl Reading<'_> {
 
     /// Reports PB110 at the first entity outside of the plane, but not at the others: a polyline consists of many entities.
     fn check_plane(&mut self, entities: &[usize]) {
-        let off_plane = |entity: &usize| Some((*entity, self.off_plane(*entity)?));
+        let off_plane = |entity: &usize| Some((*entity, self.point_off_plane(*entity)?));
         let off_plane: Vec<(usize, Point3)> = entities.iter().filter_map(off_plane).collect();
         let Some((entity, point)) = off_plane.first() else { return };
         let problem = Diagnostic::new(&messages::OFF_PLANE).with("z", point.z).with("count", off_plane.len());
@@ -216,7 +216,7 @@ impl Reading<'_> {
     }
 
     /// A point of the entity that is not at Z 0.
-    fn off_plane(&self, entity: usize) -> Option<Point3> {
+    fn point_off_plane(&self, entity: usize) -> Option<Point3> {
         let points: &[Point3] = match &self.drawing.entities[entity].geometry {
             Geometry::Line(line) => &[line.start, line.end],
             Geometry::Arc(arc) => &[arc.centre],
@@ -231,7 +231,7 @@ impl Reading<'_> {
         let (mut outlines, mut parts, mut broken) = (Vec::new(), Vec::new(), Vec::new());
         for number in entities {
             let Entity { group, geometry, .. } = &self.drawing.entities[*number];
-            parts.extend(curve(geometry).map(|curve| Part { curve, group: *group, entity: *number }));
+            parts.extend(curve(geometry).map(|curve| RingPart { curve, group: *group, entity: *number }));
             if let Geometry::Circle(circle) = geometry {
                 let at = xy(circle.centre);
                 let arc = Arc::from_angles(at, circle.radius, 0.0, 360.0, false);
@@ -252,8 +252,9 @@ impl Reading<'_> {
                         self.report_open(&part, last.end(), first.start());
                     }
                 }
-                Ring::Branch { part, at } if branches.insert(shown(at)) => {
-                    let problem = Diagnostic::new(&messages::OUTLINE_BRANCHES).with("point", shown(at));
+                Ring::Branch { part, at } if branches.insert(diagnostic_point(at)) => {
+                    let problem =
+                        Diagnostic::new(&messages::OUTLINE_BRANCHES).with("point", diagnostic_point(at));
                     let problem = self.at(part.entity, at, problem);
                     self.report(problem);
                 }
@@ -264,10 +265,10 @@ impl Reading<'_> {
         (outlines, broken)
     }
 
-    fn report_open(&mut self, part: &Part, end: Xy, other: Xy) {
+    fn report_open(&mut self, part: &RingPart, end: Xy, other: Xy) {
         let problem = Diagnostic::new(&messages::OUTLINE_OPEN)
-            .with("point", shown(end))
-            .with("other", shown(other))
+            .with("point", diagnostic_point(end))
+            .with("other", diagnostic_point(other))
             .with("distance", (other - end).norm());
         let problem = self.at(part.entity, end, problem);
         self.report(problem);
@@ -329,12 +330,12 @@ impl Reading<'_> {
         let height = height(read);
         let problem = match height {
             None => Diagnostic::new(&messages::NO_CLAMP_HEIGHT).quoting("text", one_line(text)),
-            Some(height) if above(LOWEST, height) => {
+            Some(height) if above(MIN_PLAUSIBLE_HEIGHT, height) => {
                 Diagnostic::new(&messages::LOW_CLAMP).with("height", height)
             }
             Some(_) => return height,
         };
-        let problem = self.at(number, text.anchor(), problem.with_text(read.whole()));
+        let problem = self.at(number, text.anchor(), problem.with_text(read.whole_text_fault()));
         self.report(problem);
         height
     }
@@ -348,7 +349,7 @@ impl Reading<'_> {
 impl<'d> OutlineTexts<'d> {
     fn add(&mut self, number: usize, text: AnyText<'d>) {
         self.count += 1;
-        if self.first.len() < MOST_NAMED {
+        if self.first.len() < MAX_LISTED_TEXTS {
             self.first.push((number, text));
         }
     }
@@ -388,7 +389,7 @@ fn on_layer(layer: &str, mut problem: Diagnostic) -> Diagnostic {
 
 /// A curve that may be part of a ring.
 #[derive(Clone, Copy)]
-pub(crate) struct Part {
+pub(crate) struct RingPart {
     pub(crate) curve: Curve,
     /// Number of the curve's polyline; the parts of a polyline are consecutive.
     pub(crate) group: Option<u32>,
@@ -399,15 +400,15 @@ pub(crate) struct Part {
 /// The result of joining curves.
 pub(crate) enum Ring {
     /// A closed sequence of curves.
-    Closed(Vec<Part>),
+    Closed(Vec<RingPart>),
     /// An open sequence of curves, from one end to the other, and the curve at its last end.
-    Open { part: Part, curves: Vec<Curve> },
+    Open { part: RingPart, curves: Vec<Curve> },
     /// A point where more than two curves end.
-    Branch { part: Part, at: Xy },
+    Branch { part: RingPart, at: Xy },
 }
 
 /// The rings formed by curves: first polylines that are closed themselves, then everything else.
-pub(crate) fn rings(parts: &[Part]) -> Vec<Ring> {
+pub(crate) fn rings(parts: &[RingPart]) -> Vec<Ring> {
     let (mut rings, mut loose) = (Vec::new(), Vec::new());
     for polyline in parts.chunk_by(|one, other| one.group.is_some() && one.group == other.group) {
         if is_closed(polyline) {
@@ -421,27 +422,27 @@ pub(crate) fn rings(parts: &[Part]) -> Vec<Ring> {
 }
 
 /// Whether the curves form a closed sequence. A line without length encloses nothing.
-fn is_closed(parts: &[Part]) -> bool {
+fn is_closed(parts: &[RingPart]) -> bool {
     let next = parts.iter().cycle().skip(1);
-    let is_whole = |part: &Part| matches!(part.curve, Curve::Arc(Arc { degrees: 360.0, .. }));
+    let is_whole = |part: &RingPart| matches!(part.curve, Curve::Arc(Arc { degrees: 360.0, .. }));
     (parts.len() > 1 || parts.iter().all(is_whole))
         && parts.iter().zip(next).all(|(one, next)| coincide(one.curve.end(), next.curve.start()))
 }
 
 /// The end of a curve: twice the index of the curve, plus one for its second end.
-type End = usize;
+type CurveEnd = usize;
 
 /// The other ends that an end coincides with.
 #[derive(Clone, Copy, PartialEq)]
 enum Junction {
     Nothing,
-    One(End),
+    One(CurveEnd),
     Several,
 }
 
 /// State of joining curves.
 struct RingBuilder<'p> {
-    parts: &'p [Part],
+    parts: &'p [RingPart],
     /// For each end, the other ends that it coincides with.
     junctions: Vec<Junction>,
     is_done: Vec<bool>,
@@ -451,10 +452,10 @@ struct RingBuilder<'p> {
 const END_SEARCH_RADIUS: f64 = 1e-3;
 
 impl<'p> RingBuilder<'p> {
-    fn new(parts: &'p [Part]) -> Self {
+    fn new(parts: &'p [RingPart]) -> Self {
         let ends = || (0..2 * parts.len()).map(|end| (end, at(parts, end)));
         let tree = RTree::bulk_load(ends().map(|(end, at)| GeomWithData::new([at.x, at.y], end)).collect());
-        let junctions = |(end, place): (End, Xy)| {
+        let junctions = |(end, place): (CurveEnd, Xy)| {
             let near = tree
                 .locate_within_distance([place.x, place.y], END_SEARCH_RADIUS * END_SEARCH_RADIUS)
                 .map(|other| other.data);
@@ -481,13 +482,13 @@ impl<'p> RingBuilder<'p> {
     /// Follows curves from an end until the ring closes, or until no curve or several curves continue.
     fn ring(&mut self, first: usize) -> Ring {
         let start = 2 * first;
-        let (ring, last) = self.follow(start + 1);
+        let (ring, last) = self.follow_curves(start + 1);
         match self.next(last) {
             Some(next) if next == start => return Ring::Closed(ring),
             _ => {}
         }
         // Follow the curves in the other direction as well, so that the whole open sequence is reported once.
-        let (back, other) = self.follow(start);
+        let (back, other) = self.follow_curves(start);
         let several = [last, other].into_iter().find(|end| self.junctions[*end] != Junction::Nothing);
         let (end, part) = (several.unwrap_or(last), self.parts[several.unwrap_or(last) / 2]);
         if several.is_some() {
@@ -499,7 +500,7 @@ impl<'p> RingBuilder<'p> {
     }
 
     /// Follows the sequence of curves that leaves through this end. Returns its curves, beginning with that of `from`, and the end at which it stops.
-    fn follow(&mut self, from: End) -> (Vec<Part>, End) {
+    fn follow_curves(&mut self, from: CurveEnd) -> (Vec<RingPart>, CurveEnd) {
         let mut ring = vec![self.take_towards(from)];
         let mut end = from;
         while let Some(next) = self.next(end).filter(|next| !self.is_done[next / 2]) {
@@ -510,20 +511,20 @@ impl<'p> RingBuilder<'p> {
     }
 
     /// The only end that this end meets, if that other end meets no further one.
-    fn next(&self, end: End) -> Option<End> {
+    fn next(&self, end: CurveEnd) -> Option<CurveEnd> {
         let Junction::One(next) = self.junctions[end] else { return None };
         (self.junctions[next] == Junction::One(end)).then_some(next)
     }
 
     /// Marks a curve as done and returns it in the direction towards this end.
-    fn take_towards(&mut self, end: End) -> Part {
+    fn take_towards(&mut self, end: CurveEnd) -> RingPart {
         let part = self.parts[end / 2];
         self.is_done[end / 2] = true;
-        Part { curve: if end % 2 == 1 { part.curve } else { part.curve.reversed() }, ..part }
+        RingPart { curve: if end % 2 == 1 { part.curve } else { part.curve.reversed() }, ..part }
     }
 }
 
-fn at(parts: &[Part], end: End) -> Xy {
+fn at(parts: &[RingPart], end: CurveEnd) -> Xy {
     let curve = &parts[end / 2].curve;
     if end % 2 == 1 { curve.end() } else { curve.start() }
 }

@@ -16,7 +16,7 @@ use crate::raw::Position;
 use crate::read::candidates::{Candidate, Owner};
 use crate::read::collect::{self, PathCollector};
 use crate::read::entities::{TextCircle, curve};
-use crate::read::texts::{Match, Texts};
+use crate::read::texts::{TextMatch, Texts};
 use crate::text::{LetterValue, ParameterText, ParameterTexts};
 
 /// A text on a path layer, with its elements.
@@ -59,7 +59,7 @@ pub fn assigned_texts(drawing: &Drawing, language: &Language) -> Vec<AssignedTex
         let PathCollector { name, map, texts: found, .. } = path;
         let Some(entities) = entities.get(&name) else { continue };
         let at = |id: ElementId| map.positions()[id.0 as usize];
-        texts.extend(found.matched().into_iter().map(|found| assigned(&name, found, entities, &at)));
+        texts.extend(found.match_texts().into_iter().map(|found| assigned(&name, found, entities, &at)));
     }
     texts.sort_by_key(|text| text.position.line);
     texts
@@ -67,7 +67,7 @@ pub fn assigned_texts(drawing: &Drawing, language: &Language) -> Vec<AssignedTex
 
 fn assigned(
     path: &PathName,
-    found: Match<'_>,
+    found: TextMatch<'_>,
     entities: &[&Entity],
     at: &impl Fn(ElementId) -> Position,
 ) -> AssignedText {
@@ -183,7 +183,7 @@ pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
             }
         }
     }
-    let with_text = texts.matched().into_iter().filter_map(|found| {
+    let with_text = texts.match_texts().into_iter().filter_map(|found| {
         let (id, _) = found.owners.first()?;
         let (origin, curve) = curves.remove(id)?;
         let position = *drawing.origins.get(id.0 as usize)?;

@@ -26,7 +26,7 @@ use crate::read::parameters::{Start, Starts};
 
 pub use entities::TextCircle;
 pub use keep_outs::keep_outs;
-pub(crate) use keep_outs::{Part, Ring, rings};
+pub(crate) use keep_outs::{Ring, RingPart, rings};
 pub use listing::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines};
 pub use parts::{has_text_on_part, parts};
 pub use stray::{NearNames, is_near_clamps_or_parts, may_be_stray_text, stray_findings};

@@ -7,10 +7,10 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::geometry::{Curve, Xy};
-use crate::read::rings::{JOINED, NumberedCurves, self_crossing};
+use crate::read::rings::{JOIN_DISTANCE, NumberedCurves, self_crossing};
 
 /// Largest distance in mm of two loose ends that were probably meant to meet.
-pub(super) const NEARLY_JOINED: f64 = 0.5;
+pub(super) const NEAR_MISS_DISTANCE: f64 = 0.5;
 
 /// Curves that meet at nodes. Half-edge `2 * n` runs along curve n, `2 * n + 1` against it.
 pub(super) struct Graph {
@@ -34,7 +34,8 @@ impl Graph {
             tails[first] = first;
             let mut open = vec![first];
             while let Some(end) = open.pop() {
-                let near = tree.locate_within_distance([ends[end].x, ends[end].y], JOINED * JOINED);
+                let near =
+                    tree.locate_within_distance([ends[end].x, ends[end].y], JOIN_DISTANCE * JOIN_DISTANCE);
                 for other in near.map(|near| near.data) {
                     if tails[other] == usize::MAX {
                         tails[other] = first;
@@ -56,7 +57,7 @@ impl Graph {
             let (one, other) = (self.tails[2 * number], self.tails[2 * number + 1]);
             let at = middle(&self.curves[*number]);
             let middles = known.entry((one.min(other), one.max(other))).or_default();
-            let is_new = middles.iter().all(|middle| (middle - at).norm() > JOINED);
+            let is_new = middles.iter().all(|middle| (middle - at).norm() > JOIN_DISTANCE);
             if is_new {
                 middles.push(at);
             }
@@ -82,7 +83,7 @@ impl Graph {
         let tree = RTree::bulk_load(numbered.collect());
         let nearest = |end: usize| {
             let at = self.end(end);
-            let near = tree.locate_within_distance([at.x, at.y], NEARLY_JOINED * NEARLY_JOINED);
+            let near = tree.locate_within_distance([at.x, at.y], NEAR_MISS_DISTANCE * NEAR_MISS_DISTANCE);
             let others = near.map(|near| near.data).filter(|other| *other != end);
             let distance = |other: &usize| (self.end(*other) - at).norm();
             others.min_by(|one, other| distance(one).total_cmp(&distance(other)).then(one.cmp(other)))
@@ -98,25 +99,26 @@ impl Graph {
     /// The outer rings of all connected curves, counterclockwise, each curve with its number. Curves with the same area on both sides are
     /// dropped: dangling chains, and lines from one ring to another. A ring that crosses itself may run either way round.
     pub(super) fn rings(&self) -> Vec<NumberedCurves> {
-        let outer = self.faces(&self.dividing()).into_iter().filter(|face| {
+        let outer = self.faces(&self.dividing_curves()).into_iter().filter(|face| {
             let area = self.area(face);
-            area < -JOINED * JOINED || area <= JOINED * JOINED && self.is_figure_of_eight(face)
+            area < -JOIN_DISTANCE * JOIN_DISTANCE
+                || area <= JOIN_DISTANCE * JOIN_DISTANCE && self.is_figure_of_eight(face)
         });
         let ring = |face: Vec<usize>| {
             let backwards = face.into_iter().rev().map(|half_edge| half_edge ^ 1);
-            backwards.map(|half_edge| (half_edge / 2, self.directed(half_edge))).collect()
+            backwards.map(|half_edge| (half_edge / 2, self.directed_curve(half_edge))).collect()
         };
         outer.map(ring).collect()
     }
 
     /// Whether a face without an area is one of the two sides of a ring whose halves cancel out. Only one of the two sides counts.
     fn is_figure_of_eight(&self, face: &[usize]) -> bool {
-        let curves: Vec<Curve> = face.iter().map(|half_edge| self.directed(*half_edge)).collect();
+        let curves: Vec<Curve> = face.iter().map(|half_edge| self.directed_curve(*half_edge)).collect();
         face[0].is_multiple_of(2) && self_crossing(&curves).is_some()
     }
 
     /// The numbers of the curves that have different faces on their two sides.
-    fn dividing(&self) -> Vec<usize> {
+    fn dividing_curves(&self) -> Vec<usize> {
         let faces = self.faces(&self.numbers);
         let mut face_of = vec![0; 2 * self.curves.len()];
         for (number, face) in faces.iter().enumerate() {
@@ -131,7 +133,7 @@ impl Graph {
     /// The longest chain of each connected group of curves that belong to no ring. Ends that almost meet count as joined, except for the
     /// two ends of a chain.
     pub(super) fn open_chains(&self) -> Vec<NumberedCurves> {
-        let dividing = self.dividing().into_iter().collect();
+        let dividing = self.dividing_curves().into_iter().collect();
         let mut forest = Forest::new(self, &dividing);
         let mut known = BTreeSet::new();
         let open = self.numbers.iter().filter(|number| !dividing.contains(number));
@@ -141,7 +143,7 @@ impl Graph {
 
     /// The longest chain from a ring in each connected group of curves that belong to no ring. Ends that almost meet count as joined.
     pub(super) fn hanging_chains(&self) -> Vec<NumberedCurves> {
-        let dividing: BTreeSet<usize> = self.dividing().into_iter().collect();
+        let dividing: BTreeSet<usize> = self.dividing_curves().into_iter().collect();
         let mut forest = Forest::new(self, &dividing);
         let ends = dividing.iter().flat_map(|number| [2 * number, 2 * number + 1]);
         let on_rings: BTreeSet<usize> = ends.map(|half_edge| self.tails[half_edge]).collect();
@@ -150,10 +152,10 @@ impl Graph {
         let open: Vec<usize> = on_rings.into_iter().filter(is_open).collect();
         let firsts: Vec<usize> =
             open.into_iter().filter(|node| known.insert(root(&mut forest.trees, *node))).collect();
-        firsts.into_iter().map(|node| forest.chain(forest.way_to_farthest(node))).collect()
+        firsts.into_iter().map(|node| forest.chain(forest.half_edges_to_farthest(node))).collect()
     }
 
-    fn directed(&self, half_edge: usize) -> Curve {
+    fn directed_curve(&self, half_edge: usize) -> Curve {
         let curve = self.curves[half_edge / 2];
         if half_edge.is_multiple_of(2) { curve } else { curve.reversed() }
     }
@@ -167,9 +169,9 @@ impl Graph {
         }
         for edges in outgoing.values_mut() {
             let shortest =
-                edges.iter().map(|edge| self.curves[edge / 2].length()).fold(10.0 * JOINED, f64::min);
+                edges.iter().map(|edge| self.curves[edge / 2].length()).fold(10.0 * JOIN_DISTANCE, f64::min);
             let angle = |half_edge: usize| {
-                let curve = self.directed(half_edge);
+                let curve = self.directed_curve(half_edge);
                 let way = curve.section(0.0, shortest / 2.0).end() - curve.start();
                 libm::atan2(way.y, way.x)
             };
@@ -200,7 +202,7 @@ impl Graph {
     /// The area inside half-edges in mm², positive if they run counterclockwise.
     fn area(&self, face: &[usize]) -> f64 {
         let origin = self.end(face[0]);
-        face.iter().map(|half_edge| self.directed(*half_edge).area_from(origin)).sum()
+        face.iter().map(|half_edge| self.directed_curve(*half_edge).area_from(origin)).sum()
     }
 }
 
@@ -240,16 +242,16 @@ impl<'g> Forest<'g> {
 
     /// The longest chain in the tree that contains a node.
     fn longest_chain(&self, node: usize) -> NumberedCurves {
-        let one_end = self.way_to_farthest(self.nodes[node]).last().map_or(node, |last| last ^ 1);
-        self.chain(self.way_to_farthest(self.nodes[one_end]))
+        let one_end = self.half_edges_to_farthest(self.nodes[node]).last().map_or(node, |last| last ^ 1);
+        self.chain(self.half_edges_to_farthest(self.nodes[one_end]))
     }
 
     fn chain(&self, way: Vec<usize>) -> NumberedCurves {
-        way.into_iter().map(|half_edge| (half_edge / 2, self.graph.directed(half_edge))).collect()
+        way.into_iter().map(|half_edge| (half_edge / 2, self.graph.directed_curve(half_edge))).collect()
     }
 
     /// The half-edges from a node to the one that is farthest along the curves.
-    fn way_to_farthest(&self, node: usize) -> Vec<usize> {
+    fn half_edges_to_farthest(&self, node: usize) -> Vec<usize> {
         let mut reached: BTreeMap<usize, Option<usize>> = BTreeMap::from([(node, None)]);
         let (mut open, mut farthest) = (vec![(node, 0.0)], (node, 0.0));
         while let Some((node, length)) = open.pop() {

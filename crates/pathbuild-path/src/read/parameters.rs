@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, EntityKind, Number, Point, Value};
 use smol_str::SmolStr;
 
 use crate::approx::coincide;
-use crate::element::{Cut, Element, Origin, Role, Shape, shown};
+use crate::element::{Cut, Element, Origin, Role, Shape, diagnostic_point};
 use crate::geometry::{Curve, Xy};
 use crate::letter::{ElementClass, Letter, Letters};
 use crate::names::PathName;
@@ -50,7 +50,7 @@ impl PathCheck<'_> {
         self.raw.parameters = start.text;
         if let Some(piece) = text.piece(Letter::At) {
             match referenced(text, piece, starts) {
-                Ok((name, lender)) => self.borrow(name, lender),
+                Ok((name, lender)) => self.borrow_parameters(name, lender),
                 Err(problem) => {
                     let problem = start.origin.at(problem.with_text(text.fault(piece)));
                     self.raw.parameters = None;
@@ -75,13 +75,16 @@ impl PathCheck<'_> {
             }
             StartHints { text: Some((text, at)), .. } => problem.note(
                 &drawing::START_TEXT_ELSEWHERE,
-                vec![("text", Value::quoted(text.replace('\n', " "))), ("point", shown(*at).into())],
+                vec![
+                    ("text", Value::quoted(text.replace('\n', " "))),
+                    ("point", diagnostic_point(*at).into()),
+                ],
             ),
             StartHints { .. } => problem,
         }
     }
 
-    fn borrow(&mut self, name: &PathName, lender: &Start) {
+    fn borrow_parameters(&mut self, name: &PathName, lender: &Start) {
         self.raw.parameters = Some(Arc::make_mut(&mut self.raw.drawn).texts.push(&lender.text));
         self.raw.borrowed_from = Some(Box::new((name.clone(), lender.origin.clone())));
     }
@@ -202,7 +205,7 @@ const MIN_MOVE_LENGTH: f64 = 0.0005;
 
 /// Length in mm below which a milled line or arc is taken for a remnant of trimming. Cutters are 0.1 mm wide or more, and machines place
 /// them no more accurately than this.
-const SHORTEST_CUT: f64 = 0.01;
+const MIN_CUT_LENGTH: f64 = 0.01;
 
 /// A raw path being checked.
 pub(super) struct PathCheck<'r> {
@@ -231,7 +234,7 @@ impl PathCheck<'_> {
                 Role::Cut(_) if is_line && length < MIN_MOVE_LENGTH => {
                     Diagnostic::new(&drawing::CUT_WITHOUT_LENGTH)
                 }
-                Role::Cut(_) if length < SHORTEST_CUT && is_single => {
+                Role::Cut(_) if length < MIN_CUT_LENGTH && is_single => {
                     Diagnostic::new(&drawing::CUT_HARDLY_LONG)
                         .with("element", element.shape.word())
                         .with("length", length)
@@ -277,7 +280,7 @@ impl PathCheck<'_> {
                 .quoting("layer", self.raw.layer())
         };
         let text = self.hints.text.as_ref().map(|(text, at)| {
-            vec![("text", Value::quoted(text.replace('\n', " "))), ("point", shown(*at).into())]
+            vec![("text", Value::quoted(text.replace('\n', " "))), ("point", diagnostic_point(*at).into())]
         });
         let start = self.raw.start.is_none().then(|| {
             let start = missing(&drawing::MISSING_START);

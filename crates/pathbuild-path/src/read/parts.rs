@@ -15,7 +15,7 @@ use crate::part::{DrawnParts, Part, PartRing};
 use crate::read::broken_outlines::{SortedOutlines, gap_problem};
 use crate::read::entities::{AnyText, at_entity, begin, curve, xy};
 use crate::read::outline_graph::Graph;
-use crate::read::rings::{JOINED, curves_of, nesting};
+use crate::read::rings::{JOIN_DISTANCE, curves_of, nesting};
 use crate::read::stray::may_be_stray_text;
 
 /// The parts of a drawing. At least the layers with parts must have been read.
@@ -90,7 +90,7 @@ impl<'d> OutlineLayers<'d> {
                 }
                 geometry => curve(geometry),
             };
-            if let Some(curve) = curve.filter(|curve| curve.length() > JOINED) {
+            if let Some(curve) = curve.filter(|curve| curve.length() > JOIN_DISTANCE) {
                 curves.entry(paths[layer].clone()).or_default().push(OutlineCurve { curve, entity: number });
             }
         }

@@ -4,15 +4,15 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::{Outline, around};
-use crate::part::{BoxIndex, Stretch, at_along, joined, within};
+use crate::keep_out::{Outline, widened_box};
+use crate::part::{BoxIndex, Stretch, add_stretches_within, at_along, join_stretches};
 
 /// Largest distance in mm of ends that join.
-pub(super) const JOINED: f64 = 0.01;
+pub(super) const JOIN_DISTANCE: f64 = 0.01;
 
 /// Upper bound on the pairs that are compared to find a crossing, or a ring in an open outline: enough for outlines of a hundred thousand
 /// short lines. Only long lines close beside each other have more, and these outlines then count as sound.
-pub(super) const MOST_COMPARED: usize = 1_000_000;
+pub(super) const MAX_COMPARED_PAIRS: usize = 1_000_000;
 
 /// Consecutive curves, each with its number.
 pub(super) type NumberedCurves = Vec<(usize, Curve)>;
@@ -78,14 +78,14 @@ impl Crossing {
 
 /// The first curve of a sequence that crosses a later one, and the last that it crosses.
 pub(super) fn self_crossing(curves: &[Curve]) -> Option<Crossing> {
-    let boxes = BoxIndex::new(curves.iter().map(|curve| around(curve, 0.0)));
+    let boxes = BoxIndex::new(curves.iter().map(|curve| widened_box(curve, 0.0)));
     let mut compared = 0;
     (0..curves.len()).find_map(|first| {
-        let near = boxes.near(around(&curves[first], JOINED)).into_iter().rev();
+        let near = boxes.near(widened_box(&curves[first], JOIN_DISTANCE)).into_iter().rev();
         let mut later = near.take_while(|second| *second > first);
         later.find_map(|second| {
             compared += 1;
-            if compared > MOST_COMPARED {
+            if compared > MAX_COMPARED_PAIRS {
                 return None;
             }
             let (from, to) =
@@ -98,13 +98,14 @@ pub(super) fn self_crossing(curves: &[Curve]) -> Option<Crossing> {
 
 /// The places in mm along each curve where others cross it, in ascending order. There are no places if too many curves would have to be compared.
 pub(super) fn crossings(curves: &[Curve]) -> Vec<Vec<f64>> {
-    let boxes = BoxIndex::new(curves.iter().map(|curve| around(curve, 0.0)));
+    let boxes = BoxIndex::new(curves.iter().map(|curve| widened_box(curve, 0.0)));
     let mut compared = 0;
     let mut cuts = vec![Vec::new(); curves.len()];
     for (index, curve) in curves.iter().enumerate() {
-        for other in boxes.near(around(curve, JOINED)).into_iter().filter(|other| *other != index) {
+        for other in boxes.near(widened_box(curve, JOIN_DISTANCE)).into_iter().filter(|other| *other != index)
+        {
             compared += 1;
-            if compared > MOST_COMPARED {
+            if compared > MAX_COMPARED_PAIRS {
                 return vec![Vec::new(); curves.len()];
             }
             if crossing(&curves[other], curve).is_some() {
@@ -117,20 +118,20 @@ pub(super) fn crossings(curves: &[Curve]) -> Vec<Vec<f64>> {
 }
 
 /// The rings that cross the rim of a larger one, each with the crossing, which refers to the ring's own curves.
-pub(super) fn rims_crossed(rings: &[NumberedCurves], is_outermost: &[bool]) -> Vec<(usize, Crossing)> {
+pub(super) fn crossed_rings(rings: &[NumberedCurves], is_outermost: &[bool]) -> Vec<(usize, Crossing)> {
     let all: Vec<(usize, usize, Curve)> = (0..)
         .zip(rings)
         .flat_map(|(ring, chain)| (0..).zip(chain).map(move |(place, (_, curve))| (ring, place, *curve)))
         .collect();
-    let boxes = BoxIndex::new(all.iter().map(|(.., curve)| around(curve, 0.0)));
+    let boxes = BoxIndex::new(all.iter().map(|(.., curve)| widened_box(curve, 0.0)));
     let areas: Vec<f64> = rings.iter().map(|ring| area(&curves_of(ring))).collect();
     let mut compared = 0;
     let mut found = Vec::new();
     for (ring, place, curve) in &all {
-        for other in boxes.near(around(curve, JOINED)) {
+        for other in boxes.near(widened_box(curve, JOIN_DISTANCE)) {
             let (rim, _, rim_curve) = &all[other];
             let is_smaller = (areas[*ring], *ring) < (areas[*rim], *rim);
-            if ring == rim || !is_outermost[*rim] || !is_smaller || compared > MOST_COMPARED {
+            if ring == rim || !is_outermost[*rim] || !is_smaller || compared > MAX_COMPARED_PAIRS {
                 continue;
             }
             compared += 1;
@@ -146,14 +147,14 @@ pub(super) fn rims_crossed(rings: &[NumberedCurves], is_outermost: &[bool]) -> V
 /// The place in mm along a curve where it crosses another one. A curve that ends on the other only touches it.
 fn crossing(along: &Curve, other: &Curve) -> Option<f64> {
     let mut near: Vec<Stretch> = Vec::new();
-    within(along, other, JOINED, &mut near);
+    add_stretches_within(along, other, JOIN_DISTANCE, &mut near);
     let length = along.length();
     let crosses = |(from, to): &Stretch| {
         *from > 0.0
             && *to < length
             && side(other, at_along(along, *from)) != side(other, at_along(along, *to))
     };
-    joined(near, JOINED).into_iter().find(crosses).map(|(from, to)| f64::midpoint(from, to))
+    join_stretches(near, JOIN_DISTANCE).into_iter().find(crosses).map(|(from, to)| f64::midpoint(from, to))
 }
 
 /// Whether a point is on the left of a line, or inside the circle of an arc.

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_dxf::Drawing;
 
-use crate::element::shown;
+use crate::element::diagnostic_point;
 use crate::language::Language;
 use crate::letter::{Letter, Letters};
 use crate::look_alikes;
@@ -22,10 +22,10 @@ use crate::text::{ParameterText, ParameterTexts, ValueKind};
 const ESSENTIAL_LETTERS: Letters = Letters::of(&[Letter::B, Letter::D, Letter::F, Letter::I, Letter::W]);
 
 /// Maximum number of candidates examined for the stray texts of a drawing.
-const MOST_EXAMINED: usize = 1_000_000;
+const MAX_EXAMINED_CANDIDATES: usize = 1_000_000;
 
 /// Maximum number of characters after a path name that count as a typing error.
-const LONGEST_SLIP: usize = 2;
+const MAX_SLIP_CHARACTERS: usize = 2;
 
 /// Words that follow the name of a path on the layer of another version of it, in English and German.
 const VERSIONS: [&str; 6] = ["old", "new", "copy", "alt", "neu", "Kopie"];
@@ -47,7 +47,7 @@ pub fn may_be_stray_text(text: &[u8]) -> bool {
 
 /// A text without the mistakes that would be errors on the layer of a path, but do not hide its meaning: lower-case letters, spaces before
 /// values, and commas between parameters.
-fn as_meant(text: &str) -> String {
+fn without_mistakes(text: &str) -> String {
     let mut meant = String::with_capacity(text.len());
     let mut rest = text.chars().peekable();
     let mut is_begin = true;
@@ -82,7 +82,7 @@ impl NearNames {
         let layer = case_folded(layer);
         let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));
         let ends = layer.char_indices().rev().map(|(at, _)| at);
-        let mut ends = std::iter::once(layer.len()).chain(ends).take(LONGEST_SLIP + 1);
+        let mut ends = std::iter::once(layer.len()).chain(ends).take(MAX_SLIP_CHARACTERS + 1);
         let version = || {
             let before = |word: &&str| self.by_folded.get(layer.strip_suffix(&case_folded(word))?);
             VERSIONS.iter().find_map(before)
@@ -93,7 +93,7 @@ impl NearNames {
 
 /// Normalizes a name for comparison: upper case, without spaces and separators, with look-alikes replaced by plain characters and digits.
 fn case_folded(name: &str) -> String {
-    let plain = look_alikes::with_digits(&look_alikes::replaced(name));
+    let plain = look_alikes::with_digits(&look_alikes::with_keyboard_characters(name));
     let seen =
         plain.chars().filter(|letter| !letter.is_whitespace() && !matches!(letter, '.' | '_' | ',' | '-'));
     let tildes = seen.map(|letter| if matches!(letter, '\u{2dc}' | '\u{223c}') { '~' } else { letter });
@@ -122,7 +122,7 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
         .zip(&is_other)
         .map(|(layer, is_other)| is_other.then(|| NearLayer::of(&layer.name, &names, language)).flatten())
         .collect();
-    let budget = SearchBudget::new(MOST_EXAMINED);
+    let budget = SearchBudget::new(MAX_EXAMINED_CANDIDATES);
     let mut on_near_layers: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     let mut findings = Vec::new();
     for (number, entity) in drawing.entities.iter().enumerate() {
@@ -172,17 +172,17 @@ pub fn is_near_clamps_or_parts(layer: &str, language: &Language) -> bool {
 }
 
 /// Length in characters below which a name resembles too many others.
-const SHORTEST_NAME: usize = 4;
+const MIN_NAME_CHARACTERS: usize = 4;
 
 /// Whether a name that a pattern does not match would match without a tilde and the text after it, without up to two characters at its end, or
 /// with another plural ending. Spaces are ignored, and look-alikes are replaced by plain characters.
 fn nearly_matches(layer: &str, is_layer: &dyn Fn(&str) -> bool) -> bool {
-    let plain = look_alikes::replaced(layer);
+    let plain = look_alikes::with_keyboard_characters(layer);
     let plain = plain.split('~').next().unwrap_or_default().trim_end();
-    let ends = plain.char_indices().rev().map(|(at, _)| at).take(LONGEST_SLIP);
+    let ends = plain.char_indices().rev().map(|(at, _)| at).take(MAX_SLIP_CHARACTERS);
     let shorter = std::iter::once(plain.len()).chain(ends).map(|end| plain[..end].trim_end());
-    let mut shorter = shorter.filter(|name| name.chars().count() >= SHORTEST_NAME);
-    let is_long = plain.chars().count() >= SHORTEST_NAME;
+    let mut shorter = shorter.filter(|name| name.chars().count() >= MIN_NAME_CHARACTERS);
+    let is_long = plain.chars().count() >= MIN_NAME_CHARACTERS;
     let longer = || PLURALS.iter().any(|plural| is_layer(&format!("{plain}{plural}")));
     let closed = || is_layer(&plain.split_whitespace().collect::<String>());
     !is_layer(layer) && (shorter.any(is_layer) || is_long && (longer() || closed()))
@@ -200,12 +200,14 @@ fn stray_text(
     budget: &SearchBudget,
 ) -> Option<Diagnostic> {
     let mut texts = ParameterTexts::default();
-    let [drawn, meant] = [texts.push_drawn(text.string()), texts.push_drawn(&as_meant(text.string()))];
+    let [drawn, meant] =
+        [texts.push_drawn(text.string()), texts.push_drawn(&without_mistakes(text.string()))];
     let (drawn, meant) = (texts.get(drawn)?, texts.get(meant)?);
-    let read = [drawn, meant].into_iter().find(|read| is_weighty(*read))?;
+    let read = [drawn, meant].into_iter().find(|read| looks_like_parameters(*read))?;
     let circle = text.circle();
     let (path, (layer, candidate)) = paths.iter().find_map(|path| {
-        let taker = path.texts.takers(&circle, budget).find(|(_, taker)| path.would_apply(read, taker))?;
+        let taker =
+            path.texts.free_candidates(&circle, budget).find(|(_, taker)| path.would_apply(read, taker))?;
         Some((path, taker))
     })?;
     let problem = Diagnostic::new(&messages::TEXT_ON_OTHER_LAYER)
@@ -213,14 +215,14 @@ fn stray_text(
         .quoting("layer", &*drawing.layers[drawing.entities[entity].layer as usize].name)
         .quoting("path_layer", layer)
         .with("element", candidate.word())
-        .with("point", shown(candidate.shape.point()))
-        .with_text(drawn.whole());
+        .with("point", diagnostic_point(candidate.shape.point()))
+        .with_text(drawn.whole_text_fault());
     Some(at_entity(drawing, entity, text.anchor(), problem.in_path(path.name.as_str())))
 }
 
 /// Whether a text consists of letters with numbers or variables, and perhaps a remark with Q, including a letter
 /// whose absence would spoil a part.
-fn is_weighty(text: ParameterText<'_>) -> bool {
+fn looks_like_parameters(text: ParameterText<'_>) -> bool {
     let is_number = |written: ValueKind| matches!(written, ValueKind::Number(_) | ValueKind::Reference);
     text.letters.has_any(ESSENTIAL_LETTERS)
         && text.pieces().iter().all(|piece| {
@@ -267,7 +269,7 @@ fn near_layer(drawing: &Drawing, near: &NearLayer<'_>, layer: u32, entities: &[u
     };
     let name = &*drawing.layers[layer as usize].name;
     let problem = problem.quoting("layer", name).with("elements", elements);
-    let problem = match look_alikes::first(name) {
+    let problem = match look_alikes::first_look_alike(name) {
         Some(character) => problem.note(&messages::LOOK_ALIKE_IN_NAME, character),
         None => problem,
     };

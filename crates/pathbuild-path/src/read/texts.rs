@@ -35,10 +35,10 @@ pub(super) struct LayerTexts<'d> {
 pub(super) const MAX_SEARCHED_LAYERS: usize = 100;
 
 /// Maximum number of elements examined for the texts of a path: enough for thousands of texts that each overlap thousands of elements.
-pub(super) const MOST_EXAMINED: usize = 50_000_000;
+pub(super) const MAX_EXAMINED_ELEMENTS: usize = 50_000_000;
 
 /// A text with the candidates it belongs to.
-pub(crate) struct Match<'d> {
+pub(crate) struct TextMatch<'d> {
     pub(crate) string: Cow<'d, str>,
     pub(crate) circle: TextCircle,
     pub(crate) origin: Origin,
@@ -117,22 +117,27 @@ impl<'d> Texts<'d> {
     }
 
     /// Each text with its circle and its candidates, layer by layer.
-    pub(crate) fn matched(mut self) -> Vec<Match<'d>> {
+    pub(crate) fn match_texts(mut self) -> Vec<TextMatch<'d>> {
         let mut matched = Vec::new();
-        let budget = SearchBudget::new(MOST_EXAMINED);
+        let budget = SearchBudget::new(MAX_EXAMINED_ELEMENTS);
         for layer in &mut self.layers {
             let candidate = |candidate: &Candidate| (candidate.id, candidate.shape);
             layer.each_match(&budget, |layer, text, circle, owners, _| {
                 let owners = layer.candidates[owners].iter().map(candidate).collect();
                 let origin = layer.origin(text.source, text.anchor());
-                matched.push(Match { string: without_percent_codes(text.string()), circle, origin, owners });
+                matched.push(TextMatch {
+                    string: without_percent_codes(text.string()),
+                    circle,
+                    origin,
+                    owners,
+                });
                 true
             });
         }
         matched
     }
 
-    /// Builds the spatial indexes of all layers for [`takers`](Self::takers).
+    /// Builds the spatial indexes of all layers for [`free_candidates`](Self::free_candidates).
     pub(crate) fn prepare(&mut self) {
         for layer in &mut self.layers {
             layer.boxes = CandidateIndex::new(&layer.candidates);
@@ -140,7 +145,7 @@ impl<'d> Texts<'d> {
     }
 
     /// The candidates without a text that a text with this circle would belong to, each with its layer name.
-    pub(super) fn takers<'t>(
+    pub(super) fn free_candidates<'t>(
         &'t self,
         circle: &'t TextCircle,
         budget: &'t SearchBudget,

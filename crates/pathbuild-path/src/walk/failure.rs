@@ -4,17 +4,17 @@ use pathbuild_diagnostic::messages::{drawing, paths as messages};
 use pathbuild_diagnostic::{Diagnostic, Text, Value, words};
 
 use crate::approx::coincide;
-use crate::element::{Element, shown};
+use crate::element::{Element, diagnostic_point};
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
 use crate::read::TextCircle;
 use crate::walk::Walker;
 
 /// Tolerance in mm within which a point counts as lying on a curve: the offset is invisible on screen.
-const ON_CURVE: f64 = 0.001;
+const ON_CURVE_TOLERANCE: f64 = 0.001;
 
 impl Walker<'_> {
-    pub(super) fn empty(&self) -> Diagnostic {
+    pub(super) fn empty_path_problem(&self) -> Diagnostic {
         self.path.start_origin.at(Diagnostic::new(&messages::EMPTY_PATH))
     }
 
@@ -22,7 +22,7 @@ impl Walker<'_> {
         if let Some(segment) = self.last.filter(|last| self.is_drawn_twice(*last)) {
             let problem = Diagnostic::new(&messages::DRAWN_TWICE)
                 .with("element", self.word(segment))
-                .with("point", shown(self.ends.of(segment)[0]))
+                .with("point", diagnostic_point(self.ends.of(segment)[0]))
                 .with("left", self.left);
             return self.path.origin(&self.path.segments[segment]).at(problem);
         }
@@ -30,21 +30,21 @@ impl Walker<'_> {
         let problem = match begin {
             Some((segment, begin)) => Diagnostic::new(&messages::BEGINS_ON_OTHER)
                 .with("element", self.word(segment))
-                .with("point", shown(begin)),
+                .with("point", diagnostic_point(begin)),
             None if self.is_dead_end() => Diagnostic::new(&messages::DEAD_END),
             None => Diagnostic::new(&messages::NOTHING_CONTINUES),
         };
         let problem = problem.with("left", self.left);
         let last = self.last.map(|segment| self.path.origin(&self.path.segments[segment]));
         let mut problem = last.as_ref().unwrap_or(&self.path.start_origin).at(problem);
-        problem.place.point = Some(shown(self.at));
+        problem.place.point = Some(diagnostic_point(self.at));
         if begin.is_some() { problem } else { self.with_hints(problem) }
     }
 
     /// The nearest segment that was not reached, and the point at which it begins, if that point is in the middle of a traversed segment.
     fn begin_on_another(&self) -> Option<(usize, Xy)> {
         let (segment, begin, _) = self.nearest_end(self.at)?;
-        self.passing_by(begin).map(|_| (segment, begin))
+        self.segment_through(begin).map(|_| (segment, begin))
     }
 
     /// Whether the remaining segments branch off at a point that the walk has already passed.
@@ -52,7 +52,7 @@ impl Walker<'_> {
         let Some((_, end, _)) = self.nearest_end(self.at) else { return false };
         let mut passed = Vec::new();
         self.ends.find_near(end, |segment| self.is_traversed[segment], &mut passed);
-        !passed.is_empty() && self.duplicate().is_none()
+        !passed.is_empty() && self.duplicate_segment().is_none()
     }
 
     pub(super) fn turn_found_nothing(&self, marker: usize) -> Diagnostic {
@@ -60,22 +60,24 @@ impl Walker<'_> {
         self.with_hints(self.path.turns[marker].origin.at(problem))
     }
 
-    pub(super) fn unreached(&self) -> Diagnostic {
+    pub(super) fn unreached_problem(&self) -> Diagnostic {
         let all = Curves::new(self.path, 0..self.path.segments.len());
-        let twice = self.open().find(|segment| all.have_another(*segment));
-        let one = twice.or_else(|| self.open().next()).map(|segment| (segment, self.ends.of(segment)[0]));
+        let twice = self.unreached_segments().find(|segment| all.has_duplicate(*segment));
+        let one = twice
+            .or_else(|| self.unreached_segments().next())
+            .map(|segment| (segment, self.ends.of(segment)[0]));
         let mut problem = Diagnostic::new(&messages::UNREACHED);
         if let Some((segment, start)) = one {
             if twice.is_some() {
                 problem = Diagnostic::new(&messages::UNREACHED_TWICE);
-            } else if let Some(other) = self.passing_by(start) {
+            } else if let Some(other) = self.segment_through(start) {
                 problem = if self.word(other) == self.word(segment) {
                     Diagnostic::new(&messages::NO_END_THERE_ALIKE)
                 } else {
                     Diagnostic::new(&messages::NO_END_THERE).with("other", self.word(other))
                 };
             }
-            problem = problem.with("element", self.word(segment)).with("point", shown(start));
+            problem = problem.with("element", self.word(segment)).with("point", diagnostic_point(start));
         }
         let is_told = problem.message == &messages::UNREACHED_TWICE;
         let problem = self.path.end_origin.at(problem.with("left", self.left));
@@ -83,7 +85,7 @@ impl Walker<'_> {
     }
 
     /// A segment that passes through a point without ending there.
-    fn passing_by(&self, point: Xy) -> Option<usize> {
+    fn segment_through(&self, point: Xy) -> Option<usize> {
         let at = TextCircle { centre: point, radius: 0.0 };
         let is_on = |curve: Curve| {
             let beside = match &curve {
@@ -91,24 +93,26 @@ impl Walker<'_> {
                 Curve::Arc(arc) => at.distance_to_arc(arc),
             };
             let is_end = coincide(curve.start(), point) || coincide(curve.end(), point);
-            !is_end && beside.is_some_and(|distance| distance < ON_CURVE)
+            !is_end && beside.is_some_and(|distance| distance < ON_CURVE_TOLERANCE)
         };
         let mut traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
         traversed.find(|segment| self.path.curve(&self.path.segments[*segment]).is_some_and(is_on))
     }
 
     pub(super) fn end_not_reached(&self, stopped_at: Xy) -> Diagnostic {
-        let problem = match self.duplicate() {
+        let problem = match self.duplicate_segment() {
             Some(segment) => Diagnostic::new(&messages::END_NOT_REACHED_TWICE)
                 .with("element", self.word(segment))
-                .with("begin", shown(self.ends.of(segment)[0])),
+                .with("begin", diagnostic_point(self.ends.of(segment)[0])),
             None => Diagnostic::new(&messages::END_NOT_REACHED),
         };
-        self.path.end_origin.at(problem.with("point", shown(stopped_at)).with("end", shown(self.path.end)))
+        self.path.end_origin.at(problem
+            .with("point", diagnostic_point(stopped_at))
+            .with("end", diagnostic_point(self.path.end)))
     }
 
     /// The segments that were not reached.
-    pub(super) fn open(&self) -> impl Iterator<Item = usize> {
+    pub(super) fn unreached_segments(&self) -> impl Iterator<Item = usize> {
         let open = self.is_traversed.iter().enumerate().filter(|(_, traversed)| !**traversed);
         open.map(|(segment, _)| segment)
     }
@@ -121,7 +125,8 @@ impl Walker<'_> {
 
     /// The nearest end of a remaining segment, with its distance.
     pub(super) fn nearest_end(&self, point: Xy) -> Option<(usize, Xy, f64)> {
-        let ends = self.open().flat_map(|segment| self.ends.of(segment).map(|end| (segment, end)));
+        let ends =
+            self.unreached_segments().flat_map(|segment| self.ends.of(segment).map(|end| (segment, end)));
         let distances = ends.map(|(segment, end)| (segment, end, (end - point).norm()));
         distances.reduce(|best, other| if other.2 < best.2 { other } else { best })
     }
@@ -131,7 +136,7 @@ impl Walker<'_> {
         problem.note(
             &messages::NEAREST_END,
             vec![
-                ("point", shown(end).into()),
+                ("point", diagnostic_point(end).into()),
                 ("distance", distance.into()),
                 ("element", self.word(segment).into()),
             ],
@@ -141,22 +146,22 @@ impl Walker<'_> {
     /// Whether a segment coincides with a traversed one.
     fn is_drawn_twice(&self, segment: usize) -> bool {
         let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
-        Curves::new(self.path, traversed).have_another(segment)
+        Curves::new(self.path, traversed).has_duplicate(segment)
     }
 
     /// A segment that lies on a traversed one: either it was not reached, or the walk went along both.
-    fn duplicate(&self) -> Option<usize> {
+    fn duplicate_segment(&self) -> Option<usize> {
         let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
         let curves = Curves::new(self.path, traversed.clone());
-        self.open().chain(traversed).find(|segment| curves.have_another(*segment))
+        self.unreached_segments().chain(traversed).find(|segment| curves.has_duplicate(*segment))
     }
 
     fn with_duplicate(&self, problem: Diagnostic) -> Diagnostic {
-        let Some(segment) = self.duplicate() else { return problem };
+        let Some(segment) = self.duplicate_segment() else { return problem };
         let [start, _] = self.ends.of(segment);
         problem.note(
             &messages::DUPLICATE,
-            vec![("element", self.word(segment).into()), ("point", shown(start).into())],
+            vec![("element", self.word(segment).into()), ("point", diagnostic_point(start).into())],
         )
     }
 
@@ -201,7 +206,7 @@ struct CurveKey(u8, [[i64; 2]; 3]);
 /// Number of grid squares per mm: programs have three decimals.
 const SQUARES_PER_MM: f64 = 1000.0;
 /// Offset of the grid in squares, so that points with few decimals, and the midpoints between them, are not on a border between squares.
-const SHIFT: f64 = 0.37;
+const GRID_OFFSET: f64 = 0.37;
 
 impl<'a> Curves<'a> {
     /// Collects the milled curves, sweeps and subpaths among these segments.
@@ -213,7 +218,7 @@ impl<'a> Curves<'a> {
     }
 
     /// Whether another curve lies on this segment.
-    pub(super) fn have_another(&self, segment: usize) -> bool {
+    pub(super) fn has_duplicate(&self, segment: usize) -> bool {
         let Some(key) = CurveKey::new(self.path, segment) else { return false };
         let first = self.known.partition_point(|(other, _)| *other < key);
         let same = self.known[first..].iter().take_while(|(other, _)| *other == key);
@@ -246,7 +251,7 @@ impl<'a> Curves<'a> {
         };
         let problem = problem
             .with("element", self.path.cuts[*cut as usize].word())
-            .with("point", shown(self.path.ends(segment)[0]));
+            .with("point", diagnostic_point(self.path.ends(segment)[0]));
         Some(self.path.origin(segment).at(problem))
     }
 
@@ -279,5 +284,5 @@ fn middle(curve: &Curve) -> Xy {
 
 #[expect(clippy::cast_possible_truncation, reason = "far outside, all squares are one")]
 fn square(at: Xy) -> [i64; 2] {
-    [at.x, at.y].map(|coordinate| (coordinate * SQUARES_PER_MM + SHIFT).floor() as i64)
+    [at.x, at.y].map(|coordinate| (coordinate * SQUARES_PER_MM + GRID_OFFSET).floor() as i64)
 }

@@ -72,10 +72,10 @@ struct Walker<'a> {
 }
 
 /// Length in mm of a gap that is skipped after it was reported: it is clear where the path continues.
-const SMALL_GAP: f64 = 1.0;
+const MAX_SKIPPED_GAP: f64 = 1.0;
 
 /// Number of gaps that are skipped.
-const MOST_GAPS: usize = 10;
+const MAX_GAPS: usize = 10;
 
 impl<'a> Walker<'a> {
     fn new(path: &'a Path, join_tolerance: f64, checkpoint: &'a dyn Fn()) -> Self {
@@ -103,7 +103,7 @@ impl<'a> Walker<'a> {
 
     /// The result of the walk.
     fn finish(self, result: Result<(), Failure>) -> WalkedPath {
-        let idle = self.idle_markers();
+        let idle = self.unused_turn_markers();
         let Self { path, chains, mut joined, open_end, gaps, .. } = self;
         let mut walked = chains.finish();
         walked.open_end = open_end;
@@ -133,7 +133,7 @@ impl<'a> Walker<'a> {
             return Err(None);
         }
         if self.path.segments.is_empty() {
-            return Err(self.unless_unclear(Self::empty));
+            return Err(self.unless_unclear(Self::empty_path_problem));
         }
         while self.left > 0 {
             if self.left.is_multiple_of(SEGMENTS_PER_CHECKPOINT) {
@@ -142,12 +142,15 @@ impl<'a> Walker<'a> {
             if let Some(segment) = self.next().or_else(|| self.next_within_tolerance()) {
                 self.take(segment);
             } else if let Some(marker) = self.turn_marker() {
-                self.go_back(Self::has_next).map_err(|()| Some(self.turn_found_nothing(marker).into()))?;
+                self.retrace_until(Self::has_next)
+                    .map_err(|()| Some(self.turn_found_nothing(marker).into()))?;
             } else if self.is_at_end() {
-                return Err(self.unless_unclear(Self::unreached).filter(|_| !self.has_several_ends()));
+                return Err(self
+                    .unless_unclear(Self::unreached_problem)
+                    .filter(|_| !self.has_several_ends()));
             } else {
                 let problem = self.unless_unclear(Self::nothing_continues);
-                match self.beyond_gap(problem.as_deref()) {
+                match self.end_beyond_gap(problem.as_deref()) {
                     Some(end) => {
                         self.gaps.extend(problem.map(|problem| *problem));
                         self.at = end;
@@ -164,7 +167,7 @@ impl<'a> Walker<'a> {
             self.open_end = Some(stopped_at);
             return Ok(());
         }
-        if self.turn_marker().is_none() || self.go_back(|walk| walk.is_at_end()).is_err() {
+        if self.turn_marker().is_none() || self.retrace_until(|walk| walk.is_at_end()).is_err() {
             let problem = self.unless_unclear(|walk| walk.end_not_reached(stopped_at));
             return Err(problem.filter(|_| !self.has_several_ends()));
         }
@@ -172,11 +175,11 @@ impl<'a> Walker<'a> {
     }
 
     /// The end at which the walk continues after a small gap, to find independent problems.
-    fn beyond_gap(&self, problem: Option<&Diagnostic>) -> Option<Xy> {
+    fn end_beyond_gap(&self, problem: Option<&Diagnostic>) -> Option<Xy> {
         let is_gap = problem.is_some_and(|problem| problem.message == &paths::NOTHING_CONTINUES);
         let (_, end, distance) =
-            self.nearest_end(self.at).filter(|_| is_gap && self.gaps.len() < MOST_GAPS)?;
-        (distance <= SMALL_GAP).then_some(end)
+            self.nearest_end(self.at).filter(|_| is_gap && self.gaps.len() < MAX_GAPS)?;
+        (distance <= MAX_SKIPPED_GAP).then_some(end)
     }
 
     /// Returns a failure, unless there is a circle without a meaning at the current point, where the walk may turn or end.
@@ -219,7 +222,8 @@ impl<'a> Walker<'a> {
         if let Some(open_ends) = &mut self.open_ends {
             open_ends.remove(segment, &self.ends);
         }
-        let passage = self.as_met_here(segment, Passage::drawn(self.ends.of(segment)), false);
+        let passage =
+            self.oriented_from_here(segment, Passage::in_drawn_direction(self.ends.of(segment)), false);
         // An arc keeps its centre and radius: the gap before it becomes a short line.
         if self.is_milled_arc(segment) && !coincide(passage.start, self.at) {
             self.go(segment, passage.lead_in(self.at));
@@ -248,20 +252,20 @@ impl<'a> Walker<'a> {
 
     /// Reverses a segment if its end is at the current point. A joined segment is made to begin exactly there.
     #[inline]
-    fn as_met_here(&self, segment: usize, passage: Passage, is_return: bool) -> Passage {
+    fn oriented_from_here(&self, segment: usize, passage: Passage, is_return: bool) -> Passage {
         let is_end_here = coincide(passage.end, self.at);
         if is_end_here || coincide(passage.start, self.at) {
-            passage.turned_if(is_end_here)
+            passage.reversed_if(is_end_here)
         } else {
-            self.as_joined_here(segment, passage, is_return)
+            self.joined_passage(segment, passage, is_return)
         }
     }
 
     /// The passage along a segment that ends near the current point. Holes, circles and arcs stay in place.
-    fn as_joined_here(&self, number: usize, passage: Passage, is_return: bool) -> Passage {
+    fn joined_passage(&self, number: usize, passage: Passage, is_return: bool) -> Passage {
         let segment = &self.path.segments[number];
         let is_nearer_at_end = (passage.end - self.at).norm() < (passage.start - self.at).norm();
-        let passage = if is_nearer_at_end { passage.turned_round() } else { passage };
+        let passage = if is_nearer_at_end { passage.reversed() } else { passage };
         match segment.kind {
             SegmentKind::Hole(_) | SegmentKind::Helix(_) if !is_return => passage,
             SegmentKind::Cut(_) if self.is_milled_arc(number) => passage,
@@ -270,18 +274,18 @@ impl<'a> Walker<'a> {
     }
 
     fn turn_marker(&mut self) -> Option<usize> {
-        self.turns.act(self.path, self.at)
+        self.turns.use_marker(self.path, self.at)
     }
 
     /// Retraces the traversed segments until `is_found` succeeds; an error if it reaches the start first. (book: language/order-and-turns)
-    fn go_back(&mut self, is_found: impl Fn(&mut Self) -> bool) -> Result<(), ()> {
+    fn retrace_until(&mut self, is_found: impl Fn(&mut Self) -> bool) -> Result<(), ()> {
         loop {
             let (segment, passage) = self.way_back.pop().ok_or(())?;
             if let SegmentKind::Hole(_) = self.path.segments[segment].kind {
                 self.last = Some(segment);
                 self.chains.finish_chain();
             } else {
-                let passage = self.as_met_here(segment, passage.turned_round(), true);
+                let passage = self.oriented_from_here(segment, passage.reversed(), true);
                 self.follow(segment, passage, true);
             }
             if is_found(self) {
@@ -301,9 +305,9 @@ impl<'a> Walker<'a> {
         }
     }
 
-    fn idle_markers(&self) -> Vec<Diagnostic> {
+    fn unused_turn_markers(&self) -> Vec<Diagnostic> {
         let origin = |turn: usize| &self.path.turns[turn].origin;
-        let idle = self.turns.idle();
+        let idle = self.turns.unused();
         idle.map(|turn| origin(turn).at(Diagnostic::new(&messages::TURN_WITHOUT_EFFECT))).collect()
     }
 }
@@ -392,7 +396,7 @@ impl Walker<'_> {
 
     fn report_join(&mut self, origin: &Origin, distance: f64) {
         let warning = origin.at(Diagnostic::new(&messages::JOINED_ENDS).with("distance", distance));
-        let point = crate::element::shown(self.at);
+        let point = crate::element::diagnostic_point(self.at);
         self.joined.push(warning.at_point(point));
     }
 }

@@ -150,7 +150,7 @@ impl Turns {
     }
 
     /// The first marker at a point. Markers at the same point count as one: all of them are marked as used.
-    pub(super) fn act(&mut self, path: &Path, at: Xy) -> Option<usize> {
+    pub(super) fn use_marker(&mut self, path: &Path, at: Xy) -> Option<usize> {
         let mut found: Option<usize> = None;
         for square in Squares::around(at).each() {
             for turn in self.squares.get(&square).into_iter().flatten() {
@@ -164,7 +164,7 @@ impl Turns {
     }
 
     /// The markers that were never used.
-    pub(super) fn idle(&self) -> impl Iterator<Item = usize> {
+    pub(super) fn unused(&self) -> impl Iterator<Item = usize> {
         (0..self.first.len()).filter(|turn| !self.has_acted[self.first[*turn]])
     }
 }
@@ -185,7 +185,7 @@ struct SegmentEnds {
     next: [u32; 2],
 }
 
-/// A square as column and row, see [`strip`].
+/// A square as column and row, see [`strip_number`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Square(u64, u64);
 
@@ -204,14 +204,14 @@ pub(super) struct Crowd {
 }
 
 /// Value that marks the last end in a bucket.
-const NONE: u32 = u32::MAX;
+const END_OF_BUCKET: u32 = u32::MAX;
 /// Number of buckets per segment. With half as many, more than a few buckets would contain ends from elsewhere.
-const BUCKETS: usize = 4;
+const BUCKETS_PER_SEGMENT: usize = 4;
 /// Number of squares per mm. A square has room for only a few points that do not coincide, which bounds the work of a step.
 const SQUARES_PER_MM: f64 = 5000.0;
 /// Offset of the grid in squares: drawings mostly use round numbers with up to four decimals, and points on a border between squares need
 /// two lookups.
-const SHIFT: f64 = 0.25;
+const GRID_OFFSET: f64 = 0.25;
 /// Search distance around a point in squares: slightly more than the distance at which points coincide (0.16).
 const SEARCH_DISTANCE: f64 = 0.22;
 /// Search distance in squares for points that coincide with a point only by way of others, each of which coincides with the next: slightly
@@ -226,8 +226,8 @@ impl Ends {
     }
 
     fn of_segments(drawn: impl ExactSizeIterator<Item = [Xy; 2]>) -> Self {
-        let count = (BUCKETS * drawn.len()).next_power_of_two();
-        let mut buckets = vec![NONE; count];
+        let count = (BUCKETS_PER_SEGMENT * drawn.len()).next_power_of_two();
+        let mut buckets = vec![END_OF_BUCKET; count];
         let segment = |(number, drawn): (u32, [Xy; 2])| {
             let mut enter = |end: u32| {
                 let bucket = bucket_of(square(drawn[end as usize]), count);
@@ -279,7 +279,7 @@ impl Ends {
     /// Calls `take` for the ends in a square and for others in the same bucket.
     fn each_in(&self, square: Square, mut take: impl FnMut(usize, usize)) {
         let mut at = self.buckets[bucket_of(square, self.buckets.len())];
-        while at != NONE {
+        while at != END_OF_BUCKET {
             let (segment, end) = (at as usize / 2, at as usize % 2);
             take(segment, end);
             at = self.segments[segment].next[end];
@@ -293,7 +293,7 @@ impl Squares {
     }
 
     fn within(reach: f64, point: Xy) -> Self {
-        let (columns, rows) = (around(point.x, reach), around(point.y, reach));
+        let (columns, rows) = (strips_around(point.x, reach), strips_around(point.y, reach));
         Self { first: Square(columns.start, rows.start), end: Square(columns.end, rows.end) }
     }
 
@@ -305,25 +305,25 @@ impl Squares {
 
 /// The square of a point.
 pub(super) fn square(point: Xy) -> Square {
-    Square(strip(in_squares(point.x)), strip(in_squares(point.y)))
+    Square(strip_number(in_squares(point.x)), strip_number(in_squares(point.y)))
 }
 
 /// The columns or rows near a coordinate: one, or two near a border.
-fn around(coordinate: f64, reach: f64) -> Range<u64> {
+fn strips_around(coordinate: f64, reach: f64) -> Range<u64> {
     let place = in_squares(coordinate);
     let from_middle = place - (place + ROUNDING_ADDEND - ROUNDING_ADDEND);
     let (is_first, is_last) = (from_middle < reach - 0.5, from_middle > 0.5 - reach);
-    let strip = strip(place);
+    let strip = strip_number(place);
     strip.wrapping_sub(is_first.into())..strip.wrapping_add(is_last.into()).wrapping_add(1)
 }
 
 fn in_squares(coordinate: f64) -> f64 {
-    coordinate * SQUARES_PER_MM + SHIFT
+    coordinate * SQUARES_PER_MM + GRID_OFFSET
 }
 
 /// Number of the column or row that contains a coordinate; adjacent ones differ by one. Very far from the origin they are wider, but
 /// there only equal points coincide.
-fn strip(place: f64) -> u64 {
+fn strip_number(place: f64) -> u64 {
     (place + ROUNDING_ADDEND).to_bits()
 }
 

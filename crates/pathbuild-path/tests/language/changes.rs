@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::{Lang, Value};
 use pathbuild_path::{
-    Bindings, DrawnChanges, DrawnSide, PathOptions, PathRole, drawn_changes, parameters_in_force,
+    Bindings, DrawnChanges, DrawnSide, PathOptions, PathRole, drawn_changes, element_parameters,
 };
 
 use crate::support::{language, read};
@@ -18,11 +18,11 @@ fn compared(old: &str, new: &str) -> DrawnChanges {
         let (raw, positions) = paths.remove(0);
         let bindings = Bindings::check_values(&raw.definitions);
         let options = PathOptions { sweep_height: Some(8.0), ..PathOptions::default() };
-        let in_force = parameters_in_force(&raw, &bindings, &options, PathRole::Emitted, &language());
+        let in_force = element_parameters(&raw, &bindings, &options, PathRole::Emitted, &language());
         (raw, positions, in_force)
     });
     let [old, new] =
-        sides.each_ref().map(|(raw, positions, in_force)| DrawnSide { raw, positions, in_force });
+        sides.each_ref().map(|(raw, positions, in_force)| DrawnSide { raw, positions, parameters: in_force });
     drawn_changes(old, new)
 }
 

@@ -4,7 +4,8 @@ use std::sync::LazyLock;
 
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_path::{
-    Judge, Language, PathHeader, PathName, PathSignature, PathTool, PathTools, Restriction, SubpathCall,
+    Language, PathHeader, PathName, PathSignature, PathTool, PathTools, Restriction, SubpathCall,
+    SubpathChecker,
 };
 
 use crate::support::{codes, compile, language, path, raw};
@@ -31,14 +32,14 @@ fn signature(drawing: &str) -> PathSignature {
 fn judged<R>(
     outer: &PathSignature,
     restrictions: &[Restriction],
-    judge: impl FnOnce(Judge<'_>, &SubpathCall) -> R,
+    judge: impl FnOnce(SubpathChecker<'_>, &SubpathCall) -> R,
 ) -> R {
-    judge(Judge::new(outer, restrictions, &LANGUAGE, false), &outer.subpaths[0])
+    judge(SubpathChecker::new(outer, restrictions, &LANGUAGE, false), &outer.subpaths[0])
 }
 
 /// Returns the mismatches with their letters.
 fn misfits(outer: &PathSignature, inner: &PathSignature) -> Vec<String> {
-    judged(outer, &[], |judge, call| codes(&judge.misfits(call, inner)))
+    judged(outer, &[], |judge, call| codes(&judge.mismatches(call, inner)))
 }
 
 /// Returns the code that prevents a path from embedding the one named by its segment.
@@ -85,8 +86,8 @@ fn o_is_that_of_the_embedding_path() {
     let with = |outer: &str, segment: &str, inner: &str, is_compatible| {
         let outer = project(&format!("T5 O{outer} I1 B0 Mx"), &format!(">1111.1P {segment}"));
         let inner = component(&format!("T5 O{inner} I1 B0 Mx"));
-        let judge = Judge::new(&outer, &[], &LANGUAGE, is_compatible);
-        let found = judge.misfits(&outer.subpaths[0], &inner);
+        let judge = SubpathChecker::new(&outer, &[], &LANGUAGE, is_compatible);
+        let found = judge.mismatches(&outer.subpaths[0], &inner);
         found.into_iter().map(|problem| (problem.code().to_string(), problem.is_error())).collect::<Vec<_>>()
     };
     let error = [("PB506".to_owned(), true)];
@@ -115,8 +116,8 @@ fn the_tool_is_that_of_the_embedding_path() {
         let inner = path(&format!("T5 O{inner_tool} I1 B0 Mx"), "mill 0,0 20,0\nend 20,0");
         let inner = signature(&inner.replace("1234.1P", "1111.1P"));
         let language = Language { tools, ..language() };
-        let judge = Judge::new(&outer, &[], &language, is_compatible);
-        let found = judge.misfits(&outer.subpaths[0], &inner);
+        let judge = SubpathChecker::new(&outer, &[], &language, is_compatible);
+        let found = judge.mismatches(&outer.subpaths[0], &inner);
         found.into_iter().map(|problem| (problem.text(Lang::En), problem.is_error())).collect::<Vec<_>>()
     };
     let said = "path 1111.1P is for the tool slot ([tool] in pathbuild.toml), but path 1234.1P is milled with the tool mill, of the same diameter";
@@ -200,7 +201,7 @@ fn a_segment_names_a_path_and_no_more() {
 fn a_name_that_goes_on_is_another() {
     let named = |segment: &str, is_compatible| {
         let outer = project("T5 O3 I1 B0 Mx", segment);
-        let (judge, call) = (Judge::new(&outer, &[], &LANGUAGE, is_compatible), &outer.subpaths[0]);
+        let (judge, call) = (SubpathChecker::new(&outer, &[], &LANGUAGE, is_compatible), &outer.subpaths[0]);
         let error = judge.name(call).err().map(|problem| problem.code().to_string());
         (error, codes(&judge.warnings(call)))
     };

@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{
-    FilePattern, PathName, PathPattern, is_q_project, judge_file_name, q_project_name, tested_by_q_project,
+    FilePattern, PathName, PathPattern, check_file_name, is_q_project, q_project_name, tested_by_q_project,
 };
 
 /// Returns the codes and names of the findings for a file with this name and these paths.
@@ -13,7 +13,7 @@ fn findings(stem: &str, held: &[&str]) -> Vec<String> {
 fn findings_with(file: &str, path: &str, stem: &str, held: &[&str]) -> Vec<String> {
     let (files, paths) = (FilePattern::new(file).unwrap(), PathPattern::new(path).unwrap());
     let held: Vec<PathName> = held.iter().map(|name| PathName::new(name)).collect();
-    let found = judge_file_name(stem, &held, &files, &paths);
+    let found = check_file_name(stem, &held, &files, &paths);
     let name = |found: &Diagnostic| match &found.arguments[0].1 {
         Value::Quoted(name) => name.to_string(),
         other => format!("{other:?}"),

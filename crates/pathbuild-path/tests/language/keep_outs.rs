@@ -69,7 +69,7 @@ fn map(clamps: &[KeepOut]) -> KeepOutMap {
 
 /// Whether a tool of 2 mm hits a clamp.
 fn enters(clamps: &[KeepOut], way: &TipMove) -> bool {
-    !map(clamps).entered(way, 1.0, 0.0).is_empty()
+    !map(clamps).entered_clamps(way, 1.0, 0.0).is_empty()
 }
 
 const SQUARE: &str = "layer clamps\nline 10,0 20,0 20,10 10,10 10,0\ntext 12,4 \"Z25\"\n";
@@ -254,13 +254,16 @@ fn clamps_are_found_among_many() {
     };
     let clamps: Vec<KeepOut> = (0..1000).map(clamp).collect();
     let map = map(&clamps);
-    let entered = |curve| map.entered(&flat(curve, 5.0), 1.0, 0.0);
+    let entered = |curve| map.entered_clamps(&flat(curve, 5.0), 1.0, 0.0);
     assert_eq!(entered(line([100.0, 5.0], [200.0, 5.0])), [4, 5, 6]);
     assert_eq!(entered(line([105.0, -5.0], [105.0, 5.0])), [] as [usize; 0]);
     // Rounding errors are tolerated.
     let touching = flat(line([0.0, 10.9995], [5.0, 10.9995]), 5.0);
-    assert_eq!((map.entered(&touching, 1.0, 0.0).len(), map.entered(&touching, 1.0, 0.001).len()), (1, 0));
-    let grazing = |z| map.entered(&flat(line([0.0, 5.0], [5.0, 5.0]), z), 1.0, 0.001).len();
+    assert_eq!(
+        (map.entered_clamps(&touching, 1.0, 0.0).len(), map.entered_clamps(&touching, 1.0, 0.001).len()),
+        (1, 0)
+    );
+    let grazing = |z| map.entered_clamps(&flat(line([0.0, 5.0], [5.0, 5.0]), z), 1.0, 0.001).len();
     assert_eq!([grazing(9.9995), grazing(9.9985)], [0, 1]);
 }
 
@@ -329,7 +332,7 @@ proptest! {
         prop_assume!(apart > 0.1);
         let polygon: Vec<Xy> = outline.iter().flat_map(|side| points(side).into_iter().skip(1)).collect();
         let map = KeepOutMap::new([(10.0, &*outline)]);
-        prop_assert_eq!(!map.entered(&flat(here, 0.0), 0.05, 0.0).is_empty(), winds(&polygon, point));
+        prop_assert_eq!(!map.entered_clamps(&flat(here, 0.0), 0.05, 0.0).is_empty(), winds(&polygon, point));
     }
 }
 

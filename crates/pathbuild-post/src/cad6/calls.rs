@@ -11,7 +11,7 @@ use pathbuild_path::approx::at_least;
 
 use super::control_text::ControlTextKind;
 use super::definition::{Abilities, Definition};
-use crate::arcs::{MOST_CHORDS, Rounding, chords, pieces_of};
+use crate::arcs::{ArcRounding, MAX_CHORDS, chords, pieces_of};
 use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Units};
 
 type CallResult = Result<(), Box<Diagnostic>>;
@@ -23,7 +23,7 @@ pub(super) fn calls<'a>(job: &'a Job, definition: &Definition) -> Result<Vec<Cal
     for index in 0..job.operations.len() {
         builder.operation(index)?;
     }
-    builder.close()?;
+    builder.close_contour()?;
     Ok(builder.calls)
 }
 
@@ -71,15 +71,15 @@ impl<'a> Builder<'a> {
     /// Adds a move to the start of the job, for definitions that write every rapid as it is.
     fn begin(&mut self) {
         if self.abilities.rapid {
-            self.call(CallContent::Rapid { to: self.at });
+            self.push_call(CallContent::Rapid { to: self.at });
         }
     }
 
-    fn present(&self) -> &'a Operation {
+    fn current_operation(&self) -> &'a Operation {
         &self.job.operations[self.index]
     }
 
-    fn call(&mut self, content: CallContent<'a>) {
+    fn push_call(&mut self, content: CallContent<'a>) {
         match content {
             CallContent::Line { .. } | CallContent::Arc { .. } => self.last_element = Some(self.calls.len()),
             CallContent::Comment(_)
@@ -95,22 +95,22 @@ impl<'a> Builder<'a> {
         let is_new_tool =
             index > 0 && self.job.operations[index - 1].tool.index != self.job.operations[index].tool.index;
         if is_new_tool {
-            self.close()?;
+            self.close_contour()?;
             if self.job.operations[index].entry == Entry::Clearance {
-                let [x, y, z] = self.end();
-                self.rapid([x, y, self.present().clearance.max(z)]);
+                let [x, y, z] = self.pending_end();
+                self.rapid([x, y, self.current_operation().clearance.max(z)]);
             }
         }
         self.index = index;
-        self.enter();
-        self.present().steps.iter().try_for_each(|step| self.step(step))
+        self.approach_operation();
+        self.current_operation().steps.iter().try_for_each(|step| self.step(step))
     }
 
     /// Adds moves to the start of an operation, unless the tool is already there.
-    fn enter(&mut self) {
-        let [x, y, z] = self.end();
-        let clearance = self.present().clearance;
-        match self.present().entry {
+    fn approach_operation(&mut self) {
+        let [x, y, z] = self.pending_end();
+        let clearance = self.current_operation().clearance;
+        match self.current_operation().entry {
             Entry::At(at) if at != [x, y, z] => {
                 for way in [[x, y, clearance.max(z)], [at[0], at[1], clearance.max(z)], at] {
                     self.rapid(way);
@@ -122,12 +122,12 @@ impl<'a> Builder<'a> {
     }
 
     /// Returns the position of the tool after the pending rapids.
-    fn end(&self) -> Point {
+    fn pending_end(&self) -> Point {
         self.ways.last().copied().unwrap_or(self.at)
     }
 
     fn resolve(&self, to: Position) -> Point {
-        let [x, y, z] = self.end();
+        let [x, y, z] = self.pending_end();
         let [to_x, to_y, to_z] = to.axes();
         [to_x.unwrap_or(x), to_y.unwrap_or(y), to_z.unwrap_or(z)]
     }
@@ -160,8 +160,8 @@ impl<'a> Builder<'a> {
             }
             (None, Pace::Feed(_)) => self.feed(self.resolve(movement.to), movement.pace.stated_feed()),
             (None, Pace::Probe { .. }) => {
-                let diagnostic =
-                    Diagnostic::new(&posts::NO_TEXT_FOR).quoting("operation", &*self.present().name);
+                let diagnostic = Diagnostic::new(&posts::NO_TEXT_FOR)
+                    .quoting("operation", &*self.current_operation().name);
                 Err(Box::new(diagnostic.quoting("text", "probe")))
             }
         }
@@ -170,7 +170,7 @@ impl<'a> Builder<'a> {
     /// Adds a call that neither moves the tool nor ends a contour. While rapids are pending, the call is held back with them.
     fn add_aside(&mut self, content: CallContent<'a>) {
         if self.ways.is_empty() {
-            self.call(content);
+            self.push_call(content);
         } else {
             self.asides.push(content);
         }
@@ -179,7 +179,7 @@ impl<'a> Builder<'a> {
     fn rapid(&mut self, to: Point) {
         if self.abilities.rapid {
             if to != self.at {
-                self.call(CallContent::Rapid { to });
+                self.push_call(CallContent::Rapid { to });
                 self.finish_contour();
             }
             self.at = to;
@@ -206,18 +206,18 @@ impl<'a> Builder<'a> {
         }
         self.ways.push([hole.at[0], hole.at[1], hole.level]);
         let clearance = self.height().max(hole.exit);
-        self.close()?;
-        self.call(CallContent::Hole { hole: *hole, clearance });
+        self.close_contour()?;
+        self.push_call(CallContent::Hole { hole: *hole, clearance });
         self.at = [hole.at[0], hole.at[1], hole.exit];
         Ok(())
     }
 
     /// Adds a straight cut.
     fn feed(&mut self, to: Point, feed: Option<f64>) -> CallResult {
-        let way_end = self.end();
+        let way_end = self.pending_end();
         let is_plunge = same_xy(way_end, to) && to[2] < way_end[2];
         let is_start = !self.is_open || !self.ways.is_empty();
-        self.land(is_plunge.then_some((to, feed)))?;
+        self.complete_rapids(is_plunge.then_some((to, feed)))?;
         if is_plunge && is_start && self.at == to {
             return Ok(());
         }
@@ -227,25 +227,26 @@ impl<'a> Builder<'a> {
     fn line(&mut self, to: Point, feed: Option<f64>) -> CallResult {
         if to[2] != self.at[2] && !self.abilities.line_z {
             if !(same_xy(self.at, to) && self.abilities.lift_between_passes) {
-                return Err(self.no_z(to, ControlTextKind::Line));
+                return Err(self.missing_z_error(to, ControlTextKind::Line));
             }
-            let (clearance, working) = (self.present().clearance, self.at[2].max(to[2]));
+            let (clearance, working) = (self.current_operation().clearance, self.at[2].max(to[2]));
             self.end_contour(clearance);
             self.start_contour(to, clearance, working, feed);
             return Ok(());
         }
-        let place = self.place(feed);
-        self.call(CallContent::Line { to, feed, place });
+        let place = self.contour_position(feed);
+        self.push_call(CallContent::Line { to, feed, place });
         self.at = to;
         Ok(())
     }
 
-    fn no_z(&self, to: Point, kind: ControlTextKind) -> Box<Diagnostic> {
-        let diagnostic = Diagnostic::new(&posts::NO_Z_IN_TEXT).quoting("operation", &*self.present().name);
+    fn missing_z_error(&self, to: Point, kind: ControlTextKind) -> Box<Diagnostic> {
+        let diagnostic =
+            Diagnostic::new(&posts::NO_Z_IN_TEXT).quoting("operation", &*self.current_operation().name);
         Box::new(diagnostic.with("from", self.at[2]).with("to", to[2]).quoting("text", kind.name()))
     }
 
-    fn place(&mut self, feed: Option<f64>) -> ContourPosition {
+    fn contour_position(&mut self, feed: Option<f64>) -> ContourPosition {
         let is_first = self.is_first || feed != self.feed;
         self.is_first = false;
         self.feed = feed;
@@ -253,28 +254,29 @@ impl<'a> Builder<'a> {
     }
 
     fn arc(&mut self, movement: &Move, course: &Course) -> CallResult {
-        self.land(None)?;
+        self.complete_rapids(None)?;
         let is_level = movement.to.z() == movement.from.z();
         let is_writable =
             self.abilities.arc && course.arc().plane == Plane::Xy && (is_level || self.abilities.arc_z);
         if is_writable {
             for piece in movement.split(pieces_of(course, self.abilities.arc_sweep)) {
-                let Some(movement) = self.as_written(&piece)? else {
+                let Some(movement) = self.rounded_arc(&piece)? else {
                     self.line(piece.to.at, piece.pace.stated_feed())?;
                     continue;
                 };
-                let place = self.place(movement.pace.stated_feed());
-                self.call(CallContent::Arc { movement, place });
+                let place = self.contour_position(movement.pace.stated_feed());
+                self.push_call(CallContent::Arc { movement, place });
                 self.at = movement.to.at;
             }
             return Ok(());
         }
         if self.abilities.arc && !is_level && !self.abilities.line_z {
-            let diagnostic = Diagnostic::new(&posts::NO_Z_IN_ARC).quoting("operation", &*self.present().name);
+            let diagnostic =
+                Diagnostic::new(&posts::NO_Z_IN_ARC).quoting("operation", &*self.current_operation().name);
             return Err(Box::new(diagnostic.with("from", movement.from.z()).with("to", movement.to.z())));
         }
         let Some(count) = chords(course, self.abilities.arc_tolerance) else {
-            let diagnostic = Diagnostic::new(&posts::TOO_MANY_CHORDS).with("limit", u64::from(MOST_CHORDS));
+            let diagnostic = Diagnostic::new(&posts::TOO_MANY_CHORDS).with("limit", u64::from(MAX_CHORDS));
             return Err(Box::new(diagnostic.with("radius", course.radius())));
         };
         movement.split(count).try_for_each(|piece| self.line(piece.to.at, piece.pace.stated_feed()))
@@ -282,48 +284,48 @@ impl<'a> Builder<'a> {
 
     /// Adjusts an arc so that it is still an arc after its numbers are rounded. Returns `None` if it would be read as a full circle
     /// because its rounded ends are equal.
-    fn as_written(&self, movement: &Move) -> Result<Option<Move>, Box<Diagnostic>> {
+    fn rounded_arc(&self, movement: &Move) -> Result<Option<Move>, Box<Diagnostic>> {
         let unit = self.units.millimetres();
         let digits = libm::pow(10.0, self.abilities.decimals as f64);
         let length = |length: f64| (length / unit * digits).round() / digits;
-        let rounding = Rounding { length: &length, is_absolute: !self.abilities.has_relative_centres };
-        if rounding.closes(movement) {
+        let rounding = ArcRounding { length: &length, is_absolute: !self.abilities.has_relative_centres };
+        if rounding.becomes_full_circle(movement) {
             return Ok(None);
         }
         if self.abilities.has_relative_centres || self.abilities.has_absolute_centres {
-            return rounding.fitted(movement, self.units.millimetres()).map(Some);
+            return rounding.fit_centre(movement, self.units.millimetres()).map(Some);
         }
         Ok(Some(*movement))
     }
 
     /// Completes the pending rapids. If they are within the material, they become elements of the contour; otherwise they lead to a new
     /// contour, which may begin with a plunge.
-    fn land(&mut self, plunge: Option<(Point, Option<f64>)>) -> CallResult {
+    fn complete_rapids(&mut self, plunge: Option<(Point, Option<f64>)>) -> CallResult {
         if self.abilities.rapid {
             return Ok(());
         }
-        let surface = self.present().surface;
+        let surface = self.current_operation().surface;
         let is_within = self.is_open && self.ways.iter().all(|way| !at_least(way[2], surface));
         if is_within {
-            self.flush_asides();
-            return self.walk(self.ways.len());
+            self.write_asides();
+            return self.add_rapids_to_contour(self.ways.len());
         }
-        let (to, working, clearance) = (self.end(), self.end()[2], self.height());
-        self.close()?;
+        let (to, working, clearance) = (self.pending_end(), self.pending_end()[2], self.height());
+        self.close_contour()?;
         let (to, feed) = plunge.unwrap_or((to, None));
         self.start_contour(to, clearance, working, feed);
         Ok(())
     }
 
     /// Turns the first `count` pending rapids into elements of the contour.
-    fn walk(&mut self, count: usize) -> CallResult {
+    fn add_rapids_to_contour(&mut self, count: usize) -> CallResult {
         let ways: Vec<Point> = self.ways.drain(..count).collect();
         ways.into_iter().try_for_each(|way| self.line(way, self.feed))
     }
 
     /// Returns the number of pending rapids up to and including the last one that moves sideways within the material.
-    fn sideways(&self) -> usize {
-        let surface = self.present().surface;
+    fn count_sideways_rapids(&self) -> usize {
+        let surface = self.current_operation().surface;
         let (mut before, mut count) = (self.at, 0);
         for (index, &way) in self.ways.iter().enumerate().take_while(|(_, way)| !at_least(way[2], surface)) {
             if !same_xy(before, way) {
@@ -343,7 +345,7 @@ impl<'a> Builder<'a> {
     /// Height in mm at which the tool travels to the end of the pending rapids: their highest point if they lead there in a straight line,
     /// otherwise the clearance plane.
     fn height(&self) -> f64 {
-        let (from, to) = (self.at, self.end());
+        let (from, to) = (self.at, self.pending_end());
         let is_straight = |way: &Point| {
             let [along, across] = [[to[0] - from[0], to[1] - from[1]], [way[0] - from[0], way[1] - from[1]]];
             let square = along[0] * along[0] + along[1] * along[1];
@@ -352,30 +354,34 @@ impl<'a> Builder<'a> {
             aside.abs() <= 1e-9 * square.max(1.0) && (-1e-9..=square + 1e-9).contains(&share)
         };
         let highest = self.highest();
-        if self.ways.iter().all(is_straight) { highest } else { highest.max(self.present().clearance) }
+        if self.ways.iter().all(is_straight) {
+            highest
+        } else {
+            highest.max(self.current_operation().clearance)
+        }
     }
 
     fn start_contour(&mut self, at: Point, clearance: f64, working: f64, feed: Option<f64>) {
-        self.call(CallContent::Start { at, clearance, working, feed });
+        self.push_call(CallContent::Start { at, clearance, working, feed });
         self.at = at;
         self.is_open = true;
         self.is_first = true;
     }
 
     /// Ends the open contour at a height from which the end of the pending rapids can be reached.
-    fn close(&mut self) -> CallResult {
-        let end = self.end();
+    fn close_contour(&mut self) -> CallResult {
+        let end = self.pending_end();
         if self.is_open && !self.abilities.rapid {
-            self.walk(self.sideways())?;
+            self.add_rapids_to_contour(self.count_sideways_rapids())?;
             let height = self.height();
-            self.end_contour(if height.is_finite() { height } else { self.present().clearance });
+            self.end_contour(if height.is_finite() { height } else { self.current_operation().clearance });
         } else if !self.ways.is_empty() {
             self.raise_hole();
         }
         self.finish_contour();
         self.at = end;
         self.ways.clear();
-        self.flush_asides();
+        self.write_asides();
         Ok(())
     }
 
@@ -392,15 +398,15 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn flush_asides(&mut self) {
+    fn write_asides(&mut self) {
         for aside in std::mem::take(&mut self.asides) {
-            self.call(aside);
+            self.push_call(aside);
         }
     }
 
     fn end_contour(&mut self, clearance: f64) {
         self.finish_contour();
-        self.call(CallContent::End { clearance });
+        self.push_call(CallContent::End { clearance });
         self.is_open = false;
     }
 

@@ -14,7 +14,7 @@ use super::control_text::{ControlText, ControlTextKind, locate};
 use super::expand::next_variable;
 use super::variables::{Variable, is_parameter, is_private};
 use crate::Units;
-use crate::findings::{Findings, LineStarts, MOST_FINDINGS};
+use crate::findings::{Findings, LineStarts, MAX_FINDINGS};
 use crate::number::FormatOption;
 
 /// A definition as parsed from its file, before any text is expanded.
@@ -81,7 +81,7 @@ impl Definition {
     }
 
     /// Whether the definition writes the spindle speed only at tool changes, so that each tool must have a single speed throughout a job.
-    pub(crate) fn has_one_speed_a_tool(&self) -> bool {
+    pub(crate) fn has_one_speed_per_tool(&self) -> bool {
         let mut with_speed =
             self.texts().filter(|(kind, _)| self.names(*kind, &["MillingSpindleRate"])).peekable();
         with_speed.peek().is_some()
@@ -124,7 +124,7 @@ impl Definition {
     }
 
     /// Returns the reason why no program ever calls a text, or `None` if some program may.
-    fn called_instead(&self, kind: ControlTextKind) -> Option<UncalledReason> {
+    fn uncalled_reason(&self, kind: ControlTextKind) -> Option<UncalledReason> {
         let instead = |other| self.text(other).map(|_| UncalledReason::Instead(other));
         match kind {
             ControlTextKind::Bezier | ControlTextKind::SubprogramStart | ControlTextKind::SubprogramEnd => {
@@ -293,7 +293,7 @@ impl ControlTextReader<'_> {
 
     fn lint_alias(&mut self, own: &Spanned<Cow<'_, str>>) {
         let name = own.get_ref().as_ref();
-        if Variable::named(name).is_none() && !is_parameter(name) {
+        if Variable::by_name(name).is_none() && !is_parameter(name) {
             self.report(Diagnostic::new(&posts::ALIAS_UNKNOWN).quoting("name", name), own.span());
         }
     }
@@ -357,7 +357,7 @@ impl Abilities {
 /// Reports likely mistakes in a definition, including texts that no program calls, whose words would be missing from every program.
 pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
     let uncalled = definition.texts().filter_map(|(kind, text)| {
-        let diagnostic = match definition.called_instead(kind)? {
+        let diagnostic = match definition.uncalled_reason(kind)? {
             UncalledReason::Never => Diagnostic::new(&posts::TEXT_NEVER_CALLED),
             UncalledReason::Instead(other) => {
                 Diagnostic::new(&posts::TEXT_NOT_CALLED).quoting("other", other.name())
@@ -374,7 +374,7 @@ fn of_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) -> Vec<Di
     let mut rest = text.text.as_str();
     // An invalid text ends the loop silently: it is reported when it is run.
     while let Ok(Some((before, name, after))) = next_variable(rest)
-        && diagnostics.len() < MOST_FINDINGS
+        && diagnostics.len() < MAX_FINDINGS
     {
         let at = text.text.len() - rest.len() + before.len();
         statements.pass(before);
@@ -393,7 +393,7 @@ fn of_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) -> Vec<Di
 }
 
 fn is_number(name: &str) -> bool {
-    Variable::named(name).is_some_and(|variable| !variable.is_text)
+    Variable::by_name(name).is_some_and(|variable| !variable.is_text)
 }
 
 /// The statements that are open at a position of a text, and the variables assigned before that position.

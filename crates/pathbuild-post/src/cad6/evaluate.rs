@@ -8,11 +8,11 @@ use pathbuild_diagnostic::messages::posts;
 use super::expand::{Expanded, is_name};
 use super::numbers::{CForm, Form};
 use super::term::{Doubt, Evaluated, Fault, evaluate};
-use super::variables::{UNDEFINED, Variables, char_of, is_mark};
+use super::variables::{UNDEFINED_MARK, Variables, char_of, is_mark};
 use crate::PostFiles;
 
 /// Maximum nesting depth of statements within statements.
-const MOST_DEPTH: usize = 64;
+const MAX_DEPTH: usize = 64;
 
 /// The environment in which a text is evaluated.
 pub(super) struct Environment<'a> {
@@ -89,7 +89,7 @@ impl<'a> Evaluator<'a> {
                 '}' if is_inside => return Ok(()),
                 '}' => return Err(self.fault(&posts::LONE_BRACE, 1)),
                 '\\' => self.escape()?,
-                UNDEFINED => return Err(self.undefined(self.at)),
+                UNDEFINED_MARK => return Err(self.undefined(self.at)),
                 _ => {
                     self.at += c.len_utf8();
                     self.push(c);
@@ -145,10 +145,10 @@ impl<'a> Evaluator<'a> {
         let start = self.at;
         let Some(length) = after.find('*') else { return Err(self.fault(&posts::INSERTION_OPEN, 5)) };
         let name: String = after[..length].chars().filter(|c| !is_mark(*c)).collect();
-        let name = self.surroundings.variables.plain(&name).into_owned();
+        let name = self.surroundings.variables.without_placeholders(&name).into_owned();
         self.at += 5 + length + 1;
         let span = start..self.at;
-        if let Some(at) = after[..length].find(UNDEFINED) {
+        if let Some(at) = after[..length].find(UNDEFINED_MARK) {
             return Err(self.undefined(start + 5 + at));
         }
         let content = super::expand::read(&name, self.surroundings.files).map_err(|reason| {
@@ -162,8 +162,8 @@ impl<'a> Evaluator<'a> {
 
     /// Evaluates a statement and adds its result to the output.
     pub(super) fn statement(&mut self) -> Evaluated<()> {
-        if self.depth == MOST_DEPTH {
-            return Err(self.fault(&posts::TEXT_DEPTH, 1).with("limit", MOST_DEPTH));
+        if self.depth == MAX_DEPTH {
+            return Err(self.fault(&posts::TEXT_DEPTH, 1).with("limit", MAX_DEPTH));
         }
         self.depth += 1;
         self.line().has_statement = true;
@@ -177,7 +177,7 @@ impl<'a> Evaluator<'a> {
             Some(form) => (form.run)(self, start)?,
             None => self.number(start)?,
         }
-        self.close(start)?;
+        self.close_statement(start)?;
         self.depth -= 1;
         Ok(())
     }
@@ -191,7 +191,7 @@ impl<'a> Evaluator<'a> {
         self.at += self.rest().len() - self.rest().trim_start_matches(is_blank).len();
     }
 
-    fn close(&mut self, start: usize) -> Evaluated<()> {
+    fn close_statement(&mut self, start: usize) -> Evaluated<()> {
         self.blanks();
         if self.rest().starts_with('}') {
             self.at += 1;
@@ -281,11 +281,11 @@ impl<'a> Evaluator<'a> {
 
     pub(super) fn term(&mut self, span: Range<usize>) -> Evaluated<f64> {
         let text = &self.text[span.clone()];
-        if let Some(at) = text.find(UNDEFINED) {
+        if let Some(at) = text.find(UNDEFINED_MARK) {
             return Err(self.undefined(span.start + at));
         }
         // The text in the placeholder may be a number, but no term is evaluated in it.
-        let plain = self.surroundings.variables.plain(text);
+        let plain = self.surroundings.variables.without_placeholders(text);
         let is_number = plain.trim_matches(|c: char| c == ' ' || is_mark(c)).parse::<f64>().is_ok();
         let found = text.chars().find_map(|c| self.surroundings.variables.text(c)).filter(|_| !is_number);
         if let Some(found) = found {
@@ -378,7 +378,7 @@ impl Evaluator<'_> {
         self.blanks();
         let second = self.result()?;
         let variables = &self.surroundings.variables;
-        let is_same = variables.plain(&first) == variables.plain(&second);
+        let is_same = variables.without_placeholders(&first) == variables.without_placeholders(&second);
         self.branches(is_same)
     }
 

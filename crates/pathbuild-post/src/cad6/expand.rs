@@ -6,13 +6,13 @@ use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::reasons::NOT_BELOW_POST;
 
 use super::term::{Evaluated, Fault};
-use super::variables::{UNDEFINED, VARIABLE, Variables, is_mark};
+use super::variables::{UNDEFINED_MARK, VARIABLE_MARK, Variables, is_mark};
 use crate::PostFiles;
 
 /// Maximum nesting depth of variables that refer to each other.
-const MOST_DEPTH: usize = 32;
+const MAX_DEPTH: usize = 32;
 /// Maximum number of variables resolved per call.
-const MOST_VARIABLES: usize = 10_000;
+const MAX_VARIABLES: usize = 10_000;
 /// Maximum length in bytes of the text produced by one call. Lines of real programs are much shorter.
 const MAX_TEXT_BYTES: usize = 1 << 16;
 
@@ -50,7 +50,7 @@ impl Expanded {
             expanded.begin(text.len() - rest.len(), false);
             expanded.text.push_str(before);
             expanded.begin(start, true);
-            expanded.text.push(VARIABLE);
+            expanded.text.push(VARIABLE_MARK);
             expanded.variable(name, variables, 0).map_err(|mut fault| {
                 fault.span = span;
                 fault
@@ -67,18 +67,18 @@ impl Expanded {
     }
 
     fn variable(&mut self, name: &str, variables: &Variables, depth: usize) -> Evaluated<()> {
-        if depth == MOST_DEPTH {
+        if depth == MAX_DEPTH {
             return Err(Fault::new(&posts::VARIABLE_DEPTH, 0..0)
                 .quoting("name", name)
-                .with("limit", MOST_DEPTH));
+                .with("limit", MAX_DEPTH));
         }
         self.resolved += 1;
-        if self.resolved > MOST_VARIABLES {
+        if self.resolved > MAX_VARIABLES {
             return Err(Fault::new(&posts::TEXT_LENGTH, 0..0).with("limit", MAX_TEXT_BYTES));
         }
         let Some(value) = variables.get(name) else {
             self.undefined.push((self.text.len(), name.to_owned()));
-            self.text.push(UNDEFINED);
+            self.text.push(UNDEFINED_MARK);
             return Ok(());
         };
         let mut rest = value;
@@ -161,7 +161,7 @@ pub(super) const INSERTION: &str = r"\\\~*";
 pub(super) fn names(text: &str) -> Vec<String> {
     let names = text.split(INSERTION).skip(1).filter_map(|rest| Some(rest.split_once('*')?.0));
     names
-        .filter(|name| !name.contains(UNDEFINED))
+        .filter(|name| !name.contains(UNDEFINED_MARK))
         .map(|name| name.chars().filter(|c| !is_mark(*c)).collect())
         .collect()
 }
@@ -169,7 +169,7 @@ pub(super) fn names(text: &str) -> Vec<String> {
 /// Returns the content of a file without its last line break, or the reason why it cannot be read. Only files below the directory of the
 /// post are read.
 pub(super) fn read(name: &str, files: &dyn PostFiles) -> Result<Vec<u8>, Value> {
-    let path = below(name).ok_or(Value::Prose(&NOT_BELOW_POST))?;
+    let path = path_below(name).ok_or(Value::Prose(&NOT_BELOW_POST))?;
     let mut content = files.read(&path)?;
     for end in [b'\n', b'\r'] {
         if content.last() == Some(&end) {
@@ -180,7 +180,7 @@ pub(super) fn read(name: &str, files: &dyn PostFiles) -> Result<Vec<u8>, Value> 
 }
 
 /// Returns the path if it stays below the current directory. Backslashes are separators, as on Windows.
-pub(super) fn below(name: &str) -> Option<Utf8PathBuf> {
+pub(super) fn path_below(name: &str) -> Option<Utf8PathBuf> {
     let path = Utf8PathBuf::from(name.replace('\\', "/"));
     let is_drive = name.contains(':');
     let is_down =
@@ -190,12 +190,12 @@ pub(super) fn below(name: &str) -> Option<Utf8PathBuf> {
 
 #[cfg(test)]
 mod tests {
-    use super::below;
+    use super::path_below;
 
     #[test]
     fn only_ways_down_are_gone() {
         for inside in ["head.nc", "sub/head.nc", r"sub\head.nc", "./head.nc"] {
-            assert!(below(inside).is_some(), "{inside}");
+            assert!(path_below(inside).is_some(), "{inside}");
         }
         for outside in [
             "",
@@ -207,7 +207,7 @@ mod tests {
             r"C:\head.nc",
             "C:head.nc",
         ] {
-            assert!(below(outside).is_none(), "{outside}");
+            assert!(path_below(outside).is_none(), "{outside}");
         }
     }
 }

@@ -22,7 +22,7 @@ use pathbuild_diagnostic::messages::posts;
 use pathbuild_motion::{Coolant, Turning};
 
 pub(super) use definition::Definition;
-pub(super) use program::foreseen;
+pub(super) use program::inserted_files;
 use runner::Runner;
 
 use super::PostOptions;
@@ -31,7 +31,7 @@ use super::rs274_translation::{Rs274Translation, TranslatedText};
 use super::target::Target;
 use crate::findings::EngineOutput;
 use crate::line_words::{CommentMarks, words};
-use crate::target::Guard;
+use crate::target::TextInserter;
 
 /// Writes a job, which must have at least one operation.
 pub(super) fn write(
@@ -41,7 +41,7 @@ pub(super) fn write(
     target: Option<&Target>,
     options: &PostOptions<'_>,
 ) -> Result<EngineOutput, Vec<Diagnostic>> {
-    let guard = Guard::new(target, CommentMarks::default(), options.charset);
+    let guard = TextInserter::new(target, CommentMarks::default(), options.charset);
     let mut runner = Runner::new(definition, file, options.files, guard, options.most_bytes);
     program::run(job, target, options, &mut runner).map_err(|error| vec![*error])?;
     let called = std::mem::take(&mut runner.called);

@@ -70,7 +70,7 @@ impl Form {
     pub(super) fn write(self, value: f64, decimals: usize) -> Option<String> {
         let rounded = || NumberFormat::decimals(0, decimals).format(value);
         Some(match self {
-            Self::Shortest => shortest(value),
+            Self::Shortest => shortest_text(value),
             Self::Currency => currency(value),
             Self::Rounded => rounded(),
             Self::Comma => rounded().replace('.', ","),
@@ -89,7 +89,7 @@ pub(super) fn bits(value: f64) -> Option<i64> {
 }
 
 /// Returns the shortest text that parses to the same number.
-pub(super) fn shortest(value: f64) -> String {
+pub(super) fn shortest_text(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { value.to_string() }
 }
 
@@ -120,7 +120,7 @@ impl CForm {
             'd' => NumberFormat::decimals(0, 0).format(value),
             'x' => format!("{:x}", u64::try_from(bits(value)?).ok()?),
             'b' => format!("{:b}", u64::try_from(bits(value)?).ok()?),
-            _ => shortest(value),
+            _ => shortest_text(value),
         };
         Some(self.pad(&text))
     }

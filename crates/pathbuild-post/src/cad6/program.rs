@@ -9,7 +9,7 @@ use pathbuild_motion::{Coolant, Move, Turning};
 use super::calls::{Call, CallContent, ContourPosition, Point, calls};
 use super::control_text::ControlTextKind;
 use super::definition::Definition;
-use super::expand::{Expanded, below, names};
+use super::expand::{Expanded, names, path_below};
 use super::runner::{RunResult, Runner};
 use super::variables::{Variables, is_private};
 use crate::job::{Feeds, Hole, HoleKind, Job, Operation, Units};
@@ -63,7 +63,7 @@ pub(super) fn run<'a>(
         caller.text("CommentText", remark);
         caller.runner.call(ControlTextKind::Comment)?;
     }
-    calls.iter().try_for_each(|call| caller.make(call))?;
+    calls.iter().try_for_each(|call| caller.execute_call(call))?;
     caller.runner.call(ControlTextKind::PrimaryRun)?;
     caller.runner.call(ControlTextKind::BeforeRepeat)?;
     caller.runner.call(ControlTextKind::ProgramEnd)
@@ -77,12 +77,12 @@ pub(super) fn assign_macros(variables: &mut Variables, macros: &[PostMacro]) {
 }
 
 /// Returns the files that control texts insert in every program. Their names contain only literal text and the user's macros.
-pub(crate) fn foreseen(definition: &Definition, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
+pub(crate) fn inserted_files(definition: &Definition, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
     let mut variables = Variables::new(definition.aliases.iter().map(|(other, own)| (&**other, &**own)));
     assign_macros(&mut variables, macros);
     // Texts that cannot be expanded cannot be part of a program.
     let texts = definition.texts().filter_map(|(_, text)| Expanded::new(&text.text, &variables).ok());
-    texts.flat_map(|expanded| names(&expanded.text)).filter_map(|name| below(&name)).collect()
+    texts.flat_map(|expanded| names(&expanded.text)).filter_map(|name| path_below(&name)).collect()
 }
 
 impl Caller<'_, '_> {
@@ -151,7 +151,7 @@ impl Caller<'_, '_> {
         }
     }
 
-    fn make(&mut self, call: &Call<'_>) -> RunResult {
+    fn execute_call(&mut self, call: &Call<'_>) -> RunResult {
         let operation = &self.job.operations[call.operation];
         self.operation(call.operation);
         match &call.content {

@@ -16,9 +16,9 @@ use super::variables::{VARIABLES, Variable, Variables, byte_of};
 use crate::PostFiles;
 use crate::cad6::control_text::locate;
 use crate::cad6::term::Fault;
-use crate::findings::{EngineOutput, Fuel, LineOrigin, MOST_WARNINGS};
+use crate::findings::{EngineOutput, LineOrigin, MAX_WARNINGS, OutputBudget};
 use crate::job::Units;
-use crate::target::Guard;
+use crate::target::TextInserter;
 
 /// Success, or the diagnostic that aborts writing.
 pub(super) type RunResult = Result<(), Box<Diagnostic>>;
@@ -33,11 +33,11 @@ pub(super) struct Runner<'a> {
     files: &'a dyn PostFiles,
     pub(super) variables: Variables,
     line_number: ControlText,
-    guard: Guard<'a>,
+    guard: TextInserter<'a>,
     text: Vec<u8>,
     most_bytes: usize,
     /// Number of bytes that texts may still produce, not counting inserted files.
-    fuel: Fuel,
+    fuel: OutputBudget,
     pub(super) warnings: Vec<Diagnostic>,
     /// The kinds of the texts called so far.
     pub(super) called: Vec<ControlTextKind>,
@@ -50,7 +50,7 @@ impl<'a> Runner<'a> {
         definition: &'a Definition,
         file: &'a Utf8Path,
         files: &'a dyn PostFiles,
-        guard: Guard<'a>,
+        guard: TextInserter<'a>,
         most_bytes: usize,
     ) -> Self {
         let aliases = definition.aliases.iter().map(|(other, own)| (&**other, &**own));
@@ -64,7 +64,7 @@ impl<'a> Runner<'a> {
             guard,
             text: Vec::new(),
             most_bytes,
-            fuel: Fuel::new(0),
+            fuel: OutputBudget::new(0),
             warnings: Vec::new(),
             called: Vec::new(),
             origins: Vec::new(),
@@ -94,7 +94,7 @@ impl<'a> Runner<'a> {
         if line.has_statement && text.is_empty() {
             return Ok(());
         }
-        self.fuel.burn(if line.is_inserted { 0 } else { text.len() }, self.file)?;
+        self.fuel.spend(if line.is_inserted { 0 } else { text.len() }, self.file)?;
         let has_text = text.chars().any(|c| byte_of(c).is_none());
         if self.definition.settings.number_lines && (has_text || !line.is_inserted) && !text.is_empty() {
             self.number()?;
@@ -107,7 +107,7 @@ impl<'a> Runner<'a> {
     fn number(&mut self) -> RunResult {
         let text = self.line_number.clone();
         for line in self.evaluate(ControlTextKind::LineNumber, &text)? {
-            self.fuel.burn(line.text.len(), self.file)?;
+            self.fuel.spend(line.text.len(), self.file)?;
             self.push(&line.text, ControlTextKind::LineNumber)?;
         }
         Ok(())
@@ -118,7 +118,7 @@ impl<'a> Runner<'a> {
         let mut before = String::new();
         for c in line.chars() {
             if let Some(text) = self.variables.text(c) {
-                let Some(text) = self.guard.put(&before, text) else {
+                let Some(text) = self.guard.inserted_form(&before, text) else {
                     let diagnostic =
                         Diagnostic::new(&posts::TEXT_AMONG_WORDS).quoting("section", kind.name());
                     return Err(Box::new(
@@ -162,7 +162,7 @@ impl<'a> Runner<'a> {
     }
 
     fn doubt(&mut self, doubt: Diagnostic) {
-        if self.warnings.len() < MOST_WARNINGS && !self.warnings.contains(&doubt) {
+        if self.warnings.len() < MAX_WARNINGS && !self.warnings.contains(&doubt) {
             self.warnings.push(doubt);
         }
     }
@@ -177,7 +177,7 @@ impl<'a> Runner<'a> {
             diagnostic = diagnostic.or_nearest(&posts::VARIABLE_UNDEFINED_NEAREST, nearest(&name, others));
             if text.text.contains(&format!("{{={name}")) {
                 diagnostic.message = &posts::VARIABLE_UNDEFINED_YET;
-            } else if let Some(variable) = Variable::named(self.variables.own_name(&name)) {
+            } else if let Some(variable) = Variable::by_name(self.variables.own_name(&name)) {
                 diagnostic.message = &posts::VARIABLE_WITHOUT_VALUE;
                 diagnostic = diagnostic.with("reason", variable.reason());
             }

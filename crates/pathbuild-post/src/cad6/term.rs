@@ -13,7 +13,7 @@ use super::numbers::bits;
 use super::variables::is_mark;
 
 /// Maximum nesting depth of parentheses and signs.
-const MOST_DEPTH: usize = 64;
+const MAX_DEPTH: usize = 64;
 
 /// The value of a term, together with the doubtful constructs in it.
 #[derive(Debug)]
@@ -129,8 +129,8 @@ impl Parser<'_> {
     }
 
     fn nested<T>(&mut self, read: impl FnOnce(&mut Self) -> Evaluated<T>) -> Evaluated<T> {
-        if self.depth == MOST_DEPTH {
-            return Err(Fault::new(&posts::TEXT_DEPTH, self.at..self.at).with("limit", MOST_DEPTH));
+        if self.depth == MAX_DEPTH {
+            return Err(Fault::new(&posts::TEXT_DEPTH, self.at..self.at).with("limit", MAX_DEPTH));
         }
         self.depth += 1;
         let value = read(self)?;

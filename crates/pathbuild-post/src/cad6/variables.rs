@@ -40,7 +40,7 @@ words! {
 
 impl Variable {
     /// Finds a variable by its name.
-    pub(super) fn named(name: &str) -> Option<&'static Self> {
+    pub(super) fn by_name(name: &str) -> Option<&'static Self> {
         VARIABLES.iter().find(|variable| variable.name == name)
     }
 
@@ -211,7 +211,7 @@ impl Variables {
 
     /// Sets a variable to a number.
     pub(super) fn set(&mut self, name: &str, value: f64) {
-        self.assign(name, &super::numbers::shortest(value));
+        self.assign(name, &super::numbers::shortest_text(value));
     }
 
     /// Sets a variable to a text that is never evaluated.
@@ -225,7 +225,7 @@ impl Variables {
 
     /// Adds a text and returns its index. If there are more texts than placeholders, the last placeholder is reused.
     fn add(&mut self, text: &str) -> usize {
-        if self.texts.len() == MOST_TEXTS {
+        if self.texts.len() == MAX_TEXTS {
             self.texts.pop();
         } else {
             self.numbers.insert(text.into(), self.texts.len());
@@ -240,7 +240,7 @@ impl Variables {
     }
 
     /// Replaces the placeholders of a value by their texts. The result is only compared or parsed as a number, never expanded.
-    pub(super) fn plain<'t>(&self, value: &'t str) -> Cow<'t, str> {
+    pub(super) fn without_placeholders<'t>(&self, value: &'t str) -> Cow<'t, str> {
         if !value.contains(is_private) {
             return Cow::Borrowed(value);
         }
@@ -256,13 +256,13 @@ impl Variables {
 }
 
 /// Placeholder at the position of a variable.
-pub(super) const VARIABLE: char = '\u{10FF00}';
+pub(super) const VARIABLE_MARK: char = '\u{10FF00}';
 /// Placeholder at the position of a variable that does not exist.
-pub(super) const UNDEFINED: char = '\u{10FF01}';
+pub(super) const UNDEFINED_MARK: char = '\u{10FF01}';
 /// First of the placeholder characters that stand for texts.
 const FIRST_TEXT: u32 = 0x0010_0000;
 /// Number of placeholder characters for texts.
-pub(super) const MOST_TEXTS: usize = 0xFE00;
+pub(super) const MAX_TEXTS: usize = 0xFE00;
 /// First of the 256 placeholder characters that stand for bytes.
 const FIRST_BYTE: u32 = 0x0010_FE00;
 
@@ -273,19 +273,19 @@ pub(super) fn is_private(c: char) -> bool {
 
 /// Returns the placeholder of the text with this index.
 pub(super) fn char_of_text(index: usize) -> char {
-    let index = u32::try_from(index.min(MOST_TEXTS - 1)).unwrap_or(0);
+    let index = u32::try_from(index.min(MAX_TEXTS - 1)).unwrap_or(0);
     char::from_u32(FIRST_TEXT + index).unwrap_or(char::REPLACEMENT_CHARACTER)
 }
 
 /// Returns the index of the text that a placeholder stands for; `None` for other characters.
 pub(super) fn text_of(c: char) -> Option<usize> {
     let index = usize::try_from(u32::from(c).checked_sub(FIRST_TEXT)?).ok()?;
-    (index < MOST_TEXTS).then_some(index)
+    (index < MAX_TEXTS).then_some(index)
 }
 
 /// Whether a character marks the position of a variable.
 pub(super) fn is_mark(c: char) -> bool {
-    c == VARIABLE
+    c == VARIABLE_MARK
 }
 
 /// Returns the placeholder of a byte.

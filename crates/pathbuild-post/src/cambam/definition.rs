@@ -7,12 +7,12 @@ use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Text, nearest};
 use roxmltree::{Document, Node, ParsingOptions};
 
-use super::machine::{CODES, Form, Register};
+use super::machine::{CODES_WITH_SECTION, Form, Register};
 use super::macros::{Macro, MacroArguments, State, Value};
 use super::options::{Options, Refusal};
 use super::section::Section;
 use super::template::{Fault, Template, TemplateError};
-use crate::findings::{Findings, LineStarts, MOST_FINDINGS};
+use crate::findings::{Findings, LineStarts, MAX_FINDINGS};
 use crate::job::{Job, Units};
 use crate::line_words::{CommentMarks, words};
 use crate::number::FormatOption;
@@ -66,14 +66,14 @@ impl UserMacros {
 }
 
 /// Maximum number of XML elements in a definition. Larger files are refused, because they can only be malicious.
-const MOST_ELEMENTS: u32 = 10_000;
+const MAX_XML_ELEMENTS: u32 = 10_000;
 
 impl Definition {
     /// Parses a definition. Elements that are not understood are returned as warnings.
     pub(crate) fn parse(text: &str, file: &Utf8Path) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
-        let limits = ParsingOptions { nodes_limit: MOST_ELEMENTS, ..ParsingOptions::default() };
+        let limits = ParsingOptions { nodes_limit: MAX_XML_ELEMENTS, ..ParsingOptions::default() };
         let document =
-            Document::parse_with_options(text, limits).map_err(|error| vec![syntax(&error, file)])?;
+            Document::parse_with_options(text, limits).map_err(|error| vec![syntax_error(&error, file)])?;
         let root = document.root_element();
         if root.tag_name().name() != "PostProcessor" {
             let found = root.tag_name().name();
@@ -180,7 +180,8 @@ impl Definition {
     /// Returns the definition's own words for motions that are not G words, each with the number of the G word that it stands for.
     pub(super) fn own_motions(&self) -> Vec<(u32, String)> {
         let is_own = |word: &str| !word.is_empty() && words(word, &CommentMarks::default()).words.is_empty();
-        let all = CODES.map(|(number, section)| (number, self.section(section).literal().trim().to_owned()));
+        let all = CODES_WITH_SECTION
+            .map(|(number, section)| (number, self.section(section).literal().trim().to_owned()));
         all.into_iter().filter(|(_, word)| is_own(word)).collect()
     }
 
@@ -190,7 +191,7 @@ impl Definition {
     }
 }
 
-fn syntax(error: &roxmltree::Error, file: &Utf8Path) -> Diagnostic {
+fn syntax_error(error: &roxmltree::Error, file: &Utf8Path) -> Diagnostic {
     let at = error.pos();
     Diagnostic::new(&posts::POST_SYNTAX)
         .with("reason", pathbuild_diagnostic::Value::foreign(error))
@@ -368,7 +369,7 @@ fn user_macro(line: &str) -> Option<(&str, &str)> {
 fn is_built_in(name: &str) -> bool {
     match Macro::parse(name) {
         Ok(Macro::User(_)) => false,
-        Ok(Macro::Value(value)) => !value.is_open(),
+        Ok(Macro::Value(value)) => !value.may_be_missing(),
         _ => true,
     }
 }
@@ -386,7 +387,7 @@ fn template_error(section: Section, error: &TemplateError, file: &Utf8Path) -> D
 
 /// Maximum number of macro names that an undefined macro is compared with to suggest one, so that files with many undefined macros are
 /// still fast.
-const MOST_COMPARED: usize = 1000;
+const MAX_COMPARED_NAMES: usize = 1000;
 
 /// Input of a writer: a job, a definition and the macros of all sources, checked together.
 pub(super) struct Plan<'a> {
@@ -452,18 +453,18 @@ impl<'a> Plan<'a> {
             Macro::User(name) if self.user_macro(name).is_none() => Some((text, name, line)),
             _ => None,
         });
-        let reported = unknown.take(MOST_FINDINGS);
+        let reported = unknown.take(MAX_FINDINGS);
         reported.map(|(text, name, line)| self.unknown_macro(name, text.section, line)).collect()
     }
 
     fn unknown_macro(&self, name: &str, section: Section, line: u32) -> Diagnostic {
         let users = self.macros.iter().map(|(name, _)| &**name).chain(self.definition.macros.names());
-        let users = users.take(MOST_COMPARED);
+        let users = users.take(MAX_COMPARED_NAMES);
         let bare = name.split('(').next().unwrap_or(name);
-        let nearest = nearest(bare, users).or_else(|| Macro::nearest(bare)).map(framed);
+        let nearest = nearest(bare, users).or_else(|| Macro::nearest(bare)).map(macro_in_braces);
         let diagnostic =
             Diagnostic::new(&posts::UNKNOWN_MACRO).or_nearest(&posts::UNKNOWN_MACRO_NEAREST, nearest);
-        self.locate(diagnostic.quoting("macro", framed(name)), section, line)
+        self.locate(diagnostic.quoting("macro", macro_in_braces(name)), section, line)
     }
 
     /// Adds the position in the definition to a diagnostic.
@@ -474,6 +475,6 @@ impl<'a> Plan<'a> {
 }
 
 /// Returns a macro as it is written in a template: `{$name}`.
-pub(super) fn framed(name: &str) -> String {
+pub(super) fn macro_in_braces(name: &str) -> String {
     format!("{{${name}}}")
 }

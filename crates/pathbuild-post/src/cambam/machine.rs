@@ -29,13 +29,13 @@ pub(super) struct Machine {
 
 impl Machine {
     /// Returns the text last written for a register; `None` if it is unknown.
-    pub(super) fn written(&self, register: Register) -> Option<&str> {
+    pub(super) fn last_text(&self, register: Register) -> Option<&str> {
         self.registers[register as usize].as_deref()
     }
 
     /// Returns the number last written for a register, in the output unit; `None` if it is unknown.
     pub(super) fn number(&self, register: Register) -> Option<f64> {
-        self.written(register)?.parse().ok()
+        self.last_text(register)?.parse().ok()
     }
 
     /// Sets a register, or marks it as unknown.
@@ -51,7 +51,7 @@ impl Machine {
     }
 
     /// Whether this motion or cycle is the active one.
-    pub(super) fn is_in(&self, (number, _): Code) -> bool {
+    pub(super) fn is_active(&self, (number, _): Code) -> bool {
         self.motion == Some(number * 10)
     }
 
@@ -133,7 +133,7 @@ impl Machine {
         }
         if moved && self.motion.is_some_and(|motion| motion == 730 || (810..=890).contains(&motion)) {
             // For the post, a cycle leaves the tool at R, whatever the control does afterwards.
-            let retract = self.written(Register::R).map(str::to_owned);
+            let retract = self.last_text(Register::R).map(str::to_owned);
             self.set(Register::Z, retract);
         }
     }
@@ -223,7 +223,7 @@ pub(super) enum Form {
 pub(super) type Code = (u32, Section);
 
 /// The motions and cycles that have a section of their own.
-pub(super) const CODES: [Code; 7] = [
+pub(super) const CODES_WITH_SECTION: [Code; 7] = [
     (0, Section::G0),
     (1, Section::G1),
     (2, Section::G2),

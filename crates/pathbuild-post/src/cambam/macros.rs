@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::{Text, nearest};
 
-use super::machine::{CODES, Code, Form, Register};
+use super::machine::{CODES_WITH_SECTION, Code, Form, Register};
 use super::section::Section;
 
 /// A parsed macro. Each variant says what the macro expands to.
@@ -71,7 +71,7 @@ impl Value {
     }
 
     /// Whether drawings and programs do not always provide the value, so that the definition or the configuration may provide it.
-    pub(super) fn is_open(self) -> bool {
+    pub(super) fn may_be_missing(self) -> bool {
         matches!(
             self,
             Self::StockSize(_)
@@ -187,7 +187,10 @@ pub(super) struct MacroArguments {
 impl Value {
     /// Name of the macro.
     pub(super) fn name(self) -> &'static str {
-        FIXED.iter().find(|(_, what)| *what == Macro::Value(self)).map_or("", |(name, _)| name)
+        MACROS_WITHOUT_ARGUMENTS
+            .iter()
+            .find(|(_, what)| *what == Macro::Value(self))
+            .map_or("", |(name, _)| name)
     }
 }
 
@@ -216,12 +219,19 @@ impl Macro {
 
     /// Returns the built-in name most similar to an undefined one.
     pub(super) fn nearest(name: &str) -> Option<&'static str> {
-        nearest(name, FIXED.iter().map(|(name, _)| *name).chain(WITH.iter().map(|with| with.name)))
+        nearest(
+            name,
+            MACROS_WITHOUT_ARGUMENTS
+                .iter()
+                .map(|(name, _)| *name)
+                .chain(MACROS_WITH_ARGUMENTS.iter().map(|with| with.name)),
+        )
     }
 }
 
 fn without_arguments(name: &str) -> Option<Macro> {
-    let fixed = FIXED.iter().find(|(known, _)| *known == name).map(|(_, what)| what.clone());
+    let fixed =
+        MACROS_WITHOUT_ARGUMENTS.iter().find(|(known, _)| *known == name).map(|(_, what)| what.clone());
     fixed.or_else(|| code(name)).or_else(|| register(name))
 }
 
@@ -229,7 +239,7 @@ fn without_arguments(name: &str) -> Option<Macro> {
 fn code(name: &str) -> Option<Macro> {
     let bare = name.strip_prefix('_').unwrap_or(name);
     let number = bare.strip_prefix('g')?;
-    let code = CODES.into_iter().find(|(code, _)| code.to_string() == number)?;
+    let code = CODES_WITH_SECTION.into_iter().find(|(code, _)| code.to_string() == number)?;
     Some(Macro::Code { code, modal: bare.len() < name.len() })
 }
 
@@ -255,13 +265,13 @@ pub(super) struct MacroWithArguments {
 }
 
 fn with_arguments(name: &str) -> Option<&'static MacroWithArguments> {
-    WITH.iter().find(|with| with.name == name)
+    MACROS_WITH_ARGUMENTS.iter().find(|with| with.name == name)
 }
 
 macro_rules! with_arguments {
     ($($name:literal $read:ident $en:literal, $de:literal;)*) => {
         /// All macros with arguments.
-        pub(super) static WITH: &[MacroWithArguments] = &[$(MacroWithArguments {
+        pub(super) static MACROS_WITH_ARGUMENTS: &[MacroWithArguments] = &[$(MacroWithArguments {
             name: $name,
             expected: &Text { en: $en, de: $de },
             read: $read,
@@ -347,7 +357,7 @@ fn finite(text: &str) -> Option<f64> {
 }
 
 /// All macros without arguments, except registers and codes.
-pub(super) static FIXED: &[(&str, Macro)] = &[
+pub(super) static MACROS_WITHOUT_ARGUMENTS: &[(&str, Macro)] = &[
     ("comment", Macro::Section(Section::Comment)),
     ("endcomment", Macro::Section(Section::EndComment)),
     ("header", Macro::Section(Section::Header)),

@@ -24,7 +24,7 @@ use crate::job::{Job, Units};
 use crate::line_words::words;
 use crate::rs274_translation::{Rs274Translation, TranslatedText};
 use crate::target::Target;
-use definition::{Plan, framed};
+use definition::{Plan, macro_in_braces};
 use macros::{Macro, State};
 use template::Template;
 use writer::Writer;
@@ -101,7 +101,7 @@ pub(super) fn post_build(
         let argument = argument.replace("{$outfile}", &output).replace("{$cbfile.name}", &job.name);
         if let Some(start) = argument.find("{$") {
             let name = argument[start + 2..].split('}').next().unwrap_or("");
-            let diagnostic = Diagnostic::new(&posts::UNKNOWN_MACRO).quoting("macro", framed(name));
+            let diagnostic = Diagnostic::new(&posts::UNKNOWN_MACRO).quoting("macro", macro_in_braces(name));
             return Err(Box::new(diagnostic.quoting("section", "PostBuildCommandArgs").in_file(file)));
         }
         words.push(argument);

@@ -13,15 +13,15 @@ use super::machine::{ArcValues, MoveValues, Register};
 use super::macros::{Argument, Macro, Value};
 use super::section::Section;
 use super::writer::{ROTARY, WriteResult, Writer};
-use crate::arcs::{MOST_CHORDS, Rounding, chords, pieces_of};
+use crate::arcs::{ArcRounding, MAX_CHORDS, chords, pieces_of};
 use crate::job::{Entry, Hole, HoleKind, JobStep};
 
 impl Writer<'_> {
     /// Writes the moves of the current operation.
     pub(super) fn blocks(&mut self) -> WriteResult {
         match self.operation().entry {
-            Entry::Clearance => self.clearance()?,
-            Entry::At(start) => self.check(start.map(Some))?,
+            Entry::Clearance => self.move_to_clearance()?,
+            Entry::At(start) => self.move_via_clearance(start.map(Some))?,
         }
         let steps = &self.operation().steps;
         let mut rest = steps.as_slice();
@@ -47,26 +47,26 @@ impl Writer<'_> {
             JobStep::Dwell { seconds } => {
                 let mut values = MoveValues::default();
                 values.set(Register::P, Some(self.dwell(*seconds)));
-                self.go(Section::Dwell, [None; 3], values)
+                self.write_move(Section::Dwell, [None; 3], values)
             }
             JobStep::Stop => {
-                self.lines_of(Section::Stop)?;
+                self.write_section_lines(Section::Stop)?;
                 // The operator may have moved the tool, so the next height is written in full.
                 self.machine.forget(&[Register::Z]);
                 Ok(())
             }
-            JobStep::Comment(text) => self.comment(text, " "),
+            JobStep::Comment(text) => self.write_comment(text, " "),
         }
     }
 
     fn move_to(&mut self, movement: &Move) -> WriteResult {
         match (movement.course(), movement.pace) {
             (Some(course), _) => self.arc(movement, &course),
-            (None, Pace::Rapid) => self.go(Section::Rapid, movement.to.axes(), MoveValues::default()),
+            (None, Pace::Rapid) => self.write_move(Section::Rapid, movement.to.axes(), MoveValues::default()),
             (None, Pace::Feed(_)) => self.feed(movement.to.axes(), movement.pace.stated_feed()),
             (None, Pace::Probe { .. }) => {
                 let values = self.with_feed(movement.pace.stated_feed());
-                self.go(Section::Probe, movement.to.axes(), values)?;
+                self.write_move(Section::Probe, movement.to.axes(), values)?;
                 // Only the machine knows where the probe stopped, so the next coordinates are written in full.
                 self.machine.forget(&[Register::X, Register::Y, Register::Z]);
                 Ok(())
@@ -89,7 +89,7 @@ impl Writer<'_> {
     /// Writes a straight cut.
     pub(super) fn feed(&mut self, to: [Option<f64>; 3], feed: Option<f64>) -> WriteResult {
         let values = self.with_feed(feed);
-        self.go(Section::FeedMove, to, values)
+        self.write_move(Section::FeedMove, to, values)
     }
 
     /// Returns register values for a straight move at this feed.
@@ -102,19 +102,24 @@ impl Writer<'_> {
     /// Writes a move through a section: sets the register values, and adds the definition's texts for the start and end of cutting.
     ///
     /// An axis without a target keeps its position, if it is known from the lines written so far.
-    pub(super) fn go(&mut self, section: Section, to: [Option<f64>; 3], values: MoveValues) -> WriteResult {
+    pub(super) fn write_move(
+        &mut self,
+        section: Section,
+        to: [Option<f64>; 3],
+        values: MoveValues,
+    ) -> WriteResult {
         let was_cutting = self.is_cutting;
         if let Some(z) = to[2] {
             self.is_cutting = self.is_below_surface(z);
         }
         if self.is_cutting && !was_cutting {
-            self.lines_of(Section::StartCut)?;
+            self.write_section_lines(Section::StartCut)?;
         }
         self.set_move(to, values)?;
-        self.lines_of(section)?;
-        self.remember(to);
+        self.write_section_lines(section)?;
+        self.record_position(to);
         if was_cutting && !self.is_cutting {
-            self.lines_of(Section::EndCut)?;
+            self.write_section_lines(Section::EndCut)?;
         }
         Ok(())
     }
@@ -123,17 +128,17 @@ impl Writer<'_> {
     fn set_move(&mut self, to: [Option<f64>; 3], values: MoveValues) -> WriteResult {
         self.move_values = values;
         for (axis, target) in to.into_iter().enumerate() {
-            let value = target.map(|target| self.scaled(target)).or_else(|| self.present(axis));
+            let value = target.map(|target| self.scaled(target)).or_else(|| self.current_position(axis));
             self.move_values.set(Register::AXES[axis], value);
         }
-        self.wrap(to)
+        self.wrap_around_cylinder(to)
     }
 
     /// Records the intended position of the tool, and for each axis the text written for it.
-    fn remember(&mut self, to: [Option<f64>; 3]) {
+    fn record_position(&mut self, to: [Option<f64>; 3]) {
         for (axis, target) in to.into_iter().enumerate() {
             if let Some(target) = target {
-                let text = self.machine.written(Register::AXES[axis]).map(Into::into);
+                let text = self.machine.last_text(Register::AXES[axis]).map(Into::into);
                 self.own[axis] = Some((self.scaled(target), text));
             }
         }
@@ -141,10 +146,10 @@ impl Writer<'_> {
 
     /// Returns the current position of the tool in the output unit: that of the program's moves, because a template may write them with reversed
     /// sign; or the number last written, if a line of another kind has moved the tool since.
-    fn present(&self, axis: usize) -> Option<f64> {
+    fn current_position(&self, axis: usize) -> Option<f64> {
         let register = Register::AXES[axis];
         match &self.own[axis] {
-            Some((at, text)) if text.as_deref() == self.machine.written(register) => Some(*at),
+            Some((at, text)) if text.as_deref() == self.machine.last_text(register) => Some(*at),
             _ => self.machine.number(register),
         }
     }
@@ -157,13 +162,15 @@ impl Writer<'_> {
         } else {
             Register::AXES[axis]
         };
-        self.machine.written(register).is_some()
-            && self.present(axis).is_some_and(|at| self.number_format().format(at) == self.length(target))
+        self.machine.last_text(register).is_some()
+            && self
+                .current_position(axis)
+                .is_some_and(|at| self.number_format().format(at) == self.length(target))
     }
 
     /// Writes a section that consists of entire lines.
-    fn lines_of(&mut self, section: Section) -> WriteResult {
-        self.section(section)?;
+    fn write_section_lines(&mut self, section: Section) -> WriteResult {
+        self.write_section(section)?;
         self.end_line();
         Ok(())
     }
@@ -175,7 +182,7 @@ impl Writer<'_> {
     }
 
     /// Converts the coordinate perpendicular to the cylinder's axis to an angle around it.
-    fn wrap(&mut self, to: [Option<f64>; 3]) -> WriteResult {
+    fn wrap_around_cylinder(&mut self, to: [Option<f64>; 3]) -> WriteResult {
         let rotary = self.plan.definition.options.rotary;
         if !rotary.wrap {
             return Ok(());
@@ -199,17 +206,17 @@ impl Writer<'_> {
     }
 
     /// Writes a move up to the clearance plane, unless the tool is already there.
-    pub(super) fn clearance(&mut self) -> WriteResult {
+    pub(super) fn move_to_clearance(&mut self) -> WriteResult {
         let clearance = self.operation().clearance;
         if self.is_at(2, clearance) {
             return Ok(());
         }
         let to = [None, None, Some(clearance)];
-        let is_down = self.present(2).is_some_and(|now| now > self.scaled(clearance));
+        let is_down = self.current_position(2).is_some_and(|now| now > self.scaled(clearance));
         if is_down && !self.plan.definition.options.rapid_down {
             return self.feed(to, self.operation().plunge_feed);
         }
-        self.go(Section::Rapid, to, MoveValues::default())
+        self.write_move(Section::Rapid, to, MoveValues::default())
     }
 
     /// Expands `{$check(x,y,z)}`.
@@ -223,28 +230,28 @@ impl Writer<'_> {
                 Argument::Number(value) => Some(value * unit),
             };
         }
-        self.check(to)
+        self.move_via_clearance(to)
     }
 
     /// Writes the moves to a position via the clearance plane, unless the tool is already there.
-    pub(super) fn check(&mut self, target: [Option<f64>; 3]) -> WriteResult {
+    pub(super) fn move_via_clearance(&mut self, target: [Option<f64>; 3]) -> WriteResult {
         let is_there =
             target.iter().enumerate().all(|(axis, target)| target.is_none_or(|at| self.is_at(axis, at)));
         if is_there {
             return Ok(());
         }
-        self.clearance()?;
-        self.go(Section::Rapid, [target[0], target[1], None], MoveValues::default())?;
+        self.move_to_clearance()?;
+        self.write_move(Section::Rapid, [target[0], target[1], None], MoveValues::default())?;
         match target[2] {
             Some(z) if self.is_below_surface(z) => {
                 self.feed([None, None, Some(z)], self.operation().plunge_feed)
             }
-            z => self.go(Section::Rapid, [None, None, z], MoveValues::default()),
+            z => self.write_move(Section::Rapid, [None, None, z], MoveValues::default()),
         }
     }
 }
 
-const OFFSETS: [Register; 3] = [Register::I, Register::J, Register::K];
+const CENTRE_REGISTERS: [Register; 3] = [Register::I, Register::J, Register::K];
 
 impl Writer<'_> {
     /// Writes an arc in the form required by the options of the definition, or as lines if it would no longer be circular after rounding
@@ -255,17 +262,18 @@ impl Writer<'_> {
             return self.chords(movement, course);
         }
         let is_short = self.scaled(course.radius() * course.sweep()) < options.least_arc_length;
-        let closes = self.rounded(|rounding| rounding.closes(movement));
+        let closes = self.with_rounding(|rounding| rounding.becomes_full_circle(movement));
         if is_short || closes || self.scaled(course.radius()) > options.greatest_arc_radius {
             self.warn_of_line(movement, course);
             return self.line(movement);
         }
         if self.is_written_by_radius(course) {
             return movement
-                .split(pieces_of(course, WIDEST_BY_RADIUS))
+                .split(pieces_of(course, MAX_ANGLE_BY_RADIUS))
                 .try_for_each(|piece| self.circle(&piece));
         }
-        let fitted = self.rounded(|rounding| rounding.fitted(movement, self.plan.job.units.millimetres()));
+        let fitted =
+            self.with_rounding(|rounding| rounding.fit_centre(movement, self.plan.job.units.millimetres()));
         self.circle(&fitted.map_err(|error| Box::new(error.in_file(self.plan.file)))?)
     }
 
@@ -275,7 +283,7 @@ impl Writer<'_> {
 
     fn chords(&mut self, movement: &Move, course: &Course) -> WriteResult {
         let Some(count) = chords(course, self.plan.arc_tolerance()) else {
-            let diagnostic = Diagnostic::new(&posts::TOO_MANY_CHORDS).with("limit", u64::from(MOST_CHORDS));
+            let diagnostic = Diagnostic::new(&posts::TOO_MANY_CHORDS).with("limit", u64::from(MAX_CHORDS));
             return Err(Box::new(diagnostic.with("radius", course.radius()).in_file(self.plan.file)));
         };
         movement.split(count).try_for_each(|piece| self.line(&piece))
@@ -294,7 +302,7 @@ impl Writer<'_> {
         let template = self.plan.definition.section(self.arc_section(&course.arc()));
         let has_centre = template.macros().any(|(what, _)| match what {
             Macro::Register(register, _) | Macro::Value(Value::ArcOffset(register)) => {
-                OFFSETS.contains(register)
+                CENTRE_REGISTERS.contains(register)
             }
             _ => false,
         });
@@ -307,9 +315,9 @@ impl Writer<'_> {
     }
 
     /// Calls a function with the rounding rules for arcs.
-    fn rounded<T>(&self, ask: impl FnOnce(&Rounding<'_>) -> T) -> T {
+    fn with_rounding<T>(&self, ask: impl FnOnce(&ArcRounding<'_>) -> T) -> T {
         let length = |length: f64| self.number_format().round(self.scaled(length));
-        ask(&Rounding { length: &length, is_absolute: self.is_absolute() })
+        ask(&ArcRounding { length: &length, is_absolute: self.is_absolute() })
     }
 
     fn is_absolute(&self) -> bool {
@@ -322,10 +330,10 @@ impl Writer<'_> {
         let arc = course.arc();
         let origin = if self.is_absolute() { [0.0; 3] } else { movement.from.at };
         for (axis, centre) in arc.plane.axes().into_iter().zip(arc.centre) {
-            values.set(OFFSETS[axis], Some(self.scaled(centre - origin[axis])));
+            values.set(CENTRE_REGISTERS[axis], Some(self.scaled(centre - origin[axis])));
         }
         values.arc = Some(self.arc_values(&course));
-        self.go(self.arc_section(&arc), movement.to.axes(), values)
+        self.write_move(self.arc_section(&arc), movement.to.axes(), values)
     }
 
     fn arc_values(&self, course: &Course) -> ArcValues {
@@ -337,7 +345,7 @@ impl Writer<'_> {
 }
 
 /// Maximum angle in radians of an arc written by its radius. Larger arcs are split.
-const WIDEST_BY_RADIUS: f64 = PI * 2.0 / 3.0;
+const MAX_ANGLE_BY_RADIUS: f64 = PI * 2.0 / 3.0;
 
 /// Registers that a control keeps only until the end of a canned cycle, so that the next cycle must write them again.
 const CYCLE_REGISTERS: [Register; 6] =
@@ -349,9 +357,9 @@ impl<'a> Writer<'a> {
         let (group, rest) = steps.split_at(group_length(steps));
         let holes = || group.iter().filter_map(as_hole);
         let Some(first) = holes().next() else { return Ok(rest) };
-        self.go(Section::Rapid, [None, None, Some(first.level)], MoveValues::default())?;
-        self.go(Section::Rapid, [Some(first.at[0]), Some(first.at[1]), None], MoveValues::default())?;
-        self.lines_of(Section::CannedCycleStart)?;
+        self.write_move(Section::Rapid, [None, None, Some(first.level)], MoveValues::default())?;
+        self.write_move(Section::Rapid, [Some(first.at[0]), Some(first.at[1]), None], MoveValues::default())?;
+        self.write_section_lines(Section::CannedCycleStart)?;
         self.machine.forget(&CYCLE_REGISTERS);
         for step in group {
             match as_hole(step) {
@@ -359,9 +367,9 @@ impl<'a> Writer<'a> {
                 None => self.step(step)?,
             }
         }
-        self.lines_of(Section::CannedCycleEnd)?;
+        self.write_section_lines(Section::CannedCycleEnd)?;
         let exit = holes().next_back().map(|hole| hole.exit);
-        self.go(Section::Rapid, [None, None, exit], MoveValues::default())?;
+        self.write_move(Section::Rapid, [None, None, exit], MoveValues::default())?;
         Ok(rest)
     }
 
@@ -373,15 +381,15 @@ impl<'a> Writer<'a> {
         };
         let is_below = self.is_below_surface(hole.bottom);
         if is_below {
-            self.lines_of(Section::StartCut)?;
+            self.write_section_lines(Section::StartCut)?;
         }
         let to = [Some(hole.at[0]), Some(hole.at[1]), Some(hole.bottom)];
         self.set_move(to, self.cycle_values(hole))?;
         self.empty_code = None;
-        self.lines_of(section)?;
+        self.write_section_lines(section)?;
         self.check_drilled(hole, section)?;
         if is_below {
-            self.lines_of(Section::EndCut)?;
+            self.write_section_lines(Section::EndCut)?;
         }
         Ok(())
     }

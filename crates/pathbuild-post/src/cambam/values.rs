@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use pathbuild_motion::{Coolant, Plane, Turning};
 
-use super::definition::framed;
+use super::definition::macro_in_braces;
 use super::machine::{ArcValues, Code, Form, Register};
 use super::macros::{Choice, State, Value};
 use super::section::{Section, coolant_section, spindle_section};
@@ -71,12 +71,12 @@ impl Writer<'_> {
     /// the program.
     pub(super) fn handle_missing_value(&mut self, value: Value, section: Section, line: u32) -> WriteResult {
         if value == Value::Date {
-            self.line.leave_out();
+            self.line.omit_value();
             return Ok(());
         }
-        let message = if value.is_open() { &posts::VALUE_MISSING_OPEN } else { &posts::VALUE_MISSING };
+        let message = if value.may_be_missing() { &posts::VALUE_MISSING_OPEN } else { &posts::VALUE_MISSING };
         let diagnostic = Diagnostic::new(message)
-            .quoting("macro", framed(value.name()))
+            .quoting("macro", macro_in_braces(value.name()))
             .quoting("name", value.name())
             .quoting("operation", &*self.operation().name);
         Err(Box::new(self.plan.locate(diagnostic, section, line)))
@@ -98,7 +98,7 @@ fn peck(hole: &Hole) -> Option<f64> {
 }
 
 impl Writer<'_> {
-    pub(super) fn register(&mut self, register: Register, form: Form) -> WriteResult {
+    pub(super) fn write_register(&mut self, register: Register, form: Form) -> WriteResult {
         self.line.has_register_macro = true;
         let Some(value) = self.move_values.get(register) else { return Ok(()) };
         let value = match form {
@@ -111,19 +111,19 @@ impl Writer<'_> {
             Register::P if self.counts_milliseconds() => NumberFormat::decimals(0, 0).format(1000.0 * value),
             _ => self.number_format().format(value),
         };
-        if form == Form::Changed && self.machine.written(register) == Some(text.as_str()) {
+        if form == Form::Changed && self.machine.last_text(register) == Some(text.as_str()) {
             return Ok(());
         }
         self.line.has_register_word = true;
         if form == Form::Reversed {
             self.line.turned.push(register);
         }
-        self.text(&format!("{}{text}", register.letter()))
+        self.write_text(&format!("{}{text}", register.letter()))
     }
 
-    pub(super) fn speed(&mut self) -> WriteResult {
+    pub(super) fn write_speed(&mut self) -> WriteResult {
         match self.operation().speed.filter(|_| !self.plan.options.manual_spindle) {
-            Some(speed) => self.text(&format!("S{}", NumberFormat::decimals(0, 0).format(speed))),
+            Some(speed) => self.write_text(&format!("S{}", NumberFormat::decimals(0, 0).format(speed))),
             None => Ok(()),
         }
     }
@@ -141,10 +141,10 @@ impl Writer<'_> {
         {
             return Ok(());
         }
-        self.section(spindle_section(spindle))?;
+        self.write_section(spindle_section(spindle))?;
         if spindle != Turning::Off {
-            self.text(" ")?;
-            self.speed()?;
+            self.write_text(" ")?;
+            self.write_speed()?;
         }
         self.end_line();
         self.machine.spindle = Some(spindle);
@@ -156,22 +156,22 @@ impl Writer<'_> {
         }
     }
 
-    pub(super) fn code(&mut self, code: Code, modal: bool) -> WriteResult {
+    pub(super) fn write_code(&mut self, code: Code, modal: bool) -> WriteResult {
         let (_, section) = code;
         self.line.code = Some(code);
         if self.plan.definition.section(section).is_blank() {
             self.empty_code = Some(section);
         }
-        if modal && self.machine.is_in(code) {
+        if modal && self.machine.is_active(code) {
             return Ok(());
         }
         self.line.is_in_code = true;
-        self.section(section)?;
+        self.write_section(section)?;
         self.line.is_in_code = false;
         Ok(())
     }
 
-    pub(super) fn named_section(&mut self, section: Section) -> WriteResult {
+    pub(super) fn write_named_section(&mut self, section: Section) -> WriteResult {
         let is_spindle = matches!(section, Section::SpindleCw | Section::SpindleCcw | Section::SpindleOff);
         if is_spindle && self.plan.options.manual_spindle {
             return Ok(());
@@ -185,10 +185,10 @@ impl Writer<'_> {
             Section::CoolantOff => self.machine.coolant = Some(Coolant::OFF),
             _ => {}
         }
-        self.section(section)
+        self.write_section(section)
     }
 
-    pub(super) fn chosen(&self, choice: Choice) -> Section {
+    pub(super) fn section_of_choice(&self, choice: Choice) -> Section {
         let options = &self.plan.definition.options;
         match choice {
             Choice::Units if self.plan.job.units == Units::Inches => Section::UnitsInches,
@@ -199,7 +199,7 @@ impl Writer<'_> {
         }
     }
 
-    pub(super) fn state(&mut self, state: State) -> WriteResult {
+    pub(super) fn write_state(&mut self, state: State) -> WriteResult {
         let operation = self.operation();
         let section = match state {
             State::Velocity
@@ -221,7 +221,7 @@ impl Writer<'_> {
             }
             _ => return Ok(()),
         };
-        self.section(section)
+        self.write_section(section)
     }
 }
 

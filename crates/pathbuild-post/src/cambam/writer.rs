@@ -4,25 +4,25 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_gcode::native::too_large;
 
-use super::definition::{Plan, framed};
+use super::definition::{Plan, macro_in_braces};
 use super::machine::{Code, Machine, MoveValues, Register};
 use super::macros::{Block, Macro, Value};
 use super::options::Options;
 use super::section::Section;
 use super::template::{Template, TemplatePart};
 use crate::arcs::chords;
-use crate::findings::{EngineOutput, Fuel, LineOrigin, MOST_WARNINGS};
+use crate::findings::{EngineOutput, LineOrigin, MAX_WARNINGS, OutputBudget};
 use crate::job::{Feeds, JobStep, Operation, Tool};
 use crate::line_words::{CommentMarks, LineWords, Word, words};
 use crate::number::NumberFormat;
 use crate::rs274_translation::Rs274Translation;
-use crate::target::Guard;
+use crate::target::TextInserter;
 
 /// Success, or the diagnostic that aborts writing.
 pub(super) type WriteResult = Result<(), Box<Diagnostic>>;
 
 /// Maximum nesting depth of user macros, and also of sections.
-const MOST_DEPTH: usize = 16;
+const MAX_DEPTH: usize = 16;
 
 /// Writer that expands the templates of a plan to the text of a program.
 pub(super) struct Writer<'a> {
@@ -44,7 +44,7 @@ pub(super) struct Writer<'a> {
     pub(super) line: Line,
     lines: Lines<'a>,
     marks: CommentMarks,
-    guard: Guard<'a>,
+    guard: TextInserter<'a>,
     /// Translation of the lines written so far to the words of RS274.
     shadow: Rs274Translation,
     /// For each axis, whether the definition reverses its sign; `None` until the axis has been written.
@@ -64,7 +64,7 @@ pub(super) struct Writer<'a> {
     depth: [usize; 2],
     /// The blocks `{$mops}` and `{$blocks}` that are being expanded.
     open: Vec<Block>,
-    fuel: Fuel,
+    fuel: OutputBudget,
 }
 
 impl<'a> Writer<'a> {
@@ -83,7 +83,7 @@ impl<'a> Writer<'a> {
             line: Line::default(),
             lines: Lines::new(&plan.definition.options),
             marks: CommentMarks::default(),
-            guard: Guard::new(plan.target, CommentMarks::default(), plan.options.charset),
+            guard: TextInserter::new(plan.target, CommentMarks::default(), plan.options.charset),
             shadow: Rs274Translation::new(plan.job.units, plan.definition.options.absolute_centres),
             turned: [None; 3],
             own: [None, None, None],
@@ -93,16 +93,16 @@ impl<'a> Writer<'a> {
             fault: None,
             depth: [0; 2],
             open: Vec::new(),
-            fuel: fuel(plan),
+            fuel: output_limit(plan),
         };
         writer.marks = plan.definition.comment_marks();
-        writer.guard = Guard::new(plan.target, writer.marks.clone(), plan.options.charset);
+        writer.guard = TextInserter::new(plan.target, writer.marks.clone(), plan.options.charset);
         writer
     }
 
     /// Writes the whole program. Returns its text, its translation to RS274, and warnings about doubtful constructs.
     pub(super) fn run(mut self) -> Result<EngineOutput, Box<Diagnostic>> {
-        self.section(Section::PostFile)?;
+        self.write_section(Section::PostFile)?;
         self.end_line();
         if let Some(fault) = self.fault {
             return Err(fault);
@@ -146,26 +146,26 @@ impl<'a> Writer<'a> {
         self.number_format().format(self.scaled(millimetres))
     }
 
-    pub(super) fn section(&mut self, section: Section) -> WriteResult {
-        self.template(self.plan.definition.section(section))
+    pub(super) fn write_section(&mut self, section: Section) -> WriteResult {
+        self.write_template(self.plan.definition.section(section))
     }
 
-    pub(super) fn template(&mut self, template: &'a Template) -> WriteResult {
+    pub(super) fn write_template(&mut self, template: &'a Template) -> WriteResult {
         let kind = usize::from(template.section == Section::UserMacro);
-        if self.depth[kind] == MOST_DEPTH {
-            let diagnostic = Diagnostic::new(&posts::MACRO_DEPTH).with("limit", MOST_DEPTH);
+        if self.depth[kind] == MAX_DEPTH {
+            let diagnostic = Diagnostic::new(&posts::MACRO_DEPTH).with("limit", MAX_DEPTH);
             return Err(Box::new(self.plan.locate(diagnostic, template.section, 0)));
         }
         self.depth[kind] += 1;
         for piece in &template.pieces {
             match piece {
                 TemplatePart::Text { text, line } => {
-                    self.enter(template.section, *line);
-                    self.text(text)?;
+                    self.record_origin(template.section, *line);
+                    self.write_text(text)?;
                 }
                 TemplatePart::Macro { what, line } => {
-                    self.enter(template.section, *line);
-                    self.expand(what, template.section, *line)?;
+                    self.record_origin(template.section, *line);
+                    self.write_macro(what, template.section, *line)?;
                 }
             }
         }
@@ -174,36 +174,36 @@ impl<'a> Writer<'a> {
     }
 
     /// Records which part of the definition is being written. Words within a line are attributed to the section that contains the line.
-    fn enter(&mut self, section: Section, line: u32) {
+    fn record_origin(&mut self, section: Section, line: u32) {
         if section.holds_lines() {
             self.place = (section, line);
         }
     }
 
-    fn expand(&mut self, what: &'a Macro, section: Section, line: u32) -> WriteResult {
-        self.fuel.burn(1, self.plan.file)?;
+    fn write_macro(&mut self, what: &'a Macro, section: Section, line: u32) -> WriteResult {
+        self.fuel.spend(1, self.plan.file)?;
         match what {
-            Macro::Section(text) => self.named_section(*text),
-            Macro::Value(value) if value.is_open() && self.plan.user_macro(value.name()).is_some() => {
-                self.plan.user_macro(value.name()).map_or(Ok(()), |own| self.template(own))
+            Macro::Section(text) => self.write_named_section(*text),
+            Macro::Value(value) if value.may_be_missing() && self.plan.user_macro(value.name()).is_some() => {
+                self.plan.user_macro(value.name()).map_or(Ok(()), |own| self.write_template(own))
             }
             Macro::Value(Value::ToolIndex) if !self.tool.is_named => {
                 self.line.names_no_tool = true;
                 Ok(())
             }
             Macro::Value(value) => match self.value(*value) {
-                Some(text) if value.is_text() => self.foreign(&text, value.name(), section, line),
-                Some(text) => self.text(&text),
+                Some(text) if value.is_text() => self.write_foreign_text(&text, value.name(), section, line),
+                Some(text) => self.write_text(&text),
                 None => self.handle_missing_value(*value, section, line),
             },
-            Macro::Register(register, form) => self.register(*register, *form),
-            Macro::Speed => self.speed(),
+            Macro::Register(register, form) => self.write_register(*register, *form),
+            Macro::Speed => self.write_speed(),
             Macro::SpindleUp => self.spindle_up(),
-            Macro::Code { code, modal } => self.code(*code, *modal),
-            Macro::Choice(choice) => self.section(self.chosen(*choice)),
-            Macro::State(state) => self.state(*state),
-            Macro::Block(block @ (Block::Mops | Block::Blocks)) => self.program(*block, section, line),
-            Macro::Block(block) => self.block(*block),
+            Macro::Code { code, modal } => self.write_code(*code, *modal),
+            Macro::Choice(choice) => self.write_section(self.section_of_choice(*choice)),
+            Macro::State(state) => self.write_state(*state),
+            Macro::Block(block @ (Block::Mops | Block::Blocks)) => self.write_program(*block, section, line),
+            Macro::Block(block) => self.write_block(*block),
             Macro::Check(target) => self.check_macro(*target),
             Macro::Set(register, value) => {
                 let text = value.map(|value| self.number_format().format(value));
@@ -215,75 +215,76 @@ impl<'a> Writer<'a> {
                 Ok(())
             }
             Macro::User(name) => match self.plan.user_macro(name) {
-                Some(text) => self.template(text),
+                Some(text) => self.write_template(text),
                 None => Ok(()),
             },
         }
     }
 
     /// Expands `{$mops}` to all operations, or `{$blocks}` to the moves of the current one. Neither may occur within its own expansion.
-    fn program(&mut self, block: Block, section: Section, line: u32) -> WriteResult {
+    fn write_program(&mut self, block: Block, section: Section, line: u32) -> WriteResult {
         if self.open.contains(&block) {
             let name = if block == Block::Mops { "mops" } else { "blocks" };
-            let diagnostic = Diagnostic::new(&posts::BLOCK_WITHIN_ITSELF).quoting("macro", framed(name));
+            let diagnostic =
+                Diagnostic::new(&posts::BLOCK_WITHIN_ITSELF).quoting("macro", macro_in_braces(name));
             return Err(Box::new(self.plan.locate(diagnostic, section, line)));
         }
         self.open.push(block);
-        let written = self.block(block);
+        let written = self.write_block(block);
         self.open.pop();
         written
     }
 
-    fn block(&mut self, block: Block) -> WriteResult {
+    fn write_block(&mut self, block: Block) -> WriteResult {
         match block {
-            Block::Mops => self.mops(),
+            Block::Mops => self.write_operations(),
             Block::Blocks => self.blocks(),
-            Block::ToolTable => self.tool_table(),
-            Block::ToolChange => self.tool_change(&self.operation().tool),
-            Block::FirstToolChange => self.tool_change(&self.plan.job.operations[0].tool),
-            Block::Clearance => self.clearance(),
+            Block::ToolTable => self.write_tool_table(),
+            Block::ToolChange => self.write_tool_change(&self.operation().tool),
+            Block::FirstToolChange => self.write_tool_change(&self.plan.job.operations[0].tool),
+            Block::Clearance => self.move_to_clearance(),
             Block::FileHeader => {
                 let remarks = &self.plan.job.remarks;
-                remarks.iter().try_for_each(|remark| self.comment(remark, ""))
+                remarks.iter().try_for_each(|remark| self.write_comment(remark, ""))
             }
             Block::FileFooter | Block::MopHeader | Block::MopFooter => Ok(()),
         }
     }
 
-    fn mops(&mut self) -> WriteResult {
+    fn write_operations(&mut self) -> WriteResult {
         for index in 0..self.plan.job.operations.len() {
             self.operation = index;
             self.tool = &self.operation().tool;
-            self.section(Section::Mop)?;
+            self.write_section(Section::Mop)?;
             self.end_line();
         }
         Ok(())
     }
 
-    fn tool_table(&mut self) -> WriteResult {
+    fn write_tool_table(&mut self) -> WriteResult {
         let present = self.tool;
         for tool in self.plan.job.tools().into_iter().filter(|tool| tool.is_named) {
             self.tool = tool;
-            self.section(Section::ToolTableItem)?;
+            self.write_section(Section::ToolTableItem)?;
             self.end_line();
         }
         self.tool = present;
         Ok(())
     }
 
-    fn tool_change(&mut self, tool: &'a Tool) -> WriteResult {
+    fn write_tool_change(&mut self, tool: &'a Tool) -> WriteResult {
         if self.machine.tool == Some(tool.index) || !tool.is_named {
             return Ok(());
         }
         let present = std::mem::replace(&mut self.tool, tool);
-        self.section(Section::ToolChange)?;
+        self.write_section(Section::ToolChange)?;
         self.tool = present;
         Ok(())
     }
 
     /// Adds text to the current line. A line break in the text ends the line.
-    pub(super) fn text(&mut self, text: &str) -> WriteResult {
-        self.fuel.burn(text.len(), self.plan.file)?;
+    pub(super) fn write_text(&mut self, text: &str) -> WriteResult {
+        self.fuel.spend(text.len(), self.plan.file)?;
         let most = self.plan.options.most_bytes;
         // The exact length is not known yet, because blanks of the current line may still be removed.
         if self.lines.length().max(self.line.text.len() + text.len()) > most {
@@ -309,23 +310,29 @@ impl<'a> Writer<'a> {
     }
 
     /// Adds a text from a drawing, file name or option in such a way that no control executes any part of it.
-    pub(super) fn foreign(&mut self, text: &str, name: &str, section: Section, line: u32) -> WriteResult {
-        let Some(text) = self.guard.put(&self.line.text, text) else {
+    pub(super) fn write_foreign_text(
+        &mut self,
+        text: &str,
+        name: &str,
+        section: Section,
+        line: u32,
+    ) -> WriteResult {
+        let Some(text) = self.guard.inserted_form(&self.line.text, text) else {
             let diagnostic = Diagnostic::new(&posts::TEXT_AMONG_WORDS)
-                .quoting("macro", framed(name))
+                .quoting("macro", macro_in_braces(name))
                 .quoting("text", text);
             return Err(Box::new(self.plan.locate(diagnostic, section, line)));
         };
-        self.text(&text)
+        self.write_text(&text)
     }
 
     /// Writes a comment on a line of its own.
-    pub(super) fn comment(&mut self, text: &str, blank: &str) -> WriteResult {
-        self.section(Section::Comment)?;
-        self.text(blank)?;
-        self.foreign(text, "endcomment", Section::Comment, 0)?;
-        self.text(blank)?;
-        self.section(Section::EndComment)?;
+    pub(super) fn write_comment(&mut self, text: &str, blank: &str) -> WriteResult {
+        self.write_section(Section::Comment)?;
+        self.write_text(blank)?;
+        self.write_foreign_text(text, "endcomment", Section::Comment, 0)?;
+        self.write_text(blank)?;
+        self.write_section(Section::EndComment)?;
         self.end_line();
         Ok(())
     }
@@ -346,8 +353,10 @@ impl<'a> Writer<'a> {
         }
         self.check_replaced(&found, &text);
         self.machine.read(&found, line.code, self.number_format());
-        let meant =
-            LineWords { words: found.words.iter().map(|word| self.meant(*word, &line)).collect(), ..found };
+        let meant = LineWords {
+            words: found.words.iter().map(|word| self.program_word(*word, &line)).collect(),
+            ..found
+        };
         let has_word = |(_, section): &Code| !self.plan.definition.section(*section).is_blank();
         self.shadow.line(
             &meant,
@@ -372,7 +381,7 @@ impl<'a> Writer<'a> {
 
     /// Converts a word back to the axis and sign that it had in the program before the template wrapped or reversed it. A definition must reverse an
     /// axis in every line or in none, otherwise the machine would move to both sides.
-    fn meant(&mut self, word: Word, line: &Line) -> Word {
+    fn program_word(&mut self, word: Word, line: &Line) -> Word {
         let Some(register) = Register::of(word.letter) else { return word };
         let rotary = self.plan.definition.options.rotary;
         if rotary.wrap && register == ROTARY[rotary.letter] {
@@ -400,7 +409,7 @@ impl<'a> Writer<'a> {
     /// Adds a warning, unless the same one was added before.
     pub(super) fn warn(&mut self, warning: Diagnostic) {
         let warning = warning.in_file(self.plan.file);
-        if !self.warnings.contains(&warning) && self.warnings.len() < MOST_WARNINGS {
+        if !self.warnings.contains(&warning) && self.warnings.len() < MAX_WARNINGS {
             self.warnings.push(warning);
         }
     }
@@ -462,7 +471,7 @@ impl Line {
 
     /// Removes the blanks at the end of the line in place of an omitted macro. The blanks after it are dropped as well; one blank remains
     /// if there were blanks on both sides.
-    pub(super) fn leave_out(&mut self) {
+    pub(super) fn omit_value(&mut self) {
         let length = self.text.trim_end_matches([' ', '\t']).len();
         self.gap = Some(length < self.text.len());
         self.text.truncate(length);
@@ -520,12 +529,12 @@ impl<'a> Lines<'a> {
 }
 
 /// Returns the limit on the number of bytes written, which depends on the number of moves. Expanding a macro costs an additional byte.
-fn fuel(plan: &Plan<'_>) -> Fuel {
+fn output_limit(plan: &Plan<'_>) -> OutputBudget {
     let moves = |operation: &Operation| -> usize {
         let of_steps: usize = operation.steps.iter().map(|step| moves_of(step, plan)).sum();
         of_steps + 1
     };
-    Fuel::new(plan.job.operations.iter().map(moves).sum())
+    OutputBudget::new(plan.job.operations.iter().map(moves).sum())
 }
 
 /// Returns the maximum number of moves that a step of the job can become.

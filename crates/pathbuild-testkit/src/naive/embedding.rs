@@ -61,7 +61,7 @@ impl<'m> Visit<'m> {
         let raw = self.model.raw(instance);
         let ExaminedPath { path, problems } = self.model.bound(instance);
         let mut is_wrong =
-            self.report(instance, &raw.findings_beside(&problems)) | drawing.has_unclear_clamps;
+            self.report(instance, &raw.findings_except(&problems)) | drawing.has_unclear_clamps;
         is_wrong |= self.report(instance, &problems);
         let Some(path) = path else { return Errors::Own };
         is_wrong |= path.has_faults();

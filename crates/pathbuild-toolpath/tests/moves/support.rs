@@ -6,12 +6,14 @@ use pathbuild_path::{
     WalkedPath, bind, raw_file, walk,
 };
 use pathbuild_testkit::sheet;
-use pathbuild_toolpath::{Comment, Count, Names, Parts, PlannedMove, Program, ProgramStep, fold, own_moves};
+use pathbuild_toolpath::{
+    Comment, Count, FoldPaths, Names, PlannedMove, Program, ProgramStep, fold, own_moves,
+};
 
 /// The paths of a drawing, which may embed each other.
 struct PathsOfDrawing(Vec<(Path, WalkedPath)>);
 
-impl Parts for PathsOfDrawing {
+impl FoldPaths for PathsOfDrawing {
     type Id = usize;
 
     fn path(&self, id: usize) -> &Path {

@@ -27,7 +27,7 @@ pub struct DrawnSource<'a> {
     /// All texts of the drawing, including those of other paths.
     pub texts: &'a [AssignedText],
     /// Effective parameters of each element.
-    pub in_force: &'a [ElementParameters],
+    pub parameters: &'a [ElementParameters],
 }
 
 /// Returns a path without a program: only the drawn elements, in the coordinates of the drawing.
@@ -60,7 +60,7 @@ impl ScenePath {
         let path = number(self.embedded.len()).saturating_sub(1);
         let first = self.elements.len();
         let in_force = source
-            .in_force
+            .parameters
             .iter()
             .map(|parameters| (parameters.origin.id, &*parameters.parameters))
             .collect();
@@ -129,7 +129,7 @@ impl ElementBuilder<'_> {
             layer: origin.layer.to_string(),
             handle: position.and_then(|position| position.handle).map(|handle| handle.to_string()),
             line: position.map(|position| position.line),
-            shape: placed(&shape, self.placement),
+            shape: placed_shape(&shape, self.placement),
             order: None,
             parameters: self.parameters(origin.id),
         });
@@ -184,7 +184,7 @@ fn parameter(known: &InForceParameter) -> Parameter {
         letter: known.letter.as_char(),
         value: known.value.to_string(),
         from: known.from.name(),
-        which: known.from.which().map(str::to_owned),
+        which: known.from.provider_name().map(str::to_owned),
         line: None,
     }
 }
@@ -274,7 +274,7 @@ fn element_kind(role: Role) -> ElementKind {
 }
 
 /// Converts a drawn shape to the coordinates of the program.
-fn placed(shape: &DrawnShape, placement: &Placement) -> Shape {
+fn placed_shape(shape: &DrawnShape, placement: &Placement) -> Shape {
     match shape {
         DrawnShape::Curve(curve) => curve_shape(&placement.place_curve(curve)),
         DrawnShape::Circle { centre, radius } => {
@@ -308,10 +308,10 @@ pub(super) fn number(index: usize) -> u32 {
 
 /// Returns the shapes of a drawing on layers without a path. The drawing must have been read without its path layers.
 pub fn other_layers(drawing: &Drawing) -> Vec<OtherShape> {
-    drawing.entities.iter().map(|entity| other(drawing, entity)).collect()
+    drawing.entities.iter().map(|entity| other_shape(drawing, entity)).collect()
 }
 
-fn other(drawing: &Drawing, entity: &Entity) -> OtherShape {
+fn other_shape(drawing: &Drawing, entity: &Entity) -> OtherShape {
     let layer = drawing.layers[entity.layer as usize].name.to_string();
     let text = |circle: TextCircle, text: &str, height, rotation| OtherShape::Text {
         layer: layer.clone(),

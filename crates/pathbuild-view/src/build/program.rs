@@ -244,7 +244,7 @@ pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
 // program are matched with lines of its text by the ends of moves.
 
 /// Distance in mm up to which two ends count as the same. It is larger than the rounding error of inches with four decimals.
-const SAME_PLACE: f64 = 0.006;
+const PLACE_TOLERANCE: f64 = 0.006;
 
 /// Maximum number of moves in the text that are searched for the end of one move.
 const MAX_SEARCHED_MOVES: usize = 4096;
@@ -254,7 +254,7 @@ fn lines_of_moves(program: &Program, text: &[u8], dialect: Dialect) -> Vec<Optio
     let options = Options { heights: Heights::Nominal, ..Options::default() };
     let mut moves = program.moves().map(|(_, way)| way);
     let mut lines = Vec::new();
-    let mut finder = Finder { written: Vec::new(), next: 0, last: None };
+    let mut finder = LineFinder { written: Vec::new(), next: 0, last: None };
     let mut is_placed = false;
     interpret_each(text, dialect, &options, &mut |step| {
         let Some((line, movement)) = step.as_move() else { return };
@@ -265,16 +265,16 @@ fn lines_of_moves(program: &Program, text: &[u8], dialect: Dialect) -> Vec<Optio
             while finder.written.len() >= finder.next + 2 * MAX_SEARCHED_MOVES
                 && let Some(movement) = moves.next()
             {
-                lines.push(finder.line(&movement));
+                lines.push(finder.line_of_move(&movement));
             }
-            finder.forget();
+            finder.drop_matched_moves();
         }
     });
-    lines.extend(moves.map(|movement| finder.line(&movement)));
+    lines.extend(moves.map(|movement| finder.line_of_move(&movement)));
     lines
 }
 
-struct Finder {
+struct LineFinder {
     /// The written moves that may still be matched. Moves are read only as far as they are searched, because all moves of a long program
     /// would take more memory than its scene.
     written: Vec<(u32, Move)>,
@@ -283,24 +283,24 @@ struct Finder {
     last: Option<u32>,
 }
 
-impl Finder {
+impl LineFinder {
     /// Drops the moves that are already matched, once there are many of them, to save memory.
-    fn forget(&mut self) {
+    fn drop_matched_moves(&mut self) {
         if self.next >= MAX_SEARCHED_MOVES {
             self.written.drain(..self.next);
             self.next = 0;
         }
     }
 
-    fn line(&mut self, movement: &Move) -> Option<u32> {
+    fn line_of_move(&mut self, movement: &Move) -> Option<u32> {
         match movement.pace {
-            Pace::Rapid => self.rapid(movement),
-            Pace::Feed(_) | Pace::Probe { .. } => self.cut(movement),
+            Pace::Rapid => self.line_of_rapid(movement),
+            Pace::Feed(_) | Pace::Probe { .. } => self.line_of_cut(movement),
         }
     }
 
     /// Returns the first line of a cut. The post may have divided the cut into several moves, the last of which ends where the cut ends.
-    fn cut(&mut self, movement: &Move) -> Option<u32> {
+    fn line_of_cut(&mut self, movement: &Move) -> Option<u32> {
         let is_cut = |(_, written): &(u32, Move)| !matches!(written.pace, Pace::Rapid);
         let rest = &self.written[self.next..self.written.len().min(self.next + MAX_SEARCHED_MOVES)];
         let ends =
@@ -315,7 +315,7 @@ impl Finder {
     /// Returns the line of a rapid move before the next cut: a rapid with the same start and end, or else with the same end, or else with
     /// the same end along the axes that the move changes. If there is none, one line of the text stands for several moves, and the line of
     /// the previous move is returned.
-    fn rapid(&mut self, movement: &Move) -> Option<u32> {
+    fn line_of_rapid(&mut self, movement: &Move) -> Option<u32> {
         let rest = &self.written[self.next..];
         let rapids = rest.iter().take_while(|(_, written)| written.pace == Pace::Rapid);
         let rapids: Vec<&Move> = rapids.take(MAX_SEARCHED_MOVES).map(|(_, written)| written).collect();
@@ -339,6 +339,6 @@ impl Finder {
 /// Whether two positions are equal along the given axes.
 fn is_same(a: &Position, b: &Position, axes: Axes) -> bool {
     (0..3).filter(|axis| axes.has(Axes::of(*axis))).all(|axis| {
-        a.known.and(b.known).has(Axes::of(axis)) && libm::fabs(a.at[axis] - b.at[axis]) < SAME_PLACE
+        a.known.and(b.known).has(Axes::of(axis)) && libm::fabs(a.at[axis] - b.at[axis]) < PLACE_TOLERANCE
     })
 }

@@ -33,7 +33,7 @@ impl Canvas {
 
     fn sized(size: Point, unit: &str, view: Point) -> Self {
         let mut text = String::with_capacity(1 << 14);
-        let ([width, height], [across, down]) = (size.map(n), view.map(n));
+        let ([width, height], [across, down]) = (size.map(svg_number), view.map(svg_number));
         _ = writeln!(
             text,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}{unit}\" height=\"{height}{unit}\" viewBox=\"0 0 {across} {down}\" font-family=\"{FONT}\">"
@@ -73,10 +73,10 @@ impl Canvas {
     pub(super) fn clip(&mut self, id: &str, [[x, y], [right, bottom]]: [Point; 2]) {
         self.raw(&format!(
             "<clipPath id=\"{id}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>",
-            n(x),
-            n(y),
-            n(right - x),
-            n(bottom - y)
+            svg_number(x),
+            svg_number(y),
+            svg_number(right - x),
+            svg_number(bottom - y)
         ));
     }
 
@@ -85,11 +85,16 @@ impl Canvas {
     }
 
     pub(super) fn circle(&mut self, [x, y]: Point, radius: f64, attributes: &str) {
-        self.raw(&format!("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" {attributes}/>", n(x), n(y), n(radius)));
+        self.raw(&format!(
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" {attributes}/>",
+            svg_number(x),
+            svg_number(y),
+            svg_number(radius)
+        ));
     }
 
     pub(super) fn line(&mut self, from: Point, to: Point, attributes: &str) {
-        let [[x1, y1], [x2, y2]] = [from, to].map(|end| end.map(n));
+        let [[x1, y1], [x2, y2]] = [from, to].map(|end| end.map(svg_number));
         self.raw(&format!("<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\" {attributes}/>"));
     }
 
@@ -101,9 +106,9 @@ impl Canvas {
         };
         self.raw(&format!(
             "<text x=\"{}\" y=\"{}\" font-size=\"{}\"{anchor} {attributes}>{}</text>",
-            n(x),
-            n(y),
-            n(size),
+            svg_number(x),
+            svg_number(y),
+            svg_number(size),
             escaped(text)
         ));
     }
@@ -130,7 +135,7 @@ pub fn escaped(text: &str) -> String {
 }
 
 /// Formats a number with at most two decimals, never as -0.
-pub(super) fn n(value: f64) -> String {
+pub(super) fn svg_number(value: f64) -> String {
     let text = format!("{:.2}", value + 0.0);
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
@@ -145,18 +150,18 @@ pub(super) fn mm(value: f64) -> String {
 // Colours of the pictures. Kinds of moves also differ in line style, and depths in lightness, so that they can be distinguished in print
 // and by the colour-blind. (Okabe and Ito's palette, darkened to a contrast of 4.5 for texts and 3 for lines; depths from light to dark)
 
-pub(super) const RAPID: &str = "#c07800";
-pub(super) const BAR: &str = "#cc79a7";
-pub(super) const PROBE: &str = "#007a58";
-pub(super) const ERROR: &str = "#c45200";
-pub(super) const WARNING: &str = "#8a6a00";
-pub(super) const TEXT: &str = "#4a5a68";
-pub(super) const OTHER: &str = "#b8bfc6";
-pub(super) const INK: &str = "#14202b";
-pub(super) const KERF: &str = "#e6edf3";
+pub(super) const RAPID_COLOUR: &str = "#c07800";
+pub(super) const BAR_COLOUR: &str = "#cc79a7";
+pub(super) const PROBE_COLOUR: &str = "#007a58";
+pub(super) const ERROR_COLOUR: &str = "#c45200";
+pub(super) const WARNING_COLOUR: &str = "#8a6a00";
+pub(super) const TEXT_COLOUR: &str = "#4a5a68";
+pub(super) const OTHER_COLOUR: &str = "#b8bfc6";
+pub(super) const INK_COLOUR: &str = "#14202b";
+pub(super) const KERF_COLOUR: &str = "#e6edf3";
 
 /// Colours of depths as red, green and blue, from shallow to deep.
-const DEPTHS: [[f64; 3]; 5] = [
+const DEPTH_COLOURS: [[f64; 3]; 5] = [
     [115.0, 192.0, 232.0],
     [52.0, 148.0, 209.0],
     [24.0, 104.0, 172.0],
@@ -193,10 +198,10 @@ impl Depths {
 
 /// Returns the colour at a fraction (0 to 1) of the range of depths.
 pub(super) fn color(share: f64) -> String {
-    let last = (DEPTHS.len() - 1) as f64;
+    let last = (DEPTH_COLOURS.len() - 1) as f64;
     let place = share * last;
     let stop = place.floor().min(last - 1.0);
-    let [below, above] = [stop, stop + 1.0].map(|stop| DEPTHS[index(stop)]);
+    let [below, above] = [stop, stop + 1.0].map(|stop| DEPTH_COLOURS[index(stop)]);
     let [red, green, blue] =
         [0, 1, 2].map(|part| index((below[part] + (above[part] - below[part]) * (place - stop)).round()));
     format!("#{red:02x}{green:02x}{blue:02x}")
@@ -209,11 +214,11 @@ fn index(value: f64) -> usize {
 }
 
 /// Wraps a text to a width, at spaces or, within long words, anywhere.
-pub(super) fn wrapped(text: &str, width: f64, size: f64) -> Vec<String> {
+pub(super) fn wrap_text(text: &str, width: f64, size: f64) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let last = lines.last_mut().expect("there is a line always");
-        if last.is_empty() || breadth(last, size) + breadth(word, size) + 0.32 * size > width {
+        if last.is_empty() || text_width(last, size) + text_width(word, size) + 0.32 * size > width {
             if !last.is_empty() {
                 lines.push(String::new());
             }
@@ -222,7 +227,7 @@ pub(super) fn wrapped(text: &str, width: f64, size: f64) -> Vec<String> {
         }
         for letter in word.chars() {
             let last = lines.last_mut().expect("there is a line always");
-            if !last.is_empty() && breadth(last, size) + advance(letter) * size > width {
+            if !last.is_empty() && text_width(last, size) + character_width(letter) * size > width {
                 lines.push(String::new());
             }
             lines.last_mut().expect("there is a line always").push(letter);
@@ -232,12 +237,12 @@ pub(super) fn wrapped(text: &str, width: f64, size: f64) -> Vec<String> {
 }
 
 /// Returns an upper estimate of the width of a text.
-pub(super) fn breadth(text: &str, size: f64) -> f64 {
-    text.chars().map(advance).sum::<f64>() * size
+pub(super) fn text_width(text: &str, size: f64) -> f64 {
+    text.chars().map(character_width).sum::<f64>() * size
 }
 
 /// Returns the width of a character relative to the letter size. A few classes of characters are precise enough for wrapping lines.
-fn advance(letter: char) -> f64 {
+fn character_width(letter: char) -> f64 {
     match letter {
         ' ' | '.' | ',' | ':' | ';' | '\'' | '|' | 'i' | 'j' | 'l' | 'I' => 0.34,
         '(' | ')' | '[' | ']' | 'f' | 't' | 'r' | '-' | '/' => 0.42,

@@ -3,22 +3,22 @@
 
 use pathbuild_diagnostic::{Lang, Number};
 
-use super::canvas::{Anchor, Canvas, INK, OTHER, n};
+use super::canvas::{Anchor, Canvas, INK_COLOUR, OTHER_COLOUR, svg_number};
 use super::frame::{Frame, PageTransform, widen};
-use super::moves::data;
+use super::moves::path_data;
 use crate::changes::{Change, ChangeKind, Group, groups, moves, phrase};
 
 use crate::scene::{MoveKind, Point, SceneMove};
 
 /// Colours of moves: added ones are blue; removed ones are vermilion, wider and dashed, so that the colour-blind can distinguish them too.
-const ADDED: &str = "#0072b2";
-const REMOVED: &str = "#d55e00";
-const SHIFTED: &str = "#009e73";
-const REORDERED: &str = "#4a5a68";
-const RAPIDS: &str = "#946200";
+const ADDED_COLOUR: &str = "#0072b2";
+const REMOVED_COLOUR: &str = "#d55e00";
+const SHIFTED_COLOUR: &str = "#009e73";
+const REORDERED_COLOUR: &str = "#4a5a68";
+const RAPIDS_COLOUR: &str = "#946200";
 
 /// Colours and dashes of altered moves. Each group of alterations gets the next ones.
-const ALTERED: [[&str; 2]; 8] = [
+const ALTERED_STYLES: [[&str; 2]; 8] = [
     ["#cc79a7", ""],
     ["#7b3294", " stroke-dasharray=\"12 3\""],
     ["#8c510a", " stroke-dasharray=\"2 4\""],
@@ -30,8 +30,8 @@ const ALTERED: [[&str; 2]; 8] = [
 ];
 
 /// Height of a line of the legend and size of its letters, in px.
-const LINE: f64 = 20.0;
-const LETTERS: f64 = 13.0;
+const LINE_HEIGHT: f64 = 20.0;
+const LETTER_SIZE: f64 = 13.0;
 
 /// The pictures that show a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,19 +66,19 @@ pub fn changes_svg(
     let place = frame.of_drawing();
     let groups = groups(changes, old, new);
     let pair = Pair { old, new, changes, groups: &groups };
-    let legend = if picture == Picture::Changes { groups.len() as f64 * LINE } else { 0.0 };
+    let legend = if picture == Picture::Changes { groups.len() as f64 * LINE_HEIGHT } else { 0.0 };
     let mut canvas = Canvas::new(Frame::WIDTH, frame.bottom() + legend);
     canvas.open("fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
     match picture {
-        Picture::Old => all(&mut canvas, old, &place, REMOVED),
-        Picture::New => all(&mut canvas, new, &place, ADDED),
+        Picture::Old => stroke_all(&mut canvas, old, &place, REMOVED_COLOUR),
+        Picture::New => stroke_all(&mut canvas, new, &place, ADDED_COLOUR),
         Picture::Changes => pair.draw(&mut canvas, &place),
     }
     canvas.close();
     if picture == Picture::Changes {
         for (index, group) in groups.iter().enumerate() {
             let style = pair.has_line(group).then(|| Style::of(group.kind, &groups));
-            entry(&mut canvas, group, style, frame.bottom() + index as f64 * LINE, lang);
+            entry(&mut canvas, group, style, frame.bottom() + index as f64 * LINE_HEIGHT, lang);
         }
     }
     canvas.finish()
@@ -93,18 +93,18 @@ impl Pair<'_> {
         }
         let stays = self.new.iter().zip(&is_changed).filter(|(_, is_changed)| !**is_changed);
         for (movement, _) in stays {
-            stroke(canvas, movement, place, Style::plain(OTHER));
+            stroke(canvas, movement, place, Style::plain(OTHER_COLOUR));
         }
         let is_gone =
             |change: &&Change| !matches!(change.kind, ChangeKind::Altered { .. } | ChangeKind::Reordered);
         for change in self.changes.iter().filter(is_gone) {
             for movement in &self.old[change.old.clone()] {
-                self.stroke(canvas, movement, place, Some(ChangeKind::Removed));
+                self.stroke_changed(canvas, movement, place, Some(ChangeKind::Removed));
             }
         }
         for change in self.changes {
             for movement in &self.new[change.new.clone()] {
-                self.stroke(canvas, movement, place, Some(change.kind));
+                self.stroke_changed(canvas, movement, place, Some(change.kind));
             }
         }
     }
@@ -120,7 +120,7 @@ impl Pair<'_> {
     }
 
     /// Draws a changed move in the style of its entry in the legend.
-    fn stroke(
+    fn stroke_changed(
         &self,
         canvas: &mut Canvas,
         movement: &SceneMove,
@@ -132,7 +132,7 @@ impl Pair<'_> {
     }
 }
 
-fn all(canvas: &mut Canvas, moves: &[SceneMove], place: &PageTransform, color: &'static str) {
+fn stroke_all(canvas: &mut Canvas, moves: &[SceneMove], place: &PageTransform, color: &'static str) {
     for movement in moves {
         stroke(canvas, movement, place, Style::plain(color));
     }
@@ -145,23 +145,23 @@ fn stroke(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, styl
     }
     if matches!(movement.kind, MoveKind::Plunge | MoveKind::Probe) {
         return canvas.circle(
-            place.at(movement.to()),
+            place.to_page(movement.to()),
             width + 0.5,
             &format!("fill=\"{color}\" stroke=\"{color}\"{dashes}"),
         );
     }
-    let (width, dashes) = if movement.kind == MoveKind::Sweep { (0.7, DOTS) } else { (width, dashes) };
+    let (width, dashes) = if movement.kind == MoveKind::Sweep { (0.7, DOT_PATTERN) } else { (width, dashes) };
     canvas.path(
-        &data(&movement.way, place),
-        &format!("stroke=\"{color}\" stroke-width=\"{}\"{dashes}", n(width)),
+        &path_data(&movement.way, place),
+        &format!("stroke=\"{color}\" stroke-width=\"{}\"{dashes}", svg_number(width)),
     );
 }
 
 /// Dash pattern of rapid moves.
-const DOTS: &str = " stroke-dasharray=\"1 4\"";
+const DOT_PATTERN: &str = " stroke-dasharray=\"1 4\"";
 
 /// Width of lines in px, except for removed moves.
-const WIDTH: f64 = 2.0;
+const LINE_WIDTH: f64 = 2.0;
 /// Width of removed moves in px, so that they remain visible beneath the moves that replace them.
 const REMOVED_WIDTH: f64 = 6.0;
 
@@ -176,38 +176,46 @@ struct Style {
 impl Style {
     /// Returns a line of the usual width without dashes.
     fn plain(color: &'static str) -> Self {
-        Self { color, dashes: "", width: WIDTH }
+        Self { color, dashes: "", width: LINE_WIDTH }
     }
 
     /// Returns the style of the moves in a group. For rapid moves, `kind` is `None`.
     fn of(kind: Option<ChangeKind>, groups: &[Group]) -> Self {
         let [color, dashes] = match kind {
-            None => [RAPIDS, DOTS],
-            Some(ChangeKind::Reordered) => [REORDERED, " stroke-dasharray=\"9 3 2 3\""],
-            Some(ChangeKind::Added) => [ADDED, ""],
-            Some(ChangeKind::Removed) => [REMOVED, " stroke-dasharray=\"5 4\" stroke-linecap=\"butt\""],
-            Some(ChangeKind::Shifted(_)) => [SHIFTED, ""],
+            None => [RAPIDS_COLOUR, DOT_PATTERN],
+            Some(ChangeKind::Reordered) => [REORDERED_COLOUR, " stroke-dasharray=\"9 3 2 3\""],
+            Some(ChangeKind::Added) => [ADDED_COLOUR, ""],
+            Some(ChangeKind::Removed) => {
+                [REMOVED_COLOUR, " stroke-dasharray=\"5 4\" stroke-linecap=\"butt\""]
+            }
+            Some(ChangeKind::Shifted(_)) => [SHIFTED_COLOUR, ""],
             Some(ChangeKind::Altered { .. }) => {
                 let is_altered = |group: &&Group| matches!(group.kind, Some(ChangeKind::Altered { .. }));
                 let place = groups.iter().filter(is_altered).position(|group| group.kind == kind);
-                ALTERED[place.unwrap_or_default() % ALTERED.len()]
+                ALTERED_STYLES[place.unwrap_or_default() % ALTERED_STYLES.len()]
             }
         };
-        let width = if kind == Some(ChangeKind::Removed) { REMOVED_WIDTH } else { WIDTH };
+        let width = if kind == Some(ChangeKind::Removed) { REMOVED_WIDTH } else { LINE_WIDTH };
         Self { color, dashes, width }
     }
 }
 
 /// Draws an entry of the legend.
 fn entry(canvas: &mut Canvas, group: &Group, style: Option<Style>, top: f64, lang: Lang) {
-    let middle = top + LINE / 2.0;
+    let middle = top + LINE_HEIGHT / 2.0;
     if let Some(Style { color, dashes, width }) = style {
-        let style = format!("stroke=\"{color}\" stroke-width=\"{}\"{dashes}", n(width));
+        let style = format!("stroke=\"{color}\" stroke-width=\"{}\"{dashes}", svg_number(width));
         canvas.line([40.0, middle], [76.0, middle], &style);
     }
     let length = Number((group.length * 100.0).round() / 100.0).prose(lang);
     let text = format!("{}: {}, {length} mm", phrase(group, lang), moves(group, lang));
-    canvas.text([86.0, middle + LETTERS / 3.0], LETTERS, Anchor::Start, &format!("fill=\"{INK}\""), &text);
+    canvas.text(
+        [86.0, middle + LETTER_SIZE / 3.0],
+        LETTER_SIZE,
+        Anchor::Start,
+        &format!("fill=\"{INK_COLOUR}\""),
+        &text,
+    );
 }
 
 fn frame<'a>(moves: impl Iterator<Item = &'a SceneMove>) -> Frame {

@@ -1,10 +1,10 @@
 //! Pictures of the part of a drawing around a finding.
 
-use super::canvas::{Anchor, Canvas, ERROR, INK, TEXT, WARNING, mm};
+use super::canvas::{Anchor, Canvas, ERROR_COLOUR, INK_COLOUR, TEXT_COLOUR, WARNING_COLOUR, mm};
 use super::frame::VisibleParts;
 use super::frame::{Frame, OccupiedSpace, PageTransform, widen};
 use super::stock::{self, MilledStock};
-use super::things;
+use super::symbols;
 use crate::scene::{KeepOut, Label, OtherShape, Point, Scene, ScenePath, Shape};
 use pathbuild_diagnostic::Lang;
 
@@ -20,7 +20,7 @@ const GAP_MULTIPLE: f64 = 40.0;
 const MIN_GAP_EXTENT: f64 = 4.0;
 
 /// Radius in px of the circle that marks the place.
-const CIRCLE: f64 = 17.0;
+const CIRCLE_RADIUS: f64 = 17.0;
 
 /// Maximum distance in mm between a text and the place of a finding for which the circle of the text is drawn: the text itself is then at
 /// fault.
@@ -28,14 +28,14 @@ const LABEL_DISTANCE: f64 = 1.0;
 
 /// Number of a drawing's first paths that are included even if they have no elements nearby. Including all of them would put thousands into
 /// each picture.
-const MOST_EMPTY: usize = 200;
+const MAX_EMPTY_PATHS: usize = 200;
 
 /// Maximum number of texts in a picture. There is no space for more, and searching for space takes long.
-const MOST_TEXTS: usize = 200;
+const MAX_TEXTS: usize = 200;
 
 /// The place of a finding, and the things that a picture must show with it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Spot {
+pub struct FindingPlace {
     /// Position of the finding in the drawing.
     pub at: Point,
     /// Related points, such as the nearest open end or the position of a text.
@@ -47,33 +47,33 @@ pub struct Spot {
 }
 
 /// Draws the surroundings of a finding and circles its place. Distant elements are omitted.
-pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
-    drawn(spot, |canvas, frame, window| {
-        let near = near(scene, window);
+pub fn cutout_svg(scene: &Scene, spot: &FindingPlace, lang: Lang) -> String {
+    draw_surroundings(spot, |canvas, frame, window| {
+        let near = scene_near(scene, window);
         let mut room = OccupiedSpace::new([[0.0; 2], SIZE]);
-        things::under(canvas, &near, frame, &mut room);
-        stock::uncut(canvas, &near, &frame.of_drawing());
+        symbols::draw_below_moves(canvas, &near, frame, &mut room);
+        stock::draw_uncut_parts(canvas, &near, &frame.of_drawing());
         let shown = VisibleParts { rapids: false, order: false, arrows: false, ..VisibleParts::all(lang) };
         for path in &near.paths {
             let place = frame.of_path(path);
-            circles(canvas, path, spot, &place);
-            things::over(canvas, path, &place, shown, &mut room);
+            draw_text_circles(canvas, path, spot, &place);
+            symbols::draw_above_moves(canvas, path, &place, shown, &mut room);
         }
     })
 }
 
 /// Draws the stock around a finding as it is when all moves are done. `number` makes ids unique if a document contains several pictures.
 /// `has_corners`: whether to fill corners that the cutter does not reach.
-pub fn stock_cutout_svg(scene: &Scene, spot: &Spot, has_corners: bool, number: usize) -> String {
-    drawn(spot, |canvas, frame, window| {
-        let mut stock = MilledStock::of(scene).near(window);
+pub fn stock_cutout_svg(scene: &Scene, spot: &FindingPlace, has_corners: bool, number: usize) -> String {
+    draw_surroundings(spot, |canvas, frame, window| {
+        let mut stock = MilledStock::of(scene).keep_near(window);
         stock.has_corners = has_corners;
         stock.draw(canvas, frame, &format!("stock{number}"));
     })
 }
 
 /// Draws the area around a finding by calling `draw`, and marks the place.
-fn drawn(spot: &Spot, draw: impl FnOnce(&mut Canvas, &Frame, [Point; 2])) -> String {
+fn draw_surroundings(spot: &FindingPlace, draw: impl FnOnce(&mut Canvas, &Frame, [Point; 2])) -> String {
     let window = window(spot);
     let scale = SIZE[0] / (window[1][0] - window[0][0]);
     let frame = Frame::at_scale(window, scale, [0.0, 0.0]);
@@ -81,13 +81,13 @@ fn drawn(spot: &Spot, draw: impl FnOnce(&mut Canvas, &Frame, [Point; 2])) -> Str
     canvas.open("id=\"drawing\"");
     draw(&mut canvas, &frame, window);
     canvas.close();
-    mark(&mut canvas, spot, &frame.of_drawing());
-    ruler(&mut canvas, scale);
+    draw_mark(&mut canvas, spot, &frame.of_drawing());
+    draw_scale_bar(&mut canvas, scale);
     canvas.finish()
 }
 
 /// Returns the corners of the area shown. It is centred on the place and its related points.
-fn window(spot: &Spot) -> [Point; 2] {
+fn window(spot: &FindingPlace) -> [Point; 2] {
     let mut corners = None;
     for at in spot.related.iter().chain([&spot.at]) {
         widen(&mut corners, [*at, *at]);
@@ -104,7 +104,7 @@ fn window(spot: &Spot) -> [Point; 2] {
 }
 
 /// Removes everything outside of an area from a scene, because otherwise the picture of each finding would contain the whole drawing.
-fn near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
+fn scene_near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
     let is_in = |[from, to]: [Point; 2]| (0..2).all(|axis| from[axis] <= high[axis] && to[axis] >= low[axis]);
     let is_near = |shape: &Shape| is_in(shape.extent());
     let is_other_near = |other: &&OtherShape| match other {
@@ -117,7 +117,7 @@ fn near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
     let is_clamp_near = |clamp: &&KeepOut| clamp.outline.iter().any(is_near);
     let paths = scene.paths.iter().map(|path| path_near(path, is_near, is_in)).enumerate();
     let is_shown = |(number, path): &(usize, ScenePath)| {
-        *number < MOST_EMPTY || !path.elements.is_empty() || !path.texts.is_empty()
+        *number < MAX_EMPTY_PATHS || !path.elements.is_empty() || !path.texts.is_empty()
     };
     let mut paths: Vec<ScenePath> = paths.filter(is_shown).map(|(_, path)| path).collect();
     keep_first_texts(&mut paths);
@@ -132,7 +132,7 @@ fn near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
 
 /// Removes texts beyond the maximum number.
 fn keep_first_texts(paths: &mut [ScenePath]) {
-    let mut remaining = MOST_TEXTS;
+    let mut remaining = MAX_TEXTS;
     for path in paths {
         path.texts.truncate(remaining);
         remaining -= path.texts.len();
@@ -167,41 +167,45 @@ fn path_near(
 }
 
 /// Draws the matching circles of the texts at the place of the finding.
-fn circles(canvas: &mut Canvas, path: &ScenePath, spot: &Spot, place: &PageTransform) {
+fn draw_text_circles(canvas: &mut Canvas, path: &ScenePath, spot: &FindingPlace, place: &PageTransform) {
     for label in &path.texts {
         let away = libm::hypot(label.at[0] - spot.at[0], label.at[1] - spot.at[1]);
         if away <= label.radius + LABEL_DISTANCE {
-            let style = format!("fill=\"none\" stroke=\"{TEXT}\" stroke-dasharray=\"3 3\"");
-            canvas.circle(place.at(label.at), label.radius * place.scale(), &style);
+            let style = format!("fill=\"none\" stroke=\"{TEXT_COLOUR}\" stroke-dasharray=\"3 3\"");
+            canvas.circle(place.to_page(label.at), label.radius * place.scale(), &style);
         }
     }
 }
 
 /// Circles the place of the finding, and draws lines to related points.
-fn mark(canvas: &mut Canvas, spot: &Spot, place: &PageTransform) {
-    let color = if spot.is_error { ERROR } else { WARNING };
-    let at = place.at(spot.at);
+fn draw_mark(canvas: &mut Canvas, spot: &FindingPlace, place: &PageTransform) {
+    let color = if spot.is_error { ERROR_COLOUR } else { WARNING_COLOUR };
+    let at = place.to_page(spot.at);
     canvas.open(&format!("id=\"finding\" fill=\"none\" stroke=\"{color}\""));
     for related in &spot.related {
-        let to = place.at(*related);
+        let to = place.to_page(*related);
         canvas.line(at, to, "stroke-width=\"1.2\" stroke-dasharray=\"4 3\"");
         canvas.circle(to, 5.0, "stroke-width=\"1.6\"");
     }
     if let Some((centre, radius)) = spot.circle {
-        canvas.circle(place.at(centre), radius * place.scale(), "stroke-dasharray=\"3 3\"");
+        canvas.circle(place.to_page(centre), radius * place.scale(), "stroke-dasharray=\"3 3\"");
     }
-    canvas.circle(at, CIRCLE, "stroke-width=\"2.6\"");
+    canvas.circle(at, CIRCLE_RADIUS, "stroke-width=\"2.6\"");
     canvas.circle(at, 1.5, &format!("stroke=\"none\" fill=\"{color}\""));
     canvas.close();
 }
 
 /// Draws a scale bar of a round length in the lower left corner.
-fn ruler(canvas: &mut Canvas, scale: f64) {
+fn draw_scale_bar(canvas: &mut Canvas, scale: f64) {
     let decades = (-1..6).map(|decade| libm::pow(10.0, f64::from(decade)));
     let lengths = decades.flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * decade));
     let Some(length) = lengths.take_while(|length| length * scale <= SIZE[0] / 4.0).last() else { return };
     let y = SIZE[1] - 8.0;
-    canvas.line([8.0, y], [8.0 + length * scale, y], &format!("stroke=\"{INK}\" stroke-width=\"1.5\""));
+    canvas.line(
+        [8.0, y],
+        [8.0 + length * scale, y],
+        &format!("stroke=\"{INK_COLOUR}\" stroke-width=\"1.5\""),
+    );
     let text = format!("{} mm", mm(length));
-    canvas.text([8.0, y - 4.0], 10.0, Anchor::Start, &format!("fill=\"{INK}\""), &text);
+    canvas.text([8.0, y - 4.0], 10.0, Anchor::Start, &format!("fill=\"{INK_COLOUR}\""), &text);
 }

@@ -30,7 +30,7 @@ impl VisibleParts {
         Self { lang, rapids: true, order: true, arrows: true, texts: true, stock: false }
     }
 
-    pub(super) fn either(self, en: &'static str, de: &'static str) -> &'static str {
+    pub(super) fn choose(self, en: &'static str, de: &'static str) -> &'static str {
         self.lang.choose(en, de)
     }
 }
@@ -141,7 +141,7 @@ impl PageTransform {
     }
 
     /// Converts a point to the coordinates of the page.
-    pub(super) fn at(&self, [x, y]: Point) -> Point {
+    pub(super) fn to_page(&self, [x, y]: Point) -> Point {
         let Frame { low, high, scale, corner } = self.frame;
         [corner[0] + (x + self.zero[0] - low[0]) * scale, corner[1] + (high[1] - y - self.zero[1]) * scale]
     }
@@ -207,57 +207,59 @@ impl OccupiedSpace {
     }
 
     /// Marks the cells of a rectangle as occupied.
-    pub(super) fn take(&mut self, rectangle: Rectangle) {
+    pub(super) fn occupy(&mut self, rectangle: Rectangle) {
         self.taken.extend(self.cells(rectangle));
     }
 
     /// Occupies the first of the rectangles that is free, and returns its index.
-    pub(super) fn find(&mut self, candidates: &[Rectangle]) -> Option<usize> {
-        let found = candidates.iter().position(|rectangle| self.met(*rectangle) == 0)?;
-        self.take(candidates[found]);
+    pub(super) fn occupy_first_free(&mut self, candidates: &[Rectangle]) -> Option<usize> {
+        let found = candidates.iter().position(|rectangle| self.occupied_cells(*rectangle) == 0)?;
+        self.occupy(candidates[found]);
         Some(found)
     }
 
     /// Occupies the free rectangle of this size that is nearest to a point, and returns its centre.
-    pub(super) fn find_near(&mut self, at: Point, [width, height]: Point) -> Option<Point> {
+    pub(super) fn occupy_near(&mut self, at: Point, [width, height]: Point) -> Option<Point> {
         let [low, high] = self.area;
         let inside = |axis: usize, value: f64, size: f64| {
             value.min(high[axis] - size / 2.0).max(low[axis] + size / 2.0)
         };
         let at = [inside(0, at[0], width), inside(1, at[1], height)];
         let middles: Vec<Point> =
-            steps().map(|[across, down]| [at[0] + across * width / 2.0, at[1] + down * height]).collect();
+            offsets().map(|[across, down]| [at[0] + across * width / 2.0, at[1] + down * height]).collect();
         let rectangle =
             |[x, y]: &Point| [[x - width / 2.0, y - height / 2.0], [x + width / 2.0, y + height / 2.0]];
-        self.find(&middles.iter().map(rectangle).collect::<Vec<_>>()).map(|found| middles[found])
+        self.occupy_first_free(&middles.iter().map(rectangle).collect::<Vec<_>>()).map(|found| middles[found])
     }
 
     /// Finds space for a label beside a symbol, occupies it, and returns the start of the label's baseline. The position that covers the
     /// fewest lines is chosen; among equal ones, the given offset is preferred. Returns `None` if all positions near the symbol are
     /// occupied.
-    pub(super) fn find_beside(
+    pub(super) fn occupy_beside(
         &mut self,
         at: Point,
         preferred: Point,
         size: f64,
         text: &str,
     ) -> Option<Point> {
-        let (starts, candidates) = beside(at, preferred, size, text);
-        let is_free = |number: &usize| self.met(candidates[*number]) == 0;
+        let (starts, candidates) = candidates_beside(at, preferred, size, text);
+        let is_free = |number: &usize| self.occupied_cells(candidates[*number]) == 0;
         let free = (0..NEAR_CANDIDATES).filter(is_free);
-        let found = free.min_by_key(|number| self.crossed(candidates[*number]))?;
-        self.take(candidates[found]);
+        let found = free.min_by_key(|number| self.crossed_length(candidates[*number]))?;
+        self.occupy(candidates[found]);
         Some(starts[found])
     }
 
-    /// Like [`find_beside`](Self::find_beside), but also tries positions farther away. If all are occupied, the label is placed where it
+    /// Like [`occupy_beside`](Self::occupy_beside), but also tries positions farther away. If all are occupied, the label is placed where it
     /// overlaps least.
     pub(super) fn beside(&mut self, at: Point, preferred: Point, size: f64, text: &str) -> Point {
-        let (starts, candidates) = beside(at, preferred, size, text);
-        let cost = |number: &usize| (self.met(candidates[*number]), self.crossed(candidates[*number]));
+        let (starts, candidates) = candidates_beside(at, preferred, size, text);
+        let cost = |number: &usize| {
+            (self.occupied_cells(candidates[*number]), self.crossed_length(candidates[*number]))
+        };
         let least = || (0..candidates.len()).min_by_key(cost);
         let least = least().unwrap_or_default();
-        self.take(candidates[least]);
+        self.occupy(candidates[least]);
         starts[least]
     }
 
@@ -272,18 +274,18 @@ impl OccupiedSpace {
         (0..=count).any(|step| self.cells([at(step), at(step)]).any(|cell| self.taken.contains(&cell)))
     }
 
-    /// Returns the number of occupied cells in a rectangle. If it extends beyond the picture, [`OUTSIDE`] is added.
-    fn met(&self, rectangle: Rectangle) -> usize {
+    /// Returns the number of occupied cells in a rectangle. If it extends beyond the picture, [`OUTSIDE_COST`] is added.
+    fn occupied_cells(&self, rectangle: Rectangle) -> usize {
         let [[left, top], [right, bottom]] = rectangle;
         let [[leftmost, topmost], [rightmost, lowest]] = self.area;
         let is_outside = left < leftmost || top < topmost || right > rightmost || bottom > lowest;
         let taken = self.cells(rectangle).filter(|cell| self.taken.contains(cell)).count();
-        if is_outside { taken + OUTSIDE } else { taken }
+        if is_outside { taken + OUTSIDE_COST } else { taken }
     }
 
     /// Returns the total length of lines within a rectangle, in cells.
     #[expect(clippy::cast_possible_truncation, reason = "px of a page")]
-    fn crossed(&self, rectangle: Rectangle) -> i64 {
+    fn crossed_length(&self, rectangle: Rectangle) -> i64 {
         let length: f64 = self.lines.iter().map(|line| length_within(line, rectangle)).sum();
         (length / CELL).ceil() as i64
     }
@@ -319,7 +321,7 @@ fn length_within([from, to]: &[Point; 2], [low, high]: Rectangle) -> f64 {
 }
 
 /// Returns offsets in columns and rows, nearest first.
-fn steps() -> impl Iterator<Item = Point> {
+fn offsets() -> impl Iterator<Item = Point> {
     let rows = (0..=MAX_TEXT_DISTANCE).flat_map(|row| [f64::from(row), -f64::from(row)]);
     let mut steps: Vec<Point> =
         rows.flat_map(|row| [0.0, 1.0, -1.0, 2.0, -2.0].map(|across| [across, row])).collect();
@@ -329,8 +331,8 @@ fn steps() -> impl Iterator<Item = Point> {
 
 /// Returns the candidate positions for a label beside a symbol: the starts of the baseline, and the rectangles that the label would
 /// occupy.
-fn beside([x, y]: Point, preferred: Point, size: f64, text: &str) -> (Vec<Point>, Vec<Rectangle>) {
-    let width = width(text, size);
+fn candidates_beside([x, y]: Point, preferred: Point, size: f64, text: &str) -> (Vec<Point>, Vec<Rectangle>) {
+    let width = text_width(text, size);
     let (near, row) = (8.0, size + 2.5);
     let mut offsets = vec![preferred, [-near, near + row * 0.75], [-near, -near - 3.0]];
     offsets.extend([[near + 2.0, size * 0.35], [-near - 2.0 - width, size * 0.35]]);
@@ -345,10 +347,10 @@ fn beside([x, y]: Point, preferred: Point, size: f64, text: &str) -> (Vec<Point>
 }
 
 /// Cost in cells of a text that extends beyond the picture. It is larger than the number of cells of any text.
-const OUTSIDE: usize = 1 << 20;
+const OUTSIDE_COST: usize = 1 << 20;
 
 /// Returns the approximate width of a text in px.
-pub(super) fn width(text: &str, size: f64) -> f64 {
+pub(super) fn text_width(text: &str, size: f64) -> f64 {
     0.62 * size * text.chars().count() as f64
 }
 

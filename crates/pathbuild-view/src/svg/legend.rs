@@ -1,26 +1,29 @@
 //! The legend below the drawing: title, kinds of lines, depth scale and findings.
 
-use super::canvas::wrapped;
-use super::canvas::{Anchor, BAR, Canvas, Depths, ERROR, INK, PROBE, TEXT, WARNING, color, mm, n};
+use super::canvas::wrap_text;
+use super::canvas::{
+    Anchor, BAR_COLOUR, Canvas, Depths, ERROR_COLOUR, INK_COLOUR, PROBE_COLOUR, TEXT_COLOUR, WARNING_COLOUR,
+    color, mm, svg_number,
+};
 use super::frame::Frame;
 use super::frame::VisibleParts;
 use super::stock::MilledStock;
-use super::things::SWEEP;
+use super::symbols::SWEEP_COLOUR;
 use crate::scene::{Finding, MoveKind, Point, Scene};
 use pathbuild_diagnostic::Lang;
 
 /// Line height in px.
-const LINE: f64 = 17.0;
+const LINE_HEIGHT: f64 = 17.0;
 
 /// Letter size and width of the lines of findings, in px.
-const LETTERS: f64 = 11.0;
-const WIDTH: f64 = Frame::WIDTH - 80.0;
+const LETTER_SIZE: f64 = 11.0;
+const FINDINGS_WIDTH: f64 = Frame::WIDTH - 80.0;
 
 /// Maximum number of lines of findings. Each line adds to the height of a picture, and thereby to its size in memory.
-const MOST_LINES: usize = 40;
+const MAX_LINES: usize = 40;
 
 /// Number of steps in the depth scale.
-const STEPS: u32 = 24;
+const DEPTH_STEPS: u32 = 24;
 
 /// The legend of a picture, with its position on the page.
 pub(super) struct Legend<'a> {
@@ -63,41 +66,59 @@ impl<'a> Legend<'a> {
 
     /// Returns the lower edge of the page in px.
     pub(super) fn bottom(&self) -> f64 {
-        self.top + 5.0 * LINE + self.findings.len() as f64 * LINE
+        self.top + 5.0 * LINE_HEIGHT + self.findings.len() as f64 * LINE_HEIGHT
     }
 
     /// Draws the legend. `hidden` are the numbers of elements that do not fit in the picture.
     pub(super) fn draw(&self, canvas: &mut Canvas, hidden: &[u32]) {
-        canvas.open(&format!("id=\"legend\" fill=\"{INK}\""));
-        canvas.text([40.0, self.top + LINE], 14.0, Anchor::Start, "font-weight=\"bold\"", &self.headline());
+        canvas.open(&format!("id=\"legend\" fill=\"{INK_COLOUR}\""));
         canvas.text(
-            [40.0, self.top + 2.0 * LINE],
+            [40.0, self.top + LINE_HEIGHT],
+            14.0,
+            Anchor::Start,
+            "font-weight=\"bold\"",
+            &self.headline(),
+        );
+        canvas.text(
+            [40.0, self.top + 2.0 * LINE_HEIGHT],
             10.5,
             Anchor::Start,
-            &format!("fill=\"{TEXT}\""),
+            &format!("fill=\"{TEXT_COLOUR}\""),
             &self.facts(),
         );
         if self.stock.is_none() {
-            kinds(canvas, self.scene, self.shown, [40.0, self.top + 3.0 * LINE], Frame::WIDTH);
+            draw_line_kinds(
+                canvas,
+                self.scene,
+                self.shown,
+                [40.0, self.top + 3.0 * LINE_HEIGHT],
+                Frame::WIDTH,
+            );
         }
-        self.scale_bar(canvas, self.top + 3.0 * LINE);
+        self.draw_scale_bar(canvas, self.top + 3.0 * LINE_HEIGHT);
         if let Some(stock) = self.stock {
-            stock.legend(canvas, self.shown, [40.0, self.top + 4.0 * LINE], Frame::WIDTH);
+            stock.legend(canvas, self.shown, [40.0, self.top + 4.0 * LINE_HEIGHT], Frame::WIDTH);
         } else {
-            depths(canvas, self.depths, [40.0, self.top + 4.0 * LINE]);
+            draw_depths(canvas, self.depths, [40.0, self.top + 4.0 * LINE_HEIGHT]);
             let left = 40.0 + DEPTHS_WIDTH;
-            self::hidden(canvas, hidden, self.shown, [left, self.top + 4.0 * LINE], Frame::WIDTH - left);
+            draw_hidden_numbers(
+                canvas,
+                hidden,
+                self.shown,
+                [left, self.top + 4.0 * LINE_HEIGHT],
+                Frame::WIDTH - left,
+            );
         }
         for (row, (finding, line)) in self.findings.iter().enumerate() {
-            let y = self.top + (5.0 + row as f64) * LINE;
+            let y = self.top + (5.0 + row as f64) * LINE_HEIGHT;
             let style = match finding {
                 Some(finding) => {
-                    let color = if finding.is_error { ERROR } else { WARNING };
+                    let color = if finding.is_error { ERROR_COLOUR } else { WARNING_COLOUR };
                     format!("fill=\"{color}\" font-weight=\"bold\"")
                 }
                 None => String::new(),
             };
-            canvas.text([40.0, y], LETTERS, Anchor::Start, &style, line);
+            canvas.text([40.0, y], LETTER_SIZE, Anchor::Start, &style, line);
         }
         canvas.close();
     }
@@ -124,20 +145,20 @@ impl<'a> Legend<'a> {
         }
         if let Some(totals) = path.totals.filter(|_| !path.moves.is_empty()) {
             let length = |value: f64| format!("{value:.0} mm");
-            facts.push(format!("{} {}", self.shown.either("milling", "Fräsen"), length(totals.milling)));
+            facts.push(format!("{} {}", self.shown.choose("milling", "Fräsen"), length(totals.milling)));
             facts.push(format!(
                 "{} {}",
-                self.shown.either("plunging", "Eintauchen"),
+                self.shown.choose("plunging", "Eintauchen"),
                 length(totals.drilling)
             ));
-            facts.push(format!("{} {}", self.shown.either("rapid", "Eilgang"), length(totals.sweeps)));
+            facts.push(format!("{} {}", self.shown.choose("rapid", "Eilgang"), length(totals.sweeps)));
             facts.extend(totals.minutes.map(|minutes| format!("{minutes:.0} min")));
         }
         facts.join(" · ")
     }
 
     /// Draws a scale bar of a round length, such as 10 or 20 mm.
-    fn scale_bar(&self, canvas: &mut Canvas, y: f64) {
+    fn draw_scale_bar(&self, canvas: &mut Canvas, y: f64) {
         let steps = [
             0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 10_000.0, 100_000.0,
         ];
@@ -146,8 +167,14 @@ impl<'a> Legend<'a> {
         };
         let (left, right) = (1100.0 - length * self.scale, 1100.0);
         canvas.path(
-            &format!("M{l} {t}V{b}H{r}V{t}", l = n(left), r = n(right), t = n(y - 9.0), b = n(y - 4.0)),
-            &format!("fill=\"none\" stroke=\"{INK}\""),
+            &format!(
+                "M{l} {t}V{b}H{r}V{t}",
+                l = svg_number(left),
+                r = svg_number(right),
+                t = svg_number(y - 9.0),
+                b = svg_number(y - 4.0)
+            ),
+            &format!("fill=\"none\" stroke=\"{INK_COLOUR}\""),
         );
         canvas.text([right + 6.0, y], 10.5, Anchor::Start, "", &format!("{} mm", mm(length)));
     }
@@ -157,15 +184,21 @@ impl<'a> Legend<'a> {
 const DEPTHS_WIDTH: f64 = 380.0;
 
 /// Draws the numbers of elements that do not fit in the picture, if there are any.
-pub(super) fn hidden(canvas: &mut Canvas, numbers: &[u32], shown: VisibleParts, at: Point, width: f64) {
+pub(super) fn draw_hidden_numbers(
+    canvas: &mut Canvas,
+    numbers: &[u32],
+    shown: VisibleParts,
+    at: Point,
+    width: f64,
+) {
     if numbers.is_empty() {
         return;
     }
-    let text = format!("{}: {}", shown.either("no room for", "kein Platz für"), ranges(numbers));
-    let mut lines = wrapped(&text, width - 20.0, 10.5).into_iter();
+    let text = format!("{}: {}", shown.choose("no room for", "kein Platz für"), ranges(numbers));
+    let mut lines = wrap_text(&text, width - 20.0, 10.5).into_iter();
     let first = lines.next().unwrap_or_default();
     let more = if lines.next().is_some() { " …" } else { "" };
-    canvas.text(at, 10.5, Anchor::Start, &format!("fill=\"{TEXT}\""), &format!("{first}{more}"));
+    canvas.text(at, 10.5, Anchor::Start, &format!("fill=\"{TEXT_COLOUR}\""), &format!("{first}{more}"));
 }
 
 /// Formats ascending numbers, with a dash for three or more consecutive ones: `3, 7–9`.
@@ -180,7 +213,7 @@ fn ranges(numbers: &[u32]) -> String {
 
 /// Draws the kinds of lines that occur in the picture, from `left` to `right` and continuing on further lines. Returns the position of the
 /// last line.
-pub(super) fn kinds(
+pub(super) fn draw_line_kinds(
     canvas: &mut Canvas,
     scene: &Scene,
     shown: VisibleParts,
@@ -193,40 +226,40 @@ pub(super) fn kinds(
     let all = [
         (
             has(MoveKind::Mill),
-            shown.either("milling", "Fräsen"),
+            shown.choose("milling", "Fräsen"),
             format!("stroke=\"{cut}\" stroke-width=\"2\""),
         ),
         (
             has(MoveKind::Mark),
-            shown.either("marking", "Markieren"),
+            shown.choose("marking", "Markieren"),
             format!("stroke=\"{cut}\" stroke-width=\"2\" stroke-dasharray=\"2 3\""),
         ),
         (
             has(MoveKind::Sweep) && shown.rapids,
-            shown.either("rapid", "Eilgang"),
-            format!("stroke=\"{SWEEP}\" stroke-dasharray=\"6 4\""),
+            shown.choose("rapid", "Eilgang"),
+            format!("stroke=\"{SWEEP_COLOUR}\" stroke-dasharray=\"6 4\""),
         ),
         (
             scene.paths.iter().any(|path| !path.bars.is_empty()),
-            shown.either("support bar", "Stützsteg"),
-            format!("stroke=\"{BAR}\" stroke-width=\"4\""),
+            shown.choose("support bar", "Stützsteg"),
+            format!("stroke=\"{BAR_COLOUR}\" stroke-width=\"4\""),
         ),
         (
             scene.paths.iter().any(|path| !path.probes.is_empty()),
-            shown.either("Z-probe", "Z-Probe"),
-            format!("stroke=\"{PROBE}\" stroke-width=\"2\""),
+            shown.choose("Z-probe", "Z-Probe"),
+            format!("stroke=\"{PROBE_COLOUR}\" stroke-width=\"2\""),
         ),
         (
             !scene.keep_outs.is_empty(),
-            shown.either("clamp", "Spannmittel"),
-            format!("stroke=\"{ERROR}\" stroke-dasharray=\"8 2 2 2\""),
+            shown.choose("clamp", "Spannmittel"),
+            format!("stroke=\"{ERROR_COLOUR}\" stroke-dasharray=\"8 2 2 2\""),
         ),
     ];
     let mut x = left;
     for (_, name, style) in all.into_iter().filter(|(is_there, ..)| *is_there) {
         let width = 56.0 + 7.0 * name.chars().count() as f64;
         if x + width > right {
-            (x, y) = (left, y + LINE);
+            (x, y) = (left, y + LINE_HEIGHT);
         }
         canvas.line([x, y - 4.0], [x + 28.0, y - 4.0], &style);
         canvas.text([x + 34.0, y], 10.5, Anchor::Start, "", name);
@@ -236,7 +269,7 @@ pub(super) fn kinds(
 }
 
 /// Draws the colours of depths with the depths that they stand for.
-pub(super) fn depths(canvas: &mut Canvas, depths: &Depths, [left, y]: Point) {
+pub(super) fn draw_depths(canvas: &mut Canvas, depths: &Depths, [left, y]: Point) {
     let Some((high, low)) = depths.range else { return };
     let label = |z: f64| format!("Z {}", mm(z));
     if high <= low {
@@ -246,12 +279,12 @@ pub(super) fn depths(canvas: &mut Canvas, depths: &Depths, [left, y]: Point) {
     let high_label = label(high);
     canvas.text([left, y], 10.5, Anchor::Start, "", &high_label);
     let mut x = left + 8.0 + 7.0 * high_label.chars().count() as f64;
-    for step in 0..STEPS {
-        let color = color(f64::from(step) / f64::from(STEPS - 1));
+    for step in 0..DEPTH_STEPS {
+        let color = color(f64::from(step) / f64::from(DEPTH_STEPS - 1));
         canvas.raw(&format!(
             "<rect x=\"{}\" y=\"{}\" width=\"8.5\" height=\"10\" fill=\"{color}\"/>",
-            n(x),
-            n(y - 9.0)
+            svg_number(x),
+            svg_number(y - 9.0)
         ));
         x += 8.0;
     }
@@ -263,8 +296,8 @@ fn first_findings(findings: &[Finding], shown: VisibleParts) -> (Vec<(Option<&Fi
     let mut all = Vec::new();
     for (number, finding) in findings.iter().enumerate() {
         let next = lines(finding, shown);
-        if number > 0 && all.len() + next.len() > MOST_LINES {
-            let more = shown.either(
+        if number > 0 && all.len() + next.len() > MAX_LINES {
+            let more = shown.choose(
                 "further findings, circled without a number: `pathbuild check` lists them",
                 "weitere Meldungen, ohne Nummer eingekreist: `pathbuild check` zeigt sie",
             );
@@ -284,12 +317,16 @@ fn lines<'a>(finding: &'a Finding, shown: VisibleParts) -> Vec<(Option<&'a Findi
     };
     let mut lines = Vec::new();
     let first = format!("{} · {}: {}", finding.number, finding.code, pick(&finding.message));
-    for (row, line) in wrapped(&first, WIDTH, LETTERS).into_iter().enumerate() {
+    for (row, line) in wrap_text(&first, FINDINGS_WIDTH, LETTER_SIZE).into_iter().enumerate() {
         lines.push(((row == 0).then_some(finding), line));
     }
     let help = pick(&finding.help);
     if !help.is_empty() {
-        lines.extend(wrapped(help, WIDTH, LETTERS).into_iter().map(|line| (None, format!("    {line}"))));
+        lines.extend(
+            wrap_text(help, FINDINGS_WIDTH, LETTER_SIZE)
+                .into_iter()
+                .map(|line| (None, format!("    {line}"))),
+        );
     }
     lines
 }

@@ -8,13 +8,13 @@ mod legend;
 mod moves;
 mod sheet;
 mod stock;
-mod things;
+mod symbols;
 
 use crate::scene::Scene;
 pub use canvas::escaped;
 use canvas::{Canvas, Depths};
 pub use changes::{Picture, changes_svg};
-pub use cutout::{Spot, cutout_svg, stock_cutout_svg};
+pub use cutout::{FindingPlace, cutout_svg, stock_cutout_svg};
 pub use frame::VisibleParts;
 use frame::{Frame, OccupiedSpace};
 #[cfg(not(feature = "pictures"))]
@@ -39,7 +39,7 @@ pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
     canvas.clip("frame", frame.area());
     let mut room = OccupiedSpace::new(frame.area());
     let hidden = drawing(&mut canvas, scene, &frame, &depths, shown, &mut room);
-    things::findings(&mut canvas, scene, &frame, &mut room, legend.listed);
+    symbols::findings(&mut canvas, scene, &frame, &mut room, legend.listed);
     canvas.close();
     legend.draw(&mut canvas, &hidden);
     canvas.finish()
@@ -54,13 +54,13 @@ fn drawing(
     shown: VisibleParts,
     room: &mut OccupiedSpace,
 ) -> Vec<u32> {
-    things::under(canvas, scene, frame, room);
+    symbols::draw_below_moves(canvas, scene, frame, room);
     let mut hidden = Vec::new();
     for path in &scene.paths {
         let place = frame.of_path(path);
         moves::draw(canvas, path, &place, depths, shown);
-        things::reserve(path, &place, room);
-        hidden.extend(things::over(canvas, path, &place, shown, room));
+        symbols::reserve_symbols(path, &place, room);
+        hidden.extend(symbols::draw_above_moves(canvas, path, &place, shown, room));
     }
     hidden
 }
@@ -76,7 +76,7 @@ fn stock_svg(scene: &Scene, shown: VisibleParts) -> String {
     canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
     canvas.clip("frame", frame.area());
     stock.draw(&mut canvas, &frame, "stock");
-    things::findings(&mut canvas, scene, &frame, &mut OccupiedSpace::new(frame.area()), legend.listed);
+    symbols::findings(&mut canvas, scene, &frame, &mut OccupiedSpace::new(frame.area()), legend.listed);
     canvas.close();
     legend.draw(&mut canvas, &[]);
     canvas.finish()

@@ -5,24 +5,24 @@ use std::fmt::Write;
 
 use pathbuild_motion::{Move, MoveShape};
 
-use super::canvas::{Canvas, Depths, KERF, RAPID, n};
+use super::canvas::{Canvas, Depths, KERF_COLOUR, RAPID_COLOUR, svg_number};
 use super::frame::PageTransform;
 use super::frame::VisibleParts;
 use crate::scene::{MoveKind, Point, SceneMove, ScenePath};
 
 /// Minimum length in px of a move that gets an arrow.
-const ROOM_FOR_ARROW: f64 = 26.0;
+const MIN_ARROW_LENGTH: f64 = 26.0;
 
 /// Number of lines that replace an arc in another plane than XY.
 const PIECES_PER_ARC: u32 = 24;
 
 /// All moves along one line, regardless of direction. It has the direction of the first move and the depth of the deepest one.
-struct Cut<'a> {
+struct CutLine<'a> {
     way: &'a SceneMove,
     depth: Option<f64>,
 }
 
-/// Draws the moves of a path. Moves along the same line are drawn as one [`Cut`].
+/// Draws the moves of a path. Moves along the same line are drawn as one [`CutLine`].
 pub(super) fn draw(
     canvas: &mut Canvas,
     path: &ScenePath,
@@ -33,37 +33,43 @@ pub(super) fn draw(
     let cuts = cuts(path);
     canvas.open("id=\"kerf\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
     if let Some(tool) = path.tool {
-        let width = n((tool * place.scale()).max(0.5));
+        let width = svg_number((tool * place.scale()).max(0.5));
         for movement in cuts.iter().filter(|movement| movement.way.kind != MoveKind::Plunge) {
             canvas.path(
-                &data(&movement.way.way, place),
-                &format!("stroke=\"{KERF}\" stroke-width=\"{width}\""),
+                &path_data(&movement.way.way, place),
+                &format!("stroke=\"{KERF_COLOUR}\" stroke-width=\"{width}\""),
             );
         }
     }
     canvas.close();
     if shown.rapids {
-        rapids(canvas, path, place, shown);
+        draw_rapids(canvas, path, place, shown);
     }
     canvas.open("id=\"cuts\" fill=\"none\" stroke-width=\"1.8\" stroke-linecap=\"round\"");
     for movement in &cuts {
-        cut(canvas, movement, path, place, depths);
+        draw_cut(canvas, movement, path, place, depths);
     }
     canvas.close();
     if shown.arrows {
         canvas.open("id=\"arrows\"");
-        let bottoms = bottoms(path);
-        let is_bottom = |movement: &&Cut<'_>| {
+        let bottoms = final_depths(path);
+        let is_bottom = |movement: &&CutLine<'_>| {
             movement.way.element.is_none_or(|element| movement.depth <= bottoms[element as usize])
         };
         for movement in cuts.iter().filter(is_bottom) {
-            arrow(canvas, movement.way, place, &depths.color(movement.depth));
+            draw_arrow(canvas, movement.way, place, &depths.color(movement.depth));
         }
         canvas.close();
     }
 }
 
-fn cut(canvas: &mut Canvas, cut: &Cut<'_>, path: &ScenePath, place: &PageTransform, depths: &Depths) {
+fn draw_cut(
+    canvas: &mut Canvas,
+    cut: &CutLine<'_>,
+    path: &ScenePath,
+    place: &PageTransform,
+    depths: &Depths,
+) {
     let color = depths.color(cut.depth);
     let movement = cut.way;
     if movement.kind == MoveKind::Plunge {
@@ -72,13 +78,13 @@ fn cut(canvas: &mut Canvas, cut: &Cut<'_>, path: &ScenePath, place: &PageTransfo
             _ => 1.8,
         };
         return canvas.circle(
-            place.at(movement.to()),
+            place.to_page(movement.to()),
             radius,
             &format!("fill=\"{color}\" fill-opacity=\"0.8\""),
         );
     }
     let dashes = if movement.kind == MoveKind::Mark { " stroke-dasharray=\"2 3\"" } else { "" };
-    canvas.path(&data(&movement.way, place), &format!("stroke=\"{color}\"{dashes}"));
+    canvas.path(&path_data(&movement.way, place), &format!("stroke=\"{color}\"{dashes}"));
 }
 
 /// Whether a plunge is a hole, because it makes up its whole element. Plunges without an element are drawn as holes too.
@@ -89,7 +95,7 @@ fn is_hole(movement: &SceneMove, path: &ScenePath) -> bool {
 }
 
 /// Returns the final depth of each element.
-fn bottoms(path: &ScenePath) -> Vec<Option<f64>> {
+fn final_depths(path: &ScenePath) -> Vec<Option<f64>> {
     let mut bottoms: Vec<Option<f64>> = vec![None; path.elements.len()];
     for movement in
         path.moves.iter().filter(|movement| movement.kind.cuts() && movement.kind != MoveKind::Plunge)
@@ -102,14 +108,14 @@ fn bottoms(path: &ScenePath) -> Vec<Option<f64>> {
 }
 
 /// Returns the cuts of a path, from shallow to deep.
-fn cuts(path: &ScenePath) -> Vec<Cut<'_>> {
+fn cuts(path: &ScenePath) -> Vec<CutLine<'_>> {
     let mut places: BTreeMap<Vec<i64>, usize> = BTreeMap::new();
-    let mut cuts: Vec<Cut<'_>> = Vec::new();
+    let mut cuts: Vec<CutLine<'_>> = Vec::new();
     for way in path.moves.iter().filter(|movement| movement.kind.cuts() && movement.is_placed()) {
         let index = *places.entry(line_of(way)).or_insert(cuts.len());
         match cuts.get_mut(index) {
             Some(cut) => cut.depth = deeper(cut.depth, way.depth()),
-            None => cuts.push(Cut { way, depth: way.depth() }),
+            None => cuts.push(CutLine { way, depth: way.depth() }),
         }
     }
     cuts.sort_by(|a, b| b.depth.unwrap_or_default().total_cmp(&a.depth.unwrap_or_default()));
@@ -140,39 +146,39 @@ fn micrometres(value: f64) -> i64 {
     (value * 1000.0).round() as i64
 }
 
-fn rapids(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, shown: VisibleParts) {
+fn draw_rapids(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, shown: VisibleParts) {
     let style = format!(
-        "id=\"rapids\" fill=\"none\" stroke=\"{RAPID}\" stroke-width=\"0.9\" stroke-dasharray=\"6 4\""
+        "id=\"rapids\" fill=\"none\" stroke=\"{RAPID_COLOUR}\" stroke-width=\"0.9\" stroke-dasharray=\"6 4\""
     );
     canvas.open(&style);
     let sweeps =
         || path.moves.iter().filter(|movement| movement.kind == MoveKind::Sweep && movement.is_placed());
     for movement in sweeps() {
-        canvas.path(&data(&movement.way, place), "");
+        canvas.path(&path_data(&movement.way, place), "");
     }
     canvas.close();
     if shown.arrows {
         canvas.open("id=\"rapid-arrows\"");
         for movement in sweeps() {
-            arrow(canvas, movement, place, RAPID);
+            draw_arrow(canvas, movement, place, RAPID_COLOUR);
         }
         canvas.close();
     }
 }
 
 /// Draws a small triangle in the middle of a move, pointing in its direction.
-fn arrow(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, color: &str) {
-    let (before, at) = (place.at(along(movement, 0.59)), place.at(along(movement, 0.61)));
+fn draw_arrow(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, color: &str) {
+    let (before, at) = (place.to_page(along(movement, 0.59)), place.to_page(along(movement, 0.61)));
     let [dx, dy] = [at[0] - before[0], at[1] - before[1]];
     let length = libm::hypot(dx, dy);
-    if length * 50.0 < ROOM_FOR_ARROW {
+    if length * 50.0 < MIN_ARROW_LENGTH {
         return;
     }
     let [dx, dy] = [dx / length, dy / length];
     let tip = [at[0] + dx * 4.0, at[1] + dy * 4.0];
     let foot = [at[0] - dx * 4.0, at[1] - dy * 4.0];
     let (left, right) = ([foot[0] - dy * 3.4, foot[1] + dx * 3.4], [foot[0] + dy * 3.4, foot[1] - dx * 3.4]);
-    let [tip, left, right] = [tip, left, right].map(|[x, y]| format!("{} {}", n(x), n(y)));
+    let [tip, left, right] = [tip, left, right].map(|[x, y]| format!("{} {}", svg_number(x), svg_number(y)));
     canvas.path(&format!("M{tip}L{left}L{right}Z"), &format!("fill=\"{color}\""));
 }
 
@@ -190,10 +196,10 @@ pub(super) fn arc_pieces(degrees: f64) -> u32 {
 }
 
 /// Returns a move as SVG path data. Arcs in the XY plane stay arcs.
-pub(super) fn data(way: &Move, place: &PageTransform) -> String {
+pub(super) fn path_data(way: &Move, place: &PageTransform) -> String {
     let point = |at: Point| {
-        let [x, y] = place.at(at);
-        format!("{} {}", n(x), n(y))
+        let [x, y] = place.to_page(at);
+        format!("{} {}", svg_number(x), svg_number(y))
     };
     let in_plane = |[x, y, _]: [f64; 3]| point([x, y]);
     let mut data = format!("M{}", in_plane(way.from.at));
@@ -201,7 +207,7 @@ pub(super) fn data(way: &Move, place: &PageTransform) -> String {
         MoveShape::Line => _ = write!(data, "L{}", in_plane(way.to.at)),
         MoveShape::Arc(arc) if arc.plane.axes() == [0, 1] => {
             let pieces = arc_pieces(arc.sweep(&way.from, &way.to).to_degrees());
-            let radius = n(arc.radius(&way.from) * place.scale());
+            let radius = svg_number(arc.radius(&way.from) * place.scale());
             let sweep = i32::from(arc.clockwise);
             for piece in 1..=pieces {
                 let to = in_plane(way.point(f64::from(piece) / f64::from(pieces)));

@@ -10,10 +10,10 @@ use pathbuild_diagnostic::{Code, Lang};
 use pathbuild_gcode::verify::{Cutter, Stock, StockSpan, rapid_hits};
 use pathbuild_motion::{Axes, Move, MoveShape, Pace, Position, Step};
 
-use super::canvas::{Anchor, Canvas, INK, mm, n};
+use super::canvas::{Anchor, Canvas, INK_COLOUR, mm, svg_number};
 use super::frame::{Frame, PageTransform, VisibleParts, widen};
-use super::moves::data;
-use super::things;
+use super::moves::path_data;
+use super::symbols;
 use crate::scene::{FinishedPart, MoveKind, Point, Scene, SceneMove, ScenePath, Shape};
 
 const UNTOUCHED_COLOUR: &str = "#dbbd85";
@@ -24,26 +24,26 @@ const WRONG_COLOUR: &str = "#e50d1a";
 const LEFTOVER_COLOUR: &str = "#9628c8";
 const REMOVED_NOW_COLOUR: &str = "#0072b2";
 const LOOSE_COLOUR: &str = "#e69f00";
-const OUTLINE: &str = "#0b57c4";
+const OUTLINE_COLOUR: &str = "#0b57c4";
 
 /// Colours of the shallowest and the deepest cut, as red, green and blue.
-const DEPTHS: [[f64; 3]; 2] = [[189.0, 148.0, 92.0], [115.0, 77.0, 41.0]];
+const DEPTH_COLOURS: [[f64; 3]; 2] = [[189.0, 148.0, 92.0], [115.0, 77.0, 41.0]];
 
 /// Width in px of the line along the edges of cuts.
 const EDGE_WIDTH: f64 = 0.7;
 
 /// Number of steps into which the deepest slope is divided. Each step has one colour.
-const STEPS: f64 = 64.0;
+const SLOPE_STEPS: f64 = 64.0;
 
 /// Length of the pieces in which rapid moves are searched for material, in diameters of the cutter.
 const SEARCH_PIECE: f64 = 0.25;
 
 /// Maximum number of pieces of a rapid move.
-const MOST_PIECES: f64 = 400.0;
+const MAX_PIECES: f64 = 400.0;
 
 /// Maximum number of strokes that are combined to one SVG path. The time for rendering a path grows with the square of its strokes, and
 /// the memory with their number.
-const MOST_AT_ONCE: usize = 512;
+const MAX_COMBINED_STROKES: usize = 512;
 
 /// The cuts of a scene, and the stock that surrounds them.
 pub(super) struct MilledStock<'s> {
@@ -151,16 +151,16 @@ impl<'s> MilledStock<'s> {
         blanks.sort_by(|one, other| one.1.total_cmp(&other.1));
         let low = if count > 0 { low } else { 0.0 };
         let top = blanks.last().map_or(low, |(_, top)| *top);
-        let step = ((top - low) / STEPS).max(1e-3);
+        let step = ((top - low) / SLOPE_STEPS).max(1e-3);
         let mut painter =
             StrokeBuilder { areas: Vec::with_capacity(count), strokes: Vec::with_capacity(2 * count) };
         for (path, movement, setting) in cuts(scene) {
-            painter.cut(&moved(&movement.way, path.zero), &setting, step);
+            painter.cut(&in_drawing_coordinates(&movement.way, path.zero), &setting, step);
         }
         let StrokeBuilder { areas, mut strokes } = painter;
         sort(&mut strokes);
         let blank = if let [blank] = blanks[..] { Some(blank) } else { None };
-        let hits = scene.paths.iter().flat_map(|path| hits(scene, path, blank)).collect();
+        let hits = scene.paths.iter().flat_map(|path| areas_of_hits(scene, path, blank)).collect();
         let unreachable = Code::UnreachableCorner.to_string();
         let has_corners = scene.findings.iter().any(|finding| finding.code == unreachable);
         Self { scene, blanks, areas, strokes, hits, range: [top, low], has_corners }
@@ -168,7 +168,7 @@ impl<'s> MilledStock<'s> {
 
     /// Combines two stocks, and marks the cuts of this one that are deeper than those of the other. Returns `None` if there are none,
     /// because the other stock has all these cuts, or deeper ones along the same lines.
-    fn compared(mut self, other: Self, mark: &'static str) -> Option<Self> {
+    fn compare_with(mut self, other: Self, mark: &'static str) -> Option<Self> {
         let mut heights: BTreeMap<_, f64> = BTreeMap::new();
         for stroke in &other.strokes {
             let height = heights.entry(other.area(stroke).key()).or_insert(f64::INFINITY);
@@ -198,7 +198,7 @@ impl<'s> MilledStock<'s> {
     }
 
     /// Removes everything outside of an area.
-    pub(super) fn near(mut self, [low, high]: [Point; 2]) -> Self {
+    pub(super) fn keep_near(mut self, [low, high]: [Point; 2]) -> Self {
         let is_near = |swept: &SweptArea| {
             let radius = swept.diameter / 2.0;
             let sides = swept.way.extent().into_iter().zip(low.into_iter().zip(high));
@@ -234,30 +234,30 @@ impl<'s> MilledStock<'s> {
         let middle = self.strokes.partition_point(|stroke| stroke.kind < StrokeKind::ThroughEdge);
         self.strokes(canvas, &place, &self.strokes[..middle]);
         self.parts(|part, path, number| {
-            left(canvas, part, &frame.of_path(path), &format!("{id}-outside-{number}"));
+            draw_leftovers(canvas, part, &frame.of_path(path), &format!("{id}-outside-{number}"));
         });
         if self.has_corners {
             self.parts(|part, path, number| {
-                corners(canvas, part, &frame.of_path(path), &format!("{id}-corners-{number}"));
+                draw_corners(canvas, part, &frame.of_path(path), &format!("{id}-corners-{number}"));
             });
         }
         self.strokes(canvas, &place, &self.strokes[middle..]);
         self.parts(|part, path, number| {
-            wrong(canvas, part, &frame.of_path(path), &format!("{id}-inside-{number}"));
+            draw_defects(canvas, part, &frame.of_path(path), &format!("{id}-inside-{number}"));
         });
         let mut hits = String::new();
         for (index, hit) in self.hits.iter().enumerate() {
-            hits.push_str(&data(&hit.way, &place));
+            hits.push_str(&path_data(&hit.way, &place));
             if self.hits.get(index + 1).is_none_or(|next| next.diameter != hit.diameter) {
                 stroke(canvas, &std::mem::take(&mut hits), hit.diameter * place.scale(), WRONG_COLOUR);
             }
         }
         canvas.close();
-        uncut(canvas, self.scene, &place);
-        canvas.open(&format!("fill=\"none\" stroke=\"{OUTLINE}\" stroke-width=\"1.2\""));
+        draw_uncut_parts(canvas, self.scene, &place);
+        canvas.open(&format!("fill=\"none\" stroke=\"{OUTLINE_COLOUR}\" stroke-width=\"1.2\""));
         self.parts(|part, path, _| {
             for ring in &part.rings {
-                canvas.path(&things::outline(ring, &frame.of_path(path)), "");
+                canvas.path(&symbols::outline(ring, &frame.of_path(path)), "");
             }
         });
         canvas.close();
@@ -266,20 +266,28 @@ impl<'s> MilledStock<'s> {
     fn blanks(&self, canvas: &mut Canvas, place: &PageTransform, id: &str) {
         let mut all = String::new();
         for ([low, high], _) in &self.blanks {
-            let ([left, bottom], [right, top]) = (place.at(*low), place.at(*high));
-            _ = write!(all, "M{} {}H{}V{}H{}Z", n(left), n(top), n(right), n(bottom), n(left));
+            let ([left, bottom], [right, top]) = (place.to_page(*low), place.to_page(*high));
+            _ = write!(
+                all,
+                "M{} {}H{}V{}H{}Z",
+                svg_number(left),
+                svg_number(top),
+                svg_number(right),
+                svg_number(bottom),
+                svg_number(left)
+            );
         }
         canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{all}\"/></clipPath>"));
         canvas.path(&all, &format!("fill=\"{UNTOUCHED_COLOUR}\""));
     }
 
-    /// Draws strokes, combining consecutive ones that look alike to a single path, up to [`MOST_AT_ONCE`].
+    /// Draws strokes, combining consecutive ones that look alike to a single path, up to [`MAX_COMBINED_STROKES`].
     fn strokes(&self, canvas: &mut Canvas, place: &PageTransform, strokes: &[Stroke]) {
         let mut all = String::new();
         let mut count = 0;
         for (index, next) in strokes.iter().enumerate() {
             let SweptArea { way, diameter } = self.area(next);
-            all.push_str(&data(way, place));
+            all.push_str(&path_data(way, place));
             count += 1;
             let is_alike = |other: &Stroke| {
                 other.kind == next.kind
@@ -287,7 +295,7 @@ impl<'s> MilledStock<'s> {
                     && other.mark == next.mark
                     && self.area(other).diameter == *diameter
             };
-            if count < MOST_AT_ONCE && strokes.get(index + 1).is_some_and(is_alike) {
+            if count < MAX_COMBINED_STROKES && strokes.get(index + 1).is_some_and(is_alike) {
                 continue;
             }
             count = 0;
@@ -331,53 +339,57 @@ impl<'s> MilledStock<'s> {
         };
         let depths = format!("Z {} … {}", mm(top), mm(low));
         let all = [
-            (true, UNTOUCHED_COLOUR.to_owned(), shown.either("untouched", "unberührt")),
+            (true, UNTOUCHED_COLOUR.to_owned(), shown.choose("untouched", "unberührt")),
             (has(StrokeKind::Cut), depth_color(0.0), depths.as_str()),
             (
                 has(StrokeKind::Cut),
                 depth_color(1.0),
-                shown.either("the darker, the deeper", "je dunkler, desto tiefer"),
+                shown.choose("the darker, the deeper", "je dunkler, desto tiefer"),
             ),
             (
                 has(StrokeKind::Through),
                 THROUGH_COLOUR.to_owned(),
-                shown.either("cut through", "durchgefräst"),
+                shown.choose("cut through", "durchgefräst"),
             ),
-            (has_part(|_| true), OUTLINE.to_owned(), shown.either("outline of the part", "Umriss des Teils")),
+            (
+                has_part(|_| true),
+                OUTLINE_COLOUR.to_owned(),
+                shown.choose("outline of the part", "Umriss des Teils"),
+            ),
             (
                 has_part(|part| !part.gouges.is_empty()),
                 WRONG_COLOUR.to_owned(),
-                shown.either("cut into the part", "Schnitt ins Teil"),
+                shown.choose("cut into the part", "Schnitt ins Teil"),
             ),
             (
                 has_part(|part| !part.left.is_empty()),
                 LEFTOVER_COLOUR.to_owned(),
-                shown.either("left at the part", "bleibt am Teil stehen"),
+                shown.choose("left at the part", "bleibt am Teil stehen"),
             ),
             (
                 self.has_corners,
                 LEFTOVER_COLOUR.to_owned(),
-                shown.either("corner out of the cutter's reach", "Ecke, die der Fräser nicht erreicht"),
+                shown.choose("corner out of the cutter's reach", "Ecke, die der Fräser nicht erreicht"),
             ),
             (
                 !self.scene.uncut.is_empty(),
                 LEFTOVER_COLOUR.to_owned(),
-                shown.either("outline that is not cut", "nicht gefräster Umriss"),
+                shown.choose("outline that is not cut", "nicht gefräster Umriss"),
             ),
             (
                 has_part(|part| part.is_loose),
                 LOOSE_COLOUR.to_owned(),
-                shown.either("loose part", "loses Teil"),
+                shown.choose("loose part", "loses Teil"),
             ),
             (
                 has_part(|part| !part.lost_bars.is_empty()),
                 WRONG_COLOUR.to_owned(),
-                shown.either("support bar cut away", "abgetrennter Stützsteg"),
+                shown.choose("support bar cut away", "abgetrennter Stützsteg"),
             ),
             (
                 !self.hits.is_empty(),
                 WRONG_COLOUR.to_owned(),
-                shown.either("rapid move through material", "Eilgang durch Material"),
+                shown.choose("rapid move through material", "Eilgang durch Material"),
             ),
         ];
         let mut x = left;
@@ -387,8 +399,8 @@ impl<'s> MilledStock<'s> {
                 (x, y) = (left, y + 17.0);
             }
             let style = format!("fill=\"{color}\" stroke=\"{EDGE_COLOUR}\" stroke-width=\"0.5\"");
-            canvas.path(&format!("M{} {}h12v10h-12Z", n(x), n(y - 9.0)), &style);
-            canvas.text([x + 17.0, y], 10.5, Anchor::Start, &format!("fill=\"{INK}\""), name);
+            canvas.path(&format!("M{} {}h12v10h-12Z", svg_number(x), svg_number(y - 9.0)), &style);
+            canvas.text([x + 17.0, y], 10.5, Anchor::Start, &format!("fill=\"{INK_COLOUR}\""), name);
             x += width;
         }
     }
@@ -419,7 +431,7 @@ pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, l
         StockChange::Removed => (new, old, "stock-removed", REMOVED_NOW_COLOUR),
         StockChange::Left => (old, new, "stock-left", LEFTOVER_COLOUR),
     };
-    let stock = stock.compared(other, color)?;
+    let stock = stock.compare_with(other, color)?;
     let frame = Frame::around(stock.extent());
     let mut canvas = Canvas::new(Frame::WIDTH, frame.bottom());
     stock.draw(&mut canvas, &frame, id);
@@ -428,8 +440,8 @@ pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, l
         StockChange::Left => ("left now, removed before", "bleibt jetzt stehen, vorher weggefräst"),
     };
     let y = frame.bottom() - 14.0;
-    canvas.path(&format!("M40 {}h12v10h-12Z", n(y - 9.0)), &format!("fill=\"{color}\""));
-    canvas.text([57.0, y], 13.0, Anchor::Start, &format!("fill=\"{INK}\""), lang.choose(en, de));
+    canvas.path(&format!("M40 {}h12v10h-12Z", svg_number(y - 9.0)), &format!("fill=\"{color}\""));
+    canvas.text([57.0, y], 13.0, Anchor::Start, &format!("fill=\"{INK_COLOUR}\""), lang.choose(en, de));
     Some(canvas.finish())
 }
 
@@ -437,7 +449,7 @@ pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, l
 pub fn has_stock(scene: &Scene) -> bool {
     scene.paths.iter().any(|path| {
         let mut cuts = path.moves.iter().filter(|movement| movement.kind.cuts() && is_known(&movement.way));
-        cuts.any(|movement| setting(scene, path, movement).is_some())
+        cuts.any(|movement| cutting_conditions(scene, path, movement).is_some())
     })
 }
 
@@ -451,10 +463,12 @@ fn cuts(scene: &Scene) -> impl Iterator<Item = (&ScenePath, &SceneMove, CuttingC
     let known = all.filter(|(_, movement)| {
         movement.kind.cuts() && is_known(&movement.way) && movement.extent().is_some()
     });
-    known.filter_map(move |(path, movement)| Some((path, movement, setting(scene, path, movement)?)))
+    known.filter_map(move |(path, movement)| {
+        Some((path, movement, cutting_conditions(scene, path, movement)?))
+    })
 }
 
-fn setting(scene: &Scene, path: &ScenePath, movement: &SceneMove) -> Option<CuttingConditions> {
+fn cutting_conditions(scene: &Scene, path: &ScenePath, movement: &SceneMove) -> Option<CuttingConditions> {
     let line = movement.line.unwrap_or(0);
     let later = path.tools.partition_point(|tool| tool.line <= line);
     let tool = later.checked_sub(1).map(|index| &path.tools[index]);
@@ -468,7 +482,7 @@ fn setting(scene: &Scene, path: &ScenePath, movement: &SceneMove) -> Option<Cutt
 }
 
 /// Converts a move to the coordinates of the drawing.
-fn moved(way: &Move, zero: Point) -> Move {
+fn in_drawing_coordinates(way: &Move, zero: Point) -> Move {
     let place =
         |end: &Position| Position { at: [end.at[0] + zero[0], end.at[1] + zero[1], end.at[2]], ..*end };
     let mut moved = Move { from: place(&way.from), to: place(&way.to), ..*way };
@@ -505,7 +519,7 @@ impl StrokeBuilder {
                 clippy::cast_sign_loss,
                 reason = "at most the number of steps"
             )]
-            let count = ((from - to).abs() / step).ceil().clamp(1.0, STEPS) as u32;
+            let count = ((from - to).abs() / step).ceil().clamp(1.0, SLOPE_STEPS) as u32;
             for piece in way.split(count) {
                 let z = piece.from.z().max(piece.to.z());
                 if z < setting.top {
@@ -539,9 +553,9 @@ fn rounded(z: f64) -> f64 {
 }
 
 /// Returns the pieces of a path's rapid moves that hit material. If not all cuts share one blank, the material is only known near cuts.
-fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<SweptArea> {
+fn areas_of_hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<SweptArea> {
     let settings: Vec<Option<CuttingConditions>> =
-        path.moves.iter().map(|movement| setting(scene, path, movement)).collect();
+        path.moves.iter().map(|movement| cutting_conditions(scene, path, movement)).collect();
     let highest = settings.iter().flatten().map(|setting| setting.top).fold(f64::NEG_INFINITY, f64::max);
     let is_low = |movement: &SceneMove| {
         matches!(movement.kind, MoveKind::Sweep | MoveKind::Lift)
@@ -551,7 +565,7 @@ fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<SweptArea>
         return Vec::new();
     }
     let (mut spans, mut steps, mut swept) = (Vec::new(), Vec::new(), Vec::new());
-    if let Some((way, span)) = blank.map(|blank| touch(blank, path.zero)) {
+    if let Some((way, span)) = blank.map(|blank| move_touching_blank(blank, path.zero)) {
         swept.push(SweptArea { way, diameter: 0.0 });
         steps.push(Step::of_move(span.line, way));
         spans.push(span);
@@ -561,11 +575,12 @@ fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<SweptArea>
         let first = line(steps.len());
         let (surface, cutter) = (setting.top, Cutter::flat(setting.diameter));
         spans.push(StockSpan { line: first, surface, cutter });
-        let count = (movement.length / (setting.diameter * SEARCH_PIECE)).ceil().clamp(1.0, MOST_PIECES);
+        let count = (movement.length / (setting.diameter * SEARCH_PIECE)).ceil().clamp(1.0, MAX_PIECES);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
         let count = if is_low(movement) && !movement.way.is_vertical() { count as u32 } else { 1 };
         for way in movement.way.split(count) {
-            swept.push(SweptArea { way: moved(&way, path.zero), diameter: setting.diameter });
+            swept
+                .push(SweptArea { way: in_drawing_coordinates(&way, path.zero), diameter: setting.diameter });
             steps.push(Step::of_move(line(steps.len()), way));
         }
     }
@@ -575,7 +590,7 @@ fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<SweptArea>
 
 /// Returns a move that touches the upper face of a blank, with a cutter so wide that the material around the move is the entire blank. It
 /// makes the blank known to the search for hits.
-fn touch(([low, high], surface): Blank, zero: Point) -> (Move, StockSpan) {
+fn move_touching_blank(([low, high], surface): Blank, zero: Point) -> (Move, StockSpan) {
     let [x, y] = [0, 1].map(|axis| [low[axis] - zero[axis], high[axis] - zero[axis]]);
     let z = surface - TOUCH_DEPTH;
     let (from, to, reach) = if x[1] - x[0] > y[1] - y[0] {
@@ -601,27 +616,27 @@ fn line(steps: usize) -> u32 {
 }
 
 /// Fills the outlines of parts that no path cuts.
-pub(super) fn uncut(canvas: &mut Canvas, scene: &Scene, place: &PageTransform) {
+pub(super) fn draw_uncut_parts(canvas: &mut Canvas, scene: &Scene, place: &PageTransform) {
     let style = format!("fill=\"{LEFTOVER_COLOUR}\" fill-opacity=\"0.35\"");
     for ring in &scene.uncut {
-        canvas.path(&things::outline(ring, place), &style);
+        canvas.path(&symbols::outline(ring, place), &style);
     }
 }
 
 fn stroke(canvas: &mut Canvas, data: &str, width: f64, color: &str) {
-    canvas.path(data, &format!("stroke=\"{color}\" stroke-width=\"{}\"", n(width.max(0.5))));
+    canvas.path(data, &format!("stroke=\"{color}\" stroke-width=\"{}\"", svg_number(width.max(0.5))));
 }
 
 /// Draws the material left around a part, outside of its outline.
-fn left(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
+fn draw_leftovers(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
     if part.left.is_empty() {
         return;
     }
     let reach = part.left.iter().map(|left| left.reach).fold(0.0, f64::max);
-    outside(canvas, part, place, reach, id);
+    clip_outside(canvas, part, place, reach, id);
     canvas.open(&format!("clip-path=\"url(#{id})\""));
     for stretch in &part.left {
-        let data: String = stretch.outline.iter().map(|shape| things::shape(shape, place)).collect();
+        let data: String = stretch.outline.iter().map(|shape| symbols::shape(shape, place)).collect();
         stroke(canvas, &data, 2.0 * stretch.reach * place.scale(), LEFTOVER_COLOUR);
     }
     canvas.close();
@@ -629,28 +644,28 @@ fn left(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &st
 
 /// Fills the inner corners of a part, outside of its outline. The cuts are drawn over them, so that only the areas remain that the cutter
 /// does not reach.
-fn corners(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
+fn draw_corners(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
     let sharp = |ring: &Vec<Shape>| {
         let next = ring.iter().cycle().skip(1);
         let corners = ring.iter().zip(next).filter_map(|(shape, next)| {
-            let reach = part.radius * sharpness(shape.directions()[1], next.directions()[0])?;
+            let reach = part.radius * corner_reach(shape.directions()[1], next.directions()[0])?;
             Some((next.start(), reach))
         });
         corners.collect::<Vec<_>>()
     };
     let sharp: Vec<(Point, f64)> = part.rings.iter().flat_map(sharp).collect();
     let reach = sharp.iter().map(|(_, reach)| *reach).fold(0.0, f64::max);
-    outside(canvas, part, place, reach, id);
+    clip_outside(canvas, part, place, reach, id);
     canvas.open(&format!("clip-path=\"url(#{id})\" fill=\"{LEFTOVER_COLOUR}\""));
     for (corner, reach) in sharp {
-        canvas.circle(place.at(corner), reach * place.scale(), "");
+        canvas.circle(place.to_page(corner), reach * place.scale(), "");
     }
     canvas.close();
 }
 
 /// Returns the distance from a corner at which a round cutter on the right of the outline touches both sides, in radii of the cutter. The
 /// arguments are the directions before and after the corner. Returns `None` if the outline does not turn to the right.
-fn sharpness([x, y]: Point, [next_x, next_y]: Point) -> Option<f64> {
+fn corner_reach([x, y]: Point, [next_x, next_y]: Point) -> Option<f64> {
     let (across, along) = (x * next_y - y * next_x, x * next_x + y * next_y);
     let norm = libm::hypot(x, y) * libm::hypot(next_x, next_y);
     (across < -SMOOTH_SINE * norm)
@@ -664,18 +679,18 @@ const SMOOTH_SINE: f64 = 0.01;
 const MAX_CORNER_REACH: f64 = 10.0;
 
 /// Draws the defects of a part: cuts into it, support bars that are cut away, and a colour if nothing holds the part.
-fn wrong(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
+fn draw_defects(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
     let material = || -> String {
         // Ignore rings within an opening: the opening is not filled.
         let rings =
             part.rings.iter().enumerate().zip(&part.nests).filter(|((index, _), nest)| index == *nest);
-        rings.map(|((_, ring), _)| things::outline(ring, place)).collect()
+        rings.map(|((_, ring), _)| symbols::outline(ring, place)).collect()
     };
     if part.is_loose {
         canvas.path(&material(), &format!("fill=\"{LOOSE_COLOUR}\" fill-opacity=\"0.45\""));
     }
     let width = 2.0 * part.radius * place.scale();
-    let data = |shapes: &[Shape]| shapes.iter().map(|shape| things::shape(shape, place)).collect::<String>();
+    let data = |shapes: &[Shape]| shapes.iter().map(|shape| symbols::shape(shape, place)).collect::<String>();
     if !part.gouges.is_empty() {
         canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{}\"/></clipPath>", material()));
         canvas.open(&format!("clip-path=\"url(#{id})\""));
@@ -690,22 +705,29 @@ fn wrong(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &s
 }
 
 /// Defines a clip path for the outside of a part: a frame around the rings of the part. The rings run with their material on the left.
-fn outside(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, reach: f64, id: &str) {
+fn clip_outside(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, reach: f64, id: &str) {
     let mut corners = None;
     for shape in part.rings.iter().flatten() {
         widen(&mut corners, shape.extent());
     }
     let [low, high] = corners.unwrap_or_default();
     let ([left, bottom], [right, top]) =
-        (place.at(low.map(|at| at - reach)), place.at(high.map(|at| at + reach)));
-    let frame = format!("M{} {}H{}V{}H{}Z", n(left), n(top), n(right), n(bottom), n(left));
-    let rings: String = part.rings.iter().map(|ring| things::outline(ring, place)).collect();
+        (place.to_page(low.map(|at| at - reach)), place.to_page(high.map(|at| at + reach)));
+    let frame = format!(
+        "M{} {}H{}V{}H{}Z",
+        svg_number(left),
+        svg_number(top),
+        svg_number(right),
+        svg_number(bottom),
+        svg_number(left)
+    );
+    let rings: String = part.rings.iter().map(|ring| symbols::outline(ring, place)).collect();
     canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{frame}{rings}\"/></clipPath>"));
 }
 
 fn depth_color(share: f64) -> String {
     let [red, green, blue] = [0, 1, 2].map(|part| {
-        let value = DEPTHS[0][part] + (DEPTHS[1][part] - DEPTHS[0][part]) * share;
+        let value = DEPTH_COLOURS[0][part] + (DEPTH_COLOURS[1][part] - DEPTH_COLOURS[0][part]) * share;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
         let value = value.round() as u8;
         value
@@ -715,7 +737,7 @@ fn depth_color(share: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{MAX_CORNER_REACH, sharpness};
+    use super::{MAX_CORNER_REACH, corner_reach};
 
     /// A round cutter touches the sides of a right angle at one radius from the corner, whatever the directions of the sides.
     #[test]
@@ -725,7 +747,7 @@ mod tests {
                 let (sin, cos) = libm::sincos((f64::from(turned) * 30.0 + degrees).to_radians());
                 [cos, sin]
             };
-            let reach = |degrees: f64| sharpness(along(0.0), along(-degrees));
+            let reach = |degrees: f64| corner_reach(along(0.0), along(-degrees));
             assert!(reach(90.0).is_some_and(|reach| (reach - 1.0).abs() < 1e-9), "{turned}");
             assert!(
                 reach(60.0).is_some_and(|reach| (reach - libm::sqrt(1.0 / 3.0)).abs() < 1e-9),

@@ -7,7 +7,7 @@ use pathbuild_db::system::join;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Lang, Message, Text, TextFault, Value};
 
-use super::kinds::{MEASURES, number_from_text};
+use super::kinds::{MEASURE_BOUNDS, number_from_text};
 use super::kinds::{regex_fault, split_restriction};
 use super::origin::SourcedValue;
 use super::types::{Directories, Restriction};
@@ -80,7 +80,7 @@ pub struct Overrides {
 /// A diagnostic that underlines the value.
 pub fn positive(name: &str, text: &str) -> Result<f64, Box<Diagnostic>> {
     let number = number_from_text(text).filter(|number| *number > 0.0);
-    number.ok_or_else(|| Box::new(invalid(name, text, &messages::POSITIVE)))
+    number.ok_or_else(|| Box::new(invalid_option(name, text, &messages::POSITIVE)))
 }
 
 /// Parses the value of an option that must be a number, with decimal point or comma.
@@ -88,7 +88,7 @@ pub fn positive(name: &str, text: &str) -> Result<f64, Box<Diagnostic>> {
 /// # Errors
 /// A diagnostic that underlines the value.
 pub fn number(name: &str, text: &str) -> Result<f64, Box<Diagnostic>> {
-    number_from_text(text).ok_or_else(|| Box::new(invalid(name, text, &messages::NUMBER)))
+    number_from_text(text).ok_or_else(|| Box::new(invalid_option(name, text, &messages::NUMBER)))
 }
 
 /// Validates the value of an option that must be a regular expression.
@@ -112,7 +112,7 @@ fn restriction(name: &str, text: &str) -> Result<Restriction, Box<Diagnostic>> {
     }
 }
 
-fn invalid(name: &str, text: &str, expected: &'static Text) -> Diagnostic {
+fn invalid_option(name: &str, text: &str, expected: &'static Text) -> Diagnostic {
     let fault = fault(&messages::INVALID_VALUE, name, text);
     fault.with("expected", Value::Prose(expected)).quoting("found", text)
 }
@@ -137,7 +137,7 @@ impl<'a> OptionReader<'a> {
     }
 
     /// Replaces a configured value by that of an option, if it is given and valid.
-    pub(super) fn replaces<T>(
+    pub(super) fn replace_value<T>(
         &mut self,
         setting: &mut Option<SourcedValue<T>>,
         name: &'static str,
@@ -149,7 +149,7 @@ impl<'a> OptionReader<'a> {
     }
 
     /// Adds the values of an option, if it is given and valid, after the configured ones.
-    pub(super) fn adds<T>(
+    pub(super) fn append_values<T>(
         &mut self,
         setting: &mut Option<SourcedValue<Vec<T>>>,
         name: &'static str,
@@ -185,9 +185,9 @@ pub(super) struct GivenOption<'a> {
 }
 
 impl GivenOption<'_> {
-    pub(super) fn measure(&self) -> Result<Option<f64>, Vec<Diagnostic>> {
-        let number = number_from_text(self.last()).filter(|number| MEASURES.contains(number));
-        number.map(Some).ok_or_else(|| vec![invalid(self.name, self.last(), &messages::MEASURE)])
+    pub(super) fn positive_number(&self) -> Result<Option<f64>, Vec<Diagnostic>> {
+        let number = number_from_text(self.last()).filter(|number| MEASURE_BOUNDS.contains(number));
+        number.map(Some).ok_or_else(|| vec![invalid_option(self.name, self.last(), &messages::MEASURE)])
     }
 
     pub(super) fn regex(&self) -> Result<Box<str>, Vec<Diagnostic>> {

@@ -95,7 +95,7 @@ fn property(key: &Key) -> (String, Json) {
 
 /// Returns the text of a configuration with every key, its description, and its default or an example. All keys but `library` are commented out.
 pub fn template() -> String {
-    let mut text = HEAD.to_owned();
+    let mut text = TEMPLATE_HEADER.to_owned();
     for key in general::KEYS {
         entry(&mut text, key, if key.name == "library" { "" } else { "#" });
     }
@@ -111,7 +111,7 @@ pub fn template() -> String {
     text
 }
 
-const HEAD: &str = "\
+const TEMPLATE_HEADER: &str = "\
 # Configuration of pathbuild. File names are relative to this file. Command-line options take precedence over it; --search and --restrict add to it.
 # Lines that begin with # and no blank are the defaults, or examples if there is no default: remove the # and change them.
 # `pathbuild config show` prints the values in force.

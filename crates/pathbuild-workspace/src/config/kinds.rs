@@ -28,15 +28,15 @@ pub(in crate::config) const POSITIVE: ValueType<Option<f64>> = ValueType {
 /// A length in mm or a speed in mm/min, as programs state it with three decimals.
 pub(in crate::config) const MEASURE: ValueType<Option<f64>> = ValueType {
     read: |value, reader| {
-        let measure = number(value).filter(|number| MEASURES.contains(number));
+        let measure = number(value).filter(|number| MEASURE_BOUNDS.contains(number));
         reader.require(measure, &messages::MEASURE, value).map(Some)
     },
     show: |number| number.map(|number| number.to_string()),
-    schema: || json!({ "type": "number", "minimum": MEASURES.start(), "maximum": MEASURES.end() }),
+    schema: || json!({ "type": "number", "minimum": MEASURE_BOUNDS.start(), "maximum": MEASURE_BOUNDS.end() }),
 };
 
 /// Bounds of a [`MEASURE`]: it must be greater than 0 after rounding to three decimals, and no machine is larger or faster than the upper bound.
-pub(super) const MEASURES: RangeInclusive<f64> = 0.001..=1e6;
+pub(super) const MEASURE_BOUNDS: RangeInclusive<f64> = 0.001..=1e6;
 
 /// A time in seconds greater than 0.
 pub(in crate::config) const SECONDS: ValueType<Duration> = ValueType {
@@ -61,28 +61,28 @@ pub(in crate::config) const NOT_NEGATIVE: ValueType<f64> = ValueType {
 /// them, so they would only fill the disk.
 pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {
     read: |value, reader| {
-        let length = number(value).filter(|number| *number == 0.0 || *number >= SHORTEST_PIECE);
+        let length = number(value).filter(|number| *number == 0.0 || *number >= MIN_PIECE);
         reader.require(length, &messages::PIECE, value).map(Some)
     },
     show: |number| number.map(|number| number.to_string()),
-    schema: || json!({ "oneOf": [{ "const": 0 }, { "type": "number", "minimum": SHORTEST_PIECE }] }),
+    schema: || json!({ "oneOf": [{ "const": 0 }, { "type": "number", "minimum": MIN_PIECE }] }),
 };
 
 /// Smallest value of a [`PIECE`] other than 0, in mm.
-const SHORTEST_PIECE: f64 = 0.1;
+const MIN_PIECE: f64 = 0.1;
 
 /// Tolerance of the part check in mm. With a tolerance below `FINEST_TOLERANCE`, the rounding of coordinates would be reported.
 pub(in crate::config) const PART_TOLERANCE: ValueType<f64> = ValueType {
     read: |value, reader| {
-        let tolerance = number(value).filter(|number| *number >= FINEST_TOLERANCE);
+        let tolerance = number(value).filter(|number| *number >= MIN_PART_TOLERANCE);
         reader.require(tolerance, &messages::PART_TOLERANCE, value)
     },
     show: |number| Some(number.to_string()),
-    schema: || json!({ "type": "number", "minimum": FINEST_TOLERANCE }),
+    schema: || json!({ "type": "number", "minimum": MIN_PART_TOLERANCE }),
 };
 
 /// Smallest value of [`PART_TOLERANCE`], in mm.
-const FINEST_TOLERANCE: f64 = 0.005;
+const MIN_PART_TOLERANCE: f64 = 0.005;
 
 /// A positive whole number.
 pub(in crate::config) const COUNT: ValueType<u64> = ValueType {
@@ -96,7 +96,7 @@ pub(in crate::config) const COUNT: ValueType<u64> = ValueType {
 /// A size in bytes: a whole number, or a text such as "256 MiB".
 pub(in crate::config) const SIZE: ValueType<u64> = ValueType {
     read: |value, reader| reader.require(size(value).filter(|size| *size > 0), &messages::SIZE, value),
-    show: |size| Some(shown_size(*size)),
+    show: |size| Some(format_size(*size)),
     schema: || json!({ "oneOf": [{ "type": "integer", "minimum": 1 }, { "type": "string", "pattern": SIZE_PATTERN }] }),
 };
 
@@ -110,8 +110,8 @@ pub(in crate::config) const DURATION: ValueType<Duration> = ValueType {
 };
 
 /// Two numbers, the smaller one first.
-pub(in crate::config) const EXTENT: ValueType<Option<NumberRange>> = ValueType {
-    read: |value, reader| reader.require(extent(value), &messages::EXTENT, value).map(Some),
+pub(in crate::config) const NUMBER_RANGE: ValueType<Option<NumberRange>> = ValueType {
+    read: |value, reader| reader.require(number_range(value), &messages::EXTENT, value).map(Some),
     show: |extent| extent.map(|extent| format!("[{}, {}]", extent.from, extent.to)),
     schema: || json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }),
 };
@@ -154,7 +154,7 @@ fn whole_number(value: &Spanned<DeValue<'_>>) -> Option<u64> {
     u64::from_str_radix(&integer.as_str().replace('_', ""), integer.radix()).ok()
 }
 
-fn extent(value: &Spanned<DeValue<'_>>) -> Option<NumberRange> {
+fn number_range(value: &Spanned<DeValue<'_>>) -> Option<NumberRange> {
     let array = value.get_ref().as_array()?;
     match (array.len(), array.first().and_then(number), array.get(1).and_then(number)) {
         (2, Some(from), Some(to)) if from < to => Some(NumberRange { from, to }),
@@ -187,7 +187,7 @@ fn size(value: &Spanned<DeValue<'_>>) -> Option<u64> {
     digits.checked_mul(factor)
 }
 
-fn shown_size(size: u64) -> String {
+fn format_size(size: u64) -> String {
     let is_whole = |(_, factor): &&(&str, u64)| size.is_multiple_of(*factor);
     match UNITS.iter().filter(|(name, _)| name.ends_with("iB")).find(is_whole) {
         Some((unit, factor)) => format!("\"{} {unit}\"", size / factor),
@@ -242,7 +242,7 @@ pub(in crate::config) const DIRECTORIES: ValueType<Directories> = ValueType {
 };
 
 /// An absolute path of a directory.
-pub(in crate::config) const ABSOLUTE: ValueType<Utf8PathBuf> = ValueType {
+pub(in crate::config) const ABSOLUTE_DIRECTORY: ValueType<Utf8PathBuf> = ValueType {
     read: |value, reader| match reader.text(value).map(Utf8PathBuf::from)? {
         path if path.is_absolute() => Some(path),
         _ => reader.expected(&messages::ABSOLUTE, value),
@@ -252,7 +252,7 @@ pub(in crate::config) const ABSOLUTE: ValueType<Utf8PathBuf> = ValueType {
 };
 
 /// A list of absolute paths of directories.
-pub(in crate::config) const ABSOLUTES: ValueType<Directories> = ValueType {
+pub(in crate::config) const ABSOLUTE_DIRECTORIES: ValueType<Directories> = ValueType {
     read: |value, reader| {
         let names = texts(value, reader)?;
         if names.iter().all(|(name, _)| Utf8Path::new(name).is_absolute()) {
@@ -276,7 +276,7 @@ pub(in crate::config) const fn choices<T: Choice>() -> ValueType<Vec<T>> {
             let Some(items) = value.get_ref().as_array() else {
                 return reader.expected(&messages::LIST_OF_TEXTS, value);
             };
-            all(items.iter().map(|item| read_choice(item, reader)))
+            collect_all(items.iter().map(|item| read_choice(item, reader)))
         },
         show: |choices| Some(list(choices.iter().filter_map(|choice| name_of(*choice)))),
         schema: || json!({ "type": "array", "items": choice_schema::<T>() }),
@@ -372,7 +372,7 @@ pub(in crate::config) const RESTRICTIONS: ValueType<Vec<Restriction>> = ValueTyp
     read: |value, reader| {
         let rules =
             texts(value, reader)?.into_iter().map(|(text, item)| restriction(text, item.span(), reader));
-        all(rules)
+        collect_all(rules)
     },
     show: |rules| {
         let texts: Vec<_> =
@@ -387,7 +387,7 @@ pub(in crate::config) const PATTERNS: ValueType<Vec<Pattern>> = ValueType {
     read: |value, reader| {
         let patterns =
             texts(value, reader)?.into_iter().map(|(text, item)| pattern(text, item.span(), reader));
-        all(patterns)
+        collect_all(patterns)
     },
     show: |patterns| Some(list(patterns.iter().map(Pattern::text))),
     schema: || json!({ "type": "array", "items": { "type": "string" } }),
@@ -395,7 +395,7 @@ pub(in crate::config) const PATTERNS: ValueType<Vec<Pattern>> = ValueType {
 
 /// Describes the error in a regular expression in short; `None` if it is valid.
 pub(in crate::config) fn regex_fault(text: &str) -> Option<Value> {
-    let error = RegexBuilder::new(text).size_limit(REGEX_SIZE).build().err()?;
+    let error = RegexBuilder::new(text).size_limit(MAX_COMPILED_REGEX_BYTES).build().err()?;
     Some(regex_reason(&error))
 }
 
@@ -406,7 +406,7 @@ pub(in crate::config) fn split_restriction(text: &str) -> Option<Restriction> {
 }
 
 /// Upper bound on the size of a compiled regular expression in bytes. Patterns for names need far less.
-const REGEX_SIZE: usize = 1 << 19;
+const MAX_COMPILED_REGEX_BYTES: usize = 1 << 19;
 
 fn check_regex(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> bool {
     if !reader.counts(LimitedKind::Regex, span.clone()) {
@@ -444,7 +444,7 @@ fn pattern(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> Optio
 }
 
 /// Collects all items, or returns `None` if one is missing. Evaluates every item first, since each may report errors.
-fn all<T>(items: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
+fn collect_all<T>(items: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
     let items: Vec<Option<T>> = items.collect();
     items.into_iter().collect()
 }

@@ -12,7 +12,7 @@ use toml::de::DeTable;
 use super::arguments::{OptionReader, Overrides};
 use super::clean;
 use super::describe::schema;
-use super::kinds::{ABSOLUTE, ABSOLUTES, choice};
+use super::kinds::{ABSOLUTE_DIRECTORIES, ABSOLUTE_DIRECTORY, choice};
 use super::origin::SourcedValue;
 use super::reader::Source;
 use super::reader::TomlReader;
@@ -36,7 +36,7 @@ pub fn load(
         Some(file) => Some(clean(&working_directory.join(file))),
         None => discovery.for_run(),
     };
-    let confined = confinement(system, given, file.as_deref(), &discovery);
+    let confined = untrusted_repositories(system, given, file.as_deref(), &discovery);
     let (mut options, faults) =
         file.as_deref().map(|file| read(&**system, file, confined.as_ref())).unwrap_or_default();
     let mut diagnostics = apply_overrides(given, working_directory, &mut options);
@@ -51,7 +51,7 @@ pub fn load(
 }
 
 /// Returns the repositories that an untrusted run must not leave: those of the configuration and of each argument. `None` if all of them are trusted.
-fn confinement(
+fn untrusted_repositories(
     system: &Arc<dyn System>,
     given: &Overrides,
     file: Option<&Utf8Path>,
@@ -59,16 +59,17 @@ fn confinement(
 ) -> Option<ConfinedSystem> {
     let first = || discovery.search_start();
     let directory = file.and_then(Utf8Path::parent).map_or_else(first, Utf8Path::to_owned);
-    let root = confining(&**system, &directory);
+    let root = confining_repository(&**system, &directory);
     let confined = ConfinedSystem::new(Arc::clone(system), root, discovery.working_directory);
     let further = discovery.search_starts();
-    let confined = further.fold(confined, |confined, place| confined.with_root(confining(&**system, &place)));
+    let confined =
+        further.fold(confined, |confined, place| confined.with_root(confining_repository(&**system, &place)));
     let is_trusted = given.trusted.as_ref().is_none_or(|roots| confined.lies_below(roots));
     (given.untrusted || !is_trusted).then_some(confined)
 }
 
 /// Upper bound on the size of a configuration in bytes. It is fixed because all other limits are set in the configuration.
-pub(super) const LARGEST: u64 = 4 << 20;
+pub(super) const MAX_CONFIGURATION_BYTES: u64 = 4 << 20;
 
 /// Checks the text of a configuration and returns its diagnostics.
 pub fn faults(file: &Utf8Path, text: &str) -> Vec<Diagnostic> {
@@ -81,7 +82,7 @@ fn read(
     confined: Option<&ConfinedSystem>,
 ) -> (Options, Vec<Diagnostic>) {
     let system = confined.map_or(system, |confined| confined);
-    match files::read(system, file, LARGEST) {
+    match files::read(system, file, MAX_CONFIGURATION_BYTES) {
         Ok(text) => parse(file, &text, confined),
         Err(reason) => {
             let fault = Diagnostic::new(&messages::CONFIGURATION_UNREADABLE).in_file(file);
@@ -137,7 +138,7 @@ impl Discovery<'_> {
     /// next argument decides, and finally the working directory.
     pub(super) fn for_run(&self) -> Option<Utf8PathBuf> {
         for input in self.inputs.iter() {
-            let configuration = self.above(&self.search_start_of(input));
+            let configuration = self.find_above(&self.search_start_of(input));
             if configuration.is_some() || !input.is_program(|place| self.is_directory(place)) {
                 return configuration;
             }
@@ -147,7 +148,7 @@ impl Discovery<'_> {
 
     /// Finds the configuration that applies in the working directory.
     pub(super) fn of_working_directory(&self) -> Option<Utf8PathBuf> {
-        self.above(&clean(self.working_directory))
+        self.find_above(&clean(self.working_directory))
     }
 
     /// Returns the directory that a run without a configuration uses instead of the configuration's: that of the first argument, or the working
@@ -177,7 +178,7 @@ impl Discovery<'_> {
     }
 
     /// Finds the configuration that applies in a directory: its own, or else that of the nearest directory above.
-    pub(super) fn above(&self, directory: &Utf8Path) -> Option<Utf8PathBuf> {
+    pub(super) fn find_above(&self, directory: &Utf8Path) -> Option<Utf8PathBuf> {
         let mut files = directory.ancestors().map(|directory| join(directory, files::FILE_NAME));
         // A directory named like a configuration, or a dangling link, counts as a configuration that cannot be read.
         let is_one = |file: &Utf8PathBuf| match self.system.kind(file) {
@@ -195,7 +196,7 @@ impl Discovery<'_> {
         };
         let stranger = |input: Input<'_>| {
             let place = place(input)?;
-            match self.above(&clean(&self.working_directory.join(&place))) {
+            match self.find_above(&clean(&self.working_directory.join(&place))) {
                 Some(other) => (Some(&*other) != used).then(|| misplaced_input(&place, &other, used)),
                 None if input.is_program(|place| self.is_directory(place)) => None,
                 None => used.map(|used| unconfigured_input(&place, used)),
@@ -218,7 +219,7 @@ pub fn repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8P
 
 /// Returns the repository that files of an untrusted tree must not lead out of. If a symbolic link leads to the directory, this is the repository
 /// that contains the link.
-pub(super) fn confining<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8Path {
+pub(super) fn confining_repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8Path {
     let is_link = |place: &&Utf8Path| {
         let (Some(parent), Some(name)) = (place.parent(), place.file_name()) else { return false };
         system.canonical(place) != system.canonical(parent).join(name)
@@ -262,7 +263,7 @@ impl UserSettings {
         if !files::is_named(file) {
             return (Self::default(), Vec::new());
         }
-        match files::read(system, file, LARGEST) {
+        match files::read(system, file, MAX_CONFIGURATION_BYTES) {
             Ok(text) => read_table(file, &text, None, Self::read),
             Err(reason) => {
                 let fault = Diagnostic::new(&messages::CONFIGURATION_UNREADABLE).in_file(file);
@@ -274,8 +275,12 @@ impl UserSettings {
     fn read(root: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Self {
         reader.table(root, "", |table| Self {
             lang: table.take("lang", &choice()).map(|lang| lang.value),
-            cache_dir: table.section("cache", |cache| cache.take("dir", &ABSOLUTE)).map(|value| value.value),
-            trusted: table.section("trust", |trust| trust.take("roots", &ABSOLUTES)).map(|value| value.value),
+            cache_dir: table
+                .section("cache", |cache| cache.take("dir", &ABSOLUTE_DIRECTORY))
+                .map(|value| value.value),
+            trusted: table
+                .section("trust", |trust| trust.take("roots", &ABSOLUTE_DIRECTORIES))
+                .map(|value| value.value),
         })
     }
 }

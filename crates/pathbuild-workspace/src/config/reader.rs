@@ -41,7 +41,7 @@ pub(super) enum LimitedKind {
 }
 
 impl LimitedKind {
-    fn most(self) -> (u64, &'static Text) {
+    fn maximum(self) -> (u64, &'static Text) {
         match self {
             Self::Regex => (400, &messages::REGEXES),
             Self::Glob => (10_000, &messages::GLOBS),
@@ -72,7 +72,7 @@ impl<'a> TomlReader<'a> {
         self.key_index = Some(LazyCell::new(Box::new(move || KeyIndex::new(&schema()))));
     }
 
-    fn home(&self, name: &str) -> Option<KeyPlace<'_>> {
+    fn table_of_key(&self, name: &str) -> Option<KeyPlace<'_>> {
         self.key_index.as_ref()?.find(name)
     }
 
@@ -115,9 +115,9 @@ impl<'a> TomlReader<'a> {
     }
 
     /// Reads a value with `read`, while `name` is appended to the full name of the key.
-    pub(super) fn within<T>(&mut self, name: &str, read: impl FnOnce(&mut Self) -> T) -> T {
+    pub(super) fn read_within<T>(&mut self, name: &str, read: impl FnOnce(&mut Self) -> T) -> T {
         let table = std::mem::take(&mut self.key);
-        self.key = format!("{table}.{}", short(name));
+        self.key = format!("{table}.{}", shortened(name));
         let value = read(self);
         self.key = table;
         value
@@ -141,7 +141,7 @@ impl<'a> TomlReader<'a> {
 
     /// Counts a value of a limited kind. Returns whether the limit allows one more. Exceeding the limit is reported only once.
     pub(super) fn counts(&mut self, what: LimitedKind, span: Range<usize>) -> bool {
-        let (most, word) = what.most();
+        let (most, word) = what.maximum();
         let count = &mut self.counts[what as usize];
         *count += 1;
         let beyond = count.saturating_sub(most);
@@ -190,7 +190,7 @@ impl<'a> TomlReader<'a> {
 }
 
 /// Shortens a very long name for messages.
-fn short(name: &str) -> Cow<'_, str> {
+fn shortened(name: &str) -> Cow<'_, str> {
     const MAX_NAME_BYTES: usize = 100;
     if name.len() <= MAX_NAME_BYTES {
         return name.into();
@@ -199,7 +199,7 @@ fn short(name: &str) -> Cow<'_, str> {
 }
 
 /// Keys of earlier versions, each with the key that replaces it.
-const REPLACED: [(&str, &str); 1] = [("support-bars", "compatible")];
+const REPLACED_KEYS: [(&str, &str); 1] = [("support-bars", "compatible")];
 
 /// A table that is being read.
 pub(super) struct Table<'t, 'r, 'a> {
@@ -258,7 +258,7 @@ impl<'a> Table<'_, '_, 'a> {
     }
 
     /// Refuses a table that is reserved for a later version.
-    pub(super) fn refuse(&mut self, name: &'static str) {
+    pub(super) fn refuse_reserved(&mut self, name: &'static str) {
         self.known.push(name);
         if let Some((key, _)) = self.content.get_key_value(name) {
             self.reader.key = format!("{}{name}", self.prefix);
@@ -269,37 +269,39 @@ impl<'a> Table<'_, '_, 'a> {
 
     fn report_unknown(&mut self) {
         for key in self.content.keys().filter(|key| !self.known.contains(&&**key.get_ref())) {
-            self.reader.key = format!("{}{}", self.prefix, short(key.get_ref()));
-            let replaced = REPLACED.iter().find(|(old, _)| old == key.get_ref());
+            self.reader.key = format!("{}{}", self.prefix, shortened(key.get_ref()));
+            let replaced = REPLACED_KEYS.iter().find(|(old, _)| old == key.get_ref());
             if let Some((_, new)) = replaced.filter(|(_, new)| self.known.contains(new)) {
                 let fault = self.reader.fault(&messages::REPLACED_KEY, key.span()).quoting("new", *new);
                 self.reader.report(fault);
                 continue;
             }
-            let fault = self.unknown(key.get_ref(), key.span());
+            let fault = self.unknown_key(key.get_ref(), key.span());
             self.reader.report(fault);
         }
     }
 
     /// Returns the diagnostic for an unknown key. It suggests the table that has such a key, or a similar key.
-    fn unknown(&self, name: &str, span: Range<usize>) -> Diagnostic {
+    fn unknown_key(&self, name: &str, span: Range<usize>) -> Diagnostic {
         let fault = |message| self.reader.fault(message, span.clone());
-        let home = self.reader.home(name);
+        let home = self.reader.table_of_key(name);
         if let Some(home) = home.filter(|home| home.is_exact) {
-            return placed(fault, &home, &messages::KEY_OF_TABLE, &messages::KEY_OF_TOP);
+            return misplaced_key(fault, &home, &messages::KEY_OF_TABLE, &messages::KEY_OF_TOP);
         }
         if let Some(near) = nearest(name, self.known.iter().copied()) {
             return fault(&messages::UNKNOWN_KEY).quoting("near", near);
         }
         match home {
-            Some(home) => placed(fault, &home, &messages::NEAR_KEY_OF_TABLE, &messages::NEAR_KEY_OF_TOP),
+            Some(home) => {
+                misplaced_key(fault, &home, &messages::NEAR_KEY_OF_TABLE, &messages::NEAR_KEY_OF_TOP)
+            }
             None => fault(&messages::UNLIKE_KEY).with("known", self.known.iter().collect::<Value>()),
         }
     }
 }
 
 /// Returns a diagnostic that says where a key belongs: in a table, or before all tables.
-fn placed(
+fn misplaced_key(
     fault: impl Fn(&'static Message) -> Diagnostic,
     home: &KeyPlace<'_>,
     of_table: &'static Message,
@@ -378,24 +380,24 @@ pub(super) struct Source<'a> {
     text: &'a str,
     /// Byte offset of the beginning of each line.
     lines: Vec<usize>,
-    /// Number of characters before each block of [`BLOCK`] bytes.
+    /// Number of characters before each block of [`BLOCK_BYTES`] bytes.
     characters: Vec<usize>,
 }
 
 /// Size in bytes of the blocks for which characters are counted.
-const BLOCK: usize = 1 << 10;
+const BLOCK_BYTES: usize = 1 << 10;
 
 /// Number of bytes of a line that are shown on each side of a fault.
-const MOST_CONTEXT: usize = 200;
+const MAX_CONTEXT_BYTES: usize = 200;
 
 impl<'a> Source<'a> {
     /// Creates the map of a file with this text.
     pub(super) fn new(file: &'a Utf8Path, text: &'a str) -> Self {
         let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
         let lines = std::iter::once(0).chain(ends.map(|(end, _)| end + 1)).collect();
-        let counts = text.as_bytes().chunks(BLOCK).scan(0, |before, block| {
+        let counts = text.as_bytes().chunks(BLOCK_BYTES).scan(0, |before, block| {
             let count = *before;
-            *before += beginnings(block);
+            *before += count_character_starts(block);
             Some(count)
         });
         Self { file, text, lines, characters: counts.collect() }
@@ -433,28 +435,28 @@ impl<'a> Source<'a> {
 
     /// Returns the number of characters that begin before a byte.
     fn character(&self, byte: usize) -> usize {
-        let block = (byte / BLOCK).min(self.characters.len().saturating_sub(1));
-        let rest = &self.text.as_bytes()[block * BLOCK..byte];
-        self.characters.get(block).copied().unwrap_or_default() + beginnings(rest)
+        let block = (byte / BLOCK_BYTES).min(self.characters.len().saturating_sub(1));
+        let rest = &self.text.as_bytes()[block * BLOCK_BYTES..byte];
+        self.characters.get(block).copied().unwrap_or_default() + count_character_starts(rest)
     }
 
     /// Returns the byte from which a line is shown, given the start of the line (`begin`) and of the fault in it.
     fn shown_from(&self, begin: usize, start: usize) -> usize {
-        begin.max(self.text.floor_char_boundary(start.saturating_sub(MOST_CONTEXT)))
+        begin.max(self.text.floor_char_boundary(start.saturating_sub(MAX_CONTEXT_BYTES)))
     }
 
     /// Returns the byte up to which a line is shown, given the start and end of the fault in it.
     fn shown_to(&self, start: usize, end: usize) -> usize {
         let most = self
             .text
-            .ceil_char_boundary((end.clamp(start, start + MOST_CONTEXT)) + MOST_CONTEXT)
+            .ceil_char_boundary((end.clamp(start, start + MAX_CONTEXT_BYTES)) + MAX_CONTEXT_BYTES)
             .min(self.text.len());
         self.text[start..most].find(['\n', '\r']).map_or(most, |length| start + length)
     }
 }
 
 /// Counts the characters that begin in these bytes.
-fn beginnings(bytes: &[u8]) -> usize {
+fn count_character_starts(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| byte.cast_signed() >= -0x40).count()
 }
 

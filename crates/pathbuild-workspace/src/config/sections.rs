@@ -115,29 +115,29 @@ pub mod general {
     overridable! {
         /// mm/min: F of paths that give none; needed to emit, not to check
         feed: Option<f64> = "feed", MEASURE, None, "150", Check,
-            option 0 replaces: GivenOption::measure, Text("MM/MIN"), "Milling feed of paths that give none", "Fräsvorschub für Pfade, die keinen angeben";
+            option 0 replace_value: GivenOption::positive_number, Text("MM/MIN"), "Milling feed of paths that give none", "Fräsvorschub für Pfade, die keinen angeben";
         /// mm/min: speed of rapid moves, for times; needed to emit
         rapid: Option<f64> = "rapid", MEASURE, None, "1000", Emit,
-            option 1 replaces: GivenOption::measure, Text("MM/MIN"), "Speed of rapid moves, for the times shown", "Eilganggeschwindigkeit, für die angezeigten Zeiten";
+            option 1 replace_value: GivenOption::positive_number, Text("MM/MIN"), "Speed of rapid moves, for the times shown", "Eilganggeschwindigkeit, für die angezeigten Zeiten";
         /// mm: S of an emitted path that gives none; needed to emit
         sweep_height: Option<f64> = "sweep-height", MEASURE, None, "20", Check,
-            option 2 replaces: GivenOption::measure, Text("MM"), "Sweep height of an emitted path that gives none", "Leerfahrthöhe, wenn der geschriebene Pfad keine angibt";
+            option 2 replace_value: GivenOption::positive_number, Text("MM"), "Sweep height of an emitted path that gives none", "Leerfahrthöhe, wenn der geschriebene Pfad keine angibt";
         /// mm/min: Z of probes without a Z of their own; default: like feed
         probe_feed: Option<f64> = "probe-feed", MEASURE, None, "40", Emit,
-            option 3 replaces: GivenOption::measure, Text("MM/MIN"), "Probing feed of paths that give none", "Vorschub beim Antasten für Pfade, die keinen angeben";
+            option 3 replace_value: GivenOption::positive_number, Text("MM/MIN"), "Probing feed of paths that give none", "Vorschub beim Antasten für Pfade, die keinen angeben";
         /// directories that `check` and `emit` use without arguments, and in which paths are found by name;
         /// includes subdirectories, respects .gitignore and .ignore
         library: Directories = "library", DIRECTORIES, Vec::new(), r#"["."]"#, Neither;
         /// further directories in which embedded paths are looked for, in this order, without subdirectories
         search: Directories = "search", DIRECTORIES, Vec::new(), "[]", Check,
-            option 5 adds: |option| Ok(option.directories()), SearchDirectories, "Look for embedded paths in this directory as well (repeatable)",
+            option 5 append_values: |option| Ok(option.directories()), SearchDirectories, "Look for embedded paths in this directory as well (repeatable)",
             "Sucht eingebettete Pfade auch in diesem Verzeichnis (wiederholbar)";
         /// which names are path names
         path_pattern: Box<str> = "path-pattern", REGEX, PathPattern::DEFAULT.into(), "'([0-9]{4})[.]([0-9]+)([A-Z])'", Check,
-            option 6 replaces: GivenOption::regex, Text("REGEX"), "Regular expression for path names", "Regulärer Ausdruck für Pfadnamen";
+            option 6 replace_value: GivenOption::regex, Text("REGEX"), "Regular expression for path names", "Regulärer Ausdruck für Pfadnamen";
         /// which parts of a file name are path names
         file_pattern: Box<str> = "file-pattern", REGEX, FilePattern::DEFAULT.into(), "'([0-9]{4})(?:[.]([0-9]+))?'", Check,
-            option 7 replaces: GivenOption::regex, Text("REGEX"), "Regular expression for path names in file names",
+            option 7 replace_value: GivenOption::regex, Text("REGEX"), "Regular expression for path names in file names",
             "Regulärer Ausdruck für Pfadnamen in Dateinamen";
         /// layers with clamps, by their whole names: no move may enter their outlines below the height
         /// that a text such as Z25 gives (PB407)
@@ -151,7 +151,7 @@ pub mod general {
         part_held: PartHolding = "part-held", choice::<PartHolding>(), PartHolding::Bars, r#""bars""#, Check;
         /// PARENT:CHILD, split at the first colon: which paths may embed which, such as "^8:P$"
         restrict: Vec<Restriction> = "restrict", RESTRICTIONS, Vec::new(), "[]", Check,
-            option 8 adds: GivenOption::restrictions, Texts("PARENT:CHILD"),
+            option 8 append_values: GivenOption::restrictions, Texts("PARENT:CHILD"),
             "A path whose name matches PARENT may embed only paths whose names match CHILD; both are regular expressions, and configured rules come first (repeatable)",
             "Ein Pfad, auf dessen Namen AUSSEN passt, darf nur Pfade einbetten, auf deren Namen INNEN passt; beides sind reguläre Ausdrücke, und konfigurierte Regeln gelten zuerst (wiederholbar)";
         /// en | de: language of messages; --lang, PATHBUILD_LANG and your own config.toml take precedence
@@ -168,7 +168,7 @@ pub mod general {
         join_tolerance: f64 = "join-tolerance", NOT_NEGATIVE, 0.0, "0", Check;
         /// true: programs exactly as PathDxf2GCode writes them, even where it deviates from its manuals
         compatible: bool = "compatible", SWITCH, false, "false", Check,
-            option 4 replaces: |_| Ok(true), Switch, "Write programs exactly as `PathDxf2GCode` does", "Schreibt Programme genau so wie `PathDxf2GCode`";
+            option 4 replace_value: |_| Ok(true), Switch, "Write programs exactly as `PathDxf2GCode` does", "Schreibt Programme genau so wie `PathDxf2GCode`";
         /// idw4 | plane | tin: how heights between probes are calculated
         z_model: ZModel = "z-model", choice::<ZModel>(), ZModel::Idw4, r#""idw4""#, Emit;
         /// mm: longest move that is corrected as a whole; 0: never split; without it 0 for idw4, otherwise 20
@@ -182,7 +182,7 @@ pub mod general {
         cycles: bool = "cycles", SWITCH, false, "false", Check;
         /// directory for written files; empty: beside the drawing
         out_dir: Option<Utf8PathBuf> = "out-dir", DIRECTORY, None, r#""""#, Emit,
-            option 10 replaces: |option| Ok(Some(option.directory())), Directory, "Write into this directory instead of beside the drawing",
+            option 10 replace_value: |option| Ok(Some(option.directory())), Directory, "Write into this directory instead of beside the drawing",
             "Schreibt in dieses Verzeichnis statt neben die Zeichnung";
     }
 }
@@ -266,7 +266,7 @@ pub mod emit {
 
 /// `[machine]`: capabilities of the machine, for `emit`, `verify` and time estimates. (book: program/reading)
 pub mod machine {
-    use crate::config::kinds::{AXES, EXTENT, NOT_NEGATIVE, POSITIVE, choice};
+    use crate::config::kinds::{AXES, NOT_NEGATIVE, NUMBER_RANGE, POSITIVE, choice};
     use crate::config::types::{DwellTime, NumberRange};
 
     section! {
@@ -275,17 +275,17 @@ pub mod machine {
         /// unit of P in G4 on a controller where it can be set (Mach3: Config > Logic): "seconds" or "milliseconds"
         dwell: DwellTime = "dwell", choice::<DwellTime>(), DwellTime::Seconds, r#""seconds""#, Emit;
         /// mm: smallest and largest X, in the program's coordinates; without it, X is not limited
-        x: Option<NumberRange> = "x", EXTENT, None, "[0, 300]", Emit;
+        x: Option<NumberRange> = "x", NUMBER_RANGE, None, "[0, 300]", Emit;
         /// mm: the same for the Y axis
-        y: Option<NumberRange> = "y", EXTENT, None, "[0, 200]", Emit;
+        y: Option<NumberRange> = "y", NUMBER_RANGE, None, "[0, 200]", Emit;
         /// mm: the same for the Z axis
-        z: Option<NumberRange> = "z", EXTENT, None, "[0, 60]", Emit;
+        z: Option<NumberRange> = "z", NUMBER_RANGE, None, "[0, 60]", Emit;
         /// mm/min: largest feed
         max_feed: Option<f64> = "maximum-feed", POSITIVE, None, "1500", Check;
         /// mm: travel of X, Y and Z, wherever the part is clamped; x, y and z are more specific
         travel: Option<[f64; 3]> = "travel", AXES, None, "[300, 200, 60]", Emit;
         /// 1/min: the spindle's slowest and fastest speed
-        spindle_speeds: Option<NumberRange> = "spindle-speeds", EXTENT, None, "[3000, 24000]", Emit;
+        spindle_speeds: Option<NumberRange> = "spindle-speeds", NUMBER_RANGE, None, "[3000, 24000]", Emit;
         /// mm/min: highest speeds of X, Y and Z; with accelerations, times are those of the machine
         rates: Option<[f64; 3]> = "rates", AXES, None, "[3000, 3000, 1000]", Neither;
         /// mm/s²: largest accelerations of X, Y and Z

@@ -52,7 +52,7 @@ macro_rules! tables {
             pub(super) fn read(root: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Self {
                 reader.table(root, "", |table| {
                     let options = Self { $($table: table.section($header, $table::Options::$read),)* };
-                    table.refuse("remote");
+                    table.refuse_reserved("remote");
                     options
                 })
             }

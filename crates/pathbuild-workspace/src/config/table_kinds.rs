@@ -10,7 +10,7 @@ use serde_json::{Value as Json, json};
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use super::kinds::{COUNT, EXTENT, NOT_NEGATIVE, POSITIVE, SWITCH};
+use super::kinds::{COUNT, NOT_NEGATIVE, NUMBER_RANGE, POSITIVE, SWITCH};
 use super::kinds::{PATTERNS, REGEX, TEXT, choice, choice_schema, name_of, quoted, read_choice};
 use crate::config::reader::{Table, TomlReader, ValueType};
 use crate::config::types::{CutterShape, FileSeverities, Level, LineTypeAlias, PostChoice, Tool};
@@ -124,7 +124,7 @@ pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
     read: |value, reader| {
         let mut tools: Vec<Tool> = Vec::new();
         for entry in entries(value, reader)? {
-            tools.extend(reader.within(entry.0.get_ref(), |reader| {
+            tools.extend(reader.read_within(entry.0.get_ref(), |reader| {
                 let tool = tool(entry, reader)?;
                 report_shared_number(&tool, entry, &tools, reader);
                 Some(tool)
@@ -132,7 +132,7 @@ pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
         }
         Some(tools)
     },
-    show: |tools| inline(tools.iter().map(|tool| (&*tool.name, shown_tool(tool)))),
+    show: |tools| inline(tools.iter().map(|tool| (&*tool.name, inline_tool(tool)))),
     schema: || {
         json!({ "type": "object", "additionalProperties": {
             "type": "object",
@@ -147,7 +147,7 @@ pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
                 "direction": choice_schema::<Turning>(),
                 "coolant": choice_schema::<Coolant>(),
                 "flutes": (COUNT.schema)(),
-                "chip-load": (EXTENT.schema)(),
+                "chip-load": (NUMBER_RANGE.schema)(),
                 "corner-radius": (NOT_NEGATIVE.schema)(),
                 "length": (POSITIVE.schema)(),
             },
@@ -216,17 +216,17 @@ fn entries<'v, 't>(
 }
 
 fn alias((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<LineTypeAlias> {
-    let line_type = reader.within(name.get_ref(), |reader| read_choice(value, reader))?;
+    let line_type = reader.read_within(name.get_ref(), |reader| read_choice(value, reader))?;
     Some(LineTypeAlias { name: (**name.get_ref()).into(), line_type })
 }
 
 fn post_macro((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<PostMacro> {
-    let text = reader.within(name.get_ref(), |reader| reader.text(value))?;
+    let text = reader.read_within(name.get_ref(), |reader| reader.text(value))?;
     Some(PostMacro { name: (**name.get_ref()).into(), value: text.into() })
 }
 
 fn severity((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<(Code, Level)> {
-    let level = reader.within(name.get_ref(), |reader| read_choice(value, reader));
+    let level = reader.read_within(name.get_ref(), |reader| read_choice(value, reader));
     let text = &**name.get_ref();
     let Ok(code) = text.parse::<Code>() else {
         let fault = match nearest_code(text) {
@@ -279,7 +279,7 @@ fn date(value: &Spanned<DeValue<'_>>, reader: &mut TomlReader<'_>) -> Option<Dat
     };
     let date = text.and_then(|text| text.parse().ok());
     if date.is_none() {
-        return reader.within("until", |reader| reader.expected(&messages::DATE, value));
+        return reader.read_within("until", |reader| reader.expected(&messages::DATE, value));
     }
     date
 }
@@ -307,7 +307,8 @@ fn report_shared_number(
     let shared = others.iter().find(|other| other.number == tool.number && cutter(other) != cutter(tool));
     let number = value.get_ref().as_table().and_then(|table| table.get("number"));
     if let (Some(other), Some(number)) = (shared, number) {
-        let fault = reader.within("number", |reader| reader.fault(&messages::NUMBER_SHARED, number.span()));
+        let fault =
+            reader.read_within("number", |reader| reader.fault(&messages::NUMBER_SHARED, number.span()));
         let fault = fault.with("number", u64::from(tool.number.unwrap_or_default()));
         reader.report(fault.quoting("other", format!("tool.{}", other.name)));
     }
@@ -324,7 +325,7 @@ fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
     let direction = table.take("direction", &choice::<Turning>()).map(|value| value.value);
     let coolant = table.take("coolant", &choice::<Coolant>()).map(|value| value.value);
     let flutes = table.take("flutes", &COUNT).and_then(|value| u32::try_from(value.value).ok());
-    let chip_load = table.take("chip-load", &EXTENT).and_then(|value| value.value);
+    let chip_load = table.take("chip-load", &NUMBER_RANGE).and_then(|value| value.value);
     let corner_radius = table.take("corner-radius", &NOT_NEGATIVE).map_or(0.0, |value| value.value);
     let length = table.take("length", &POSITIVE).and_then(|value| value.value);
     if diameter.is_some_and(|diameter| is_too_round(corner_radius, diameter)) {
@@ -350,11 +351,11 @@ fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
 /// Whether a corner radius is more than half of the diameter, both in mm.
 pub(crate) fn is_too_round(corner_radius: f64, diameter: f64) -> bool {
     /// Rounding error in mm that converting both values from inches may add.
-    const ROUNDED: f64 = 2e-6;
-    2.0 * corner_radius > diameter + ROUNDED
+    const ROUNDING_TOLERANCE: f64 = 2e-6;
+    2.0 * corner_radius > diameter + ROUNDING_TOLERANCE
 }
 
-fn shown_tool(tool: &Tool) -> Option<String> {
+fn inline_tool(tool: &Tool) -> Option<String> {
     let number = |number: Option<f64>| number.map(|number| number.to_string());
     inline([
         ("diameter", number(Some(tool.diameter))),
@@ -365,7 +366,7 @@ fn shown_tool(tool: &Tool) -> Option<String> {
         ("direction", tool.direction.and_then(name_of).map(quoted)),
         ("coolant", tool.coolant.and_then(name_of).map(quoted)),
         ("flutes", tool.flutes.map(|flutes| flutes.to_string())),
-        ("chip-load", (EXTENT.show)(&tool.chip_load)),
+        ("chip-load", (NUMBER_RANGE.show)(&tool.chip_load)),
         (
             "corner-radius",
             Some(tool.corner_radius).filter(|radius| *radius > 0.0).map(|radius| radius.to_string()),

@@ -14,7 +14,7 @@ use pathbuild_view::{
 
 use crate::emit::ShownText;
 use crate::inputs::Inputs;
-use crate::session::{Session, by_name};
+use crate::session::{Session, compare_names};
 
 pub use reasons::{Reason, ValueChange};
 use reasons::{Side, reasons};
@@ -109,7 +109,7 @@ pub struct PictureSet {
 }
 
 /// Compares the moves of two programs. `pictures` is the language of the legends; `None` if no pictures are requested.
-pub fn programs(old: &ScenePath, new: &ScenePath, pictures: Option<Lang>) -> ProgramDiff {
+pub fn compare_moves(old: &ScenePath, new: &ScenePath, pictures: Option<Lang>) -> ProgramDiff {
     let changes = compare(&old.moves, &new.moves);
     let picture = |which, lang| changes_svg(&old.moves, &new.moves, &changes, which, lang);
     ProgramDiff {
@@ -129,7 +129,7 @@ pub fn programs(old: &ScenePath, new: &ScenePath, pictures: Option<Lang>) -> Pro
 }
 
 /// Compares all paths of two trees. `pictures` is the language of the legends; `None` if no pictures are requested.
-pub fn trees(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Lang>) -> Comparison {
+pub fn compare_trees(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Lang>) -> Comparison {
     let Tree { session, inputs, root } = new;
     session.with_stable_files(|session| {
         let mut new = Tree { session, inputs, root };
@@ -149,7 +149,7 @@ fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Opti
         .into_iter()
         .filter_map(|pair| pair.compare([old.session, new.session], pictures, &mut problems))
         .collect();
-    paths.sort_by(|a, b| by_name(&a.name, &b.name).then_with(|| a.files.cmp(&b.files)));
+    paths.sort_by(|a, b| compare_names(&a.name, &b.name).then_with(|| a.files.cmp(&b.files)));
     Comparison { paths, path_count, problems }
 }
 
@@ -176,13 +176,13 @@ impl Tree<'_, '_> {
             session.parse_ahead(files);
             let broken = files.iter().flat_map(|file| check_file(session.db(), *file));
             problems.extend(broken.filter(|problem| problem.is_error()).cloned());
-            known(session, files, &root, &mut problems)
+            known_paths(session, files, &root, &mut problems)
         });
         (found, problems)
     }
 }
 
-fn known(
+fn known_paths(
     session: &Session<'_>,
     files: &[SourceFile],
     root: &Utf8Path,
@@ -200,20 +200,20 @@ fn known(
 }
 
 /// A path on one or both sides.
-struct Pair {
+struct PathPair {
     old: Option<SidePath>,
     new: Option<SidePath>,
 }
 
 /// Pairs the paths of both sides: first those with the same name in the same drawing, then those with a name that remains exactly once on each side.
-fn pair_up(old: Vec<SidePath>, new: Vec<SidePath>) -> Vec<Pair> {
+fn pair_up(old: Vec<SidePath>, new: Vec<SidePath>) -> Vec<PathPair> {
     let mut by_file: HashMap<(Utf8PathBuf, PathName), SidePath> =
         old.into_iter().map(|known| ((known.place.clone(), known.name.clone()), known)).collect();
     let mut pair_up = Vec::new();
     let mut alone = Vec::new();
     for known in new {
         match by_file.remove(&(known.place.clone(), known.name.clone())) {
-            Some(old) => pair_up.push(Pair { old: Some(old), new: Some(known) }),
+            Some(old) => pair_up.push(PathPair { old: Some(old), new: Some(known) }),
             None => alone.push(known),
         }
     }
@@ -228,13 +228,13 @@ fn pair_up(old: Vec<SidePath>, new: Vec<SidePath>) -> Vec<Pair> {
     for known in alone {
         let is_only = count[&known.name] == 1;
         let old = by_name.get_mut(&known.name).filter(|old| is_only && old.len() == 1).and_then(Vec::pop);
-        pair_up.push(Pair { old, new: Some(known) });
+        pair_up.push(PathPair { old, new: Some(known) });
     }
-    pair_up.extend(by_name.into_values().flatten().map(|old| Pair { old: Some(old), new: None }));
+    pair_up.extend(by_name.into_values().flatten().map(|old| PathPair { old: Some(old), new: None }));
     pair_up
 }
 
-impl Pair {
+impl PathPair {
     fn compare(
         self,
         sessions: [&Session<'_>; 2],
@@ -248,7 +248,7 @@ impl Pair {
                     return None;
                 }
                 (Some(before), Some(after)) if before == after => Outcome::OtherDrawing,
-                (Some(_), Some(_)) => changed(sessions, [old_path, new_path], pictures, problems)?,
+                (Some(_), Some(_)) => compare_programs(sessions, [old_path, new_path], pictures, problems)?,
                 (Some(_), None) => Outcome::Broken,
                 (None, Some(_)) => Outcome::Mended,
                 (None, None) => Outcome::StillBroken,
@@ -265,7 +265,7 @@ impl Pair {
 
 /// Compares the two different programs of a path; returns `None` if they differ in comments only and the drawings are the same. If a limit prevents a
 /// side from being built, there are no moves to compare, and the diagnostics say why.
-fn changed(
+fn compare_programs(
     sessions: [&Session<'_>; 2],
     paths: [&SidePath; 2],
     pictures: Option<Lang>,
@@ -275,8 +275,8 @@ fn changed(
     let sides = [scene_path(before, old), scene_path(after, new)];
     let outcome = match &sides {
         [Ok(old_path), Ok(new_path)] => {
-            let reasons = explained(sessions, paths, problems);
-            let changes = ProgramDiff { reasons, ..programs(old_path, new_path, pictures) };
+            let reasons = explain_change(sessions, paths, problems);
+            let changes = ProgramDiff { reasons, ..compare_moves(old_path, new_path, pictures) };
             if changes.groups.is_empty() && changes.reasons.as_ref().is_some_and(Vec::is_empty) {
                 return None;
             }
@@ -293,7 +293,7 @@ fn changed(
 }
 
 /// Returns the reasons why the moves of a path changed; `None`, with diagnostics, if the drawings could not be compared.
-fn explained(
+fn explain_change(
     [before, after]: [&Session<'_>; 2],
     [old, new]: [&SidePath; 2],
     problems: &mut [Vec<Diagnostic>; 2],

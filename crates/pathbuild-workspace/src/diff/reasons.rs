@@ -9,7 +9,7 @@ use pathbuild_db::{
 };
 use pathbuild_diagnostic::{Sentence, Value, drawn_changes as texts};
 use pathbuild_path::{
-    Bindings, DrawnChange, DrawnSide, ElementParameters, PathName, Provider, SpeltName, drawn_changes,
+    Bindings, CaseSensitiveName, DrawnChange, DrawnSide, ElementParameters, PathName, Provider, drawn_changes,
 };
 
 use crate::config::{Settings, settings};
@@ -100,7 +100,7 @@ pub(super) fn reasons(old: Side<'_>, new: Side<'_>) -> Vec<Reason> {
         has_same_file: false,
         has_other_order: false,
     };
-    let drawn = explainer.path(Versions { old: was, new: is }, true);
+    let drawn = explainer.path_reasons(Versions { old: was, new: is }, true);
     let Explainer { used_options, has_same_file, has_other_order, .. } = explainer;
     let (used, others): (Vec<_>, Vec<_>) = changed_settings
         .into_iter()
@@ -125,11 +125,11 @@ const READING_KEYS: [&str; 4] = ["approximate-curves", "compatible", "line-types
 const WALK_KEYS: [&str; 2] = ["compatible", "join-tolerance"];
 
 /// Keys that give defaults for elements without a value in their texts.
-const DEFAULTS: [&str; 3] = ["feed", "probe-feed", "sweep-height"];
+const DEFAULT_KEYS: [&str; 3] = ["feed", "probe-feed", "sweep-height"];
 
 /// Returns the keys that can change moves and have different values on the two sides.
 fn changed_settings(old: &Settings, new: &Settings) -> BTreeMap<&'static str, ValueChange> {
-    let can_move = |name: &str| [&READING_KEYS[..], &WALK_KEYS, &DEFAULTS].concat().contains(&name);
+    let can_move = |name: &str| [&READING_KEYS[..], &WALK_KEYS, &DEFAULT_KEYS].concat().contains(&name);
     let values = |all: &Settings| {
         let all = settings(all).into_iter().filter(|setting| setting.section.is_empty());
         all.map(|setting| (setting.name, setting.value)).collect::<BTreeMap<_, _>>()
@@ -168,16 +168,16 @@ struct Versions<'o, 'n> {
 
 impl<'o, 'n> Explainer<'o, 'n> {
     /// Returns the changes in a path and in the paths that it embeds.
-    fn path(&mut self, versions: Versions<'o, 'n>, is_root: bool) -> Vec<Reason> {
+    fn path_reasons(&mut self, versions: Versions<'o, 'n>, is_root: bool) -> Vec<Reason> {
         let Versions { old, new } = versions;
-        let variables = variables(old.bindings(self.old), new.bindings(self.new));
-        let drawn = self.drawn(versions, is_root);
-        let embedded = self.embedded(versions);
+        let variables = changed_variables(old.bindings(self.old), new.bindings(self.new));
+        let drawn = self.drawn_reasons(versions, is_root);
+        let embedded = self.embedded_reasons(versions);
         variables.into_iter().map(Reason::Variable).chain(drawn).chain(embedded).collect()
     }
 
     /// Returns the changes in the drawing of a path.
-    fn drawn(&mut self, Versions { old, new }: Versions<'o, 'n>, is_root: bool) -> Vec<Reason> {
+    fn drawn_reasons(&mut self, Versions { old, new }: Versions<'o, 'n>, is_root: bool) -> Vec<Reason> {
         let was = DrawnInstance::of(self.old, old, is_root);
         let is = DrawnInstance::of(self.new, new, is_root);
         let (Some(was), Some(is)) = (was, is) else { return Vec::new() };
@@ -191,7 +191,7 @@ impl<'o, 'n> Explainer<'o, 'n> {
         changes.changes.into_iter().map(Reason::Drawn).collect()
     }
     /// Returns the embedded paths that have changed, each with its own reasons.
-    fn embedded(&mut self, Versions { old, new }: Versions<'o, 'n>) -> Vec<Reason> {
+    fn embedded_reasons(&mut self, Versions { old, new }: Versions<'o, 'n>) -> Vec<Reason> {
         let mut were = children(self.old, old);
         let mut reasons = Vec::new();
         // First pair the paths with the same values on both sides, then pair the remaining ones by name.
@@ -213,7 +213,7 @@ impl<'o, 'n> Explainer<'o, 'n> {
         if let Some(is_changed) = self.known.get(&key) {
             return is_changed.then(|| Reason::Embedded { path, reasons: Vec::new() });
         }
-        let reasons = self.path(Versions { old: old.instance, new: new.instance }, false);
+        let reasons = self.path_reasons(Versions { old: old.instance, new: new.instance }, false);
         self.known.insert(key, !reasons.is_empty());
         (!reasons.is_empty()).then_some(Reason::Embedded { path, reasons })
     }
@@ -226,7 +226,7 @@ impl<'o, 'n> Explainer<'o, 'n> {
 
 /// An embedded path with its values.
 struct Child<'db> {
-    name: SpeltName,
+    name: CaseSensitiveName,
     instance: Instance<'db>,
     bindings: Bindings,
 }
@@ -271,7 +271,7 @@ impl<'db> DrawnInstance<'db> {
     }
 
     fn side(&self) -> DrawnSide<'_> {
-        DrawnSide { raw: self.drawn.raw, positions: self.drawn.positions, in_force: &self.in_force }
+        DrawnSide { raw: self.drawn.raw, positions: self.drawn.positions, parameters: &self.in_force }
     }
 
     /// Returns the names of the options that provide values for the elements.
@@ -285,7 +285,7 @@ impl<'db> DrawnInstance<'db> {
 }
 
 /// Returns the variables with different values.
-fn variables(old: &Bindings, new: &Bindings) -> Vec<ValueChange> {
+fn changed_variables(old: &Bindings, new: &Bindings) -> Vec<ValueChange> {
     let names: BTreeSet<char> = old.iter().chain(new.iter()).map(|(name, _)| name).collect();
     let change = |name: char| {
         let value = |bindings: &Bindings| bindings.get(name).map(str::to_owned);

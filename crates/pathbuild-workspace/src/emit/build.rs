@@ -13,26 +13,26 @@ use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
 use pathbuild_toolpath::{Correction, Program, ProgramStep, UnprobedPoint, memory};
 
-use super::joined;
+use super::joined_programs;
 use super::options::{OutputSettings, total};
 use super::outcome::ProgramOutcome;
 use super::plan::Job;
 use super::sheet;
-use crate::posting::PostProcessor;
+use crate::post_processor::PostProcessor;
 use crate::session::{OutputKind, WriteSettings};
 
 /// The outcome of building a program, and the generated files. There are no files if one of them cannot be written.
 #[derive(Default)]
-pub(super) struct Built {
+pub(super) struct BuiltProgram {
     /// The outcome of the program. Its `files` are filled in when they are written.
     pub(super) outcome: ProgramOutcome,
     pub(super) outputs: Vec<Output>,
 }
 
 /// Generates the files of a job. Native files are read back and compared with the program. (book: program/reading)
-pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> Built {
+pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> BuiltProgram {
     let programs = job.targets.iter().map(|target| program(db, *target).clone());
-    let Some(programs) = programs.collect::<Option<Vec<_>>>() else { return Built::default() };
+    let Some(programs) = programs.collect::<Option<Vec<_>>>() else { return BuiltProgram::default() };
     let mut delivered = ProgramOutcome::default();
     let time = total(&programs, settings.writing.options.rapid);
     (delivered.length, delivered.minutes) = (time.length, time.minutes());
@@ -40,9 +40,9 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
     let line = provenance.to_string();
     delivered.provenance = Some(provenance);
     let machine = settings.machine.as_ref();
-    let unsafe_moves = programs.iter().find_map(|program| unsafe_moves(db, job, program, machine));
-    let unsafe_moves = unsafe_moves.or_else(|| unsafe_together(db, job, &programs));
-    delivered.problems.extend(joined::doubts(db, job, &programs));
+    let unsafe_moves = programs.iter().find_map(|program| move_errors(db, job, program, machine));
+    let unsafe_moves = unsafe_moves.or_else(|| joint_errors(db, job, &programs));
+    delivered.problems.extend(joined_programs::joining_doubts(db, job, &programs));
     let result =
         unsafe_moves.map_or_else(|| outputs(db, job, &programs, &line, settings, &mut delivered), Err);
     let result = result.and_then(|mut outputs| {
@@ -56,7 +56,7 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
         delivered.problems.extend(problems);
         Vec::new()
     });
-    Built { outcome: delivered, outputs }
+    BuiltProgram { outcome: delivered, outputs }
 }
 
 /// Returns PB005 for an output file that is too large. The limit is the same for reading files on disk, so a larger file could not be compared.
@@ -83,7 +83,7 @@ fn sheets(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> Result<Vec
 }
 
 /// Returns errors that keep a program from being written: rapid moves into material, and moves beyond the machine's capabilities.
-fn unsafe_moves(
+fn move_errors(
     db: &Database,
     job: &Job,
     program: &Program,
@@ -102,8 +102,9 @@ fn unsafe_moves(
 }
 
 /// Returns errors of programs that are correct on their own but cannot be joined.
-fn unsafe_together(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Vec<Diagnostic>> {
-    let errors = if programs.len() > 1 { joined::moves_into_clamps(db, job, programs) } else { Vec::new() };
+fn joint_errors(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Vec<Diagnostic>> {
+    let errors =
+        if programs.len() > 1 { joined_programs::moves_into_clamps(db, job, programs) } else { Vec::new() };
     (!errors.is_empty()).then_some(errors)
 }
 
@@ -127,7 +128,7 @@ fn too_many_pieces(steps: u64, program: &Program, writing: &WriteSettings) -> Op
     }
 }
 
-fn outside_probes(outside: &UnprobedPoint) -> Diagnostic {
+fn unprobed_point_warning(outside: &UnprobedPoint) -> Diagnostic {
     Diagnostic::new(&probes::OUTSIDE)
         .with("distance", outside.distance)
         .with("at", Point::new(outside.at.x, outside.at.y))
@@ -151,19 +152,25 @@ fn outputs(
     let drawing = job.drawing(db).path(db);
     let at = |problem: Diagnostic| problem.in_file(drawing).in_path(&job.path);
     match (settings.post_processor, programs) {
-        (Some(post_processor), programs) => {
-            posted(job, programs, provenance, post_processor, settings.writing.options.lang, at, delivered)
-                .map(|output| vec![output])
-        }
+        (Some(post_processor), programs) => write_through_post(
+            job,
+            programs,
+            provenance,
+            post_processor,
+            settings.writing.options.lang,
+            at,
+            delivered,
+        )
+        .map(|output| vec![output]),
         (None, [program]) => {
-            native(job, program, provenance, settings, at, delivered).map_err(|problem| vec![*problem])
+            write_native(job, program, provenance, settings, at, delivered).map_err(|problem| vec![*problem])
         }
         // Native programs are never joined: only a post-processor can do that.
         (None, _) => Ok(Vec::new()),
     }
 }
 
-fn native(
+fn write_native(
     job: &Job,
     program: &Program,
     provenance: &str,
@@ -176,8 +183,8 @@ fn native(
     if let Some(problem) = too_many_pieces(steps, program, &settings.writing) {
         return Err(Box::new(at(problem)));
     }
-    match correction.outside(program) {
-        Some(outside) => delivered.problems.push(at(outside_probes(&outside))),
+    match correction.farthest_unprobed_point(program) {
+        Some(outside) => delivered.problems.push(at(unprobed_point_warning(&outside))),
         // This warning would say nothing new about probes outside the program, so it is given only if there are none.
         None => delivered.problems.extend(unused_probes(program, correction).map(&at)),
     }
@@ -210,7 +217,7 @@ fn too_long_line(text: &str, path: &Utf8Path) -> Option<Diagnostic> {
 }
 
 /// Generates the program through the post-processor, which reads its output back itself.
-fn posted(
+fn write_through_post(
     job: &Job,
     programs: &[Arc<Program>],
     provenance: &str,
@@ -228,8 +235,9 @@ fn posted(
     program.remarks.extend(left_out.map(Into::into));
     let located = |problem: Diagnostic| if problem.file.is_none() { at(problem) } else { problem };
     let output = post_processor.write(&program, Some(path), &mut delivered.inserted);
-    let output = output
-        .map_err(|problems| problems.into_iter().map(|problem| in_job(problem, job)).collect::<Vec<_>>())?;
+    let output = output.map_err(|problems| {
+        problems.into_iter().map(|problem| about_job(problem, job)).collect::<Vec<_>>()
+    })?;
     delivered.problems.extend(warnings.into_iter().chain(output.warnings).map(located));
     delivered.notes.extend(output.notes);
     delivered.post_build = output.post_build.map(|command| (command, path.clone()));
@@ -237,6 +245,6 @@ fn posted(
 }
 
 /// Adds the path to a diagnostic of the post-processor.
-fn in_job(problem: Diagnostic, job: &Job) -> Diagnostic {
+fn about_job(problem: Diagnostic, job: &Job) -> Diagnostic {
     if problem.path.is_none() { problem.in_path(&job.path) } else { problem }
 }

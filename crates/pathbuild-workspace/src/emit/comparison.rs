@@ -13,7 +13,7 @@ use pathbuild_gcode::provenance::Provenance;
 use pathbuild_path::PathName;
 use pathbuild_toolpath::Program;
 
-use super::options::{Provenances, writing};
+use super::options::{Provenances, write_settings};
 use super::outcome::{ProgramOutcome, State};
 use super::plan::Job;
 use crate::config::Settings;
@@ -62,8 +62,8 @@ pub fn compare_with_drawing(
     let (Some(path), Some(drawing)) = (path_of_title(&title), drawing_of_title(&title)) else {
         return DrawingComparison::Unknown;
     };
-    session.with_stable_files(|session| match defining(session, path, &title, beside, named) {
-        Ok(Some(path)) => compared(session, &path, &found, text),
+    session.with_stable_files(|session| match find_titled_path(session, path, &title, beside, named) {
+        Ok(Some(path)) => compare_with_path(session, &path, &found, text),
         Ok(None) => DrawingComparison::NoDrawing { drawing: drawing.into() },
         Err(problem) => DrawingComparison::Wrong(vec![*problem]),
     })
@@ -73,7 +73,7 @@ pub fn compare_with_drawing(
 ///
 /// # Errors
 /// PB006 if reading the program's directory triggers a bug.
-fn defining(
+fn find_titled_path(
     session: &Session<'_>,
     path: &str,
     title: &str,
@@ -97,7 +97,7 @@ fn defining(
     Ok(file.map(|file| SelectedPath { file, name }))
 }
 
-fn compared(
+fn compare_with_path(
     session: &Session<'_>,
     path: &SelectedPath,
     found: &Provenance,
@@ -107,7 +107,7 @@ fn compared(
     let target = session.target(path, Role::Emitted);
     let checked = session.check(&[target]);
     let wrong: Vec<Diagnostic> =
-        checked.iter().flat_map(|checked| super::plan::found(session, checked)).collect();
+        checked.iter().flat_map(|checked| super::plan::path_diagnostics(session, checked)).collect();
     if wrong.iter().any(Diagnostic::is_error) {
         return DrawingComparison::Wrong(wrong);
     }
@@ -144,7 +144,7 @@ pub fn native_text(
     kind: OutputKind,
 ) -> Result<String, Box<Diagnostic>> {
     let provenance = Provenances::new(settings, None).of(&[program]);
-    let text = kind.text(program, &provenance.to_string(), &writing(settings))?;
+    let text = kind.text(program, &provenance.to_string(), &write_settings(settings))?;
     Ok(text.unwrap_or_default())
 }
 

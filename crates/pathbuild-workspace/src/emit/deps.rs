@@ -8,10 +8,10 @@ use pathbuild_db::Db;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 
-use super::outcome::cannot_write;
+use super::outcome::write_error;
 use super::plan::Job;
-use crate::files::{name_of_source_or_program, would_replace};
-use crate::posting::PostProcessor;
+use crate::files::{name_of_source_or_program, replace_error};
+use crate::post_processor::PostProcessor;
 use crate::session::Session;
 
 /// Writes one rule per job: its output files depend on its drawings, the configuration, the post definition and the files that the post-processor
@@ -28,7 +28,7 @@ pub(super) fn write<'p>(
     let post = post_processor.and_then(PostProcessor::file).map(|file| session.normal(file));
     let file = session.normal(file);
     if let Some(reason) = name_of_source_or_program(session.workspace(), &file) {
-        return Some(would_replace(&file, reason));
+        return Some(replace_error(&file, reason));
     }
     for job in jobs {
         let outputs: Vec<&Utf8Path> = job.files.iter().map(|(_, path)| path.as_path()).collect();
@@ -44,7 +44,7 @@ pub(super) fn write<'p>(
         _ = writeln!(text, "{}: {}", all(&outputs), all(&sources));
     }
     let written = db.system().write(&file, text.as_bytes());
-    written.err().map(|reason| cannot_write(file.as_str(), reason))
+    written.err().map(|reason| write_error(file.as_str(), reason))
 }
 
 /// Whether the name cannot be written in a makefile, because no escaping keeps `make` from interpreting it: assignments (even `!=`), patterns and

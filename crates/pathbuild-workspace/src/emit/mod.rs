@@ -5,15 +5,15 @@
 mod build;
 mod comparison;
 mod deps;
-mod joined;
+mod joined_programs;
 mod options;
 mod outcome;
 mod plan;
+mod program_scenes;
 mod select;
 mod settle;
 mod sheet;
-mod shown;
-mod stale;
+mod stale_programs;
 
 use std::collections::HashMap;
 
@@ -26,22 +26,22 @@ use crate::Inputs;
 use crate::config::ResultKind;
 use crate::config::types::SheetFormat;
 use crate::memo::{Answer, Memo, is_transient};
-use crate::posting::{PostArguments, PostProcessor};
+use crate::post_processor::{PostArguments, PostProcessor};
 use crate::session::{ArgumentMatches, Session};
 use crate::workspace::Failure;
 use crate::workspace::Workspace;
 
 pub use comparison::{DrawingComparison, compare_with_drawing, native_text};
-pub use options::{Provenances, missing_values, writing};
+pub use options::{Provenances, missing_values, write_settings};
 pub use outcome::{ProgramOutcome, State, Task};
 pub use plan::FileOwners;
-use plan::{Job, JobBuilder, Plan, mark_clashes, plan};
+use plan::{Job, JobBuilder, Plan, leave_out_clashes, plan};
+pub use program_scenes::{SceneReport, SheetOutcome, ShownText, sheet_of};
 pub use select::TargetPatterns;
 use select::TargetSelection;
-use settle::deliver;
+use settle::build_and_settle;
 pub use sheet::sheet_bytes;
-pub use shown::{SceneReport, SheetOutcome, ShownText, sheet_of};
-use stale::{EarlierPrograms, StaleOutcome};
+use stale_programs::{EarlierPrograms, StaleOutcome};
 
 /// A request to emit programs.
 #[derive(Clone, Debug)]
@@ -79,7 +79,7 @@ impl Request<'_> {
     /// Opens a session that suits this request: it traces inputs if results are cached.
     pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
         if workspace.keeps_results() && !self.is_always_made() {
-            Session::traced(workspace)
+            Session::with_tracing(workspace)
         } else {
             Session::new(workspace)
         }
@@ -162,7 +162,7 @@ impl Emitter<'_> {
             jobs: &jobs,
         };
         let StaleOutcome { older, removed, outdated } =
-            earlier.clear(self.request.removes_stale, &mut diagnostics);
+            earlier.find_and_settle(self.request.removes_stale, &mut diagnostics);
         diagnostics.extend(plans.iter().filter_map(|plan| plan.value.lowered_error(workspace)));
         let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
         diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());
@@ -171,7 +171,7 @@ impl Emitter<'_> {
             diagnostics.extend(deps::write(session, file, jobs, self.post_processor));
         }
         let drawings = selection.drawings().filter_map(Answer::fresh);
-        memo.keep(session, drawings.chain(plans.iter().filter_map(Answer::fresh)));
+        memo.store_results(session, drawings.chain(plans.iter().filter_map(Answer::fresh)));
         let mut delivered: Vec<ProgramOutcome> =
             plans.into_iter().filter_map(|plan| plan.value.outcome()).collect();
         delivered.extend(older);
@@ -217,7 +217,7 @@ impl Emitter<'_> {
             return Err(reason.to_owned());
         }
         let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
-        deliver(session, jobs, task, self.post_processor);
+        build_and_settle(session, jobs, task, self.post_processor);
         for answer in &mut plans {
             self.complete_inputs(answer);
         }
@@ -286,7 +286,7 @@ pub(crate) fn freshness_on_disk(
     let system = &*session.workspace().system;
     let is_there = |job: &Job| job.files.iter().any(|(_, path)| system.kind(path) == FileKind::File);
     let mut jobs: Vec<Job> = jobs.filter(is_there).collect();
-    deliver(session, jobs.iter_mut(), Task::Compare { moves_only: false }, post_processor);
+    build_and_settle(session, jobs.iter_mut(), Task::Compare { moves_only: false }, post_processor);
     jobs.into_iter().map(|job| (job.targets[0], is_current(job.outcome.unwrap_or_default()))).collect()
 }
 
@@ -317,7 +317,7 @@ pub fn write(
         let context = session.workspace();
         let checked = session.check(targets);
         let task = Task::Write { force: false };
-        if let Some(refusal) = options::missing(context, task, &checked) {
+        if let Some(refusal) = options::missing_options_error(context, task, &checked) {
             return Err(refusal);
         }
         let sheet = task.sheets(&context.settings);
@@ -325,14 +325,19 @@ pub fn write(
         let mut plans: Vec<Plan> = checked.chunks(1).map(|checked| builder.plan(checked)).collect();
         let mut diagnostics: Vec<Diagnostic> =
             plans.iter().flat_map(|plan| &plan.refusals).cloned().collect();
-        mark_clashes(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), &mut diagnostics);
+        leave_out_clashes(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), &mut diagnostics);
         for plan in &mut plans {
             plan.leave_out_if_raised(context);
         }
         for job in plans.iter_mut().filter_map(|plan| plan.job.as_mut()).filter(|job| !job.is_left_out) {
-            job.is_left_out = !job.claim(session, owners, &mut diagnostics);
+            job.is_left_out = !job.claim_file_names(session, owners, &mut diagnostics);
         }
-        deliver(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), task, post_processor);
+        build_and_settle(
+            session,
+            plans.iter_mut().filter_map(|plan| plan.job.as_mut()),
+            task,
+            post_processor,
+        );
         diagnostics.extend(plans.iter().filter_map(|plan| plan.lowered_error(context)));
         let delivered: Vec<ProgramOutcome> = plans.into_iter().filter_map(Plan::outcome).collect();
         diagnostics.extend(delivered.iter().flat_map(|delivered| &delivered.problems).cloned());

@@ -17,12 +17,16 @@ use pathbuild_toolpath::{Correction, Program, Total};
 
 use super::outcome::Task;
 use crate::config::{Settings, types};
-use crate::posting::{PostProcessor, machine, tool_table};
+use crate::post_processor::{PostProcessor, machine, tool_table};
 use crate::session::{CheckedTarget, WriteSettings};
 use crate::workspace::Workspace;
 
 /// Returns the usage error about option values that paths without errors need but that are not given; `None` if there are none.
-pub(super) fn missing(context: &Workspace, task: Task, checked: &[CheckedTarget]) -> Option<String> {
+pub(super) fn missing_options_error(
+    context: &Workspace,
+    task: Task,
+    checked: &[CheckedTarget],
+) -> Option<String> {
     let sound = || checked.iter().filter(|checked| !checked.diagnostics.iter().any(Diagnostic::is_error));
     let is_missing = |option: &MissingOption| sound().any(|checked| checked.missing_options.contains(option));
     let has_no_rapid = context.settings.general.rapid.value.is_none() && sound().next().is_some();
@@ -38,7 +42,7 @@ pub fn missing_values(context: &Workspace, names: impl IntoIterator<Item = &'sta
         "missing: {what}; give --{name}, or set `{name}` in pathbuild.toml",
         "es fehlt: {what}; --{name} angeben oder `{name}` in pathbuild.toml setzen",
     );
-    let line = |name: &str| template.replace("{what}", meaning(context, name)).replace("{name}", name);
+    let line = |name: &str| template.replace("{what}", option_meaning(context, name)).replace("{name}", name);
     let lines = names.into_iter().map(line).chain(no_configuration(context));
     lines.collect::<Vec<_>>().join("\n")
 }
@@ -63,7 +67,7 @@ fn no_configuration(context: &Workspace) -> Option<String> {
     })
 }
 
-fn meaning<'a>(context: &'a Workspace, name: &str) -> &'a str {
+fn option_meaning<'a>(context: &'a Workspace, name: &str) -> &'a str {
     match name {
         "feed" => context.choose(
             "the milling feed in mm/min for paths without F",
@@ -79,7 +83,7 @@ fn meaning<'a>(context: &'a Workspace, name: &str) -> &'a str {
 }
 
 /// Returns the settings for writing files, taken from the configuration.
-pub fn writing(settings: &Settings) -> WriteSettings {
+pub fn write_settings(settings: &Settings) -> WriteSettings {
     let limits = &settings.limits;
     WriteSettings {
         options: write_options(settings),
@@ -112,7 +116,13 @@ impl<'a> OutputSettings<'a> {
         let settings = &workspace.settings;
         let provenances = Provenances::new(settings, post_processor);
         let sheets = SheetSettings::new(settings, tool_table(settings), post_processor);
-        Self { writing: writing(settings), post_processor, provenances, sheets, machine: machine(settings) }
+        Self {
+            writing: write_settings(settings),
+            post_processor,
+            provenances,
+            sheets,
+            machine: machine(settings),
+        }
     }
 }
 

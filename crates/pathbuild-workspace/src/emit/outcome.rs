@@ -4,7 +4,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, Note, Value};
-use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION};
+use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance, VERSION};
 use serde::{Deserialize, Serialize};
 
 use crate::config::Settings;
@@ -137,12 +137,12 @@ impl Task {
 }
 
 /// Returns PB004 for a file that cannot be written.
-pub(super) fn cannot_write(name: &str, reason: impl Into<Value>) -> Diagnostic {
+pub(super) fn write_error(name: &str, reason: impl Into<Value>) -> Diagnostic {
     Diagnostic::new(&files::CANNOT_WRITE).quoting("name", name).with("reason", reason)
 }
 
 /// Whether a program on disk was written by another version of pathbuild.
 pub(super) fn is_of_other_version(system: &dyn System, program: &Utf8Path) -> bool {
-    let head = system.read_head(program, HEAD).unwrap_or_default();
+    let head = system.read_head(program, HEAD_BYTES).unwrap_or_default();
     Provenance::of_head(&head).is_some_and(|(found, _)| *found.version != *VERSION)
 }

@@ -12,10 +12,10 @@ use pathbuild_gcode::native;
 use serde::{Deserialize, Serialize};
 
 use super::options;
-use super::outcome::{ProgramOutcome, Task, cannot_write, is_of_other_version};
+use super::outcome::{ProgramOutcome, Task, is_of_other_version, write_error};
 use crate::config::types::SheetFormat;
 use crate::memo::{Answer, Inputs, Memo, OutputState};
-use crate::posting::PostProcessor;
+use crate::post_processor::PostProcessor;
 use crate::session::{CheckedTarget, OutputKind, ProgramFacts, Session, stem_fault};
 use crate::workspace::Workspace;
 
@@ -110,7 +110,7 @@ impl Job {
 
     /// Claims the job's file names for its target. If a target that still yields a program has already claimed one of them, reports PB514 and returns
     /// false.
-    pub(super) fn claim(
+    pub(super) fn claim_file_names(
         &self,
         session: &Session<'_>,
         owners: &mut FileOwners,
@@ -123,7 +123,7 @@ impl Job {
             let db = session.db();
             let other = format!("{} ({})", other.name(db), other.file(db).path(db));
             let name = self.files[0].1.file_name();
-            diagnostics.push(same_output(name, other, self.name(session), self.drawing(db).path(db)));
+            diagnostics.push(same_output_error(name, other, self.name(session), self.drawing(db).path(db)));
             return false;
         }
         owners.extend(names().map(|name| (name, self.targets[0])));
@@ -152,7 +152,7 @@ pub(super) fn plan(
     let mut check = |open: &[&&[Target]]| -> Vec<(Plan, Inputs)> {
         let targets: Vec<Target> = open.iter().flat_map(|targets| targets.iter().copied()).collect();
         let mut checked = &*session.check(&targets);
-        refusal = refusal.take().or_else(|| options::missing(workspace, task, checked));
+        refusal = refusal.take().or_else(|| options::missing_options_error(workspace, task, checked));
         let plan = |targets: &&&[Target]| {
             let (own, rest) = checked.split_at(targets.len());
             checked = rest;
@@ -161,7 +161,7 @@ pub(super) fn plan(
         open.iter().map(plan).collect()
     };
     let subject = |targets: &&[Target]| subject(session.db(), targets, join);
-    let accept = |subject: &str, plan: Plan| still_suffices(session, memo, task, subject, plan);
+    let accept = |subject: &str, plan: Plan| cached_plan_if_sufficient(session, memo, task, subject, plan);
     let mut plans = memo.get_or(&programs, subject, accept, &mut check);
     for (answer, targets) in plans.iter_mut().zip(&programs) {
         if let Some(job) = &mut answer.value.job {
@@ -177,7 +177,7 @@ pub(super) fn plan(
     if !is_timed && plans.iter().any(is_cached) {
         return Err(options::missing_values(workspace, ["rapid"]));
     }
-    mark_clashes(session, plans.iter_mut().filter_map(|answer| answer.value.job.as_mut()), diagnostics);
+    leave_out_clashes(session, plans.iter_mut().filter_map(|answer| answer.value.job.as_mut()), diagnostics);
     // An earlier run may have left out jobs because their files clashed with those of jobs that do not exist any more.
     for (answer, targets) in plans.iter_mut().zip(&programs) {
         let is_open = answer.value.remaining_job().is_some_and(|job| job.outcome.is_none());
@@ -204,7 +204,7 @@ fn inputs(checked: &[CheckedTarget]) -> Inputs {
 
 /// Returns the plan of an earlier run if it suffices for the task. For a task that writes files, it does not suffice if one of them has changed on
 /// disk since.
-fn still_suffices(
+fn cached_plan_if_sufficient(
     session: &Session<'_>,
     memo: &Memo,
     task: Task,
@@ -251,7 +251,7 @@ fn subject(db: &Database, targets: &[Target], join: Option<&str>) -> Box<str> {
 }
 
 /// Returns the diagnostics of a checked path and of the drawings that it uses.
-pub(super) fn found(session: &Session<'_>, checked: &CheckedTarget) -> Vec<Diagnostic> {
+pub(super) fn path_diagnostics(session: &Session<'_>, checked: &CheckedTarget) -> Vec<Diagnostic> {
     let of_files = checked.files.iter().flat_map(|file| check_file(session.db(), *file));
     of_files.chain(&checked.diagnostics).cloned().collect()
 }
@@ -270,7 +270,8 @@ pub(super) struct JobBuilder<'a> {
 impl JobBuilder<'_> {
     /// Returns the plan for the checked paths of one program.
     pub(super) fn plan(&self, checked: &[CheckedTarget]) -> Plan {
-        let diagnostics = checked.iter().flat_map(|checked| found(self.session, checked)).collect();
+        let diagnostics =
+            checked.iter().flat_map(|checked| path_diagnostics(self.session, checked)).collect();
         let (job, refusals) = match self.job(checked) {
             Ok(job) => (job, Vec::new()),
             Err(problems) => (None, problems),
@@ -305,7 +306,7 @@ impl JobBuilder<'_> {
         };
         let db = self.session.db();
         let directory = output_directory(self.session.out_dir().as_deref(), first.target.file(db).path(db));
-        let stem = named(name, name, &directory).map_err(|problem| vec![*problem])?;
+        let stem = join_file_name(name, name, &directory).map_err(|problem| vec![*problem])?;
         let title = joined_title(name, checked);
         Ok(Some(Job { title, ..self.with_files(stem, name, checked, &[OutputKind::Milling]) }))
     }
@@ -318,7 +319,8 @@ impl JobBuilder<'_> {
         let name = if is_alone { file.path(db).file_stem().unwrap_or_default() } else { &emitted.path };
         let directory = output_directory(self.session.out_dir().as_deref(), file.path(db));
         let full = format!("{name}{}", emitted.suffix);
-        let stem = named(&full, if is_alone { &emitted.suffix } else { &full }, &directory).map_err(at)?;
+        let stem =
+            join_file_name(&full, if is_alone { &emitted.suffix } else { &full }, &directory).map_err(at)?;
         self.refuse_probes(checked, emitted)?;
         let kinds = OutputKind::of(emitted.has_probes);
         Ok(self.with_files(stem, &emitted.path, std::slice::from_ref(checked), kinds))
@@ -387,7 +389,7 @@ pub(super) fn output_directory(out_dir: Option<&Utf8Path>, drawing: &Utf8Path) -
 }
 
 /// Leaves out jobs that would write the same file (PB514). Case is ignored, as some file systems ignore it.
-pub(super) fn mark_clashes<'p>(
+pub(super) fn leave_out_clashes<'p>(
     session: &Session<'_>,
     jobs: impl Iterator<Item = &'p mut Job>,
     diagnostics: &mut Vec<Diagnostic>,
@@ -404,7 +406,7 @@ pub(super) fn mark_clashes<'p>(
         if owners.iter().any(|owner| !jobs[*owner].is_left_out) {
             let [first, second] = [owners[0], owners[1]].map(|owner| jobs[owner].name(session));
             let drawing = jobs[owners[0]].drawing(session.db()).path(session.db());
-            diagnostics.push(same_output(path.file_name(), first, second, drawing));
+            diagnostics.push(same_output_error(path.file_name(), first, second, drawing));
         }
         for owner in owners {
             jobs[owner].is_left_out = true;
@@ -413,7 +415,7 @@ pub(super) fn mark_clashes<'p>(
 }
 
 /// Returns PB514 for two programs with a file of the same name.
-fn same_output(name: Option<&str>, first: String, second: String, drawing: &Utf8Path) -> Diagnostic {
+fn same_output_error(name: Option<&str>, first: String, second: String, drawing: &Utf8Path) -> Diagnostic {
     Diagnostic::new(&messages::SAME_OUTPUT)
         .quoting("name", name.unwrap_or_default())
         .quoting("first", first)
@@ -422,9 +424,9 @@ fn same_output(name: Option<&str>, first: String, second: String, drawing: &Utf8
 }
 
 /// Joins a file name to a directory. Returns an error if the system forbids the name. `rest` is the part of the name that follows the drawing's name.
-fn named(name: &str, rest: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
+fn join_file_name(name: &str, rest: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
     if let Some(fault) = stem_fault(name, rest) {
-        return Err(Box::new(cannot_write(name, Value::Prose(fault))));
+        return Err(Box::new(write_error(name, Value::Prose(fault))));
     }
     Ok(join(directory, name))
 }

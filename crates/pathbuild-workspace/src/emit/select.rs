@@ -10,7 +10,7 @@ use pathbuild_path::PathName;
 
 use crate::config::Settings;
 use crate::memo::{Answer, DrawingResult, Memo, find, read_drawings};
-use crate::session::{Argument, ArgumentMatches, Selection, Session, several_paths};
+use crate::session::{Argument, ArgumentMatches, Selection, Session, several_paths_error};
 
 /// The paths to emit, and the drawings that were considered.
 #[derive(Debug, Default)]
@@ -41,7 +41,7 @@ impl TargetSelection {
         }
         let read = |paths: &[Utf8PathBuf]| read_drawings(session, memo, paths, |path| path.as_str().into());
         let mut named: Vec<Utf8PathBuf> =
-            matches.named().map(|file| file.path(session.db()).clone()).collect();
+            matches.named_drawings().map(|file| file.path(session.db()).clone()).collect();
         named.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
         named.dedup();
         let named = read(&named);
@@ -63,7 +63,7 @@ impl TargetSelection {
                 known: HashSet::new(),
             };
             if matches.is_library {
-                collector.configured(&covered);
+                collector.add_configured(&covered);
             } else {
                 collector.add_selected(&resolved, &covered, &named);
             }
@@ -91,7 +91,7 @@ struct TargetCollector<'a> {
 
 impl TargetCollector<'_> {
     /// Adds the paths matched by the configured patterns.
-    fn configured(&mut self, library: &[Answer<DrawingResult>]) {
+    fn add_configured(&mut self, library: &[Answer<DrawingResult>]) {
         let mut configured = TargetPatterns::new(&self.session.workspace().settings);
         for drawing in library {
             // An unreadable drawing may contain a target, so its errors are reported.
@@ -147,7 +147,7 @@ impl TargetCollector<'_> {
         if diagnostics.iter().any(Diagnostic::is_error) {
             self.diagnostics.extend(diagnostics);
         } else {
-            self.diagnostics.push(several_paths(drawing, names));
+            self.diagnostics.push(several_paths_error(drawing, names));
         }
     }
 

@@ -15,17 +15,17 @@ use pathbuild_gcode::provenance::is_same_program;
 use pathbuild_gcode::verify::{self, Ends, PostWords, Tolerance};
 use pathbuild_motion::{Pace, Step};
 
-use super::build::{Built, Output, build};
+use super::build::{BuiltProgram, Output, build};
 use super::options::OutputSettings;
-use super::outcome::{ProgramOutcome, State, Task, cannot_write, is_of_other_version};
+use super::outcome::{ProgramOutcome, State, Task, is_of_other_version, write_error};
 use super::plan::Job;
 use crate::memo::hash_output;
-use crate::posting::PostProcessor;
-use crate::session::{OutputKind, Session, without_places, without_values};
+use crate::post_processor::PostProcessor;
+use crate::session::{OutputKind, Session, without_positions, without_values};
 
 /// Builds and settles the jobs that are not cached. If one file of a job cannot be written, none of its files is. Files are written on a separate
 /// thread, so that the other cores do not wait for the disk.
-pub(super) fn deliver<'j>(
+pub(super) fn build_and_settle<'j>(
     session: &mut Session<'_>,
     jobs: impl Iterator<Item = &'j mut Job>,
     task: Task,
@@ -44,7 +44,7 @@ pub(super) fn deliver<'j>(
     let (mut generated, written) = thread::scope(|scope| {
         let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
         let generated = |db: &Database, (index, job): &(usize, &Job)| {
-            let Built { outcome: mut delivered, mut outputs } = build(db, job, settings);
+            let BuiltProgram { outcome: mut delivered, mut outputs } = build(db, job, settings);
             if severities.has_error(&delivered.problems) {
                 outputs.clear();
             }
@@ -152,7 +152,7 @@ fn write<'a>(
 ) -> Result<(), Box<Diagnostic>> {
     let mut values =
         outputs.clone().map(|(output, _)| output).filter(|output| output.kind == OutputKind::Values);
-    if !force && let Some(lost) = values.find(|output| would_lose_values(system, output)) {
+    if !force && let Some(lost) = values.find(|output| would_overwrite_values(system, output)) {
         let name = lost.path.file_name().unwrap_or_default();
         return Err(Box::new(
             Diagnostic::new(&probes::VALUES_PRESENT).quoting("name", name).in_file(&lost.path),
@@ -162,7 +162,7 @@ fn write<'a>(
         let is_kept = output.kind == OutputKind::Values && !force && has_same_probes(system, output);
         let written =
             if is_kept { Ok(WriteOutcome::Unchanged) } else { system.write(&output.path, &output.text) };
-        let written = written.map_err(|reason| Box::new(cannot_write(output.path.as_str(), reason)))?;
+        let written = written.map_err(|reason| Box::new(write_error(output.path.as_str(), reason)))?;
         let state = if written == WriteOutcome::Changed { State::Written } else { State::Unchanged };
         delivered.hashes.push(hash);
         delivered.files.push((output.path.clone(), state));
@@ -171,25 +171,25 @@ fn write<'a>(
 }
 
 /// Whether the file on disk contains measured values for other probes than the generated one.
-fn would_lose_values(system: &dyn System, output: &Output) -> bool {
-    let Some(present) = present(system, &output.path) else { return false };
+fn would_overwrite_values(system: &dyn System, output: &Output) -> bool {
+    let Some(present) = text_on_disk(system, &output.path) else { return false };
     let has_values = without_values(present.as_bytes()) != present.trim_end();
     has_values && !is_for_probes(&present, &output.text)
 }
 
 /// Whether the file of measured values exists and is for the same probes as the generated one.
 fn has_same_probes(system: &dyn System, output: &Output) -> bool {
-    present(system, &output.path).is_some_and(|present| is_for_probes(&present, &output.text))
+    text_on_disk(system, &output.path).is_some_and(|present| is_for_probes(&present, &output.text))
 }
 
 /// Whether two files of measured values are for the same probes. A file that does not state where the probes are in the emitted drawing was written
 /// by an older version or by PathDxf2GCode.
 fn is_for_probes(present: &str, written: &[u8]) -> bool {
     let (present, written) = (without_values(present.as_bytes()), without_values(written));
-    present == written || present == without_places(&written)
+    present == written || present == without_positions(&written)
 }
 
-fn present(system: &dyn System, path: &Utf8Path) -> Option<String> {
+fn text_on_disk(system: &dyn System, path: &Utf8Path) -> Option<String> {
     let bytes = system.read(path, 1 << 24).ok()?;
     Some(String::from_utf8_lossy(&bytes).replace("\r\n", "\n"))
 }
@@ -233,14 +233,14 @@ struct ComparisonSettings {
 impl ComparisonSettings {
     fn of(post_processor: Option<&PostProcessor>) -> Option<Self> {
         let Some(post_processor) = post_processor else {
-            return Some(Self { dialect: Dialect::Native, tolerance: TOLERANCE });
+            return Some(Self { dialect: Dialect::Native, tolerance: LAST_DIGIT_TOLERANCE });
         };
         let dialect = post_processor.reader()?;
-        Some(Self { dialect, tolerance: Tolerance { ends: Ends::Cutting, ..TOLERANCE } })
+        Some(Self { dialect, tolerance: Tolerance { ends: Ends::Cutting, ..LAST_DIGIT_TOLERANCE } })
     }
 
     /// Returns the steps of a program that are compared: without those after the last cut if the end of the program depends on the machine.
-    fn compared<'s>(&self, steps: &'s [Step]) -> &'s [Step] {
+    fn compared_steps<'s>(&self, steps: &'s [Step]) -> &'s [Step] {
         let is_cut = |step: &Step| step.as_move().is_some_and(|(_, movement)| movement.pace != Pace::Rapid);
         match self.tolerance.ends {
             Ends::All => steps,
@@ -276,7 +276,7 @@ fn difference(present: &[u8], expected: &[u8], reading: &ComparisonSettings) -> 
             .collect();
     }
     let words = PostWords::of_programs([expected], reading.dialect);
-    let modes = verify::foreign_modes(reading.compared(&found.steps), &words, reading.dialect);
+    let modes = verify::foreign_modes(reading.compared_steps(&found.steps), &words, reading.dialect);
     if !modes.is_empty() {
         return modes;
     }
@@ -285,5 +285,5 @@ fn difference(present: &[u8], expected: &[u8], reading: &ComparisonSettings) -> 
 }
 
 /// One unit in the last printed digit, because two programs may round the same value differently.
-const TOLERANCE: Tolerance =
+const LAST_DIGIT_TOLERANCE: Tolerance =
     Tolerance { place: 0.001 * (1.0 + 1e-6), feed: 0.001 * (1.0 + 1e-6), chord: 0.0, ends: Ends::All };

@@ -12,7 +12,7 @@ use pathbuild_toolpath::Program;
 use pathbuild_view::{self as view, BilingualText, Scene, Sheet, SheetProbe, SheetTool};
 
 use super::options::{OutputSettings, SheetSettings, total};
-use super::outcome::cannot_write;
+use super::outcome::write_error;
 use super::plan::Job;
 use crate::config::types::SheetFormat;
 use crate::session::{OutputKind, WriteSettings, finished_parts, program_scene};
@@ -30,7 +30,7 @@ pub(super) fn bytes(
     let Some(sheet) = sheet(db, job, settings)? else { return Ok(None) };
     sheet_bytes(&sheet, format, settings.sheets.lang)
         .map(Some)
-        .map_err(|reason| Box::new(cannot_write(&job.path, reason)))
+        .map_err(|reason| Box::new(write_error(&job.path, reason)))
 }
 
 /// Renders a setup sheet in a file format.

@@ -20,7 +20,7 @@ pub(super) fn unpack(bytes: &[u8], limit: u64) -> Result<Vec<u8>, Value> {
     let mut entries = archive.entries();
     let first = entries.next_entry().map_err(Value::foreign)?;
     let second = entries.next_entry().map_err(Value::foreign)?;
-    let (Some(entry), None) = (first, second) else { return Err(Value::Prose(&NOT_ONE_FILE)) };
+    let (Some(entry), None) = (first, second) else { return Err(Value::Prose(&SEVERAL_FILES)) };
     let local = archive.get_entry(entry.wayfinder()).map_err(Value::foreign)?;
     match entry.compression_method() {
         CompressionMethod::STORE => read(local.verifying_reader(local.data()), limit),
@@ -39,7 +39,7 @@ fn read(content: impl Read, limit: u64) -> Result<Vec<u8>, Value> {
     Ok(bytes)
 }
 
-static NOT_ONE_FILE: Text = Text {
+static SEVERAL_FILES: Text = Text {
     en: "the archive does not contain exactly one file",
     de: "das Archiv enthält nicht genau eine Datei",
 };

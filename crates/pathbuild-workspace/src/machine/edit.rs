@@ -48,7 +48,7 @@ pub fn edit(
             added.push(path.clone());
         }
         let table = table_mut(&mut document, &path).ok_or_else(fault)?;
-        let new = toml(&value.value);
+        let new = toml_value(&value.value);
         let old = table.get(value.key).and_then(Item::as_value);
         let is_new = old.and_then(quantity).as_ref() != Some(&value.value);
         changes.push(Change {
@@ -63,7 +63,7 @@ pub fn edit(
             continue;
         }
         match table.get_mut(value.key).and_then(Item::as_value_mut) {
-            Some(old) => *old = replaced(new, old),
+            Some(old) => *old = with_decor_of(new, old),
             None => _ = table.insert(value.key, Item::Value(new)),
         }
     }
@@ -99,12 +99,12 @@ fn table_mut<'d>(document: &'d mut DocumentMut, path: &[String]) -> Option<&'d m
 }
 
 /// Gives a new value the whitespace and comments, around and within it, of the value that it replaces.
-fn replaced(mut new: Value, old: &Value) -> Value {
+fn with_decor_of(mut new: Value, old: &Value) -> Value {
     match (&new, old) {
         (Value::Array(numbers), Value::Array(old)) if numbers.len() == old.len() => {
             let mut kept = old.clone();
             for (slot, number) in kept.iter_mut().zip(numbers) {
-                *slot = replaced(number.clone(), slot);
+                *slot = with_decor_of(number.clone(), slot);
             }
             Value::Array(kept)
         }
@@ -120,7 +120,7 @@ fn with_line_ends(text: String, old: &str) -> String {
     if old.contains("\r\n") { text.replace("\r\n", "\n").replace('\n', "\r\n") } else { text }
 }
 
-fn toml(value: &Quantity) -> Value {
+fn toml_value(value: &Quantity) -> Value {
     match value {
         Quantity::Number(number) => toml_number(*number),
         Quantity::Text(text) => Value::from(text.as_str()),

@@ -20,7 +20,7 @@ pub struct Entry {
 
 /// A number read from an entry, with the entry's line.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reading {
+pub(super) struct NumberWithLine {
     pub(super) number: f64,
     line: Option<u32>,
 }
@@ -33,20 +33,20 @@ pub(super) struct Entries {
     /// For each name, the index of the entry in force: the last one, unless `is_first_in_force`.
     by_name: FxHashMap<String, usize>,
     /// Whether the first entry of each name is in force, not the last.
-    is_first_in_force: bool,
+    is_first_effective: bool,
     values: Vec<DescribedValue>,
     problems: Vec<Diagnostic>,
 }
 
 impl Entries {
     /// Creates entries for a format in which the first entry of each name is in force.
-    pub(super) fn with_first_in_force() -> Self {
-        Self { is_first_in_force: true, ..Self::default() }
+    pub(super) fn with_first_effective() -> Self {
+        Self { is_first_effective: true, ..Self::default() }
     }
 
     pub(super) fn add(&mut self, name: impl Into<String>, value: impl Into<String>, line: usize) {
         let name = name.into();
-        if !(self.is_first_in_force && self.by_name.contains_key(&name)) {
+        if !(self.is_first_effective && self.by_name.contains_key(&name)) {
             self.by_name.insert(name.clone(), self.list.len());
         }
         let line = u32::try_from(line).ok();
@@ -81,11 +81,11 @@ impl Entries {
     }
 
     /// Takes the number in the entry of this name. Reports a value that is not a number.
-    pub(super) fn number(&mut self, name: &str) -> Option<Reading> {
+    pub(super) fn number(&mut self, name: &str) -> Option<NumberWithLine> {
         self.number_where(name, |_| true, &NUMBER)
     }
 
-    fn positive(&mut self, name: &str) -> Option<Reading> {
+    fn positive(&mut self, name: &str) -> Option<NumberWithLine> {
         self.number_where(name, |number| number > 0.0, &POSITIVE)
     }
 
@@ -94,11 +94,11 @@ impl Entries {
         name: &str,
         is_fit: fn(f64) -> bool,
         expected: &'static Text,
-    ) -> Option<Reading> {
+    ) -> Option<NumberWithLine> {
         let entry = self.take(name)?;
         let number = entry.value.parse().ok().filter(|number: &f64| number.is_finite() && is_fit(*number));
         if let Some(number) = number {
-            return Some(Reading { number, line: entry.line });
+            return Some(NumberWithLine { number, line: entry.line });
         }
         let entry = entry.clone();
         self.report_invalid_value(&entry, expected);

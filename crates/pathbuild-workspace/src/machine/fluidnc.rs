@@ -7,7 +7,7 @@ use pathbuild_diagnostic::messages::import as say;
 use pathbuild_diagnostic::{Diagnostic, Text};
 use saphyr_parser::{Event, Parser};
 
-use super::{Description, Entries, broken};
+use super::{Description, Entries, broken_description};
 
 /// Upper bound on the depth of nested sections. Real files have up to five.
 const MAX_SECTION_DEPTH: usize = 64;
@@ -76,7 +76,7 @@ fn point(text: &str) -> Option<(f64, f64)> {
 fn entries(text: &str) -> Result<Entries, Box<Diagnostic>> {
     let mut walk = Walk::default();
     for event in Parser::new_from_str(text) {
-        let (event, span) = event.map_err(|error| broken(error.info(), error.marker().line()))?;
+        let (event, span) = event.map_err(|error| broken_description(error.info(), error.marker().line()))?;
         let line = span.start.line();
         match event {
             Event::MappingStart(..) => walk.open(Level::Mapping { key: None }, line)?,
@@ -106,7 +106,7 @@ struct Walk {
 impl Walk {
     fn open(&mut self, level: Level, line: usize) -> Result<(), Box<Diagnostic>> {
         if self.levels.len() == MAX_SECTION_DEPTH {
-            return Err(broken("sections are nested too deeply", line));
+            return Err(broken_description("sections are nested too deeply", line));
         }
         self.levels.push(level);
         Ok(())

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::import as say;
 use pathbuild_diagnostic::{Diagnostic, Text};
 
 use super::entries::rounded;
-use super::{Description, Entries, LengthUnit, Quantity, broken};
+use super::{Description, Entries, LengthUnit, Quantity, broken_description};
 
 /// Whether the text has a section that only `LinuxCNC` has.
 pub(super) fn is_ini(text: &str) -> bool {
@@ -42,7 +42,7 @@ pub(super) fn read(text: &str) -> Result<Description, Box<Diagnostic>> {
 }
 
 /// Travel in mm above which an axis counts as unlimited: LinuxCNC's default limits are farther apart than this.
-const UNLIMITED: f64 = 1e9;
+const MIN_UNLIMITED_TRAVEL: f64 = 1e9;
 
 const FORMAT: &str = "LinuxCNC";
 
@@ -82,7 +82,7 @@ fn travel(entries: &mut Entries, lower: &[String; 3], upper: &[String; 3], scale
     };
     let Some((low, high)) = ends(lower).zip(ends(upper)) else { return };
     let sizes: Vec<f64> = low.iter().zip(&high).map(|(low, high)| rounded((high - low) * scale)).collect();
-    if sizes.iter().all(|size| 0.0 < *size && *size < UNLIMITED) {
+    if sizes.iter().all(|size| 0.0 < *size && *size < MIN_UNLIMITED_TRAVEL) {
         let names: Vec<&str> = lower.iter().zip(upper).flat_map(|(low, high)| [&**low, &**high]).collect();
         entries.set("travel", Quantity::Numbers(sizes), &names);
     } else {
@@ -92,7 +92,7 @@ fn travel(entries: &mut Entries, lower: &[String; 3], upper: &[String; 3], scale
 
 fn entries(text: &str) -> Result<Entries, Box<Diagnostic>> {
     // LinuxCNC looks up values with `IniFile::Find`, which returns the first match.
-    let mut entries = Entries::with_first_in_force();
+    let mut entries = Entries::with_first_effective();
     let mut section = "";
     for (index, line) in text.lines().enumerate() {
         let line = line.trim();
@@ -101,7 +101,7 @@ fn entries(text: &str) -> Result<Entries, Box<Diagnostic>> {
         }
         if let Some(name) = line.strip_prefix('[') {
             let Some((name, _)) = name.split_once(']') else {
-                return Err(broken("a section without `]`", index + 1));
+                return Err(broken_description("a section without `]`", index + 1));
             };
             section = name.trim();
         } else if let Some((name, value)) = line.split_once('=') {

@@ -22,7 +22,7 @@ pub use self::entries::Entry;
 pub use self::merge::merge;
 
 /// Upper bound on the size of a description in bytes. The settings of a machine take a few kilobytes.
-pub const LARGEST: u64 = 4 << 20;
+pub const MAX_DESCRIPTION_BYTES: u64 = 4 << 20;
 
 /// The unit of lengths, for descriptions that do not name it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,8 +139,10 @@ pub fn table_unit(
 /// # Errors
 /// The reason why it cannot be read.
 pub fn text(system: &dyn System, file: &Utf8Path) -> Result<String, Shown> {
-    let bytes = system.read(file, LARGEST).map_err(|error| error.reason(LARGEST))?;
-    let bytes = if archive::is_archive(&bytes) { archive::unpack(&bytes, LARGEST)? } else { bytes };
+    let bytes =
+        system.read(file, MAX_DESCRIPTION_BYTES).map_err(|error| error.reason(MAX_DESCRIPTION_BYTES))?;
+    let bytes =
+        if archive::is_archive(&bytes) { archive::unpack(&bytes, MAX_DESCRIPTION_BYTES)? } else { bytes };
     utf_8(bytes)
 }
 
@@ -179,7 +181,7 @@ pub fn read(
 }
 
 /// Returns PB612 for a description that is broken at this line.
-fn broken(reason: &str, line: usize) -> Box<Diagnostic> {
+fn broken_description(reason: &str, line: usize) -> Box<Diagnostic> {
     let problem = Diagnostic::new(&say::BROKEN_DESCRIPTION).with("reason", Shown::foreign(reason));
     Box::new(problem.at_line(u32::try_from(line).unwrap_or(u32::MAX), None))
 }

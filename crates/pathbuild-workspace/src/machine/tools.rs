@@ -9,7 +9,9 @@ use pathbuild_diagnostic::{Diagnostic, Value as Shown};
 use serde_json::{Map, Value};
 
 use super::entries::rounded;
-use super::{DescribedTool, DescribedValue, Description, Entry, LengthUnit, Quantity, Target, broken};
+use super::{
+    DescribedTool, DescribedValue, Description, Entry, LengthUnit, Quantity, Target, broken_description,
+};
 use crate::config::is_too_round;
 
 /// A function that returns the text of a tool bit named in a FreeCAD library.
@@ -38,7 +40,10 @@ pub(super) fn read_table(text: &str, unit: Option<LengthUnit>) -> Result<Descrip
             continue;
         }
         if !is_tool(words) {
-            return Err(broken("a line of a tool table that does not begin with T and a number", index + 1));
+            return Err(broken_description(
+                "a line of a tool table that does not begin with T and a number",
+                index + 1,
+            ));
         }
         // LinuxCNC reads small letters too.
         let words = words.to_ascii_uppercase();
@@ -49,7 +54,7 @@ pub(super) fn read_table(text: &str, unit: Option<LengthUnit>) -> Result<Descrip
             tools.tool_number("T", words.split_whitespace().find_map(|word| word.strip_prefix('T')), place);
         match find('D').filter(|diameter| *diameter > 0.0) {
             Some(diameter) => tool.length("diameter", diameter, unit, "D"),
-            None => tools.without_diameter(&tool),
+            None => tools.report_missing_diameter(&tool),
         }
         // A tool table does not contain the shape of the tip.
         tool.shape(None);
@@ -69,14 +74,15 @@ fn number_after(word: &str, letter: char) -> Option<f64> {
 
 /// Reads a library of Fusion 360, or a tool bit or library of FreeCAD.
 pub(super) fn read_json(text: &str, bit: ReadBit<'_>) -> Result<Description, Box<Diagnostic>> {
-    let root: Value = serde_json::from_str(text).map_err(|error| broken(&error.to_string(), error.line()))?;
+    let root: Value =
+        serde_json::from_str(text).map_err(|error| broken_description(&error.to_string(), error.line()))?;
     if let Some(library) = root.get("data").and_then(Value::as_array) {
-        Ok(fusion(library, &object_lines(text)))
+        Ok(read_fusion_library(library, &object_lines(text)))
     } else if let Some(list) = root.get("tools").and_then(Value::as_array) {
-        freecad_library(list, &object_lines(text), bit)
+        read_freecad_library(list, &object_lines(text), bit)
     } else if root.get("parameter").is_some_and(Value::is_object) {
         let mut tools = Tools::new("FreeCAD");
-        freecad_bit(&root, None, None, &mut tools);
+        read_freecad_bit(&root, None, None, &mut tools);
         Ok(tools.finish())
     } else {
         Err(Box::new(Diagnostic::new(&say::UNKNOWN_FORMAT)))
@@ -111,7 +117,7 @@ fn line_of(index: usize, library: &[Value], lines: &[u32]) -> Option<u32> {
     lines.get(index).copied().filter(|_| lines.len() == library.len())
 }
 
-fn fusion(library: &[Value], lines: &[u32]) -> Description {
+fn read_fusion_library(library: &[Value], lines: &[u32]) -> Description {
     let mut tools = Tools::new("Fusion 360");
     for (index, entry) in library.iter().enumerate() {
         let line = line_of(index, library, lines);
@@ -122,7 +128,7 @@ fn fusion(library: &[Value], lines: &[u32]) -> Description {
             continue;
         }
         let mut tool = ToolDescription::new(&fields.text("description").unwrap_or_default(), line);
-        let number = fields.take("post-process/number").map(|number| shown(&number));
+        let number = fields.take("post-process/number").map(|number| value_as_text(&number));
         tool.number = tools.tool_number("post-process/number", number.as_deref(), line);
         let unit = match fields.text("unit").as_deref() {
             Some("inches") => Some(LengthUnit::Inch),
@@ -143,7 +149,7 @@ fn fusion(library: &[Value], lines: &[u32]) -> Description {
                 };
                 tool.shape(radius.map(|radius| (radius, unit)));
             }
-            None => tools.without_diameter(&tool),
+            None => tools.report_missing_diameter(&tool),
         }
         tool.flutes(fields.number("geometry/NOF"), "geometry/NOF");
         tools.unused.extend(fields.unused());
@@ -152,12 +158,16 @@ fn fusion(library: &[Value], lines: &[u32]) -> Description {
     tools.finish()
 }
 
-fn freecad_library(list: &[Value], lines: &[u32], bit: ReadBit<'_>) -> Result<Description, Box<Diagnostic>> {
+fn read_freecad_library(
+    list: &[Value],
+    lines: &[u32],
+    bit: ReadBit<'_>,
+) -> Result<Description, Box<Diagnostic>> {
     let mut tools = Tools::new("FreeCAD");
     for (index, entry) in list.iter().enumerate() {
         let line = line_of(index, list, lines);
         let mut fields = Fields::new(entry);
-        let number = fields.take("nr").map(|number| shown(&number));
+        let number = fields.take("nr").map(|number| value_as_text(&number));
         let number = tools.tool_number("nr", number.as_deref(), line);
         let Some(name) = fields.text("path") else {
             tools.unused.extend(fields.unused());
@@ -171,7 +181,7 @@ fn freecad_library(list: &[Value], lines: &[u32], bit: ReadBit<'_>) -> Result<De
             Ok(text) => {
                 let bit: Value = serde_json::from_str(&text)
                     .map_err(|error| Box::new(unreadable(Shown::foreign(error.to_string()))))?;
-                freecad_bit(&bit, number, line, &mut tools);
+                read_freecad_bit(&bit, number, line, &mut tools);
             }
             Err(reason) => tools.problems.push(unreadable(reason)),
         }
@@ -180,14 +190,15 @@ fn freecad_library(list: &[Value], lines: &[u32], bit: ReadBit<'_>) -> Result<De
     Ok(tools.finish())
 }
 
-fn freecad_bit(bit: &Value, number: Option<u32>, line: Option<u32>, tools: &mut Tools) {
+fn read_freecad_bit(bit: &Value, number: Option<u32>, line: Option<u32>, tools: &mut Tools) {
     let mut fields = Fields::new(bit);
     let mut tool =
         ToolDescription { number, ..ToolDescription::new(&fields.text("name").unwrap_or_default(), line) };
     let shape = fields.text("shape-type").or_else(|| fields.text("shape")).unwrap_or_default();
     let shape = shape.to_ascii_lowercase();
     let shape = shape.strip_suffix(".fcstd").unwrap_or(&shape);
-    let length = |fields: &mut Fields, name: &str| measured(&fields.text(&format!("parameter/{name}"))?);
+    let length =
+        |fields: &mut Fields, name: &str| length_with_unit(&fields.text(&format!("parameter/{name}"))?);
     let diameter = length(&mut fields, "Diameter").filter(|(diameter, _)| *diameter > 0.0);
     if let Some((diameter, unit)) = diameter {
         tool.length("diameter", diameter, unit, "parameter/Diameter");
@@ -200,7 +211,7 @@ fn freecad_bit(bit: &Value, number: Option<u32>, line: Option<u32>, tools: &mut 
         };
         tool.shape(radius);
     } else {
-        tools.without_diameter(&tool);
+        tools.report_missing_diameter(&tool);
     }
     if let Some((height, unit)) = length(&mut fields, "CuttingEdgeHeight") {
         tool.length("length", height, unit, "parameter/CuttingEdgeHeight");
@@ -213,7 +224,7 @@ fn freecad_bit(bit: &Value, number: Option<u32>, line: Option<u32>, tools: &mut 
 }
 
 /// Reads a length with its unit, such as `5.0000 mm` or `0.25 in`.
-fn measured(text: &str) -> Option<(f64, LengthUnit)> {
+fn length_with_unit(text: &str) -> Option<(f64, LengthUnit)> {
     let text = text.trim();
     let digits =
         text.find(|c: char| !c.is_ascii_digit() && !matches!(c, '.' | '-' | '+')).unwrap_or(text.len());
@@ -243,17 +254,17 @@ impl Fields {
     }
 
     fn text(&mut self, name: &str) -> Option<String> {
-        Some(shown(&self.take(name)?))
+        Some(value_as_text(&self.take(name)?))
     }
 
     /// Takes a number, which FreeCAD also writes as a string.
     fn number(&mut self, name: &str) -> Option<f64> {
-        shown(&self.take(name)?).parse().ok().filter(|number: &f64| number.is_finite())
+        value_as_text(&self.take(name)?).parse().ok().filter(|number: &f64| number.is_finite())
     }
 
     /// Returns the values that have not been used.
     fn unused(self) -> impl Iterator<Item = Entry> {
-        self.values.into_iter().map(|(name, value)| Entry { name, value: shown(&value), line: None })
+        self.values.into_iter().map(|(name, value)| Entry { name, value: value_as_text(&value), line: None })
     }
 }
 
@@ -269,7 +280,7 @@ fn flatten(prefix: &str, value: &Value, values: &mut Map<String, Value>) {
     }
 }
 
-fn shown(value: &Value) -> String {
+fn value_as_text(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
@@ -348,7 +359,7 @@ impl Tools {
     }
 
     /// Reports a tool without a diameter, or with a diameter in an unknown unit.
-    fn without_diameter(&mut self, tool: &ToolDescription) {
+    fn report_missing_diameter(&mut self, tool: &ToolDescription) {
         let problem = Diagnostic::new(&say::NO_DIAMETER).quoting("name", tool.name.as_str());
         let problem = problem.with("number", u64::from(tool.number.unwrap_or_default()));
         self.problems.push(problem.at_line(tool.line, None));

@@ -19,12 +19,12 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::Memo;
 use super::store::{Answer, FreshResult, GeneratedFile, Inputs, Store};
 use crate::files::ExtraInput;
-use crate::session::{MOST_UNKNOWN, Session};
+use crate::session::{MAX_READ_FOR_NAMES, Session};
 
 impl Store {
     /// Stores new results together with cached results that still hold, including those of drawings outside this run. Writes nothing if nothing has
     /// changed.
-    pub(super) fn keep(&self, session: &Session<'_>, fresh: &[FreshResult<'_>]) {
+    pub(super) fn store_results(&self, session: &Session<'_>, fresh: &[FreshResult<'_>]) {
         let is_as_it_was = fresh.is_empty() && self.verdict.is_current;
         let Some(begun) = self.begun.filter(|_| !is_as_it_was) else { return };
         let fresh_subjects: HashSet<&str> = fresh.iter().map(|fresh| fresh.subject).collect();
@@ -34,7 +34,7 @@ impl Store {
         {
             let subject = &*record.subject;
             if !fresh_subjects.contains(subject) && self.scope.may_return(subject, session.db().system()) {
-                builder.add_kept(record);
+                builder.carry_over_record(record);
             }
         }
         for fresh in fresh {
@@ -87,15 +87,15 @@ impl<'a> CatalogueBuilder<'a> {
 
     /// Carries over a record that was not invalidated, unless this run read other bytes from one of its drawings or generated one of its
     /// files from other inputs.
-    fn add_kept(&mut self, record: &Record) {
+    fn carry_over_record(&mut self, record: &Record) {
         let kept = &self.store.kept;
         let has_written = |file: &usize| self.run.written.contains(&*kept.files[*file].path);
         if record.files.iter().any(|file| self.is_other(*file)) || record.outputs.iter().any(has_written) {
             return;
         }
-        let files = record.files.iter().map(|file| self.kept_file(*file)).collect();
-        let lookups = record.lookups.iter().map(|lookup| self.kept_lookup(*lookup)).collect();
-        let outputs = record.outputs.iter().map(|file| self.kept_file(*file)).collect();
+        let files = record.files.iter().map(|file| self.carry_over_file(*file)).collect();
+        let lookups = record.lookups.iter().map(|lookup| self.carry_over_lookup(*lookup)).collect();
+        let outputs = record.outputs.iter().map(|file| self.carry_over_file(*file)).collect();
         let (subject, payload) = (record.subject.clone(), record.payload.clone());
         self.catalogue.records.push(Record { subject, files, lookups, outputs, payload });
     }
@@ -133,7 +133,7 @@ impl<'a> CatalogueBuilder<'a> {
         self.store.verdict.files[number] == FileState::Unchecked && self.run.is_other(&file.path, file.hash)
     }
 
-    fn kept_file(&mut self, number: usize) -> usize {
+    fn carry_over_file(&mut self, number: usize) -> usize {
         let file = &self.store.kept.files[number];
         if let Some(new) = self.files.get(&file.path) {
             return *new;
@@ -159,7 +159,7 @@ impl<'a> CatalogueBuilder<'a> {
             self.store.verdict.files[*number] != FileState::Changed && !self.is_other(*number)
         };
         match self.kept_files.get(&**path).copied().filter(is_known) {
-            Some(number) => self.kept_file(number),
+            Some(number) => self.carry_over_file(number),
             None => self.new_file(path, self.run.content(path)),
         }
     }
@@ -203,14 +203,14 @@ impl<'a> CatalogueBuilder<'a> {
         self.catalogue.files.len() - 1
     }
 
-    fn kept_lookup(&mut self, number: usize) -> usize {
+    fn carry_over_lookup(&mut self, number: usize) -> usize {
         if let Some(new) = self.kept_lookups[number] {
             return new;
         }
         let kept = &self.store.kept;
         let Lookup { directories, name } = &kept.lookups[number];
         let list = &kept.directory_lists[*directories];
-        let list = list.iter().map(|directory| self.kept_directory(*directory)).collect();
+        let list = list.iter().map(|directory| self.carry_over_directory(*directory)).collect();
         let new = self.add_lookup(list, name);
         self.kept_lookups[number] = Some(new);
         new
@@ -228,7 +228,7 @@ impl<'a> CatalogueBuilder<'a> {
         number(&mut self.lookups, lookups, Lookup { directories, name: name.into() })
     }
 
-    fn kept_directory(&mut self, number: usize) -> usize {
+    fn carry_over_directory(&mut self, number: usize) -> usize {
         let fact = &self.store.verdict.directories[number];
         match self.directories.get(&fact.path) {
             Some(known) => *known,
@@ -245,7 +245,7 @@ impl<'a> CatalogueBuilder<'a> {
     }
 
     fn add_directory(&mut self, mut fact: DirectoryFact) -> usize {
-        fact.is_doubtful |= !self.run.agrees(&fact);
+        fact.is_doubtful |= !self.run.agrees_with_database(&fact);
         self.directories.insert(fact.path.clone(), self.catalogue.directories.len());
         self.catalogue.directories.push(fact);
         self.catalogue.directories.len() - 1
@@ -285,7 +285,7 @@ impl<'a> RunFacts<'a> {
         let searched = traces().flat_map(|trace| &trace.lookups).flat_map(|lookup| &lookup.directories);
         Self {
             db,
-            read: read.map(|file| (file.path(db).clone(), steady_content(db, *file))).collect(),
+            read: read.map(|file| (file.path(db).clone(), unchanged_content(db, *file))).collect(),
             searched: searched.map(|directory| &**directory).collect(),
             written: fresh
                 .iter()
@@ -306,7 +306,7 @@ impl<'a> RunFacts<'a> {
     }
 
     /// Whether the database saw the same names in a directory as the old catalogue, or made no lookups there.
-    fn agrees(&self, fact: &DirectoryFact) -> bool {
+    fn agrees_with_database(&self, fact: &DirectoryFact) -> bool {
         if !self.searched.contains(&*fact.path) {
             return true;
         }
@@ -317,7 +317,7 @@ impl<'a> RunFacts<'a> {
 }
 
 /// Returns the content of a drawing; `None` if it changed during the run.
-fn steady_content(db: &Database, file: SourceFile) -> Option<Content> {
+fn unchanged_content(db: &Database, file: SourceFile) -> Option<Content> {
     content(db, file).filter(|_| !db.has_drifted(file))
 }
 
@@ -405,7 +405,7 @@ pub(crate) fn read_drawings(
 impl Session<'_> {
     /// Returns the names of all paths in the library, or below the working directory if there is no library; sorted, without duplicates.
     pub fn names_of_library(&self) -> Vec<PathName> {
-        let paths = self.paths_of_library(MOST_UNKNOWN);
+        let paths = self.paths_of_library(MAX_READ_FOR_NAMES);
         let mut names: Vec<PathName> = paths.into_iter().map(|(name, _)| name).collect();
         names.dedup();
         names

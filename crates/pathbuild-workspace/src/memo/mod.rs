@@ -128,15 +128,15 @@ impl Memo {
     }
 
     /// Returns the reasons why a cached result no longer holds: an empty list if it holds; `None` if there is no such result.
-    pub fn why(&self, subject: &str) -> Option<Vec<Reason>> {
-        self.0.as_ref()?.why(subject)
+    pub fn invalidation_reasons(&self, subject: &str) -> Option<Vec<Reason>> {
+        self.0.as_ref()?.invalidation_reasons(subject)
     }
 
     /// Stores new results together with cached results that still hold, including those of drawings outside this run. Writes nothing if nothing has
     /// changed.
-    pub fn keep<'a>(&self, session: &Session<'_>, fresh: impl Iterator<Item = FreshResult<'a>>) {
+    pub fn store_results<'a>(&self, session: &Session<'_>, fresh: impl Iterator<Item = FreshResult<'a>>) {
         if let Some(store) = &self.0 {
-            store.keep(session, &fresh.collect::<Vec<_>>());
+            store.store_results(session, &fresh.collect::<Vec<_>>());
         }
     }
 }

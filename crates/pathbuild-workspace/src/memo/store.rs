@@ -130,7 +130,7 @@ impl Store {
         listings: Listings,
     ) -> Option<Self> {
         let base = context.settings.directory()?.to_owned();
-        let place = context.cache_place()?;
+        let place = context.cache_store()?;
         let confined = context.settings.confined.as_ref();
         let is_untrusted = confined.is_some_and(|confined| confined.may_hold(place.directory()));
         if let Some(reason) = is_untrusted.then_some(&IN_UNTRUSTED_TREE).or_else(|| place.refusal()) {
@@ -196,7 +196,7 @@ impl Store {
     }
 
     /// Returns the reasons why a cached result no longer holds: an empty list if it holds; `None` if there is no such result.
-    pub(super) fn why(&self, subject: &str) -> Option<Vec<Reason>> {
+    pub(super) fn invalidation_reasons(&self, subject: &str) -> Option<Vec<Reason>> {
         let number = self.record(subject)?;
         let coverage = &self.coverage;
         Some(reasons(&self.kept, &self.verdict, number, &|file, path| coverage.may_hold(file, path)))
@@ -249,7 +249,7 @@ pub fn hash_output(path: &Utf8Path, bytes: &[u8]) -> [u8; 32] {
 
 /// Tells users that the cache of earlier versions, beside the configuration, can be deleted.
 fn report_old_cache(context: &Workspace, base: &Utf8Path) {
-    if context.system.kind(&base.join(OLD)) == FileKind::Directory {
+    if context.system.kind(&base.join(OLD_CACHE_DIRECTORY)) == FileKind::Directory {
         context.reporter.status(context.choose(
             "results are now cached in your cache directory: .pathbuild beside the configuration is no longer used and can be deleted",
             "Ergebnisse werden jetzt in Ihrem Cache-Verzeichnis gespeichert: .pathbuild neben der Konfiguration wird nicht mehr benutzt und kann gelöscht werden",
@@ -258,7 +258,7 @@ fn report_old_cache(context: &Workspace, base: &Utf8Path) {
 }
 
 /// Directory of the cache of earlier versions.
-const OLD: &str = ".pathbuild";
+const OLD_CACHE_DIRECTORY: &str = ".pathbuild";
 
 fn report_fault(context: &Workspace, reason: CacheFault) {
     let phrase = match reason {
@@ -292,12 +292,12 @@ pub(super) fn query_text(context: &Workspace, result_kind: ResultKind, query: &s
         _ = write!(text, "\n{:?}", (context.settings.comment_lang(), context.settings.z_split()));
     }
     // Untrusted trees are checked more strictly than the user's own.
-    _ = write!(text, "\n{}\n{}", context.settings.confined.is_some(), place_of(context));
+    _ = write!(text, "\n{}\n{}", context.settings.confined.is_some(), relative_working_directory(context));
     text
 }
 
 /// Returns the working directory relative to the configuration. It is part of the key because names in results are relative to it.
-fn place_of(context: &Workspace) -> &str {
+fn relative_working_directory(context: &Workspace) -> &str {
     let directory = &context.working_directory;
     let base = context.settings.directory();
     base.and_then(|base| directory.strip_prefix(base).ok()).unwrap_or(directory).as_str()
@@ -365,7 +365,7 @@ pub(super) enum Scope {
 impl Scope {
     /// Returns the drawings that the arguments may refer to.
     pub(super) fn of(session: &Session<'_>, found: &ArgumentMatches) -> Self {
-        let named = found.named().map(|file| file.path(session.db()).to_string());
+        let named = found.named_drawings().map(|file| file.path(session.db()).to_string());
         let drawings = found.directories().flat_map(|directory| &directory.drawings);
         let directories = found.directories().flat_map(|directory| &directory.directories);
         Self::Drawings {

@@ -89,7 +89,7 @@ impl ArgumentMatches {
     }
 
     /// Returns the drawings that were named, or that may define a named path.
-    pub fn named(&self) -> impl Iterator<Item = SourceFile> {
+    pub fn named_drawings(&self) -> impl Iterator<Item = SourceFile> {
         let named = self.arguments.iter().filter_map(|argument| match argument {
             Argument::Drawing(file) => Some(*file),
             Argument::Name { drawing, .. } => *drawing,
@@ -133,7 +133,7 @@ impl Session<'_> {
             ..ArgumentMatches::default()
         };
         if is_library {
-            let library = self.library_walked(&mut found.listings);
+            let library = self.walk_library(&mut found.listings);
             found.arguments = library.into_iter().map(Argument::Directory).collect();
             return found;
         }
@@ -241,7 +241,7 @@ impl Session<'_> {
 
     fn search_directory(&self, directory: Utf8PathBuf, listings: &mut Listings) -> SearchedDirectory {
         self.start_workers();
-        let walked = self.walk(is_drawing).through(&directory);
+        let walked = self.walk(is_drawing).search(&directory);
         self.found_directory(directory, walked, listings)
     }
 
@@ -259,14 +259,14 @@ impl Session<'_> {
         SearchedDirectory { path, drawings, directories, problems: walked.problems }
     }
 
-    fn library_walked(&self, listings: &mut Listings) -> Vec<SearchedDirectory> {
+    fn walk_library(&self, listings: &mut Listings) -> Vec<SearchedDirectory> {
         let library = self.context.settings.general.library.value.iter();
         let library: Vec<Utf8PathBuf> = library.map(|directory| self.normal(directory)).collect();
         let walk = self.walk(is_drawing);
         let walked: Vec<library::WalkResult> = if walk.is_parallel && library.len() > 1 {
-            library.par_iter().map(|directory| walk.through(directory)).collect()
+            library.par_iter().map(|directory| walk.search(directory)).collect()
         } else {
-            library.iter().map(|directory| walk.through(directory)).collect()
+            library.iter().map(|directory| walk.search(directory)).collect()
         };
         let each = library.into_iter().zip(walked);
         each.map(|(path, walked)| self.found_directory(path, walked, listings)).collect()
@@ -281,8 +281,8 @@ impl Session<'_> {
     fn listed_name_directories(&self, listings: &mut Listings) -> (Vec<Utf8PathBuf>, Vec<Diagnostic>) {
         let searched = self.context.settings.general.search.value.iter();
         let searched = searched.map(|directory| self.normal(directory));
-        let walked = self.library_walked(listings);
-        let library = holding_drawings(&walked);
+        let walked = self.walk_library(listings);
+        let library = directories_with_drawings(&walked);
         self.provide_names(listings);
         let directories = distinct(std::iter::once(Utf8PathBuf::new()).chain(searched).chain(library));
         (directories, walked.into_iter().flat_map(|directory| directory.problems).collect())
@@ -290,13 +290,13 @@ impl Session<'_> {
 
     /// Returns the directories of the library that contain drawings.
     pub fn library_directories(&self) -> Vec<Utf8PathBuf> {
-        holding_drawings(&self.library_walked(&mut Listings::new()))
+        directories_with_drawings(&self.walk_library(&mut Listings::new()))
     }
 
     /// Returns the drawings of the configured library, and errors while listing it.
     pub fn library(&self) -> (Vec<Utf8PathBuf>, Vec<Diagnostic>) {
         let (mut drawings, mut problems) = (Vec::new(), Vec::new());
-        for mut directory in self.library_walked(&mut Listings::new()) {
+        for mut directory in self.walk_library(&mut Listings::new()) {
             drawings.append(&mut directory.drawings);
             problems.append(&mut directory.problems);
         }
@@ -309,7 +309,7 @@ impl Session<'_> {
         let (drawings, problems) = if self.has_library() {
             self.library()
         } else {
-            let walked = self.walk(is_drawing).through(Utf8Path::new(""));
+            let walked = self.walk(is_drawing).search(Utf8Path::new(""));
             (walked.drawings, walked.problems)
         };
         (drawings.iter().map(|drawing| self.file(drawing)).collect(), problems)
@@ -317,7 +317,7 @@ impl Session<'_> {
 
     /// Returns the drawings in and below a directory.
     pub fn drawings_below(&self, directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
-        self.walk(is_drawing).through(directory).drawings.into_iter()
+        self.walk(is_drawing).search(directory).drawings.into_iter()
     }
 
     /// Passes the names of freshly listed directories to the database, so that it need not list them again. Incomplete listings are left out.
@@ -357,7 +357,7 @@ fn pattern_of(name: &str) -> Option<Pattern> {
     name.contains(['*', '?', '[']).then(|| Pattern::new(name).ok()).flatten()
 }
 
-fn holding_drawings(walked: &[SearchedDirectory]) -> Vec<Utf8PathBuf> {
+fn directories_with_drawings(walked: &[SearchedDirectory]) -> Vec<Utf8PathBuf> {
     let drawings = walked.iter().flat_map(|directory| &directory.drawings);
     let parents = drawings.filter_map(|drawing| drawing.parent());
     let mut seen = FxHashSet::default();

@@ -13,7 +13,7 @@ use pathbuild_path::{Bindings, PathName};
 
 use crate::Inputs;
 use crate::session::Session;
-use crate::session::work::about;
+use crate::session::work::with_file_and_path;
 
 /// A graph with paths as nodes and embeddings as edges.
 #[derive(Clone, Debug, Default)]
@@ -49,14 +49,14 @@ pub struct Embedding {
     /// Index of the embedding path in [`Graph::nodes`].
     pub from: usize,
     /// The embedded path, or the reason why there is none.
-    pub to: End,
+    pub to: EmbeddingEnd,
     /// Number of subpath segments with this embedding.
     pub count: usize,
 }
 
 /// The path that a subpath segment embeds, or the reason why there is none.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum End {
+pub enum EmbeddingEnd {
     /// Index of a path in [`Graph::nodes`].
     Node(usize),
     /// There is no such path. Contains the name in the segment, if it has one, and the code of the error.
@@ -90,15 +90,15 @@ impl Graph {
         for (index, embedding) in self.embeddings.iter().enumerate() {
             match (direction, &embedding.to) {
                 (Direction::Down, _) => neighbours[embedding.from].push(index),
-                (Direction::Up, End::Node(to)) => neighbours[*to].push(index),
-                (Direction::Up, End::Nowhere(..)) => {}
+                (Direction::Up, EmbeddingEnd::Node(to)) => neighbours[*to].push(index),
+                (Direction::Up, EmbeddingEnd::Nowhere(..)) => {}
             }
         }
         neighbours
     }
 
     /// Returns the part of the graph that is reachable from some nodes, which become its roots. The nodes must be distinct.
-    pub fn part(&self, roots: &[usize], direction: Direction) -> Self {
+    pub fn reachable_part(&self, roots: &[usize], direction: Direction) -> Self {
         let neighbours = self.neighbours(direction);
         let mut order: Vec<usize> = Vec::new();
         let mut number: HashMap<usize, usize> = HashMap::new();
@@ -116,8 +116,8 @@ impl Graph {
         let renumbered = |embedding: &Embedding| Embedding {
             from: number[&embedding.from],
             to: match &embedding.to {
-                End::Node(to) => End::Node(number[to]),
-                nowhere @ End::Nowhere(..) => nowhere.clone(),
+                EmbeddingEnd::Node(to) => EmbeddingEnd::Node(number[to]),
+                nowhere @ EmbeddingEnd::Nowhere(..) => nowhere.clone(),
             },
             count: embedding.count,
         };
@@ -134,8 +134,8 @@ impl Graph {
         let embedding = &self.embeddings[embedding];
         match (direction, &embedding.to) {
             (Direction::Up, _) => Some(embedding.from),
-            (Direction::Down, End::Node(to)) => Some(*to),
-            (Direction::Down, End::Nowhere(..)) => None,
+            (Direction::Down, EmbeddingEnd::Node(to)) => Some(*to),
+            (Direction::Down, EmbeddingEnd::Nowhere(..)) => None,
         }
     }
 }
@@ -206,7 +206,7 @@ impl GraphArguments {
                 roots.push(root);
             }
         }
-        whole.part(&roots, Direction::Up)
+        whole.reachable_part(&roots, Direction::Up)
     }
 }
 
@@ -234,7 +234,7 @@ impl Session<'_> {
         let mut builder = GraphBuilder::default();
         let mut parts = Vec::with_capacity(targets.len());
         for (result, target) in
-            self.map_guarded(targets, |db, target| part(db, *target)).into_iter().zip(targets)
+            self.map_guarded(targets, |db, target| target_graph(db, *target)).into_iter().zip(targets)
         {
             match result {
                 Ok(part) => {
@@ -242,7 +242,7 @@ impl Session<'_> {
                     builder.graph.problems.extend(located);
                     parts.push(part);
                 }
-                Err(problem) => builder.graph.problems.push(about(&self.db, *target, *problem)),
+                Err(problem) => builder.graph.problems.push(with_file_and_path(&self.db, *target, *problem)),
             }
         }
         // Add the requested paths first, so that they come first even if another target embeds them.
@@ -263,16 +263,16 @@ impl Session<'_> {
 struct TargetGraph {
     /// The paths; the first one is the target.
     nodes: Vec<Node>,
-    embeddings: Vec<(usize, End)>,
+    embeddings: Vec<(usize, EmbeddingEnd)>,
     /// Diagnostics that explain why the graph of this target is incomplete.
     problems: Vec<Diagnostic>,
 }
 
 impl TargetGraph {
     /// Returns the nodes with incomplete embeddings. They are incomplete because the target embeds the node too deep, or embeds too many paths.
-    fn cut(&self) -> HashSet<usize> {
-        let cut = |(from, to): &(usize, End)| match to {
-            End::Nowhere(_, Code::NestingTooDeep | Code::LimitReached) => Some(*from),
+    fn incomplete_nodes(&self) -> HashSet<usize> {
+        let cut = |(from, to): &(usize, EmbeddingEnd)| match to {
+            EmbeddingEnd::Nowhere(_, Code::NestingTooDeep | Code::LimitReached) => Some(*from),
             _ => None,
         };
         self.embeddings.iter().filter_map(cut).collect()
@@ -288,7 +288,7 @@ enum Completeness {
     Cut,
 }
 
-fn part(db: &Database, target: Target) -> TargetGraph {
+fn target_graph(db: &Database, target: Target) -> TargetGraph {
     let reached = closure(db, target);
     let is_asked_with_examples = *target.role(db) == Role::Checked;
     let mut nodes = Vec::new();
@@ -297,15 +297,16 @@ fn part(db: &Database, target: Target) -> TargetGraph {
         node.is_example = index == 0 && is_asked_with_examples && !node.bindings.is_empty();
         nodes.push(node);
     }
-    let number = number(reached);
+    let number = number_instances(reached);
     let too_many_paths = too_many_paths(reached);
     let beyond = if too_many_paths.is_empty() { Code::NestingTooDeep } else { Code::LimitReached };
     let end = |to| match to {
         // The closure does not contain paths that are embedded too deeply or beyond a limit.
-        Destination::Path(child) => number
-            .get(&child)
-            .map_or_else(|| End::Nowhere(Some(node(db, child).name), beyond), |to| End::Node(*to)),
-        Destination::Nowhere { name, code } => End::Nowhere(name, code),
+        Destination::Path(child) => number.get(&child).map_or_else(
+            || EmbeddingEnd::Nowhere(Some(node(db, child).name), beyond),
+            |to| EmbeddingEnd::Node(*to),
+        ),
+        Destination::Nowhere { name, code } => EmbeddingEnd::Nowhere(name, code),
     };
     let embeddings = reached.edges(db).into_iter().map(|edge| (number[&edge.from], end(edge.to)));
     TargetGraph { embeddings: embeddings.collect(), nodes, problems: too_many_paths }
@@ -317,7 +318,7 @@ fn too_many_paths(closure: &Closure<'_>) -> Vec<Diagnostic> {
     closure.diagnostics.iter().filter(is_limit).cloned().collect()
 }
 
-fn number<'db>(closure: &Closure<'db>) -> HashMap<Instance<'db>, usize> {
+fn number_instances<'db>(closure: &Closure<'db>) -> HashMap<Instance<'db>, usize> {
     closure.reached.iter().enumerate().map(|(index, step)| (step.instance, index)).collect()
 }
 
@@ -355,17 +356,17 @@ impl GraphBuilder {
     /// Adds the embeddings of those nodes of a part that have the given completeness.
     fn add(&mut self, part: &TargetGraph, completeness: Completeness) {
         let numbers: Vec<usize> = part.nodes.iter().map(|node| self.node(node.clone())).collect();
-        let cut = part.cut();
+        let cut = part.incomplete_nodes();
         let is_asked = |from: &usize| cut.contains(from) == (completeness == Completeness::Cut);
-        let mut added: HashMap<(usize, End), usize> = HashMap::new();
+        let mut added: HashMap<(usize, EmbeddingEnd), usize> = HashMap::new();
         for (from, to) in part.embeddings.iter().filter(|(from, _)| is_asked(from)) {
             let from = numbers[*from];
             if self.complete.contains(&from) {
                 continue;
             }
             let to = match to {
-                End::Node(to) => End::Node(numbers[*to]),
-                nowhere @ End::Nowhere(..) => nowhere.clone(),
+                EmbeddingEnd::Node(to) => EmbeddingEnd::Node(numbers[*to]),
+                nowhere @ EmbeddingEnd::Nowhere(..) => nowhere.clone(),
             };
             let embeddings = &mut self.graph.embeddings;
             let index = *added.entry((from, to.clone())).or_insert(embeddings.len());

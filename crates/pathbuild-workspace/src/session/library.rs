@@ -36,9 +36,9 @@ pub struct ProgramMatches {
 /// The contents of a directory and of all directories below it.
 #[derive(Debug, Default)]
 pub(super) struct WalkResult {
-    /// All drawings, or all files that the search wants instead, in the order of [`by_place`].
+    /// All drawings, or all files that the search wants instead, in the order of [`compare_paths`].
     pub(super) drawings: Vec<Utf8PathBuf>,
-    /// The directory itself and all directories below it, in the order of [`by_place`].
+    /// The directory itself and all directories below it, in the order of [`compare_paths`].
     pub(super) directories: Vec<Utf8PathBuf>,
     /// Contents of the directories that could be listed.
     pub(super) listings: Listings,
@@ -70,20 +70,20 @@ pub(super) struct Walk<'a> {
 impl Walk<'_> {
     /// Finds all wanted files in and below a directory, respecting .gitignore and .ignore files inside it. Symbolic links to directories are not
     /// followed: they may lead anywhere, even in circles. The resulting paths begin with `root` as given, so they are normal if `root` is.
-    pub(super) fn through(self, root: &Utf8Path) -> WalkResult {
-        let (mut walked, count) = match self.levels(root) {
+    pub(super) fn search(self, root: &Utf8Path) -> WalkResult {
+        let (mut walked, count) = match self.collect_levels(root) {
             Ok(walked) => walked,
             Err(problem) => return WalkResult { problems: vec![*problem], ..WalkResult::default() },
         };
         if count > self.limit.saturating_add(1) {
             return WalkResult {
-                problems: vec![too_many(or_current_directory(root), self.limit)],
+                problems: vec![too_many_entries(or_current_directory(root), self.limit)],
                 ..WalkResult::default()
             };
         }
         // The drawings of each directory are sorted already, so this is fast.
-        walked.drawings.sort_by(|a, b| by_place(a, b));
-        walked.directories.sort_by(|a, b| by_place(a, b));
+        walked.drawings.sort_by(|a, b| compare_paths(a, b));
+        walked.directories.sort_by(|a, b| compare_paths(a, b));
         walked
     }
 
@@ -104,7 +104,7 @@ impl Walk<'_> {
     }
 
     /// Collects the files and directories unsorted, and counts them. Stops once the limit is exceeded.
-    fn levels(self, root: &Utf8Path) -> Result<(WalkResult, u64), Box<Diagnostic>> {
+    fn collect_levels(self, root: &Utf8Path) -> Result<(WalkResult, u64), Box<Diagnostic>> {
         let mut walked = WalkResult::default();
         let mut open: Vec<(Utf8PathBuf, Option<Arc<Rules>>)> = vec![(root.to_owned(), None)];
         let mut count = 1;
@@ -112,7 +112,7 @@ impl Walk<'_> {
         while !open.is_empty() && count <= self.limit.saturating_add(1) {
             let list = |(directory, above): &(Utf8PathBuf, Option<Arc<Rules>>)| {
                 let list = || Directory::list(directory, above.clone(), self, &budget);
-                catch_bugs(list).unwrap_or_else(|bug| Ok(Some(Directory::failed(directory, *bug))))
+                catch_bugs(list).unwrap_or_else(|bug| Ok(Some(Directory::unreadable(directory, *bug))))
             };
             let is_parallel = self.is_parallel && open.len() > MAX_SEQUENTIAL_DIRECTORIES;
             let listed: Vec<_> = if is_parallel {
@@ -167,7 +167,7 @@ struct Directory {
 
 impl Directory {
     /// Returns a directory with unknown contents, because listing it triggered a bug.
-    fn failed(directory: &Utf8Path, bug: Diagnostic) -> Self {
+    fn unreadable(directory: &Utf8Path, bug: Diagnostic) -> Self {
         let problems = vec![bug.in_file(or_current_directory(directory))];
         Self { problems, listing: Listing { is_doubtful: true, ..Listing::default() }, ..Self::default() }
     }
@@ -213,7 +213,7 @@ impl Directory {
         // Lookups must not rely on an incomplete listing.
         found.listing.is_doubtful |= listed.is_err();
         found.listing.names.sort_unstable();
-        let drawings = found.listing.names.iter().filter(|name| found.counts(directory, name, false));
+        let drawings = found.listing.names.iter().filter(|name| found.is_in_library(directory, name, false));
         found.drawings = drawings.map(|name| join(directory, &**name)).collect();
         if !found.inexact.names.is_empty() {
             found.listing.links.append(&mut found.inexact.links);
@@ -239,11 +239,11 @@ impl Directory {
         let is_directory = kind == EntryKind::Directory;
         if !is_exact {
             let is_meant = is_directory || is_wanted(Utf8Path::new(name));
-            if is_meant && self.counts(directory, name, is_directory) {
+            if is_meant && self.is_in_library(directory, name, is_directory) {
                 let problem = Diagnostic::new(&messages::NAME_NOT_UTF_8).quoting("name", name);
                 self.problems.push(problem.in_file(or_current_directory(directory)));
             }
-        } else if self.counts(directory, name, is_directory) {
+        } else if self.is_in_library(directory, name, is_directory) {
             self.count += 1;
             if is_directory {
                 self.directories.push(join(directory, name));
@@ -252,7 +252,7 @@ impl Directory {
     }
 
     /// Whether a name is part of the library, which means that it is not ignored.
-    fn counts(&self, directory: &Utf8Path, name: &str, is_directory: bool) -> bool {
+    fn is_in_library(&self, directory: &Utf8Path, name: &str, is_directory: bool) -> bool {
         match &self.rules {
             Some(rules) => !rules.exclude(&join(directory, name), is_directory),
             None => !is_hidden(name),
@@ -265,7 +265,7 @@ fn is_hidden(name: &str) -> bool {
 }
 
 /// Compares names like `Ord`, but faster: first as numbers made of the first eight bytes.
-pub fn by_name(a: &str, b: &str) -> cmp::Ordering {
+pub fn compare_names(a: &str, b: &str) -> cmp::Ordering {
     let begin = |name: &str| name.as_bytes().first_chunk().map(|bytes| u64::from_be_bytes(*bytes));
     match (begin(a), begin(b)) {
         (Some(x), Some(y)) if x != y => x.cmp(&y),
@@ -275,20 +275,20 @@ pub fn by_name(a: &str, b: &str) -> cmp::Ordering {
 
 /// Compares paths component by component. Equivalent to `Ord` of paths if no component is empty or `.`, but does not split the paths: for
 /// ten thousand drawings, splitting takes longer than querying their metadata.
-pub fn by_place(a: &Utf8Path, b: &Utf8Path) -> cmp::Ordering {
+pub fn compare_paths(a: &Utf8Path, b: &Utf8Path) -> cmp::Ordering {
     let (a, b) = (a.as_str().as_bytes(), b.as_str().as_bytes());
     let rank = |byte: u8| if is_separator(char::from(byte)) { 0 } else { byte };
     // Skip the common prefix in chunks, because the paths in a directory begin alike.
-    let (a_chunks, b_chunks) = (a.as_chunks::<CHUNK>().0, b.as_chunks::<CHUNK>().0);
-    let same = CHUNK * a_chunks.iter().zip(b_chunks).take_while(|(x, y)| x == y).count();
+    let (a_chunks, b_chunks) = (a.as_chunks::<COMPARED_BYTES>().0, b.as_chunks::<COMPARED_BYTES>().0);
+    let same = COMPARED_BYTES * a_chunks.iter().zip(b_chunks).take_while(|(x, y)| x == y).count();
     let differing = a[same..].iter().zip(&b[same..]).find(|(x, y)| x != y);
     differing.map_or_else(|| a.len().cmp(&b.len()), |(x, y)| rank(*x).cmp(&rank(*y)))
 }
 
 /// Number of bytes compared at once.
-const CHUNK: usize = 8;
+const COMPARED_BYTES: usize = 8;
 
-fn too_many(directory: &Utf8Path, limit: u64) -> Diagnostic {
+fn too_many_entries(directory: &Utf8Path, limit: u64) -> Diagnostic {
     Diagnostic::new(&messages::TOO_MANY_ENTRIES)
         .quoting("directory", directory.as_str())
         .with("limit", limit)
@@ -320,7 +320,7 @@ impl Session<'_> {
         self.start_workers();
         let root = if directory == "." { Utf8Path::new("") } else { directory };
         // Programs are generated files, which .gitignore often excludes, so it is disregarded.
-        let walked = Walk { obeys_git: false, ..self.walk(is_program) }.through(root);
+        let walked = Walk { obeys_git: false, ..self.walk(is_program) }.search(root);
         if walked.drawings.is_empty() && walked.problems.is_empty() {
             let problem = Diagnostic::new(&outputs::NO_PROGRAM);
             found.problems.push(problem.quoting("directory", or_current_directory(directory).as_str()));
@@ -381,7 +381,7 @@ pub(super) struct Budget {
 }
 
 /// Upper bound on the total size of all ignore files, as a multiple of the limit for one file.
-const ALL: u64 = 16;
+const TOTAL_FACTOR: u64 = 16;
 
 impl Budget {
     /// Creates a budget. `each` is the value of `[limits] ignore-file-size`.
@@ -394,27 +394,27 @@ impl Budget {
         let problem = || {
             Diagnostic::new(&messages::TOO_MANY_RULES)
                 .quoting("directory", root.as_str())
-                .with("limit", self.all())
+                .with("limit", self.total_limit())
                 .quoting("key", "ignore-file-size")
         };
         self.is_exceeded().then(|| Box::new(problem()))
     }
 
     fn is_exceeded(&self) -> bool {
-        self.read.load(Ordering::Relaxed) > self.all()
+        self.read.load(Ordering::Relaxed) > self.total_limit()
     }
 
-    fn all(&self) -> u64 {
-        self.each.saturating_mul(ALL)
+    fn total_limit(&self) -> u64 {
+        self.each.saturating_mul(TOTAL_FACTOR)
     }
 
-    fn take(&self, bytes: usize) {
+    fn spend(&self, bytes: usize) {
         self.read.fetch_add(bytes as u64, Ordering::Relaxed);
     }
 }
 
 /// Upper bound on the length of a line in bytes. Longer lines are not patterns of names, and nested patterns would need a deep stack.
-const LONGEST_LINE: usize = 4096;
+const MAX_LINE_BYTES: usize = 4096;
 
 /// Names of files that contain ignore rules.
 pub(crate) const IGNORE_FILES: [&str; 2] = [".gitignore", ".ignore"];
@@ -480,15 +480,16 @@ fn patterns(
         Err(ReadError::Missing | ReadError::IsDirectory) => return Ok(Gitignore::empty()),
         Err(error) => return Err(Box::new(error.diagnostic(limit, "ignore-file-size").in_file(&file))),
     };
-    budget.take(bytes.len());
+    budget.spend(bytes.len());
     if budget.is_exceeded() {
         return Ok(Gitignore::empty());
     }
     let text = String::from_utf8_lossy(&bytes);
     let mut builder = GitignoreBuilder::new(directory);
     for (number, line) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
-        if line.len() > LONGEST_LINE {
-            let problem = Diagnostic::new(&messages::UNREADABLE).with("reason", line_too_long(LONGEST_LINE));
+        if line.len() > MAX_LINE_BYTES {
+            let problem =
+                Diagnostic::new(&messages::UNREADABLE).with("reason", line_too_long(MAX_LINE_BYTES));
             return Err(Box::new(problem.in_file(&file).at_line(number, None)));
         }
         // Like Git, skip lines that are not valid patterns.

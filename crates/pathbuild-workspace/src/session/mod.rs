@@ -23,13 +23,13 @@ use self::workers::{Watchdog, Workers};
 use crate::workspace::{ProgressCounter, Workspace};
 
 pub use argument_matches::{Argument, ArgumentMatches};
-pub use graph::{Direction, Embedding, End, Graph, GraphOutcome, Node};
+pub use graph::{Direction, Embedding, EmbeddingEnd, Graph, GraphOutcome, Node};
 #[cfg(not(target_family = "wasm"))]
 pub(crate) use library::{IGNORE_FILES, is_ignore_file};
-pub use library::{ProgramMatches, by_name, by_place};
-pub use outputs::{OutputKind, WriteSettings, stem_fault, without_places, without_values};
-pub(crate) use resolve::MOST_UNKNOWN;
-pub use resolve::{NamedPaths, NamesOf, NotOnePath, SelectedPath, Selection, several_paths};
+pub use library::{ProgramMatches, compare_names, compare_paths};
+pub use outputs::{OutputKind, WriteSettings, stem_fault, without_positions, without_values};
+pub(crate) use resolve::MAX_READ_FOR_NAMES;
+pub use resolve::{NamedPaths, NamesOf, NotOnePath, SelectedPath, Selection, several_paths_error};
 pub(crate) use scene::{drawn_source, examples, finished_parts, program_scene};
 pub use settings::{limits, reading};
 pub use work::{CheckedTarget, Checker, Pair, ProgramFacts, pairs as q_project_pairs};
@@ -51,17 +51,17 @@ pub struct Session<'a> {
 }
 
 /// Upper bound on repetitions of work during which drawings changed. After that, a drawing that keeps changing is reported.
-const ROUNDS: usize = 8;
+const MAX_ROUNDS: usize = 8;
 
 impl<'a> Session<'a> {
     /// Opens a session on the files of a workspace.
     pub fn new(context: &'a Workspace) -> Self {
-        Self::over(context, false, Arc::clone(&context.system))
+        Self::with_system(context, false, Arc::clone(&context.system))
     }
 
     /// Opens a session that traces inputs, so that its results can be cached.
-    pub fn traced(context: &'a Workspace) -> Self {
-        Self { is_traced: true, ..Self::over(context, true, Arc::clone(&context.system)) }
+    pub fn with_tracing(context: &'a Workspace) -> Self {
+        Self { is_traced: true, ..Self::with_system(context, true, Arc::clone(&context.system)) }
     }
 
     /// Invalidates a drawing that may have changed, appeared or disappeared.
@@ -77,7 +77,7 @@ impl<'a> Session<'a> {
     /// Opens a session in which a drawing exists that has not been written to disk.
     pub fn with_drawing(context: &'a Workspace, path: &Utf8Path, bytes: Vec<u8>) -> Self {
         let overlay = OverlaySystem::new(Arc::clone(&context.system), path.to_owned(), bytes);
-        Self::over(context, false, Arc::new(overlay))
+        Self::with_system(context, false, Arc::new(overlay))
     }
 
     /// Runs some work on a consistent state of the drawings. Repeats it if a drawing changes between two reads by the same work.
@@ -86,13 +86,13 @@ impl<'a> Session<'a> {
         loop {
             let result = catch_unwind(AssertUnwindSafe(|| work(self)));
             rounds += 1;
-            if !self.db.apply_noted_changes() || rounds == ROUNDS {
+            if !self.db.apply_noted_changes() || rounds == MAX_ROUNDS {
                 return result.unwrap_or_else(|panic| resume_unwind(panic));
             }
         }
     }
 
-    fn over(context: &'a Workspace, is_hashed: bool, system: Arc<dyn System>) -> Self {
+    fn with_system(context: &'a Workspace, is_hashed: bool, system: Arc<dyn System>) -> Self {
         let db = Database::new(system);
         settings::apply(&db, context, is_hashed);
         Self {

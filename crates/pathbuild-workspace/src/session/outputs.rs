@@ -175,8 +175,8 @@ pub fn without_values(bytes: &[u8]) -> String {
 }
 
 /// Returns the text of a file of measured values without the positions of the probes in the emitted drawing.
-pub fn without_places(values: &str) -> String {
-    let line = |line: &str| match line.rsplit_once(PLACE) {
+pub fn without_positions(values: &str) -> String {
+    let line = |line: &str| match line.rsplit_once(POSITION_SEPARATOR) {
         Some((before, place)) => format!("{before}{}", place.split_once(']').unwrap_or_default().1),
         None => line.to_owned(),
     };
@@ -184,4 +184,4 @@ pub fn without_places(values: &str) -> String {
 }
 
 /// Text that separates the name of a probe from its position in the emitted drawing.
-const PLACE: &str = " @ [";
+const POSITION_SEPARATOR: &str = " @ [";

@@ -17,7 +17,7 @@ use pathbuild_path::{PathName, with_near_names};
 use rustc_hash::FxHashSet;
 
 use super::argument_matches::{Argument, ArgumentMatches, SearchedDirectory};
-use super::{Session, by_place};
+use super::{Session, compare_paths};
 use crate::config::SourcedValue;
 use crate::inputs::Inputs;
 use crate::workspace::relative;
@@ -83,9 +83,9 @@ impl Session<'_> {
         }
         let named: FxHashSet<&Utf8PathBuf> = selection.named.iter().map(|file| file.path(&self.db)).collect();
         selection.drawings.retain(|drawing| !named.contains(drawing));
-        selection.drawings.sort_by(|a, b| by_place(a, b));
+        selection.drawings.sort_by(|a, b| compare_paths(a, b));
         selection.drawings.dedup();
-        selection.below.sort_by(|a, b| by_place(a, b));
+        selection.below.sort_by(|a, b| compare_paths(a, b));
         selection.below.dedup();
         selection
     }
@@ -106,7 +106,7 @@ impl Session<'_> {
             Argument::Drawing(file) => selection.name(*file),
             Argument::Name { name, candidates, drawing, directory } => {
                 let defines = |file: &SourceFile| names(*file).contains(name);
-                let files = self.distinct(candidates.iter().copied().filter(defines));
+                let files = self.distinct_files(candidates.iter().copied().filter(defines));
                 if !files.is_empty() {
                     // These errors may have hidden another definition of the path.
                     selection.problems.extend_from_slice(&found.name_problems);
@@ -131,7 +131,7 @@ impl Session<'_> {
                         let read_errors = self.read_errors(candidates, names);
                         if read_errors.is_empty() {
                             let known = candidates.iter().flat_map(|file| names(*file)).cloned().collect();
-                            let problem = no_such_path(name, &found.name_directories);
+                            let problem = no_such_path_error(name, &found.name_directories);
                             selection.problems.push(with_near_names(problem, name, known));
                         }
                         selection.problems.extend(read_errors);
@@ -146,7 +146,7 @@ impl Session<'_> {
     /// contain the wanted path.
     fn read_errors(&self, candidates: &[SourceFile], names: NamesOf<'_>) -> Vec<Diagnostic> {
         let is_unread = |file: &SourceFile| names(*file).is_empty();
-        let files = self.distinct(candidates.iter().copied().filter(is_unread));
+        let files = self.distinct_files(candidates.iter().copied().filter(is_unread));
         let problems = files.iter().flat_map(|file| check_file(&self.db, *file));
         problems.filter(|problem| problem.is_error()).cloned().collect()
     }
@@ -162,11 +162,11 @@ impl Session<'_> {
         let defining_files = |directory: &Utf8PathBuf| {
             self.query_directory(directory, |directory| defining_files(&self.db, directory, name))
         };
-        self.distinct(directories.iter().flat_map(defining_files).flatten())
+        self.distinct_files(directories.iter().flat_map(defining_files).flatten())
     }
 
     /// Removes drawings that occur again under another file name.
-    fn distinct(&self, files: impl Iterator<Item = SourceFile>) -> Vec<SourceFile> {
+    fn distinct_files(&self, files: impl Iterator<Item = SourceFile>) -> Vec<SourceFile> {
         let mut seen = FxHashSet::default();
         files.filter(|file| seen.insert(self.db.system().canonical(file.path(&self.db)))).collect()
     }
@@ -194,7 +194,7 @@ impl Selection {
     }
 }
 
-fn no_such_path(name: &PathName, directories: &[Utf8PathBuf]) -> Diagnostic {
+fn no_such_path_error(name: &PathName, directories: &[Utf8PathBuf]) -> Diagnostic {
     let shown = |directory: &Utf8PathBuf| {
         if directory.as_str().is_empty() { ".".to_owned() } else { directory.to_string() }
     };
@@ -281,7 +281,7 @@ impl Session<'_> {
 }
 
 /// Returns PB512 for a drawing with several paths that was named where one path is needed.
-pub fn several_paths(drawing: &Utf8Path, names: &[PathName]) -> Diagnostic {
+pub fn several_paths_error(drawing: &Utf8Path, names: &[PathName]) -> Diagnostic {
     let list: Value = names.iter().map(PathName::as_str).collect();
     Diagnostic::new(&messages::SEVERAL_PATHS)
         .with("names", list)
@@ -333,7 +333,7 @@ fn missing_path(diagnostic: &Diagnostic) -> Option<PathName> {
 impl Session<'_> {
     /// Adds suggestions to diagnostics about missing files and paths: another location, or a similar name.
     pub fn with_hints(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
-        let known = LazyCell::new(|| self.known());
+        let known = LazyCell::new(|| self.collect_known_names());
         let with_near = |mut diagnostic: Diagnostic| {
             let is_dangling = |file: &Utf8PathBuf| crate::files::is_named(file);
             if *diagnostic.message == files::MISSING && diagnostic.file.as_ref().is_some_and(is_dangling) {
@@ -374,9 +374,9 @@ impl Session<'_> {
     }
 
     /// Collects everything that a name without a separator may refer to.
-    fn known(&self) -> KnownNames {
+    fn collect_known_names(&self) -> KnownNames {
         KnownNames {
-            paths: self.paths_of_library(MOST_UNKNOWN),
+            paths: self.paths_of_library(MAX_READ_FOR_NAMES),
             entries: self.entries(Utf8Path::new(""), is_drawing),
         }
     }
@@ -425,11 +425,17 @@ impl Session<'_> {
     /// Returns PB003 for each missing directory of the keys `library` and `search`.
     pub(crate) fn missing_directories(&self) -> Vec<Diagnostic> {
         let general = &self.context.settings.general;
-        let library = self.missing("library", &general.library, &[FileKind::Directory, FileKind::File]);
-        library.chain(self.missing("search", &general.search, &[FileKind::Directory])).collect()
+        let library = self.missing_directory_errors(
+            "library",
+            &general.library,
+            &[FileKind::Directory, FileKind::File],
+        );
+        library
+            .chain(self.missing_directory_errors("search", &general.search, &[FileKind::Directory]))
+            .collect()
     }
 
-    fn missing<'a>(
+    fn missing_directory_errors<'a>(
         &'a self,
         key: &'static str,
         directories: &'a SourcedValue<Vec<Utf8PathBuf>>,
@@ -453,9 +459,9 @@ impl Session<'_> {
         let empty: Vec<&Utf8Path> = empty.map(|directory| directory.path.as_path()).collect();
         match empty.as_slice() {
             [] => Vec::new(),
-            all if is_library && all.len() == directories.len() => vec![no_drawing(all)],
+            all if is_library && all.len() == directories.len() => vec![no_drawing_error(all)],
             _ if is_library => Vec::new(),
-            each => each.iter().map(|directory| no_drawing(&[*directory])).collect(),
+            each => each.iter().map(|directory| no_drawing_error(&[*directory])).collect(),
         }
     }
 
@@ -486,11 +492,11 @@ impl Session<'_> {
     }
 }
 
-fn no_drawing(directories: &[&Utf8Path]) -> Diagnostic {
+fn no_drawing_error(directories: &[&Utf8Path]) -> Diagnostic {
     let shown = directories.iter().map(|path| if path.as_str().is_empty() { "." } else { path.as_str() });
     let directories: Value = shown.collect();
     Diagnostic::new(&outputs::NO_DRAWING).with("directories", directories)
 }
 
 /// Upper bound on the number of drawings that are read only for the names of their paths. Reading that many takes half a second.
-pub(crate) const MOST_UNKNOWN: usize = 2000;
+pub(crate) const MAX_READ_FOR_NAMES: usize = 2000;

@@ -16,7 +16,7 @@ use pathbuild_view::{
     ScenePath,
 };
 
-use super::work::about;
+use super::work::with_file_and_path;
 use super::{CheckedTarget, Session, WriteSettings};
 
 /// A path with a hash of its moves, so that paths can be compared without drawing them.
@@ -60,7 +60,7 @@ impl Session<'_> {
             let mut problems: Vec<Diagnostic> =
                 checked.diagnostics.into_iter().filter(prevents_program).collect();
             let moves = hash.unwrap_or_else(|problem| {
-                let problem = about(&self.db, target, *problem);
+                let problem = with_file_and_path(&self.db, target, *problem);
                 // The check may have reported the same timeout already.
                 problems.extend((!problems.contains(&problem)).then_some(problem));
                 None
@@ -159,7 +159,13 @@ pub(crate) fn drawn_source<'db>(
     in_force: &'db [ElementParameters],
 ) -> DrawnSource<'db> {
     let DrawnPath { raw, positions } = drawn;
-    DrawnSource { file: file.path(db).as_str(), raw, positions, texts: assigned_texts(db, file), in_force }
+    DrawnSource {
+        file: file.path(db).as_str(),
+        raw,
+        positions,
+        texts: assigned_texts(db, file),
+        parameters: in_force,
+    }
 }
 
 /// Returns the finished parts that the program of a target cuts.

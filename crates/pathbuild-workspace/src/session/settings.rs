@@ -10,7 +10,7 @@ use pathbuild_path::{
 
 use super::normal;
 use crate::config::{self, types};
-use crate::posting::tool_table;
+use crate::post_processor::tool_table;
 use crate::workspace::Workspace;
 
 /// Applies the configuration to the database. The configuration has no errors at this point, so its patterns compile.
@@ -21,10 +21,10 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
         path_pattern: PathPattern::new(&general.path_pattern.value).unwrap_or_default(),
         keep_out: general.keep_out.value.as_deref().and_then(|pattern| LayerPattern::new(pattern).ok()),
         part: part(context),
-        line_types: aliases(context),
+        line_types: line_type_aliases(context),
         join_tolerance: general.join_tolerance.value,
         text_limit: reading.text_length,
-        doubts: doubts(&context.settings),
+        doubts: doubt_thresholds(&context.settings),
         tools: path_tools(context),
     };
     let search = general.search.value.iter();
@@ -97,7 +97,7 @@ pub fn limits(settings: &config::Settings) -> Limits {
     }
 }
 
-fn doubts(settings: &config::Settings) -> DoubtThresholds {
+fn doubt_thresholds(settings: &config::Settings) -> DoubtThresholds {
     let warnings = &settings.warnings;
     DoubtThresholds {
         below_plate: warnings.below_plate.value,
@@ -110,7 +110,7 @@ fn doubts(settings: &config::Settings) -> DoubtThresholds {
     }
 }
 
-fn aliases(context: &Workspace) -> LineTypeAliases {
+fn line_type_aliases(context: &Workspace) -> LineTypeAliases {
     let mut aliases = LineTypeAliases::default();
     for alias in &context.settings.tables.line_types.value {
         aliases.insert(&alias.name, alias.line_type);

@@ -16,15 +16,16 @@ pub struct Timings {
 }
 
 /// Phase in which the arguments are matched with drawings.
-pub static FINDING: Text = Text { en: "finding drawings", de: "Zeichnungen suchen" };
+pub static FINDING_DRAWINGS: Text = Text { en: "finding drawings", de: "Zeichnungen suchen" };
 /// Phase in which cached results are compared with the files.
-pub static VERIFYING: Text = Text { en: "verifying cached results", de: "gespeicherte Ergebnisse prüfen" };
+pub static VERIFYING_CACHE: Text =
+    Text { en: "verifying cached results", de: "gespeicherte Ergebnisse prüfen" };
 /// Phase in which drawings are read.
-pub static READING: Text = Text { en: "reading drawings", de: "Zeichnungen lesen" };
+pub static READING_DRAWINGS: Text = Text { en: "reading drawings", de: "Zeichnungen lesen" };
 /// Phase in which paths are checked.
-pub static CHECKING: Text = Text { en: "checking paths", de: "Pfade prüfen" };
+pub static CHECKING_PATHS: Text = Text { en: "checking paths", de: "Pfade prüfen" };
 /// Phase in which results are stored in the cache.
-pub static KEEPING: Text = Text { en: "storing results", de: "Ergebnisse speichern" };
+pub static STORING_RESULTS: Text = Text { en: "storing results", de: "Ergebnisse speichern" };
 
 /// Number of slowest paths that are listed.
 const MAX_LISTED_PATHS: usize = 10;

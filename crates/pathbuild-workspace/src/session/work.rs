@@ -13,7 +13,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{PathName, PathSignature, is_q_project, tested_by_q_project};
 use rayon::prelude::*;
 
-use super::timings::{CHECKING, READING, Timings};
+use super::timings::{CHECKING_PATHS, READING_DRAWINGS, Timings};
 use super::workers::{Watchdog, Workers};
 use super::{SelectedPath, Session};
 
@@ -88,7 +88,7 @@ impl Session<'_> {
     /// Parses drawings on all cores.
     pub fn parse_ahead(&self, files: &[SourceFile]) {
         let read = |db: &Database, file: &SourceFile| _ = file_index(db, *file);
-        self.timings.measure(&READING, || self.map_parallel(files, read));
+        self.timings.measure(&READING_DRAWINGS, || self.map_parallel(files, read));
     }
 
     /// Processes many items in batches. Parsed data of a batch is evicted before the next one, so that memory grows with the results and
@@ -136,7 +136,7 @@ impl Session<'_> {
         let (is_traced, limit, watchdog) = (self.is_traced, self.limit(), &self.watchdog);
         let timings = &self.timings;
         let work = |db: &Database, item: &T| work(&Checker { db, is_traced, limit, watchdog, timings }, item);
-        self.timings.measure(&CHECKING, || self.map_parallel(items, work))
+        self.timings.measure(&CHECKING_PATHS, || self.map_parallel(items, work))
     }
 
     /// Runs further queries about a target that was checked.
@@ -151,7 +151,7 @@ impl Session<'_> {
         let limit = self.limit();
         let _watched = self.watchdog.get_or_init(|| Watchdog::start(limit)).begin(&self.db);
         let answer = self.db.run_guarded(limit, || ask(&self.db));
-        answer.map_err(|problem| Box::new(about(&self.db, target, *problem)))
+        answer.map_err(|problem| Box::new(with_file_and_path(&self.db, target, *problem)))
     }
 
     pub(super) fn limit(&self) -> Duration {
@@ -274,7 +274,7 @@ impl Checker<'_> {
 fn aborted_target(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget {
     CheckedTarget {
         target,
-        diagnostics: vec![about(db, target, problem)],
+        diagnostics: vec![with_file_and_path(db, target, problem)],
         files: vec![target.file(db)],
         missing_options: Vec::new(),
         emitted: None,
@@ -283,7 +283,7 @@ fn aborted_target(db: &Database, target: Target, problem: Diagnostic) -> Checked
 }
 
 /// Adds the file and the path to a diagnostic about a target as a whole.
-pub(super) fn about(db: &Database, target: Target, problem: Diagnostic) -> Diagnostic {
+pub(super) fn with_file_and_path(db: &Database, target: Target, problem: Diagnostic) -> Diagnostic {
     problem.in_file(target.file(db).path(db)).in_path(target.name(db))
 }
 
@@ -293,7 +293,7 @@ fn check(db: &Database, target: Target, is_traced: bool) -> CheckedTarget {
     let diagnostics: Vec<Diagnostic> = located.collect();
     CheckedTarget {
         target,
-        emitted: emitted(db, reached, &diagnostics),
+        emitted: program_facts(db, reached, &diagnostics),
         diagnostics,
         files: reached.files(db),
         missing_options: reached.missing_options.clone(),
@@ -301,7 +301,7 @@ fn check(db: &Database, target: Target, is_traced: bool) -> CheckedTarget {
     }
 }
 
-fn emitted(db: &Database, reached: &Closure<'_>, found: &[Diagnostic]) -> Option<ProgramFacts> {
+fn program_facts(db: &Database, reached: &Closure<'_>, found: &[Diagnostic]) -> Option<ProgramFacts> {
     if found.iter().any(Diagnostic::is_error) {
         return None;
     }

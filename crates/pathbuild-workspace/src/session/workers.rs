@@ -49,12 +49,12 @@ impl Workers {
 /// memory page by page while all other threads wait. glibc keeps at most twice the size of the largest piece that it has returned to the system,
 /// which is why one piece is allocated and freed first.
 fn reserve_memory(is_wanted: &AtomicBool) {
-    drop(reserved());
-    touch(&mut reserved(), is_wanted);
+    drop(allocate_block());
+    touch_pages(&mut allocate_block(), is_wanted);
 }
 
 /// Allocates a block of memory without touching it; a smaller one if the system has less.
-fn reserved() -> Vec<u8> {
+fn allocate_block() -> Vec<u8> {
     const RESERVED: usize = 16 << 20;
     let mut memory = Vec::new();
     _ = black_box(&mut memory).try_reserve_exact(RESERVED);
@@ -62,7 +62,7 @@ fn reserved() -> Vec<u8> {
 }
 
 /// Touches the first pages of the block until there is work, so that the work does not have to wait for each page.
-fn touch(memory: &mut Vec<u8>, is_wanted: &AtomicBool) {
+fn touch_pages(memory: &mut Vec<u8>, is_wanted: &AtomicBool) {
     const PAGE: usize = 4 << 10;
     /// Number of pages touched: roughly the size of the results of a few hundred drawings.
     const PAGES: usize = 384;

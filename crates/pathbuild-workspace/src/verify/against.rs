@@ -11,7 +11,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options};
 use pathbuild_gcode::native::{self, OtherLine, Parts};
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_gcode::verify::{self, Agreement, Clamps, PastClamps, PostWords, ToolUse};
+use pathbuild_gcode::verify::{self, Agreement, ClampCollisions, Clamps, PostWords, ToolUse};
 use pathbuild_motion::{Axes, Move, Position};
 use pathbuild_path::KeepOut;
 use pathbuild_post::{Job, ToolTable, program_number};
@@ -19,10 +19,10 @@ use pathbuild_post::{Job, ToolTable, program_number};
 use super::MoveComparison;
 use crate::config::Settings;
 use crate::config::types::DwellTime;
-use crate::emit::{Provenances, missing_values, native_text, writing};
-use crate::posting::PostProcessor;
+use crate::emit::{Provenances, missing_values, native_text, write_settings};
+use crate::post_processor::PostProcessor;
 use crate::program::Program;
-use crate::session::{NamedPaths, NotOnePath, OutputKind, Session, several_paths};
+use crate::session::{NamedPaths, NotOnePath, OutputKind, Session, several_paths_error};
 use crate::workspace::Failure;
 
 /// The program of a path according to its drawing, with which other programs are compared.
@@ -121,7 +121,9 @@ impl ReferenceProgram {
             moves: drawn_moves.chain(written.into_iter().flatten()),
             start,
             clearance,
-            tool: self.tool(table).or(rewritten.map_or(ToolUse::default(), |rewritten| rewritten.tool)),
+            tool: self
+                .tool(table)
+                .filled_from(rewritten.map_or(ToolUse::default(), |rewritten| rewritten.tool)),
             number: self.number(settings),
             spin_up: settings.machine.spin_up.value,
         };
@@ -130,7 +132,7 @@ impl ReferenceProgram {
 
     /// Returns the extent of the comparison, and the differences; there are none if the program has exactly the lines that its definition writes.
     /// The output of an unchecked definition serves as the reference for its programs, but does not prove that they match the drawing.
-    pub(super) fn conclude(
+    pub(super) fn finish_comparison(
         &self,
         program: &Program,
         lang: Lang,
@@ -139,7 +141,7 @@ impl ReferenceProgram {
     ) -> (Option<MoveComparison>, Vec<Diagnostic>) {
         let comparison = |equal, moves| {
             let (path, drawing) = ((*self.drawn.path).to_owned(), self.file.clone());
-            let (dialect, read_as) = (program.manner().to_owned(), program.read_as(lang));
+            let (dialect, read_as) = (program.reading_name().to_owned(), program.describe_reading(lang));
             Some(MoveComparison { path, drawing, dialect, read_as, moves, equal })
         };
         let drawn = self.drawn.moves().count();
@@ -153,7 +155,7 @@ impl ReferenceProgram {
         let compared = rewritten.is_read_back.then(|| comparison(equal, moves)).flatten();
         if compared.is_none() {
             let unread = Diagnostic::new(&say::MOVES_NOT_COMPARED).quoting("path", &*self.drawn.path);
-            differences.push(unread.quoting("post", program.read_as(lang)));
+            differences.push(unread.quoting("post", program.describe_reading(lang)));
         }
         // Words that the translation leaves out can be compared only as text.
         if let Some((line, expected)) = &rewritten.other_line
@@ -169,7 +171,7 @@ impl ReferenceProgram {
     ///
     /// # Errors
     /// If the definition cannot write the program.
-    pub(super) fn rewritten(
+    pub(super) fn rewrite_with_definition(
         &self,
         settings: &Settings,
         writer: &PostProcessor,
@@ -220,7 +222,7 @@ impl ReferenceProgram {
         if is_probing && let Some(other) = native::first_other_line(&program.text, &text, Parts::Code) {
             return Ok(vec![other_line(&say::PROBING_NOT_DRAWN, other)]);
         }
-        let correction = writing(settings).options.correction;
+        let correction = write_settings(settings).options.correction;
         let mut differences = Vec::new();
         if !is_probing {
             differences = native::formula_differences(&program.text, &self.drawn, correction);
@@ -243,8 +245,8 @@ impl ReferenceProgram {
     }
 
     /// Starts a check of a program in a dialect against the clamps around it; `None` if there are no clamps.
-    pub(super) fn past_clamps(&self, dialect: Dialect) -> Option<PastClamps<'_>> {
-        self.clamps.as_ref().map(|clamps| PastClamps::new(clamps, dialect))
+    pub(super) fn clamp_collisions(&self, dialect: Dialect) -> Option<ClampCollisions<'_>> {
+        self.clamps.as_ref().map(|clamps| ClampCollisions::new(clamps, dialect))
     }
 
     /// Returns the program number that posts write.
@@ -272,7 +274,7 @@ fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
             let db = session.db();
             let mut found = check_file(db, file).to_vec();
             if !found.iter().any(Diagnostic::is_error) {
-                found.push(several_paths(file.path(db), &names));
+                found.push(several_paths_error(file.path(db), &names));
             }
             Failure::Found(found)
         }

@@ -144,7 +144,7 @@ pub fn summary(records: &[CheckRecord], lang: Lang) -> String {
     let mut checked = vec![lang.choose("words", "Wörter").to_owned()];
     let mut unchecked = Vec::new();
     for record in records {
-        let name = shown(record.requirement).in_lang(lang);
+        let name = requirement_name(record.requirement).in_lang(lang);
         match &record.outcome {
             Outcome::Made(_) | Outcome::Assumed(..) => checked.push(record.text(lang)),
             Outcome::Incomplete(values, blind) => {
@@ -179,7 +179,7 @@ impl CheckRecord {
 
     /// Describes the check, with the values that it was made with, or the reason why it was not made.
     pub fn text(&self, lang: Lang) -> String {
-        let name = shown(self.requirement).in_lang(lang);
+        let name = requirement_name(self.requirement).in_lang(lang);
         match (&self.outcome, self.values()) {
             (Outcome::NotMade(reason), _) => format!("{name}: {}", reason.text().in_lang(lang)),
             (Outcome::Incomplete(values, blind), _) => {
@@ -197,22 +197,22 @@ impl CheckRecord {
     /// Returns the option that would make the check possible.
     pub fn option(&self, reason: Reason) -> &'static Text {
         match (reason, self.requirement) {
-            (Reason::NoDrawing, _) => &AGAINST,
+            (Reason::NoDrawing, _) => &AGAINST_OPTION,
             (Reason::OtherMoves, _) => &SAME_MOVES,
-            (Reason::NoKeepOut, _) => &KEEP_OUT,
-            (Reason::NoCutter, _) => &CUTTER,
-            (Reason::NoSurface, _) => &SURFACE,
+            (Reason::NoKeepOut, _) => &KEEP_OUT_OPTION,
+            (Reason::NoCutter, _) => &CUTTER_OPTIONS,
+            (Reason::NoSurface, _) => &SURFACE_OPTIONS,
             (Reason::TooLarge, _) => &LIMITS,
-            (Reason::NoSpeed, _) => &START,
+            (Reason::NoSpeed, _) => &START_OPTIONS,
             (Reason::NoCornerLimit, _) => &CORNER_LIMIT,
-            (Reason::NoLimit, Requirement::Feeds) => &FEED,
-            (Reason::NoLimit, Requirement::Spindle) => &SPEEDS,
-            (Reason::NoLimit, _) => &TRAVEL,
+            (Reason::NoLimit, Requirement::Feeds) => &FEED_OPTION,
+            (Reason::NoLimit, Requirement::Spindle) => &SPEEDS_OPTION,
+            (Reason::NoLimit, _) => &TRAVEL_OPTION,
         }
     }
 
     /// Returns the error for a check that is required but was not made.
-    pub(super) fn unmade(&self, required: &[Requirement]) -> Option<Diagnostic> {
+    pub(super) fn missing_check_error(&self, required: &[Requirement]) -> Option<Diagnostic> {
         let may_be_assumed = required.contains(&Requirement::AssumedRapids);
         let is_rapids = self.requirement == Requirement::Rapids;
         let is_required = required.contains(&self.requirement) || (is_rapids && may_be_assumed);
@@ -310,7 +310,7 @@ pub static ABOVE_FIRST: Text = Text {
 };
 
 /// Returns the displayed name of a check.
-fn shown(requirement: Requirement) -> Text {
+fn requirement_name(requirement: Requirement) -> Text {
     match requirement {
         Requirement::Rapids | Requirement::AssumedRapids => Text { en: "rapid moves", de: "Eilgänge" },
         Requirement::Envelope => Text { en: "travel", de: "Verfahrwege" },
@@ -349,7 +349,7 @@ static NO_CORNER_LIMIT: Text = Text {
     de: "das Programm begrenzt nicht, wie weit die Steuerung Ecken verrundet",
 };
 static CORNER_LIMIT: Text = Text { en: "G64 P or G61 in the program", de: "G64 P oder G61 im Programm" };
-static START: Text = Text { en: "M3 and S in the program", de: "M3 und S im Programm" };
+static START_OPTIONS: Text = Text { en: "M3 and S in the program", de: "M3 und S im Programm" };
 static ONLY_COMMENTS: Text = Text {
     en: "only the program itself states cutter or material",
     de: "nur das Programm selbst nennt Fräser oder Material",
@@ -366,17 +366,18 @@ static NUMBERS: Text = Text {
     en: "numbers in place of these values, or rapids=assumed",
     de: "Zahlen an Stelle dieser Werte, oder rapids=assumed",
 };
-static TRAVEL: Text = Text { en: "[machine] travel", de: "[machine] travel" };
-static FEED: Text = Text { en: "[machine] maximum-feed", de: "[machine] maximum-feed" };
-static SPEEDS: Text = Text { en: "[machine] spindle-speeds", de: "[machine] spindle-speeds" };
-static AGAINST: Text = Text { en: "--against PATH", de: "--against PFAD" };
+static TRAVEL_OPTION: Text = Text { en: "[machine] travel", de: "[machine] travel" };
+static FEED_OPTION: Text = Text { en: "[machine] maximum-feed", de: "[machine] maximum-feed" };
+static SPEEDS_OPTION: Text = Text { en: "[machine] spindle-speeds", de: "[machine] spindle-speeds" };
+static AGAINST_OPTION: Text = Text { en: "--against PATH", de: "--against PFAD" };
 static SAME_MOVES: Text = Text {
     en: "a program with the moves of the drawing",
     de: "ein Programm mit den Bewegungen der Zeichnung",
 };
-static KEEP_OUT: Text = Text { en: "keep-out in pathbuild.toml", de: "keep-out in pathbuild.toml" };
-static CUTTER: Text = Text { en: "--cutter or --against PATH", de: "--cutter oder --against PFAD" };
-static SURFACE: Text = Text { en: "--surface or --against PATH", de: "--surface oder --against PFAD" };
+static KEEP_OUT_OPTION: Text = Text { en: "keep-out in pathbuild.toml", de: "keep-out in pathbuild.toml" };
+static CUTTER_OPTIONS: Text = Text { en: "--cutter or --against PATH", de: "--cutter oder --against PFAD" };
+static SURFACE_OPTIONS: Text =
+    Text { en: "--surface or --against PATH", de: "--surface oder --against PFAD" };
 static LIMITS: Text =
     Text { en: "[limits] verify-cells and verify-pieces", de: "[limits] verify-cells und verify-pieces" };
 static STOCK_OPTIONS: Text = Text {

@@ -18,8 +18,9 @@ use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    BlindRapidRules, ChipLoadRules, CornerRules, DepthRules, DirectionRules, DrawingComparison, LengthRules,
-    Machine, MachineRules, PastClamps, PostWords, StatedStatistics, Stock, WordRules, coarse_arcs, verify,
+    BlindRapidRules, ChipLoadRules, ClampCollisions, CornerRules, DepthRules, DirectionRules,
+    DrawingComparison, LengthRules, Machine, MachineRules, PostWords, StatedStatistics, Stock, WordRules,
+    coarse_arc_finding, verify,
 };
 use pathbuild_motion::{Action, Move, Pace, Step};
 use pathbuild_post::ToolTable;
@@ -27,8 +28,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::types::{Requirement, SpindleControl};
 use crate::config::{Settings, number, positive};
-use crate::posting::{PostArguments, PostProcessor, known_words, machine, tool_table};
-use crate::program::{ByDefinition, Program, ReadingOptions};
+use crate::post_processor::{PostArguments, PostProcessor, known_words, machine, tool_table};
+use crate::program::{DefinitionTranslation, Program, ReadingOptions};
 use crate::session::Session;
 use crate::workspace::Failure;
 use crate::workspace::Workspace;
@@ -107,7 +108,7 @@ pub struct Verifier<'w> {
     system: Arc<dyn System>,
     lang: Lang,
     options: VerifyOptions,
-    writers: Writers,
+    writers: PossiblePosts,
     against: Option<ReferenceProgram>,
     table: ToolTable,
     machine: Option<Machine>,
@@ -122,7 +123,7 @@ impl<'w> Verifier<'w> {
     /// If the post-processor, or the path to compare with, cannot be used.
     pub fn new(session: &mut Session<'w>, options: VerifyOptions) -> Result<Self, Failure> {
         let workspace = session.workspace();
-        let writers = Writers::new(workspace, &options).map_err(Failure::Post)?;
+        let writers = PossiblePosts::new(workspace, &options).map_err(Failure::Post)?;
         let drawn = |name| session.with_stable_files(|session| ReferenceProgram::new(session, name));
         let against = options.against.as_deref().map(drawn).transpose()?;
         let reading = ReadingOptions { dialect: writers.dialect(), ..options.reading };
@@ -151,7 +152,7 @@ impl<'w> Verifier<'w> {
             Program::read_each(self.settings, file, text, self.options.reading, &by_definition, each);
         let mut verified = self.examine(&program, as_written);
         let required = self.required();
-        let unmade = verified.checks.iter().filter_map(|record| record.unmade(&required));
+        let unmade = verified.checks.iter().filter_map(|record| record.missing_check_error(&required));
         let mut unmade: Vec<Diagnostic> = unmade.collect();
         program.place(&mut unmade);
         verified.diagnostics.append(&mut unmade);
@@ -244,7 +245,7 @@ impl<'m> WrittenSteps<'m> {
 
     fn finish(mut self, program: &Program) -> (Header, WrittenFindings) {
         if program.by_definition.is_some() {
-            self.header.head_of(&program.text);
+            self.header.read_head_comments(&program.text);
         }
         // PathDxf2GCode states planned lengths, and other programs may count differently.
         let has_own_statistics = program.dialect == Dialect::Native
@@ -260,7 +261,7 @@ impl<'m> WrittenSteps<'m> {
 struct NominalSteps<'w, I: Iterator<Item = (u32, Move)>> {
     comparison: Option<DrawingComparison<'w, I>>,
     words: Option<WordRules<'w>>,
-    clamps: Option<PastClamps<'w>>,
+    clamps: Option<ClampCollisions<'w>>,
 }
 
 impl<I: Iterator<Item = (u32, Move)>> NominalSteps<'_, I> {
@@ -277,24 +278,24 @@ impl<I: Iterator<Item = (u32, Move)>> NominalSteps<'_, I> {
     }
 
     /// Handles a word that the translation by means of a definition leaves out.
-    fn left_out(&mut self, line: u32, word: &str) {
+    fn check_omitted_word(&mut self, line: u32, word: &str) {
         if let Some(words) = &mut self.words {
-            words.left_out(line, word);
+            words.check_omitted_word(line, word);
         }
         if let Some(comparison) = &mut self.comparison {
-            comparison.left_out(line, word);
+            comparison.check_omitted_word(line, word);
         }
     }
 }
 
 /// Facts about the steps seen so far: whether any of them cuts, and whether any starts the spindle with a speed.
 #[derive(Clone, Copy, Debug, Default)]
-struct SeenSpeeds {
+struct SpindleStarts {
     has_cut: bool,
     has_started: bool,
 }
 
-impl SeenSpeeds {
+impl SpindleStarts {
     fn step(&mut self, step: &Step) {
         match &step.action {
             Action::Move(movement) => self.has_cut |= matches!(movement.pace, Pace::Feed(_)),
@@ -310,7 +311,7 @@ impl SeenSpeeds {
 struct CheckEvidence {
     /// Rapid moves from unknown positions, if the material is known.
     blind: Option<BlindRapidRules>,
-    speeds: SeenSpeeds,
+    speeds: SpindleStarts,
     corners: CornerRules,
 }
 
@@ -362,10 +363,10 @@ impl<'v> Examination<'v> {
     /// # Errors
     /// The problem that prevents the verification.
     fn run(&self, written: WrittenFindings) -> Result<VerifiedProgram, Vec<Diagnostic>> {
-        let rewritten = self.rewritten()?;
+        let rewritten = self.rewritten_program()?;
         let mut evidence = CheckEvidence {
             blind: self.sources.stock().and_then(BlindRapidRules::new),
-            speeds: SeenSpeeds::default(),
+            speeds: SpindleStarts::default(),
             corners: CornerRules::new(self.verifier.settings.general.part_tolerance.value),
         };
         let (mut found, comparison) = self.findings(written, rewritten.as_ref(), &mut evidence);
@@ -385,12 +386,11 @@ impl<'v> Examination<'v> {
     }
 
     /// Returns the drawing's program as the post-processor's definition writes it.
-    fn rewritten(&self) -> Result<Option<RewrittenProgram>, Vec<Diagnostic>> {
+    fn rewritten_program(&self) -> Result<Option<RewrittenProgram>, Vec<Diagnostic>> {
         let definition = self.writer.filter(|writer| writer.file().is_some());
-        let rewritten = self
-            .milled
-            .zip(definition)
-            .map(|(milled, writer)| milled.rewritten(self.verifier.settings, writer, self.program));
+        let rewritten = self.milled.zip(definition).map(|(milled, writer)| {
+            milled.rewrite_with_definition(self.verifier.settings, writer, self.program)
+        });
         rewritten.transpose()
     }
 
@@ -410,7 +410,7 @@ impl<'v> Examination<'v> {
         let mut nominal = NominalSteps {
             comparison: self.milled.map(compared),
             words: against.is_none().then(|| WordRules::new(&self.words, program.dialect)),
-            clamps: against.and_then(|against| against.past_clamps(program.dialect)),
+            clamps: against.and_then(|against| against.clamp_collisions(program.dialect)),
         };
         let mut chip_loads = ChipLoadRules::new(self.sources.chip_loads());
         // The comparison with a drawing reports wrong directions and wrong tool lengths itself.
@@ -418,7 +418,7 @@ impl<'v> Examination<'v> {
         let mut lengths =
             self.milled.is_none().then(|| LengthRules::new(program.dialect, self.sources.stock()));
         let mut depths = DepthRules::default();
-        let mut found = verify(&program.drawn(), self.sources.stock(), &mut |step| {
+        let mut found = verify(&program.at_nominal_heights(), self.sources.stock(), &mut |step| {
             nominal.step(step);
             evidence.step(step);
             chip_loads.step(step);
@@ -433,16 +433,18 @@ impl<'v> Examination<'v> {
         found.extend(lengths.into_iter().flat_map(LengthRules::finish));
         found.extend(self.sources.doubtful_rapids(depths, &found));
         for word in program.words_left_out() {
-            nominal.left_out(word.line, &word.word);
+            nominal.check_omitted_word(word.line, &word.word);
         }
         found.extend(nominal.words.into_iter().flat_map(WordRules::finish));
-        found.extend(nominal.clamps.into_iter().flat_map(PastClamps::finish));
-        found.extend(coarse_arcs(program.code(), program.dialect));
+        found.extend(nominal.clamps.into_iter().flat_map(ClampCollisions::finish));
+        found.extend(coarse_arc_finding(program.code(), program.dialect));
         found.extend(written.limits);
         found.extend(chip_loads.finish());
         let is_switched = verifier.settings.general.spindle.value != SpindleControl::Manual
             && !matches!(program.dialect, Dialect::Xpertmill | Dialect::Native);
-        found.extend(directions.iter().filter(|_| is_switched).find_map(DirectionRules::never_started));
+        found.extend(
+            directions.iter().filter(|_| is_switched).find_map(DirectionRules::never_started_finding),
+        );
         found.extend(directions.into_iter().flat_map(DirectionRules::finish));
         found.extend(self.sources.unknown_tools());
         if program.dialect == Dialect::Native {
@@ -453,7 +455,7 @@ impl<'v> Examination<'v> {
         found.extend(self.header.problems.iter().cloned());
         let Some((milled, comparison)) = self.milled.zip(nominal.comparison) else { return (found, None) };
         let (comparison, differences) =
-            milled.conclude(program, verifier.lang, comparison.finish(), rewritten);
+            milled.finish_comparison(program, verifier.lang, comparison.finish(), rewritten);
         found.extend(differences);
         (found, comparison)
     }
@@ -501,7 +503,7 @@ impl<'v> Examination<'v> {
             let is_own = self.program.by_definition.is_none();
             doubts.retain(|doubt| doubt.is_error() && is_own || is_of_modes(doubt) || is_of_point(doubt));
         } else if self.verifier.against.is_some() {
-            let unsaid = doubts.iter_mut().filter(|doubt| is_unsaid(doubt));
+            let unsaid = doubts.iter_mut().filter(|doubt| is_absent_from_drawing(doubt));
             let unchecked = found.iter_mut().filter(|problem| problem.code() == Code::UncheckedFormula);
             unsaid.chain(unchecked).for_each(|problem| problem.severity = Severity::Error);
         }
@@ -521,13 +523,13 @@ fn is_of_point(doubt: &Diagnostic) -> bool {
 
 /// Whether the doubt concerns words that the drawing's program does not contain. Two kinds of doubts do not: the drawing does not determine how fine
 /// arcs are, and the user asked to ignore feeds.
-fn is_unsaid(doubt: &Diagnostic) -> bool {
+fn is_absent_from_drawing(doubt: &Diagnostic) -> bool {
     doubt.code() != Code::DoubtfulArc && doubt.message.key != FEED_IGNORED.key
 }
 
 /// The posts that may have written the programs of a run.
 #[derive(Debug)]
-struct Writers {
+struct PossiblePosts {
     /// The post named by `--post`.
     named: Option<PostProcessor>,
     /// The configured post, unless `--post` is given.
@@ -535,7 +537,7 @@ struct Writers {
     dialect: Option<Dialect>,
 }
 
-impl Writers {
+impl PossiblePosts {
     /// Opens the posts of the command line and the configuration.
     ///
     /// # Errors
@@ -575,9 +577,9 @@ impl Writers {
     }
 
     /// Translates a text by means of the definition that wrote it, if the definition names no dialect.
-    fn translate(&self, text: &[u8], guess: Option<&Guess>) -> Option<ByDefinition> {
+    fn translate(&self, text: &[u8], guess: Option<&Guess>) -> Option<DefinitionTranslation> {
         let dialect = guess.map(|guess| guess.dialect).or(self.dialect)?;
         let writer = self.of(dialect, guess.map(|guess| guess.evidence.kind))?;
-        Some(ByDefinition { name: writer.name(), translated: writer.translate(text)? })
+        Some(DefinitionTranslation { name: writer.name(), translated: writer.translate(text)? })
     }
 }

@@ -35,7 +35,7 @@ pub struct Verification {
 impl Request<'_> {
     /// Opens a session that suits this request: it traces inputs if results are cached.
     pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
-        if workspace.keeps_results() { Session::traced(workspace) } else { Session::new(workspace) }
+        if workspace.keeps_results() { Session::with_tracing(workspace) } else { Session::new(workspace) }
     }
 
     /// Verifies the programs that have no cached result.
@@ -76,7 +76,7 @@ impl Verifier<'_> {
         };
         let subject = |file: &Utf8PathBuf| file.as_str().into();
         let answers = memo.get_or(files, subject, |_, result| Some(result), verify);
-        memo.keep(session, answers.iter().filter_map(Answer::fresh));
+        memo.store_results(session, answers.iter().filter_map(Answer::fresh));
         files.iter().cloned().zip(answers.into_iter().map(|answer| answer.value)).collect()
     }
 

@@ -51,7 +51,7 @@ impl ToolDiameters {
         let Some(first) = known.into_iter().flatten().next() else {
             return self.header.map(|header| header.widths());
         };
-        let is_same = |diameter: f64| different(Some(first), Some(diameter)).is_none();
+        let is_same = |diameter: f64| differing_values(Some(first), Some(diameter)).is_none();
         let cutter = table.filter(|table| is_same(table.diameter)).unwrap_or(Cutter::flat(first));
         let header = self.header.filter(|header| !header.has_diameter(first)).map(|header| header.diameter);
         let others = known.into_iter().flatten().filter(|diameter| !is_same(*diameter)).chain(header);
@@ -83,7 +83,7 @@ impl<'s> Sources<'s> {
         let stock = match (self.options().surface, self.drawn_surface()) {
             (Some(given), Some(_)) => self.uniform(given),
             (Some(given), None) => match self.stated_stock() {
-                Some(stated) => Some(stated.reaching(given)),
+                Some(stated) => Some(stated.raised_to(given)),
                 None => self.uniform(given),
             },
             (None, Some(drawn)) => self.uniform(drawn),
@@ -97,7 +97,7 @@ impl<'s> Sources<'s> {
     fn stated_stock(&self) -> Option<Stock> {
         let cutters = self.cutters()?;
         let native = (self.program.dialect == Dialect::Native)
-            .then(|| Stock::of_native_text(&self.program.drawn(), cutters.first()?.1));
+            .then(|| Stock::of_native_text(&self.program.at_nominal_heights(), cutters.first()?.1));
         native.flatten().or_else(|| self.uniform(self.header.surface?))
     }
 
@@ -108,7 +108,8 @@ impl<'s> Sources<'s> {
 
     /// Returns the source of the cutters. If the program has several tools, this is the least reliable of their sources.
     pub(super) fn cutter_origin(&self) -> Option<Origin> {
-        let given = self.options().cutter.map(|_| Origin::Option).or(self.drawn().map(|_| Origin::Drawing));
+        let given =
+            self.options().cutter.map(|_| Origin::Option).or(self.drawn_cutter().map(|_| Origin::Drawing));
         self.header.tools.iter().filter_map(|tool| self.diameters(tool).origin()).max().or(given)
     }
 
@@ -130,7 +131,7 @@ impl<'s> Sources<'s> {
     }
 
     /// Whether only the program itself states the cutter or the surface.
-    pub(super) fn are_only_stated(&self) -> bool {
+    pub(super) fn is_stated_only(&self) -> bool {
         let is_surface_known = self.options().surface.or(self.drawn_surface()).is_some();
         !is_surface_known || self.cutter_origin() == Some(Origin::Program)
     }
@@ -154,13 +155,13 @@ impl<'s> Sources<'s> {
         match blind {
             Some(blind) => Outcome::Incomplete(values, blind),
             None if has_machine_values => Outcome::Assumed(values, Assumption::MachineValues),
-            None if self.are_only_stated() => Outcome::Assumed(values, Assumption::Stock),
+            None if self.is_stated_only() => Outcome::Assumed(values, Assumption::Stock),
             None => Outcome::Made(Some(values)),
         }
     }
 
     /// Reports rapid moves at cutting depth. Reports none if the surface is known from more than the comments of another CAM program, and none on
-    /// lines that already have an error. A cutter that is not known may be as wide as [`WIDEST`].
+    /// lines that already have an error. A cutter that is not known may be as wide as [`MAX_ASSUMED_DIAMETER`].
     pub(super) fn doubtful_rapids(&self, rules: DepthRules, found: &[Diagnostic]) -> Vec<Diagnostic> {
         let is_known = self.options().surface.is_some()
             || self.verifier.against.is_some()
@@ -169,9 +170,9 @@ impl<'s> Sources<'s> {
         if is_known {
             return Vec::new();
         }
-        let widest = [(0, Cutter::flat(WIDEST))];
+        let widest = [(0, Cutter::flat(MAX_ASSUMED_DIAMETER))];
         let stock = Stock::with_unknown_surface(self.cutters().unwrap_or(&widest));
-        let mut doubts = rules.finish(&self.program.drawn(), &self.limited(stock));
+        let mut doubts = rules.finish(&self.program.at_nominal_heights(), &self.limited(stock));
         let is_same_line = |error: &Diagnostic, doubt: &Diagnostic| error.place.line == doubt.place.line;
         doubts.retain(|doubt| match doubt.code() {
             Code::LimitReached => found.iter().all(|problem| problem.code() != Code::LimitReached),
@@ -184,7 +185,7 @@ impl<'s> Sources<'s> {
             doubt.severity = Severity::Warning;
             if self.cutters().is_none() && doubt.code() == Code::RapidAtDepth {
                 doubt.message = &say::RAPID_FAR_FROM_CUTS;
-                doubt.arguments.push(("widest", WIDEST.into()));
+                doubt.arguments.push(("widest", MAX_ASSUMED_DIAMETER.into()));
             }
         }
         doubts
@@ -196,7 +197,7 @@ impl<'s> Sources<'s> {
     }
 
     fn known_cutters(&self) -> Option<Vec<(u32, Cutter)>> {
-        let given = self.options().cutter.or(self.drawn());
+        let given = self.options().cutter.or(self.drawn_cutter());
         let widths = |tool: &CuttingTool| Some((tool.line, self.diameters(tool).cutter()?));
         let mut cutters: Vec<(u32, Cutter)> = self.header.tools.iter().map(widths).collect::<Option<_>>()?;
         // In a subprogram, the tool depends on the caller.
@@ -234,14 +235,18 @@ impl<'s> Sources<'s> {
         found.extend(compared(
             &say::OTHER_CUTTER_DRAWN,
             &CUTTER,
-            different(self.options().cutter, self.drawn()),
+            differing_values(self.options().cutter, self.drawn_cutter()),
         ));
         let surface = self.drawn_surface();
-        found.extend(compared(&say::OTHER_SURFACE_DRAWN, &HEADER, different(self.header.surface, surface)));
+        found.extend(compared(
+            &say::OTHER_SURFACE_DRAWN,
+            &HEADER,
+            differing_values(self.header.surface, surface),
+        ));
         found.extend(compared(
             &say::OTHER_SURFACE_DRAWN,
             &SURFACE,
-            different(self.options().surface, surface),
+            differing_values(self.options().surface, surface),
         ));
         found.extend(self.other_surface_given());
         found
@@ -251,7 +256,7 @@ impl<'s> Sources<'s> {
     fn other_surface_given(&self) -> Option<Diagnostic> {
         let given = self.options().surface.filter(|_| self.verifier.against.is_none());
         let stated = self.header.surface.or_else(|| self.stated_stock()?.highest());
-        let (given, stated) = different(given, stated)?;
+        let (given, stated) = differing_values(given, stated)?;
         let is_in_header = self.header.surface.is_some();
         let message = if is_in_header { &say::OTHER_SURFACE_GIVEN } else { &say::PLUNGES_ABOVE_SURFACE };
         Some(Diagnostic::new(message).with("found", stated).with("given", given))
@@ -317,7 +322,7 @@ impl<'s> Sources<'s> {
         &self.verifier.options
     }
 
-    fn drawn(&self) -> Option<f64> {
+    fn drawn_cutter(&self) -> Option<f64> {
         self.verifier.against.as_ref().and_then(ReferenceProgram::cutter)
     }
 
@@ -327,7 +332,7 @@ impl<'s> Sources<'s> {
 
     fn diameters(&self, tool: &CuttingTool) -> ToolDiameters {
         let entry = self.entry(tool);
-        let (given, drawn, header) = (self.options().cutter, self.drawn(), tool.cutter);
+        let (given, drawn, header) = (self.options().cutter, self.drawn_cutter(), tool.cutter);
         // XpertMILL's layers are not tools, but may be numbered like them.
         let is_only_source = given.or(drawn).is_none() && header.is_none();
         let may_be_tool = |_: &f64| self.program.dialect != Dialect::Xpertmill || is_only_source;
@@ -350,7 +355,9 @@ fn disagreements_of(tool: &CuttingTool, diameters: &ToolDiameters) -> Vec<Diagno
     };
     let mut found = Vec::new();
     found.extend(other_than_header(given).map(|values| given_other(&HEADER, values)));
-    found.extend(different(table.filter(|_| is_numbered), given).map(|values| given_other(&TABLE, values)));
+    found.extend(
+        differing_values(table.filter(|_| is_numbered), given).map(|values| given_other(&TABLE, values)),
+    );
     // This is an error, because the operator reads the header and inserts the tool that it names.
     found.extend(other_than_header(drawn).map(|(header, drawn)| {
         let problem = Diagnostic::new(&say::OTHER_CUTTER_DRAWN).with("place", &HEADER);
@@ -365,7 +372,7 @@ fn disagreements_of(tool: &CuttingTool, diameters: &ToolDiameters) -> Vec<Diagno
 }
 
 /// Returns both values if they differ by more than the tolerance.
-fn different(one: Option<f64>, other: Option<f64>) -> Option<(f64, f64)> {
+fn differing_values(one: Option<f64>, other: Option<f64>) -> Option<(f64, f64)> {
     one.zip(other).filter(|(one, other)| (one - other).abs() > TOLERANCE)
 }
 
@@ -373,7 +380,7 @@ fn different(one: Option<f64>, other: Option<f64>) -> Option<(f64, f64)> {
 const TOLERANCE: f64 = 1e-6;
 
 /// Diameter in mm of the widest cutter that is assumed if none is known. A wider one may have cleared everything between two cuts.
-const WIDEST: f64 = 50.0;
+const MAX_ASSUMED_DIAMETER: f64 = 50.0;
 
 static HEADER: Text = Text { en: "the header", de: "der Kopf" };
 static TABLE: Text = Text { en: "`[tool]`", de: "`[tool]`" };

@@ -12,14 +12,14 @@ use pathbuild_db::System;
 use pathbuild_db::system::is_drawing;
 
 use super::directories::{EventPath, WatchedDirectories, event_path};
-use super::events::{Bell, Changes, Request, Restart, Signal};
+use super::events::{Changes, Request, Restart, Signal, WakeHandle};
 use super::library::Library;
 use crate::session::{Session, is_ignore_file};
 
 /// A watcher of a library's directories, which collects changes in batches.
 pub(super) struct Watcher {
     signals: Receiver<Signal>,
-    bell: Bell,
+    bell: WakeHandle,
     source: Box<dyn notify::Watcher>,
     debounce: Duration,
     /// The configuration and the files of the post-processor, with the paths that events report.
@@ -76,7 +76,7 @@ impl Watcher {
         let workspace = session.workspace();
         let settings = &workspace.settings;
         let (sender, signals) = channel();
-        let bell = Bell(sender.clone());
+        let bell = WakeHandle(sender.clone());
         let tell = move |event| _ = sender.send(Signal::Changed(event));
         let is_polling = request.polls || settings.watch.poll.value;
         let mut watcher: Box<dyn notify::Watcher> = if is_polling {
@@ -111,7 +111,7 @@ impl Watcher {
     }
 
     /// Watches the targets of the files that are links. If the system refuses to watch a target, returns the file with the system's reason.
-    pub(super) fn follow(
+    pub(super) fn watch_link_targets(
         &mut self,
         session: &Session<'_>,
         files: impl IntoIterator<Item = Utf8PathBuf>,
@@ -121,7 +121,7 @@ impl Watcher {
     }
 
     /// Returns a handle that wakes this watcher.
-    pub(super) fn bell(&self) -> Bell {
+    pub(super) fn wake_handle(&self) -> WakeHandle {
         self.bell.clone()
     }
 
@@ -135,16 +135,16 @@ impl Watcher {
             if self.has_moved() {
                 return Batch::Restart(Restart::Directories);
             }
-            let patience = self.patience(library);
+            let patience = self.time_to_deadline(library);
             if patience.is_zero()
-                && let Some(batch) = self.take_due(library)
+                && let Some(batch) = self.take_due_changes(library)
             {
                 return batch;
             }
-            if self.has_been_rung() {
+            if self.take_wake_up() {
                 return Batch::WokenUp;
             }
-            match self.wait(self.patience(library)) {
+            match self.wait(self.time_to_deadline(library)) {
                 Ok(signal) => self.add(signal, library.session()),
                 Err(RecvTimeoutError::Disconnected) => return Batch::Over,
                 Err(RecvTimeoutError::Timeout) => {}
@@ -153,7 +153,7 @@ impl Watcher {
     }
 
     /// Returns the time until the next deadline, if no more events arrive.
-    fn patience(&self, library: &Library<'_>) -> Duration {
+    fn time_to_deadline(&self, library: &Library<'_>) -> Duration {
         if self.pending.is_empty() && self.unfinished.is_empty() && !library.has_backlog() {
             return Duration::MAX;
         }
@@ -161,7 +161,7 @@ impl Watcher {
     }
 
     /// Takes the changes that are due, except for incomplete drawings, which are checked again soon.
-    fn take_due(&mut self, library: &Library<'_>) -> Option<Batch> {
+    fn take_due_changes(&mut self, library: &Library<'_>) -> Option<Batch> {
         let mut changes = std::mem::take(&mut self.pending);
         if let Some(restart) = changes.restart {
             return Some(Batch::Restart(restart));
@@ -186,7 +186,7 @@ impl Watcher {
     }
 
     /// Whether a wake-up was requested since the last call.
-    pub(super) fn has_been_rung(&mut self) -> bool {
+    pub(super) fn take_wake_up(&mut self) -> bool {
         std::mem::take(&mut self.is_woken)
     }
 
@@ -305,10 +305,12 @@ fn may_affect_results(path: &Utf8Path) -> bool {
 }
 
 /// Length in bytes of the end of a drawing in which the end marker is searched for.
-const TAIL: usize = 256;
+const END_MARKER_BYTES: usize = 256;
 
 /// Whether a drawing exists but lacks the end marker.
 fn is_unfinished(system: &dyn System, path: &Utf8Path) -> bool {
     is_drawing(path)
-        && system.read_tail(path, TAIL).is_ok_and(|tail| !tail.windows(3).any(|word| word == b"EOF"))
+        && system
+            .read_tail(path, END_MARKER_BYTES)
+            .is_ok_and(|tail| !tail.windows(3).any(|word| word == b"EOF"))
 }

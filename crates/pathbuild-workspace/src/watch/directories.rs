@@ -63,7 +63,7 @@ impl WatchedDirectories {
                 *known = mode;
             }
             names.extend(directory_and_parents(&event_name));
-            for name in trail(system, &working_directory.join(&event_name)) {
+            for name in followed_links(system, &working_directory.join(&event_name)) {
                 names.extend(directory_and_parents(&event_path(session, &name)));
             }
             roots.insert([
@@ -352,7 +352,7 @@ impl Links {
         let mut file = drawing.to_owned();
         let mut link = system.link(&file);
         if let Some(FileLink::Symbolic(_)) = link {
-            for name in trail(system, &working_directory.join(drawing)) {
+            for name in followed_links(system, &working_directory.join(drawing)) {
                 file = as_event(&name);
                 if system.kind(&file) == FileKind::Directory {
                     to_watch.push(LinkPlace::Directory(file.clone()));
@@ -402,7 +402,7 @@ impl Links {
 }
 
 /// Returns the symbolic links that are followed on an absolute path, and last the path with all of them resolved.
-pub(super) fn trail(system: &dyn System, path: &Utf8Path) -> Vec<Utf8PathBuf> {
+pub(super) fn followed_links(system: &dyn System, path: &Utf8Path) -> Vec<Utf8PathBuf> {
     let parts = |path: &Utf8Path| -> Vec<Utf8PathBuf> {
         path.components().rev().map(|part| part.as_str().into()).collect()
     };

@@ -11,7 +11,7 @@ use pathbuild_diagnostic::Diagnostic;
 
 use crate::Inputs;
 use crate::emit::ProgramOutcome;
-use crate::posting::PostProcessor;
+use crate::post_processor::PostProcessor;
 use crate::session::Session;
 
 /// A request to watch drawings.
@@ -30,12 +30,12 @@ pub struct Request<'a> {
 /// A receiver of reports from the watch loop. Callbacks get the session, so that they can query more than the findings.
 pub trait Listener {
     /// Receives the handle that wakes the watcher from other threads.
-    fn set_bell(&self, _: Bell) {}
+    fn set_wake_handle(&self, _: WakeHandle) {}
     /// Called when drawings were found and read, before they are checked. The diagnostics are those of arguments and directories.
     fn drawings_found(&self, _: &mut Session<'_>, _: &[SourceFile], _: &[Diagnostic]) {}
     /// Called when drawings were checked and, if requested, their programs were written through this post-processor.
     fn drawings_checked(&self, _: &mut Session<'_>, _: &[SourceFile], _: Option<&PostProcessor>) {}
-    /// Called when a wake-up was requested through the [`Bell`].
+    /// Called when a wake-up was requested through the [`WakeHandle`].
     fn woken(&self, _: &mut Session<'_>) {}
     /// Called when all drawings were checked for the first time.
     fn first_check_done(&self, _: &FirstCheck) {}
@@ -121,11 +121,11 @@ pub(super) enum Signal {
 
 /// A handle that wakes the watching thread. May be cloned and used by any thread.
 #[derive(Clone, Debug)]
-pub struct Bell(pub(super) Sender<Signal>);
+pub struct WakeHandle(pub(super) Sender<Signal>);
 
-impl Bell {
+impl WakeHandle {
     /// Requests a call of [`Listener::woken`] as soon as the session is idle. Has no effect once watching has ended.
-    pub fn ring(&self) {
+    pub fn wake(&self) {
         _ = self.0.send(Signal::WokenUp);
     }
 

@@ -160,7 +160,7 @@ impl<'a> Library<'a> {
 
     /// Marks drawings with transient diagnostics to be checked again, except those just checked, and lists unreadable directories again. `further`
     /// names drawings of which a program could not be written.
-    pub(super) fn try_again(
+    pub(super) fn mark_transient(
         &mut self,
         further: &BTreeSet<Utf8PathBuf>,
         checked_files: &[SourceFile],
@@ -186,9 +186,9 @@ impl<'a> Library<'a> {
             // A diagnostic about a directory means that the directory could not be listed.
             for path in &files {
                 self.session.touch_file(path);
-                let directory = as_listed(path);
+                let directory = or_dot(path);
                 if self.names.has(directory) {
-                    self.renew_names(directory, &mut concerned);
+                    self.relist_names(directory, &mut concerned);
                 } else {
                     self.session.touch_directory(directory);
                 }
@@ -203,7 +203,7 @@ impl<'a> Library<'a> {
     }
 
     /// Takes the dependencies that were found or changed since the last call.
-    pub(super) fn take_unfollowed(&mut self) -> BTreeSet<Utf8PathBuf> {
+    pub(super) fn take_new_dependencies(&mut self) -> BTreeSet<Utf8PathBuf> {
         std::mem::take(&mut self.unfollowed)
     }
 
@@ -213,7 +213,7 @@ impl<'a> Library<'a> {
     }
 
     /// Iterates over the drawings still to be checked.
-    pub(super) fn open(&self) -> impl Iterator<Item = SourceFile> {
+    pub(super) fn unchecked_drawings(&self) -> impl Iterator<Item = SourceFile> {
         self.open.values().copied()
     }
 
@@ -221,7 +221,7 @@ impl<'a> Library<'a> {
     pub(super) fn check_portion(&mut self, most: usize, update: &mut Batch) -> Vec<SourceFile> {
         let portion: Vec<SourceFile> =
             std::iter::from_fn(|| self.open.pop_first()).map(|(_, file)| file).take(most).collect();
-        self.ask(portion.clone(), update);
+        self.check_and_record(portion.clone(), update);
         portion
     }
 
@@ -251,7 +251,7 @@ impl<'a> Library<'a> {
     fn changed_files(&self, changes: &Changes) -> BTreeSet<Utf8PathBuf> {
         let db = self.session.db();
         let mut files: BTreeSet<Utf8PathBuf> = BTreeSet::new();
-        let known = || self.reverse.files().chain(self.open());
+        let known = || self.reverse.files().chain(self.unchecked_drawings());
         if changes.is_incomplete {
             files.extend(known().map(|file| file.path(db).clone()));
         }
@@ -294,14 +294,14 @@ impl<'a> Library<'a> {
         };
         directories.extend(self.names.directories().filter(|directory| is_doubtful(directory)).cloned());
         for directory in directories {
-            have_changed |= self.renew_names(&directory, concerned);
+            have_changed |= self.relist_names(&directory, concerned);
         }
         have_changed
     }
 
     /// Lists a directory again, and collects the drawings that looked up a name that has appeared or disappeared. Returns whether any names changed.
-    fn renew_names(&mut self, directory: &Utf8Path, concerned: &mut HashSet<SourceFile>) -> bool {
-        let changed = self.names.renew(&mut self.session, directory);
+    fn relist_names(&mut self, directory: &Utf8Path, concerned: &mut HashSet<SourceFile>) -> bool {
+        let changed = self.names.relist(&mut self.session, directory);
         let names = changed.iter().map(|name| &**name);
         concerned.extend(self.reverse.of_names(directory, names, &self.coverage));
         !changed.is_empty()
@@ -329,7 +329,7 @@ impl<'a> Library<'a> {
             .filter_map(|problem| problem.file.as_ref())
             .collect();
         let is_unsure =
-            |drawing: &Utf8PathBuf| unlisted.iter().any(|place| drawing.starts_with(as_listed(place)));
+            |drawing: &Utf8PathBuf| unlisted.iter().any(|place| drawing.starts_with(or_dot(place)));
         let is_gone = |drawing: &Utf8PathBuf| !existing.contains(drawing) && !is_unsure(drawing);
         // Drawings may have been removed before they were checked for the first time.
         let unchecked = self.open.extract_if(.., |drawing, _| is_gone(drawing));
@@ -372,7 +372,7 @@ impl<'a> Library<'a> {
     }
 
     /// Checks drawings and records their inputs.
-    fn ask(&mut self, checked_files: Vec<SourceFile>, update: &mut Batch) {
+    fn check_and_record(&mut self, checked_files: Vec<SourceFile>, update: &mut Batch) {
         let results =
             self.session.with_stable_files(|session| check_drawings(session, &checked_files, false));
         for (file, (result, traces)) in checked_files.iter().zip(results) {
@@ -434,7 +434,7 @@ fn has_other_content(before: &DrawingResult, now: &DrawingResult) -> bool {
 }
 
 /// Returns the directory that a diagnostic is about, in which `.` stands for the working directory.
-fn as_listed(directory: &Utf8Path) -> &Utf8Path {
+fn or_dot(directory: &Utf8Path) -> &Utf8Path {
     if directory == "." { Utf8Path::new("") } else { directory }
 }
 
@@ -564,7 +564,7 @@ impl NameSnapshots {
     }
 
     /// Lists a directory again, in the database as well, and returns the names that were added or removed. Later results see the new names.
-    pub(super) fn renew(&mut self, session: &mut Session<'_>, directory: &Utf8Path) -> Vec<Box<str>> {
+    pub(super) fn relist(&mut self, session: &mut Session<'_>, directory: &Utf8Path) -> Vec<Box<str>> {
         session.touch_directory(directory);
         let names = names_of(session, directory);
         let before = self.0.insert(directory.to_owned(), names.clone()).unwrap_or_default();

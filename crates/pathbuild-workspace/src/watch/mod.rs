@@ -7,8 +7,8 @@
 mod changes;
 mod directories;
 mod events;
+mod finding_tally;
 mod library;
-mod tally;
 #[cfg(test)]
 mod tests;
 mod writing;
@@ -21,16 +21,16 @@ use crate::session::Session;
 use crate::workspace::Workspace;
 
 use changes::{Batch, Watcher};
-pub use events::{Bell, FirstCheck, Listener, Request, Update, WatchEnd};
 use events::{Changes, Restart};
+pub use events::{FirstCheck, Listener, Request, Update, WakeHandle, WatchEnd};
+use finding_tally::FindingTally;
 use library::Library;
-use tally::FindingTally;
 use writing::Writer;
 
 impl Request<'_> {
     /// Watches until the end is requested, or until watching must start again.
     pub fn run(&self, workspace: &Workspace, listener: &dyn Listener) -> WatchEnd {
-        let session = Session::traced(workspace);
+        let session = Session::with_tracing(workspace);
         if self.inputs.inputs.is_empty() && !session.has_library() {
             return WatchEnd::NothingNamed;
         }
@@ -71,7 +71,7 @@ const DRAWINGS_PER_POLL: usize = 64;
 
 impl WatchLoop<'_> {
     fn run(mut self) -> WatchEnd {
-        self.listener.set_bell(self.watcher.bell());
+        self.listener.set_wake_handle(self.watcher.wake_handle());
         self.begin();
         loop {
             match self.watcher.next(&self.library) {
@@ -88,18 +88,18 @@ impl WatchLoop<'_> {
         let begun = Instant::now();
         let mut found = self.library.find();
         self.follow_links();
-        let drawings: Vec<SourceFile> = self.library.open().collect();
+        let drawings: Vec<SourceFile> = self.library.unchecked_drawings().collect();
         self.listener.drawings_found(self.library.session_mut(), &drawings, &found.now);
         while self.library.has_backlog() && !self.watcher.is_over(self.library.session()) {
             let portion = self.library.check_portion(FIRST_PORTION, &mut found);
             self.follow_links();
-            self.tell(&portion);
+            self.report_checked(&portion);
         }
         self.library.check_common(&mut found);
         let written = self.writer.begin(self.library.session_mut(), &found.checked_files);
-        let programs = self.writer.written(self.library.session(), &found.checked_files);
+        let programs = self.writer.target_drawings(self.library.session(), &found.checked_files);
         if !programs.is_empty() {
-            self.tell(&programs);
+            self.report_checked(&programs);
         }
         let time = begun.elapsed();
         let (drawings, paths) = self.library.counts();
@@ -118,7 +118,7 @@ impl WatchLoop<'_> {
         let checked_files = self.work_on(affected);
         // Checking drawings again may take as long as the time limit allows, so it must not delay the results of the change itself.
         if !self.library.has_backlog() && !self.watcher.has_news(self.library.session()) {
-            let again = self.library.try_again(&self.writer.with_transient_problems(), &checked_files);
+            let again = self.library.mark_transient(&self.writer.with_transient_problems(), &checked_files);
             if self.library.has_backlog() || again.has_news() {
                 self.work_on(again);
             }
@@ -128,7 +128,11 @@ impl WatchLoop<'_> {
     /// Checks the remaining drawings, writes their programs, and reports the outcome. Returns the checked drawings.
     fn work_on(&mut self, mut found: library::Batch) -> Vec<SourceFile> {
         let begun = Instant::now();
-        found.before.extend(self.writer.release(self.library.session(), self.library.open(), &found.removed));
+        found.before.extend(self.writer.release(
+            self.library.session(),
+            self.library.unchecked_drawings(),
+            &found.removed,
+        ));
         let mut written = Vec::new();
         self.follow_links();
         while self.library.has_backlog() {
@@ -137,7 +141,7 @@ impl WatchLoop<'_> {
             let writing = self.writer.write(self.library.session_mut(), &portion);
             found.before.extend(writing.before);
             written.extend(writing.now);
-            self.tell(&portion);
+            self.report_checked(&portion);
             // The remaining drawings may have changed in the meantime.
             if self.watcher.has_news(self.library.session()) {
                 break;
@@ -170,19 +174,19 @@ impl WatchLoop<'_> {
 
     /// Watches the targets of links, if possible before the linked files are read.
     fn follow_links(&mut self) {
-        let files = self.library.take_unfollowed();
-        let refused = self.watcher.follow(self.library.session(), files);
+        let files = self.library.take_new_dependencies();
+        let refused = self.watcher.watch_link_targets(self.library.session(), files);
         if !refused.is_empty() {
             self.listener.not_watched(&refused);
         }
     }
 
     /// Reports checked drawings, and handles a pending wake-up.
-    fn tell(&mut self, checked: &[SourceFile]) {
+    fn report_checked(&mut self, checked: &[SourceFile]) {
         let session = self.library.session_mut();
         self.listener.drawings_checked(session, checked, self.writer.post_processor());
         _ = self.watcher.is_over(session);
-        if self.watcher.has_been_rung() {
+        if self.watcher.take_wake_up() {
             self.listener.woken(session);
         }
     }

@@ -64,7 +64,7 @@ impl Place {
 
     /// Returns the watched library, after its first check.
     fn watched(&self) -> Library<'_> {
-        let mut library = Library::new(Session::traced(&self.workspace), &self.inputs);
+        let mut library = Library::new(Session::with_tracing(&self.workspace), &self.inputs);
         let mut found = library.find();
         check_all(&mut library, &mut found);
         assert!(found.now.is_empty(), "{found:#?}");
@@ -180,7 +180,7 @@ fn a_drawing_whose_removal_was_not_told_is_dropped_after_the_next_change() {
     check_all(&mut library, &mut found);
     assert_eq!(codes(&found.now), [Code::UnreadableFile]);
 
-    let again = library.try_again(&[].into(), &found.checked_files);
+    let again = library.mark_transient(&[].into(), &found.checked_files);
     assert_eq!(codes(&again.before), [Code::UnreadableFile]);
     assert!(again.removed.iter().eq(["lib/3001.1P.dxf"]), "{again:#?}");
     assert!(again.now.is_empty() && !library.has_backlog() && library.counts().0 == 1, "{again:#?}");

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Code, Diagnostic};
 use super::events::{Listener, Request};
 use crate::emit::{self, FileOwners, TargetPatterns};
 use crate::memo::is_transient;
-use crate::posting::{PostArguments, PostProcessor};
+use crate::post_processor::{PostArguments, PostProcessor};
 use crate::session::Session;
 use crate::workspace::Workspace;
 
@@ -56,7 +56,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Returns those of the drawings that contain target paths.
-    pub(super) fn written(&self, session: &Session<'_>, files: &[SourceFile]) -> Vec<SourceFile> {
+    pub(super) fn target_drawings(&self, session: &Session<'_>, files: &[SourceFile]) -> Vec<SourceFile> {
         let mut configured = TargetPatterns::new(&self.workspace.settings);
         let mut is_written = |file: &&SourceFile| {
             path_names(session.db(), **file).iter().filter(|name| configured.matches(name.as_str())).count()

@@ -10,7 +10,7 @@ use std::time::Duration;
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_testkit::{RandomLibrary, sheet};
-use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Request, Update, WatchEnd};
+use pathbuild_workspace::watch::{FirstCheck, Listener, Request, Update, WakeHandle, WatchEnd};
 use pathbuild_workspace::{Inputs, check};
 
 use crate::Chance;
@@ -27,7 +27,7 @@ struct Driver<'s> {
     name: String,
     place: OnDisk,
     step: RefCell<Step<'s>>,
-    bell: RefCell<Option<Bell>>,
+    bell: RefCell<Option<WakeHandle>>,
     told: RefCell<Vec<String>>,
     ticks: Cell<u32>,
     is_patient: Cell<bool>,
@@ -75,7 +75,7 @@ fn shown(found: &Diagnostic) -> String {
 }
 
 impl Listener for Driver<'_> {
-    fn set_bell(&self, bell: Bell) {
+    fn set_wake_handle(&self, bell: WakeHandle) {
         self.bell.replace(Some(bell.clone()));
         thread::spawn(move || {
             thread::sleep(Duration::from_mins(3));

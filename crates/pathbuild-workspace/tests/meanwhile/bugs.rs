@@ -11,7 +11,7 @@ use pathbuild_db::{Role, System};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_testkit::RandomLibrary;
 use pathbuild_workspace::emit::Task;
-use pathbuild_workspace::posting::PostArguments;
+use pathbuild_workspace::post_processor::PostArguments;
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, Workspace, check, emit, list};
 

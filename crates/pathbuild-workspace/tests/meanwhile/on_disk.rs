@@ -12,7 +12,7 @@ use pathbuild_db::system::OsSystem;
 use pathbuild_testkit::{RandomLibrary, sheet};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::emit::{self, Emission, Task};
-use pathbuild_workspace::posting::PostArguments;
+use pathbuild_workspace::post_processor::PostArguments;
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace, check};
 use tempfile::TempDir;
 

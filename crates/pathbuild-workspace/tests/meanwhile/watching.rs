@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use camino::Utf8PathBuf;
 use pathbuild_diagnostic::{Code, Diagnostic};
-use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Request, Update, WatchEnd};
+use pathbuild_workspace::watch::{FirstCheck, Listener, Request, Update, WakeHandle, WatchEnd};
 use pathbuild_workspace::{Inputs, Workspace};
 
 use crate::mischief::{Event, Mischief};
@@ -27,7 +27,7 @@ struct Editor {
     passes: bool,
     place: OnDisk,
     mischief: Arc<Mischief>,
-    bell: RefCell<Option<Bell>>,
+    bell: RefCell<Option<WakeHandle>>,
     found: RefCell<Vec<Code>>,
     is_written: Cell<bool>,
     told: RefCell<Vec<Update>>,
@@ -48,7 +48,7 @@ impl Editor {
 }
 
 impl Listener for Editor {
-    fn set_bell(&self, bell: Bell) {
+    fn set_wake_handle(&self, bell: WakeHandle) {
         self.bell.replace(Some(bell));
         self.end_after(Duration::from_secs(20));
     }
@@ -190,12 +190,12 @@ fn a_directory_in_which_something_was_looked_for_in_vain_is_listed_again() {
 /// A listener that adds a drawing after the first check, and ends watching after two batches.
 struct Adder {
     place: OnDisk,
-    bell: RefCell<Option<Bell>>,
+    bell: RefCell<Option<WakeHandle>>,
     told: RefCell<Vec<Update>>,
 }
 
 impl Listener for Adder {
-    fn set_bell(&self, bell: Bell) {
+    fn set_wake_handle(&self, bell: WakeHandle) {
         self.bell.replace(Some(bell));
     }
 

@@ -18,7 +18,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::config::{positive, regex};
 use pathbuild_workspace::emit::{DrawingComparison, compare_with_drawing};
-use pathbuild_workspace::files::cannot_write;
+use pathbuild_workspace::files::write_error;
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::session::Session;
 
@@ -191,7 +191,7 @@ impl<'a> Adjustment<'a> {
             return Err(adjusted.unused);
         }
         let written = self.context.system.write(&job.milling, &adjusted.program);
-        let written = written.map_err(|reason| vec![cannot_write(&job.milling, reason)])?;
+        let written = written.map_err(|reason| vec![write_error(&job.milling, reason)])?;
         self.report_written(&job.milling, written, &adjusted);
         self.warnings.extend(adjusted.warnings);
         Ok(())

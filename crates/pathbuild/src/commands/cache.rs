@@ -21,7 +21,7 @@ pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
             "hier und darüber gibt es keine pathbuild.toml, und ohne sie werden keine Ergebnisse gespeichert",
         ));
     }
-    let (Some(home), Some(place)) = (&context.cache, context.cache_place()) else {
+    let (Some(home), Some(place)) = (&context.cache, context.cache_store()) else {
         return context.usage(context.choose(
             "no results are cached: there is no cache directory, or --no-cache was given",
             "es werden keine Ergebnisse gespeichert: es gibt kein Cache-Verzeichnis, oder --no-cache ist angegeben",

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Lang, Note};
 use pathbuild_workspace::emit::{Emission, ProgramOutcome, Request, State, Task};
-use pathbuild_workspace::posting::{PostArguments, run_post_build};
+use pathbuild_workspace::post_processor::{PostArguments, run_post_build};
 
 use crate::args::EmitArgs;
 use crate::context::Context;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use pathbuild_diagnostic::{Code, Lang, shown};
 use pathbuild_path::{Bindings, PathName};
-use pathbuild_workspace::session::{Direction, Embedding, End, Graph, GraphOutcome, Node, Session};
+use pathbuild_workspace::session::{Direction, Embedding, EmbeddingEnd, Graph, GraphOutcome, Node, Session};
 use serde_json::{Map, Value, json};
 
 use crate::args::GraphArgs;
@@ -81,10 +81,10 @@ fn file(node: &Node) -> Cow<'_, str> {
 }
 
 /// Formats the target of an embedding.
-fn end(graph: &Graph, end: &End) -> String {
+fn end(graph: &Graph, end: &EmbeddingEnd) -> String {
     match end {
-        End::Node(node) => path(&graph.nodes[*node]),
-        End::Nowhere(name, code) => nowhere(name.as_ref(), *code),
+        EmbeddingEnd::Node(node) => path(&graph.nodes[*node]),
+        EmbeddingEnd::Nowhere(name, code) => nowhere(name.as_ref(), *code),
     }
 }
 
@@ -112,7 +112,7 @@ fn tree(graph: &Graph, direction: Direction, words: &Words) -> String {
     let mut open: Vec<Step> = graph.roots.iter().rev().map(|root| Step::root(*root)).collect();
     while let Some(step) = open.pop() {
         let (label, mut remarks) = words.line(graph, &step);
-        if let End::Node(node) = step.to {
+        if let EmbeddingEnd::Node(node) = step.to {
             if !std::mem::replace(&mut is_shown[node], true) {
                 let below = neighbours[node].iter().rev();
                 open.extend(
@@ -133,7 +133,7 @@ const MAX_INDENTATION: usize = 100;
 
 /// A line of a tree.
 struct Step {
-    to: End,
+    to: EmbeddingEnd,
     /// Number of segments that embed the path at this point of the tree.
     count: usize,
     level: usize,
@@ -141,13 +141,13 @@ struct Step {
 
 impl Step {
     fn root(node: usize) -> Self {
-        Self { to: End::Node(node), count: 1, level: 0 }
+        Self { to: EmbeddingEnd::Node(node), count: 1, level: 0 }
     }
 
     fn along(embedding: &Embedding, direction: Direction, level: usize) -> Self {
         let to = match direction {
             Direction::Down => embedding.to.clone(),
-            Direction::Up => End::Node(embedding.from),
+            Direction::Up => EmbeddingEnd::Node(embedding.from),
         };
         Self { to, count: embedding.count, level }
     }
@@ -179,7 +179,7 @@ impl Words {
         if step.count > 1 {
             remarks.push(format!("{} {}", step.count, self.times));
         }
-        let End::Node(node) = step.to else { return (end(graph, &step.to), remarks) };
+        let EmbeddingEnd::Node(node) = step.to else { return (end(graph, &step.to), remarks) };
         let node = &graph.nodes[node];
         if node.is_example {
             remarks.push(self.example.to_owned());
@@ -223,8 +223,8 @@ fn dot(graph: &Graph) -> String {
         let label =
             if embedding.count > 1 { format!(" [label=\"{}\"]", embedding.count) } else { String::new() };
         match &embedding.to {
-            End::Node(to) => _ = writeln!(text, "  n{} -> n{to}{label};", embedding.from),
-            End::Nowhere(name, code) => {
+            EmbeddingEnd::Node(to) => _ = writeln!(text, "  n{} -> n{to}{label};", embedding.from),
+            EmbeddingEnd::Nowhere(name, code) => {
                 let missing = quoted(&nowhere(name.as_ref(), *code));
                 _ = writeln!(text, "  m{index} [label={missing}, style=dashed];");
                 _ = writeln!(text, "  n{} -> m{index}{label};", embedding.from);
@@ -249,8 +249,8 @@ fn mermaid(graph: &Graph) -> String {
     for (index, embedding) in graph.embeddings.iter().enumerate() {
         let arrow = if embedding.count > 1 { format!("-->|{}|", embedding.count) } else { "-->".to_owned() };
         match &embedding.to {
-            End::Node(to) => _ = writeln!(text, "  n{} {arrow} n{to}", embedding.from),
-            End::Nowhere(name, code) => {
+            EmbeddingEnd::Node(to) => _ = writeln!(text, "  n{} {arrow} n{to}", embedding.from),
+            EmbeddingEnd::Nowhere(name, code) => {
                 let missing = escaped(&nowhere(name.as_ref(), *code));
                 _ = writeln!(text, "  n{} {arrow} m{index}([\"{missing}\"])", embedding.from);
             }
@@ -297,8 +297,10 @@ fn values(bindings: &Bindings) -> Map<String, Value> {
 /// the reason.
 fn embedding(graph: &Graph, edge: &Embedding) -> Value {
     let (to, path, code) = match &edge.to {
-        End::Node(to) => (Some(*to), Some(graph.nodes[*to].name.as_str()), None),
-        End::Nowhere(name, code) => (None, name.as_ref().map(PathName::as_str), Some(code.to_string())),
+        EmbeddingEnd::Node(to) => (Some(*to), Some(graph.nodes[*to].name.as_str()), None),
+        EmbeddingEnd::Nowhere(name, code) => {
+            (None, name.as_ref().map(PathName::as_str), Some(code.to_string()))
+        }
     };
     json!({ "from": edge.from, "to": to, "count": edge.count, "path": path, "code": code })
 }

@@ -51,7 +51,7 @@ struct Facts<'a> {
 impl<'a> Facts<'a> {
     fn new(context: &Context, program: &'a Program) -> Self {
         let steps = &program.read.steps;
-        let unfollowed = program.first_unfollowed_line();
+        let unfollowed = program.first_line_with_unknown_moves();
         Self {
             program,
             summary: Summary::of(steps, program.dialect == Dialect::Xpertmill),
@@ -155,7 +155,7 @@ impl Formatter<'_> {
         format!(
             "{}: {lines} {noun}, {}\n",
             shown::line(program.file.as_str()),
-            program.read_as(self.0.lang())
+            program.describe_reading(self.0.lang())
         )
     }
 

@@ -52,7 +52,7 @@ pub fn run(context: &Context, args: &MachineArgs) -> ExitStatus {
 }
 
 fn text(context: &Context, file: &Utf8Path) -> Result<String, Value> {
-    files::read(&*context.system, file, machine::LARGEST)
+    files::read(&*context.system, file, machine::MAX_DESCRIPTION_BYTES)
 }
 
 fn unreadable(file: &Utf8Path, reason: Value) -> Diagnostic {

@@ -4,7 +4,7 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Text, Value, shown};
 #[cfg(feature = "pictures")]
 use pathbuild_diagnostic::{Sentence, reasons::reason};
-use pathbuild_workspace::files::cannot_write;
+use pathbuild_workspace::files::write_error;
 
 use super::output_state;
 use crate::context::Context;
@@ -19,7 +19,7 @@ pub(super) fn deliver(
     bytes: Result<Vec<u8>, Value>,
 ) -> Result<(), Box<Diagnostic>> {
     let written = bytes.and_then(|bytes| context.system.write(file, &bytes));
-    let written = written.map_err(|reason| Box::new(cannot_write(file, reason)))?;
+    let written = written.map_err(|reason| Box::new(write_error(file, reason)))?;
     let state = output_state(context, file, written);
     context.printer.status(format_args!("{}: {state}", shown::line(file.as_str())));
     Ok(())
@@ -31,7 +31,7 @@ pub(super) fn deliver(
 /// The page cannot be generated or shown.
 pub(super) fn show(context: &Context, page: Result<Vec<u8>, Value>) -> Result<(), Box<Diagnostic>> {
     let shown = page.and_then(|page| open_page(context, &page));
-    shown.map_err(|reason| Box::new(cannot_write(Utf8Path::new(BROWSER), reason)))
+    shown.map_err(|reason| Box::new(write_error(Utf8Path::new(BROWSER), reason)))
 }
 
 /// Text that replaces the file name in errors about the browser.

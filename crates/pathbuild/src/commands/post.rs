@@ -17,8 +17,8 @@ use crate::exit::ExitStatus;
 use crate::render::Format;
 use pathbuild_workspace::Failure;
 use pathbuild_workspace::config::number;
-use pathbuild_workspace::files::{cannot_write, name_of_source, would_replace};
-use pathbuild_workspace::posting::{PostArguments, PostProcessor, complete_tools, run_post_build};
+use pathbuild_workspace::files::{name_of_source, replace_error, write_error};
+use pathbuild_workspace::post_processor::{PostArguments, PostProcessor, complete_tools, run_post_build};
 use pathbuild_workspace::program::Program;
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::verify::{Verifier, VerifyOptions};
@@ -133,9 +133,9 @@ fn written(
         return Ok(());
     };
     if let Some(reason) = name_of_source(context, to) {
-        return Err(vec![would_replace(to, reason)]);
+        return Err(vec![replace_error(to, reason)]);
     }
-    let written = context.system.write(to, &output.text).map_err(|reason| vec![cannot_write(to, reason)])?;
+    let written = context.system.write(to, &output.text).map_err(|reason| vec![write_error(to, reason)])?;
     let state = output_state(context, to, written);
     context.printer.status(format_args!("{to}: {state}"));
     match &output.post_build {
@@ -238,7 +238,7 @@ fn output(
 /// Returns warnings about unknown tools.
 fn complete(job: &mut Job, native_cutter: Option<(String, f64)>, tools: &ToolTable) -> Vec<Diagnostic> {
     let Some((path, diameter)) = native_cutter else { return complete_tools(job, tools) };
-    let tools = tools.numbered();
+    let tools = tools.with_numbers();
     let unknown = job.set_cutter(&path, diameter, &tools);
     let by_number = complete_tools(job, &tools);
     if unknown.is_empty() { by_number } else { unknown }

@@ -13,7 +13,7 @@ use super::output_state;
 use crate::args::QProjectArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use pathbuild_workspace::files::{cannot_write, would_replace};
+use pathbuild_workspace::files::{replace_error, write_error};
 use pathbuild_workspace::session::Session;
 
 /// Runs the command. Nothing is written if the drawing has errors, or if the resulting drawing would have any.
@@ -174,11 +174,11 @@ fn write(
     count: usize,
 ) -> ExitStatus {
     if is_of_user(session, output, bytes) {
-        return context.fail(vec![would_replace(output, &DRAWN_BY_USER)]);
+        return context.fail(vec![replace_error(output, &DRAWN_BY_USER)]);
     }
     let state = match session.db().system().write(output, bytes) {
         Ok(written) => output_state(context, output, written),
-        Err(reason) => return context.fail(vec![cannot_write(output, reason)]),
+        Err(reason) => return context.fail(vec![write_error(output, reason)]),
     };
     let paths = match count {
         1 => context.choose("path", "Pfad"),

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::shown;
 use pathbuild_workspace::config::types::SheetFormat;
 use pathbuild_workspace::emit::{SheetOutcome, sheet_bytes, sheet_of};
-use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::Session;
 
 use super::picture_output::{deliver, show};

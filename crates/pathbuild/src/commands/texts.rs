@@ -250,7 +250,7 @@ fn option(context: &Context, word: &str, name: &str) -> String {
 
 fn object_cell(file: &str, path: &PathName, element: &ElementParameters, position: Position) -> Json {
     let ElementParameters { origin, what, parameters } = element;
-    let parameter = |Parameter { letter, value, from }: &Parameter| json!({ "letter": letter.as_char(), "value": value.as_str(), "from": from.name(), "which": from.which() });
+    let parameter = |Parameter { letter, value, from }: &Parameter| json!({ "letter": letter.as_char(), "value": value.as_str(), "from": from.name(), "which": from.provider_name() });
     json!({
         "file": file,
         "line": position.line,

@@ -7,9 +7,9 @@ use pathbuild_gcode::verify::{Stock, StockSpan};
 use pathbuild_view::{Scene, ToolSpan, VisibleParts, has_stock};
 use pathbuild_workspace::Failure;
 use pathbuild_workspace::emit::{SceneReport, ShownText};
-use pathbuild_workspace::files::is_there;
+use pathbuild_workspace::files::is_file_name_taken;
 use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
 use pathbuild_workspace::program::Program;
 use pathbuild_workspace::session::{NamedPaths, Session};
 use pathbuild_workspace::verify::{Verifier, VerifyOptions};
@@ -61,7 +61,7 @@ struct TargetScene {
 /// Returns the scene of the argument. A file that is not a drawing is read as a program.
 fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failure> {
     let file = Utf8Path::new(&args.what);
-    if !is_drawing(file) && is_there(file) {
+    if !is_drawing(file) && is_file_name_taken(file) {
         return program(context, file, args);
     }
     if let Some(option) = args.program_option() {

@@ -5,9 +5,9 @@ use pathbuild_db::SourceFile;
 use pathbuild_diagnostic::{Diagnostic, shown, with_decimal_separator};
 use pathbuild_workspace::Inputs;
 use pathbuild_workspace::emit::ProgramOutcome;
-use pathbuild_workspace::posting::PostProcessor;
+use pathbuild_workspace::post_processor::PostProcessor;
 use pathbuild_workspace::session::Session;
-use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Request, Update, WatchEnd};
+use pathbuild_workspace::watch::{FirstCheck, Listener, Request, Update, WakeHandle, WatchEnd};
 
 use super::emit::show_all;
 use crate::args::WatchArgs;
@@ -84,9 +84,9 @@ struct WatchPrinter<'a> {
 }
 
 impl Listener for WatchPrinter<'_> {
-    fn set_bell(&self, bell: Bell) {
+    fn set_wake_handle(&self, bell: WakeHandle) {
         if let Some(page) = &self.page {
-            page.set_bell(bell.clone());
+            page.set_wake_handle(bell.clone());
         }
     }
 

@@ -32,7 +32,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut listed = HashSet::new();
     let all = selection.drawings.iter().chain(named.map(|file| file.path(session.db())));
     for drawing in all.filter(|drawing| listed.insert(*drawing)) {
-        let answer = DrawingState { drawing, reasons: memo.why(drawing.as_str()) };
+        let answer = DrawingState { drawing, reasons: memo.invalidation_reasons(drawing.as_str()) };
         match context.format {
             Format::Json => context.row("result", answer.json(context)),
             _ => context.printer.result(answer.text(context)),

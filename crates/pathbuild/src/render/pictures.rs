@@ -3,9 +3,9 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
-use pathbuild_view::{Places, Scene, Spot, cutout_svg, has_stock, stock_cutout_svg};
+use pathbuild_view::{FindingPlace, Places, Scene, cutout_svg, has_stock, stock_cutout_svg};
 use pathbuild_workspace::Workspace;
-use pathbuild_workspace::files::cannot_write;
+use pathbuild_workspace::files::write_error;
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::findings::Fingerprint;
 use pathbuild_workspace::session::Session;
@@ -79,7 +79,7 @@ fn drawing(diagnostic: &Diagnostic) -> Option<&Utf8Path> {
 }
 
 /// Returns the place of a finding, with further places mentioned in its message and notes.
-fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<Spot> {
+fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<FindingPlace> {
     let pair = |point: pathbuild_diagnostic::Point| [point.x.0, point.y.0];
     let at = places.and_then(|places| places.of(diagnostic)).or(diagnostic.place.point.map(pair))?;
     let notes = diagnostic.notes.iter().flat_map(|note| &note.arguments);
@@ -97,7 +97,7 @@ fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<Spot> {
         }
         _ => None,
     };
-    Some(Spot { at, related, circle, is_error: diagnostic.is_error() })
+    Some(FindingPlace { at, related, circle, is_error: diagnostic.is_error() })
 }
 
 /// Writes a picture of each finding that has a place into a directory. Returns errors. The same finding has the same file name in every
@@ -111,7 +111,7 @@ pub(crate) fn write(workspace: &Workspace, directory: &Utf8Path, findings: &Find
         let Some(picture) = picture else { continue };
         let file = directory.join(name(diagnostic, fingerprint));
         if let Err(reason) = workspace.system.write(&file, picture.as_bytes()) {
-            problems.push(cannot_write(&file, reason));
+            problems.push(write_error(&file, reason));
             break;
         }
     }

@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_workspace::dropped::DroppedProgram;
-use pathbuild_workspace::watch::Bell;
+use pathbuild_workspace::watch::WakeHandle;
 use tokio::sync::{oneshot, watch};
 
 /// The published state, and the pending questions of pages.
@@ -33,7 +33,7 @@ pub(super) struct State {
     pub(super) is_complete: bool,
     /// Reason why nothing is checked until the user fixes an error, as JSON; empty while checks run.
     halted: String,
-    bell: Option<Bell>,
+    bell: Option<WakeHandle>,
     questions: Vec<Question>,
     is_over: bool,
 }
@@ -79,7 +79,7 @@ pub(super) enum AnswerForm {
 
 impl Hub {
     /// Restarts with an empty state. `bell` wakes the watching thread.
-    pub(super) fn begin(&self, bell: &Bell) {
+    pub(super) fn begin(&self, bell: &WakeHandle) {
         let is_over = self.publish(|state, revision| {
             *state = State {
                 revision,
@@ -138,7 +138,7 @@ impl Hub {
         let mut state = self.state();
         if let Some(bell) = state.bell.clone() {
             state.questions.push(Question { subject, answer });
-            bell.ring();
+            bell.wake();
         }
         answered
     }

@@ -11,9 +11,9 @@ use pathbuild_path::PathName;
 use pathbuild_view::VisibleParts;
 use pathbuild_workspace::emit::ShownText;
 use pathbuild_workspace::list::{self, Row, Stats, drawing_json, path_json, stats_json};
-use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::Session;
-use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Update};
+use pathbuild_workspace::watch::{FirstCheck, Listener, Update, WakeHandle};
 use serde_json::{Value, json};
 
 use super::hub::{AnswerForm, Hub, Question, Subject};
@@ -71,7 +71,7 @@ impl<'a> Page<'a> {
 }
 
 impl Listener for Page<'_> {
-    fn set_bell(&self, bell: Bell) {
+    fn set_wake_handle(&self, bell: WakeHandle) {
         self.hub.begin(&bell);
     }
 

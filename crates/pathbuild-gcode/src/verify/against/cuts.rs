@@ -7,31 +7,32 @@ use pathbuild_diagnostic::messages::paths as say;
 use pathbuild_diagnostic::{Diagnostic, Point};
 use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Position, Step};
 use pathbuild_path::{KeepOut, KeepOutMap};
-use pathbuild_toolpath::{kind_of_move, way};
+use pathbuild_toolpath::{kind_of_move, tip_move};
 
 use crate::dialect::Dialect;
 use crate::read::Problems;
 use crate::verify::compare::{
-    Difference, DifferenceKind, Ends, Stretch, Tolerance, are_alike, check_pace, check_shape, meet,
+    Difference, DifferenceKind, Ends, Stretch, Tolerance, are_alike, check_pace, check_shape,
+    meeting_fraction,
 };
 use crate::verify::is_near;
 
 /// Permitted difference of positions in mm: two roundings to the third decimal, and the unit by which an arc may be extended to keep it from becoming
 /// a full circle.
-pub(super) const PLACE: f64 = 0.0015 * (1.0 + 1e-6);
+pub(super) const POSITION_TOLERANCE: f64 = 0.0015 * (1.0 + 1e-6);
 
 /// Permitted difference of feeds in mm/min: one unit of the last printed digit.
-const FEED: f64 = 0.001 * (1.0 + 1e-6);
+const FEED_TOLERANCE: f64 = 0.001 * (1.0 + 1e-6);
 
 /// Permitted difference of arc centres in mm: a centre is the sum of two rounded numbers, and its arc begins at the end of the previous one.
-const CENTRE: f64 = 3.0 * PLACE;
+const CENTRE_TOLERANCE: f64 = 3.0 * POSITION_TOLERANCE;
 
 /// Greatest distance in mm of chords from their arc, for controls that do not support helices; the post for such controls uses the same value. The
 /// post writes as few chords as this permits, so if one is missing, the chord across the gap exceeds it.
-pub(super) const CHORD: f64 = 0.01;
+pub(super) const CHORD_TOLERANCE: f64 = 0.01;
 
 #[derive(Debug)]
-pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
+pub(super) struct CutComparison<M: Iterator<Item = (u32, Move)>> {
     expected: Peekable<M>,
     /// The fraction of the next expected move that the program has already made.
     done: f64,
@@ -51,7 +52,7 @@ pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
     may_go_home: bool,
 }
 
-impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
+impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
     pub(super) fn new(expected: M, start: Position, clearance: f64, dialect: Dialect) -> Self {
         Self {
             expected: expected.peekable(),
@@ -59,7 +60,12 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             at: start,
             chain: RapidSequence::new(),
             clearance,
-            tolerance: Tolerance { place: PLACE, feed: FEED, chord: 0.0, ends: Ends::All },
+            tolerance: Tolerance {
+                place: POSITION_TOLERANCE,
+                feed: FEED_TOLERANCE,
+                chord: 0.0,
+                ends: Ends::All,
+            },
             takes_helices: dialect.rules().arcs.helix,
             difference: None,
             equal: 0,
@@ -100,9 +106,9 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
 
     /// Compares the rapid moves before this cut, or at the end of the program, with the expected ones.
     fn rapids(&mut self, cut: Option<(u32, &Move)>) -> Result<(), Box<Difference>> {
-        let mut chain = std::mem::replace(&mut self.chain, RapidSequence::behind());
-        if let Some(share) = cut.and_then(|_| chain.peck(&self.begun_plunge()?)) {
-            (self.done, chain) = (share, RapidSequence::behind());
+        let mut chain = std::mem::replace(&mut self.chain, RapidSequence::after_cut());
+        if let Some(share) = cut.and_then(|_| chain.peck_fraction(&self.begun_plunge()?)) {
+            (self.done, chain) = (share, RapidSequence::after_cut());
         }
         let start = self.at;
         let mut expected = Vec::new();
@@ -134,7 +140,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         };
         match chain.check(&traverse) {
             Err(found) => Err(Box::new(Difference { kind: DifferenceKind::Place, found, expected: next })),
-            Ok(()) if cut.is_none_or(|(_, movement)| reaches(movement) || movement.is_nothing()) => {
+            Ok(()) if cut.is_none_or(|(_, movement)| reaches(movement) || movement.is_standstill()) => {
                 self.equal += expected.len();
                 Ok(())
             }
@@ -202,14 +208,14 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
                 check_shape(&ours, 1.0, &theirs, 1.0, theirs.radius_error(), &self.tolerance)
                     .map_err(differs)?;
                 check_centres(movement, &expected).map_err(differs)?;
-                self.pass(&expected);
+                self.pass_expected_move(&expected);
                 return Ok(());
             }
             if stands(&ours) {
                 return Ok(());
             }
             if stands(&theirs) {
-                self.pass(&expected);
+                self.pass_expected_move(&expected);
                 continue;
             }
             if is_chord {
@@ -218,7 +224,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
                 if end < 1.0 {
                     self.done = end;
                 } else {
-                    self.pass(&expected);
+                    self.pass_expected_move(&expected);
                 }
                 return Ok(());
             }
@@ -234,15 +240,17 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
                 return Err(differs(DifferenceKind::Place));
             }
             if splits {
-                self.done = meet(&ours, &theirs, theirs.radius_error(), &self.tolerance).map_err(differs)?;
+                self.done = meeting_fraction(&ours, &theirs, theirs.radius_error(), &self.tolerance)
+                    .map_err(differs)?;
                 return Ok(());
             }
-            begin = meet(&theirs, &ours, theirs.radius_error(), &self.tolerance).map_err(differs)?;
-            self.pass(&expected);
+            begin =
+                meeting_fraction(&theirs, &ours, theirs.radius_error(), &self.tolerance).map_err(differs)?;
+            self.pass_expected_move(&expected);
         }
     }
 
-    fn pass(&mut self, expected: &Move) {
+    fn pass_expected_move(&mut self, expected: &Move) {
         self.expected.next();
         self.equal += 1;
         self.at = expected.to;
@@ -255,18 +263,19 @@ fn check_chord(chord: &Stretch, rest: &Stretch) -> Result<f64, DifferenceKind> {
     let (end, Some(course)) = (chord.end(), rest.movement.course()) else {
         return Err(DifferenceKind::Shape);
     };
-    let is_last = is_near(&end, &rest.end(), PLACE) && are_alike(chord.length, rest.length, PLACE);
+    let is_last = is_near(&end, &rest.end(), POSITION_TOLERANCE)
+        && are_alike(chord.length, rest.length, POSITION_TOLERANCE);
     let share = if is_last { 1.0 } else { rest.nearest(&end, chord.length).ok_or(DifferenceKind::Place)? };
     let [x, y, z] = rest.point(share);
-    let height = 2.0 * PLACE * (1.0 + rest.steepness());
-    if !is_near(&[x, y, 0.0], &[end[0], end[1], 0.0], PLACE) || libm::fabs(z - end[2]) > height {
+    let height = 2.0 * POSITION_TOLERANCE * (1.0 + rest.steepness());
+    if !is_near(&[x, y, 0.0], &[end[0], end[1], 0.0], POSITION_TOLERANCE) || libm::fabs(z - end[2]) > height {
         return Err(DifferenceKind::Place);
     }
     let sweep = course.sweep() * (share - rest.begin);
     let sagitta = course.radius() * (1.0 - libm::cos(sweep / 2.0));
     // The ends of a chord are rounded. The longer the chord, the farther rounding may move it away from the arc.
-    let rounding = PLACE * libm::sqrt(CHORD / (2.0 * course.radius()));
-    if sweep < std::f64::consts::PI && sagitta <= CHORD + rounding {
+    let rounding = POSITION_TOLERANCE * libm::sqrt(CHORD_TOLERANCE / (2.0 * course.radius()));
+    if sweep < std::f64::consts::PI && sagitta <= CHORD_TOLERANCE + rounding {
         Ok(share)
     } else {
         Err(DifferenceKind::Shape)
@@ -276,7 +285,7 @@ fn check_chord(chord: &Stretch, rest: &Stretch) -> Result<f64, DifferenceKind> {
 /// Checks that two arcs have the same centre, because the points of a short arc hardly determine it.
 fn check_centres(found: &Move, expected: &Move) -> Result<(), DifferenceKind> {
     let (MoveShape::Arc(ours), MoveShape::Arc(theirs)) = (found.shape, expected.shape) else { return Ok(()) };
-    let are_near = ours.centre.iter().zip(theirs.centre).all(|(a, b)| libm::fabs(a - b) <= CENTRE);
+    let are_near = ours.centre.iter().zip(theirs.centre).all(|(a, b)| libm::fabs(a - b) <= CENTRE_TOLERANCE);
     let turn_alike = ours.clockwise == theirs.clockwise && ours.plane == theirs.plane;
     if are_near && turn_alike { Ok(()) } else { Err(DifferenceKind::Shape) }
 }
@@ -320,12 +329,12 @@ impl Plunge {
 }
 
 /// A move and its line.
-type Numbered = (u32, Move);
+type NumberedMove = (u32, Move);
 
 /// The rapid moves of a program since the last cut.
 #[derive(Debug)]
 pub(super) struct RapidSequence {
-    moves: Vec<Numbered>,
+    moves: Vec<NumberedMove>,
     /// Whether the chain begins the program.
     is_head: bool,
 }
@@ -335,7 +344,7 @@ pub(super) struct RapidSequence {
 pub(super) struct ExpectedTraverse<'w> {
     /// Position at which the moves start.
     pub(super) start: Position,
-    pub(super) expected: &'w [Numbered],
+    pub(super) expected: &'w [NumberedMove],
     /// Whether the moves end the program.
     pub(super) is_foot: bool,
     /// Whether the program may move to machine positions. The native program may not.
@@ -352,7 +361,7 @@ impl RapidSequence {
     }
 
     /// Creates the chain after a cut.
-    pub(super) fn behind() -> Self {
+    pub(super) fn after_cut() -> Self {
         Self { moves: Vec::new(), is_head: false }
     }
 
@@ -362,20 +371,20 @@ impl RapidSequence {
 
     /// Returns the fraction of a plunge at which these moves end, if they are those between two pecks: up in the hole and down again, no deeper
     /// than the program has cut.
-    fn peck(&self, plunge: &Plunge) -> Option<f64> {
+    fn peck_fraction(&self, plunge: &Plunge) -> Option<f64> {
         let (_, last) = self.moves.last()?;
         let stays = self.moves.iter().all(|(_, movement)| plunge.is_in_hole(movement));
         plunge.share_at(last.to.z()).filter(|_| stays)
     }
 
     /// Checks the chain against the expected moves. The error is the first move that deviates; `None` if an expected move is missing.
-    pub(super) fn check(&self, traverse: &ExpectedTraverse<'_>) -> Result<(), Option<Numbered>> {
+    pub(super) fn check(&self, traverse: &ExpectedTraverse<'_>) -> Result<(), Option<NumberedMove>> {
         if !self.is_head {
             return Self::check_rest(&self.moves, traverse.expected, traverse);
         }
         let mut outcome = Err(self.moves.first().copied());
         for (passed, place) in traverse.clear_places().enumerate() {
-            let Some(rest) = self.arrived(&place, passed > 0, traverse)? else { continue };
+            let Some(rest) = self.moves_after_arrival(&place, passed > 0, traverse)? else { continue };
             outcome = Self::check_rest(rest, &traverse.expected[passed..], traverse);
             if outcome.is_ok() {
                 break;
@@ -386,14 +395,14 @@ impl RapidSequence {
 
     /// Checks that moves are the expected ones; at the end of the program, further harmless moves are permitted.
     fn check_rest(
-        moves: &[Numbered],
-        expected: &[Numbered],
+        moves: &[NumberedMove],
+        expected: &[NumberedMove],
         traverse: &ExpectedTraverse<'_>,
-    ) -> Result<(), Option<Numbered>> {
-        let mut found = moves.iter().filter(|(_, movement)| !traverse.stands(movement));
-        for (_, expected) in expected.iter().filter(|(_, movement)| !traverse.stands(movement)) {
+    ) -> Result<(), Option<NumberedMove>> {
+        let mut found = moves.iter().filter(|(_, movement)| !traverse.is_too_short(movement));
+        for (_, expected) in expected.iter().filter(|(_, movement)| !traverse.is_too_short(movement)) {
             let next = found.next();
-            let is_same = |(_, movement): &Numbered| traverse.is_same(movement, expected);
+            let is_same = |(_, movement): &NumberedMove| traverse.is_same(movement, expected);
             if !next.is_some_and(is_same) {
                 return Err(next.copied());
             }
@@ -407,13 +416,13 @@ impl RapidSequence {
     /// Returns the moves after the program has reached `place`, where the expected moves may begin. The error is an earlier move that is not
     /// harmless. `None` if the program does not reach the place, or if it does so from an unknown height although the place `is_later` than the
     /// start.
-    fn arrived(
+    fn moves_after_arrival(
         &self,
         place: &Position,
         is_later: bool,
         traverse: &ExpectedTraverse<'_>,
-    ) -> Result<Option<&[Numbered]>, Option<Numbered>> {
-        let begins = |(_, movement): &Numbered| {
+    ) -> Result<Option<&[NumberedMove]>, Option<NumberedMove>> {
+        let begins = |(_, movement): &NumberedMove| {
             let is_raised = !is_later || movement.from.known.has(Axes::Z);
             movement.to.known == Axes::ALL && traverse.is_near(&movement.to, place) && is_raised
         };
@@ -458,7 +467,7 @@ impl ExpectedTraverse<'_> {
     }
 
     /// Whether a move is so short that it is only due to rounding.
-    fn stands(&self, movement: &Move) -> bool {
+    fn is_too_short(&self, movement: &Move) -> bool {
         movement.is_known() && self.is_near(&movement.from, &movement.to)
     }
 
@@ -498,7 +507,7 @@ pub struct Clamps {
 
 /// Checker for collisions with clamps: pass every step of a program, then call [`finish`](Self::finish).
 #[derive(Debug)]
-pub struct PastClamps<'c> {
+pub struct ClampCollisions<'c> {
     clamps: &'c Clamps,
     /// Maximum error due to rounding in mm. A move that touches a clamp in the drawing may be written slightly inside it.
     slack: f64,
@@ -513,19 +522,19 @@ impl Clamps {
     }
 }
 
-impl<'c> PastClamps<'c> {
+impl<'c> ClampCollisions<'c> {
     /// Creates the checker for a program in this dialect.
     pub fn new(clamps: &'c Clamps, dialect: Dialect) -> Self {
-        let chord = if dialect.rules().arcs.helix { 0.0 } else { CHORD };
-        Self { clamps, slack: PLACE + chord, problems: Problems::default() }
+        let chord = if dialect.rules().arcs.helix { 0.0 } else { CHORD_TOLERANCE };
+        Self { clamps, slack: POSITION_TOLERANCE + chord, problems: Problems::default() }
     }
 
     /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let Action::Move(it) = &step.action else { return };
-        let Some(way) = way(it) else { return };
+        let Some(way) = tip_move(it) else { return };
         let Clamps { all, map, radius } = self.clamps;
-        for clamp in map.entered(&way, *radius, self.slack) {
+        for clamp in map.entered_clamps(&way, *radius, self.slack) {
             let KeepOut { layer, at, height, .. } = &all[clamp];
             self.problems.add_at_line(&say::LINE_INTO_CLAMP, step.line, |found| {
                 found

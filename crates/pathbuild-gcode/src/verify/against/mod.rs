@@ -15,8 +15,8 @@ use super::words::{PostWords, WordRules};
 use crate::dialect::Dialect;
 use crate::read::Problems;
 
-use cuts::Cuts;
-pub use cuts::{Clamps, PastClamps};
+use cuts::CutComparison;
+pub use cuts::{ClampCollisions, Clamps};
 use setup::Setup;
 
 /// The program that a drawing and the configuration require.
@@ -58,7 +58,7 @@ impl ToolUse {
             tools.step(step);
             if step.as_move().is_some_and(|(_, movement)| matches!(movement.pace, Pace::Feed(_))) {
                 let now = Self::of_state(&tools);
-                common = Some(common.map_or(now, |common| common.and(now)));
+                common = Some(common.map_or(now, |common| common.common_with(now)));
             }
         }
         common.unwrap_or_default()
@@ -71,7 +71,7 @@ impl ToolUse {
     }
 
     /// Returns the properties in which two uses agree; the others become unknown.
-    fn and(self, other: Self) -> Self {
+    fn common_with(self, other: Self) -> Self {
         Self {
             number: self.number.filter(|_| self.number == other.number),
             turning: self.turning.filter(|_| self.turning == other.turning),
@@ -82,7 +82,7 @@ impl ToolUse {
 
     /// Fills unknown properties from another use.
     #[must_use]
-    pub fn or(self, other: Self) -> Self {
+    pub fn filled_from(self, other: Self) -> Self {
         Self {
             number: self.number.or(other.number),
             turning: self.turning.or(other.turning),
@@ -106,7 +106,7 @@ pub struct Agreement {
 pub struct DrawingComparison<'w, M: Iterator<Item = (u32, Move)>> {
     setup: Setup<'w>,
     words: WordRules<'w>,
-    cuts: Cuts<M>,
+    cuts: CutComparison<M>,
     number: Option<u32>,
     problems: Problems,
 }
@@ -117,7 +117,7 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
         Self {
             setup: Setup::new(dialect, words, drawn.clearance, drawn.tool, drawn.spin_up),
             words: WordRules::strict(words, dialect),
-            cuts: Cuts::new(drawn.moves, drawn.start, drawn.clearance, dialect),
+            cuts: CutComparison::new(drawn.moves, drawn.start, drawn.clearance, dialect),
             number: drawn.number,
             problems: Problems::default(),
         }
@@ -140,8 +140,8 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
     }
 
     /// Checks a word that was omitted when the program was translated by the definition of its post.
-    pub fn left_out(&mut self, line: u32, word: &str) {
-        self.words.left_out(line, word);
+    pub fn check_omitted_word(&mut self, line: u32, word: &str) {
+        self.words.check_omitted_word(line, word);
     }
 
     /// Completes the comparison at the end of the program and returns its result.

@@ -18,10 +18,10 @@ use crate::verify::tool_state::{LengthFit, ToolState};
 use crate::verify::words::PostWords;
 
 /// Heights are equal if they differ by less than this, in mm.
-const SAME_HEIGHT: f64 = 0.002;
+const HEIGHT_TOLERANCE: f64 = 0.002;
 
 /// Speeds in 1/min are equal if they differ by less than this.
-const SAME_SPEED: f64 = 0.01;
+const SPEED_TOLERANCE: f64 = 0.01;
 
 #[derive(Debug)]
 pub(super) struct Setup<'w> {
@@ -98,16 +98,16 @@ impl<'w> Setup<'w> {
         let spindle_before = self.tools.spindle();
         self.tools.step(step);
         match &step.action {
-            Action::Move(movement) => self.moves(line, movement, problems),
-            Action::Dwell(seconds) => self.dwell(line, *seconds, problems),
-            Action::Stop { .. } if self.is_low() => extra(line, "M0, M1".to_owned(), problems),
+            Action::Move(movement) => self.check_move(line, movement, problems),
+            Action::Dwell(seconds) => self.check_dwell(line, *seconds, problems),
+            Action::Stop { .. } if self.is_low() => report_extra_word(line, "M0, M1".to_owned(), problems),
             Action::Word(StatedWord { group: Some(group), .. }) => _ = self.missing.remove(group),
-            Action::SelectTool(number) => self.select(line, *number, problems),
+            Action::SelectTool(number) => self.check_selected_tool(line, *number, problems),
             Action::ChangeTool(number) => {
                 let number = number.unwrap_or(0);
-                self.select(line, number, problems);
+                self.check_selected_tool(line, number, problems);
                 if self.has_post() && !self.words.has('M', 60) {
-                    extra(line, "M6".to_owned(), problems);
+                    report_extra_word(line, "M6".to_owned(), problems);
                 }
             }
             Action::Spindle(spindle) => self.switch_spindle(line, spindle_before, *spindle, problems),
@@ -115,41 +115,41 @@ impl<'w> Setup<'w> {
                 (self.coolant, self.coolant_line) = (*coolant, line);
                 self.reported.coolant = false;
                 if self.has_post() && *coolant != Coolant::default() && !self.switches_coolant() {
-                    extra(line, "M7, M8".to_owned(), problems);
+                    report_extra_word(line, "M7, M8".to_owned(), problems);
                 }
             }
-            Action::Change(change) => self.change(line, *change, problems),
+            Action::Change(change) => self.check_change(line, *change, problems),
             _ => {}
         }
     }
 
     pub(super) fn finish(&mut self, problems: &mut Problems) {
-        if self.turns() {
-            extra(self.spindle_line, "M3, M4".to_owned(), problems);
+        if self.is_spindle_on() {
+            report_extra_word(self.spindle_line, "M3, M4".to_owned(), problems);
         }
         if self.coolant != Coolant::default() && self.switches_coolant() {
-            extra(self.coolant_line, "M7, M8".to_owned(), problems);
+            report_extra_word(self.coolant_line, "M7, M8".to_owned(), problems);
         }
     }
 
-    fn change(&mut self, line: u32, change: Change, problems: &mut Problems) {
+    fn check_change(&mut self, line: u32, change: Change, problems: &mut Problems) {
         match change {
-            Change::ToolLength(ToolLength::Other) => extra(line, "G43, G44".to_owned(), problems),
+            Change::ToolLength(ToolLength::Other) => report_extra_word(line, "G43, G44".to_owned(), problems),
             Change::ToolLength(ToolLength::OfTool(_)) if !self.has_length_of_tool() => {
                 self.reported.length = true;
                 problems.add_at_line(&say::LENGTHS_DIFFER, line, |d| d);
             }
             Change::ToolLength(_) => self.reported.length = false,
-            Change::Offsets { code, .. } => extra(line, code_name('G', code), problems),
+            Change::Offsets { code, .. } => report_extra_word(line, code_name('G', code), problems),
             Change::Corners(corners) => {
                 self.corners = Some(corners);
                 match corners {
                     // G64 P0 sets no limit, as if there were no P.
                     Corners::Rounded(Some(most)) if !(most > 0.0 && most <= BUILT_IN_ROUNDING * MARGIN) => {
-                        extra(line, "G64 P".to_owned(), problems);
+                        report_extra_word(line, "G64 P".to_owned(), problems);
                     }
                     Corners::Rounded(None) if self.words.rounds_freely => {}
-                    Corners::Rounded(None) => extra(line, "G64".to_owned(), problems),
+                    Corners::Rounded(None) => report_extra_word(line, "G64".to_owned(), problems),
                     Corners::Rounded(Some(_)) | Corners::Exact => {}
                 }
             }
@@ -157,13 +157,13 @@ impl<'w> Setup<'w> {
                 let most = self.words.rapid_feed.unwrap_or(f64::INFINITY);
                 if feed == 0.0 {
                     problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", "F"));
-                } else if feed > most + SAME_SPEED {
-                    extra(line, "G0 F".to_owned(), problems);
+                } else if feed > most + SPEED_TOLERANCE {
+                    report_extra_word(line, "G0 F".to_owned(), problems);
                 }
             }
             Change::Plane(Plane::Xy) | Change::Switch(_) => {}
-            Change::Plane(_) => extra(line, "G18, G19".to_owned(), problems),
-            Change::Parameter => extra(line, "#".to_owned(), problems),
+            Change::Plane(_) => report_extra_word(line, "G18, G19".to_owned(), problems),
+            Change::Parameter => report_extra_word(line, "#".to_owned(), problems),
         }
     }
 
@@ -172,9 +172,9 @@ impl<'w> Setup<'w> {
         self.tools.length_fit() == LengthFit::Fits
     }
 
-    fn select(&mut self, line: u32, number: u32, problems: &mut Problems) {
+    fn check_selected_tool(&mut self, line: u32, number: u32, problems: &mut Problems) {
         if !self.words.chooses_tools && self.has_post() {
-            return extra(line, "T".to_owned(), problems);
+            return report_extra_word(line, "T".to_owned(), problems);
         }
         let expected = *self.expected.number.get_or_insert(number);
         self.reported.length = false;
@@ -197,37 +197,37 @@ impl<'w> Setup<'w> {
             && spindle.turning == Turning::Unstated
             && spindle.speed.unwrap_or_default() == 0.0;
         if is_left_alone && !is_foot {
-            extra(line, "M3, M4, M5, S".to_owned(), problems);
+            report_extra_word(line, "M3, M4, M5, S".to_owned(), problems);
         }
     }
 
-    fn dwell(&mut self, line: u32, seconds: f64, problems: &mut Problems) {
+    fn check_dwell(&mut self, line: u32, seconds: f64, problems: &mut Problems) {
         self.running += seconds;
         if self.is_low() {
-            extra(line, "G4".to_owned(), problems);
+            report_extra_word(line, "G4".to_owned(), problems);
         }
     }
 
     /// Whether the tool is below S0, where it may be in the material.
     fn is_low(&self) -> bool {
-        self.at.known.has(Axes::Z) && self.at.z() < self.clearance - SAME_HEIGHT
+        self.at.known.has(Axes::Z) && self.at.z() < self.clearance - HEIGHT_TOLERANCE
     }
 
-    fn moves(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
+    fn check_move(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
         self.at = movement.to;
-        self.head(line, problems);
+        self.check_setup_words(line, problems);
         if matches!(movement.named, Some(NamedPosition::Machine(_)))
             && !movement.to.known.has(Axes::Z)
             && movement.to.z() != 0.0
         {
-            extra(line, "G53 Z".to_owned(), problems);
+            report_extra_word(line, "G53 Z".to_owned(), problems);
         }
-        if matches!(movement.pace, Pace::Feed(_)) && !movement.is_nothing() {
-            self.cutting_tool(line, problems);
-            self.cutting_spindle(line, problems);
-            self.cutting_length(line, problems);
-            self.cutting_coolant(line, problems);
-            self.cutting_corners(line, problems);
+        if matches!(movement.pace, Pace::Feed(_)) && !movement.is_standstill() {
+            self.check_cutting_tool(line, problems);
+            self.check_cutting_spindle(line, problems);
+            self.check_cutting_length(line, problems);
+            self.check_cutting_coolant(line, problems);
+            self.check_cutting_corners(line, problems);
         }
     }
 
@@ -237,14 +237,14 @@ impl<'w> Setup<'w> {
     }
 
     /// Checks that the words which the post writes before the first move are present.
-    fn head(&mut self, line: u32, problems: &mut Problems) {
+    fn check_setup_words(&mut self, line: u32, problems: &mut Problems) {
         for code in std::mem::take(&mut self.missing).into_values() {
             problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", code_name('G', code)));
         }
     }
 
     /// Checks that the selected tool or layer is that of the drawing.
-    fn cutting_tool(&mut self, line: u32, problems: &mut Problems) {
+    fn check_cutting_tool(&mut self, line: u32, problems: &mut Problems) {
         // If the post inserts its tool by M6, T alone only selects the next tool.
         let chosen = self.tools.inserted().or(self.tools.selected().filter(|_| !self.words.has('M', 60)));
         // On XpertMILL, the layer takes the place of the tool. On other controls, a wrong tool has already been reported where it was selected.
@@ -262,7 +262,7 @@ impl<'w> Setup<'w> {
         self.words.has('M', 70) || self.words.has('M', 80)
     }
 
-    fn cutting_coolant(&mut self, line: u32, problems: &mut Problems) {
+    fn check_cutting_coolant(&mut self, line: u32, problems: &mut Problems) {
         let differs = |expected: &Coolant| *expected != self.coolant && self.switches_coolant();
         let Some(expected) = self.expected.coolant.filter(differs) else { return };
         if !std::mem::replace(&mut self.reported.coolant, true) {
@@ -274,20 +274,20 @@ impl<'w> Setup<'w> {
     }
 
     /// Checks the behaviour at corners, because a control keeps the previous program's behaviour unless the program specifies it.
-    fn cutting_corners(&mut self, line: u32, problems: &mut Problems) {
+    fn check_cutting_corners(&mut self, line: u32, problems: &mut Problems) {
         let is_stated = self.corners.is_some() || !self.words.has('G', 640);
         if !is_stated && !std::mem::replace(&mut self.reported.corners, true) {
             problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", "G64 P"));
         }
     }
 
-    fn cutting_spindle(&mut self, line: u32, problems: &mut Problems) {
+    fn check_cutting_spindle(&mut self, line: u32, problems: &mut Problems) {
         if self.reported.spindle {
             return;
         }
         let message = if self.turns_otherwise() {
             &say::SPINDLES_DIFFER
-        } else if self.running < self.spin_up && self.turns() {
+        } else if self.running < self.spin_up && self.is_spindle_on() {
             &say::SPUN_UP_TOO_SHORT
         } else {
             return;
@@ -296,12 +296,12 @@ impl<'w> Setup<'w> {
         self.spindle_differs(line, message, problems);
     }
 
-    fn turns(&self) -> bool {
+    fn is_spindle_on(&self) -> bool {
         self.tools.spindle().turning.is_on()
     }
 
     fn turns_otherwise(&self) -> bool {
-        self.tools.turns_otherwise(self.expected.turning, self.expected.speed, SAME_SPEED)
+        self.tools.turns_otherwise(self.expected.turning, self.expected.speed, SPEED_TOLERANCE)
     }
 
     fn spindle_differs(&self, line: u32, message: &'static Message, problems: &mut Problems) {
@@ -315,7 +315,7 @@ impl<'w> Setup<'w> {
 
     /// Checks that the active length is that of the tool in the spindle if M6 inserts tools. Programs without M6, such as the native one, apply no
     /// length.
-    fn cutting_length(&mut self, line: u32, problems: &mut Problems) {
+    fn check_cutting_length(&mut self, line: u32, problems: &mut Problems) {
         let fit = self.tools.length_fit();
         if fit == LengthFit::Unstated
             && self.keeps_lengths()
@@ -327,8 +327,8 @@ impl<'w> Setup<'w> {
             });
         }
         let fits = match fit {
-            LengthFit::Unstated | LengthFit::Off => !self.must_count(),
-            LengthFit::Fits => self.must_count() || !self.has_post(),
+            LengthFit::Unstated | LengthFit::Off => !self.must_apply_length(),
+            LengthFit::Fits => self.must_apply_length() || !self.has_post(),
             LengthFit::Outdated | LengthFit::OfEntry(_) | LengthFit::Unknown => false,
         };
         if !fits && !std::mem::replace(&mut self.reported.length, true) {
@@ -340,11 +340,11 @@ impl<'w> Setup<'w> {
     /// Whether the control keeps the tool length of the previous program unless the program sets one.
     fn keeps_lengths(&self) -> bool {
         self.dialect.rules().lengths.keeps_length
-            && (!self.words.is_of_definition() || self.words.has('G', 490) || self.must_count())
+            && (!self.words.is_of_definition() || self.words.has('G', 490) || self.must_apply_length())
     }
 
     /// Whether the program must apply the length of the tool inserted by M6, because programs of the post do.
-    fn must_count(&self) -> bool {
+    fn must_apply_length(&self) -> bool {
         self.words.has('G', 430)
     }
 }
@@ -369,6 +369,6 @@ fn spindle_text(turning: Option<Turning>, speed: Option<f64>) -> String {
     [word, &speed].join(" ").trim().to_owned()
 }
 
-fn extra(line: u32, word: String, problems: &mut Problems) {
+fn report_extra_word(line: u32, word: String, problems: &mut Problems) {
     problems.add_at_line(&say::NOT_IN_DRAWING, line, |d| d.quoting("word", word));
 }

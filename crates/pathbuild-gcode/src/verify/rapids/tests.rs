@@ -5,7 +5,7 @@ use pathbuild_motion::{Move, MoveShape, Pace, Position};
 use super::{CELLS_PER_SIDE, CutGrid};
 
 /// The sides in X and Y of an obstacle of 1 mm by 1 mm, 9 mm high, far from the origin.
-const POST: [(f64, f64); 2] = [(130.0, 131.0), (-20.0, -19.0)];
+const OBSTACLE: [(f64, f64); 2] = [(130.0, 131.0), (-20.0, -19.0)];
 
 fn rapid([x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) -> Move {
     let [from, to] = [Position::known(x, y, 1.0), Position::known(to_x, to_y, 1.0)];
@@ -20,7 +20,7 @@ fn what_stands_within_the_radius_of_a_move_is_seen() {
         cell: [1.0, 0.5],
         heights: vec![f64::NEG_INFINITY; CELLS_PER_SIDE * CELLS_PER_SIDE],
     };
-    tops.raise(POST, 9.0);
+    tops.raise(OBSTACLE, 9.0);
     for step in 0..48 {
         let (sin, cos) = libm::sincos(f64::from(step) * std::f64::consts::TAU / 48.0);
         let at =

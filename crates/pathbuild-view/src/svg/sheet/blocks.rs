@@ -7,29 +7,29 @@ use pathbuild_diagnostic::with_decimal_separator;
 
 use crate::scene::{BilingualText, MoveKind, Point};
 use crate::svg::canvas::mm;
-use crate::svg::sheet::data::cleared;
+use crate::svg::sheet::data::clamp_box;
 use crate::svg::sheet::data::feeds;
-use crate::svg::sheet::data::outline;
 use crate::svg::sheet::data::rapid_heights;
+use crate::svg::sheet::data::removed_box;
 
 /// Returns the steps before running the program, in the order in which the operator carries them out.
 pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
     let mut checks = vec![program(sheet, words), material(sheet, words)];
     if let Some((deepest, _)) = sheet.cutting_box[2].filter(|(deepest, _)| *deepest < 0.0) {
         let depth = words.mm(-deepest);
-        checks.push(words.either(
+        checks.push(words.choose(
             format!("Sacrificial plate lies under it: it is cut {depth} mm deep"),
             format!("Opferplatte liegt darunter: sie wird {depth} mm tief angefräst"),
         ));
     }
-    checks.push(clamped(sheet, words));
+    checks.push(clamped_text(sheet, words));
     checks.push(cutter(sheet, words));
     if !sheet.starts_spindle {
-        checks.push(words.either("Spindle is started by hand", "Spindel wird von Hand eingeschaltet").into());
+        checks.push(words.choose("Spindle is started by hand", "Spindel wird von Hand eingeschaltet").into());
     }
     checks.extend(zero(sheet, words));
     if let Some(values) = &sheet.values {
-        checks.push(words.either(
+        checks.push(words.choose(
             format!(
                 "Probing program has run, the heights are in {values}, pathbuild adjust has run without errors"
             ),
@@ -40,22 +40,22 @@ pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
     }
     checks.push(
         words
-            .either(
+            .choose(
                 "Air run is done, with Z0 set higher",
                 "Probelauf in der Luft ist gemacht, mit höher gesetztem Z0",
             )
             .into(),
     );
     checks.extend(sheet.left_out.iter().map(|BilingualText { en, de }| {
-        words.either(format!("{en}: that is intended"), format!("{de}: das ist so gewollt"))
+        words.choose(format!("{en}: that is intended"), format!("{de}: das ist so gewollt"))
     }));
-    let heading = Block::Heading(words.either("Before the start", "Vor dem Start").into());
+    let heading = Block::Heading(words.choose("Before the start", "Vor dem Start").into());
     std::iter::once(heading).chain(checks.into_iter().map(Block::Check)).collect()
 }
 
 fn program(sheet: &Sheet, words: Words) -> String {
     let (programs, hashes) = (sheet.programs.join(", "), &sheet.hashes);
-    words.either(
+    words.choose(
         format!("Program {programs} is loaded; its first lines say {hashes}"),
         format!("Programm {programs} ist geladen; in seinen ersten Zeilen steht {hashes}"),
     )
@@ -66,27 +66,27 @@ fn material(sheet: &Sheet, words: Words) -> String {
         materials(sheet)
             .into_iter()
             .chain(thicknesses(sheet).map(|thickness| with_decimal_separator(thickness, words.0)).map(
-                |thickness| words.either(format!("{thickness} mm thick"), format!("{thickness} mm dick")),
+                |thickness| words.choose(format!("{thickness} mm thick"), format!("{thickness} mm dick")),
             ))
             .chain(
                 size(sheet, words)
-                    .map(|size| words.either(format!("at least {size}"), format!("mindestens {size}"))),
+                    .map(|size| words.choose(format!("at least {size}"), format!("mindestens {size}"))),
             )
             .collect();
     let facts = facts.join(", ");
-    words.either(format!("Material lies ready: {facts}"), format!("Material liegt bereit: {facts}"))
+    words.choose(format!("Material lies ready: {facts}"), format!("Material liegt bereit: {facts}"))
 }
 
-fn clamped(sheet: &Sheet, words: Words) -> String {
+fn clamped_text(sheet: &Sheet, words: Words) -> String {
     let clamps = sheet.scene.keep_outs.len();
     let highest = sheet.scene.keep_outs.iter().map(|clamp| clamp.height).reduce(f64::max);
     match highest {
-        Some(highest) => words.either(
+        Some(highest) => words.choose(
             format!("Clamps ({clamps}) are where the picture has them, none higher than Z {}", mm(highest)),
             format!("Spannpratzen ({clamps}) sitzen wie im Bild, keine höher als Z {}", mm(highest)),
         ),
         None => words
-            .either(
+            .choose(
                 "Material is clamped; no clamp stands in a milled line or a rapid move",
                 "Material ist gespannt; keine Spannpratze steht in einer Fräsbahn oder einem Eilgang",
             )
@@ -98,14 +98,14 @@ fn cutter(sheet: &Sheet, words: Words) -> String {
     match sheet.tools.as_slice() {
         [tool] => {
             let tool = tool_text(tool, words).join(", ");
-            words.either(
+            words.choose(
                 format!("Cutter is in and sharp: {tool}"),
                 format!("Fräser sitzt und ist scharf: {tool}"),
             )
         }
         tools => {
             let count = tools.len();
-            words.either(
+            words.choose(
                 format!("Cutters ({count}) are in the places of the table, their lengths are set"),
                 format!("Fräser ({count}) sitzen an den Plätzen der Tabelle, ihre Längen sind gesetzt"),
             )
@@ -116,15 +116,15 @@ fn cutter(sheet: &Sheet, words: Words) -> String {
 /// Describes where to set the zero point.
 fn zero(sheet: &Sheet, words: Words) -> Vec<String> {
     let mut checks = Vec::new();
-    if let Some([low, _]) = cleared(sheet) {
-        let (across, up) = (words.beside(low[0], true), words.beside(low[1], false));
-        checks.push(words.either(
+    if let Some([low, _]) = removed_box(sheet) {
+        let (across, up) = (words.distance_of_zero(low[0], true), words.distance_of_zero(low[1], false));
+        checks.push(words.choose(
             format!("X0 Y0 is set (G54): {across} and {up} of the dashed rectangle"),
             format!("X0 Y0 ist gesetzt (G54): {across} und {up} des gestrichelten Rechtecks"),
         ));
     }
     let top = thicknesses(sheet).unwrap_or_default();
-    checks.push(words.either(
+    checks.push(words.choose(
         format!("Z0 is set on the face that the material lies on; its upper face is at Z {top}"),
         format!(
             "Z0 ist auf der Fläche gesetzt, auf der das Material liegt; dessen Oberseite ist bei Z {top}"
@@ -156,7 +156,7 @@ pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
     facts.heading("Way of the cutter's tip", "Weg der Fräserspitze");
     for (axis, extent) in ["X", "Y", "Z"].into_iter().zip(sheet.cutting_box) {
         let range = |(low, high)| {
-            words.either(format!("{} to {}", mm(low), mm(high)), format!("{} bis {}", mm(low), mm(high)))
+            words.choose(format!("{} to {}", mm(low), mm(high)), format!("{} bis {}", mm(low), mm(high)))
         };
         facts.fact(axis, axis, extent.map(range));
     }
@@ -183,11 +183,11 @@ struct Facts {
 
 impl Facts {
     fn heading(&mut self, en: &str, de: &str) {
-        self.blocks.push(Block::Heading(self.words.either(en, de).into()));
+        self.blocks.push(Block::Heading(self.words.choose(en, de).into()));
     }
 
     fn fact(&mut self, en: &str, de: &str, value: Option<String>) {
-        let name = self.words.either(en, de).to_owned();
+        let name = self.words.choose(en, de).to_owned();
         self.blocks.extend(value.map(|value| Block::Fact(name, value)));
     }
 }
@@ -201,59 +201,59 @@ pub(super) fn tables(sheet: &Sheet, words: Words) -> Vec<Block> {
         }
         let head: Vec<String> = head.iter().map(|&text| text.to_owned()).collect();
         blocks.push(Block::Heading(heading.to_owned()));
-        let continued = format!("{heading} ({})", words.either("continued", "Fortsetzung"));
+        let continued = format!("{heading} ({})", words.choose("continued", "Fortsetzung"));
         let row = |cells| Block::Row { cells, shares, head: head.clone(), continued: continued.clone() };
         blocks.extend(rows.into_iter().map(row));
     };
     table(
-        words.either("Operations", "Arbeitsgänge"),
+        words.choose("Operations", "Arbeitsgänge"),
         &[0.16, 0.26, 0.42, 0.16],
         &[
-            words.either("No.", "Nr."),
-            words.either("path", "Pfad"),
-            words.either("what", "was"),
-            words.either("down to", "bis"),
+            words.choose("No.", "Nr."),
+            words.choose("path", "Pfad"),
+            words.choose("what", "was"),
+            words.choose("down to", "bis"),
         ],
         operations::rows(sheet, words),
     );
     table(
-        words.either("Z-probes", "Z-Proben"),
+        words.choose("Z-probes", "Z-Proben"),
         &[0.09, 0.37, 0.12, 0.12, 0.12, 0.18],
         &[
             "#",
-            words.either("in the file of values", "in der Wertedatei"),
+            words.choose("in the file of values", "in der Wertedatei"),
             "X",
             "Y",
-            words.either("drawn Z", "Z gezeichnet"),
-            words.either("measured", "gemessen"),
+            words.choose("drawn Z", "Z gezeichnet"),
+            words.choose("measured", "gemessen"),
         ],
         probes(sheet),
     );
     table(
-        words.either("Clamps", "Spannpratzen"),
+        words.choose("Clamps", "Spannpratzen"),
         &[0.34, 0.24, 0.24, 0.18],
-        &[words.either("layer", "Layer"), "X", "Y", words.either("up to Z", "bis Z")],
+        &[words.choose("layer", "Layer"), "X", "Y", words.choose("up to Z", "bis Z")],
         clamps(sheet, words),
     );
     if sheet.tools.len() > 1 {
         table(
-            words.either("Cutters", "Fräser"),
+            words.choose("Cutters", "Fräser"),
             &[0.1, 0.12, 0.22, 0.24, 0.32],
             &[
                 "T",
                 "Ø mm",
-                words.either("name", "Name"),
-                words.either("spindle", "Spindel"),
-                words.either("paths", "Pfade"),
+                words.choose("name", "Name"),
+                words.choose("spindle", "Spindel"),
+                words.choose("paths", "Pfade"),
             ],
             sheet.tools.iter().map(|tool| tool_row(tool, words)).collect(),
         );
     }
     table(
-        words.either("Embedded paths", "Eingebettete Pfade"),
+        words.choose("Embedded paths", "Eingebettete Pfade"),
         &[0.34, 0.14, 0.52],
-        &["", words.either("times", "Anzahl"), words.either("drawing", "Zeichnung")],
-        embedded(sheet),
+        &["", words.choose("times", "Anzahl"), words.choose("drawing", "Zeichnung")],
+        embedded_rows(sheet),
     );
     blocks
 }
@@ -274,9 +274,9 @@ fn probes(sheet: &Sheet) -> Vec<Vec<String>> {
 }
 
 fn clamps(sheet: &Sheet, words: Words) -> Vec<Vec<String>> {
-    let to = words.either("to", "bis");
+    let to = words.choose("to", "bis");
     let row = |clamp: &crate::scene::KeepOut| {
-        let [low, high]: [Point; 2] = outline(clamp);
+        let [low, high]: [Point; 2] = clamp_box(clamp);
         let range = |axis: usize| format!("{} {to} {}", mm(low[axis]), mm(high[axis]));
         vec![clamp.layer.clone(), range(0), range(1), mm(clamp.height)]
     };
@@ -294,7 +294,7 @@ fn tool_row(tool: &SheetTool, words: Words) -> Vec<String> {
 }
 
 /// Returns a row for each embedded path, with its number of occurrences.
-fn embedded(sheet: &Sheet) -> Vec<Vec<String>> {
+fn embedded_rows(sheet: &Sheet) -> Vec<Vec<String>> {
     let all = || sheet.scene.paths.iter().flat_map(|path| path.embedded.iter().skip(1));
     let each = distinct(all().map(|path| (&path.name, &path.file)));
     let row = |(name, file): (&String, &String)| {
@@ -320,10 +320,10 @@ fn edges(tool: &SheetTool, words: Words) -> Option<String> {
         .filter(|radius| *radius > 0.0)
         .map(|radius| format!("R {}", words.mm(radius)));
     let flutes =
-        tool.flutes.map(|flutes| words.either(format!("{flutes} flutes"), format!("{flutes} Schneiden")));
+        tool.flutes.map(|flutes| words.choose(format!("{flutes} flutes"), format!("{flutes} Schneiden")));
     let length = tool.length.map(|length| {
         words
-            .either(format!("cuts {} mm deep", mm(length)), format!("schneidet {} mm tief", words.mm(length)))
+            .choose(format!("cuts {} mm deep", mm(length)), format!("schneidet {} mm tief", words.mm(length)))
     });
     let texts: Vec<String> = radius.into_iter().chain(flutes).chain(length).collect();
     (!texts.is_empty()).then(|| texts.join(", "))
@@ -331,12 +331,12 @@ fn edges(tool: &SheetTool, words: Words) -> Option<String> {
 
 fn spindle(tool: &SheetTool, words: Words) -> Option<String> {
     let speed =
-        tool.speed.map(|speed| words.either(format!("{} rpm", mm(speed)), format!("{} 1/min", mm(speed))));
+        tool.speed.map(|speed| words.choose(format!("{} rpm", mm(speed)), format!("{} 1/min", mm(speed))));
     let way = tool.clockwise.map(|clockwise| {
         if clockwise {
-            words.either("clockwise", "im Uhrzeigersinn")
+            words.choose("clockwise", "im Uhrzeigersinn")
         } else {
-            words.either("counterclockwise", "gegen den Uhrzeigersinn")
+            words.choose("counterclockwise", "gegen den Uhrzeigersinn")
         }
     });
     let texts: Vec<String> = speed.into_iter().chain(way.map(str::to_owned)).collect();
@@ -354,7 +354,7 @@ fn thicknesses(sheet: &Sheet) -> Option<String> {
 
 /// Describes the size of the removed material in X and Y; `None` if nothing is removed.
 fn size(sheet: &Sheet, words: Words) -> Option<String> {
-    let [low, high] = cleared(sheet)?;
+    let [low, high] = removed_box(sheet)?;
     Some(format!("{} × {} mm", words.mm(high[0] - low[0]), words.mm(high[1] - low[1])))
 }
 

@@ -87,7 +87,7 @@ pub struct SheetProbe {
 pub(super) type Corners = [Point; 2];
 
 /// Returns the bounding box of the removed material seen from above; `None` if nothing is cut.
-pub(super) fn cleared(sheet: &Sheet) -> Option<Corners> {
+pub(super) fn removed_box(sheet: &Sheet) -> Option<Corners> {
     let mut corners = None;
     for path in &sheet.scene.paths {
         let radius = path.tool.unwrap_or_default() / 2.0;
@@ -103,8 +103,8 @@ pub(super) fn cleared(sheet: &Sheet) -> Option<Corners> {
 }
 
 /// Returns the bounding box of everything that the picture shows.
-pub(super) fn seen(sheet: &Sheet) -> Corners {
-    let mut corners = cleared(sheet);
+pub(super) fn shown_box(sheet: &Sheet) -> Corners {
+    let mut corners = removed_box(sheet);
     widen(&mut corners, [[0.0; 2]; 2]);
     for path in &sheet.scene.paths {
         for extent in path.moves.iter().filter_map(SceneMove::extent) {
@@ -115,13 +115,13 @@ pub(super) fn seen(sheet: &Sheet) -> Corners {
         widen(&mut corners, [at, at]);
     }
     for clamp in &sheet.scene.keep_outs {
-        widen(&mut corners, outline(clamp));
+        widen(&mut corners, clamp_box(clamp));
     }
     corners.unwrap_or_default()
 }
 
 /// Returns the bounding box of a clamp.
-pub(super) fn outline(clamp: &KeepOut) -> Corners {
+pub(super) fn clamp_box(clamp: &KeepOut) -> Corners {
     let mut corners = None;
     for extent in clamp.outline.iter().map(Shape::extent) {
         widen(&mut corners, extent);
@@ -192,7 +192,7 @@ pub(super) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> 
 pub(super) struct Words(pub(super) Lang);
 
 impl Words {
-    pub(super) fn either<T>(self, en: T, de: T) -> T {
+    pub(super) fn choose<T>(self, en: T, de: T) -> T {
         self.0.choose(en, de)
     }
 
@@ -202,7 +202,7 @@ impl Words {
     }
 
     /// Describes the distance of zero from the lower end of a range along X (`is_across`) or Y.
-    pub(super) fn beside(self, low: f64, is_across: bool) -> String {
+    pub(super) fn distance_of_zero(self, low: f64, is_across: bool) -> String {
         let (sides, edge) = match (is_across, self.0) {
             (true, Lang::En) => (["right", "left"], "left edge"),
             (true, Lang::De) => (["rechts", "links"], "linken Rand"),
@@ -210,7 +210,7 @@ impl Words {
             (false, Lang::De) => (["über", "unter"], "unteren Rand"),
         };
         if low.abs() < 0.0005 {
-            return self.either(format!("on the {edge}"), format!("auf dem {edge}"));
+            return self.choose(format!("on the {edge}"), format!("auf dem {edge}"));
         }
         let side = if low < 0.0 { sides[0] } else { sides[1] };
         let length = self.mm(low.abs());

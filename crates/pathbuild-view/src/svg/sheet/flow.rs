@@ -1,26 +1,26 @@
 //! Arranges blocks of text in columns and on pages.
 
 use crate::scene::Point;
-use crate::svg::canvas::OTHER;
-use crate::svg::canvas::wrapped;
-use crate::svg::canvas::{Anchor, Canvas, INK, n};
+use crate::svg::canvas::OTHER_COLOUR;
+use crate::svg::canvas::wrap_text;
+use crate::svg::canvas::{Anchor, Canvas, INK_COLOUR, svg_number};
 
 /// Letter size and line height in units of the page.
-pub(super) const LETTERS: f64 = 10.0;
-pub(super) const LINE: f64 = 13.5;
+pub(super) const LETTER_SIZE: f64 = 10.0;
+pub(super) const LINE_HEIGHT: f64 = 13.5;
 
 /// Maximum height, in units of the page, of the picture on the first page. The rest is for checklist and facts.
-pub(super) const PICTURE: f64 = 440.0;
+pub(super) const MAX_PICTURE_HEIGHT: f64 = 440.0;
 
 /// Space above a heading and below a block, in units of the page.
-const ABOVE_HEADING: f64 = 8.0;
-const BELOW: f64 = 2.5;
+const SPACE_ABOVE_HEADING: f64 = 8.0;
+const SPACE_BELOW_BLOCK: f64 = 2.5;
 
 /// Indentation of a checklist's text, which is to the right of the boxes, in units of the page.
 const INDENT: f64 = 17.0;
 
 /// Share of a column's width for the name in a [`Block::Fact`].
-const NAMES: f64 = 0.45;
+const NAME_SHARE: f64 = 0.45;
 
 /// Space between two cells of a row, in units of the page.
 const CELL_GAP: f64 = 6.0;
@@ -50,7 +50,7 @@ pub(super) struct Column {
 
 /// Lays out as many blocks as a column holds. Returns the remaining blocks, and the lower edge of the last block laid out. At least one
 /// block is laid out, so that the layout terminates.
-pub(super) fn lay<'b>(blocks: &'b [Block], column: Column, items: &mut Vec<Item>) -> (&'b [Block], f64) {
+pub(super) fn lay_out<'b>(blocks: &'b [Block], column: Column, items: &mut Vec<Item>) -> (&'b [Block], f64) {
     let mut y = column.top;
     let mut head: Option<&[String]> = None;
     for (index, block) in blocks.iter().enumerate() {
@@ -65,10 +65,10 @@ pub(super) fn lay<'b>(blocks: &'b [Block], column: Column, items: &mut Vec<Item>
             below = row(wanted, shares, column, below, true, &mut laid);
             head = Some(wanted);
         }
-        below = block.lay(column, below, index == 0, &mut laid);
+        below = block.lay_out_below(column, below, index == 0, &mut laid);
         // A heading must not be separated from the block that follows.
         let room = match block {
-            Block::Heading(_) => below + 3.0 * LINE,
+            Block::Heading(_) => below + 3.0 * LINE_HEIGHT,
             _ => below,
         };
         if room > column.bottom && index > 0 {
@@ -82,15 +82,15 @@ pub(super) fn lay<'b>(blocks: &'b [Block], column: Column, items: &mut Vec<Item>
 
 impl Block {
     /// Lays out this block below `top`. Returns its lower edge.
-    fn lay(&self, column: Column, top: f64, is_first: bool, items: &mut Vec<Item>) -> f64 {
+    fn lay_out_below(&self, column: Column, top: f64, is_first: bool, items: &mut Vec<Item>) -> f64 {
         match self {
             Self::Heading(text) => heading(text, column, top, is_first, items),
             Self::Check(text) => {
                 items.push(Item::Tick([column.left, top + 1.0]));
-                lines(text, column.left + INDENT, column.width - INDENT, top, items) + BELOW
+                lines(text, column.left + INDENT, column.width - INDENT, top, items) + SPACE_BELOW_BLOCK
             }
             Self::Fact(name, value) => {
-                let names = column.width * NAMES;
+                let names = column.width * NAME_SHARE;
                 let left = lines(name, column.left, names - CELL_GAP, top, items);
                 let right = lines(value, column.left + names, column.width - names, top, items);
                 left.max(right)
@@ -102,8 +102,8 @@ impl Block {
 
 /// Lays out a heading below `top`. Returns its lower edge.
 fn heading(text: &str, column: Column, top: f64, is_first: bool, items: &mut Vec<Item>) -> f64 {
-    let y = top + if is_first { 0.0 } else { ABOVE_HEADING } + LETTERS;
-    items.push(Item::text([column.left, y], LETTERS + 1.0, text).bold());
+    let y = top + if is_first { 0.0 } else { SPACE_ABOVE_HEADING } + LETTER_SIZE;
+    items.push(Item::text([column.left, y], LETTER_SIZE + 1.0, text).bold());
     let line = y + 3.5;
     items.push(Item::rule([column.left, line], [column.left + column.width, line]));
     line + 4.0
@@ -119,7 +119,7 @@ fn row(
     items: &mut Vec<Item>,
 ) -> f64 {
     let mut left = column.left;
-    let mut bottom = top + LINE;
+    let mut bottom = top + LINE_HEIGHT;
     let first = items.len();
     for (cell, share) in cells.iter().zip(shares) {
         let width = share * column.width;
@@ -137,9 +137,9 @@ fn row(
 /// Lays out the lines of a text below `top`. Returns the lower edge of the last line.
 fn lines(text: &str, left: f64, width: f64, top: f64, items: &mut Vec<Item>) -> f64 {
     let mut y = top;
-    for line in wrapped(text, width, LETTERS) {
-        items.push(Item::text([left, y + LETTERS], LETTERS, &line));
-        y += LINE;
+    for line in wrap_text(text, width, LETTER_SIZE) {
+        items.push(Item::text([left, y + LETTER_SIZE], LETTER_SIZE, &line));
+        y += LINE_HEIGHT;
     }
     y
 }
@@ -191,15 +191,15 @@ impl Item {
         match self {
             Self::Text { at, size, text, is_bold } => {
                 let weight = if *is_bold { " font-weight=\"bold\"" } else { "" };
-                canvas.text(*at, *size, Anchor::Start, &format!("fill=\"{INK}\"{weight}"), text);
+                canvas.text(*at, *size, Anchor::Start, &format!("fill=\"{INK_COLOUR}\"{weight}"), text);
             }
             Self::Rule { from, to } => {
-                canvas.line(*from, *to, &format!("stroke=\"{OTHER}\" stroke-width=\"0.8\""));
+                canvas.line(*from, *to, &format!("stroke=\"{OTHER_COLOUR}\" stroke-width=\"0.8\""));
             }
             Self::Tick([x, y]) => canvas.raw(&format!(
-                "<rect x=\"{}\" y=\"{}\" width=\"10\" height=\"10\" fill=\"none\" stroke=\"{INK}\"/>",
-                n(*x),
-                n(*y)
+                "<rect x=\"{}\" y=\"{}\" width=\"10\" height=\"10\" fill=\"none\" stroke=\"{INK_COLOUR}\"/>",
+                svg_number(*x),
+                svg_number(*y)
             )),
         }
     }

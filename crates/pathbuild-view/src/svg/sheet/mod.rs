@@ -22,7 +22,7 @@ pub use data::{Sheet, SheetProbe, SheetTool};
 
 /// Returns the pages of a setup sheet, each as an SVG file.
 pub fn sheet_pages(sheet: &Sheet, lang: Lang) -> Vec<String> {
-    page::drawn(sheet, lang)
+    page::pages_as_svg(sheet, lang)
 }
 
 /// Returns all pages in one SVG file, stacked vertically.

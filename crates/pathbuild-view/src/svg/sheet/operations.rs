@@ -5,7 +5,7 @@ use crate::scene::{Element, ElementKind, ScenePath, Shape};
 use crate::svg::canvas::mm;
 
 /// Maximum number of rows. A longer table is of no use on paper.
-const MOST_ROWS: usize = 300;
+const MAX_ROWS: usize = 300;
 
 /// A range of consecutive element numbers with the same operation.
 #[derive(Debug)]
@@ -29,10 +29,10 @@ struct ElementOperation {
 pub(super) fn rows(sheet: &Sheet, words: Words) -> Vec<Vec<String>> {
     let mut rows: Vec<Vec<String>> =
         sheet.scene.paths.iter().flat_map(|path| operations(path, words)).map(row).collect();
-    let more = rows.len().saturating_sub(MOST_ROWS);
+    let more = rows.len().saturating_sub(MAX_ROWS);
     if more > 0 {
-        rows.truncate(MOST_ROWS);
-        let text = words.either(format!("{more} more operations"), format!("{more} weitere Arbeitsgänge"));
+        rows.truncate(MAX_ROWS);
+        let text = words.choose(format!("{more} more operations"), format!("{more} weitere Arbeitsgänge"));
         rows.push(vec!["…".to_owned(), String::new(), text, String::new()]);
     }
     rows
@@ -48,7 +48,7 @@ fn operations(path: &ScenePath, words: Words) -> Vec<Operation> {
     let depths = depths(path);
     let numbered = path.elements.iter().zip(depths);
     let mut numbered: Vec<(u32, ElementOperation)> = numbered
-        .filter_map(|(element, depth)| Some((element.order?, work(path, element, depth, words))))
+        .filter_map(|(element, depth)| Some((element.order?, element_operation(path, element, depth, words))))
         .collect();
     numbered.sort_by_key(|(number, _)| *number);
     let mut operations: Vec<Operation> = Vec::new();
@@ -73,30 +73,35 @@ fn depths(path: &ScenePath) -> Vec<Option<f64>> {
     depths
 }
 
-fn work(path: &ScenePath, element: &Element, depth: Option<f64>, words: Words) -> ElementOperation {
+fn element_operation(
+    path: &ScenePath,
+    element: &Element,
+    depth: Option<f64>,
+    words: Words,
+) -> ElementOperation {
     let name = path.embedded.get(element.path as usize).map_or(&path.name, |embedded| &embedded.name);
     ElementOperation {
         occurrence: element.path,
         path: name.clone(),
-        what: what(path, element, words),
+        what: operation_text(path, element, words),
         depth: depth.map(|z| format!("Z {}", mm(z))).unwrap_or_default(),
     }
 }
 
 /// Describes the operation at an element. A circle as wide as the cutter is drilled.
-fn what(path: &ScenePath, element: &Element, words: Words) -> String {
+fn operation_text(path: &ScenePath, element: &Element, words: Words) -> String {
     let work = match element.kind {
-        ElementKind::Mark => words.either("marking", "Markieren"),
-        ElementKind::Support => words.either("milling with support bars", "Fräsen mit Stützstegen"),
-        _ => words.either("milling", "Fräsen"),
+        ElementKind::Mark => words.choose("marking", "Markieren"),
+        ElementKind::Support => words.choose("milling with support bars", "Fräsen mit Stützstegen"),
+        _ => words.choose("milling", "Fräsen"),
     };
     let Shape::Circle { radius, .. } = element.shape else { return work.to_owned() };
     let diameter = 2.0 * radius;
     if path.tool.is_some_and(|tool| (tool - diameter).abs() < 0.001) {
         return words
-            .either(format!("drilling Ø {}", mm(diameter)), format!("Bohren Ø {}", words.mm(diameter)));
+            .choose(format!("drilling Ø {}", mm(diameter)), format!("Bohren Ø {}", words.mm(diameter)));
     }
-    words.either(
+    words.choose(
         format!("{work}: circle Ø {}", mm(diameter)),
         format!("{work}: Kreis Ø {}", words.mm(diameter)),
     )

@@ -4,31 +4,31 @@ use pathbuild_diagnostic::Lang;
 
 use super::blocks;
 use super::data::{PAPER, Sheet, UNITS, Words};
-use super::flow::{Block, Column, Item, LETTERS, PICTURE, lay};
+use super::flow::{Block, Column, Item, LETTER_SIZE, MAX_PICTURE_HEIGHT, lay_out};
 use super::picture::{self, PlacedPicture};
 use crate::scene::Point;
-use crate::svg::canvas::{Anchor, Canvas, INK, TEXT, n};
-use crate::svg::canvas::{breadth, wrapped};
+use crate::svg::canvas::{Anchor, Canvas, INK_COLOUR, TEXT_COLOUR, svg_number};
+use crate::svg::canvas::{text_width, wrap_text};
 
 /// Size of a page and its margins, in units.
 pub(super) const SIZE: Point = [PAPER[0] * UNITS, PAPER[1] * UNITS];
-pub(super) const LEFT: f64 = 39.0;
-pub(super) const RIGHT: f64 = SIZE[0] - 33.0;
+pub(super) const LEFT_EDGE: f64 = 39.0;
+pub(super) const RIGHT_EDGE: f64 = SIZE[0] - 33.0;
 const TOP_MARGIN: f64 = 36.0;
-const FOOT: f64 = SIZE[1] - 30.0;
-const BOTTOM: f64 = FOOT - 16.0;
+const FOOTER_TOP: f64 = SIZE[1] - 30.0;
+const BOTTOM_EDGE: f64 = FOOTER_TOP - 16.0;
 
 /// Top of the text below the title, in units.
-const BELOW_TITLE: f64 = TOP_MARGIN + 32.0;
+const TEXT_TOP: f64 = TOP_MARGIN + 32.0;
 
 /// Space between the columns of the first page, in units.
 const GUTTER: f64 = 18.0;
 
 /// Minimum space for starting a table on the first page, in units.
-const ROOM_FOR_TABLE: f64 = 90.0;
+const MIN_TABLE_HEIGHT: f64 = 90.0;
 
 /// Share of the first page's width for the checklist.
-const CHECKLIST: f64 = 0.54;
+const CHECKLIST_SHARE: f64 = 0.54;
 
 /// A page with the items on it.
 #[derive(Debug, Default)]
@@ -38,7 +38,7 @@ pub(super) struct Page {
 }
 
 /// Returns the pages of a sheet as SVG files.
-pub(super) fn drawn(sheet: &Sheet, lang: Lang) -> Vec<String> {
+pub(super) fn pages_as_svg(sheet: &Sheet, lang: Lang) -> Vec<String> {
     let pages = pages(sheet, Words(lang));
     let count = pages.len();
     let drawn = pages.iter().enumerate().map(|(index, page)| {
@@ -57,42 +57,46 @@ pub(super) fn drawn(sheet: &Sheet, lang: Lang) -> Vec<String> {
 /// Arranges the content of a sheet on pages.
 pub(super) fn pages(sheet: &Sheet, words: Words) -> Vec<Page> {
     let mut first = Page::default();
-    let placed = picture::first(sheet, Column::new([LEFT, BELOW_TITLE], [RIGHT, BELOW_TITLE + PICTURE]));
+    let placed = picture::first_page_picture(
+        sheet,
+        Column::new([LEFT_EDGE, TEXT_TOP], [RIGHT_EDGE, TEXT_TOP + MAX_PICTURE_HEIGHT]),
+    );
     let top = placed.bottom() + 6.0;
     let is_whole = placed.is_whole();
     first.picture = Some(placed);
-    let middle = LEFT + (RIGHT - LEFT) * CHECKLIST;
-    let left = Column::new([LEFT, top], [middle, BOTTOM]);
-    let right = Column::new([middle + GUTTER, top], [RIGHT, BOTTOM]);
+    let middle = LEFT_EDGE + (RIGHT_EDGE - LEFT_EDGE) * CHECKLIST_SHARE;
+    let left = Column::new([LEFT_EDGE, top], [middle, BOTTOM_EDGE]);
+    let right = Column::new([middle + GUTTER, top], [RIGHT_EDGE, BOTTOM_EDGE]);
     let (checks, facts) = (blocks::checklist(sheet, words), blocks::facts(sheet, words));
     let mut rest: Vec<Block> = Vec::new();
     let mut below = top;
     for (blocks, column) in [(&checks, left), (&facts, right)] {
-        let (open, bottom) = lay(blocks, column, &mut first.items);
+        let (open, bottom) = lay_out(blocks, column, &mut first.items);
         rest.extend_from_slice(open);
         below = below.max(bottom);
     }
-    let has_room = rest.is_empty() && below + ROOM_FOR_TABLE < BOTTOM;
+    let has_room = rest.is_empty() && below + MIN_TABLE_HEIGHT < BOTTOM_EDGE;
     rest.extend(blocks::tables(sheet, words));
     let mut rest: &[Block] = &rest;
     if has_room {
-        let column = Column::new([LEFT, below + 12.0], [RIGHT, BOTTOM]);
-        rest = lay(rest, column, &mut first.items).0;
+        let column = Column::new([LEFT_EDGE, below + 12.0], [RIGHT_EDGE, BOTTOM_EDGE]);
+        rest = lay_out(rest, column, &mut first.items).0;
     }
     let mut pages = vec![first];
     while !rest.is_empty() {
         let mut page = Page::default();
-        let column = Column::new([LEFT, BELOW_TITLE], [RIGHT, BOTTOM]);
-        rest = lay(rest, column, &mut page.items).0;
+        let column = Column::new([LEFT_EDGE, TEXT_TOP], [RIGHT_EDGE, BOTTOM_EDGE]);
+        rest = lay_out(rest, column, &mut page.items).0;
         pages.push(page);
     }
     if !is_whole {
-        let area = Column::new([LEFT, BELOW_TITLE], [RIGHT, BOTTOM]);
+        let area = Column::new([LEFT_EDGE, TEXT_TOP], [RIGHT_EDGE, BOTTOM_EDGE]);
         pages.extend(
-            picture::larger(sheet, area).map(|placed| Page { picture: Some(placed), ..Page::default() }),
+            picture::larger_picture(sheet, area)
+                .map(|placed| Page { picture: Some(placed), ..Page::default() }),
         );
     }
-    let area = Column::new([LEFT, BELOW_TITLE], [RIGHT, BOTTOM]);
+    let area = Column::new([LEFT_EDGE, TEXT_TOP], [RIGHT_EDGE, BOTTOM_EDGE]);
     pages.extend(picture::stock(sheet, area).map(|placed| Page { picture: Some(placed), ..Page::default() }));
     pages
 }
@@ -110,47 +114,47 @@ impl Page {
         for item in &self.items {
             item.draw(&mut canvas);
         }
-        foot(&mut canvas, sheet, words, index + 1, count);
+        draw_footer(&mut canvas, sheet, words, index + 1, count);
         canvas.finish()
     }
 }
 
 /// Returns the name of the program and its drawings.
 fn title(sheet: &Sheet, words: Words) -> Vec<Item> {
-    let (size, width) = (20.0, (RIGHT - LEFT) * 0.62);
-    let name = wrapped(&sheet.title, width, size);
+    let (size, width) = (20.0, (RIGHT_EDGE - LEFT_EDGE) * 0.62);
+    let name = wrap_text(&sheet.title, width, size);
     let name = if name.len() > 1 { format!("{}…", name[0]) } else { name[0].clone() };
     let drawings = sheet.drawings.join(", ");
-    let beside = LEFT + breadth(&name, size) + 14.0;
-    let drawings = words.either(format!("drawing {drawings}"), format!("Zeichnung {drawings}"));
-    let lines = wrapped(&drawings, RIGHT - beside, LETTERS);
+    let beside = LEFT_EDGE + text_width(&name, size) + 14.0;
+    let drawings = words.choose(format!("drawing {drawings}"), format!("Zeichnung {drawings}"));
+    let lines = wrap_text(&drawings, RIGHT_EDGE - beside, LETTER_SIZE);
     let first = if lines.len() > 1 { format!("{}…", lines[0]) } else { lines[0].clone() };
     vec![
-        Item::text([LEFT, TOP_MARGIN + 14.0], size, &name).bold(),
-        Item::text([beside, TOP_MARGIN + 14.0], LETTERS, &first),
-        Item::rule([LEFT, TOP_MARGIN + 21.0], [RIGHT, TOP_MARGIN + 21.0]),
+        Item::text([LEFT_EDGE, TOP_MARGIN + 14.0], size, &name).bold(),
+        Item::text([beside, TOP_MARGIN + 14.0], LETTER_SIZE, &first),
+        Item::rule([LEFT_EDGE, TOP_MARGIN + 21.0], [RIGHT_EDGE, TOP_MARGIN + 21.0]),
     ]
 }
 
 /// Draws the page footer: identification in case the pages get separated, and a ruler for checking the scale of the print.
-fn foot(canvas: &mut Canvas, sheet: &Sheet, words: Words, number: usize, count: usize) {
-    let page = words.either(format!("page {number} of {count}"), format!("Seite {number} von {count}"));
+fn draw_footer(canvas: &mut Canvas, sheet: &Sheet, words: Words, number: usize, count: usize) {
+    let page = words.choose(format!("page {number} of {count}"), format!("Seite {number} von {count}"));
     let text = format!("{} · {page}", sheet.hashes);
-    canvas.text([LEFT, FOOT + 8.0], 9.0, Anchor::Start, &format!("fill=\"{TEXT}\""), &text);
-    let ruler = words.either("50 mm, when printed at 100 %", "50 mm, wenn mit 100 % gedruckt");
-    let end = RIGHT - 50.0 * UNITS;
-    let y = FOOT + 4.0;
+    canvas.text([LEFT_EDGE, FOOTER_TOP + 8.0], 9.0, Anchor::Start, &format!("fill=\"{TEXT_COLOUR}\""), &text);
+    let ruler = words.choose("50 mm, when printed at 100 %", "50 mm, wenn mit 100 % gedruckt");
+    let end = RIGHT_EDGE - 50.0 * UNITS;
+    let y = FOOTER_TOP + 4.0;
     canvas.path(
         &format!(
             "M{l} {t}V{b}M{l} {y}H{r}M{r} {t}V{b}",
-            l = n(end),
-            r = n(RIGHT),
-            t = n(y - 4.0),
-            b = n(y + 4.0),
-            y = n(y)
+            l = svg_number(end),
+            r = svg_number(RIGHT_EDGE),
+            t = svg_number(y - 4.0),
+            b = svg_number(y + 4.0),
+            y = svg_number(y)
         ),
-        &format!("fill=\"none\" stroke=\"{INK}\""),
+        &format!("fill=\"none\" stroke=\"{INK_COLOUR}\""),
     );
-    let style = format!("fill=\"{TEXT}\" text-anchor=\"end\"");
-    canvas.text([end - 6.0, FOOT + 8.0], 9.0, Anchor::Start, &style, ruler);
+    let style = format!("fill=\"{TEXT_COLOUR}\" text-anchor=\"end\"");
+    canvas.text([end - 6.0, FOOTER_TOP + 8.0], 9.0, Anchor::Start, &style, ruler);
 }

@@ -3,15 +3,15 @@
 use pathbuild_diagnostic::Lang;
 
 use crate::scene::Point;
-use crate::svg::canvas::breadth;
-use crate::svg::canvas::{Anchor, Canvas, Depths, INK, PROBE, TEXT, mm, n};
+use crate::svg::canvas::text_width;
+use crate::svg::canvas::{Anchor, Canvas, Depths, INK_COLOUR, PROBE_COLOUR, TEXT_COLOUR, mm, svg_number};
 use crate::svg::frame::{Frame, OccupiedSpace, PageTransform, VisibleParts};
 use crate::svg::legend;
 use crate::svg::stock::{MilledStock, has_stock};
-use crate::svg::{drawing, moves, things};
+use crate::svg::{drawing, moves, symbols};
 
-use super::data::{Corners, Sheet, UNITS, Words, cleared, seen};
-use super::flow::{Column, PICTURE};
+use super::data::{Corners, Sheet, UNITS, Words, removed_box, shown_box};
+use super::flow::{Column, MAX_PICTURE_HEIGHT};
 
 /// Margins around the drawing in units. Dimensions are to the left and below, and their last numbers extend to the right.
 const LEFT_MARGIN: f64 = 56.0;
@@ -20,10 +20,10 @@ const TOP_MARGIN: f64 = 18.0;
 const BOTTOM_MARGIN: f64 = 50.0;
 
 /// Height of the legend in units: scale, kinds of lines, depths.
-const LEGEND: f64 = 54.0;
+const LEGEND_HEIGHT: f64 = 54.0;
 
 /// Fraction of the available space below which a drawing is enlarged and gets a true-size inset.
-const ENLARGED_BELOW: f64 = 0.34;
+const MIN_SPACE_SHARE: f64 = 0.34;
 
 /// Minimum extent shown in mm, for drawings without an extent.
 const MIN_EXTENT: f64 = 4.0;
@@ -64,28 +64,28 @@ impl Scale {
 }
 
 /// Returns the picture for the first page: in true size if there is enough space, and enlarged if it is small.
-pub(super) fn first(sheet: &Sheet, area: Column) -> PlacedPicture {
-    let corners = padded(seen(sheet));
-    let limit = limit(corners, area);
-    let is_small = limit * ENLARGED_BELOW >= 1.0;
-    let limit = if is_small { limit_beside(corners, area) } else { limit.min(1.0) };
+pub(super) fn first_page_picture(sheet: &Sheet, area: Column) -> PlacedPicture {
+    let corners = with_min_extent(shown_box(sheet));
+    let limit = max_scale(corners, area);
+    let is_small = limit * MIN_SPACE_SHARE >= 1.0;
+    let limit = if is_small { max_scale_beside_inset(corners, area) } else { limit.min(1.0) };
     PlacedPicture::new(area, corners, Scale::within(limit), is_small)
 }
 
 /// Returns the picture for a whole page, if it is larger there than on the first page.
-pub(super) fn larger(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
-    let placed = upright_or_turned(area, |area| first(sheet, area));
-    let on_first = first(sheet, Column { bottom: area.top + PICTURE, ..area });
+pub(super) fn larger_picture(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
+    let placed = upright_or_turned(area, |area| first_page_picture(sheet, area));
+    let on_first = first_page_picture(sheet, Column { bottom: area.top + MAX_PICTURE_HEIGHT, ..area });
     (placed.scale.0 > on_first.scale.0).then_some(placed)
 }
 
 /// Returns a picture of the stock after milling for a whole page; `None` if nothing is cut.
 pub(super) fn stock(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
     let radius = sheet.tools.iter().map(|tool| tool.diameter / 2.0).fold(0.0, f64::max);
-    let [low, high] = cleared(sheet).filter(|_| has_stock(&sheet.scene))?;
-    let corners = padded([low.map(|at| at - radius), high.map(|at| at + radius)]);
+    let [low, high] = removed_box(sheet).filter(|_| has_stock(&sheet.scene))?;
+    let corners = with_min_extent([low.map(|at| at - radius), high.map(|at| at + radius)]);
     Some(upright_or_turned(area, |area| {
-        let scale = Scale::within(limit(corners, area));
+        let scale = Scale::within(max_scale(corners, area));
         PlacedPicture { is_stock: true, ..PlacedPicture::new(area, corners, scale, false) }
     }))
 }
@@ -98,7 +98,7 @@ fn upright_or_turned(area: Column, placed: impl Fn(Column) -> PlacedPicture) -> 
     if turned.scale.0 > upright.scale.0 { turned } else { upright }
 }
 
-fn padded([mut low, mut high]: Corners) -> Corners {
+fn with_min_extent([mut low, mut high]: Corners) -> Corners {
     for axis in [0, 1] {
         let missing = (MIN_EXTENT - (high[axis] - low[axis])).max(0.0) / 2.0;
         low[axis] -= missing;
@@ -108,18 +108,18 @@ fn padded([mut low, mut high]: Corners) -> Corners {
 }
 
 /// Returns the scale at which the corners fill the area.
-fn limit([low, high]: Corners, area: Column) -> f64 {
+fn max_scale([low, high]: Corners, area: Column) -> f64 {
     let room = [
         area.width - LEFT_MARGIN - RIGHT_MARGIN,
-        area.bottom - area.top - TOP_MARGIN - BOTTOM_MARGIN - LEGEND,
+        area.bottom - area.top - TOP_MARGIN - BOTTOM_MARGIN - LEGEND_HEIGHT,
     ];
     (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1])) / UNITS
 }
 
 /// Returns the scale at which the corners fill the part of the area that a true-size inset on the right leaves free.
-fn limit_beside(corners: Corners, area: Column) -> f64 {
+fn max_scale_beside_inset(corners: Corners, area: Column) -> f64 {
     let inset = inset_width(corners);
-    limit(corners, Column { width: area.width - inset, ..area })
+    max_scale(corners, Column { width: area.width - inset, ..area })
 }
 
 fn inset_width([low, high]: Corners) -> f64 {
@@ -129,7 +129,7 @@ fn inset_width([low, high]: Corners) -> f64 {
 impl PlacedPicture {
     fn new(area: Column, corners: Corners, scale: Scale, has_inset: bool) -> Self {
         let [low, high] = corners;
-        let height = TOP_MARGIN + (high[1] - low[1]) * scale.0 * UNITS + BOTTOM_MARGIN + LEGEND;
+        let height = TOP_MARGIN + (high[1] - low[1]) * scale.0 * UNITS + BOTTOM_MARGIN + LEGEND_HEIGHT;
         Self { area, corners, scale, has_inset, height, is_stock: false, turned: None }
     }
 
@@ -163,7 +163,7 @@ impl PlacedPicture {
             }
         };
         let Some([left, bottom]) = self.turned else { return draw(canvas) };
-        canvas.open(&format!("transform=\"matrix(0 -1 1 0 {} {})\"", n(left), n(bottom)));
+        canvas.open(&format!("transform=\"matrix(0 -1 1 0 {} {})\"", svg_number(left), svg_number(bottom)));
         draw(canvas);
         canvas.close();
     }
@@ -172,21 +172,22 @@ impl PlacedPicture {
         let frame = self.frame();
         let place = frame.of_drawing();
         let [low, high] = self.corners;
-        let ([left, bottom], [right, top]) = (place.at(low), place.at(high));
+        let ([left, bottom], [right, top]) = (place.to_page(low), place.to_page(high));
         let shown = VisibleParts { texts: false, ..VisibleParts::all(lang) };
         let depths = Depths::of(&sheet.scene);
         canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
         let clip = [[self.area.left, self.area.top], [self.area.left + self.area.width, bottom + 20.0]];
         canvas.clip("frame", clip);
-        let axes = axes(canvas, place.at([0.0; 2]), [[left - 6.0, top - 6.0], [right + 6.0, bottom + 6.0]]);
+        let axes =
+            axes(canvas, place.to_page([0.0; 2]), [[left - 6.0, top - 6.0], [right + 6.0, bottom + 6.0]]);
         // Reserve space: dimensions are to the left and below, and the name of the axis is above.
         let mut room = OccupiedSpace::new([[left - 14.0, top - 6.0], [right + RIGHT_MARGIN, bottom + 20.0]]);
         room.lines.extend(axes);
-        room.lines.extend(cleared(sheet).into_iter().flat_map(|corners| sides(corners, &place)));
+        room.lines.extend(removed_box(sheet).into_iter().flat_map(|corners| sides(corners, &place)));
         let hidden = drawing(canvas, &sheet.scene, &frame, &depths, shown, &mut room);
-        things::findings(canvas, &sheet.scene, &frame, &mut room, sheet.scene.findings.len());
+        symbols::findings(canvas, &sheet.scene, &frame, &mut room, sheet.scene.findings.len());
         canvas.close();
-        if let Some(box_) = cleared(sheet) {
+        if let Some(box_) = removed_box(sheet) {
             draw(canvas, box_, &place, [left, bottom]);
         }
         if self.has_inset {
@@ -198,11 +199,11 @@ impl PlacedPicture {
     fn draw_stock(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
         let stock = MilledStock::of(&sheet.scene);
         stock.draw(canvas, &self.frame(), "stock");
-        let top = self.bottom() - LEGEND + 12.0;
-        canvas.open(&format!("id=\"stock-legend\" fill=\"{INK}\""));
+        let top = self.bottom() - LEGEND_HEIGHT + 12.0;
+        canvas.open(&format!("id=\"stock-legend\" fill=\"{INK_COLOUR}\""));
         let scale = self.scale.text();
         let title = Words(lang)
-            .either(format!("after milling, scale {scale}"), format!("nach dem Fräsen, Maßstab {scale}"));
+            .choose(format!("after milling, scale {scale}"), format!("nach dem Fräsen, Maßstab {scale}"));
         canvas.text([self.area.left, top], 11.0, Anchor::Start, "font-weight=\"bold\"", &title);
         let right = self.area.left + self.area.width;
         stock.legend(canvas, VisibleParts::all(lang), [self.area.left, top + 17.0], right);
@@ -218,27 +219,27 @@ impl PlacedPicture {
         hidden: &[u32],
     ) {
         let words = Words(shown.lang);
-        let top = self.bottom() - LEGEND + 12.0;
-        canvas.open(&format!("id=\"legend\" fill=\"{INK}\""));
+        let top = self.bottom() - LEGEND_HEIGHT + 12.0;
+        canvas.open(&format!("id=\"legend\" fill=\"{INK_COLOUR}\""));
         let scale = self.scale.text();
-        let scale = words.either(format!("scale {scale}"), format!("Maßstab {scale}"));
+        let scale = words.choose(format!("scale {scale}"), format!("Maßstab {scale}"));
         let bold = "font-weight=\"bold\"";
         canvas.text([self.area.left, top], 11.0, Anchor::Start, bold, &scale);
-        legend::depths(canvas, depths, [self.area.left + 110.0, top]);
-        let below = legend::kinds(
+        legend::draw_depths(canvas, depths, [self.area.left + 110.0, top]);
+        let below = legend::draw_line_kinds(
             canvas,
             &sheet.scene,
             shown,
             [self.area.left, top + 17.0],
             self.area.left + self.area.width + 30.0,
         );
-        legend::hidden(canvas, hidden, shown, [self.area.left, below + 15.0], self.area.width);
+        legend::draw_hidden_numbers(canvas, hidden, shown, [self.area.left, below + 15.0], self.area.width);
         canvas.close();
     }
 
     /// Draws the true-size inset, omitting details that would be too small to read.
     fn inset(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
-        let [low, high] = cleared(sheet).unwrap_or(self.corners);
+        let [low, high] = removed_box(sheet).unwrap_or(self.corners);
         let left = self.area.left + self.area.width - inset_width(self.corners) + 20.0;
         let frame = Frame::at_scale([low, high], UNITS, [left, self.area.top + TOP_MARGIN]);
         let depths = Depths::of(&sheet.scene);
@@ -249,34 +250,34 @@ impl PlacedPicture {
             moves::draw(canvas, path, &frame.of_path(path), &depths, shown);
         }
         let y = self.area.top + TOP_MARGIN + (high[1] - low[1]) * UNITS + 14.0;
-        canvas.text([left, y], 10.0, Anchor::Start, &format!("fill=\"{TEXT}\""), "1:1");
+        canvas.text([left, y], 10.0, Anchor::Start, &format!("fill=\"{TEXT_COLOUR}\""), "1:1");
         canvas.close();
     }
 }
 
 /// Returns the sides of a rectangle in the coordinates of the page.
 fn sides([low, high]: Corners, place: &PageTransform) -> [[Point; 2]; 4] {
-    let corners = [low, [high[0], low[1]], high, [low[0], high[1]]].map(|corner| place.at(corner));
+    let corners = [low, [high[0], low[1]], high, [low[0], high[1]]].map(|corner| place.to_page(corner));
     [0, 1, 2, 3].map(|side| [corners[side], corners[(side + 1) % 4]])
 }
 
 /// Draws the axes X0 and Y0 of the program, and returns their lines.
 fn axes(canvas: &mut Canvas, [x, y]: Point, [[left, top], [right, bottom]]: Corners) -> [[Point; 2]; 2] {
-    let style = format!("stroke=\"{PROBE}\" stroke-width=\"0.7\" stroke-dasharray=\"10 3 2 3\"");
-    canvas.open(&format!("id=\"axes\" fill=\"{PROBE}\""));
+    let style = format!("stroke=\"{PROBE_COLOUR}\" stroke-width=\"0.7\" stroke-dasharray=\"10 3 2 3\"");
+    canvas.open(&format!("id=\"axes\" fill=\"{PROBE_COLOUR}\""));
     let lines = [[[left, y], [right, y]], [[x, bottom], [x, top]]];
     for [from, to] in lines {
         canvas.line(from, to, &style);
     }
     canvas.raw(&format!(
         "<text x=\"{}\" y=\"{}\" font-size=\"9\" font-weight=\"bold\">X</text>",
-        n(right + 3.0),
-        n(y + 3.0)
+        svg_number(right + 3.0),
+        svg_number(y + 3.0)
     ));
     canvas.raw(&format!(
         "<text x=\"{}\" y=\"{}\" font-size=\"9\" font-weight=\"bold\">Y</text>",
-        n(x - 3.0),
-        n(top - 2.0)
+        svg_number(x - 3.0),
+        svg_number(top - 2.0)
     ));
     canvas.close();
     lines
@@ -292,14 +293,14 @@ const DIMENSION_DISTANCE: f64 = 22.0;
 /// Draws the dimensions of the removed material: its size, and the distance of its edges from X0 Y0. They are placed to the left of and
 /// below a corner of the page.
 pub(super) fn draw(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransform, [left, bottom]: Point) {
-    let ([x0, y1], [x1, y0]) = (place.at(low), place.at(high));
-    canvas.open(&format!("id=\"measures\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"0.7\""));
+    let ([x0, y1], [x1, y0]) = (place.to_page(low), place.to_page(high));
+    canvas.open(&format!("id=\"measures\" fill=\"none\" stroke=\"{INK_COLOUR}\" stroke-width=\"0.7\""));
     canvas.raw(&format!(
         "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" stroke-dasharray=\"5 3\"/>",
-        n(x0),
-        n(y0),
-        n(x1 - x0),
-        n(y1 - y0)
+        svg_number(x0),
+        svg_number(y0),
+        svg_number(x1 - x0),
+        svg_number(y1 - y0)
     ));
     let y = bottom + DIMENSION_DISTANCE;
     arrows(canvas, [x0, y], [x1, y]);
@@ -311,9 +312,9 @@ pub(super) fn draw(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransf
     extension(canvas, [x0, y0], [x - 4.0, y0]);
     canvas.close();
     let number = |axis: usize, value: f64| format!("{}{}", ["X", "Y"][axis], mm(value));
-    canvas.open(&format!("id=\"numbers\" fill=\"{INK}\""));
+    canvas.open(&format!("id=\"numbers\" fill=\"{INK_COLOUR}\""));
     let size = mm(high[0] - low[0]);
-    let has_room = breadth(&size, NUMBER_SIZE) < x1 - x0 - 12.0;
+    let has_room = text_width(&size, NUMBER_SIZE) < x1 - x0 - 12.0;
     let down = if has_room { 12.0 } else { 23.0 };
     text(canvas, [f64::midpoint(x0, x1), y + down], Side::Middle, &size);
     text(canvas, [x0 - 3.0, y + 12.0], Side::End, &number(0, low[0]));
@@ -354,8 +355,8 @@ fn arrows(canvas: &mut Canvas, from: Point, to: Point) {
         let foot = [tip[0] + sign * dx * 5.0, tip[1] + sign * dy * 5.0];
         let points =
             [tip, [foot[0] - dy * 1.8, foot[1] + dx * 1.8], [foot[0] + dy * 1.8, foot[1] - dx * 1.8]];
-        let [tip, left, right] = points.map(|[x, y]| format!("{} {}", n(x), n(y)));
-        canvas.path(&format!("M{tip}L{left}L{right}Z"), &format!("fill=\"{INK}\""));
+        let [tip, left, right] = points.map(|[x, y]| format!("{} {}", svg_number(x), svg_number(y)));
+        canvas.path(&format!("M{tip}L{left}L{right}Z"), &format!("fill=\"{INK_COLOUR}\""));
     }
 }
 

@@ -8,11 +8,11 @@ use pathbuild_db::system::{FileKind, is_drawing};
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
-use pathbuild_gcode::provenance::{HEAD, Provenance};
+use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
-use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, Tree, programs, trees};
+use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, Tree, compare_moves, compare_trees};
 use pathbuild_workspace::emit::ShownText;
-use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
 use pathbuild_workspace::program::Program;
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, Workspace};
@@ -57,7 +57,7 @@ fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<
     let [before, after] = &mut sessions;
     let mut before = Tree { session: before, inputs: &old.inputs, root: &old.root };
     let mut after = Tree { session: after, inputs: &new.inputs, root: &new.root };
-    let mut comparison = trees(&mut before, &mut after, pictures);
+    let mut comparison = compare_trees(&mut before, &mut after, pictures);
     for (problems, side) in comparison.problems.iter_mut().zip([old, new]) {
         side.name(context, problems);
     }
@@ -66,7 +66,7 @@ fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<
 
 /// Compares two programs, or a program and a path.
 fn single(old: ComparedProgram, new: ComparedProgram, pictures: Option<Lang>) -> Comparison {
-    let changed = programs(&old.path, &new.path, pictures);
+    let changed = compare_moves(&old.path, &new.path, pictures);
     let is_same = changed.groups.is_empty();
     let files = [&old, &new].map(|seen| Some(seen.path.file.clone().into()));
     let name = new.path.name.clone();
@@ -248,7 +248,7 @@ fn path(
 /// Returns the configured post-processor if it has written a program. If the path's program is written by the same post-processor, rounding
 /// and additional moves do not count as differences.
 fn post_processor_of(context: &Context, program: &Utf8Path) -> Option<PostProcessor> {
-    let head = context.system.read_head(program, HEAD).ok()?;
+    let head = context.system.read_head(program, HEAD_BYTES).ok()?;
     let (provenance, _) = Provenance::of_head(&head)?;
     let post_processor = PostProcessor::for_run(context, None, PostArguments::default()).ok()??;
     (provenance.dialect.is_some() && post_processor.reader() == provenance.dialect).then_some(post_processor)

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang, Number, shown};
 use pathbuild_path::{DrawnChange, ElementChange};
 use pathbuild_view::{ChangeKind, Group, Totals, escaped, moves, phrase};
 use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, PictureSet, ProgramDiff, Reason};
-use pathbuild_workspace::files::cannot_write;
+use pathbuild_workspace::files::write_error;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -60,7 +60,7 @@ impl Output {
             Format::Html => page(comparison, context.lang()),
             Format::Markdown => markdown(comparison, context.lang()),
         };
-        let refused = |reason| Box::new(cannot_write(file, reason));
+        let refused = |reason| Box::new(write_error(file, reason));
         let state = state_word(context, context.system.write(file, text.as_bytes()).map_err(refused)?);
         context.printer.status(format_args!("{}: {state}", shown::line(file.as_str())));
         Ok(())

@@ -42,7 +42,7 @@ pub struct Parameter {
 
 /// Returns the effective parameters of a path's start, of its elements in their order, and of its probes. Errors in them are not reported
 /// here.
-pub fn parameters_in_force(
+pub fn element_parameters(
     raw: &RawPath,
     bindings: &Bindings,
     options: &PathOptions,
@@ -53,7 +53,8 @@ pub fn parameters_in_force(
         Interpolation { bindings, limit: language.text_limit, unknown: &raw.faults.variables };
     let values = Values::of(raw.parameters(), ElementClass::PathStart, &interpolation);
     let chains = chains(raw, bindings, language);
-    let table = Table { raw, interpolation, options, role, values, chains, last: RefCell::default() };
+    let table =
+        ParameterTable { raw, interpolation, options, role, values, chains, last: RefCell::default() };
     let start =
         raw.start.iter().map(|start| table.row(start.origin.clone(), ElementClass::PathStart, None, None));
     let elements = (0_u32..).zip(&raw.drawn.elements).map(|(number, element)| table.element(number, element));
@@ -63,7 +64,7 @@ pub fn parameters_in_force(
     start.chain(elements).chain(raw.probes.iter().map(probe)).collect()
 }
 
-struct Table<'a> {
+struct ParameterTable<'a> {
     raw: &'a RawPath,
     interpolation: Interpolation<'a>,
     options: &'a PathOptions,
@@ -76,7 +77,7 @@ struct Table<'a> {
     last: RefCell<Arc<[Parameter]>>,
 }
 
-impl Table<'_> {
+impl ParameterTable<'_> {
     fn element(&self, number: u32, element: &Element) -> ElementParameters {
         let class = element.class(self.raw.tool());
         let first = self.chains.get(&number).map(|first| &self.raw.drawn.elements[*first as usize]);
@@ -100,11 +101,15 @@ impl Table<'_> {
         };
         // Elements that accept no parameter text are traversed as sweeps.
         let what = if class == ElementClass::Unread { &words::SWEEP } else { class.word() };
-        ElementParameters { origin, what, parameters: self.shared(letters.filter_map(parameter).collect()) }
+        ElementParameters {
+            origin,
+            what,
+            parameters: self.share_parameters(letters.filter_map(parameter).collect()),
+        }
     }
 
     /// The parameters of the previous row if they are the same: those of a row take more memory than its element.
-    fn shared(&self, parameters: Vec<Parameter>) -> Arc<[Parameter]> {
+    fn share_parameters(&self, parameters: Vec<Parameter>) -> Arc<[Parameter]> {
         let mut last = self.last.borrow_mut();
         if **last != *parameters {
             *last = parameters.into();
@@ -119,7 +124,7 @@ impl Table<'_> {
 
     fn parameter(&self, texts: &Texts<'_, '_>, letter: Letter) -> Option<(SmolStr, Provider)> {
         if let Some((values, provider)) = texts.source(letter) {
-            return Some((shown(values, letter)?, self.with_lender(provider)));
+            return Some((display_value(values, letter)?, self.with_lender(provider)));
         }
         let path = PathNumbers::of(&self.values);
         let (value, provider) = fallback(letter, texts.class, path, self.options, self.role)?;
@@ -135,7 +140,7 @@ impl Table<'_> {
 }
 
 /// The value that a text gives a letter, for display; `None` if it is faulty.
-fn shown(values: &Values<'_>, letter: Letter) -> Option<SmolStr> {
+fn display_value(values: &Values<'_>, letter: Letter) -> Option<SmolStr> {
     match values.number(letter) {
         _ if letter == Letter::Variable => {
             let all: Vec<&str> = values.variables().map(|(value, _)| value).collect();

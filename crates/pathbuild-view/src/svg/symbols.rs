@@ -1,8 +1,11 @@
 //! Draws the elements of a scene, below and above its moves, and the markers.
 
-use super::canvas::{Anchor, BAR, Canvas, ERROR, INK, OTHER, PROBE, RAPID, TEXT, WARNING, n};
+use super::canvas::{
+    Anchor, BAR_COLOUR, Canvas, ERROR_COLOUR, INK_COLOUR, OTHER_COLOUR, PROBE_COLOUR, RAPID_COLOUR,
+    TEXT_COLOUR, WARNING_COLOUR, svg_number,
+};
 use super::frame::VisibleParts;
-use super::frame::{Frame, OccupiedSpace, PageTransform, Rectangle, square_around, width};
+use super::frame::{Frame, OccupiedSpace, PageTransform, Rectangle, square_around, text_width};
 use super::moves::{along, arc_pieces};
 use crate::scene::{
     ArcShape, Element, ElementKind, Label, MoveKind, OtherShape, Point, Scene, SceneMove, ScenePath, Shape,
@@ -13,22 +16,22 @@ use pathbuild_motion::MoveShape;
 const MIN_TEXT_SIZE: f64 = 7.5;
 
 /// Size in px below which texts are illegible and omitted.
-const READABLE: f64 = 4.5;
+const MIN_LEGIBLE_SIZE: f64 = 4.5;
 
 /// SVG attributes of a white outline that keeps texts legible over lines.
 const HALO: &str = "stroke=\"#fff\" stroke-width=\"2.5\" stroke-opacity=\"0.8\" paint-order=\"stroke\"";
 
 /// Draws the shapes below the moves: other layers and clamps.
-pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mut OccupiedSpace) {
+pub(super) fn draw_below_moves(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mut OccupiedSpace) {
     let place = frame.of_drawing();
-    canvas.open(&format!("id=\"other-layers\" fill=\"none\" stroke=\"{OTHER}\" stroke-width=\"0.7\""));
+    canvas.open(&format!("id=\"other-layers\" fill=\"none\" stroke=\"{OTHER_COLOUR}\" stroke-width=\"0.7\""));
     for other in &scene.other_layers {
         match other {
             OtherShape::Shape { shape: piece, .. } => canvas.path(&shape(piece, &place), ""),
             OtherShape::Text { text, at, height, rotation, .. } => {
                 other_text(canvas, &place, text, *at, *height, *rotation);
                 if *rotation == 0.0 {
-                    room.take(written(place.at(*at), height * place.scale(), text));
+                    room.occupy(text_rectangle(place.to_page(*at), height * place.scale(), text));
                 }
             }
         }
@@ -38,19 +41,19 @@ pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mu
 }
 
 /// Returns the approximate rectangle of a text that is centred on a point.
-fn written([x, y]: Point, size: f64, text: &str) -> Rectangle {
-    let half = width(text, size) / 2.0;
+fn text_rectangle([x, y]: Point, size: f64, text: &str) -> Rectangle {
+    let half = text_width(text, size) / 2.0;
     [[x - half, y - size / 2.0], [x + half, y + size / 2.0]]
 }
 
 /// Draws clamps, with their heights in the middle of each.
 fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &mut OccupiedSpace) {
-    canvas.open(&format!("id=\"keep-outs\" fill=\"none\" stroke=\"{ERROR}\" stroke-width=\"1.2\""));
-    let style = format!("stroke-dasharray=\"8 2 2 2\" fill=\"{ERROR}\" fill-opacity=\"0.14\"");
+    canvas.open(&format!("id=\"keep-outs\" fill=\"none\" stroke=\"{ERROR_COLOUR}\" stroke-width=\"1.2\""));
+    let style = format!("stroke-dasharray=\"8 2 2 2\" fill=\"{ERROR_COLOUR}\" fill-opacity=\"0.14\"");
     for clamp in &scene.keep_outs {
         canvas.path(&outline(&clamp.outline, place), &style);
     }
-    let style = format!("stroke=\"none\" fill=\"{ERROR}\"");
+    let style = format!("stroke=\"none\" fill=\"{ERROR_COLOUR}\"");
     for clamp in &scene.keep_outs {
         let corners = clamp.outline.iter().flat_map(Shape::extent);
         let hull = |[low, high]: [Point; 2], at: Point| {
@@ -59,9 +62,9 @@ fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &m
         let Some([low, high]) = corners.map(|at| [at, at]).reduce(|all, [at, _]| hull(all, at)) else {
             continue;
         };
-        let [x, y] = place.at([0, 1].map(|axis| f64::midpoint(low[axis], high[axis])));
-        let label = format!("Z{}", n(clamp.height));
-        room.take(written([x, y], 11.0, &label));
+        let [x, y] = place.to_page([0, 1].map(|axis| f64::midpoint(low[axis], high[axis])));
+        let label = format!("Z{}", svg_number(clamp.height));
+        room.occupy(text_rectangle([x, y], 11.0, &label));
         canvas.text([x, y + 4.0], 11.0, Anchor::Middle, &style, &label);
     }
     canvas.close();
@@ -80,21 +83,21 @@ pub(super) fn outline(shapes: &[Shape], place: &PageTransform) -> String {
 
 fn other_text(canvas: &mut Canvas, place: &PageTransform, text: &str, at: Point, height: f64, rotation: f64) {
     let size = height * place.scale();
-    if size < READABLE {
+    if size < MIN_LEGIBLE_SIZE {
         return;
     }
-    let [x, y] = place.at(at);
+    let [x, y] = place.to_page(at);
     let turn = if rotation == 0.0 {
         String::new()
     } else {
-        format!(" transform=\"rotate({} {} {})\"", n(-rotation), n(x), n(y))
+        format!(" transform=\"rotate({} {} {})\"", svg_number(-rotation), svg_number(x), svg_number(y))
     };
-    let style = format!("stroke=\"none\" fill=\"{OTHER}\" dominant-baseline=\"central\"{turn}");
+    let style = format!("stroke=\"none\" fill=\"{OTHER_COLOUR}\" dominant-baseline=\"central\"{turn}");
     canvas.text([x, y], size, Anchor::Middle, &style, text);
 }
 
 /// Draws the shapes above the moves: elements, texts, support bars, probes and markers. Returns the numbers of elements that do not fit.
-pub(super) fn over(
+pub(super) fn draw_above_moves(
     canvas: &mut Canvas,
     path: &ScenePath,
     place: &PageTransform,
@@ -103,7 +106,7 @@ pub(super) fn over(
 ) -> Vec<u32> {
     elements(canvas, path, place);
     canvas.open(&format!(
-        "id=\"bars\" fill=\"none\" stroke=\"{BAR}\" stroke-width=\"4\" stroke-opacity=\"0.75\""
+        "id=\"bars\" fill=\"none\" stroke=\"{BAR_COLOUR}\" stroke-width=\"4\" stroke-opacity=\"0.75\""
     ));
     for bar in &path.bars {
         canvas.path(&shape(&bar.shape, place), "");
@@ -112,10 +115,10 @@ pub(super) fn over(
     if shown.texts {
         texts(canvas, path, place, room);
     }
-    ends(canvas, path, place, shown, room);
+    draw_ends(canvas, path, place, shown, room);
     probes(canvas, path, place, room);
-    let hidden = if shown.order { order(canvas, path, place, room) } else { Vec::new() };
-    embedded(canvas, path, place, room);
+    let hidden = if shown.order { draw_order_numbers(canvas, path, place, room) } else { Vec::new() };
+    draw_embedded_names(canvas, path, place, room);
     hidden
 }
 
@@ -151,7 +154,7 @@ fn style_without_program(element: &Element) -> &'static str {
 }
 
 fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
-    canvas.open(&format!("id=\"texts\" fill=\"{TEXT}\""));
+    canvas.open(&format!("id=\"texts\" fill=\"{TEXT_COLOUR}\""));
     // Skip the text at the start of an embedded path: it only concerns that path's own drawing.
     let is_start = |index: &u32| path.elements[*index as usize].kind == ElementKind::Start;
     let is_shown = |label: &&Label| label.path == 0 || !label.elements.iter().any(is_start);
@@ -165,14 +168,18 @@ fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mu
         let size = (label.height * place.scale()).min(14.0);
         // The path's own texts are always legible; those of embedded paths are shown only if they are large enough.
         let size = if label.path == 0 { size.max(MIN_TEXT_SIZE) } else { size };
-        if size < READABLE {
+        if size < MIN_LEGIBLE_SIZE {
             continue;
         }
         let extent = [0.62 * size * longest as f64, rows * size];
-        let Some(at) = room.find_near(place.at(label.at), extent) else { continue };
+        let Some(at) = room.occupy_near(place.to_page(label.at), extent) else { continue };
         for element in &label.elements {
-            let to = place.at(nearest(&path.elements[*element as usize].shape, label.at));
-            canvas.line(at, to, &format!("stroke=\"{TEXT}\" stroke-width=\"0.5\" stroke-opacity=\"0.6\""));
+            let to = place.to_page(nearest(&path.elements[*element as usize].shape, label.at));
+            canvas.line(
+                at,
+                to,
+                &format!("stroke=\"{TEXT_COLOUR}\" stroke-width=\"0.5\" stroke-opacity=\"0.6\""),
+            );
         }
         for (row, line) in lines.iter().enumerate() {
             let down = (row as f64 - (rows - 1.0) / 2.0 + 0.35) * size;
@@ -208,10 +215,15 @@ fn nearest(shape: &Shape, at: Point) -> Point {
 }
 
 /// Draws the names of embedded paths at their starts, unless there is no space.
-fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
-    canvas.open(&format!("id=\"embedded\" fill=\"{INK}\" font-style=\"italic\""));
+fn draw_embedded_names(
+    canvas: &mut Canvas,
+    path: &ScenePath,
+    place: &PageTransform,
+    room: &mut OccupiedSpace,
+) {
+    canvas.open(&format!("id=\"embedded\" fill=\"{INK_COLOUR}\" font-style=\"italic\""));
     for inner in path.embedded.iter().skip(1) {
-        if let Some(at) = room.find_beside(place.at(inner.ends[0]), [6.0, -6.0], 9.0, &inner.name) {
+        if let Some(at) = room.occupy_beside(place.to_page(inner.ends[0]), [6.0, -6.0], 9.0, &inner.name) {
             canvas.text(at, 9.0, Anchor::Start, HALO, &inner.name);
         }
     }
@@ -219,16 +231,16 @@ fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: 
 }
 
 fn probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
-    canvas.open(&format!("id=\"probes\" stroke=\"{PROBE}\" fill=\"none\""));
+    canvas.open(&format!("id=\"probes\" stroke=\"{PROBE_COLOUR}\" fill=\"none\""));
     for probe in &path.probes {
-        let at = place.at(probe.at);
+        let at = place.to_page(probe.at);
         let size = probe_radius(place);
         canvas.circle(at, size, "stroke-width=\"1.4\"");
         canvas.line([at[0] - size, at[1]], [at[0] + size, at[1]], "stroke-width=\"0.8\"");
         canvas.line([at[0], at[1] - size], [at[0], at[1] + size], "stroke-width=\"0.8\"");
         let label = probe.label.as_deref().map(|label| format!(" {label}")).unwrap_or_default();
         let (style, label) =
-            (format!("stroke=\"none\" fill=\"{PROBE}\""), format!("#{}{label}", probe.number));
+            (format!("stroke=\"none\" fill=\"{PROBE_COLOUR}\""), format!("#{}{label}", probe.number));
         let at = room.beside(at, [size + 2.0, -3.0], 9.0, &label);
         canvas.text(at, 9.0, Anchor::Start, &style, &label);
     }
@@ -238,11 +250,11 @@ fn probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &m
 /// Returns a shape as SVG path data.
 pub(super) fn shape(shape: &Shape, place: &PageTransform) -> String {
     let point = |at: Point| {
-        let [x, y] = place.at(at);
-        format!("{} {}", n(x), n(y))
+        let [x, y] = place.to_page(at);
+        format!("{} {}", svg_number(x), svg_number(y))
     };
     let pieces = |arc: &ArcShape| {
-        let radius = n(arc.radius * place.scale());
+        let radius = svg_number(arc.radius * place.scale());
         let sweep = i32::from(arc.clockwise);
         let pieces = arc_pieces(arc.degrees);
         let piece = |piece: u32| {
@@ -269,18 +281,18 @@ pub(super) fn shape(shape: &Shape, place: &PageTransform) -> String {
 }
 
 /// Colour of sweeps, for the legend.
-pub(super) const SWEEP: &str = RAPID;
+pub(super) const SWEEP_COLOUR: &str = RAPID_COLOUR;
 
 /// Radius in px of the circle around a number.
-const NUMBER: f64 = 7.0;
+const NUMBER_RADIUS: f64 = 7.0;
 
 /// Reserves the space of symbols with fixed positions.
-pub(super) fn reserve(path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
+pub(super) fn reserve_symbols(path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
     for marker in markers(path).into_iter().flatten() {
-        room.take(square_around(place.at(marker.shape.start()), 5.0));
+        room.occupy(square_around(place.to_page(marker.shape.start()), 5.0));
     }
     for probe in &path.probes {
-        room.take(square_around(place.at(probe.at), probe_radius(place)));
+        room.occupy(square_around(place.to_page(probe.at), probe_radius(place)));
     }
 }
 
@@ -296,11 +308,11 @@ fn probe_radius(place: &PageTransform) -> f64 {
 }
 
 /// Distances in px from an element at which a number with a leader line is tried, and number of directions that are tried.
-const LEADERS: [f64; 4] = [18.0, 26.0, 36.0, 48.0];
-const DIRECTIONS: u32 = 12;
+const LEADER_LENGTHS: [f64; 4] = [18.0, 26.0, 36.0, 48.0];
+const LEADER_DIRECTIONS: u32 = 12;
 
 /// Draws the numbers of the cutting order, on each element or beside it with a leader line. Returns the numbers that do not fit.
-pub(super) fn order(
+pub(super) fn draw_order_numbers(
     canvas: &mut Canvas,
     path: &ScenePath,
     place: &PageTransform,
@@ -318,17 +330,17 @@ pub(super) fn order(
             None => remaining.push((order, element)),
         }
     }
-    canvas.open(&format!("id=\"order\" fill=\"{INK}\""));
+    canvas.open(&format!("id=\"order\" fill=\"{INK_COLOUR}\""));
     let mut hidden = Vec::new();
     for (order, element) in remaining {
-        let anchor = place.at(anchor_point(&element.shape));
-        let around = LEADERS.iter().flat_map(|distance| ring(anchor, *distance));
+        let anchor = place.to_page(anchor_point(&element.shape));
+        let around = LEADER_LENGTHS.iter().flat_map(|distance| points_around(anchor, *distance));
         // Check only the outer part of a leader line: near the element, it may touch another number.
         let outer = |at: &Point| [[0, 1].map(|axis| anchor[axis] + (at[axis] - anchor[axis]) / 3.0), *at];
         let around: Vec<Point> = around.filter(|at| !room.is_crossed_by(outer(at))).collect();
         match find_number(room, &around) {
             Some(at) => {
-                canvas.line(at, anchor, &format!("stroke=\"{INK}\" stroke-width=\"0.6\""));
+                canvas.line(at, anchor, &format!("stroke=\"{INK_COLOUR}\" stroke-width=\"0.6\""));
                 placed.push((order, at));
             }
             None => hidden.push(order),
@@ -344,13 +356,13 @@ pub(super) fn order(
 
 /// Finds the first free position for a number, occupies it, and returns it.
 fn find_number(room: &mut OccupiedSpace, places: &[Point]) -> Option<Point> {
-    let taken: Vec<Rectangle> = places.iter().map(|at| square_around(*at, NUMBER + 1.0)).collect();
-    room.find(&taken).map(|found| places[found])
+    let taken: Vec<Rectangle> = places.iter().map(|at| square_around(*at, NUMBER_RADIUS + 1.0)).collect();
+    room.occupy_first_free(&taken).map(|found| places[found])
 }
 
 fn number(canvas: &mut Canvas, order: u32, at: Point) {
-    let style = format!("fill=\"#fff\" fill-opacity=\"0.85\" stroke=\"{INK}\" stroke-width=\"0.6\"");
-    canvas.circle(at, NUMBER, &style);
+    let style = format!("fill=\"#fff\" fill-opacity=\"0.85\" stroke=\"{INK_COLOUR}\" stroke-width=\"0.6\"");
+    canvas.circle(at, NUMBER_RADIUS, &style);
     let size = if order > 99 { 7.0 } else { 8.5 };
     canvas.text([at[0], at[1] + size * 0.36], size, Anchor::Middle, "", &order.to_string());
 }
@@ -364,9 +376,10 @@ fn anchor_point(shape: &Shape) -> Point {
 }
 
 /// Returns points at this distance around a point, in all directions that are tried.
-fn ring([x, y]: Point, distance: f64) -> impl Iterator<Item = Point> {
-    (0..DIRECTIONS).map(move |direction| {
-        let (sin, cos) = libm::sincos(f64::from(direction) * std::f64::consts::TAU / f64::from(DIRECTIONS));
+fn points_around([x, y]: Point, distance: f64) -> impl Iterator<Item = Point> {
+    (0..LEADER_DIRECTIONS).map(move |direction| {
+        let (sin, cos) =
+            libm::sincos(f64::from(direction) * std::f64::consts::TAU / f64::from(LEADER_DIRECTIONS));
         [x + distance * cos, y + distance * sin]
     })
 }
@@ -375,17 +388,17 @@ fn ring([x, y]: Point, distance: f64) -> impl Iterator<Item = Point> {
 /// visible around the number, otherwise beside it. The cutter removes `kerf` px on either side of the line.
 fn places(shape: &Shape, place: &PageTransform, kerf: f64) -> Vec<Point> {
     let along =
-        |point: &dyn Fn(f64) -> Point| [0.5, 0.35, 0.65, 0.2, 0.8].map(|share| place.at(point(share)));
+        |point: &dyn Fn(f64) -> Point| [0.5, 0.35, 0.65, 0.2, 0.8].map(|share| place.to_page(point(share)));
     match shape {
         Shape::Line { from, to } => {
             along(&|share| [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]))).to_vec()
         }
         Shape::Arc(arc) => along(&|share| arc.point(share)).to_vec(),
         Shape::Circle { centre, radius } => {
-            let ([x, y], radius) = (place.at(*centre), radius * place.scale());
-            let out = radius.max(kerf) + NUMBER + 3.0;
+            let ([x, y], radius) = (place.to_page(*centre), radius * place.scale());
+            let out = radius.max(kerf) + NUMBER_RADIUS + 3.0;
             // A drilled hole is drawn as a disc. A number inside would make it look like a ring.
-            let is_seen = radius > NUMBER + 4.0 && radius > kerf * 1.05;
+            let is_seen = radius > NUMBER_RADIUS + 4.0 && radius > kerf * 1.05;
             let centre = is_seen.then_some([x, y]);
             centre.into_iter().chain([[x + out, y], [x, y + out], [x, y - out], [x - out, y]]).collect()
         }
@@ -393,7 +406,7 @@ fn places(shape: &Shape, place: &PageTransform, kerf: f64) -> Vec<Point> {
 }
 
 /// Draws the program's zero point, and the start and the end of the path.
-pub(super) fn ends(
+pub(super) fn draw_ends(
     canvas: &mut Canvas,
     path: &ScenePath,
     place: &PageTransform,
@@ -405,23 +418,23 @@ pub(super) fn ends(
     room.lines.extend(lines(path, place, shown));
     canvas.open("id=\"ends\"");
     if let Some(start) = start {
-        let at = place.at(start.shape.start());
-        canvas.circle(at, 5.0, &format!("fill=\"{PROBE}\" stroke=\"#fff\" stroke-width=\"1\""));
-        label(canvas, room, at, [-8.0, 17.0], shown.either("start X0 Y0", "Start X0 Y0"), PROBE);
+        let at = place.to_page(start.shape.start());
+        canvas.circle(at, 5.0, &format!("fill=\"{PROBE_COLOUR}\" stroke=\"#fff\" stroke-width=\"1\""));
+        label(canvas, room, at, [-8.0, 17.0], shown.choose("start X0 Y0", "Start X0 Y0"), PROBE_COLOUR);
     } else if path.elements.is_empty() && !path.moves.is_empty() {
-        let at = place.at([0.0, 0.0]);
-        canvas.line([at[0] - 7.0, at[1]], [at[0] + 7.0, at[1]], &format!("stroke=\"{PROBE}\""));
-        canvas.line([at[0], at[1] - 7.0], [at[0], at[1] + 7.0], &format!("stroke=\"{PROBE}\""));
-        label(canvas, room, at, [4.0, 13.0], "X0 Y0", PROBE);
+        let at = place.to_page([0.0, 0.0]);
+        canvas.line([at[0] - 7.0, at[1]], [at[0] + 7.0, at[1]], &format!("stroke=\"{PROBE_COLOUR}\""));
+        canvas.line([at[0], at[1] - 7.0], [at[0], at[1] + 7.0], &format!("stroke=\"{PROBE_COLOUR}\""));
+        label(canvas, room, at, [4.0, 13.0], "X0 Y0", PROBE_COLOUR);
     }
     if let Some(end) = end {
-        let [x, y] = place.at(end.shape.start());
+        let [x, y] = place.to_page(end.shape.start());
         canvas.raw(&format!(
-            "<rect x=\"{}\" y=\"{}\" width=\"9\" height=\"9\" fill=\"{INK}\" stroke=\"#fff\"/>",
-            n(x - 4.5),
-            n(y - 4.5)
+            "<rect x=\"{}\" y=\"{}\" width=\"9\" height=\"9\" fill=\"{INK_COLOUR}\" stroke=\"#fff\"/>",
+            svg_number(x - 4.5),
+            svg_number(y - 4.5)
         ));
-        label(canvas, room, [x, y], [-8.0, -11.0], shown.either("end", "Ende"), INK);
+        label(canvas, room, [x, y], [-8.0, -11.0], shown.choose("end", "Ende"), INK_COLOUR);
     }
     canvas.close();
     room.lines.truncate(known);
@@ -438,7 +451,7 @@ fn lines<'a>(
     };
     path.moves.iter().filter(is_drawn).flat_map(move |movement| {
         let pieces = if matches!(movement.way.shape, MoveShape::Line) { 1 } else { ARC_PIECES };
-        let at = move |piece: u32| place.at(along(movement, f64::from(piece) / f64::from(pieces)));
+        let at = move |piece: u32| place.to_page(along(movement, f64::from(piece) / f64::from(pieces)));
         (0..pieces).map(move |piece| [at(piece), at(piece + 1)])
     })
 }
@@ -464,7 +477,7 @@ pub(super) fn findings(
     let mut circles: Vec<(Point, Vec<usize>, bool)> = Vec::new();
     for (index, finding) in scene.findings.iter().enumerate() {
         let Some(at) = finding.at else { continue };
-        let at = place.at(at);
+        let at = place.to_page(at);
         let number = (index < numbered).then_some(finding.number);
         let is_same = |known: &&mut (Point, Vec<usize>, bool)| {
             libm::hypot(known.0[0] - at[0], known.0[1] - at[1]) < 6.0
@@ -479,7 +492,7 @@ pub(super) fn findings(
     }
     canvas.open("id=\"findings\"");
     for (at, numbers, is_error) in circles {
-        let color = if is_error { ERROR } else { WARNING };
+        let color = if is_error { ERROR_COLOUR } else { WARNING_COLOUR };
         canvas.circle(at, 13.0, &format!("fill=\"none\" stroke=\"{color}\" stroke-width=\"2.4\""));
         if numbers.is_empty() {
             continue;

@@ -15,14 +15,14 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{files, outputs as messages};
 use pathbuild_gcode::adjust::{Source, is_adjusted_from, states_other_values};
 use pathbuild_gcode::native::{self, plain_title};
-use pathbuild_gcode::provenance::{HEAD, Provenance};
+use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
 
 use super::outcome::{ProgramOutcome, State, Task};
 use super::plan::{Job, output_directory, program_name};
 use super::select::TargetSelection;
 use crate::files::{PROGRAM_EXTENSIONS, is_program};
 use crate::memo::{Answer, DrawingResult};
-use crate::posting::PostProcessor;
+use crate::post_processor::PostProcessor;
 use crate::session::{OutputKind, Session};
 
 /// A program on disk that must not be run on the machine.
@@ -102,12 +102,16 @@ pub(super) struct EarlierPrograms<'a> {
 
 impl EarlierPrograms<'_> {
     /// Finds programs that show another state of the drawings. Stale programs are removed if `is_removed`, and reported otherwise.
-    pub(super) fn clear(&self, is_removed: bool, diagnostics: &mut Vec<Diagnostic>) -> StaleOutcome {
+    pub(super) fn find_and_settle(
+        &self,
+        is_removed: bool,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> StaleOutcome {
         if self.task == Task::Print {
             return StaleOutcome::default();
         }
-        let older = self.older(diagnostics);
-        let stale = self.stale(diagnostics);
+        let older = self.earlier_outcomes(diagnostics);
+        let stale = self.find_stale_programs(diagnostics);
         StaleOutcome { older, ..self.settle(stale, is_removed, diagnostics) }
     }
 
@@ -140,7 +144,7 @@ impl EarlierPrograms<'_> {
     }
 
     /// Finds the stale programs: among all files of the searched directories, and among former files of the jobs in other directories.
-    fn stale(&self, diagnostics: &mut Vec<Diagnostic>) -> Vec<StaleProgram> {
+    fn find_stale_programs(&self, diagnostics: &mut Vec<Diagnostic>) -> Vec<StaleProgram> {
         let Self { selection, jobs, .. } = *self;
         let is_wide = !selection.covered.is_empty() || !selection.directories.is_empty();
         let directories: &[Utf8PathBuf] = match &self.out_dir {
@@ -154,7 +158,7 @@ impl EarlierPrograms<'_> {
             by_stem: LazyCell::new(Box::new(|| {
                 jobs.iter().enumerate().map(|(number, job)| (&*job.stem, number)).collect()
             })),
-            writers: LazyCell::new(Box::new(|| Writers::new(self))),
+            writers: LazyCell::new(Box::new(|| KnownTitles::new(self))),
         };
         let mut stale = Vec::new();
         for directory in directories {
@@ -162,24 +166,26 @@ impl EarlierPrograms<'_> {
                 Ok(names) => stale.extend(
                     finding
                         .candidates(directory, &names)
-                        .filter_map(|path| finding.judge(path, Some(&names))),
+                        .filter_map(|path| finding.program_if_stale(path, Some(&names))),
                 ),
                 Err(problem) => diagnostics.push(*problem),
             }
         }
-        stale.extend(finding.former_files(directories).filter_map(|path| finding.judge(path, None)));
+        stale.extend(
+            finding.former_files(directories).filter_map(|path| finding.program_if_stale(path, None)),
+        );
         stale
     }
 
     /// Finds the programs on disk of targets for which nothing was written or compared. Each becomes a separate outcome; a comparison counts it as
     /// out of date.
-    fn older(&self, diagnostics: &mut Vec<Diagnostic>) -> Vec<ProgramOutcome> {
+    fn earlier_outcomes(&self, diagnostics: &mut Vec<Diagnostic>) -> Vec<ProgramOutcome> {
         let targets = &self.selection.targets;
         let is_done = |job: &&&Job| job.outcome.as_ref().is_some_and(|outcome| !outcome.files.is_empty());
         if let (Some(name), Some(post_processor)) = (self.join, self.post_processor) {
             let joined = targets.first().filter(|_| !self.jobs.iter().any(|job| is_done(&job)));
             let program = joined.and_then(|first| self.of_joined(*first, name, post_processor));
-            return program.map(|program| older(program, name, self.task)).into_iter().collect();
+            return program.map(|program| earlier_outcome(program, name, self.task)).into_iter().collect();
         }
         let done = self.jobs.iter().filter(is_done);
         let done: HashSet<Target> = done.flat_map(|job| job.targets.iter().copied()).collect();
@@ -188,7 +194,7 @@ impl EarlierPrograms<'_> {
         let older = |target: &Target| {
             let programs = self.of_target(*target, &mut listings).into_iter();
             let name = target.name(self.session.db());
-            programs.map(|program| older(program, name, self.task)).collect::<Vec<_>>()
+            programs.map(|program| earlier_outcome(program, name, self.task)).collect::<Vec<_>>()
         };
         let older = open.flat_map(older).collect();
         diagnostics.append(&mut listings.problems);
@@ -209,7 +215,7 @@ impl EarlierPrograms<'_> {
         };
         let mut programs = BTreeSet::new();
         for stem in stems {
-            programs.extend(listings.beginning(self, &directory, stem).cloned());
+            programs.extend(listings.programs_beginning_with(self, &directory, stem).cloned());
         }
         programs.into_iter().filter(is_of_target).collect()
     }
@@ -225,7 +231,7 @@ impl EarlierPrograms<'_> {
 
 /// Reads the provenance and the title from the head of a program.
 fn provenance(session: &Session<'_>, program: &Utf8Path) -> Option<(Provenance, Box<str>)> {
-    Provenance::of_head(&session.db().system().read_head(program, HEAD).ok()?)
+    Provenance::of_head(&session.db().system().read_head(program, HEAD_BYTES).ok()?)
 }
 
 /// A file that a job's path yielded earlier, but that the job does not generate: `_Milling` beside `_Clean` (adjusted from it, or written before the
@@ -245,7 +251,7 @@ struct StaleSearch<'a> {
     outputs: HashSet<&'a Utf8Path>,
     /// Index of each job by the stem of its file names.
     by_stem: Lazy<'a, HashMap<&'a Utf8Path, usize>>,
-    writers: Lazy<'a, Writers>,
+    writers: Lazy<'a, KnownTitles>,
 }
 
 impl<'a> StaleSearch<'a> {
@@ -276,15 +282,15 @@ impl<'a> StaleSearch<'a> {
 
     /// Returns the program at `path` if it is stale. `beside` lists the files in its directory; `None` if programs of removed paths are not searched
     /// for.
-    fn judge(&self, path: Utf8PathBuf, beside: Option<&Names>) -> Option<StaleProgram> {
+    fn program_if_stale(&self, path: Utf8PathBuf, beside: Option<&Names>) -> Option<StaleProgram> {
         let (found, title) = provenance(self.run.session, &path)?;
-        match self.own(&path) {
+        match self.native_job_of(&path) {
             Some(own) if is_of(own.job, self.run.session, &title) => {
-                own.stale(self.run.session, path, &found)
+                own.stale_program(self.run.session, path, &found)
             }
             _ => self.of_other_post(&path, &found, &title).or_else(|| {
                 let directory = path.parent().unwrap_or(Utf8Path::new(""));
-                let reason = self.writers.gone(directory, &title, beside?.iter())?;
+                let reason = self.writers.removal_reason(directory, &title, beside?.iter())?;
                 Some(StaleProgram { path, reason })
             }),
         }
@@ -294,7 +300,7 @@ impl<'a> StaleSearch<'a> {
     /// has other moves now.
     fn of_other_post(&self, path: &Utf8Path, found: &Provenance, title: &str) -> Option<StaleProgram> {
         let name = path.with_extension("");
-        let stem = PROGRAMS.iter().find_map(|kind| name.as_str().strip_suffix(kind))?;
+        let stem = PROGRAM_SUFFIXES.iter().find_map(|kind| name.as_str().strip_suffix(kind))?;
         let number = *self.by_stem.get(Utf8Path::new(stem))?;
         let job = self.run.jobs[number];
         let now = job.outcome.as_ref()?.provenance.as_ref()?;
@@ -304,7 +310,7 @@ impl<'a> StaleSearch<'a> {
     }
 
     /// Finds the native job of the path that may have produced this file earlier.
-    fn own(&self, path: &Utf8Path) -> Option<FormerFile<'a>> {
+    fn native_job_of(&self, path: &Utf8Path) -> Option<FormerFile<'a>> {
         if self.run.post_processor.is_some() {
             return None;
         }
@@ -319,7 +325,12 @@ impl<'a> StaleSearch<'a> {
 
 impl FormerFile<'_> {
     /// Returns the former file as stale, unless it was adjusted from the current program.
-    fn stale(&self, session: &Session<'_>, path: Utf8PathBuf, found: &Provenance) -> Option<StaleProgram> {
+    fn stale_program(
+        &self,
+        session: &Session<'_>,
+        path: Utf8PathBuf,
+        found: &Provenance,
+    ) -> Option<StaleProgram> {
         if self.kind != OutputKind::Milling {
             return Some(StaleProgram { path, reason: Reason::Left });
         }
@@ -327,7 +338,7 @@ impl FormerFile<'_> {
             None if self.provenance.is_same(found) => return None,
             None => Reason::Left,
             Some(clean) if !self.provenance.is_same(found) => Reason::Adjusted { clean: clean.to_owned() },
-            Some(clean) => self.edited(session, &path, clean)?,
+            Some(clean) => self.edit_reason(session, &path, clean)?,
         };
         Some(StaleProgram { path, reason })
     }
@@ -338,7 +349,7 @@ impl FormerFile<'_> {
 
     /// Returns the reason if a program with the current provenance is not the result of adjusting the current program; `None` also for unreadable
     /// files.
-    fn edited(&self, session: &Session<'_>, path: &Utf8Path, clean: &Utf8Path) -> Option<Reason> {
+    fn edit_reason(&self, session: &Session<'_>, path: &Utf8Path, clean: &Utf8Path) -> Option<Reason> {
         let limit = session.workspace().settings.limits.file_size.value;
         let read = |file: &Utf8Path| session.db().system().read(file, limit).ok();
         let (program_text, clean_text) = (read(path)?, read(clean)?);
@@ -361,7 +372,7 @@ fn is_of(job: &Job, session: &Session<'_>, title: &str) -> bool {
 }
 
 /// Endings of program names, without extension.
-const PROGRAMS: [&str; 3] = ["_Milling", "_Clean", "_Probing"];
+const PROGRAM_SUFFIXES: [&str; 3] = ["_Milling", "_Clean", "_Probing"];
 
 /// Whether a name is that of a program. The extension that a post definition chooses is recognised only while that definition is in use.
 fn is_gcode(name: &str, post_processor: Option<&PostProcessor>) -> bool {
@@ -378,7 +389,7 @@ fn is_sheet(name: &str) -> bool {
 }
 
 /// The drawings and paths that may have produced a program.
-struct Writers {
+struct KnownTitles {
     /// Titles of paths in covered drawings for which the run generates nothing, because they have errors or are not selected. Existing files may
     /// still belong to them.
     idle: BTreeSet<Title>,
@@ -405,7 +416,7 @@ fn file_name(drawing: &Utf8Path) -> &str {
 /// Output directory of a program, and its title or drawing, normalised for comparison (see [`plain_title`]).
 type Title = (Utf8PathBuf, String);
 
-impl Writers {
+impl KnownTitles {
     fn new(run: &EarlierPrograms<'_>) -> Self {
         let EarlierPrograms { session, out_dir, selection, jobs, .. } = run;
         let db = session.db();
@@ -440,7 +451,7 @@ impl Writers {
 
     /// Returns the reason why a program that no path of the run yields is stale; `None` if another drawing may yield it. `beside` lists the files
     /// in its directory.
-    fn gone<'n>(
+    fn removal_reason<'n>(
         &self,
         directory: &Utf8Path,
         title: &str,
@@ -480,7 +491,7 @@ struct Listings {
 
 impl Listings {
     /// Returns the programs in a directory with names that begin with `stem`, ignoring case.
-    fn beginning(
+    fn programs_beginning_with(
         &mut self,
         run: &EarlierPrograms<'_>,
         directory: &Utf8PathBuf,
@@ -506,7 +517,7 @@ impl Listings {
     }
 }
 
-fn older(program: Utf8PathBuf, path: &str, task: Task) -> ProgramOutcome {
+fn earlier_outcome(program: Utf8PathBuf, path: &str, task: Task) -> ProgramOutcome {
     let problem = Diagnostic::new(&messages::OLDER_OUTPUT)
         .quoting("name", program.file_name().unwrap_or_default())
         .quoting("path", path)

@@ -9,7 +9,7 @@ use crate::findings::identity;
 
 /// The number of checks that report each finding. Several drawings may have the same finding.
 #[derive(Debug, Default)]
-pub(super) struct FindingTally(HashMap<Counted, usize>);
+pub(super) struct FindingTally(HashMap<CountedFinding, usize>);
 
 impl FindingTally {
     /// Replaces previous findings by current ones. Returns those that are new, and those that no check reports any more.
@@ -18,7 +18,7 @@ impl FindingTally {
         before: &[Diagnostic],
         now: &[Diagnostic],
     ) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
-        let counted = |found: &Diagnostic| Counted(found.clone());
+        let counted = |found: &Diagnostic| CountedFinding(found.clone());
         let is_known = |tally: &Self, found: &Diagnostic| tally.0.contains_key(&counted(found));
         let new = now.iter().filter(|found| !is_known(self, found)).cloned().collect();
         for found in now {
@@ -36,17 +36,17 @@ impl FindingTally {
 
 /// A finding that is compared by its identity, without trace and notes.
 #[derive(Debug)]
-struct Counted(Diagnostic);
+struct CountedFinding(Diagnostic);
 
-impl PartialEq for Counted {
+impl PartialEq for CountedFinding {
     fn eq(&self, other: &Self) -> bool {
         identity(&self.0) == identity(&other.0)
     }
 }
 
-impl Eq for Counted {}
+impl Eq for CountedFinding {}
 
-impl Hash for Counted {
+impl Hash for CountedFinding {
     fn hash<H: Hasher>(&self, state: &mut H) {
         identity(&self.0).hash(state);
     }

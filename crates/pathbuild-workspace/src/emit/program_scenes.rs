@@ -13,15 +13,15 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_path::{KeepOut, PathName};
 use pathbuild_view::{self as view, BilingualText, EmittedText, Parameter, Scene, ScenePath, Sheet};
 
-use super::build::{Built, build};
-use super::options::{self, OutputSettings, writing};
+use super::build::{BuiltProgram, build};
+use super::options::{self, OutputSettings, write_settings};
 use super::outcome::Task;
 use super::plan::{Job, JobBuilder, Plan};
 use super::sheet::sheet;
 use crate::config::Origin;
 use crate::config::types::SheetFormat;
 use crate::findings::Findings;
-use crate::posting::PostProcessor;
+use crate::post_processor::PostProcessor;
 use crate::session::{
     CheckedTarget, NamedPaths, NotOnePath, Session, drawn_source, examples, finished_parts, program_scene,
 };
@@ -62,7 +62,7 @@ impl SceneReport {
         for diagnostic in &mut shown {
             diagnostic.rename_files(|text| near_name(text, directory));
         }
-        let own_name = |file: &str| near_name(file, directory).unwrap_or_else(|| outer_name(file));
+        let own_name = |file: &str| near_name(file, directory).unwrap_or_else(|| shortened_name(file));
         for path in &mut self.scene.paths {
             if path.name == path.file {
                 path.name = own_name(&path.name);
@@ -89,7 +89,7 @@ fn is_normal(component: &Utf8Component<'_>) -> bool {
 }
 
 /// Returns the last component of an absolute name; any other name unchanged.
-fn outer_name(name: &str) -> String {
+fn shortened_name(name: &str) -> String {
     let path = Utf8Path::new(name);
     path.file_name().filter(|_| path.is_absolute()).unwrap_or(name).to_owned()
 }
@@ -158,7 +158,7 @@ impl Session<'_> {
             .map_with_checker(slice::from_ref(name), |checker, name| checker.check_leniently(file, name))
             .pop();
         let Some(checked) = checked else { return (None, Vec::new(), Vec::new()) };
-        let writing = &writing(&self.workspace().settings);
+        let writing = &write_settings(&self.workspace().settings);
         // Without `rapid`, or for a path that is only checked, `emit` writes nothing: the text is a preview.
         let is_written = *checked.target.role(self.db()) == Role::Emitted
             && self.workspace().settings.general.rapid.value.is_some();
@@ -263,7 +263,7 @@ fn of_target(
 ) -> Result<SheetOutcome, String> {
     let context = session.workspace();
     let checked = session.check(&[target]);
-    if let Some(refusal) = options::missing(context, Task::Write { force: false }, &checked) {
+    if let Some(refusal) = options::missing_options_error(context, Task::Write { force: false }, &checked) {
         return Err(refusal);
     }
     let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
@@ -324,7 +324,7 @@ fn program_text(
     let settings = OutputSettings::new(session.workspace(), post_processor);
     let work = |db: &Database, job: &Job| build(db, job, &settings);
     let files =
-        session.map_guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(Built::default()));
+        session.map_guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(BuiltProgram::default()));
     let files = files.map_err(|problem| vec![*problem])?;
     // Without a known dialect, read the text as generic RS274, as when it is read back.
     let dialect = post_processor

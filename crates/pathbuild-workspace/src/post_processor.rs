@@ -59,7 +59,7 @@ pub struct PostArguments {
 }
 
 /// Upper bound on the number of inserted files that are read in advance, per definition.
-const MOST_INSERTIONS: usize = 1000;
+const MAX_INSERTIONS: usize = 1000;
 
 /// Name in the configuration that selects native programs instead of a post-processor. (book: program/gcode)
 const NATIVE: &str = "native";
@@ -148,7 +148,7 @@ impl PostProcessor {
             let files = DirectoryFiles { directory, system };
             let hash = |file: &Utf8PathBuf| blake3::hash(&files.read(file).unwrap_or_default());
             // Unreadable or excess files are reported when a program is written.
-            insertions.iter().take(MOST_INSERTIONS).flat_map(|file| *hash(file).as_bytes()).collect()
+            insertions.iter().take(MAX_INSERTIONS).flat_map(|file| *hash(file).as_bytes()).collect()
         };
         let inserted = directory.as_deref().map(inserted).unwrap_or_default();
         Self {
@@ -393,7 +393,7 @@ pub fn machine(settings: &Settings) -> Option<Machine> {
     let settings = &settings.machine;
     let placed = [settings.x.value, settings.y.value, settings.z.value];
     let travel = if placed.iter().any(Option::is_some) {
-        Some(Travel::Placed(placed.map(ends)))
+        Some(Travel::Placed(placed.map(range_ends)))
     } else {
         settings.travel.value.map(Travel::Size)
     };
@@ -407,7 +407,7 @@ pub fn machine(settings: &Settings) -> Option<Machine> {
 }
 
 /// Returns the lower and upper end of an axis; infinite if not configured.
-fn ends(extent: Option<NumberRange>) -> (f64, f64) {
+fn range_ends(extent: Option<NumberRange>) -> (f64, f64) {
     extent.map_or((f64::NEG_INFINITY, f64::INFINITY), |extent| (extent.from, extent.to))
 }
 

@@ -8,14 +8,14 @@ use pathbuild_diagnostic::messages::{parameters, paths as messages};
 use pathbuild_diagnostic::{Diagnostic, words};
 use pathbuild_path::approx::near;
 use pathbuild_path::{Curve, KeepOutMap, Line, TipMove, Xy};
-use pathbuild_toolpath::{Program, kind_of_move, way};
+use pathbuild_toolpath::{Program, kind_of_move, tip_move};
 
 use super::plan::Job;
 
 /// Returns PB211 for each sign that the paths do not belong in one program: different material or thickness, or a repeated path.
-pub(super) fn doubts(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Vec<Diagnostic> {
+pub(super) fn joining_doubts(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Vec<Diagnostic> {
     let thickness = differing_thickness(db, job, programs);
-    thickness.into_iter().chain(differing_material(db, job)).chain(repeated(db, job)).collect()
+    thickness.into_iter().chain(differing_material(db, job)).chain(repeated_path(db, job)).collect()
 }
 
 /// Returns PB211 for the first path with another material name than the first path of the program.
@@ -32,7 +32,7 @@ fn differing_material(db: &Database, job: &Job) -> Option<Diagnostic> {
 }
 
 /// Returns PB211 for the first path that the program contains twice.
-fn repeated(db: &Database, job: &Job) -> Option<Diagnostic> {
+fn repeated_path(db: &Database, job: &Job) -> Option<Diagnostic> {
     let mut targets = job.targets.iter().enumerate();
     let (_, target) = targets.find(|(number, target)| job.targets[..*number].contains(target))?;
     let problem = Diagnostic::new(&parameters::JOINED_TWICE).in_path(target.name(db));
@@ -65,10 +65,10 @@ pub(super) fn moves_into_clamps(db: &Database, job: &Job, programs: &[Arc<Progra
     let mut collisions = BTreeMap::new();
     for (number, (program, traverse)) in programs.iter().zip(traverses(programs)).enumerate() {
         let own =
-            program.moves().filter_map(|(_, movement)| Some((way(&movement)?, kind_of_move(&movement))));
+            program.moves().filter_map(|(_, movement)| Some((tip_move(&movement)?, kind_of_move(&movement))));
         let ways = traverse.into_iter().map(|traverse| (traverse, &words::RAPID_MOVE)).chain(own);
         for (way, what) in ways {
-            for clamp in map.entered(&way, program.largest_cutter() / 2.0, 0.0) {
+            for clamp in map.entered_clamps(&way, program.largest_cutter() / 2.0, 0.0) {
                 let collision = collisions.entry((number, clamp, what.en));
                 collision.or_insert(Collision::new(what)).add(&way);
             }
