@@ -20,12 +20,12 @@ pub fn above(a: f64, b: f64) -> bool {
     a > b && !near(a, b)
 }
 
-/// Whether two points coincide (within about 0.0000316 mm), for ends of segments, markers and the walk.
+/// Whether two points coincide: their distance is at most about 0.0000316 mm. Used for ends of segments, for markers and in the walk.
 pub fn coincide(a: Point2<f64>, b: Point2<f64>) -> bool {
     near((b - a).norm_squared(), 0.0)
 }
 
-/// Whether a distance in mm is negligible (about 1e-9 mm), to skip moves that would not move.
+/// Whether a distance in mm is negligible (at most about 1e-9 mm), so that a move of this length can be left out.
 pub fn is_negligible(distance: f64) -> bool {
     near(distance, 0.0)
 }

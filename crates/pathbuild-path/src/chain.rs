@@ -90,12 +90,12 @@ pub struct PlacedSubpath {
 }
 
 impl WalkedPath {
-    /// A walk that failed.
+    /// Creates the result of a walk that failed with this problem: it has no items.
     pub fn from_failure(problem: Diagnostic) -> Self {
         Self { diagnostics: vec![problem], ..Self::default() }
     }
 
-    /// The members of a chain in the items: at least one, each in walking direction.
+    /// Returns the members of one of this walk's chains, in walking order and each in walking direction. A chain has at least one.
     pub fn members(&self, chain: &Chain) -> &[ChainSegment] {
         &self.members[chain.members.clone()]
     }
@@ -173,7 +173,7 @@ impl<'a> ChainBuilder<'a> {
     }
 }
 
-/// Whether a doubt about W has not been reported yet. The path's W applies to each of its chains.
+/// Whether a doubt about W has not been reported yet. The path's W applies to each of its chains, so the same doubt can come up several times.
 fn is_new(diagnostics: &[Diagnostic], doubt: &Diagnostic) -> bool {
     let is_same = |known: &Diagnostic| {
         (known.message, &known.arguments, &known.text) == (doubt.message, &doubt.arguments, &doubt.text)
@@ -235,7 +235,7 @@ impl ChainSegment {
         &path.cuts[self.cut as usize]
     }
 
-    /// Returns the segment's curve in walking direction. The path must be the one that was walked.
+    /// Returns the segment's curve in walking direction. `path` must be the walked path.
     pub fn curve(&self, path: &Path) -> Curve {
         let segment = &path.segments[self.segment as usize];
         curve(path, segment, self.is_turned, self.moved.as_deref()).expect("what is in a chain is a curve")
@@ -273,7 +273,7 @@ pub(crate) struct Passage {
 }
 
 impl Passage {
-    /// The passage in the drawn direction.
+    /// Creates the passage between these ends, in the drawn direction.
     pub(crate) fn in_drawn_direction([start, end]: [Xy; 2]) -> Self {
         Self { start, end, is_turned: false, moved: None }
     }

@@ -70,7 +70,8 @@ pub(crate) struct Texts<'v, 't> {
 }
 
 impl PathNumbers {
-    /// Returns S of a path in a role if the path does not give it: that of the option, or the default; `None` if the option is missing.
+    /// Returns the sweep height (S) of a path that does not give it: that of `--sweep-height`, or the default. `None` if the option is needed but
+    /// missing.
     pub(crate) fn sweep_height(self, options: &PathOptions, role: PathRole) -> Option<f64> {
         fallback(Letter::S, ElementClass::PathStart, self, options, role).map(|(height, _)| height)
     }
@@ -117,7 +118,7 @@ impl<'v, 't> Texts<'v, 't> {
         let own = match use_of(self.class, letter) {
             LetterUse::Unknown | LetterUse::Ignored => return None,
             LetterUse::PathOnly => None,
-            // The element's own text is the path's text.
+            // For the path's start, the element's own text is the path's text.
             LetterUse::Needed | LetterUse::Allowed if self.class == ElementClass::PathStart => None,
             LetterUse::ChainNeeded | LetterUse::Chain => {
                 Some(self.chain.map_or((self.own, Provider::Own), |chain| (chain, Provider::Chain)))

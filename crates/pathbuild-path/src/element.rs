@@ -72,7 +72,7 @@ pub enum Role {
     Sweep,
     /// HIDDEN: a sweep without a text.
     SilentSweep,
-    /// DOT: a disabled subpath, swept instead. It keeps its text, which is ignored, so that it can be enabled again.
+    /// DOT: a disabled subpath, traversed as a sweep. It keeps its text, which is ignored, so that it can be enabled again.
     SkippedSubpath,
     /// DASHDOT: a subpath.
     Subpath,
@@ -111,7 +111,7 @@ pub(crate) enum IntendedMarker {
 }
 
 impl Origin {
-    /// The location of an entity that starts, or has its centre, at a point.
+    /// Creates the location of an entity that starts, or has its centre, at a point.
     pub(crate) fn new(source: Source, layer: &SmolStr, point: Xy) -> Self {
         let Source { id, entity, .. } = source;
         Self { id, entity, layer: layer.clone(), point: diagnostic_point(point) }
@@ -197,7 +197,7 @@ impl ElementClass {
     }
 }
 
-/// Tolerance in mm for the diameter of a drilled hole to equal the cutter's: numbers with three decimals cannot distinguish them.
+/// Tolerance in mm within which a circle has the cutter's diameter and is a drilled hole: numbers with three decimals cannot distinguish the two.
 const DRILLED_DIAMETER_TOLERANCE: f64 = 0.001;
 
 /// The class of a circle. One with the cutter's diameter is a drilled hole, whatever its line type.

@@ -22,9 +22,9 @@ use crate::variables::{Bindings, Definition};
 /// A path before its variables are bound.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathHeader {
-    /// The name as spelt by its layer.
+    /// Name of the path, in the spelling of its layer.
     pub name: CaseSensitiveName,
-    /// Whether the drawing of the path has no errors, apart from its values.
+    /// Whether the drawing of the path has no errors; errors in values do not count.
     pub is_sound: bool,
     /// The definitions of the path's variables, in the order written.
     pub definitions: Vec<Definition>,
@@ -33,15 +33,15 @@ pub struct PathHeader {
 /// The properties of a bound path that others depend on. An edit that leaves them unchanged does not affect other paths. Lengths are in mm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathSignature {
-    /// The name as spelt by its layer.
+    /// Name of the path, in the spelling of its layer.
     pub name: CaseSensitiveName,
     /// Cutter diameter (O).
     pub tool: f64,
     /// Thickness of the material (T).
     pub thickness: f64,
-    /// S, if the path gives it.
+    /// Sweep height (S), if the path gives it.
     pub sweep_height: Option<f64>,
-    /// The faces that S must clear.
+    /// The upper faces of the material that S must clear.
     pub sweep_limits: SweepLimits,
     /// Name of the material (M).
     pub material: Option<SmolStr>,
@@ -185,8 +185,8 @@ impl OwnSweep {
 }
 
 impl PathSignature {
-    /// Returns PB203 for each sweep whose own S does not clear `top`, the height in mm of everything that the path embeds, or a probe. How far raised
-    /// material reaches is not drawn, so it does not matter where the sweep is.
+    /// Returns PB203 for each sweep that gives its own S, but does not clear one of the path's probes or `top`, the height in mm of everything that
+    /// the path embeds. The extent of raised material is not drawn, so it does not matter where the sweep is.
     pub fn own_sweep_problems(&self, top: f64) -> Vec<Diagnostic> {
         let top = top.max(self.highest_probe);
         let too_low = self.own_sweeps.iter().filter(|sweep| !above(sweep.height, top));
@@ -287,7 +287,8 @@ impl SweepLimits {
         Self { path: path.name.clone(), faces }
     }
 
-    /// Returns PB203 for each face that a sweep height in mm does not clear. `role` is that of the path without S that gets this height.
+    /// Returns PB203 for each face that a sweep height in mm does not clear. The path gives no S of its own; `role` is the use for which it gets this
+    /// height.
     pub fn check(&self, height: f64, role: PathRole) -> Vec<Diagnostic> {
         let message = match role {
             PathRole::Emitted => &parameters::DEFAULT_SWEEP_TOO_LOW,
@@ -306,12 +307,12 @@ impl SweepLimits {
     }
 }
 
-/// A rule of `--restrict`: paths whose names match PARENT may only embed paths whose names match CHILD.
+/// A rule of `--restrict`: paths with names that match PARENT may only embed paths with names that match CHILD.
 #[derive(Clone, Debug)]
 pub struct Restriction {
-    /// Matched anywhere in the name of the embedding path.
+    /// Expression that must match somewhere in the name of the embedding path.
     parent: Regex,
-    /// Matched anywhere in the name of the embedded path.
+    /// Expression that must match somewhere in the name of the embedded path.
     child: Regex,
 }
 
@@ -324,7 +325,7 @@ impl Restriction {
         Ok(Self { parent: Regex::new(parent)?, child: Regex::new(child)? })
     }
 
-    /// Whether the rule applies to the embeddings of this path.
+    /// Whether the rule applies to what this path embeds.
     fn applies_to(&self, parent: &PathName) -> bool {
         parent.is_match(&self.parent)
     }
@@ -356,7 +357,7 @@ enum Rule<'a> {
     Any,
 }
 
-/// Tolerance in mm for the length of a segment and the path it embeds.
+/// Largest permitted difference in mm between the length of a segment and the size of the path that it embeds.
 pub(crate) const CHORD_TOLERANCE: f64 = 0.001;
 
 impl<'a> SubpathChecker<'a> {
@@ -433,7 +434,7 @@ impl<'a> SubpathChecker<'a> {
         (!is_kept).then_some(rule)
     }
 
-    /// PB503: no file defines the path. `known` are the paths of the searched files.
+    /// Returns PB503: no file defines the path. `known` are the paths of the searched files.
     pub fn not_found(
         &self,
         call: &SubpathCall,
@@ -449,13 +450,13 @@ impl<'a> SubpathChecker<'a> {
         self.at_name(call, with_near_names(problem, name, known))
     }
 
-    /// PB511: errors of a drawing hide its paths.
+    /// Returns PB511: errors of a drawing hide its paths.
     pub fn has_errors(&self, call: &SubpathCall, name: &PathName, file: &str) -> Diagnostic {
         let problem = Diagnostic::new(&messages::HAS_ERRORS).quoting("name", name.as_str());
         self.at_name(call, problem.quoting("file", file))
     }
 
-    /// PB504: two files define the path.
+    /// Returns PB504: two files define the path.
     pub fn defined_twice(
         &self,
         call: &SubpathCall,
@@ -467,8 +468,8 @@ impl<'a> SubpathChecker<'a> {
         self.at_name(call, problem.quoting("first", first).quoting("second", second))
     }
 
-    /// Returns PB302 to PB304: problems with the values that a segment gives the variables of the embedded path. Nothing is reported for a path whose
-    /// drawing has errors.
+    /// Returns PB302 to PB304: problems with the values that a segment gives the variables of the embedded path. Nothing is reported if the drawing
+    /// of that path has errors.
     pub fn binding_problems(&self, call: &SubpathCall, inner: &PathHeader) -> Vec<Diagnostic> {
         if !inner.is_sound {
             return Vec::new();
@@ -559,8 +560,8 @@ impl<'a> SubpathChecker<'a> {
             .with("there", inner.tool)
     }
 
-    /// Reports an embedded path whose name selects another tool of the same diameter. A path whose tool is found by its diameter alone can be milled
-    /// with any tool of that diameter.
+    /// Reports an embedded path with a name that selects another tool of the same diameter. A path for which a tool is found by diameter alone can be
+    /// milled with any tool of that diameter.
     fn other_tool_problem(&self, inner: &PathSignature) -> Option<Diagnostic> {
         let tool = |path: &PathSignature| self.language.tools.of(path.name.as_str(), path.tool);
         let (here, there) = (tool(self.outer)?, tool(inner)?);
@@ -631,8 +632,8 @@ fn as_warning(mut diagnostic: Diagnostic) -> Diagnostic {
 /// Maximum number of names in a note.
 const MAX_NAMES_IN_NOTE: usize = 5;
 
-/// Adds a note to a finding about a path that none of the searched drawings defines: the names of which `name` may be a misspelling, else
-/// all names there are in these drawings.
+/// Adds a note to a finding about a path that none of the searched drawings defines. It lists the names that `name` may be a misspelling of, or else
+/// all names in these drawings.
 pub fn with_near_names(problem: Diagnostic, name: &PathName, mut known: Vec<PathName>) -> Diagnostic {
     known.sort();
     known.dedup();

@@ -21,7 +21,7 @@ pub struct Line {
 /// Both ends and angles are stored: the ends determine which curves meet, the angles determine the length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
-    /// Centre.
+    /// Centre of the arc's circle.
     pub centre: Xy,
     /// Radius in mm, greater than 0.
     pub radius: f64,
@@ -232,7 +232,7 @@ impl Curve {
         }
     }
 
-    /// The interior points of a curve that may be nearest to another arc.
+    /// Returns the interior points of this curve that may be nearest to another curve, if that is an arc.
     fn nearest_candidates(&self, other: &Self) -> Vec<Xy> {
         match (self, other) {
             (Self::Line(line), Self::Arc(arc)) => vec![line.nearest(arc.centre)],
@@ -251,7 +251,7 @@ impl Curve {
 }
 
 impl Line {
-    /// The point of the line that is nearest to another one.
+    /// Returns the point of the line that is nearest to a given point.
     pub(crate) fn nearest(&self, point: Xy) -> Xy {
         let along = self.end - self.start;
         let squared = along.norm_squared();
@@ -282,7 +282,7 @@ impl Arc {
         (point - self.start).norm().min((point - self.end).norm())
     }
 
-    /// Whether the arc contains the point of its circle in that direction from the centre.
+    /// Whether the arc contains the point of its circle that lies in the direction `out` from the centre.
     pub(crate) fn spans(&self, out: Vector2<f64>) -> bool {
         let from = self.start - self.centre;
         let angle = libm::atan2(from.perp(&out), from.dot(&out)).to_degrees();

@@ -31,7 +31,7 @@ pub struct KeepOuts {
 }
 
 impl KeepOut {
-    /// The clamp after placing and raising its drawing.
+    /// Returns the clamp after its drawing is placed and raised.
     pub fn placed(&self, placement: &Placement, raised: f64) -> Self {
         Self {
             layer: self.layer.clone(),
@@ -42,8 +42,8 @@ impl KeepOut {
     }
 }
 
-/// The path of the tool tip in one move: along a curve in the plane, with a constant slope. A vertical move is a line without length.
-/// Lengths are in mm.
+/// The movement of the tool tip in one move: along a curve in the plane, with a constant slope. A vertical move is a line without length. Lengths are
+/// in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct TipMove {
@@ -163,8 +163,8 @@ impl Outline {
         near.any(|piece| above(radius, way.distance(&piece.data.curve))) || self.contains(way.start())
     }
 
-    /// Whether a point that is not on the outline is inside: whether the upward and downward crossings of a ray to the right do not cancel
-    /// out.
+    /// Whether a point that is not on the outline is inside: a ray to the right crosses pieces that run upwards and pieces that run downwards in
+    /// different numbers.
     pub(crate) fn contains(&self, point: Xy) -> bool {
         let [right, _] = self.extent().upper();
         let ray = AABB::from_corners([point.x, point.y], [right.max(point.x), point.y]);

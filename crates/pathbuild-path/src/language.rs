@@ -46,24 +46,24 @@ pub struct PathTool {
     pub chip_load: Option<ChipLoad>,
 }
 
-/// Finds the tool of a path by the path's name and its O in mm.
+/// Function that finds the tool of a path by the path's name and its O in mm.
 #[derive(Clone)]
 pub struct PathTools(Arc<FindTool>);
 
 type FindTool = dyn Fn(&str, f64) -> Option<PathTool> + Send + Sync;
 
 impl PathTools {
-    /// Looks up tools with a function.
+    /// Creates a lookup that calls a function with the path's name and its O in mm. It returns `None` for a path without a configured tool.
     pub fn new(find: impl Fn(&str, f64) -> Option<PathTool> + Send + Sync + 'static) -> Self {
         Self(Arc::new(find))
     }
 
-    /// The tool of a path.
+    /// Returns the tool of a path by the path's name and its O in mm; `None` if no tool is configured for it.
     pub fn of(&self, path: &str, diameter: f64) -> Option<PathTool> {
         (self.0)(path, diameter)
     }
 
-    /// The chip load allowed for the tool of a path.
+    /// Returns the chip load that the user allows for the tool of a path.
     pub fn chip_load(&self, path: &str, diameter: f64) -> Option<ChipLoad> {
         self.of(path, diameter)?.chip_load
     }
@@ -85,17 +85,17 @@ impl fmt::Debug for PathTools {
 /// Thresholds beyond which values are reported as doubtful.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoubtThresholds {
-    /// Depth in mm that B may extend below the plate.
+    /// Depth in mm below the plate beyond which B is doubtful.
     pub below_plate: f64,
-    /// Maximum infeed as a multiple of T.
+    /// Infeed beyond which I is doubtful, as a multiple of T.
     pub infeed: f64,
-    /// Maximum depth of a mark as a fraction of T.
+    /// Depth of a mark beyond which D is doubtful, as a fraction of T.
     pub mark_depth: f64,
     /// The machine's largest feed in mm/min.
     pub maximum_feed: Option<f64>,
-    /// Whether drilled holes may become canned cycles. Without these, C has no effect.
+    /// Whether the target may write drilled holes as canned cycles. Without canned cycles, C has no effect.
     pub has_cycles: bool,
-    /// Minimum difference in mm between the distances of a text from its element and from another one.
+    /// Difference in mm below which a text is doubtful because it is almost as near to another element as to its own.
     pub text_margin: f64,
     /// Excess in mm over the cutter's diameter up to which a circle is suspected to be meant as a drilled hole.
     pub hole_margin: f64,
@@ -119,7 +119,7 @@ impl DoubtThresholds {
         hole_margin: 0.05,
     };
 
-    /// The finding about the feed in mm/min that applies to paths without F.
+    /// Returns the finding about a feed in mm/min that paths without F use, if it exceeds the machine's maximum.
     pub fn fallback_feed(&self, feed: f64) -> Option<Diagnostic> {
         let maximum = self.maximum_feed.filter(|maximum| above(feed, *maximum))?;
         let problem = Diagnostic::new(&messages::FALLBACK_FEED_ABOVE_MACHINE).with("value", feed);
@@ -138,7 +138,7 @@ impl Language {
         self.path_pattern.is_layer(layer) || self.is_keep_out(layer) || self.is_part(layer)
     }
 
-    /// Returns the curves that were left out of a drawing. Blocks count only if everything that they draw lies on layers without a meaning.
+    /// Returns the curves that were left out of a drawing. A block counts only if everything that it draws lies on layers without a meaning.
     pub(crate) fn left_out<'d>(&self, drawing: &'d Drawing) -> impl Iterator<Item = &'d OmittedCurve> {
         drawing.left_out.iter().filter(|left_out| !left_out.layers.iter().any(|layer| self.is_read(layer)))
     }

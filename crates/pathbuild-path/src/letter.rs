@@ -40,7 +40,7 @@ letters! {
     Z 'Z',
     /// `>`: the path to embed.
     Embed '>',
-    /// `@`: the path whose parameters are borrowed.
+    /// `@`: the path from which parameters are borrowed.
     At '@',
     /// `:`: the definition or value of a variable.
     Variable ':',
@@ -66,12 +66,12 @@ impl Letter {
         letters
     };
 
-    /// The letter of a character.
+    /// Returns the letter for a character; `None` if the character is not a letter of the language.
     pub const fn new(character: char) -> Option<Self> {
         if character.is_ascii() { Self::BY_CHARACTER[character as usize] } else { None }
     }
 
-    /// The character.
+    /// Returns the letter's character.
     pub fn as_char(self) -> char {
         Self::ALL[self as usize].0
     }
@@ -106,7 +106,7 @@ impl Letters {
         self.0 & 1 << letter as u32 != 0
     }
 
-    /// The union of two sets.
+    /// Returns the union of two sets.
     pub(crate) const fn and(self, others: Self) -> Self {
         Self(self.0 | others.0)
     }
@@ -146,7 +146,7 @@ pub enum ElementClass {
     UnknownCircle,
     Subpath,
     Probe,
-    /// A faulty element, or one whose text is ignored: every letter passes.
+    /// A faulty element, or one with an ignored text: every letter passes.
     Unread,
 }
 
@@ -169,10 +169,10 @@ pub enum LetterUse {
     Unknown,
 }
 
-/// The letters of the columns.
+/// The letters of the columns in [`ROWS`], from left to right.
 const COLUMNS: &str = "F B D I C W P U S N Q T O M A H Z L > : E R @";
 
-/// The rows of the table. (M of a path is only required if it is embedded; `>` and M of a subpath are checked together with the embedded path.)
+/// The rows of the table. M of a path is only required if the path is embedded; `>` and M of a subpath are checked together with the embedded path.
 const ROWS: [(ElementClass, &str); 13] = [
     (ElementClass::PathStart, "o o o o o o o o o . . ! ! o o . o . . o o o o"),
     (ElementClass::Mill, "o ! - C - c . . - o o p p p . . . . . . . . ."),

@@ -17,7 +17,7 @@ pub enum LineType {
     Phantom,
 }
 
-/// Additional names from the configuration.
+/// Additional names of line types from the configuration, in upper case.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LineTypeAliases(BTreeMap<Box<str>, LineType>);
 
@@ -45,10 +45,10 @@ impl LineType {
         names_in(ALIASES).filter(move |(_, known)| *known == self).map(|(name, _)| name)
     }
 
-    /// The line type that an unknown name in upper case most likely means: the one with the longest known word in the name, or else one
-    /// with the same beginning or a single typing error.
+    /// Returns the line type that an unknown name in upper case most likely means: by the longest known word in the name, or else by the same
+    /// beginning or a single typing error.
     pub fn like(name: &str) -> Option<Self> {
-        // STRICH-PUNKT and STRICH PUNKT are STRICHPUNKT.
+        // Names such as `STRICH-PUNKT` and `STRICH PUNKT` mean `STRICHPUNKT`.
         let squeezed: String = name.chars().filter(|character| character.is_alphanumeric()).collect();
         let names = || Self::NAMES.into_iter().chain(names_in(ALIASES)).chain(names_in(WORDS));
         let in_name = names().filter(|(word, _)| {
@@ -93,7 +93,7 @@ impl<'l, 'd> LineTypes<'l, 'd> {
         Self { aliases, known: Vec::new() }
     }
 
-    /// The line type for a name.
+    /// Returns the line type for a name, from the cache if the name is known; `None` if the name is no line type.
     pub(crate) fn get(&mut self, name: &'d str) -> Option<LineType> {
         if let Some((_, line_type)) = self.known.iter().find(|(known, _)| *known == name) {
             return *line_type;
@@ -106,7 +106,7 @@ impl<'l, 'd> LineTypes<'l, 'd> {
     }
 }
 
-/// Maximum number of cached names, more than a usual drawing has. Further ones are looked up each time.
+/// Maximum number of cached names, more than a usual drawing has. Further names are looked up each time.
 const MOST_KNOWN: usize = 32;
 
 /// Suffixes, longest first: `DASHEDX2` must not be reduced to `DASHEDX`.

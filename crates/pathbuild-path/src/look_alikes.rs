@@ -28,21 +28,21 @@ pub(crate) fn with_keyboard_characters(text: &str) -> String {
     text.chars().map(|character| ascii(character).unwrap_or(character)).collect()
 }
 
-/// The first look-alike in a text, as arguments of a message.
+/// Returns the first look-alike in a text and the character that it looks like, as arguments of a message.
 pub(crate) fn first_look_alike(text: &str) -> Option<Vec<(&'static str, Value)>> {
     let (character, plain) = text.chars().find_map(|character| Some((character, ascii(character)?)))?;
     let code = Value::quoted(format!("U+{:04X}", u32::from(character)));
     Some(vec![("character", character.into()), ("code", code), ("plain", plain.into())])
 }
 
-/// A problem with the first look-alike in a text; `None` if there is none.
+/// Returns the problem with the first look-alike in a text; `None` if there is none.
 pub(crate) fn look_alike_problem(message: &'static Message, text: &str) -> Option<Diagnostic> {
     let mut problem = Diagnostic::new(message);
     problem.arguments.extend(first_look_alike(text)?);
     Some(problem)
 }
 
-/// A number in which letters stand for digits, with the digits: `O,3` or `l.5`.
+/// Returns a number with letters that look like digits replaced by these digits, as in `O,3` or `l.5`.
 pub(crate) fn with_digits(value: &str) -> String {
     let digit = |character| match character {
         'O' | 'o' => '0',
@@ -52,7 +52,7 @@ pub(crate) fn with_digits(value: &str) -> String {
     value.chars().map(digit).collect()
 }
 
-/// A note about the layer whose name is most like that of a path.
+/// Returns a note about the layer with the name most like that of a path: if possible, one that differs only in look-alike characters.
 pub fn near_layer<'l>(path: &str, layers: impl Iterator<Item = &'l str> + Clone) -> Option<Note> {
     let is_alike = |layer: &&str| {
         with_keyboard_characters(layer).eq_ignore_ascii_case(path) && first_look_alike(layer).is_some()

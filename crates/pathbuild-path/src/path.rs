@@ -17,7 +17,7 @@ use crate::text::TextId;
 /// A path with all parameters present and within their limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    /// The name as spelt by its layer.
+    /// Name of the path, in the spelling of its layer.
     pub name: CaseSensitiveName,
     /// Cutter diameter (O) in mm.
     pub tool: f64,
@@ -101,12 +101,12 @@ pub struct Probe {
     pub(crate) text: Option<TextId>,
 }
 
-/// A segment of the walk.
+/// A segment of a path: an element that the walk traverses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
     /// The segment's element, as an index into [`DrawnElements::elements`].
     pub element: u32,
-    /// Order at a star: N, or the default for its kind.
+    /// Order among the segments that meet at a point: N, or the default for the kind of segment.
     pub order: f64,
     /// The kind of segment, with its parameters or their index.
     pub kind: SegmentKind,
@@ -122,7 +122,7 @@ pub enum SegmentKind {
     Hole(u32),
     /// A helical circle, as an index into [`Path::helices`].
     Helix(u32),
-    /// A sweep with its own S in mm; `None` for the path's.
+    /// A sweep. `height`: its own S in mm; `None` if the path's S applies.
     Sweep {
         height: Option<f64>,
     },
@@ -140,9 +140,9 @@ pub struct CutParameters {
     pub bottom: f64,
     /// Support bars, for [`Cut::Support`].
     pub bars: Option<Bars>,
-    /// I, C and W, which apply if it is the first segment of its chain.
+    /// I and W, which apply if the segment is the first of its chain.
     pub chain: ChainParameters,
-    /// The segment's own text, if that gives I, C or W; see [`DrawnElements::texts`].
+    /// The segment's own text, if it gives I or W; see [`DrawnElements::texts`].
     pub chain_letters: Option<TextId>,
     /// Comment for the program (Q).
     pub comment: Option<SmolStr>,
@@ -187,7 +187,7 @@ pub struct Helix {
     pub radius: f64,
     /// Z down to which the whole circle is milled: B, or D for marks and circles with bars.
     pub bottom: f64,
-    /// For circles with bars: Z down to which the circle is milled between them (B), and the bars.
+    /// For circles with bars: Z down to which the circle is milled between the bars (B), and the bars.
     pub bars: Option<(f64, Bars)>,
     /// F in mm/min.
     pub feed: Option<f64>,
@@ -284,7 +284,7 @@ impl Path {
         self.sweep_height.or_else(|| self.numbers().sweep_height(options, role))
     }
 
-    /// The numbers that defaults are derived from.
+    /// Returns the values of the path from which defaults follow.
     pub fn numbers(&self) -> PathNumbers {
         PathNumbers { tool: Some(self.tool), thickness: Some(self.thickness), feed: self.feed }
     }
@@ -293,7 +293,7 @@ impl Path {
     pub fn needs_feed(&self) -> bool {
         self.feed.is_none()
             && self.segments.iter().any(|segment| match &segment.kind {
-                // The plunge to the edge of a chain uses the path's feed, regardless of its segments.
+                // The plunge to an edge of a chain uses the path's feed, regardless of the chain's segments.
                 SegmentKind::Cut(_) => true,
                 SegmentKind::Hole(hole) => self.holes[*hole as usize].feed.is_none(),
                 SegmentKind::Helix(helix) => self.helices[*helix as usize].feed.is_none(),

@@ -123,7 +123,7 @@ fn planned_line(component: &Component<'_>, raw: &RawPath) -> Option<(Path, QProj
     Some((path, line))
 }
 
-/// The text of a proxy line, completed by the values it leaves open.
+/// Returns the text of a proxy line, completed by the values that it leaves open.
 fn completed_text(raw: &RawPath, path: &Path, proxy: Option<&ProxyLine>) -> String {
     let mut pieces = vec![format!(">{}", path.name)];
     if let Some(proxy) = proxy {
@@ -212,7 +212,7 @@ impl<'a> QProjectComparison<'a> {
         problems
     }
 
-    /// The path whose ends a proxy line connects, if these are not the ends of the path that it names.
+    /// Returns the path with the ends that a proxy line connects, if the named path has other ends.
     fn connected_path(&self, proxy: &ProxyLine, named: &PathName) -> Option<&'a PathName> {
         let (start, end) = (proxy.curve.start(), proxy.curve.end());
         let joined = self.component.paths.iter().filter(|raw| {

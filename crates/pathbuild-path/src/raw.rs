@@ -17,7 +17,7 @@ use crate::variables::{Bindings, Definition};
 /// A path as drawn. It contains no lines and handles of the file, see [`SourceMap`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawPath {
-    /// The path's name as spelt by its first layer in the file.
+    /// Name of the path, in the spelling of its first layer in the file.
     pub name: CaseSensitiveName,
     /// The start marker. Its text is the path's own, even if @ refers to the text of another path.
     pub start: Option<Marker>,
@@ -73,8 +73,8 @@ impl RawPath {
         !self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
-    /// The findings about the drawing without those that `problems` repeats: a letter without an effect (PB210) whose value is outside
-    /// its limits (PB203) is one mistake.
+    /// Returns the findings about the drawing, without those about mistakes that are also in `problems`: a letter without effect (PB210) that also
+    /// has a value outside its limits (PB203) is a single mistake.
     pub fn findings_except(&self, problems: &[Diagnostic]) -> Vec<Diagnostic> {
         let is_same = |found: &Diagnostic, problem: &Diagnostic| {
             problem.code() == Code::ParameterOutOfRange
@@ -148,7 +148,7 @@ impl RawPath {
 }
 
 impl DrawnElements {
-    /// A text, if there is one.
+    /// Returns the text with this number; `None` if there is no number.
     pub fn text(&self, text: Option<TextId>) -> Option<ParameterText<'_>> {
         self.texts.get(text?)
     }

@@ -297,7 +297,7 @@ impl<'t> ParameterText<'t> {
         })
     }
 
-    /// Returns PB210. The advice depends on the intention: a depth whose letter has no effect should be replaced by the other depth, not just
+    /// Returns PB210. The advice depends on the intention: a depth with a letter that has no effect should be replaced by the other depth, not just
     /// removed.
     fn no_effect_problem(self, letter: Letter, piece: &LetterValue, class: ElementClass) -> Diagnostic {
         let counts = |other| class.use_of(other) == LetterUse::Needed;
@@ -596,7 +596,8 @@ fn separated_definition<'t>(
     Some((definition, definition_in_pieces(text, definition)?))
 }
 
-/// The definition that the piece of a variable and the pieces after it would give without the spaces between them, if only that is valid.
+/// Returns the definition that the piece of a variable and the pieces after it would give without the spaces between them. `None` unless that
+/// definition is valid and the piece alone is not.
 pub(crate) fn definition_in_pieces(text: ParameterText<'_>, definition: &LetterValue) -> Option<String> {
     let is_valid = |piece: &str| Definition::parse(&piece[Letter::Variable.as_char().len_utf8()..]).is_ok();
     let own = text.piece_text(definition);
@@ -609,7 +610,7 @@ pub(crate) fn definition_in_pieces(text: ParameterText<'_>, definition: &LetterV
     is_valid(&meant).then_some(meant)
 }
 
-/// Whether a subpath's variable has no value, because a space separates it from its name: `:B 1`.
+/// Whether a subpath's variable has no value, because a space separates the value from the variable's name: `:B 1`.
 pub(crate) fn is_variable_without_value(
     text: ParameterText<'_>,
     piece: &LetterValue,

@@ -23,7 +23,7 @@ pub(crate) enum GivenNumber {
     /// The text does not give the letter.
     #[default]
     Absent,
-    /// A value with a reported problem; consequences are not reported.
+    /// A value with a problem that is reported; problems that follow from it are not reported.
     Faulty,
     /// A valid number.
     Number(f64),
@@ -133,7 +133,7 @@ impl<'t> Values<'t> {
         self.problems.push(problem.with_text(self.text.fault(piece)));
     }
 
-    /// The number of a letter. If the letter is repeated, which is reported, there is none.
+    /// Returns the number of a letter. A letter that is repeated, which is reported, counts as faulty.
     pub(crate) fn number(&self, letter: Letter) -> GivenNumber {
         let Some(index) = self.text.index(letter) else {
             return if self.unread.contains(letter) { GivenNumber::Faulty } else { GivenNumber::Absent };
@@ -342,7 +342,7 @@ impl LimitCheck<'_> {
     }
 }
 
-/// The finding about a mark with this bottom in mm. `is_path`: whether that is the path's D rather than the mark's own.
+/// Returns the finding about a mark with this bottom in mm, and whether the bottom is the path's D rather than the mark's own.
 pub(crate) fn check_mark(
     bottom: f64,
     own: &Values<'_>,
@@ -371,7 +371,7 @@ const USUAL_MARK_DEPTH: f64 = 0.2;
 /// Thickness in mm below which a support bar holds nothing, in material of twice that thickness or more.
 const MIN_BAR_THICKNESS: f64 = 0.1;
 
-/// The finding about support bars with this upper edge in mm. `is_path`: whether that is the path's D rather than their own.
+/// Returns the finding about support bars with this upper edge in mm, and whether the edge is the path's D rather than their own.
 pub(crate) fn check_bar(top: f64, own: &Values<'_>, path: &Values<'_>) -> Option<(Diagnostic, bool)> {
     let thickness = path.number(Letter::T).number()?;
     if !above(MIN_BAR_THICKNESS.min(thickness / 2.0), top) {

@@ -24,7 +24,7 @@ pub(crate) struct Interpolation<'a> {
     pub(crate) unknown: &'a [char],
 }
 
-/// The reason why a value is undefined; `None` if it was reported with a definition.
+/// The reason why a value is undefined; `None` if the reason was reported with a definition.
 type Problem = Option<Box<Diagnostic>>;
 
 /// Maximum depth of references in values: more than there are letters and digits for names. Without a limit, thousands of variables would each
@@ -106,7 +106,7 @@ impl Interpolation<'_> {
         let mut rest = value;
         while let Some((before, after)) = rest.split_once('=') {
             let name = after.chars().next();
-            // A project may set a variable whose definition is wrong.
+            // A project may set a variable with an invalid definition.
             if name.is_some_and(|name| self.unknown.contains(&name)) {
                 return Err(None);
             }
@@ -214,7 +214,7 @@ impl fmt::Display for Definition {
     }
 }
 
-/// Tries the forms in this order: a range may contain decimal commas, and a list may begin with a question mark.
+/// Parses the permitted values. The order of the attempts matters: a range may contain decimal commas, and a list may begin with a question mark.
 fn parse_allowed_values(written: &str) -> Result<AllowedValues, Box<Diagnostic>> {
     if let Some(range) = parse_range(written) {
         return range;

@@ -13,7 +13,7 @@ use crate::text::TextId;
 use crate::values::check_bar;
 
 impl Binder<'_> {
-    /// Adds the cut of a segment in a milling chain. Returns its order at a star, and its index among the path's cuts.
+    /// Adds the cut of a segment in a milling chain. Returns its order among the segments that meet at a point, and its index among the path's cuts.
     pub(super) fn cut(
         &mut self,
         element: &Element,
@@ -56,7 +56,7 @@ impl Binder<'_> {
         }
     }
 
-    /// The bars of a segment of this length, with room for the cutter between consecutive bars.
+    /// Returns the support bars of a segment of this length, spaced so that the cutter fits between consecutive bars.
     pub(super) fn bars(&mut self, scope: &Scope<'_>, length: f64, tool: Option<f64>) -> Option<Bars> {
         let [top, bar, distance] = [Letter::D, Letter::P, Letter::U].map(|letter| self.value(scope, letter));
         let bars = Bars { top: top?, length: bar?, distance: distance? };
@@ -73,7 +73,7 @@ impl Binder<'_> {
         Some(bars)
     }
 
-    /// Reports PB211 for bars that stand hardly above the plate. Of the bars whose height is the path's D, only the first is reported.
+    /// Reports PB211 for bars that stand hardly above the plate. Of the bars with the path's D as their height, only the first is reported.
     fn note_thin_bars(&mut self, scope: &Scope<'_>, top: f64) {
         let Some((problem, is_path)) = check_bar(top, scope.values, &self.values) else { return };
         if !is_path {
@@ -96,7 +96,7 @@ impl Binder<'_> {
     }
 }
 
-/// The finding about bars that leave no gap on this length.
+/// Returns the finding about bars that leave no gap on a segment of this length; `None` if they leave one.
 fn missing_gap(bars: &Bars, length: f64) -> Option<Diagnostic> {
     (bars.count(length) == 0.0).then(|| {
         Diagnostic::new(&paths::NO_GAP_BETWEEN_BARS)
@@ -106,11 +106,11 @@ fn missing_gap(bars: &Bars, length: f64) -> Option<Diagnostic> {
     })
 }
 
-/// Orders at a star: holes come first, then circles, from small to large. (book: language/chains-and-passes)
+/// Order of a hole among the segments that meet at a point: holes come first, then circles from small to large. (book: language/chains-and-passes)
 const CIRCLE_ORDER_OFFSET: f64 = -1_000_000.0;
 
 impl Binder<'_> {
-    /// The segment for a circle, with its order at a star.
+    /// Returns the segment for a circle, with its order among the segments that meet at a point.
     pub(super) fn circle(
         &mut self,
         element: &Element,

@@ -28,7 +28,7 @@ use crate::text::{LetterValue, ParameterText, TextId};
 use crate::values::{GivenNumber, Values, check_doubts, check_limits, check_mark};
 use crate::variables::{Bindings, Interpolation};
 
-/// A path as far as it is known, with the problems of its values.
+/// The outcome of binding a path that may have errors: as much of the path as is known, and the problems with its values.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ExaminedPath {
     /// The path; one with [faults](Path::has_faults) serves only to find further problems. `None` if nothing is drawn.
@@ -39,13 +39,13 @@ pub struct ExaminedPath {
 
 /// Binds a raw path to values. Returns the path, unless there are errors, and the diagnostics.
 ///
-/// The bindings must match its definitions.
+/// The bindings must match the path's variable definitions.
 pub fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> (Option<Path>, Vec<Diagnostic>) {
     let ExaminedPath { path, problems } = examine(raw, bindings, language);
     (path.filter(|path| !path.has_faults()), problems)
 }
 
-/// Binds a raw path to values, even if it has errors, and reports problems with them.
+/// Binds a raw path to values, even if the path has errors, and reports problems with the values.
 pub fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> ExaminedPath {
     let mut binder = Binder::new(raw, bindings, language);
     let path = binder.path();
@@ -86,7 +86,7 @@ struct Binder<'a> {
 struct UnknownValues {
     /// Whether I of some segment is unknown.
     infeed: bool,
-    /// Whether N of some segment is unknown, and therefore the order at a star.
+    /// Whether N of some segment is unknown, and therefore its order among the segments that meet at a point.
     order: bool,
     /// Whether a value that every path requires is unknown.
     needed: bool,
@@ -100,7 +100,7 @@ enum FaultSite<'a> {
 }
 
 impl FaultSite<'_> {
-    /// The element's own text.
+    /// The parameter text of the element or marker, if it has one.
     fn text(self) -> Option<TextId> {
         match self {
             FaultSite::Element(element) => element.text,
@@ -246,7 +246,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// The upper face that the sweeps of a path without its own S must clear.
+    /// Returns the upper face of the material that sweeps must clear, for a path that does not give S.
     fn surface(&self, start: &Marker, thickness: f64) -> Surface {
         let origin = self.raw.borrowed_from.as_ref().map_or(&start.origin, |lender| &lender.1).clone();
         Surface { origin, thickness, text: self.raw.parameters }
@@ -428,7 +428,7 @@ impl Binder<'_> {
                     let (order, kind) = self.circle(element, cut, *centre, *radius, tool);
                     segments.push(segment(order, kind));
                 }
-                // The texts of these elements are ignored.
+                // The texts of sweeps and disabled subpaths with these line types are ignored.
                 (Role::SilentSweep | Role::SkippedSubpath, _) => {
                     segments.push(segment(UNNUMBERED, SegmentKind::Sweep { height: None }));
                 }
@@ -439,7 +439,7 @@ impl Binder<'_> {
         self.segments = segments;
     }
 
-    /// The segment for any other element, with its order at a star.
+    /// Returns the segment for a sweep or subpath, with its order among the segments that meet at a point.
     fn bind_other_element(&mut self, element: &Element) -> Option<(f64, SegmentKind)> {
         let Shape::Curve(curve) = element.shape else { return None };
         let class = element.class(None);
@@ -558,7 +558,7 @@ fn has_unreadable_pieces(values: &Values<'_>) -> bool {
     values.unread != Letters::default()
 }
 
-/// The element that values are looked up for.
+/// An element for which values are looked up.
 struct Scope<'a> {
     at: FaultSite<'a>,
     class: ElementClass,

@@ -108,8 +108,8 @@ impl Item<'_> {
         is_changed.then(|| [old_role, new_role].map(|role| line_type(role).name()))
     }
 
-    /// The parameters in the own texts of both versions that differ and whose effective values differ with them. `None` if a new
-    /// or old line type takes no text: the change of the line type explains the lost or added text.
+    /// Returns the pieces that differ between the old and the new text of the element, for letters with different effective values that at least one
+    /// of the texts gives. `None` if a new or old line type takes no text: the change of the line type explains the lost or added text.
     pub(super) fn text_change(&self, new: &Self) -> Option<[String; 2]> {
         if self.role != new.role && [self.role, new.role].iter().flatten().any(|role| !takes_text(*role)) {
             return None;
@@ -157,7 +157,7 @@ pub(super) fn start_text(old: DrawnSide<'_>, new: DrawnSide<'_>) -> Option<Eleme
     differing_pieces(old.raw.parameters(), new.raw.parameters(), &letters).map(ElementChange::Text)
 }
 
-/// The pieces of two texts with one of these letters, without those that both have. `None` if nothing is left.
+/// Returns the pieces of each text that begin with one of these letters and are missing from the other text. `None` if there are none.
 fn differing_pieces(
     old: ParameterText<'_>,
     new: ParameterText<'_>,
@@ -173,7 +173,7 @@ fn differing_pieces(
     texts.iter().any(|text| !text.is_empty()).then_some(texts)
 }
 
-/// Upper bound on the characters that are shown of a text.
+/// Maximum number of characters that are shown of a text.
 const MAX_SHOWN_CHARACTERS: usize = 200;
 
 /// The text, or its beginning if it is long.
@@ -197,7 +197,7 @@ fn takes_text(role: Role) -> bool {
     role != Role::SilentSweep
 }
 
-/// The usual line type for a role.
+/// Returns the usual line type for a role.
 fn line_type(role: Role) -> LineType {
     let is_role = |line_type: &LineType| crate::element::curve_role(*line_type) == Some(role);
     let line_types = LineType::NAMES.into_iter().map(|(_, line_type)| line_type);
@@ -294,7 +294,7 @@ fn arc_change(
     }
 }
 
-/// Returns the new curve in the direction of the old one: an arc turns the same way, and a line has its ends nearer to the old ones.
+/// Returns the new curve in the direction of the old one: an arc with the same turn, or a line with each end nearer to the matching old end.
 fn in_same_direction(old: &Curve, new: &Curve, shift: Vector2<f64>) -> Curve {
     let distance = |curve: &Curve| {
         (curve.start() - old.start() - shift).norm() + (curve.end() - old.end() - shift).norm()

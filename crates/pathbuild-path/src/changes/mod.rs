@@ -46,7 +46,7 @@ pub struct DrawnChange {
     pub kind: ElementKind,
     /// The change that all of these elements have in common.
     pub change: ElementChange,
-    /// Number of elements.
+    /// Number of elements with this change.
     pub count: usize,
     /// The start or centre of the first element in the new drawing; in the old one if it was removed.
     pub at: Point,
@@ -108,7 +108,7 @@ pub fn drawn_changes(old: DrawnSide<'_>, new: DrawnSide<'_>) -> DrawnChanges {
     DrawnChanges { changes: group_changes(found), is_reordered }
 }
 
-/// A change with its element, which is that of the new drawing unless the element was removed.
+/// A change with its element: the one in the new drawing, or in the old drawing if the element was removed.
 type FoundChange<'i> = (&'i Item<'i>, ElementChange);
 
 /// The changes from one version of an element to the other.

@@ -122,7 +122,7 @@ impl<'i> Pairing<'i> {
         });
     }
 
-    /// Pairs each old element with the new one whose index `find` returns. `find` must not return an index twice.
+    /// Pairs each old element with the new element at the index that `find` returns. `find` must not return an index twice.
     fn pair_with(&mut self, mut find: impl FnMut(&[&'i Item<'i>], &'i Item<'i>) -> Option<usize>) {
         let mut is_taken = vec![false; self.new.len()];
         let (new, both) = (&self.new, &mut self.both);
@@ -169,7 +169,7 @@ impl<'i> Pairing<'i> {
         all > 0 && 2 * kept >= all
     }
 
-    /// Pairs elements of the same form, role and text that are elsewhere.
+    /// Pairs elements of the same form, role and text that are at different places.
     fn pair_by_form(&mut self) {
         let mut groups: BTreeMap<_, [Vec<usize>; 2]> = BTreeMap::new();
         for (side, items) in [&self.old, &self.new].into_iter().enumerate() {

@@ -17,7 +17,7 @@ pub struct FilePattern(Pattern);
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NameRange {
     from: Groups,
-    /// `None` for a single name.
+    /// The last name of the range; `None` for a single name.
     to: Option<Groups>,
 }
 
@@ -86,7 +86,7 @@ impl PathKey {
 }
 
 impl NameRange {
-    /// Whether a path of this name may be in the file.
+    /// Whether a path of this name may be in a file that is named with this range.
     pub fn holds(&self, path: &PathKey) -> bool {
         compare(&self.from, path).is_le() && compare(self.end(), path).is_ge()
     }
@@ -103,7 +103,7 @@ fn compare(file: &Groups, PathKey(path): &PathKey) -> Ordering {
     for index in 0..file.len().max(path.len()) {
         let order = match (file.get(index), path.get(index)) {
             (Some(file), Some(path)) if !file.is_empty() && !path.is_empty() => compare_groups(file, path),
-            // A name without further groups covers one with more groups: 1234 equals 1234.3A, but 1234.3 is greater than 1234.
+            // A file's name without further groups covers a path's name with more groups: 1234 equals 1234.3A, but 1234.3 is greater than 1234.
             _ if remaining(file, index) > remaining(path, index) => return Ordering::Greater,
             _ => return Ordering::Equal,
         };
@@ -127,12 +127,12 @@ fn is_integer(text: &str) -> bool {
     !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
 }
 
-/// The name ranges of many files, ordered by the first group of their first name. Integers and texts have no common order, so ranges from
-/// one to the other are kept apart and scanned by each lookup.
+/// The name ranges of many files, ordered by the first group of their first name. Integers and texts have no common order, so ranges between an
+/// integer and a text are kept apart, and each lookup scans them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RangeTable {
     sorted: Vec<Entry>,
-    /// Ranges that cannot be ordered.
+    /// Ranges that cannot be ordered, each with the number of its file.
     others: Vec<(NameRange, u32)>,
 }
 
@@ -147,7 +147,7 @@ struct Entry {
     file: u32,
 }
 
-/// The first group of a name. Integers precede texts.
+/// The first group of a name. Integers are less than texts.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum FirstGroup {
     Integer(u64),
@@ -219,7 +219,7 @@ impl RangeTable {
         let group = path.0.first();
         match group.and_then(|group| FirstGroup::new(group)).zip(group) {
             Some((first, group)) => {
-                // A text is compared with integers as texts, and the integers are not in the order of texts: scan all of them.
+                // A text is compared with integers as texts, and the integers are not in the order of texts, so all of them are scanned.
                 if !first.is_integer() {
                     self.integers().iter().for_each(|entry| take(&entry.range, entry.file));
                 }
@@ -239,7 +239,7 @@ impl RangeTable {
         files
     }
 
-    /// The entries with a range that contains a first group.
+    /// Returns the entries with ranges that include a first group.
     fn entries_around(&self, first: &FirstGroup) -> impl Iterator<Item = &Entry> {
         let begun = self.sorted.partition_point(|entry| entry.from <= *first);
         let reaching = self.sorted[..begun].iter().rev().take_while(move |entry| entry.latest >= *first);
@@ -282,22 +282,22 @@ pub fn check_file_name(
     broken.chain(strays).collect()
 }
 
-/// Whether the name of a drawing is that of a Q-project. Names of files here are without `.dxf`.
+/// Whether the name of a drawing, without `.dxf`, is that of a Q-project.
 pub fn is_q_project(stem: &str) -> bool {
     tested_by_q_project(stem).is_some()
 }
 
-/// The name of the drawing that a Q-project tests; `None` if the name is not that of a Q-project.
+/// Returns the name of the drawing that a Q-project tests, both without `.dxf`; `None` if the name is not that of a Q-project.
 pub fn tested_by_q_project(stem: &str) -> Option<&str> {
     stem.strip_suffix("_Q").or_else(|| stem.strip_suffix("_q"))
 }
 
-/// The name of the Q-project that tests a drawing.
+/// Returns the name of the Q-project that tests a drawing, both without `.dxf`.
 pub fn q_project_name(stem: &str) -> String {
     format!("{stem}_Q")
 }
 
-/// The full path names in a file's name, without duplicates. The ends of a range are left out.
+/// Returns the full path names in a file's name, without duplicates and without the ends of ranges.
 fn names_in_file_name(stem: &str, files: &FilePattern, paths: &PathPattern) -> Vec<PathName> {
     let ranges = files.range_spans(stem);
     let mut promised: Vec<PathName> = Vec::new();

@@ -15,12 +15,11 @@ use pattern::{DefaultPattern, Groups, Pattern};
 
 pub use pattern::{LayerPattern, PatternError};
 
-/// A path name as spelt by its layer, with points. Comparison ignores case. Short names are stored inline, since every stage passes them
-/// on.
+/// A path name in the spelling of its layer, with points. Comparison ignores case. Short names are stored inline, since every stage copies them.
 #[derive(Clone)]
 pub struct PathName(SmolStr);
 
-/// A path name whose comparison respects case, so that results that show it are recomputed when only the case changes.
+/// A path name that is compared with regard to case, so that results that show the name are recomputed when only its case changes.
 #[derive(Clone)]
 pub struct CaseSensitiveName(PathName);
 
@@ -33,7 +32,7 @@ pub struct PathPattern(Pattern);
 pub struct PathLayer {
     /// Name of the path.
     pub path: PathName,
-    /// Whether the layer is a tilde layer (`2916.1P~A`), whose texts and elements only match each other.
+    /// Whether the layer is a tilde layer (`2916.1P~A`): its texts and elements only match each other.
     pub tilde: bool,
 }
 
@@ -103,7 +102,7 @@ impl PathPattern {
         self.0.may_begin(layer) && self.0.matches(&with_points(without_tilde(layer)))
     }
 
-    /// Whether the name of a layer begins like that of a path layer. `false` is definitive.
+    /// Whether the name of a layer begins like that of a path layer. If not, the layer is certainly not a path layer.
     pub fn may_begin(&self, layer: &str) -> bool {
         self.0.may_begin(layer)
     }
@@ -136,7 +135,7 @@ impl PathName {
         Self(name.into())
     }
 
-    /// Returns the name as spelt by the layer or the user.
+    /// Returns the name in the spelling of the layer or the user.
     pub fn as_str(&self) -> &str {
         &self.0
     }

@@ -11,13 +11,13 @@ use crate::element::diagnostic_point;
 use crate::geometry::{Curve, Xy};
 use crate::keep_out::widened_box;
 
-/// Share of a bar that may be cut away.
+/// Share of a bar's length up to which its loss is not reported.
 const BAR_LOSS: f64 = 0.05;
 
 /// A support bar that the cuts of an element take away.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LostBar {
-    /// Index of the path that the bar belongs to.
+    /// Index of the path to which the bar belongs.
     pub of: usize,
     /// Index of the path that cuts the bar away.
     pub by: usize,
@@ -50,7 +50,7 @@ pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
 }
 
 impl LostBar {
-    /// Returns PB218. `path` is the path that the bar belongs to.
+    /// Returns PB218. `path` is the path to which the bar belongs.
     pub fn problem(&self, path: &PathCuts) -> Diagnostic {
         Diagnostic::new(&messages::BAR_CUT_AWAY)
             .with("lost", self.lost)
@@ -69,7 +69,7 @@ struct BarLoss<'b> {
 }
 
 impl BarLoss<'_> {
-    /// The elements that cut too much of the bar away, by path and element, each with the length in mm.
+    /// Returns the elements that cut too much of the bar away, by path and element, each with the length that it cuts away in mm.
     fn elements(&self) -> Vec<((usize, u32), f64)> {
         let mut gone: BTreeMap<(usize, u32), Vec<Stretch>> = BTreeMap::new();
         for number in self.cuts.near(widened_box(self.middle, 0.0)) {

@@ -51,12 +51,12 @@ impl BoxIndex {
     }
 }
 
-/// Whether two curves may be nearer to each other than `reach` mm. Most are not, and boxes tell that sooner than distances.
+/// Whether two curves may be nearer to each other than `reach` mm. For most pairs the boxes rule that out, faster than computing the distance.
 pub(crate) fn may_be_near(one: &Curve, other: &Curve, reach: f64) -> bool {
     widened_box(one, reach).intersects(&widened_box(other, 0.0))
 }
 
-/// The square whose sides are `reach` mm away from a point.
+/// Returns the square around a point, with sides `reach` mm away from the point.
 pub(crate) fn square(at: Xy, reach: f64) -> AABB<[f64; 2]> {
     AABB::from_corners([at.x - reach, at.y - reach], [at.x + reach, at.y + reach])
 }

@@ -19,7 +19,7 @@ use crate::keep_out::widened_box;
 /// The result of checking a drawing's parts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PartFindings {
-    /// The outlines that no path comes near: indices of their part, and of the ring in it.
+    /// The outlines that no path comes near: for each, the index of its part, and of the ring in the part.
     pub uncut: Vec<(usize, usize)>,
     /// The findings about each path, by the index of the path.
     pub of_paths: Vec<Vec<Diagnostic>>,
@@ -106,11 +106,11 @@ struct PartCheck<'s> {
     settings: &'s PartSettings,
     /// For each ring, whether each path comes within O of it.
     near_paths: Vec<Vec<bool>>,
-    /// For each path, whether it cuts the part.
+    /// For each path, whether it may cut the part and comes within O of one of its rings; these paths are the owners.
     owners: Vec<bool>,
-    /// For each path, whether it cuts the part out.
+    /// For each path, whether it is an owner that cuts parts out.
     contours: Vec<bool>,
-    /// The cuts of the owners, by number.
+    /// The classified cuts of the owners, by the number of the cut.
     judged: BTreeMap<usize, ClassifiedCut<'s>>,
 }
 
@@ -126,7 +126,7 @@ impl<'s> PartCheck<'s> {
         Self { part, cuts, settings, near_paths, owners, contours, judged }
     }
 
-    /// One ring of each nest that no path comes near.
+    /// Returns, of each nest that no path comes near, one ring.
     fn nests_without_cuts(&self) -> impl Iterator<Item = usize> {
         let rings = &self.part.part.rings;
         let is_near = |nest: usize| {
@@ -185,7 +185,7 @@ impl<'s> PartCheck<'s> {
         found
     }
 
-    /// Returns PB217 if the part is cut out all round, reported in the first of its paths.
+    /// Returns PB217 if cuts go all round the part, so that nothing holds it. Reported for the first of its paths.
     fn loose_part_finding(&self) -> Option<(usize, Diagnostic)> {
         if self.settings.is_held_otherwise {
             return None;
@@ -243,7 +243,7 @@ fn gouge_problem(gouge: &Gouge, radius: f64) -> Diagnostic {
     problem
 }
 
-/// Returns PB215 for the material left beside an element, at the longest of these stretches. `None` if there are none.
+/// Returns PB215 for the material left beside an element, reported at the longest of these stretches. `None` if there are no stretches.
 fn leftover_problem(stretches: &[&Leftover]) -> Option<Diagnostic> {
     let longest =
         stretches.iter().reduce(|best, next| if best.is_exceeded_by(next) { next } else { best })?;

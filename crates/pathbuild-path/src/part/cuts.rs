@@ -10,7 +10,7 @@ use crate::geometry::{Curve, Xy};
 use crate::keep_out::{TipMove, widened_box};
 use crate::names::CaseSensitiveName;
 
-/// The cuts of a path, in the coordinates and heights of its drawing.
+/// The cuts of a path, in the coordinates and heights of its own drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathCuts {
     /// Name of the path.
@@ -36,9 +36,9 @@ pub struct PathCuts {
 pub struct EmbeddedPlace {
     /// Index of the embedding segment in [`Path::segments`](crate::Path::segments).
     pub segment: usize,
-    /// The start and end of the embedded path.
+    /// The positions of the embedded path's start and end in this path's drawing.
     pub ends: (Xy, Xy),
-    /// H in mm, by which it is raised.
+    /// H in mm: the height by which the embedded path is raised.
     pub height: f64,
 }
 
@@ -51,7 +51,7 @@ pub struct CutElement {
     pub is_mark: bool,
     /// Z of the element's lowest cut in mm.
     pub lowest: f64,
-    /// For an element with support bars, its whole segment: the cuts, and the sections where bars stand.
+    /// For an element with support bars, its whole segment: the cuts, and the sections with bars.
     pub supported: Option<Curve>,
 }
 
@@ -75,7 +75,7 @@ pub struct StandingBar {
     pub top: f64,
 }
 
-/// Z in mm up to which a cut counts as going through the plate: one that ends at Z0.001 still does.
+/// Z in mm up to which a cut counts as going through the plate: a cut that ends at Z0.001 still does.
 pub const THROUGH_HEIGHT: f64 = 0.001 + 1e-6;
 
 impl PathCuts {
@@ -104,7 +104,7 @@ pub(super) struct IndexedCut<'c> {
 /// The cuts of all paths of a drawing, with an index of their boxes, which are widened by the cutter's diameter.
 pub(super) struct CutIndex<'c> {
     pub(super) paths: &'c [&'c PathCuts],
-    /// For each path, whether it cuts parts out. Others are only searched for cuts into parts and bars.
+    /// For each path, whether it cuts parts out. The cuts of all other paths are only searched for cuts into parts and bars.
     pub(super) contours: Vec<bool>,
     pub(super) cuts: Vec<IndexedCut<'c>>,
     boxes: BoxIndex,
@@ -126,14 +126,14 @@ impl<'c> CutIndex<'c> {
         Self { paths, contours, boxes: BoxIndex::new(boxes), cuts }
     }
 
-    /// The numbers of the cuts whose cutter may come within its diameter of a box, in ascending order.
+    /// Returns the numbers of the cuts that may come within the cutter's diameter of a box, in ascending order.
     pub(super) fn near(&self, extent: AABB<[f64; 2]>) -> Vec<usize> {
         self.boxes.near(extent)
     }
 }
 
 impl IndexedCut<'_> {
-    /// Returns the index of the cut's path, and that of the element in the path.
+    /// Returns the index of the cut's path, and the index of the cut's element in that path.
     pub(super) fn number(&self) -> (usize, u32) {
         (self.path, self.cut.element)
     }

@@ -22,7 +22,7 @@ pub(super) struct ClassifiedCut<'c> {
     pub(super) entered: Vec<Stretch>,
 }
 
-/// A cut into a part by an element.
+/// The damage that the cuts of one element do to a part.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Gouge {
     /// The centre of the cutter at the place where it goes deepest into the part.
@@ -33,8 +33,8 @@ pub(super) struct Gouge {
     pub(super) length: f64,
 }
 
-/// Finds out on which side of a part each cut lies and where it goes into the part. `numbers` are those of the cuts. Cuts above the plate count
-/// only as far as they may shape the outline.
+/// Determines the side of the part on which each cut lies, and where the cut goes into the part. `numbers` are the numbers of the cuts to examine. A
+/// cut that does not go through the plate counts only if it may shape the outline: at the lowest depth of an element that is not a mark.
 pub(super) fn classify_cuts<'c>(
     part: &PreparedPart<'_>,
     index: &CutIndex<'c>,
@@ -42,7 +42,7 @@ pub(super) fn classify_cuts<'c>(
     tolerance: f64,
 ) -> BTreeMap<usize, ClassifiedCut<'c>> {
     let mut judged = BTreeMap::new();
-    // Most segments with bars touch no ring, and then all of their cuts are on one side.
+    // Most segments with bars touch no ring. All cuts of such a segment are on one side, which is computed only once.
     let mut last: Option<((usize, u32), Option<Side>)> = None;
     for number in numbers {
         let cut = index.cuts[number];
@@ -104,8 +104,7 @@ pub fn gouging_moves<'w>(
 }
 
 impl Gouge {
-    /// Whether another place is deeper. Of places that are equally deep, the leftmost counts, so that the order of the cuts does not
-    /// matter.
+    /// Whether another place is deeper. Of places with the same depth, the leftmost counts, so that the order of the cuts does not matter.
     fn is_exceeded_by(&self, at: Xy, depth: f64) -> bool {
         let is_left = || (at.x, at.y) < (self.at.x, self.at.y);
         depth > self.depth + JOIN_GAP || (depth >= self.depth - JOIN_GAP && is_left())

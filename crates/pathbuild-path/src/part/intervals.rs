@@ -5,13 +5,13 @@ use nalgebra::Vector2;
 use super::boxes::may_be_near;
 use crate::geometry::{Arc, Curve, Line, Xy};
 
-/// A stretch of a curve, in mm along it.
+/// A stretch of a curve: its start and end, in mm along the curve.
 pub(crate) type Stretch = (f64, f64);
 
-/// Gap in mm below which two stretches count as one.
+/// Gap in mm below which two stretches of a curve are joined.
 pub(crate) const JOIN_GAP: f64 = 1e-9;
 
-/// Gap in mm below which stretches of neighbouring curves count as one.
+/// Gap in mm below which stretches of consecutive curves are joined.
 pub(crate) const NEIGHBOUR_JOIN_GAP: f64 = 1e-6;
 
 /// Adds the stretches of `along` that are nearer to `other` than `reach` mm.
@@ -101,7 +101,7 @@ pub(crate) fn join_stretches(mut stretches: Vec<Stretch>, gap: f64) -> Vec<Stret
     stretches
 }
 
-/// The stretches of a range between joined stretches.
+/// Returns the gaps between joined stretches within a range.
 pub(crate) fn gaps_between(stretches: &[Stretch], (start, end): Stretch) -> Vec<Stretch> {
     let mut at = start;
     let mut gaps = Vec::new();
@@ -136,12 +136,12 @@ pub(crate) fn intersection(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
     all
 }
 
-/// The difference of two sequences of joined stretches: what is in the first but not in the second.
+/// Returns the difference of two sequences of joined stretches: the stretches in the first but not in the second.
 pub(crate) fn difference(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
     one.iter().flat_map(|stretch| gaps_between(other, *stretch)).collect()
 }
 
-/// Joins the last stretch of a ring with the first if they meet where the ring begins.
+/// Joins the last stretch of a ring with the first if they meet at the ring's start. `whole`: the length of the ring in mm.
 pub(crate) fn join_ends(mut stretches: Vec<Stretch>, whole: f64) -> Vec<Stretch> {
     let meets = |stretches: &[Stretch]| {
         stretches.len() > 1
@@ -173,7 +173,7 @@ pub(crate) fn offset_curve(curve: &Curve, distance: f64) -> Option<Curve> {
     }
 }
 
-/// The position, in mm along an arc, of its point in a direction from the centre; `None` if it has no point there.
+/// Returns the position, in mm along an arc, of its point in a direction from the centre; `None` if the arc has no point in this direction.
 fn along_arc(arc: &Arc, out: Vector2<f64>) -> Option<f64> {
     if !arc.spans(out) {
         return None;

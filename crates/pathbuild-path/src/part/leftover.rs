@@ -13,10 +13,10 @@ use super::prepared::{PreparedPart, Side};
 use crate::geometry::{Curve, Xy};
 use crate::keep_out::widened_box;
 
-/// Minimum length in mm of leftover material that is reported.
+/// Length in mm from which leftover material is reported.
 const MIN_REPORTED_LENGTH: f64 = 0.1;
 
-/// Number of samples for determining the thickness of the material along a stretch.
+/// Number of samples along a stretch by which the thickness of the material is determined.
 const SAMPLES: u32 = 16;
 
 /// A stretch of an outline at which material is left.
@@ -47,7 +47,7 @@ pub struct LeftMaterial {
 }
 
 impl Leftover {
-    /// Whether another stretch is longer. Of stretches that are equally long, the leftmost counts, as with cuts into the part.
+    /// Whether another stretch is longer. Of stretches with the same length, the leftmost counts, as for cuts into the part.
     pub(super) fn is_exceeded_by(&self, other: &Self) -> bool {
         let is_left = || (other.from.x, other.from.y) < (self.from.x, self.from.y);
         other.length > self.length + NEIGHBOUR_JOIN_GAP
@@ -62,7 +62,7 @@ pub(super) struct UnreachableOutline {
     pub(super) at: Xy,
     /// The length of all stretches in mm.
     pub(super) length: f64,
-    /// The path and the element of the cut nearest to `at`.
+    /// The path and the element of the cut that is nearest to `at`.
     pub(super) path: usize,
     pub(super) element: u32,
 }
@@ -83,11 +83,11 @@ pub(super) struct LeftoverSearch<'s> {
     /// The paths that cut the part out.
     contours: &'s [bool],
     tolerance: f64,
-    /// The elements, with their paths, that enter the part above the plate: grooves, which say nothing about its outline.
+    /// The elements, with their paths, that enter the part above the plate: grooves, which have no influence on the part's outline.
     grooves: BTreeSet<(usize, u32)>,
 }
 
-/// Stretches of a ring that through cuts do not reach, in mm along it.
+/// Stretches of a ring that through cuts do not reach, as positions in mm along the ring.
 #[derive(Default)]
 struct RingStretches {
     /// Stretches at which material is left.
@@ -121,7 +121,7 @@ impl<'s> LeftoverSearch<'s> {
         Self { part, cuts, judged, contours, tolerance, grooves: grooves.collect() }
     }
 
-    /// The material left at all rings. Of the rings of a nest, only the one with the least material left counts.
+    /// Returns the material left at all rings. Of the rings of a nest, only the one with the least leftover material counts.
     pub(super) fn leftovers(&self) -> Leftovers {
         let mut nests: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (ring, drawn) in self.part.part.rings.iter().enumerate() {
@@ -143,7 +143,7 @@ impl<'s> LeftoverSearch<'s> {
         found
     }
 
-    /// The stretches of a ring; `None` if no cut beside the part comes near.
+    /// Returns the stretches of a ring; `None` if no cut beside the part comes near the ring.
     fn ring(&self, ring: usize) -> Option<RingStretches> {
         let mut all = RingStretches::default();
         let mut is_near = false;
@@ -169,7 +169,7 @@ impl<'s> LeftoverSearch<'s> {
         is_near.then_some(all)
     }
 
-    /// Adds the gaps that through cuts leave on a curve: those where material is left to `uncut`, the others to the stretches of the ring.
+    /// Adds the gaps that through cuts leave on a curve: gaps with leftover material are added to `uncut`, the others to the stretches of the ring.
     /// The curve begins at `all.length` along the ring.
     fn add_gaps(
         &self,
@@ -272,7 +272,7 @@ impl<'s> LeftoverSearch<'s> {
         arc.radius >= reach && near.all(|(_, other)| other.distance_to(arc.centre) >= reach)
     }
 
-    /// The stretches beside support bars: there the path is to cut only down to the bar.
+    /// Returns the stretches beside support bars, where the path is meant to cut only down to the bar.
     fn beside_bars(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         for (bar, radius) in self.bars() {
@@ -281,19 +281,19 @@ impl<'s> LeftoverSearch<'s> {
         join_stretches(found, JOIN_GAP)
     }
 
-    /// The bars of the paths that cut the part out, with half of O.
+    /// Returns the bars of the paths that cut the part out, each with half of its path's O.
     fn bars(&self) -> impl Iterator<Item = (&StandingBar, f64)> {
         let contours = self.cuts.paths.iter().zip(self.contours).filter(|(_, is_contour)| **is_contour);
         contours.flat_map(|(path, _)| path.bars.iter().map(|bar| (bar, path.radius)))
     }
 
-    /// The cuts with these numbers whose paths cut the part out.
+    /// Returns those of the cuts with these numbers that belong to paths that cut the part out.
     fn contour_cuts(&self, numbers: &[usize]) -> impl Iterator<Item = &IndexedCut<'s>> {
         numbers.iter().map(|number| &self.cuts.cuts[*number]).filter(|cut| self.contours[cut.path])
     }
 
-    /// Describes the material left along a stretch of a ring. `None` for the rounded corner where a cut ends at the edge of the plate: from
-    /// there on the edge of the plate is the edge of the part.
+    /// Describes the material left along a stretch of a ring. `None` for the rounded corner where a cut ends at the edge of the plate: beyond it, the
+    /// edge of the plate is the edge of the part.
     fn leftover(&self, ring: usize, (from, to): Stretch, stretches: &RingStretches) -> Option<Leftover> {
         let whole = stretches.length;
         let place = |along: f64| self.ring_point(ring, along, whole);
@@ -307,7 +307,7 @@ impl<'s> LeftoverSearch<'s> {
         if length <= 2.0 * nearest.cut.radius && (is_end(from) || is_end(to)) {
             return None;
         }
-        // Take no samples at the ends: they may lie beside the end of the cut, where its edge is farthest away.
+        // Take no samples at the ends: the end of the cut may be there, where the distance to its edge is largest.
         let sample = |number| place(from + length * (f64::from(number) + 0.5) / f64::from(SAMPLES));
         let thickness = (0..SAMPLES).map(sample).map(|at| self.distance(at)).fold(0.0, f64::max);
         let is_through = nearest.cut.through.is_some();
@@ -326,7 +326,7 @@ impl<'s> LeftoverSearch<'s> {
         })
     }
 
-    /// Adds the unreachable stretches of a ring. `longest`: the length of the one described so far.
+    /// Adds the unreachable stretches of a ring. `longest`: the length in mm of the longest stretch so far, the one that is described.
     fn add_unreachable(
         &self,
         ring: usize,
@@ -354,7 +354,7 @@ impl<'s> LeftoverSearch<'s> {
         distances.fold(f64::INFINITY, f64::min)
     }
 
-    /// The cut beside the part whose edge is nearest to a point of a ring.
+    /// Returns the cut beside the part with the edge nearest to a point of a ring.
     fn nearest(&self, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {
         let point = Curve::Line(crate::geometry::Line { start: at, end: at });
         let curve = RingCurve { ring, curve: &point, near: self.cuts.near(square(at, 0.0)) };
@@ -365,7 +365,7 @@ impl<'s> LeftoverSearch<'s> {
         })
     }
 
-    /// The curves of a stretch of a ring, which may begin below 0 if it runs across the ring's start.
+    /// Returns the curves of a stretch of a ring. The stretch may begin below 0 if it runs across the ring's start.
     fn ring_section(&self, ring: usize, (from, to): Stretch, whole: f64) -> Vec<Curve> {
         let mut begin = -whole;
         let curves = &self.part.part.rings[ring].curves;
@@ -378,7 +378,7 @@ impl<'s> LeftoverSearch<'s> {
         curves.iter().chain(curves).filter_map(section).collect()
     }
 
-    /// The point of a ring at a distance along it, which may be below 0 for a stretch across its start.
+    /// Returns the point of a ring at a distance along the ring, which may be below 0 for a stretch across the ring's start.
     fn ring_point(&self, ring: usize, along: f64, whole: f64) -> Xy {
         let curves = &self.part.part.rings[ring].curves;
         let mut along = if along < 0.0 { along + whole } else { along };

@@ -9,7 +9,7 @@ use super::prepared::PreparedPart;
 use crate::geometry::{Curve, Line, Xy};
 use crate::keep_out::widened_box;
 
-/// Largest distance in mm between an arc and the chords that stand for it.
+/// Largest distance in mm between an arc and the chords that replace it.
 const MAX_SAGITTA: f64 = 0.02;
 
 /// The area that a cutter covers while it moves in a straight line.
@@ -43,7 +43,7 @@ pub(super) fn is_cut_out<'b>(
     !can_escape(centre, &sweeps) && is_ring_closed(centre, &sweeps)
 }
 
-/// The points on both sides of a bar at which the part may begin, each with the middle of the bar.
+/// Returns the points on both sides of a bar where the part may begin, each with the middle of the bar.
 fn beside_bar(bar: &StandingBar, radius: f64) -> impl Iterator<Item = (Xy, Xy)> {
     let centre = |curve: &Curve| at_along(curve, curve.length() / 2.0);
     bar.middle.into_iter().flat_map(move |middle| {
@@ -86,10 +86,10 @@ fn can_escape(at: Xy, sweeps: &[SweptLine]) -> bool {
     end < first + TAU
 }
 
-/// Whether sweeps close a ring around a point, which is under none of them.
+/// Whether sweeps close a ring around a point that none of them covers.
 ///
-/// A union-find over overlapping sweeps. Each sweep stores its angle around the point relative to its parent. If two sweeps of one group
-/// overlap at an angle that differs from the stored one, they close a ring.
+/// A union-find over overlapping sweeps. Each sweep stores its angle around the point relative to its parent. If two sweeps of one group overlap at
+/// an angle that differs from the stored one, they close a ring.
 fn is_ring_closed(centre: Xy, sweeps: &[SweptLine]) -> bool {
     let boxes = BoxIndex::new(sweeps.iter().map(|sweep| widened_box(&Curve::Line(sweep.line), sweep.radius)));
     let mut groups = Groups { parents: (0..sweeps.len()).collect(), angles: vec![0.0; sweeps.len()] };
@@ -123,8 +123,8 @@ fn turn(centre: Xy, from: Xy, to: Xy) -> f64 {
 }
 
 impl SweptLine {
-    /// The range of directions in which the sweep is seen from a point, which begins between -pi and pi. It may be a little larger than needed.
-    /// `None` if the point is under the sweep.
+    /// Returns the range of directions in which the sweep is seen from a point. It begins between -pi and pi, and may be a little larger than needed.
+    /// `None` if the sweep covers the point.
     fn seen_from(&self, at: Xy) -> Option<(f64, f64)> {
         let radius = self.radius + MAX_SAGITTA;
         if Curve::Line(self.line).distance_to(at) <= radius {
@@ -149,7 +149,7 @@ struct Groups {
 }
 
 impl Groups {
-    /// Unites two sweeps, the second of which is ahead by an angle. Returns whether that closes a ring.
+    /// Unites two sweeps; `angle` is the angle by which the second is ahead of the first. Returns whether that closes a ring.
     fn unite(&mut self, one: usize, other: usize, angle: f64) -> bool {
         let ((root, ahead), (other_root, other_ahead)) = (self.root(one), self.root(other));
         let difference = ahead + angle - other_ahead;

@@ -43,8 +43,8 @@ pub struct PartSettings {
     pub slots: SlotPaths,
 }
 
-/// Predicate that tells by the name of a path and its O in mm whether a slot cutter mills it. Slot cutters cut slots that the outlines of
-/// parts do not show.
+/// Predicate on the name of a path and its O in mm: whether a slot cutter mills the path. Slot cutters cut slots that the outlines of parts do not
+/// show.
 #[derive(Clone)]
 pub struct SlotPaths(Arc<IsSlot>);
 
@@ -63,7 +63,7 @@ impl SlotPaths {
 }
 
 impl Default for SlotPaths {
-    /// Contains no paths.
+    /// Creates a predicate that is false for all paths.
     fn default() -> Self {
         Self::new(|_, _| false)
     }
@@ -89,7 +89,7 @@ pub struct Part {
 /// A closed ring of a part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartRing {
-    /// The curves in order.
+    /// The curves of the ring, in order; each begins where the one before ends.
     pub curves: Vec<Curve>,
     /// Index of the outermost opening that contains this ring, or of the ring itself if none does. Rings of the same nest are alternatives,
     /// of which only one must be cut: for example, a hole and the circle around it that shows its thread.
@@ -109,9 +109,9 @@ fn placed_part(part: &Part, placement: &Placement) -> Part {
 pub struct DrawnParts {
     /// The parts in file order.
     pub parts: Vec<Part>,
-    /// The places of the rings of each part in the file.
+    /// For each part, the places of its rings in the file.
     pub places: Vec<Vec<Place>>,
-    /// PB219 with its positions in the file.
+    /// Findings about outlines (PB219), with their positions in the file.
     pub problems: Vec<Diagnostic>,
 }
 

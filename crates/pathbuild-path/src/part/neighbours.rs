@@ -1,4 +1,4 @@
-//! Cuts of one placed path into the parts and support bars of another, and what they leave to hold the parts. (book: language/part)
+//! Cuts of one placed path into the parts and support bars of another, and whether the remaining material holds the parts. (book: language/part)
 
 use rstar::{AABB, Envelope as _};
 
@@ -25,7 +25,7 @@ pub struct PlacedCuts<'c> {
     pub raised: f64,
     /// The bounding box of the area that the cutter covers, as placed; `None` if the path cuts nothing.
     swept: Option<AABB<[f64; 2]>>,
-    /// The bounding box of its parts and bars, as placed; `None` if it has none.
+    /// The bounding box of the path's parts and bars, as placed; `None` if it has none.
     kept: Option<AABB<[f64; 2]>>,
 }
 
@@ -51,14 +51,14 @@ pub struct NeighbourCuts {
     pub bars: Vec<LostBar>,
 }
 
-/// A part that the cuts of other paths separate from what its support bars lead to.
+/// A part that the cuts of other paths separate from the material to which its support bars lead.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeveredPart {
-    /// Index into [`PlacedCuts::parts`].
+    /// Index of the part in [`PlacedCuts::parts`].
     pub part: usize,
-    /// Index of the other path whose cut is nearest to a bar.
+    /// Index of the other path with the cut nearest to a bar.
     pub path: usize,
-    /// Index into [`PathCuts::elements`] of that path.
+    /// Index of the cutting element in [`PathCuts::elements`] of that path.
     pub element: u32,
 }
 
@@ -106,8 +106,8 @@ impl<'c> PlacedCuts<'c> {
         NeighbourCuts { gouges: gouged, bars }
     }
 
-    /// Returns the parts that nothing holds because of the cuts of other paths at their contours, though the cuts of `own` alone leave support bars.
-    /// `own` are the paths that belong to the same drawing at the same place, including this one; `others` are the remaining paths by their index.
+    /// Returns the parts that cuts of other paths at their contours leave loose, although the cuts of `own` alone leave support bars. `own` are the
+    /// paths of the same drawing at the same place, including this one; `others` are the remaining paths, each with its index.
     pub fn severed_by(&self, own: &[&Self], others: &[(usize, &Self)]) -> Vec<SeveredPart> {
         let is_near = |other: &&(usize, &Self)| {
             self.swept.zip(other.1.swept).is_some_and(|(own, swept)| own.intersects(&swept))
@@ -141,7 +141,7 @@ impl<'c> PlacedCuts<'c> {
         let placed = placed_part(self.parts[part], &self.placement);
         let prepared = PreparedPart::new(&placed);
         let outer = &placed.rings[0].curves;
-        // Only cuts that meet the cut around the part can take the plate from its bars.
+        // Only cuts that meet the cut around the part can separate its bars from the plate.
         let meets = |cut: &&ForeignCut| {
             let reach = 2.0 * self.cuts.radius + cut.radius;
             outer.iter().any(|ring| may_be_near(ring, &cut.curve, reach) && ring.distance(&cut.curve) < reach)
@@ -198,12 +198,12 @@ impl<'c> PlacedCuts<'c> {
     }
 }
 
-/// The sections of a path's cuts that go through the plate, each with its radius and element.
+/// Returns the sections of a path's cuts that go through the plate, each with the cutter's radius and the index of the element.
 fn through_cuts(path: &PathCuts) -> impl Iterator<Item = (Curve, (f64, u32))> {
     path.cuts.iter().filter_map(|cut| Some((cut.way.below(THROUGH)?, (path.radius, cut.element))))
 }
 
-/// The bounding box of a box after placing it.
+/// Returns the bounding box of a box that is placed, and thus possibly rotated.
 fn placed_box(placement: &Placement, extent: AABB<[f64; 2]>) -> AABB<[f64; 2]> {
     let ([left, low], [right, high]) = (extent.lower(), extent.upper());
     let corners = [[left, low], [right, low], [left, high], [right, high]];

@@ -19,7 +19,7 @@ pub(crate) struct PreparedPart<'p> {
     curve_boxes: BoxIndex,
 }
 
-/// A ring; its outline is needed only where the side of a point is not obvious.
+/// A ring with its outline, which is computed only if the side of some point is not obvious.
 struct PreparedRing {
     extent: AABB<[f64; 2]>,
     outline: OnceCell<Outline>,
@@ -43,7 +43,7 @@ pub(crate) enum Side {
 }
 
 impl CutterPassage {
-    /// Returns the passage along a curve that lies on one side as a whole.
+    /// Returns the passage along a curve that lies entirely on one side.
     pub(crate) fn on_side(side: Side, way: &Curve) -> Self {
         let entered = if side == Side::Material { vec![(0.0, way.length())] } else { Vec::new() };
         Self { side, entered }
@@ -98,15 +98,15 @@ impl<'p> PreparedPart<'p> {
         self.side(at) == Side::Material
     }
 
-    /// The distance from a point to any ring, or to a single one; infinite beyond `reach`.
+    /// Returns the distance from a point to the nearest ring, or to the given ring; infinite beyond `reach`.
     fn distance(&self, at: Xy, ring: Option<usize>, reach: f64) -> f64 {
         let curves = self.curves_near(square(at, reach));
         let of_ring = curves.filter(|(own, _)| ring.is_none_or(|ring| ring == *own));
         of_ring.map(|(_, curve)| curve.distance_to(at)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the depth in mm to which a cutter of this radius goes into the part with its centre at a point; negative if it stays outside. A
-    /// cutter inside several openings may stay inside any of them.
+    /// Returns the depth in mm to which a cutter of this radius goes into the part with its centre at a point; negative if the cutter stays outside.
+    /// A cutter in nested openings needs to stay inside only one of them.
     pub(crate) fn depth(&self, at: Xy, radius: f64) -> f64 {
         match self.side(at) {
             Side::Outside => radius - self.distance(at, Some(0), radius),
@@ -153,7 +153,7 @@ impl<'p> PreparedPart<'p> {
             let is_deep = self.depth(way.start(), radius) > tolerance;
             return if is_deep { vec![(0.0, 0.0)] } else { Vec::new() };
         }
-        // The depth is continuous and passes the tolerance only where a ring is exactly that far away.
+        // The depth is continuous and equals the tolerance only where a ring is exactly that far away.
         let mut cuts = Vec::new();
         for (_, curve) in self.curves_near(widened_box(way, radius)) {
             add_stretches_within(way, curve, radius - tolerance, &mut cuts);
@@ -168,7 +168,7 @@ impl<'p> PreparedPart<'p> {
         join_stretches(ends.windows(2).filter(is_deep).map(|cut| (cut[0], cut[1])).collect(), JOIN_GAP)
     }
 
-    /// The deepest place of a stretch, and its depth. The stretch is sampled, and the search refined around the best sample.
+    /// Returns the deepest place of a stretch, and the depth there. The stretch is sampled, and the search is refined around the best sample.
     pub(crate) fn deepest(&self, way: &Curve, (from, to): Stretch, radius: f64) -> (Xy, f64) {
         let place = |along: f64| at_along(way, along);
         let depth = |along: f64| self.depth(place(along), radius);
@@ -189,14 +189,14 @@ impl<'p> PreparedPart<'p> {
     }
 }
 
-/// Margin in mm round boxes, larger than the rounding of ends that meet.
+/// Margin in mm around bounding boxes, larger than the gap that rounding leaves between ends that meet.
 const BOX_MARGIN: f64 = 1e-4;
 
-/// Upper bound on distances in mm: no part is larger.
+/// Upper bound in mm on distances: no part is larger.
 const MAX_DISTANCE: f64 = 1e7;
 
 /// Distance in mm between the samples of a stretch.
 const SAMPLE_DISTANCE: f64 = 0.5;
 
-/// Number of steps of the search between two samples: their distance shrinks to less than a micrometre.
+/// Number of steps of the search between two samples, which shrink the distance to less than a micrometre.
 const REFINEMENT_STEPS: usize = 20;

@@ -22,7 +22,7 @@ use crate::read::rings::{
 /// larger gaps.
 const MAX_RELATIVE_GAP: f64 = 0.1;
 
-/// Minimum share of a chain that lies between its two passages through a crossing if its ends are overlong.
+/// Minimum share of a chain's length between its two passages through a crossing, for a chain that crosses itself only because its ends are too long.
 const MIN_CHAIN_SHARE: f64 = 0.9;
 
 /// An outline that cannot be compared with cuts.
@@ -201,7 +201,7 @@ fn overshooting(chains: &[NumberedCurves]) -> Vec<BrokenOutline> {
     graph.rings().into_iter().filter_map(outline).collect()
 }
 
-/// The open half of an outline with a gap whose other half is closed by a line across.
+/// The open half of an outline with a gap; a line across the outline closes the other half.
 struct OpenHalf {
     /// Index of the ring that the closed half forms.
     ring: usize,
@@ -213,7 +213,7 @@ struct OpenHalf {
 /// A point with a number.
 type NumberedPoint = GeomWithData<[f64; 2], usize>;
 
-/// Returns the open halves of outlines. They hang on the ring on both sides of the gap, and leave it outwards: inside, there are only lines
+/// Returns the open halves of outlines. They are attached to the ring on both sides of the gap and lie outside it; inside, there are only lines
 /// across the part.
 fn open_halves(rings: &[NumberedCurves], hanging: &[NumberedCurves]) -> Vec<OpenHalf> {
     if hanging.is_empty() {
@@ -238,7 +238,7 @@ fn numbered(at: Xy, number: usize) -> NumberedPoint {
     GeomWithData::new([at.x, at.y], number)
 }
 
-/// The chains that leave a ring outwards. `nodes` are the ends of the rings' curves, with the number of their ring.
+/// Returns the chains that begin at a ring and lie outside it. `nodes` are the ends of the rings' curves, each with the number of its ring.
 fn sides_outside<'c>(
     rings: &[NumberedCurves],
     hanging: &'c [NumberedCurves],
@@ -258,7 +258,7 @@ fn sides_outside<'c>(
     sides
 }
 
-/// Upper bound on the ends that are compared with an end.
+/// Maximum number of nearby ends with which an end is compared.
 const MAX_NEIGHBOURS: usize = 32;
 
 /// A chain that leaves a ring.
@@ -271,7 +271,7 @@ struct OpenSide<'c> {
 }
 
 impl<'c> OpenSide<'c> {
-    /// `None` if the chain begins at no ring that `ring_at` finds.
+    /// Creates the side that a chain forms; `None` if `ring_at` finds no ring where the chain begins.
     fn new(chain: &'c NumberedCurves, ring_at: impl Fn(Xy) -> Option<usize>) -> Option<Self> {
         let (begin, end) = (chain.first()?.1.start(), chain.last()?.1.end());
         Some(Self { chain, ring: ring_at(begin)?, begin, end, length: length(&curves_of(chain)) })
@@ -282,7 +282,7 @@ impl<'c> OpenSide<'c> {
         at_along(curve, curve.length() / 2.0)
     }
 
-    /// Whether a place on the ring is another one than that where this chain begins.
+    /// Whether a point of the ring is not the point where this chain begins.
     fn is_elsewhere(&self, at: Xy) -> bool {
         (at - self.begin).norm() > JOIN_DISTANCE
     }
@@ -294,7 +294,7 @@ impl<'c> OpenSide<'c> {
         self.closed(points.find(|at| self.is_elsewhere(*at))?, None)
     }
 
-    /// The half that this chain, with number `own`, forms with a later one whose end is near.
+    /// Returns the half that this chain, with number `own`, forms with a later chain that ends nearby.
     fn closed_by_other(
         &self,
         own: usize,

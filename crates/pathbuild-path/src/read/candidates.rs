@@ -248,7 +248,7 @@ impl CandidateIndex {
         Self::Tree(RTree::bulk_load(numbered.collect()))
     }
 
-    /// Calls `take` for each candidate whose box touches a circle, in any order.
+    /// Calls `take` for each candidate with a box that touches a circle, in any order.
     fn each_touched(&self, circle: &TextCircle, mut take: impl FnMut(usize)) {
         let searched = square(circle.centre, circle.radius);
         match self {

@@ -96,7 +96,7 @@ pub(super) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<PathCo
 }
 
 impl PathCollector<'_> {
-    /// Creates a path with these layers.
+    /// Creates a collector for the path with these layers.
     fn new(drawing: &Drawing, layers: &[FoundLayer]) -> Self {
         let mut path = Self {
             name: layers[0].path.clone(),
@@ -296,7 +296,7 @@ pub(super) struct PathLayers {
 
 /// A path layer.
 pub(super) struct FoundLayer {
-    /// The name of the layer's path, as spelt by the layer.
+    /// Name of the path to which the layer belongs, in the spelling of the layer.
     pub(super) path: PathName,
     /// Number of the layer among the layers of the drawing.
     pub(super) number: usize,
@@ -599,7 +599,7 @@ impl PathCollector<'_> {
         Some(marker)
     }
 
-    /// Removes and returns the only circle to mill that has the diameter of an end marker, in a path whose start has lost its line type. Reports
+    /// Removes and returns the only circle to mill with the diameter of an end marker, in a path with a start that has lost its line type. Reports
     /// PB102 at the circle.
     fn element_like_end(&mut self, texts: &mut Texts<'_>) -> Option<Marker> {
         let is_like_end = |element: &Element| {

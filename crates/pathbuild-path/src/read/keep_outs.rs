@@ -142,13 +142,13 @@ struct OutlineTexts<'d> {
     count: usize,
 }
 
-/// Maximum number of an outline's texts to list: in a crowd, each outline may contain all texts.
+/// Maximum number of an outline's texts that are listed: in a dense drawing, each outline may contain all texts.
 const MAX_LISTED_TEXTS: usize = 3;
 
-/// Height in mm below which a clamp is doubted: it would be lower than any head of a screw.
+/// Height in mm below which a clamp is doubtful, because it would be lower than the head of any screw.
 const MIN_PLAUSIBLE_HEIGHT: f64 = 1.0;
 
-/// An outline without its height.
+/// The closed outline of a clamp, before its height is known.
 struct ClosedOutline {
     outline: Vec<Curve>,
     /// The index of the outline's first entity.
@@ -274,8 +274,8 @@ impl ClampReader<'_> {
         self.report(problem);
     }
 
-    /// Returns the height of each outline, from the one text inside or overlapping it. Reports PB117 if there is none, if there are several, or if
-    /// the text gives no height. A text in the box around a broken outline probably belongs to that outline.
+    /// Returns the height of each outline, from the single text inside or overlapping it. Reports PB117 if there is no text, if there are several, or
+    /// if the text gives no height. A text in the box around a broken outline probably belongs to that outline.
     fn heights(
         &mut self,
         entities: &[usize],

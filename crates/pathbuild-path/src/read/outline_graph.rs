@@ -9,7 +9,7 @@ use rstar::primitives::GeomWithData;
 use crate::geometry::{Curve, Xy};
 use crate::read::rings::{JOIN_DISTANCE, NumberedCurves, self_crossing};
 
-/// Largest distance in mm of two loose ends that were probably meant to meet.
+/// Largest distance in mm between two loose ends that were probably meant to meet.
 pub(super) const NEAR_MISS_DISTANCE: f64 = 0.5;
 
 /// Curves that meet at nodes. Half-edge `2 * n` runs along curve n, `2 * n + 1` against it.
@@ -111,7 +111,8 @@ impl Graph {
         outer.map(ring).collect()
     }
 
-    /// Whether a face without an area is one of the two sides of a ring whose halves cancel out. Only one of the two sides counts.
+    /// Whether a face without an area is one of the two sides of a ring in the shape of an eight, where the areas of both halves cancel out. Only one
+    /// of the two sides counts.
     fn is_figure_of_eight(&self, face: &[usize]) -> bool {
         let curves: Vec<Curve> = face.iter().map(|half_edge| self.directed_curve(*half_edge)).collect();
         face[0].is_multiple_of(2) && self_crossing(&curves).is_some()
@@ -213,7 +214,7 @@ struct Forest<'g> {
     nodes: Vec<usize>,
     /// The half-edges that begin at each node.
     outgoing: BTreeMap<usize, Vec<usize>>,
-    /// For each node, one that is nearer to the root of its tree, or the root itself.
+    /// For each node, a node that is nearer to the root of its tree, or the root itself.
     trees: Vec<usize>,
 }
 
@@ -250,7 +251,7 @@ impl<'g> Forest<'g> {
         way.into_iter().map(|half_edge| (half_edge / 2, self.graph.directed_curve(half_edge))).collect()
     }
 
-    /// The half-edges from a node to the one that is farthest along the curves.
+    /// Returns the half-edges from a node to the node that is farthest along the curves.
     fn half_edges_to_farthest(&self, node: usize) -> Vec<usize> {
         let mut reached: BTreeMap<usize, Option<usize>> = BTreeMap::from([(node, None)]);
         let (mut open, mut farthest) = (vec![(node, 0.0)], (node, 0.0));

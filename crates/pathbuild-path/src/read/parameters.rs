@@ -30,9 +30,9 @@ pub(super) struct Start {
 /// Hints at the place where the text of a path's start was drawn instead of on its start marker.
 #[derive(Default)]
 pub(super) struct StartHints {
-    /// A text with O and T that does not belong to the start marker, and its place.
+    /// A text with O and T that does not belong to the start marker, and its position.
     pub(super) text: Option<(SmolStr, Xy)>,
-    /// An end marker with a text with O and T, in a path whose start marker has none.
+    /// Position of an end marker with a text that gives O and T, if the start marker of the path has no such text.
     pub(super) swapped: Option<Point>,
 }
 

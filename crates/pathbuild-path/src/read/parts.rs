@@ -62,7 +62,7 @@ struct OutlineCurve {
     entity: usize,
 }
 
-/// The curves of outlines.
+/// The curves on the layers with parts, grouped by the name that the pattern captures.
 struct OutlineLayers<'d> {
     drawing: &'d Drawing,
     language: &'d Language,

@@ -7,11 +7,11 @@ use crate::geometry::{Curve, Xy};
 use crate::keep_out::{Outline, widened_box};
 use crate::part::{BoxIndex, Stretch, add_stretches_within, at_along, join_stretches};
 
-/// Largest distance in mm of ends that join.
+/// Largest distance in mm between ends that count as joined.
 pub(super) const JOIN_DISTANCE: f64 = 0.01;
 
-/// Upper bound on the pairs that are compared to find a crossing, or a ring in an open outline: enough for outlines of a hundred thousand
-/// short lines. Only long lines close beside each other have more, and these outlines then count as sound.
+/// Maximum number of pairs that are compared to find a crossing, or a ring in an open outline: enough for outlines of a hundred thousand short lines.
+/// Only outlines with long lines close beside each other need more comparisons; they then count as sound.
 pub(super) const MAX_COMPARED_PAIRS: usize = 1_000_000;
 
 /// Consecutive curves, each with its number.
@@ -76,7 +76,7 @@ impl Crossing {
     }
 }
 
-/// The first curve of a sequence that crosses a later one, and the last that it crosses.
+/// Returns a crossing of the first curve in a sequence that crosses a later one, with the last curve that it crosses.
 pub(super) fn self_crossing(curves: &[Curve]) -> Option<Crossing> {
     let boxes = BoxIndex::new(curves.iter().map(|curve| widened_box(curve, 0.0)));
     let mut compared = 0;

@@ -1,5 +1,5 @@
-//! Finds things that were drawn for a path, a clamp or a finished part but do not reach it: texts on other layers (PB119), and layers whose
-//! names resemble those that count (PB120). (book: language/layers-and-names, book: language/parameter-texts, book: language/keep-outs)
+//! Finds entities that were drawn for a path, a clamp or a finished part, but on a layer that does not belong to it: texts on other layers (PB119),
+//! and layers with similar names (PB120). (book: language/layers-and-names, book: language/parameter-texts, book: language/keep-outs)
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -30,7 +30,7 @@ const MAX_SLIP_CHARACTERS: usize = 2;
 /// Words that follow the name of a path on the layer of another version of it, in English and German.
 const VERSIONS: [&str; 6] = ["old", "new", "copy", "alt", "neu", "Kopie"];
 
-/// Whether the undecoded bytes of a text may be a parameter text that [`stray_findings`] reports. `false` is definitive.
+/// Whether the undecoded bytes of a text may be a parameter text that [`stray_findings`] reports. If not, it is certain that nothing is reported.
 pub fn may_be_stray_text(text: &[u8]) -> bool {
     let is_weighty =
         |byte: u8| byte == b'Z' || matches!(byte.to_ascii_uppercase(), b'B' | b'D' | b'F' | b'I' | b'W');
@@ -75,8 +75,8 @@ impl NearNames {
         Self { by_folded: paths.map(|path| (case_folded(path.as_str()), path.clone())).collect() }
     }
 
-    /// Returns the path whose name resembles that of another layer: the layer has the path's name, followed by a tilde and any text, by at most
-    /// two more characters, or by a word for another version. Spaces, points and other separators, and case are ignored; letters that look like
+    /// Returns the path with a name that resembles the name of another layer: the layer has the path's name, followed by a tilde and any text, by at
+    /// most two more characters, or by a word for another version. Spaces, points and other separators, and case are ignored; letters that look like
     /// digits count as those digits.
     pub fn path(&self, layer: &str) -> Option<&PathName> {
         let layer = case_folded(layer);
@@ -144,7 +144,7 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
     findings
 }
 
-/// The path or the kind of layer whose name resembles that of a layer without a meaning.
+/// The path or the kind of layer that a layer without a meaning resembles by its name.
 enum NearLayer<'n> {
     Path(&'n PathName),
     Clamps,
@@ -220,8 +220,8 @@ fn stray_text(
     Some(at_entity(drawing, entity, text.anchor(), problem.in_path(path.name.as_str())))
 }
 
-/// Whether a text consists of letters with numbers or variables, and perhaps a remark with Q, including a letter
-/// whose absence would spoil a part.
+/// Whether a text consists of letters with numbers or variables, and perhaps a remark with Q, and gives a letter that would spoil a part if it were
+/// missing.
 fn looks_like_parameters(text: ParameterText<'_>) -> bool {
     let is_number = |written: ValueKind| matches!(written, ValueKind::Number(_) | ValueKind::Reference);
     text.letters.has_any(ESSENTIAL_LETTERS)

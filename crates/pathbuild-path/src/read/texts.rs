@@ -200,7 +200,7 @@ impl<'d> LayerTexts<'d> {
         last
     }
 
-    /// A candidate, and the other parts of its polyline, which are consecutive.
+    /// Returns the range of indices of a candidate and the other parts of its polyline, which are consecutive.
     fn parts(&self, index: usize) -> Range<usize> {
         let group = self.candidates[index].group;
         if group.is_none() {

@@ -225,7 +225,7 @@ impl<'a> Curves<'a> {
         same.take(2).any(|(_, other)| *other != segment)
     }
 
-    /// Returns PB121 for milled segments on top of another, unless both have a text: then the user cuts the same curve twice on purpose.
+    /// Returns PB121 for milled segments that lie on each other, unless both have a text: then the user cuts the same curve twice on purpose.
     pub(super) fn milled_twice(&self) -> Vec<Diagnostic> {
         let pairs = self.known.windows(2).filter(|pair| pair[0].0 == pair[1].0);
         let mut twice: Vec<[usize; 2]> =

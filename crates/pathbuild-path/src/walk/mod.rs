@@ -37,7 +37,7 @@ pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> 
 /// The reason why a walk failed; `None` if it may follow from other errors.
 type Failure = Option<Box<Diagnostic>>;
 
-/// Number of segments at a point from which on they are sorted at once.
+/// Number of segments at a point from which they are sorted once instead of being scanned in each step.
 const MIN_CROWD: usize = 16;
 
 /// Number of segments between calls of the checkpoint.
@@ -47,7 +47,7 @@ struct Walker<'a> {
     path: &'a Path,
     ends: Ends,
     stars: Stars,
-    /// The ends of segments that are not traversed, once joining is needed.
+    /// Index of the ends of segments that are not traversed; `None` until a join is needed.
     open_ends: Option<OpenEnds>,
     is_traversed: Vec<bool>,
     /// Scratch buffer for the segments at the current point, kept to avoid reallocating.
@@ -74,7 +74,7 @@ struct Walker<'a> {
 /// Length in mm of a gap that is skipped after it was reported: it is clear where the path continues.
 const MAX_SKIPPED_GAP: f64 = 1.0;
 
-/// Number of gaps that are skipped.
+/// Maximum number of gaps that are skipped in a walk.
 const MAX_GAPS: usize = 10;
 
 impl<'a> Walker<'a> {

@@ -27,7 +27,7 @@ fn rank(path: &Path, segment: usize) -> (f64, u8) {
     (segment.order, segment.preference())
 }
 
-/// The length of a segment for the order at a star.
+/// Returns the distance between the ends of a segment, by which segments that meet at a point are ordered.
 pub(super) fn length(ends: &Ends, segment: usize) -> f64 {
     let [start, end] = ends.of(segment);
     (end - start).norm()
@@ -56,7 +56,7 @@ struct Group {
 }
 
 impl Stars {
-    /// The star at a point, if it is known to be crowded.
+    /// Returns the star at a point, if the point is known to be crowded.
     pub(super) fn at(&mut self, point: Xy) -> Option<&mut Star> {
         if self.0.is_empty() {
             return None;
@@ -149,7 +149,7 @@ impl Turns {
         Self { squares, first, has_acted: vec![false; path.turns.len()] }
     }
 
-    /// The first marker at a point. Markers at the same point count as one: all of them are marked as used.
+    /// Marks the turn markers at a point as used and returns the first of them. Markers at the same point count as one.
     pub(super) fn use_marker(&mut self, path: &Path, at: Xy) -> Option<usize> {
         let mut found: Option<usize> = None;
         for square in Squares::around(at).each() {
@@ -181,7 +181,7 @@ pub(super) struct Ends {
 struct SegmentEnds {
     /// Start and end as drawn.
     drawn: [Xy; 2],
-    /// The next end in the same bucket for each end. An end is numbered by twice its segment's number, plus one for the second end.
+    /// For each end, the next end in the same bucket. An end is numbered by twice its segment's number, plus one for the second end.
     next: [u32; 2],
 }
 

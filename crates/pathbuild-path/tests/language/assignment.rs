@@ -1,4 +1,4 @@
-//! Tests to which element each text belongs. (book: language/parameter-texts)
+//! Tests which element each text is assigned to. (book: language/parameter-texts)
 
 use pathbuild_path::{Curve, RawPath, Shape};
 
@@ -200,7 +200,7 @@ fn skipped_elements_take_their_text() {
     assert!(finds("mill 0,90 40,90\nprobe DOT 20,0", &text("20,0.5", "%x9=")));
 }
 
-/// Faulty elements take their text, which is not reported additionally.
+/// Faulty elements take their text, so that the text is not reported as well.
 #[test]
 fn faulty_elements_take_their_text() {
     for faulty in ["line PHANTOM 0,0 40,0", "circle PHANTOM 20,0 d 9", "circle DASHED 20,0 d 9", "start 20,0"]

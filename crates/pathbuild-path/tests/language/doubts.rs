@@ -268,7 +268,7 @@ fn rims_that_have_lost_their_bars_are_doubtful() {
     let open = |gap: f64| found(BARS, &format!("mill 0,0 40,0 40,30 0,30 0,{gap}\nend 0,{gap}"));
     assert_eq!(open(1.99), ["PB212 "]);
     assert_eq!(open(2.0), [""; 0]);
-    // The tool mills there and, beside that, back: nothing is left in between.
+    // The tool mills in both directions, along lines so close that nothing is left between them.
     assert_eq!(found(BARS, "mill 0,0 40,0 40,1.9 0,1.9\nend 0,1.9"), [""; 0]);
     assert_eq!(found(BARS, "mill 0,0 1.5,0\nend 1.5,0"), [""; 0]);
 }
@@ -320,7 +320,7 @@ fn a_nearer_element_of_another_kind_is_a_rival() {
     };
     assert_eq!(at(0.0, "B3"), ["PB116"]);
     assert_eq!(at(0.5, "B3"), ["PB116"]);
-    // The line takes no such letter, already has a text, or is too far away for this one.
+    // The line does not take this letter, already has a text, or is too far away from this text.
     let sweep = ring.replace("mill", "sweep");
     let text = "text 16.3,0 \"B3\" height 1 align centre middle";
     assert_eq!(texts(&format!("{sweep}\n{text}"), 0.1), [""; 0]);

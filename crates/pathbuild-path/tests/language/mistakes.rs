@@ -298,7 +298,7 @@ fn a_sweep_drawn_twice_is_named() {
         &compile(&path("T5 O3 I1 B0 D1 P4 U9", &format!("{outline}\n{outline}\nend 0,0"))).found,
     );
     assert_one(&found, "PB402 a segment with support bars at ", "delete one of the two");
-    // Milling there and sweeping back is how an infeed is drawn.
+    // A line that is milled in one direction and swept back is intended: an infeed is drawn in this way.
     assert_eq!(codes_of("mill 0,0 20,0\nsweep 20,0 0,0\nend 0,0"), [""; 0]);
 }
 
