@@ -422,8 +422,8 @@ impl Listings {
 /// Panic payload of work that exceeded this time limit.
 pub(crate) struct TimeoutPanic(pub(crate) Duration);
 
-/// Runs work that usually makes no queries. If it makes one that unwinds because its drawing has changed, that counts as a bug here.
-/// Cancellation is passed on.
+/// Runs work that usually makes no queries. If it makes a query that unwinds because its drawing has changed, that counts as a bug here. Cancellation
+/// is passed on.
 ///
 /// # Errors
 /// PB006 if it panicked, PB005 if it exceeded its time limit; both without a place.
@@ -449,7 +449,7 @@ pub fn bug(reason: &str) -> Diagnostic {
     Diagnostic::new(&messages::INTERNAL).with("reason", Value::foreign(reason))
 }
 
-/// Panic payload of a query that read bytes other than those that the drawing was indexed by. No result may mix the two.
+/// Panic payload of a query that read other bytes than those from which its drawing was indexed. No result may mix the two.
 pub(crate) struct DriftPanic;
 
 /// Returns PB005 for work that exceeded this time limit, without a place.

@@ -159,7 +159,7 @@ struct ClosureWalk<'db> {
     /// Indices of the reported diagnostics, by hash of their identity.
     known: FxHashMap<u64, Vec<usize>>,
     moves: u64,
-    /// The errors of a path at a depth, in itself or below. The depth is part of the key because embedding may be too deep only there.
+    /// The errors of a path and of everything that it embeds. The depth is part of the key because embedding may be too deep at one depth only.
     visited: FxHashMap<(Instance<'db>, u32), PathErrors<'db>>,
     /// Height in mm of the highest point of a path and everything it embeds, above the plane it lies on.
     tops: FxHashMap<Instance<'db>, f64>,
@@ -294,7 +294,7 @@ impl<'db> ClosureWalk<'db> {
         self.report_all(instance, &problems)
     }
 
-    /// S of a path in its role, if it is known: a path that is checked on its own may later be emitted with another S than T + O.
+    /// Returns S of a path in its role; `None` if it is unknown: a path that is checked on its own may later be emitted with another S than T + O.
     fn sweep_height(&self, signature: &PathSignature, depth: u32) -> Option<f64> {
         match (depth, self.is_emitted) {
             (0, true) => signature.sweep_height(&self.options, PathRole::Emitted),
@@ -577,7 +577,7 @@ fn edge<'db>(from: Instance<'db>, embedding: &Embedding<'db>) -> Edge<'db> {
     Edge { from, point: embedding.origin.point, to }
 }
 
-/// Everything outside the settings that a target depends on.
+/// Everything that a target depends on, apart from the settings.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
     /// The drawings that were read, starting with the target's own, including those that were searched without a match.

@@ -1,4 +1,4 @@
-//! Finds paths that two drawings define, among drawings whose paths are known. No directory is listed for it. (book: language/embedding)
+//! Finds paths that two drawings define, among drawings with known paths. No directory is listed for this. (book: language/embedding)
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -57,7 +57,7 @@ pub fn second_definitions<'a>(
     found.into_iter().collect()
 }
 
-/// Returns the pairs that a project beside one of these drawings would find, all of which define the same path.
+/// Takes drawings that define the same path. Returns the pairs that a project beside one of them would find.
 fn ambiguous<'a>(
     db: &dyn Db,
     mut files: BTreeMap<&'a str, &'a PathName>,

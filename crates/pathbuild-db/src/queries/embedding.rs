@@ -36,7 +36,7 @@ pub struct Embedding<'db> {
 pub enum Outcome<'db> {
     /// The segment has no name, or names a path that must not be embedded: PB501, PB502, PB507.
     Refused(Diagnostic),
-    /// The path may be in a directory that cannot be listed, or in a drawing whose errors hide its paths: PB001, PB113, with PB511.
+    /// The path may be in a directory that cannot be listed, or in a drawing with errors that hide its paths: PB001, PB113, with PB511.
     Unread(Vec<Diagnostic>),
     /// The path was found nowhere, or in several files: PB503, PB504.
     NotFound(Diagnostic),
@@ -142,7 +142,7 @@ impl<'db> Embedder<'_, 'db> {
         self.judge.not_found(call, name, directories, files, known.cloned().collect())
     }
 
-    /// Checks the values against the path's variables, then the segment against the path.
+    /// Checks the values of a segment against the variables of the path that it embeds, then the segment against the path.
     fn bind_values(&self, call: &SubpathCall, file: SourceFile, name: NameKey<'db>) -> Outcome<'db> {
         let problems = path_index(self.db, file, name)
             .as_ref()

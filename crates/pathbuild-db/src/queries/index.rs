@@ -32,9 +32,9 @@ pub struct FileIndex {
     diagnostics: Vec<Diagnostic>,
     /// The clamps, if any layer has some.
     keep_outs: Option<Arc<KeepOuts>>,
-    /// Whether any layer is one with finished parts.
+    /// Whether any layer holds finished parts.
     has_part_layer: bool,
-    /// The parts and cuts, if the settings name layers with parts and the drawing has any, or embeds paths that may.
+    /// The parts and cuts. `None` if the settings name no layers with parts, or if the drawing neither has parts nor embeds paths that may have some.
     pub(super) parts: Option<Arc<FileParts>>,
     content: Content,
 }
@@ -47,7 +47,7 @@ struct Content {
     hash: Option<([u8; 32], Stamp)>,
 }
 
-/// The index of a path.
+/// The data of a path in the index of its drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathIndex {
     /// The path before its variables are bound.
@@ -462,7 +462,7 @@ pub(super) fn walk(db: &dyn Db, path: &Path, language: &Language) -> WalkedPath 
     })
 }
 
-/// Walks a path whose findings are known already. Unwinds at the time limit, which could not be reported here.
+/// Walks a path that has been checked already. Unwinds at the time limit, because a finding could not be reported here.
 pub(super) fn walk_within_limit(db: &dyn Db, path: &Path, language: &Language) -> WalkedPath {
     let limit = Settings::get(db).reading(db).walk_time;
     let begun = db.system().now();

@@ -22,7 +22,7 @@ pub struct PlacedKeepOut {
     pub placed: KeepOut,
     /// The clamp as drawn.
     pub drawn: KeepOut,
-    /// Index into [`Trace::occurrences`](pathbuild_toolpath::Trace::occurrences) of the path whose drawing contains the clamp.
+    /// Index into [`Trace::occurrences`](pathbuild_toolpath::Trace::occurrences) of a path in the drawing that contains the clamp.
     pub occurrence: u32,
 }
 

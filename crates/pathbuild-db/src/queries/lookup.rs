@@ -25,7 +25,7 @@ pub struct NameTable {
 }
 
 impl NameTable {
-    /// Selects the drawings among file names.
+    /// Creates a table of the drawings among these files.
     fn new(files: &Names, pattern: &FilePattern) -> Self {
         let (mut names, mut ranges) = (Names::default(), Vec::new());
         for name in files.iter().filter(|name| is_drawing(Utf8Path::new(name))) {
@@ -92,13 +92,13 @@ const EXTENSION: &str = ".dxf";
 pub struct ResolvedPath {
     /// The files that define the path. Anything but exactly one file is an error.
     pub files: Vec<SourceFile>,
-    /// The files whose names say that they may define the path.
+    /// The files that may define the path according to their names.
     pub searched: Vec<SourceFile>,
     /// PB001 for directories that cannot be listed: the path may be defined there.
     pub unlisted: Vec<Diagnostic>,
 }
 
-/// Looks for a path that a drawing refers to, in the drawing itself, whatever its file name, in its directory, and in the search directories.
+/// Looks for a path that a drawing refers to: in the drawing itself, whatever its file name, in its directory, and in the search directories.
 pub(super) fn find_path<'db>(
     db: &'db dyn Db,
     from: SourceFile,
@@ -119,7 +119,7 @@ pub(super) fn find_path<'db>(
     })
 }
 
-/// Looks for a path that drawings in a directory refer to. Files whose names rule out that they define it do not affect the result.
+/// Looks for a path that drawings in a directory refer to. Files that cannot define it according to their names do not affect the result.
 #[salsa::tracked]
 pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> ResolvedPath {
     let directories = search_path(db, directory);
@@ -160,7 +160,7 @@ pub fn candidate_files(db: &dyn Db, directory: Directory, name: &PathName) -> Ve
     files_for(db, directory, name.as_str())
 }
 
-/// Returns the files of a directory whose names say that they may define a path.
+/// Returns the files of a directory that may define a path according to their names.
 fn files_for(db: &dyn Db, directory: Directory, name: &str) -> Vec<SourceFile> {
     let pattern = &Settings::get(db).language(db).path_pattern;
     let key = PathKey::new(name, pattern);
@@ -177,7 +177,7 @@ fn distinct<T: Copy + Eq + std::hash::Hash>(all: impl Iterator<Item = T>) -> Vec
     all
 }
 
-/// The drawing of a directory that most likely defines a path: the one with its name.
+/// Returns the drawing of a directory that most likely defines a path: the file with the path's name.
 pub fn likely_file(db: &dyn Db, directory: Directory, name: &str) -> Option<SourceFile> {
     let path = join(directory.path(db), format!("{name}{EXTENSION}"));
     (db.system().kind(&path) == FileKind::File).then(|| db.file(&path))

@@ -235,7 +235,7 @@ impl AllLayers {
         Some((&self.drawing.layers[entity.layer as usize].name, entity))
     }
 
-    /// The entities whose bounding boxes come within a distance of a point, in file order.
+    /// Returns the entities with bounding boxes within a distance of a point, in file order.
     fn near(&self, point: Xy, distance: f64) -> impl Iterator<Item = (&str, &Entity)> {
         self.touching(AABB::from_corners(
             [point.x - distance, point.y - distance],
@@ -250,7 +250,7 @@ impl AllLayers {
         found.into_iter().filter_map(|index| self.entity(index))
     }
 
-    /// The texts whose bounding boxes come within a distance of a point, each with its layer and its circle.
+    /// Returns the texts with bounding boxes within a distance of a point, each with its layer and its circle.
     fn texts_near(&self, point: Xy, distance: f64) -> impl Iterator<Item = (&str, TextCircle, &str)> {
         let corner = |side: f64| [point.x + side * distance, point.y + side * distance];
         self.texts_in(AABB::from_corners(corner(-1.0), corner(1.0)))

@@ -19,8 +19,8 @@ use crate::queries::index::lower_to_warnings;
 use crate::queries::part::{file_parts, part_findings, parts_of, path_cuts};
 use crate::queries::programs::{TracedProgram, traced_program};
 
-/// Returns PB214 for cuts of one embedded path into the part of another, PB218 for cuts through its support bars, and PB217 for parts that they leave
-/// without a hold: one per part or bar and element, reported in the path that contains both.
+/// Returns PB214 for cuts of one embedded path into the part of another, PB218 for cuts through its support bars, and PB217 for parts that such cuts
+/// leave loose: one finding per part or bar and element, reported in the path that contains both.
 pub(super) fn harmed_neighbours(db: &dyn Db, target: Target) -> &[Diagnostic] {
     // Most paths embed no others; no query is needed then.
     if has_neighbours(db, target) { cuts_into_neighbours(db, target) } else { &[] }
@@ -163,7 +163,7 @@ impl<'db> PlacedProgram<'db> {
         found
     }
 
-    /// The parts of a path that cuts of other paths leave without a hold.
+    /// Returns the parts of a path that cuts of other paths leave loose.
     fn severed(&self, owner: usize) -> Vec<SeveredPart> {
         if self.is_held_otherwise {
             return Vec::new();
@@ -183,7 +183,7 @@ impl<'db> PlacedProgram<'db> {
             .with("place", Point::new(place.x, place.y))
     }
 
-    /// The parts that cuts of other paths leave without a hold, with their placements.
+    /// Returns the parts that cuts of other paths leave loose, with their placements.
     fn severed_parts(&self) -> Vec<(&'db Part, Placement)> {
         let parts = (0..self.paths.len()).flat_map(|owner| {
             let PlacedCuts { parts, placement, .. } = &self.paths[owner].cuts;

@@ -12,7 +12,7 @@ use crate::queries::embedding::{Instance, chains, path};
 use crate::queries::index::{FileParts, cuts_of, file_index, lower_to_warnings, path_index};
 use crate::queries::raw::read_layers_as;
 
-/// The parts and cuts of a drawing; `None` without the setting, or if it has neither parts nor embedded paths.
+/// Returns the parts and cuts of a drawing; `None` if the settings name no layers with parts, or if it has neither parts nor embedded paths.
 pub(super) fn file_parts(db: &dyn Db, file: SourceFile) -> Option<&FileParts> {
     // Most libraries have no parts; no query is needed then.
     Settings::get(db).language(db).part.as_ref()?;
@@ -66,7 +66,7 @@ fn part_problems_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> V
     problems
 }
 
-/// The cuts of a path with its values. `None` if it has errors, or without the setting.
+/// Returns the cuts of a path with its values. `None` if the path has errors, or if the settings name no layers with parts.
 pub(super) fn path_cuts<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Option<&'db PathCuts> {
     let found = file_parts(db, instance.file(db)).filter(|_| is_example(db, instance));
     let known = found.and_then(|found| Some(&found.cuts[found.index_of_path(&instance.name(db).name(db))?]));
@@ -78,7 +78,7 @@ fn cuts_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Option<Pat
     cuts_of(db, path(db, instance).path.as_ref()?, chains(db, instance))
 }
 
-/// The parts of its drawing that a path cuts.
+/// Returns the parts that a path cuts, among those of its drawing.
 pub(super) fn parts_of<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<&'db Part> {
     let file = instance.file(db);
     let (Some(found), Some(findings)) = (file_parts(db, file), part_findings(db, file)) else {

@@ -64,11 +64,11 @@ pub(super) struct PathEntry {
 /// The place of a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathPlace {
-    /// The name as spelt by its layer.
+    /// Name of the path, in the spelling of its layer.
     pub name: CaseSensitiveName,
     /// The first of the path's layers.
     pub layer: Box<str>,
-    /// The path's start marker, or its first element if it has none.
+    /// Point of the path's start marker, or of its first element if it has none.
     pub point: Option<Point>,
     /// The position of that point in the file.
     pub position: Option<Position>,

@@ -63,7 +63,7 @@ pub fn locate(db: &dyn Db, mut diagnostic: Diagnostic) -> Diagnostic {
     diagnostic
 }
 
-/// The Q-project of a drawing.
+/// Plans the Q-project of a drawing: one path for each cutter.
 #[salsa::tracked]
 pub fn q_project(db: &dyn Db, drawing: SourceFile) -> Vec<QProject> {
     plan_q_project(&component(db, drawing))

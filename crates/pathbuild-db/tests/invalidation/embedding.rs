@@ -56,7 +56,7 @@ const OF_PROJECT: [&str; 7] = [
     "resolve_path project",
 ];
 
-/// The part of these queries that a change in the drawing repeats: all except the look-up.
+/// The range of [`OF_PROJECT`] that runs again after a change in the drawing: all except the look-up.
 const DRAWN: std::ops::RangeTo<usize> = ..6;
 
 #[test]
@@ -129,7 +129,7 @@ fn a_new_unrelated_file_runs_only_lookups() {
     );
 }
 
-/// A file whose name admits the path is read; if it does not define the path, nothing else runs.
+/// A new file that may define the path according to its name is read; if it does not define the path, nothing else runs.
 #[test]
 fn a_new_file_that_could_hold_the_path_is_read() {
     let mut world = world();

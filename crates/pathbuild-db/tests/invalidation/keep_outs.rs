@@ -48,7 +48,7 @@ fn an_edited_clamp_reaches_what_embeds_its_path() {
     assert_eq!(trace("project"), ["lib/8001.1P.dxf 8001.1P"]);
     world.draw("lib/1111.1P.dxf", &with_clamp("8"));
     assert_eq!(world.outcome("project"), right);
-    // An unclear clamp is an error of both; without the setting it is ignored.
+    // An unclear clamp is an error of both the component and the project; without the setting it is ignored.
     world.draw("lib/1111.1P.dxf", &with_clamp("2").replace("Z90", "high"));
     assert_eq!(world.codes("project"), ["PB117", "PB511"]);
     Settings::get(&world.db).set_language(&mut world.db).to(language);

@@ -86,8 +86,8 @@ impl Library {
         open.pop();
     }
 
-    /// Returns the files that define a path, as seen from a file: those of the directories whose names admit it, and that file itself, whatever its
-    /// name.
+    /// Returns the files that define a path, as seen from a file: those in the directories that may define it according to their names, and that file
+    /// itself, whatever its name.
     fn definitions<'a>(&'a self, from: &'a str, path: usize) -> Vec<&'a str> {
         let own = directory(from);
         let is_searched = |file: &str| {

@@ -12,7 +12,7 @@ const FILE: &str = "lib/1111.1P.dxf";
 const SIBLING: &str = "lib/1112.1P.dxf";
 const PROJECT: &str = "lib/8001.1P.dxf";
 
-/// Returns a path beside a plate whose upper edge it may enter.
+/// Returns a path beside a plate. It may enter the upper edge of the plate, depending on `top`.
 fn drawing(feed: &str, top: &str) -> String {
     component("1111.1P", feed, top)
 }

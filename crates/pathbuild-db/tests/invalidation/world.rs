@@ -35,12 +35,12 @@ pub(crate) struct Outcome {
     pub(crate) program: Option<String>,
 }
 
-/// The drawing as DXF.
+/// Converts a drawing in text form to DXF.
 pub(crate) fn dxf(text: &str) -> Vec<u8> {
     sheet(text).expect("the text is right").to_dxf()
 }
 
-/// How drawings are read here: nothing exceeds these limits.
+/// Options for reading drawings. No drawing of these tests exceeds the limits.
 pub(crate) const READING: Reading = Reading {
     units: Units::Header,
     approximate_curves: 0.0,

@@ -254,7 +254,7 @@ fn only_paths_with_through_cuts_leave_material() {
     assert!(left("0"), "it goes through elsewhere");
 }
 
-/// A neighbour's contour that meets the cuts beside the support bars takes the plate from them, though it leaves the bars.
+/// A neighbour's contour that meets the cuts beside the support bars separates the bars from the plate, though it does not cut the bars.
 #[test]
 fn neighbours_leave_the_plate_behind_support_bars() {
     let component = "layer 1234.1P\nstart 0,0 \"T2 O2 I0.5 B0 D0.8 P2 U8 MX\"\nsweep 0,0 -1,-1\n\

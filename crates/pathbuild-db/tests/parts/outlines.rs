@@ -53,7 +53,7 @@ fn a_hole_in_an_open_outline_is_no_part() {
     assert!(found.len() == 1 && found[0].starts_with("PB220"), "closed: {found:?}");
 }
 
-/// A bend line closes one half of a plate whose outline has a gap. That half is not the part.
+/// A bend line closes one half of a plate that has a gap in its outline. That half is not the part.
 #[test]
 fn a_line_that_closes_half_of_an_open_outline_makes_no_part() {
     let rest = "line 40,20 0,20\nline to 0,1\nline 0,1 40,1\nline 0,1 40,20";
