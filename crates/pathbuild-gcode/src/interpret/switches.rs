@@ -417,7 +417,7 @@ impl Interpreter<'_> {
         chosen.and_then(|slot| whole(slot.value)).unwrap_or(self.state.layer)
     }
 
-    pub(super) fn units(&mut self, block: &Block<'_>, inches: bool, code: u16, span: Span) {
+    pub(super) fn set_units(&mut self, block: &Block<'_>, inches: bool, code: u16, span: Span) {
         let before = std::mem::replace(&mut self.state.unit, unit_of(inches));
         let contradicts = std::mem::replace(&mut self.state.stated.units, true) && before != self.state.unit;
         let is_refused = contradicts && self.rules.units == UnitChange::Refused;

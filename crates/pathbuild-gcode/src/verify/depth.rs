@@ -112,7 +112,7 @@ impl Depths {
     fn add(&mut self, index: usize, movement: &Move) {
         self.follow(index, movement);
         let z = movement.to.z();
-        let is_deep = movement.is_known() && self.cut.is_some_and(|cut| z <= cut + RESIDUE);
+        let is_deep = movement.is_known() && self.cut.is_some_and(|cut| z <= cut + RESIDUE_HEIGHT);
         self.at_cut = is_deep.then_some(z);
     }
 
