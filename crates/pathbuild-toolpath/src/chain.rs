@@ -13,7 +13,7 @@ use crate::fold::{Fold, FoldPaths, PlacedPath, Tip, distance};
 use crate::mill::{BarPlan, Section};
 use crate::program::ElementKind;
 
-/// A segment of the chain in program coordinates, with the depths of its edges from top to bottom.
+/// A segment of the chain (a strand) in program coordinates, with the depths of its edges from top to bottom.
 pub(crate) struct ChainEdge<'a> {
     /// The drawing's comment for the operator (Q).
     comment: Option<&'a str>,
@@ -28,7 +28,7 @@ pub(crate) struct ChainEdge<'a> {
     element: u32,
 }
 
-/// An edge to be milled: a strand at one of its depths, in one of the two directions.
+/// An edge to be milled: a segment at one of its depths, in one of the two directions.
 #[derive(Clone, Copy)]
 pub(crate) struct EdgePass {
     strand: usize,
@@ -78,7 +78,7 @@ impl<P: FoldPaths> Fold<'_, P> {
         }
     }
 
-    /// Mills the edge whose end is nearest to the tool first; each edge only after the one above it.
+    /// Mills the edge with the end nearest to the tool first, but each edge only after the edge above it.
     fn mill_nearest_first(&mut self, place: &PlacedPath<'_>, strands: &[ChainEdge<'_>]) {
         let mut open = OpenEdges::new(strands);
         let mut tip = Tip { at: strands[0].curve.start(), z: strands[0].depths[0] };
@@ -152,13 +152,13 @@ impl<P: FoldPaths> Fold<'_, P> {
 }
 
 impl ChainEdge<'_> {
-    /// Returns the start and the end of the strand in this direction.
+    /// Returns the start and the end of the segment in this direction.
     fn ends(&self, is_backwards: bool) -> (Xy, Xy) {
         let (start, end) = (self.curve.start(), self.curve.end());
         if is_backwards { (end, start) } else { (start, end) }
     }
 
-    /// Returns the height at which the tool arrives at the start of a run at depth `z`.
+    /// Returns the height at which the tool arrives at the start of the segment for a pass at depth `z`.
     fn entry(&self, z: f64, compatible: bool) -> f64 {
         match &self.bars {
             Some((top, _)) if !compatible => z.max(*top),
@@ -201,7 +201,7 @@ fn sections(curve: &Curve, z: f64, bars: Option<&PlannedBars>) -> Vec<Section> {
 }
 
 /// Returns the sections of a segment as its last pass mills them, in the coordinates of its drawing. In compatible mode the tool plunges to the
-/// bottom even at a bar, as in [`Strand::entry`].
+/// bottom even at a bar, as in [`ChainEdge::entry`].
 pub(crate) fn last_pass(path: &Path, member: &ChainSegment, is_compatible: bool) -> Vec<Section> {
     let (cut, curve) = (member.cut(path), member.curve(path));
     let bars = planned_bars(cut, path.tool, &curve);
@@ -236,18 +236,18 @@ fn depths(first: f64, infeed: f64, bottom: f64) -> Vec<f64> {
 /// The edges of a chain that have not been milled yet.
 pub(crate) struct OpenEdges<'a> {
     strands: &'a [ChainEdge<'a>],
-    /// Number of milled edges of each strand, counted from the top.
+    /// Number of milled edges of each segment, counted from the top.
     done: Vec<usize>,
-    /// Both ends of each strand, as indices into `points`.
+    /// Both ends of each segment, as indices into `points`.
     ends: Vec<[usize; 2]>,
     points: Vec<Point>,
     tree: RTree<GeomWithData<[f64; 2], usize>>,
 }
 
-/// An end point of one or more strands.
+/// An end point of one or more segments.
 struct Point {
     at: Xy,
-    /// The strands with unmilled edges at this point, by the depth of their next edge.
+    /// The segments with unmilled edges at this point, by the depth of their next edge.
     levels: BTreeMap<Coordinate, BTreeSet<usize>>,
 }
 
@@ -273,8 +273,7 @@ impl<'a> OpenEdges<'a> {
         open
     }
 
-    /// Takes the next edge: among those whose upper edges are milled, the one with an end nearest to the tip, and the first of these if there are
-    /// several.
+    /// Takes the next edge: among the edges with nothing left to mill above them, the first one with the end nearest to the tip.
     pub(crate) fn take_nearest(&mut self, tip: Tip) -> Option<EdgePass> {
         let mut best: Option<(f64, EdgePass)> = None;
         for index in self.candidate_edges(tip) {
@@ -294,7 +293,7 @@ impl<'a> OpenEdges<'a> {
         Some(run)
     }
 
-    /// Returns the distance to the nearer end of a strand's next edge, and that edge.
+    /// Returns the distance to the nearer end of a segment's next edge, and that edge.
     fn next_pass(&self, index: usize, tip: Tip) -> (f64, EdgePass) {
         let (strand, edge) = (&self.strands[index], self.done[index]);
         let to = |at: Xy| distance(tip, Tip { at, z: strand.depths[edge] });
@@ -304,9 +303,9 @@ impl<'a> OpenEdges<'a> {
         (least, EdgePass { strand: index, edge, is_backwards })
     }
 
-    /// Returns the strands that can affect the scan, in segment order: the nearest one, and all that approximate comparison cannot tell from it,
-    /// directly or through others in between. Strands beyond the first distinguishable gap between distances never win, and neither do those whose
-    /// next edge begins at the same point and depth as that of an earlier strand.
+    /// Returns the segments that can affect the scan, in segment order: the nearest one, and all that approximate comparison cannot tell from it,
+    /// directly or through others in between. Segments beyond the first distinguishable gap between distances never win, and neither do those with a
+    /// next edge that begins at the same point and depth as that of an earlier segment.
     fn candidate_edges(&self, tip: Tip) -> Vec<usize> {
         let place = [tip.at.x, tip.at.y];
         let mut found: Vec<(f64, usize)> = Vec::new();
@@ -334,7 +333,7 @@ impl<'a> OpenEdges<'a> {
         contenders
     }
 
-    /// Finds the first strand of each depth at a point within the reach, and reduces the reach accordingly.
+    /// Finds the first segment of each depth at a point within the reach, and reduces the reach accordingly.
     fn add_nearest_at_point(&self, point: usize, tip: Tip, found: &mut Vec<(f64, usize)>, reach: &mut f64) {
         let Point { at, levels } = &self.points[point];
         let mut look = |(depth, strands): (&Coordinate, &BTreeSet<usize>)| {
@@ -355,7 +354,7 @@ impl<'a> OpenEdges<'a> {
         self.done[strand] < self.strands[strand].depths.len()
     }
 
-    /// Inserts the next edge of a strand at both its ends.
+    /// Inserts the next edge of a segment at both its ends.
     fn insert_edge(&mut self, strand: usize) {
         let depth = Coordinate(self.strands[strand].depths[self.done[strand]]);
         for end in self.ends[strand] {
@@ -363,7 +362,7 @@ impl<'a> OpenEdges<'a> {
         }
     }
 
-    /// Removes the next edge of a strand.
+    /// Removes the next edge of a segment.
     fn remove_edge(&mut self, strand: usize) {
         let depth = Coordinate(self.strands[strand].depths[self.done[strand]]);
         for end in self.ends[strand] {
@@ -377,7 +376,7 @@ impl<'a> OpenEdges<'a> {
         }
     }
 
-    /// Removes the ends of a completed strand from the tree, if no other strand has an edge left there.
+    /// Removes the ends of a completed segment from the tree, if no other segment has an edge left there.
     fn forget_points(&mut self, strand: usize) {
         for end in self.ends[strand] {
             let Point { at, levels } = &self.points[end];

@@ -59,7 +59,8 @@ impl Correction {
         steps.fold(0, u64::saturating_add)
     }
 
-    /// Returns the point at which the program mills farthest outside the probes, if there is one. `None` for models whose values are reliable there.
+    /// Returns the point outside the probes, and farthest from them, at which the program mills, if there is one. `None` for models with reliable
+    /// values outside the probes.
     pub fn farthest_unprobed_point(self, program: &Program) -> Option<UnprobedPoint> {
         if program.probes.is_empty() || self.model == ZModel::Idw4 {
             return None;

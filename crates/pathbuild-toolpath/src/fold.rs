@@ -94,7 +94,7 @@ fn fold_with<P: FoldPaths>(
     };
     fold.add_path(root, Placement::from_origin(path.start), 0.0, sweep_height);
     program.steps = fold.steps;
-    // Steps beyond those foreseen may have taken twice their memory.
+    // If there are more steps than estimated, the list may have reserved twice the memory that it needs.
     program.steps.shrink_to_fit();
     program.names = fold.names;
     program.left_out = fold.left_out.into_values().collect();
@@ -264,7 +264,7 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
         self.plunge(bottom, place.surface, hole.feed.unwrap_or(self.feed));
     }
 
-    /// Moves to another point at sweep height, and down or up to its height there.
+    /// Moves to another point at sweep height, then down or up to the point's height.
     pub(crate) fn travel(&mut self, to: Tip, surface: f64, sweep_height: f64, feed: f64) {
         if coincide(self.tip.at, to.at) {
             return self.plunge(to.z, surface, feed);

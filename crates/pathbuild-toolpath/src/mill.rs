@@ -220,8 +220,7 @@ impl<P: FoldPaths> Fold<'_, P> {
         self.step(half, count, Tip { at: to, z });
     }
 
-    /// Mills full circles with bars below D, pass by pass down to B. Returns the depth of the last one, or that of the spiral if there is
-    /// none.
+    /// Mills full circles with bars below D, pass by pass down to B. Returns the depth of the last circle, or of the spiral if there is no circle.
     fn mill_circles_with_bars(
         &mut self,
         place: &PlacedPath<'_>,

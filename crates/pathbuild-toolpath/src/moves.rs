@@ -9,8 +9,8 @@ use pathbuild_path::{Curve, Line, TipMove, Xy};
 use crate::program::{PlannedMove, Program, ProgramStep};
 
 impl Program {
-    /// Returns the moves as an interpreter of the native text sees them, from (0, 0, S0) to the last lift to S0. Instead of a line, each has the
-    /// number of its step, counted from 1.
+    /// Returns the moves as an interpreter of the native text sees them, from (0, 0, S0) to the last lift to S0. Each comes with the number of its
+    /// step, counted from 1, in place of a line number.
     pub fn moves(&self) -> impl Iterator<Item = (u32, Move)> {
         let height = self.start_height();
         let mut tool = ToolTip::new(height);
@@ -66,8 +66,8 @@ impl ToolTip {
                 let centre = [self.at.x() + centre.x, self.at.y() + centre.y];
                 let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
                 let to = place(to, z.z);
-                // An arc whose ends coincide, or almost coincide, may have almost no length or be a full circle; the length decides. Only ends that
-                // contradict the length are corrected; an arc that is not quite a full circle remains.
+                // An arc with ends that coincide, or almost coincide, may have almost no length or be a full circle; the length decides. Only ends
+                // that contradict the length are corrected; an arc that is not quite a full circle remains.
                 let (radius, sweep) = (arc.radius(&self.at), arc.sweep(&self.at, &to));
                 let is_whole = length > (sweep + PI) * radius && is_doubtful(relative, length);
                 let is_next_to_nothing = length < radius && sweep > PI || is_point(relative);

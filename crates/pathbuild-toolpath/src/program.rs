@@ -41,7 +41,7 @@ pub struct Program {
 /// Curves on the layers of a path that do not belong to its program (PB111).
 #[derive(Clone, Debug, PartialEq)]
 pub struct OmittedCurves {
-    /// Name of the path on whose layers the curves lie.
+    /// Name of the path. The curves are on its layers.
     pub path: Box<str>,
     /// Types of the curves, with the number of curves of each.
     pub entities: Vec<(EntityKind, usize)>,

@@ -50,7 +50,7 @@ impl Surface {
         Self { model }
     }
 
-    /// Returns the weight of each probe at a point: indices of probes with weights whose sum is 1. Probes with weight 0 may be omitted. Empty if
+    /// Returns the weight of each probe at a point, as indices of probes with weights that add up to 1. Probes with weight 0 may be omitted. Empty if
     /// there are no probes.
     pub fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
         match &self.model {
@@ -135,7 +135,7 @@ impl Scatter {
     /// Returns the main direction.
     fn direction(&self) -> Vector2<f64> {
         let (difference, eccentricity) = (self.difference(), self.eccentricity());
-        // Of the two forms of the eigenvector, use the one without cancellation of digits.
+        // Use the form of the eigenvector in which no digits cancel.
         let along = if difference >= 0.0 {
             Vector2::new(eccentricity + difference, self.moments.m12)
         } else {
@@ -434,7 +434,7 @@ fn indexed_tree<T: rstar::RTreeObject>(shapes: impl Iterator<Item = T>) -> RTree
     RTree::bulk_load(shapes.enumerate().map(|(number, shape)| GeomWithData::new(shape, number)).collect())
 }
 
-/// Groups probes by position. Probes whose positions would be written identically in a program are at the same position.
+/// Groups probes by position. Positions that would be written identically in a program are the same.
 fn places(probes: &[Xy]) -> Vec<ProbedPoint> {
     let mut places: Vec<ProbedPoint> = Vec::new();
     let mut known = BTreeMap::new();

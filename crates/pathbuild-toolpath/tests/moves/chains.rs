@@ -73,7 +73,7 @@ fn distances_are_in_space() {
     assert_eq!(order("4")[5], "M 2,0 1");
 }
 
-/// If several are equally near, the first in segment order is chosen, and its end rather than its start.
+/// If several edges are equally near, the first in segment order is chosen, and its end rather than its start.
 #[test]
 fn ties_go_to_the_first_segment_and_to_its_end() {
     // A full circle begins and ends at the same point. The walk runs it from its end, so its edge starts at its other end.
@@ -146,7 +146,7 @@ fn a_comment_stands_before_each_pass_of_its_segment() {
         ]
     );
     assert_eq!(moves_and_comments(&path("T5 O3 I5 B0", "mill 0,0 40,0 \"Q\"\nend 40,0"))[2], "Q ");
-    // The order is the same before the move up to a bar.
+    // The comment also stands between the plunge and the move up to a bar.
     let bars = path("T5 O3 I5 B0 D3 P50 U50", "bars 0,0 40,0 \"Qx\"\nend 40,0");
     assert_eq!(moves_and_comments(&bars)[..4], ["L 5", "D 3", "Q x", "M 40,0 3"]);
     assert_eq!(shown(&program_with(&bars, COMPATIBLE), true)[..4], ["L 5", "D 0", "Q x", "L 3"]);

@@ -118,7 +118,7 @@ fn what_a_helical_circle_counts() {
     );
 }
 
-/// On the way down, heights are corrected for the centre of the circle, and so is that of the lift over the core.
+/// On the way down, heights are corrected for the centre of the circle, and so is the height of the lift over the core.
 #[test]
 fn heights_name_the_centre() {
     let program = program(&path("T5 O3 I9 B1", &helix("circle 20,0 d 8")));

@@ -9,7 +9,7 @@ fn of_sweeps_that_follow_each_other_the_last_is_kept() {
     assert_eq!(moves(&path(P, "sweep 0,0 10,0 20,0 20,30\nend 20,30")), ["L 10", "S 20,30"]);
 }
 
-/// Omitted sweeps are not counted: the length is that of the remaining one.
+/// Omitted sweeps are not counted: the length is that of the remaining sweep.
 #[test]
 fn what_is_left_out_does_not_count() {
     assert_eq!(counts(&path(P, "sweep 0,0 10,0 20,0 20,30\nend 20,30")), ["Sweep 0", "Sweep 30"]);

@@ -30,7 +30,7 @@ fn a_closed_chain_is_run_round() {
     );
 }
 
-/// In every pass, a segment with fewer edges repeats its deepest one.
+/// In every pass, a segment with fewer edges repeats its deepest edge.
 #[test]
 fn every_run_goes_over_all_segments() {
     let lines = "mill 0,0 20,0\nmark 20,0 40,0\nend 40,0";
