@@ -2,8 +2,8 @@
 //!
 //! The crate knows which groups an entity has. But it duplicates handles; omits the handles of tables, the owners, and model and paper space; writes
 //! an empty group 430; drops alignment points at the origin; does not know frozen layers; escapes carets and umlauts; and puts the time and a random
-//! number into each file. Strings are therefore replaced by placeholders (tickets) while they pass through the crate and restored in this module, and
-//! handles are assigned anew.
+//! number into each file. Strings are therefore replaced by placeholders while they pass through the crate and restored in this module, and handles
+//! are assigned anew.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -125,7 +125,7 @@ pub struct StringPlaceholders {
 }
 
 impl StringPlaceholders {
-    /// Returns the string itself if the crate leaves it unchanged, otherwise its ticket.
+    /// Returns the string itself if the crate leaves it unchanged, otherwise a placeholder.
     pub fn placeholder_for(&mut self, string: &str) -> String {
         let is_safe = |c: char| (' '..='~').contains(&c) && !matches!(c, '^' | '<');
         if string.chars().all(is_safe) {
@@ -139,7 +139,7 @@ impl StringPlaceholders {
         format!("<{number}>")
     }
 
-    /// Replaces the tickets by their strings.
+    /// Replaces the placeholders in a record by their strings.
     pub fn restore_strings<'a>(&'a self, record: &mut Record<'a>) {
         for pair in record {
             if let Some(string) = self.original_string(&pair.value) {
