@@ -182,7 +182,7 @@ fn any_path(plan: &Plan, random: &mut Random) -> PathPlan {
     paths.swap_remove(random.below(paths.len()))
 }
 
-/// A random path for this cutter, or otherwise the next suitable component.
+/// Returns a random path for this cutter, of the first component at or after a random index that has any.
 fn path_for(plan: &Plan, cutter: f64, random: &mut Random) -> PathPlan {
     let first = random.below(plan.components());
     let paths = (0..plan.components()).map(|offset| plan.paths((first + offset) % plan.components()));
@@ -517,7 +517,7 @@ fn plate(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     }
 }
 
-/// The outline of the plate whose contour [`plate`] draws, half of O inside it.
+/// Returns the outline of the plate with the contour that [`plate`] draws. The outline lies half of O inside the contour.
 fn plate_outline(cutter: f64, field: Point) -> Entity {
     let [left, low, right, high] = PLATE;
     let inset = cutter / 2.0;

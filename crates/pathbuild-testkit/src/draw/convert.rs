@@ -200,7 +200,7 @@ fn object_point(at: Point, plane: Orientation) -> CratePoint {
     }
 }
 
-/// The normal (group 210).
+/// Returns the normal of the plane (group 210).
 pub(crate) fn normal(plane: Orientation) -> Vector {
     match plane {
         Orientation::Upright => Vector::z_axis(),
@@ -209,7 +209,7 @@ pub(crate) fn normal(plane: Orientation) -> Vector {
     }
 }
 
-/// The elevation (group 38).
+/// Returns the elevation of a flat polyline (group 38).
 fn elevation(polyline: &Polyline, plane: Orientation) -> f64 {
     polyline.vertices.first().map_or(0.0, |first| object_point(first.point, plane).z)
 }
@@ -270,7 +270,7 @@ fn heavy_polyline(polyline: &Polyline, plane: Orientation, drawing: &mut Drawing
     converted
 }
 
-/// Centre and axis are always in world coordinates; seen from below, the parameters run in the opposite direction.
+/// Converts an ellipse. Centre and axis are always in world coordinates; seen from below, the parameters run in the opposite direction.
 fn ellipse(ellipse: &Ellipse, plane: Orientation) -> CrateEllipse {
     let (start, end) =
         if is_mirrored(plane) { (-ellipse.end, -ellipse.start) } else { (ellipse.start, ellipse.end) };
@@ -362,7 +362,7 @@ pub(crate) fn text(text: &Text, entity: &Entity, tickets: &mut StringPlaceholder
     }
 }
 
-/// Groups 10 and 11: for any alignment but left on the baseline, 11 is the anchor and 10 is derived from it.
+/// Returns the points of groups 10 and 11. For any alignment except left on the baseline, group 11 is the anchor, and group 10 is derived from it.
 fn points(text: &Text, entity: &Entity) -> (Point, Option<Point>) {
     match text.horizontal {
         Horizontal::Aligned(other) | Horizontal::Fit(other) => (text.anchor, Some(other)),

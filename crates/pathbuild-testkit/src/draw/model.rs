@@ -166,7 +166,7 @@ impl Entity {
 /// A record of the layer table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layer {
-    /// The name as spelt in the drawing.
+    /// Name of the layer, in the spelling of the drawing.
     pub name: String,
     /// The line type of BYLAYER entities.
     pub line_type: String,
@@ -445,14 +445,14 @@ pub struct Dimension {
 }
 
 impl Polyline {
-    /// The segments as (start, end, bulge).
+    /// Returns the segments, each with its start, its end and its bulge.
     pub fn pieces(&self) -> impl Iterator<Item = (Point, Point, f64)> + '_ {
         let next = self.vertices.iter().skip(1).chain(self.vertices.first().filter(|_| self.closed));
         self.vertices.iter().zip(next).map(|(a, b)| (a.point, b.point, a.bulge))
     }
 }
 
-/// The arc of a bulge; `None` if it is straight or has no length.
+/// Returns the arc of a segment with this bulge; `None` if the segment is straight or has no length.
 pub fn bulged(from: Point, to: Point, bulge: f64) -> Option<Arc> {
     let chord = from.distance(to);
     if bulge == 0.0 || chord == 0.0 {
@@ -499,11 +499,11 @@ pub enum Horizontal {
     Centre,
     /// 2: the anchor is at the right end.
     Right,
-    /// 3, with the second alignment point
+    /// 3: the text fits between the anchor and this point, and its height follows its width.
     Aligned(Point),
     /// 4: centred in both directions
     Middle,
-    /// 5, with the second alignment point
+    /// 5: the text fits between the anchor and this point, with a fixed height.
     Fit(Point),
 }
 
@@ -531,14 +531,14 @@ pub struct MText {
     pub attachment: Attachment,
     /// The rotation, in the form in which it is written.
     pub direction: Direction,
-    /// Maximum length in characters of the final chunk; longer texts are split, with the earlier chunks in group 3. `None` for 250, as CAD
-    /// programs use.
+    /// Maximum length in characters of a chunk: longer texts are split, and all chunks but the last are in groups 3. `None` for 250, as in CAD
+    /// programs.
     pub chunk: Option<usize>,
     /// Width of the box (group 41); 0 for no limit.
     pub width: f64,
 }
 
-/// Group 71 of MTEXT: 1 to 9, row by row from the upper left.
+/// The point of an MTEXT that lies at its anchor (group 71): 1 to 9, row by row from the upper left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Attachment {
@@ -619,7 +619,7 @@ pub struct DrawError {
     pub line: u32,
     /// The column in characters, counted from 1; 0 for errors that concern the whole line.
     pub column: u32,
-    /// One sentence that says what is wrong and what was expected.
+    /// Description of the mistake and of what was expected, in one sentence.
     pub message: String,
 }
 

@@ -95,7 +95,7 @@ fn of_ellipse(ellipse: &Ellipse) -> Vec<Point> {
     (0..=32).map(at).collect()
 }
 
-/// The control polygon or the fit points, an approximation that suffices for placing texts.
+/// Returns the control points or the fit points of a spline: an approximation that suffices for placing texts.
 fn of_spline(spline: &Spline) -> Vec<Point> {
     if spline.fit.is_empty() { spline.control.clone() } else { spline.fit.clone() }
 }
@@ -248,7 +248,7 @@ fn kind_of(note: &Note, options: &Options) -> NoteKind {
     }
 }
 
-/// Marks the element that an ordinary text of the drawing belongs to.
+/// Marks the element to which an ordinary text of the drawing belongs as having a text.
 fn take_for_text(seats: &mut TextPositions<'_>, entity: &Entity, kind: NoteKind) {
     let is_kind = match entity.shape {
         Shape::Text(_) => kind == NoteKind::Text,

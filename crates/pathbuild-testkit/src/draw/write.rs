@@ -158,7 +158,7 @@ impl<'a, 'o> Entities<'a, 'o> {
     }
 }
 
-/// The output of the crate, section by section.
+/// The output of the crate `dxf`, section by section.
 #[derive(Debug, Default)]
 struct CrateOutput<'a> {
     /// Header variables: the pair with the name, and the pairs of its value.
@@ -170,7 +170,7 @@ struct CrateOutput<'a> {
 }
 
 impl<'a> CrateOutput<'a> {
-    /// Splits the output of the crate and replaces the tickets by their strings.
+    /// Splits the output of the crate and replaces the placeholders by their strings.
     pub(crate) fn of(text: &'a str, tickets: &'a StringPlaceholders) -> Self {
         let mut written = Self::default();
         let mut section = String::new();
@@ -229,7 +229,7 @@ const GUID: &str = "{00000000-0000-0000-0000-000000000000}";
 /// Header variables that refer to objects that are not written.
 const POINTERS: [&str; 4] = ["$DRAGVS", "$CMATERIAL", "$INTERFEREOBJVS", "$INTERFEREVPVS"];
 
-/// Returns the pairs of the header section: the output of the crate, with fixed values for everything that the crate would make up.
+/// Returns the pairs of the header section: the output of the crate, with fixed values for everything that would differ from run to run.
 fn header_pairs<'a>(sheet: &'a Sheet, mut variables: Vec<Record<'a>>, hand_seed: u64) -> Vec<Pair<'a>> {
     let options = sheet.options();
     variables.retain(|variable| !POINTERS.contains(&kind(variable)));
@@ -471,7 +471,7 @@ pub(crate) struct Tables<'a> {
 }
 
 impl Tables<'_> {
-    /// The pairs of the section, and the handles of the block records.
+    /// Returns the pairs of the tables section, and the handles of the block records.
     pub(crate) fn pairs<'r>(
         &self,
         records: Vec<Record<'r>>,
@@ -625,7 +625,7 @@ impl Objects {
         self.first + PLOT_STYLE
     }
 
-    /// The pairs of the section.
+    /// Returns the pairs of the objects section.
     pub(crate) fn pairs(self, version: Version, spaces: [u64; 2]) -> Vec<Pair<'static>> {
         let text = if version >= Version::R2000 { R2000 } else { R13 };
         let mut lines = text.lines();

@@ -277,7 +277,7 @@ fn misfits(path: &Path, subpath: &Subpath, inner: &Path) -> Vec<(&'static str, S
 const LENGTH: f64 = 0.001;
 
 impl Model {
-    /// The findings for each pair among some drawings.
+    /// Returns the findings about each pair of a drawing and its Q-project among these drawings.
     pub(super) fn q_projects(&self, numbers: &[usize]) -> Vec<Finding> {
         let mut found = Vec::new();
         for drawing in numbers {
@@ -397,7 +397,7 @@ impl Model {
     }
 }
 
-/// The path whose ends a proxy line connects, if these are not the ends of the path that it names.
+/// Returns the index of the path with the ends that a proxy line connects, if the named path has other ends.
 fn joined(drawing: &Drawing, proxy: &ProxyLine, named: usize) -> Option<usize> {
     let (start, end) = (proxy.curve.start(), proxy.curve.end());
     let joins = |path: &usize| {

@@ -91,7 +91,8 @@ impl Model {
         each_once(found)
     }
 
-    /// PB504 for each path that two of these drawings define, if a project beside one of them finds both; at the first of them.
+    /// Returns PB504 for each path that two of these drawings define, if a project beside one of them finds both. It is reported at the first of the
+    /// two.
     fn second_definitions(&self, checked: &[usize]) -> Vec<Finding> {
         let paths = checked.iter().flat_map(|from| {
             self.drawings[*from].content.paths.iter().map(move |(raw, _)| (*from, &*raw.name))
@@ -296,13 +297,13 @@ pub(super) fn pattern(text: &str) -> Regex {
 }
 
 impl Model {
-    /// The drawings that define a path which a drawing refers to.
+    /// Returns the drawings that define a path to which the drawing `from` refers.
     pub(super) fn holders(&self, from: usize, name: &PathName) -> Vec<usize> {
         let others = self.searched(from, name).into_iter().filter(|number| *number != from);
         std::iter::once(from).chain(others).filter(|number| self.defines(*number, name)).collect()
     }
 
-    /// The drawings that may define a path which a drawing refers to, by their names.
+    /// Returns the drawings that may define a path to which the drawing `from` refers, according to their names.
     pub(super) fn searched(&self, from: usize, name: &PathName) -> Vec<usize> {
         let own = directory(&self.drawings[from].path);
         let is_searched = |at: &str| at == own || self.rules.search.iter().any(|searched| searched == at);
@@ -346,7 +347,7 @@ fn may_hold(stem: &str, path: &str) -> bool {
 fn compare(file: &[String], path: &[&str]) -> Ordering {
     for (file, path) in file.iter().zip(path) {
         if file.is_empty() {
-            // A file name that gives only the first parts of a path's name covers every path whose name continues them.
+            // A file name that gives only the first parts of a path's name covers every path with a name that continues them.
             return Ordering::Equal;
         }
         let order = match (file.parse::<u64>(), path.parse::<u64>()) {
