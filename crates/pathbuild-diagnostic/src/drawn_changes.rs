@@ -56,9 +56,9 @@ words! {
     /// The value of a variable or a key that is not set.
     NOT_SET: "not set", "nicht gesetzt";
     /// An embedded path has changed. Its own changes are listed below.
-    EMBEDDED: "embedded {path} changed", "eingebetteter Pfad {path} geändert";
+    EMBEDDED: "embedded path {path} changed", "eingebetteter Pfad {path} geändert";
     /// An embedded path has changed; its own changes are already listed above.
-    EMBEDDED_AGAIN: "embedded {path} changed, as above", "eingebetteter Pfad {path} geändert, wie oben";
+    EMBEDDED_AGAIN: "embedded path {path} changed, as above", "eingebetteter Pfad {path} geändert, wie oben";
     /// The elements are the same, but in another order in the file.
     REORDERED: "the same elements, in another order in the file", "dieselben Elemente, in anderer Reihenfolge in der Datei";
 }

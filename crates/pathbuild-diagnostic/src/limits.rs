@@ -13,11 +13,11 @@ words! {
     /// The quantity that the limit `text-length` bounds, for a text as drawn.
     TEXT_LENGTH: "the length of a text in bytes", "die Länge eines Textes in Bytes";
     /// The quantity that the limit `text-length` bounds, for a text in which variables are replaced by their values.
-    TEXT_WITH_VALUES: "a text with its variables' values", "ein Text mit den Werten seiner Variablen";
+    TEXT_WITH_VALUES: "the length of a text with the values of its variables", "die Länge eines Textes mit den Werten seiner Variablen";
     /// The quantity that the limit `seconds-per-path` bounds.
     TIME_OF_PATH: "the time that this path takes", "die Zeit, die dieser Pfad braucht";
     /// The quantity that the limit `embedding-moves` bounds, for a program with moves that `z-split` divides.
-    MOVES_CUT: "the number of moves, cut by z-split ({moves}),", "die Zahl der Bewegungen, die z-split teilt ({moves}),";
+    MOVES_CUT: "the number of moves after division by z-split ({moves})", "die Zahl der Bewegungen nach der Teilung durch z-split ({moves})";
     /// The quantity that `file-size` and other limits of sizes bound.
     FILE_SIZE: "the file's size of {size} bytes", "die Dateigröße von {size} Bytes";
     /// Reason why a file is not read: it is larger than a limit such as `file-size`.

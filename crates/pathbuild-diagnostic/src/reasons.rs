@@ -14,7 +14,7 @@ words! {
     /// The file is write-protected.
     WRITE_PROTECTED: "it is write-protected", "sie ist schreibgeschützt";
     /// The file exists and must not be overwritten.
-    IS_THERE: "it is there already", "sie ist schon da";
+    IS_THERE: "it already exists", "es gibt sie schon";
     /// A report or similar output would overwrite a drawing.
     NAME_OF_DRAWING: "it has the name of a drawing, which would be lost", "sie heißt wie eine Zeichnung, die verloren ginge";
     /// A report or similar output would overwrite a program.
@@ -28,13 +28,13 @@ words! {
     /// A directory is in the place of a file to write.
     DIRECTORY_OF_THAT_NAME: "a directory has that name", "ein Verzeichnis heißt so";
     /// The name of a program contains R, and the value of R contains an invalid character.
-    NO_FILE_NAME: "the name, which includes R, contains a character that file names cannot contain", "der Name, zu dem R gehört, enthält ein Zeichen, das in keinem Dateinamen stehen kann";
+    NO_FILE_NAME: "the name, of which R is a part, contains a character that is not allowed in file names", "der Name, zu dem R gehört, enthält ein Zeichen, das in Dateinamen nicht erlaubt ist";
     /// The name of a path, such as `CON.1P`, would give a file name that means a device on Windows.
-    DEVICE_NAME: "on Windows a file name that begins like this means a device", "unter Windows meint ein Dateiname, der so beginnt, ein Gerät";
+    DEVICE_NAME: "on Windows, a file name that begins like this denotes a device", "unter Windows bezeichnet ein Dateiname, der so beginnt, ein Gerät";
     /// The file is a pipe, a socket or a device.
     NOT_REGULAR: "it is not a regular file", "es ist keine gewöhnliche Datei";
     /// The file is reached through a link out of an untrusted repository.
-    LEADS_OUT: "it leads out of the repository, which is not trusted", "sie führt aus dem Repository hinaus, dem nicht vertraut wird";
+    LEADS_OUT: "it leads out of the untrusted repository", "sie führt aus dem nicht vertrauenswürdigen Repository hinaus";
     /// A file that the definition inserts is reached through a link out of the post's directory.
     LEADS_OUT_OF_POST: "it leads out of the post's directory", "sie führt aus dem Verzeichnis des Postprozessors hinaus";
     /// A file that a control text inserts is not below the post's directory.
@@ -44,9 +44,9 @@ words! {
     /// The file is not UTF-8 text.
     NOT_UTF_8: "it is not UTF-8", "sie ist nicht in UTF-8";
     /// A cache file belongs to another user, or is not a regular file.
-    NO_OWN_FILE: "it is not a file of this user", "es ist keine Datei dieses Benutzers";
+    NO_OWN_FILE: "it is not a regular file of this user", "es ist keine gewöhnliche Datei dieses Benutzers";
     /// A cache file is larger than any that pathbuild writes.
-    NEVER_SO_LARGE: "it is larger than anything that pathbuild keeps", "sie ist größer als alles, was pathbuild aufhebt";
+    NEVER_SO_LARGE: "it is larger than any file that pathbuild keeps", "sie ist größer als jede Datei, die pathbuild aufhebt";
     /// The cache directory is a link.
     IS_LINK: "it is a link", "es ist eine Verknüpfung";
     /// The cache directory is a file.
@@ -56,15 +56,15 @@ words! {
     /// Every user may write to the cache directory.
     OPEN_TO_ALL: "every user may write to it", "jeder Benutzer darf hineinschreiben";
     /// The cache directory cannot be inspected.
-    NOT_INSPECTED: "it cannot be inspected", "es lässt sich nicht einsehen";
+    NOT_INSPECTED: "its owner and permissions cannot be read", "sein Besitzer und seine Rechte sind nicht lesbar";
     /// The cache directory contains files that are not pathbuild's.
     HOLDS_OTHERS: "it contains other files, and no CACHEDIR.TAG of pathbuild", "es enthält andere Dateien und keine CACHEDIR.TAG von pathbuild";
     /// The cache directory is in an untrusted repository.
-    IN_UNTRUSTED_TREE: "it lies in a directory tree that is not trusted", "es liegt in einem Verzeichnisbaum, dem nicht vertraut wird";
+    IN_UNTRUSTED_TREE: "it lies in an untrusted directory tree", "es liegt in einem nicht vertrauenswürdigen Verzeichnisbaum";
     /// A directory that should be a cache is not one of pathbuild.
     NO_CACHE: "it has no CACHEDIR.TAG of pathbuild, so it is not a cache of pathbuild", "es hat keine CACHEDIR.TAG von pathbuild, ist also kein Cache von pathbuild";
     /// A result is too large for a cache file.
-    RESULT_TOO_LARGE: "there is more to keep than a file can hold", "es ist mehr aufzuheben, als in eine Datei passt";
+    RESULT_TOO_LARGE: "the results are too large for one file", "die Ergebnisse sind zu groß für eine Datei";
     /// The tag file of the cache directory cannot be read.
     TAG_UNREADABLE: "its CACHEDIR.TAG cannot be read", "seine CACHEDIR.TAG ist nicht lesbar";
     /// No unused name for a temporary file was found.
@@ -74,7 +74,7 @@ words! {
     /// A picture is too large for memory.
     PICTURE_TOO_LARGE: "the picture is too large", "das Bild ist zu groß";
     /// A picture format requires a feature that this build lacks.
-    WITHOUT_PICTURES: "this pathbuild was built without the feature `pictures`: .html and .svg are left", "dieses pathbuild wurde ohne das Feature `pictures` gebaut: es bleiben .html und .svg";
+    WITHOUT_PICTURES: "this pathbuild was built without the feature `pictures`: only .html and .svg can be written", "dieses pathbuild wurde ohne das Feature `pictures` gebaut: nur .html und .svg lassen sich schreiben";
     /// Error of the operating system: missing permission.
     PERMISSION_DENIED: "permission denied", "keine Berechtigung";
     /// Error of the operating system: the file already exists.

@@ -236,8 +236,8 @@ struct Results {
 
 /// Reports, as a detail, how many drawings have cached results that still hold.
 fn report_known(context: &Workspace, known: usize, all: usize) {
-    let phrase =
-        context.choose("drawings whose results still hold", "Zeichnungen, deren Ergebnisse noch gelten");
+    let phrase = context
+        .choose("drawings with valid cached results", "Zeichnungen mit gültigen gespeicherten Ergebnissen");
     context.reporter.detail(&format!("{phrase}: {known} / {all}"));
 }
 

@@ -7,15 +7,15 @@ messages! {
     CONFIGURATION_UNREADABLE: InvalidConfiguration {
         en: "cannot read the configuration: {reason}",
         de: "die Konfiguration ist nicht lesbar: {reason}",
-        help_en: "check the name; `pathbuild init` writes a new one",
-        help_de: "den Namen prüfen; `pathbuild init` schreibt eine neue",
+        help_en: "check the file's name, or write a new configuration with `pathbuild init`",
+        help_de: "den Dateinamen prüfen oder mit `pathbuild init` eine neue Konfiguration schreiben",
     }
     /// A configuration that is not valid TOML; the reason is that of the parser.
     TOML_SYNTAX: InvalidConfiguration {
         en: "this is not valid TOML: {reason}",
         de: "das ist kein gültiges TOML: {reason}",
-        help_en: "texts are written in double quotes, patterns in single ones; `pathbuild init` shows how each key is written",
-        help_de: "Texte stehen in doppelten Anführungszeichen, Muster in einfachen; `pathbuild init` zeigt, wie jeder Schlüssel geschrieben wird",
+        help_en: "write texts in double quotes and patterns in single quotes; the file that `pathbuild init` writes shows the form of each key",
+        help_de: "Texte in doppelte Anführungszeichen setzen, Muster in einfache; die Datei, die `pathbuild init` schreibt, zeigt die Form jedes Schlüssels",
     }
     /// An unknown key that is similar to a known one.
     UNKNOWN_KEY: InvalidConfiguration {
@@ -28,8 +28,8 @@ messages! {
     UNLIKE_KEY: InvalidConfiguration {
         en: "unknown key `{key}`",
         de: "unbekannter Schlüssel `{key}`",
-        help_en: "known here: {known}",
-        help_de: "hier bekannt: {known}",
+        help_en: "use one of the keys known here: {known}",
+        help_de: "einen der hier bekannten Schlüssel verwenden: {known}",
     }
     /// A key that belongs in another table.
     KEY_OF_TABLE: InvalidConfiguration {
@@ -63,15 +63,15 @@ messages! {
     REPLACED_KEY: InvalidConfiguration {
         en: "the key `{key}` no longer exists",
         de: "den Schlüssel `{key}` gibt es nicht mehr",
-        help_en: "remove it; with `{new} = true`, programs are written as by PathDxf2GCode; without it, support bars keep their full length",
-        help_de: "entfernen; mit `{new} = true` werden Programme wie von PathDxf2GCode geschrieben, ohne behalten Stützstege ihre volle Länge",
+        help_en: "remove it; `{new} = true` writes programs as PathDxf2GCode does; without that setting, support bars keep their full length",
+        help_de: "entfernen; mit `{new} = true` schreibt pathbuild Programme wie PathDxf2GCode; ohne diese Einstellung behalten Stützstege ihre volle Länge",
     }
     /// A layer that is both a path layer and a layer with clamps.
     KEEP_OUT_IS_PATH: InvalidConfiguration {
-        en: "layer {layer} is a path layer by `path-pattern`, but also holds clamps by `keep-out`",
-        de: "Layer {layer} ist nach `path-pattern` ein Pfadlayer, enthält nach `keep-out` aber auch Spannmittel",
-        help_en: "write `keep-out` so that it matches only the whole names of layers with clamps, or rename the layer",
-        help_de: "`keep-out` so schreiben, dass es nur auf die ganzen Namen von Layern mit Spannmitteln passt, oder den Layer umbenennen",
+        en: "layer {layer} matches both `path-pattern` and `keep-out`: it cannot hold a path and clamps",
+        de: "auf Layer {layer} passen sowohl `path-pattern` als auch `keep-out`: er kann nicht zugleich Pfad und Spannmittel enthalten",
+        help_en: "narrow `keep-out` so that it matches only the names of layers with clamps, or rename the layer",
+        help_de: "`keep-out` so einschränken, dass es nur auf die Namen von Layern mit Spannmitteln passt, oder den Layer umbenennen",
     }
     /// A table for a feature that this version does not have.
     NOT_BUILT: InvalidConfiguration {
@@ -92,10 +92,10 @@ messages! {
     }
     /// A path that leads out of an untrusted repository.
     OUTSIDE: InvalidConfiguration {
-        en: "`{key}` leads out of the repository, which is not trusted",
-        de: "`{key}` führt aus dem Repository hinaus, dem nicht vertraut wird",
-        help_en: "keep it below {root}; if the repository is your own, leave out --untrusted or name it in `[trust] roots` of your config.toml",
-        help_de: "es unterhalb von {root} ablegen; beim eigenen Repository --untrusted weglassen oder es unter `[trust] roots` in der eigenen config.toml nennen",
+        en: "`{key}` leads out of the untrusted repository",
+        de: "`{key}` führt aus dem nicht vertrauenswürdigen Repository hinaus",
+        help_en: "use a place below {root}; if the repository is your own, leave out --untrusted, or list the repository in `[trust] roots` of your config.toml",
+        help_de: "einen Ort unterhalb von {root} verwenden; beim eigenen Repository --untrusted weglassen oder das Repository unter `[trust] roots` in der eigenen config.toml aufführen",
     }
     /// A limit raised by an untrusted repository.
     RAISED_LIMIT: InvalidConfiguration {
@@ -120,10 +120,10 @@ messages! {
     }
     /// Two names of a line type that differ in case only.
     SAME_LINE_TYPE: InvalidConfiguration {
-        en: "`{key}` has {name} and {first}, which are the same name",
-        de: "`{key}` hat {name} und {first}, das ist derselbe Name",
-        help_en: "remove one of the two: names of line types are compared without regard to case",
-        help_de: "eines von beiden entfernen: bei Namen von Linientypen zählt Groß- und Kleinschreibung nicht",
+        en: "`{key}` has both {name} and {first}, which differ only in case",
+        de: "`{key}` enthält {name} und {first}, die sich nur in der Groß- und Kleinschreibung unterscheiden",
+        help_en: "remove one of the two: case makes no difference in the names of line types",
+        help_de: "einen der beiden Namen entfernen: bei Linientypen zählt Groß- und Kleinschreibung nicht",
     }
     /// A key that names something other than a directory.
     NO_DIRECTORY: InvalidConfiguration {
@@ -164,36 +164,36 @@ messages! {
     BROKEN_GLOB: InvalidConfiguration {
         en: "`{key}` is not a valid name pattern: {reason}",
         de: "`{key}` ist kein gültiges Namensmuster: {reason}",
-        help_en: "* matches any text, ** also across directories, ? one character, [a-c] one of several",
-        help_de: "* steht für beliebigen Text, ** auch über Verzeichnisse hinweg, ? für ein Zeichen, [a-c] für eines von mehreren",
+        help_en: "write * for any text, ** also across directories, ? for one character, [a-c] for one of several",
+        help_de: "* für beliebigen Text schreiben, ** auch über Verzeichnisse hinweg, ? für ein Zeichen, [a-c] für eines von mehreren",
     }
     /// A restriction of embeddings without the colon between the patterns for parent and child.
     RESTRICT_WITHOUT_COLON: InvalidConfiguration {
-        en: "`{key}` must be PARENT:CHILD, two regular expressions with a colon between",
-        de: "`{key}` muss AUSSEN:INNEN sein, zwei reguläre Ausdrücke mit einem Doppelpunkt dazwischen",
-        help_en: "paths whose names match PARENT embed only paths whose names match CHILD: \"^8:P$\"",
-        help_de: "Pfade, deren Namen AUSSEN entsprechen, betten nur Pfade ein, deren Namen INNEN entsprechen: \"^8:P$\"",
+        en: "`{key}` must be PARENT:CHILD, two regular expressions separated by a colon",
+        de: "`{key}` muss AUSSEN:INNEN sein, zwei reguläre Ausdrücke, durch einen Doppelpunkt getrennt",
+        help_en: "write for example \"^8:P$\": paths whose names match ^8 may then embed only paths whose names match P$",
+        help_de: "zum Beispiel \"^8:P$\" schreiben: Pfade, deren Namen ^8 entsprechen, dürfen dann nur Pfade einbetten, deren Namen P$ entsprechen",
     }
     /// A severity for an unknown code that is similar to a known one.
     UNKNOWN_CODE: InvalidConfiguration {
         en: "there is no diagnostic {code}",
         de: "es gibt keine Meldung {code}",
-        help_en: "did you mean {near}? `pathbuild explain` lists them",
-        help_de: "ist {near} gemeint? `pathbuild explain` führt alle auf",
+        help_en: "did you mean {near}? `pathbuild explain` lists all codes",
+        help_de: "ist {near} gemeint? `pathbuild explain` führt alle Codes auf",
     }
     /// A severity for an unknown code that is not similar to any known one.
     UNLIKE_CODE: InvalidConfiguration {
         en: "there is no diagnostic {code}",
         de: "es gibt keine Meldung {code}",
-        help_en: "`pathbuild explain` lists all of them",
-        help_de: "`pathbuild explain` führt alle auf",
+        help_en: "`pathbuild explain` lists all codes",
+        help_de: "`pathbuild explain` führt alle Codes auf",
     }
     /// A lower severity for a code that must keep its severity.
     CANNOT_BE_LOWERED: InvalidConfiguration {
         en: "{code} ({name}) cannot be lowered to \"{level}\"",
         de: "{code} ({name}) kann nicht auf \"{level}\" herabgesetzt werden",
-        help_en: "otherwise a wrong program could result; correct the drawing, or keep known errors in a file with --baseline",
-        help_de: "sonst könnte ein falsches Programm entstehen; die Zeichnung berichtigen oder bekannte Fehler mit --baseline in einer Datei festhalten",
+        help_en: "correct the drawing, or keep known errors in a file with --baseline; a lower severity could let a wrong program through",
+        help_de: "die Zeichnung berichtigen oder bekannte Fehler mit --baseline in einer Datei festhalten; ein niedrigerer Schweregrad könnte ein falsches Programm durchlassen",
     }
     /// An argument with another configuration than the first argument.
     OTHER_CONFIGURATION: InvalidConfiguration {
@@ -206,15 +206,15 @@ messages! {
     UNEXPECTED_CONFIGURATION: InvalidConfiguration {
         en: "{argument} belongs to {other}, but this run has no configuration, because its first argument has none",
         de: "{argument} gehört zu {other}, dieser Lauf hat aber keine Konfiguration, weil sein erstes Argument keine hat",
-        help_en: "run once for each, or name the intended configuration with --config",
-        help_de: "für jedes einen eigenen Lauf machen oder die gemeinte Konfiguration mit --config nennen",
+        help_en: "run pathbuild separately for each argument, or name the intended configuration with --config",
+        help_de: "pathbuild für jedes Argument einzeln aufrufen oder die gemeinte Konfiguration mit --config nennen",
     }
     /// An argument without a configuration, although the first argument has one.
     NO_CONFIGURATION: InvalidConfiguration {
         en: "no pathbuild.toml applies to {argument}, but this run uses {used}",
         de: "für {argument} gilt keine pathbuild.toml, dieser Lauf verwendet aber {used}",
-        help_en: "run once for each, or name the intended configuration with --config",
-        help_de: "für jedes einen eigenen Lauf machen oder die gemeinte Konfiguration mit --config nennen",
+        help_en: "run pathbuild separately for each argument, or name the intended configuration with --config",
+        help_de: "pathbuild für jedes Argument einzeln aufrufen oder die gemeinte Konfiguration mit --config nennen",
     }
     /// A configuration in a subdirectory, which has no effect because the run uses another one.
     UNUSED_CONFIGURATION: UnusedConfiguration {
@@ -225,8 +225,8 @@ messages! {
     }
     /// A configuration in a subdirectory, which has no effect because the run has no configuration.
     UNUSED_WITHOUT_ANY: UnusedConfiguration {
-        en: "this configuration does not apply: the run has none, because there is none in its directory or above",
-        de: "diese Konfiguration gilt nicht: der Lauf hat keine, weil in seinem Verzeichnis und darüber keine liegt",
+        en: "this configuration does not apply: the run uses none, because none lies in its starting directory or above it",
+        de: "diese Konfiguration gilt nicht: der Lauf verwendet keine, weil in seinem Ausgangsverzeichnis und darüber keine liegt",
         help_en: "check this directory in a run of its own, or name the intended configuration with --config",
         help_de: "dieses Verzeichnis in einem eigenen Lauf prüfen oder die gemeinte Konfiguration mit --config nennen",
     }
@@ -234,8 +234,8 @@ messages! {
     BASELINE_UNREADABLE: InvalidConfiguration {
         en: "cannot read the baseline: {reason}",
         de: "die Liste bekannter Meldungen ist nicht lesbar: {reason}",
-        help_en: "check the name; --update-baseline writes a new one",
-        help_de: "den Namen prüfen; --update-baseline schreibt eine neue",
+        help_en: "check the file's name, or write a new baseline with --update-baseline",
+        help_de: "den Dateinamen prüfen oder mit --update-baseline eine neue Liste schreiben",
     }
     /// A line of a baseline that does not begin with a fingerprint.
     BASELINE_LINE: InvalidConfiguration {

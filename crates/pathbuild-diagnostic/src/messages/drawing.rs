@@ -45,13 +45,13 @@ messages! {
     }
     /// Note: a circle with a start marker's text, but another diameter.
     MEANT_AS_START: MissingStart {
-        en: "the circle at {point} has a text with O and T, but its diameter is {diameter} mm; if it is meant as the start marker, draw it with 1 mm",
-        de: "der Kreis bei {point} hat einen Text mit O und T, sein Durchmesser ist aber {diameter} mm; ist er als Anfangsmarke gemeint, mit 1 mm zeichnen",
+        en: "the circle at {point} has a text with O and T, but its diameter is {diameter} mm; if it is meant as the start marker, draw it with a diameter of 1 mm",
+        de: "der Kreis bei {point} hat einen Text mit O und T, sein Durchmesser ist aber {diameter} mm; ist er als Anfangsmarke gemeint, mit 1 mm Durchmesser zeichnen",
     }
     /// Note: an end marker has the text of a start marker, while the path's start marker has no text.
     SWAPPED_MARKERS: MissingPathParameters {
-        en: "the circle at {point} has a text with O and T, but is an end marker (2 mm): are the two swapped? The start has 1 mm, the end 2 mm",
-        de: "der Kreis bei {point} hat einen Text mit O und T, ist aber eine Endmarke (2 mm): sind die beiden vertauscht? Der Anfang hat 1 mm, das Ende 2 mm",
+        en: "the circle at {point} has a text with O and T, but is an end marker (2 mm): are the two markers swapped? The start marker has 1 mm, the end marker 2 mm",
+        de: "der Kreis bei {point} hat einen Text mit O und T, ist aber eine Endmarke (2 mm): sind die beiden Marken vertauscht? Die Anfangsmarke hat 1 mm, die Endmarke 2 mm",
     }
     /// Note: a circle with a start marker's text, but a line type other than PHANTOM.
     MEANT_AS_PHANTOM_START: MissingStart {
@@ -79,14 +79,14 @@ messages! {
     TWO_STARTS: TwoStarts {
         en: "path {name} has a second start marker; the first is at {first}",
         de: "Pfad {name} hat eine zweite Anfangsmarke; die erste ist bei {first}",
-        help_en: "remove one, or put it on another path's layer",
+        help_en: "remove one of the two, or move it to another path's layer",
         help_de: "eine davon entfernen oder auf den Layer eines anderen Pfads legen",
     }
     /// A second end marker.
     TWO_ENDS: TwoEnds {
         en: "path {name} has a second end marker; the first is at {first}",
         de: "Pfad {name} hat eine zweite Endmarke; die erste ist bei {first}",
-        help_en: "remove one, or put it on another path's layer",
+        help_en: "remove one of the two, or move it to another path's layer",
         help_de: "eine davon entfernen oder auf den Layer eines anderen Pfads legen",
     }
     /// A PHANTOM circle with a meaningless diameter.
@@ -100,8 +100,8 @@ messages! {
     UNKNOWN_LINE_TYPE: UnknownLineType {
         en: "line type {line_type} has no meaning on a path layer; elements with it: {count}",
         de: "Linientyp {line_type} hat auf einem Pfadlayer keine Bedeutung; Elemente damit: {count}",
-        help_en: "the known line types are {known}, each also with 2, X2 or TINY; [line-types] in pathbuild.toml can add names",
-        help_de: "bekannt sind {known}, jeweils auch mit 2, X2 oder TINY; [line-types] in pathbuild.toml kann weitere festlegen",
+        help_en: "use one of {known} (each also with 2, X2 or TINY added), or define the name under [line-types] in pathbuild.toml",
+        help_de: "einen von {known} verwenden (jeweils auch mit angehängtem 2, X2 oder TINY) oder den Namen unter [line-types] in pathbuild.toml festlegen",
     }
     /// A line type without a meaning, with a suggestion.
     LINE_TYPE_LIKE_ANOTHER: UnknownLineType {
@@ -114,15 +114,15 @@ messages! {
     LINE_TYPE_ON_ENTITY: UnknownLineType {
         en: "line type {line_type} has no meaning on {element}; elements like this: {count}",
         de: "{element} mit Linientyp {line_type} hat keine Bedeutung; Elemente dieser Art: {count}",
-        help_en: "on a circle CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT and PHANTOM have a meaning, on lines and arcs all but PHANTOM",
-        help_de: "auf einem Kreis haben CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT und PHANTOM eine Bedeutung, auf Linien und Bögen alle außer PHANTOM",
+        help_en: "on circles, use CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT or PHANTOM; on lines and arcs, use any line type except PHANTOM",
+        help_de: "auf Kreisen CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT oder PHANTOM verwenden, auf Linien und Bögen jeden Linientyp außer PHANTOM",
     }
     /// Support bars on a drilled hole.
     BARS_ON_HOLE: UnknownLineType {
         en: "BORDER and CENTER have no meaning on a drilled hole",
         de: "BORDER und CENTER haben auf einem Bohrloch keine Bedeutung",
-        help_en: "a circle of the cutter's diameter is drilled and leaves no support bars: use CONTINUOUS (to B) or DIVIDE (to D)",
-        help_de: "ein Kreis mit dem Durchmesser des Fräsers wird gebohrt und lässt keine Stützstege: CONTINUOUS (bis B) oder DIVIDE (bis D) verwenden",
+        help_en: "use CONTINUOUS (down to B) or DIVIDE (down to D): a circle of the cutter's diameter is drilled and leaves no support bars",
+        help_de: "CONTINUOUS (bis B) oder DIVIDE (bis D) verwenden: ein Kreis mit dem Durchmesser des Fräsers wird gebohrt und lässt keine Stützstege",
     }
     /// A text that belongs to no element.
     TEXT_WITHOUT_ELEMENT: TextWithoutElement {
@@ -135,23 +135,23 @@ messages! {
     NEARLY_OTHER_ELEMENT: DoubtfulText {
         en: "the text \"{text}\" belongs to {element} at {point}, but {other} at {other_point} is only {margin} mm farther away",
         de: "zum Text \"{text}\" gehört {element} bei {point}, aber {other} bei {other_point} ist nur {margin} mm weiter entfernt",
-        help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters after the name; `text-margin` under [warnings] sets the limit",
-        help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen; `text-margin` unter [warnings] setzt die Grenze",
+        help_en: "move the text nearer to its element, or put both on a tilde layer of their own (the path's name with ~ and letters added); `text-margin` under [warnings] sets the limit",
+        help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Tilde-Layer legen (Name des Pfads, ~ und Buchstaben); `text-margin` unter [warnings] setzt die Grenze",
     }
     /// A text that belongs to an element because circles precede arcs and arcs precede lines, although an element of another kind is
     /// nearer.
     NEARER_OF_OTHER_KIND: DoubtfulText {
         en: "the text \"{text}\" belongs to {element} at {point}, though {other} at {other_point} is {margin} mm nearer: circles come before arcs, arcs before lines",
         de: "zum Text \"{text}\" gehört {element} bei {point}, obwohl {other} bei {other_point} {margin} mm näher ist: Kreise gehen vor Bögen, Bögen vor Linien",
-        help_en: "move the text away from the element that it should not belong to, make it smaller, or put text and element on a layer of their own with ~ and letters after the name",
-        help_de: "den Text von dem Element wegschieben, zu dem er nicht gehören soll, oder kleiner machen, oder Text und Element auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
+        help_en: "move the text away from the element that it should not belong to, make it smaller, or put text and element on a tilde layer of their own (the path's name with ~ and letters added)",
+        help_de: "den Text von dem Element wegschieben, zu dem er nicht gehören soll, oder ihn verkleinern, oder Text und Element auf einen eigenen Tilde-Layer legen (Name des Pfads, ~ und Buchstaben)",
     }
     /// A text that is equally near to two elements, and belongs to the one that comes first in the file.
     FIRST_OF_EQUALS: DoubtfulText {
-        en: "the text \"{text}\" is as near to {other} at {other_point} as to {element} at {point}, to which it belongs only because that comes first in the file",
+        en: "the text \"{text}\" is as near to {other} at {other_point} as to {element} at {point}; it belongs to the latter only because the file lists that one first",
         de: "zum Text \"{text}\" gehört {element} bei {point} nur wegen der Reihenfolge in der Datei: {other} bei {other_point} ist genauso nah",
-        help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters after the name",
-        help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
+        help_en: "move the text nearer to its element, or put both on a tilde layer of their own (the path's name with ~ and letters added)",
+        help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Tilde-Layer legen (Name des Pfads, ~ und Buchstaben)",
     }
     /// Note: the nearest element.
     NEAREST_ELEMENT: TextWithoutElement {
@@ -160,18 +160,18 @@ messages! {
     }
     /// Note: a nearby element that already has another text.
     HAS_A_TEXT: TextWithoutElement {
-        en: "here {element} at {point} has a text already: write all letters into one text",
-        de: "hier hat {element} bei {point} schon einen Text: alle Buchstaben in einen Text schreiben",
+        en: "{element} at {point} already has a text: write all letters into one text",
+        de: "{element} bei {point} hat schon einen Text: alle Buchstaben in einen Text schreiben",
     }
     /// Note: a nearby element that already has a text of blanks.
     HAS_A_BLANK_TEXT: TextWithoutElement {
-        en: "here {element} at {point} already has an invisible text that consists only of blanks: delete it",
-        de: "hier hat {element} bei {point} schon einen Text, der nur aus Leerzeichen besteht und unsichtbar ist: diesen Text löschen",
+        en: "{element} at {point} already has an invisible text that consists only of blanks: delete that text",
+        de: "{element} bei {point} hat schon einen unsichtbaren Text, der nur aus Leerzeichen besteht: diesen Text löschen",
     }
     /// Note: a nearby entity that is left out (PB111), so that no text can belong to it.
     TEXT_OF_LEFT_OUT: TextWithoutElement {
-        en: "{kind} at {point} is left out (PB111): its text belongs to no element either",
-        de: "{kind} bei {point} wird ausgelassen (PB111): auch sein Text gehört dann zu keinem Element",
+        en: "{kind} at {point} is left out (PB111), so its text belongs to no element",
+        de: "{kind} bei {point} wird ausgelassen (PB111); der Text gehört daher zu keinem Element",
     }
     /// Note: an element near the text, but on another layer.
     NEAR_ON_OTHER_LAYER: TextWithoutElement {
@@ -206,31 +206,31 @@ messages! {
     }
     /// A text on a layer without clamps that looks like the height of a clamp.
     HEIGHT_ON_OTHER_LAYER: TextOnOtherLayer {
-        en: "the text \"{text}\" looks like the height of a clamp, but `keep-out` does not name layer {layer}: nothing on it is a clamp",
-        de: "der Text \"{text}\" sieht aus wie die Höhe eines Spannmittels, `keep-out` nennt aber Layer {layer} nicht: nichts darauf ist ein Spannmittel",
-        help_en: "move the clamp to a layer that matches `keep-out`, or let `keep-out` match this one; if it is no clamp, give the text another form",
-        help_de: "das Spannmittel auf einen Layer legen, auf den `keep-out` passt, oder `keep-out` auf diesen passen lassen; ist es keines, den Text anders schreiben",
+        en: "the text \"{text}\" looks like the height of a clamp, but `keep-out` does not match layer {layer}: nothing on it is a clamp",
+        de: "der Text \"{text}\" sieht aus wie die Höhe eines Spannmittels, `keep-out` passt aber nicht auf Layer {layer}: nichts darauf ist ein Spannmittel",
+        help_en: "move the clamp to a layer that matches `keep-out`, or extend `keep-out` to match this layer; if there is no clamp, reword the text",
+        help_de: "das Spannmittel auf einen Layer legen, auf den `keep-out` passt, oder `keep-out` um diesen Layer erweitern; ist es kein Spannmittel, den Text anders schreiben",
     }
     /// A layer with a name similar to that of a layer with clamps.
     NEARLY_CLAMP_LAYER: NearlyPathLayer {
-        en: "`keep-out` does not match layer {layer}, but it matches a similar name: what is drawn on the layer is no clamp ({elements})",
-        de: "`keep-out` passt nicht auf Layer {layer}, aber auf einen ähnlichen Namen: was darauf liegt, ist kein Spannmittel ({elements})",
-        help_en: "rename the layer, or extend `keep-out`: a regular expression that must match the whole name, as in 'Clamps.*'; if it holds no clamps, give it a quite different name",
-        help_de: "den Layer umbenennen oder `keep-out` erweitern, einen regulären Ausdruck, der auf den ganzen Namen passen muss, wie 'Clamps.*'; sind es keine Spannmittel, den Layer ganz anders nennen",
+        en: "layer {layer} does not match `keep-out`, although a very similar name would: nothing on it is treated as a clamp ({elements})",
+        de: "`keep-out` passt nicht auf Layer {layer}, wohl aber auf einen sehr ähnlichen Namen: nichts darauf gilt als Spannmittel ({elements})",
+        help_en: "rename the layer, or extend `keep-out` (a regular expression for the whole name, such as 'Clamps.*'); if there are no clamps on the layer, give it a clearly different name",
+        help_de: "den Layer umbenennen oder `keep-out` erweitern (ein regulärer Ausdruck für den ganzen Namen, etwa 'Clamps.*'); enthält der Layer keine Spannmittel, ihm einen deutlich anderen Namen geben",
     }
     /// A layer with a name similar to that of a layer with finished parts.
     NEARLY_PART_LAYER: NearlyPathLayer {
-        en: "`part` does not match layer {layer}, but it matches a similar name: what is drawn on the layer is no finished part ({elements})",
-        de: "`part` passt nicht auf Layer {layer}, aber auf einen ähnlichen Namen: was darauf liegt, ist kein fertiges Teil ({elements})",
-        help_en: "rename the layer, or extend `part`: a regular expression that must match the whole name; if it holds no finished parts, give it a quite different name",
-        help_de: "den Layer umbenennen oder `part` erweitern, einen regulären Ausdruck, der auf den ganzen Namen passen muss; sind es keine fertigen Teile, den Layer ganz anders nennen",
+        en: "layer {layer} does not match `part`, although a very similar name would: nothing on it is treated as a finished part ({elements})",
+        de: "`part` passt nicht auf Layer {layer}, wohl aber auf einen sehr ähnlichen Namen: nichts darauf gilt als fertiges Teil ({elements})",
+        help_en: "rename the layer, or extend `part` (a regular expression for the whole name); if there are no finished parts on the layer, give it a clearly different name",
+        help_de: "den Layer umbenennen oder `part` erweitern (ein regulärer Ausdruck für den ganzen Namen); enthält der Layer keine fertigen Teile, ihm einen deutlich anderen Namen geben",
     }
     /// A layer with a name similar to that of a path layer.
     NEARLY_PATH_LAYER: NearlyPathLayer {
         en: "layer {layer} belongs to no path, but its name resembles that of path {path}: what is drawn on it has no effect ({elements})",
         de: "Layer {layer} gehört zu keinem Pfad, heißt aber fast wie der Pfad {path}: was darauf liegt, hat keine Wirkung ({elements})",
-        help_en: "rename it to {path}, or to {path}~A with nothing but letters after ~; if it is not meant to be milled, give it a quite different name",
-        help_de: "in {path} umbenennen oder in {path}~A mit nichts als Buchstaben hinter ~; soll es nicht gefräst werden, den Layer ganz anders nennen",
+        help_en: "rename it to {path}, or to {path}~A (only letters after ~); if nothing on it is to be milled, give it a clearly different name",
+        help_de: "in {path} umbenennen oder in {path}~A (hinter ~ nur Buchstaben); soll nichts darauf gefräst werden, dem Layer einen deutlich anderen Namen geben",
     }
     /// Note: a character of another alphabet in a layer's name.
     LOOK_ALIKE_IN_NAME: NearlyPathLayer {
@@ -274,17 +274,17 @@ messages! {
     }
     /// A milled line or arc that is far shorter than the cutter is wide.
     CUT_HARDLY_LONG: LeftoverElement {
-        en: "{element} here is only {length} mm long: the cutter plunges here and mills hardly anything",
+        en: "{element} here is only {length} mm long: the cutter plunges and mills hardly anything",
         de: "hier ist {element} nur {length} mm lang: der Fräser taucht hier ein und fräst fast nichts",
-        help_en: "delete it, and join its neighbours; otherwise the depth of its own text or of the path applies here",
-        help_de: "löschen und die Nachbarn verbinden; sonst gilt hier die Tiefe des eigenen Textes oder des Pfads",
+        help_en: "delete it and join its neighbours; as long as it is there, it is milled with its own depth or that of the path",
+        help_de: "löschen und die Nachbarn verbinden; solange es da ist, gilt hier die Tiefe aus dem eigenen Text oder die des Pfads",
     }
     /// An element outside of the XY plane.
     OFF_PLANE: OffPlane {
-        en: "the element is not in the plane: Z is {z} mm; elements outside of the plane: {count}",
-        de: "das Element liegt nicht in der Ebene: Z ist {z} mm; Elemente außerhalb der Ebene: {count}",
-        help_en: "depths are given by texts, never by Z coordinates; flatten the drawing (in many CADs: FLATTEN, or set Z and elevation to 0)",
-        help_de: "Tiefen werden mit Texten angegeben, nie mit Z-Koordinaten; die Zeichnung einebnen (in vielen CADs: FLATTEN oder Z und Erhebung auf 0 setzen)",
+        en: "the element is not in the drawing plane: Z is {z} mm; elements outside of the plane: {count}",
+        de: "das Element liegt nicht in der Zeichenebene: Z ist {z} mm; Elemente außerhalb der Ebene: {count}",
+        help_en: "flatten the drawing (in many CAD programs: FLATTEN, or set Z and elevation to 0); depths are given by texts, never by Z coordinates",
+        help_de: "die Zeichnung einebnen (in vielen CAD-Programmen: FLATTEN, oder Z und Erhebung auf 0 setzen); Tiefen werden mit Texten angegeben, nie mit Z-Koordinaten",
     }
     /// A path layer that is frozen or off.
     LAYER_NOT_VISIBLE: LayerNotVisible {
@@ -339,8 +339,8 @@ messages! {
     CLAMP_WITH_TEXTS: InvalidKeepOut {
         en: "several texts are inside the outline of this clamp or overlap it: {texts}",
         de: "mehrere Texte liegen im Umriss dieses Spannmittels oder überlappen ihn: {texts}",
-        help_en: "each outline takes one text, its height; make the texts smaller or move them apart, and move mere notes to another layer",
-        help_de: "zu jedem Umriss gehört ein Text, seine Höhe; die Texte verkleinern oder auseinanderschieben, bloße Notizen auf einen anderen Layer legen",
+        help_en: "leave only the text with the height: make texts smaller, move them apart, or move mere notes to another layer",
+        help_de: "nur den Text mit der Höhe dort lassen: Texte verkleinern, auseinanderschieben oder bloße Notizen auf einen anderen Layer legen",
     }
     /// A text of a clamp that gives no height.
     NO_CLAMP_HEIGHT: InvalidKeepOut {
@@ -367,29 +367,29 @@ messages! {
     NO_OUTLINE: InvalidKeepOut {
         en: "this {entity} on a layer with clamps is not supported, so the position of the clamp is unknown",
         de: "{entity} auf einem Layer mit Spannmitteln wird nicht unterstützt; die Lage des Spannmittels ist daher unbekannt",
-        help_en: "draw the outline with lines, arcs, a circle or a closed polyline; `approximate-curves` in pathbuild.toml reads ellipses and splines",
-        help_de: "den Umriss mit Linien, Bögen, einem Kreis oder einer geschlossenen Polylinie zeichnen; mit `approximate-curves` in pathbuild.toml werden Ellipsen und Splines gelesen",
+        help_en: "draw the outline with lines, arcs, a circle or a closed polyline; ellipses and splines are read if `approximate-curves` is set in pathbuild.toml",
+        help_de: "den Umriss mit Linien, Bögen, einem Kreis oder einer geschlossenen Polylinie zeichnen; Ellipsen und Splines werden gelesen, wenn `approximate-curves` in pathbuild.toml gesetzt ist",
     }
     /// A block that is inserted on a layer with clamps, but draws only on other layers.
     CLAMP_ELSEWHERE: InvalidKeepOut {
-        en: "block {block} is inserted on a layer with clamps, but what it contains lies on other layers ({layers}), so the position of the clamp is unknown",
+        en: "block {block} is inserted on a layer with clamps, but its contents lie on other layers ({layers}), so the position of the clamp is unknown",
         de: "Block {block} ist auf einem Layer mit Spannmitteln eingefügt, sein Inhalt liegt aber auf anderen Layern ({layers}); die Lage des Spannmittels ist daher unbekannt",
-        help_en: "move its contents to layer 0 in the block editor, or explode it and move them to this layer; if it is no clamp, insert it on another layer",
-        help_de: "seinen Inhalt im Blockeditor auf Layer 0 legen oder den Block auflösen und den Inhalt auf diesen Layer legen; ist er kein Spannmittel, ihn auf einem anderen Layer einfügen",
+        help_en: "move the block's contents to layer 0 in the block editor, or explode the block and move its contents to this layer; if the block is no clamp, insert it on another layer",
+        help_de: "den Inhalt des Blocks im Blockeditor auf Layer 0 legen oder den Block auflösen und den Inhalt auf diesen Layer legen; ist der Block kein Spannmittel, ihn auf einem anderen Layer einfügen",
     }
     /// An attribute of a block on a layer with clamps, which is not read as a height.
     NO_HEIGHT_TEXT: InvalidKeepOut {
         en: "this {entity} on a layer with clamps is not read, so the height of the clamp may be unknown",
         de: "{entity} auf einem Layer mit Spannmitteln wird nicht gelesen; die Höhe des Spannmittels ist daher vielleicht unbekannt",
-        help_en: "write the height as TEXT or MTEXT, in the block or over it, for example Z25; explode the block if its attribute holds it",
-        help_de: "die Höhe als TEXT oder MTEXT schreiben, im Block oder darüber, zum Beispiel Z25; steht sie in einem Attribut, den Block auflösen",
+        help_en: "write the height as TEXT or MTEXT, in the block or over it, for example Z25; if an attribute of the block gives the height, explode the block",
+        help_de: "die Höhe als TEXT oder MTEXT schreiben, im Block oder darüber, zum Beispiel Z25; steht die Höhe in einem Attribut des Blocks, den Block auflösen",
     }
     /// A clamp with too many texts to list all of them.
     CLAMP_WITH_MANY_TEXTS: InvalidKeepOut {
-        en: "{count} texts are inside the outline of this clamp or overlap it, the first are {texts}",
-        de: "{count} Texte liegen im Umriss dieses Spannmittels oder überlappen ihn, die ersten sind {texts}",
-        help_en: "each outline takes one text, its height; make the texts smaller or move them apart, and move mere notes to another layer",
-        help_de: "zu jedem Umriss gehört ein Text, seine Höhe; die Texte verkleinern oder auseinanderschieben, bloße Notizen auf einen anderen Layer legen",
+        en: "{count} texts are inside the outline of this clamp or overlap it; the first are {texts}",
+        de: "{count} Texte liegen im Umriss dieses Spannmittels oder überlappen ihn; die ersten sind {texts}",
+        help_en: "leave only the text with the height: make texts smaller, move them apart, or move mere notes to another layer",
+        help_de: "nur den Text mit der Höhe dort lassen: Texte verkleinern, auseinanderschieben oder bloße Notizen auf einen anderen Layer legen",
     }
     /// A search for the elements of texts that was stopped after too many comparisons.
     TEXTS_IN_A_CROWD: LimitReached {
@@ -402,8 +402,8 @@ messages! {
     BAD_GROUP_CODE: InvalidDxf {
         en: "expected a group code here, not \"{found}\"",
         de: "hier wird ein Gruppencode erwartet, nicht \"{found}\"",
-        help_en: "a line was lost, or a text holds a line break: from here on codes and values are out of step; save the drawing again",
-        help_de: "eine Zeile fehlt, oder ein Text enthält einen Zeilenumbruch: ab hier passen Codes und Werte nicht zusammen; die Zeichnung noch einmal speichern",
+        help_en: "save the drawing again: a line was lost, or a text holds a line break, so that codes and values are out of step from here on",
+        help_de: "die Zeichnung noch einmal speichern: eine Zeile fehlt, oder ein Text enthält einen Zeilenumbruch, sodass ab hier Codes und Werte nicht zusammenpassen",
     }
     /// A file that ends inside a section.
     TRUNCATED: InvalidDxf {
@@ -421,59 +421,59 @@ messages! {
     }
     /// A section that is not closed by ENDSEC.
     SECTION_NOT_ENDED: InvalidDxf {
-        en: "section {section} has no end: \"{found}\" stands where ENDSEC is missing",
+        en: "section {section} has no end: ENDSEC is missing before \"{found}\"",
         de: "der Abschnitt {section} hat kein Ende: vor \"{found}\" fehlt ENDSEC",
-        help_en: "the file is broken; save the drawing again",
-        help_de: "die Datei ist beschädigt; die Zeichnung noch einmal speichern",
+        help_en: "save the drawing again; the file is damaged",
+        help_de: "die Zeichnung noch einmal speichern; die Datei ist beschädigt",
     }
     /// Content between two sections, where only a section or the end of the file may begin.
     SECTION_EXPECTED: InvalidDxf {
         en: "expected a section or the end of the file here, not \"{found}\"",
         de: "hier wird ein Abschnitt oder das Ende der Datei erwartet, nicht \"{found}\"",
-        help_en: "the file is broken; save the drawing again",
-        help_de: "die Datei ist beschädigt; die Zeichnung noch einmal speichern",
+        help_en: "save the drawing again; the file is damaged",
+        help_de: "die Zeichnung noch einmal speichern; die Datei ist beschädigt",
     }
     /// A group of an entity that must contain a number, but does not.
     VALUE_NOT_A_NUMBER: InvalidDxf {
         en: "{entity}: group {code} must be a number, not \"{value}\"",
         de: "{entity}: Gruppe {code} muss eine Zahl sein, nicht \"{value}\"",
-        help_en: "the program that wrote the file wrote a broken entity; draw it anew, or save the drawing again",
-        help_de: "das Programm, das die Datei schrieb, hat ein beschädigtes Element geschrieben; das Element neu zeichnen oder die Zeichnung noch einmal speichern",
+        help_en: "draw the entity again, or save the drawing again; the program that wrote the file wrote a broken entity",
+        help_de: "das Element neu zeichnen oder die Zeichnung noch einmal speichern; das Programm, von dem die Datei stammt, hat das Element fehlerhaft geschrieben",
     }
     /// A number with a decimal comma in a DXF file.
     DECIMAL_COMMA: InvalidDxf {
         en: "{entity}: \"{value}\" in group {code} has a decimal comma, but DXF numbers need a point",
         de: "{entity}: \"{value}\" in Gruppe {code} hat ein Dezimalkomma, DXF-Zahlen brauchen aber einen Punkt",
-        help_en: "the program that wrote the file uses the system's number format; set the decimal separator there to a point",
-        help_de: "das Programm, das die Datei schrieb, verwendet das Zahlenformat des Systems; dort den Dezimalpunkt einstellen",
+        help_en: "set the decimal separator of the system to a point; the program that wrote the file uses the system's number format",
+        help_de: "im System den Punkt als Dezimalzeichen einstellen; das Programm, von dem die Datei stammt, verwendet das Zahlenformat des Systems",
     }
     /// A number that is not finite, such as nan, inf or 1e400.
     NUMBER_NOT_FINITE: InvalidDxf {
         en: "{entity}: \"{value}\" in group {code} is not a finite number",
         de: "{entity}: \"{value}\" in Gruppe {code} ist keine endliche Zahl",
-        help_en: "the program that wrote the file wrote a broken entity; draw it anew",
-        help_de: "das Programm, das die Datei schrieb, hat ein beschädigtes Element geschrieben; das Element neu zeichnen",
+        help_en: "draw the entity again; the program that wrote the file wrote a broken entity",
+        help_de: "das Element neu zeichnen; das Programm, von dem die Datei stammt, hat es fehlerhaft geschrieben",
     }
     /// An entity that lacks a required group.
     GROUP_MISSING: InvalidDxf {
         en: "{entity}: group {code} is missing",
         de: "{entity}: Gruppe {code} fehlt",
-        help_en: "the entity is incomplete; draw it anew, or save the drawing again",
-        help_de: "das Element ist unvollständig; das Element neu zeichnen oder die Zeichnung noch einmal speichern",
+        help_en: "draw the entity again, or save the drawing again; the entity is incomplete",
+        help_de: "das Element neu zeichnen oder die Zeichnung noch einmal speichern; das Element ist unvollständig",
     }
     /// A length of an entity that is 0 or negative.
     NOT_POSITIVE: InvalidDxf {
         en: "{entity}: \"{value}\" in group {code} must be more than 0",
         de: "{entity}: \"{value}\" in Gruppe {code} muss größer als 0 sein",
-        help_en: "the entity has no extent; delete it or draw it anew",
-        help_de: "das Element hat keine Ausdehnung; löschen oder neu zeichnen",
+        help_en: "delete the entity or draw it again; it has no extent",
+        help_de: "das Element löschen oder neu zeichnen; es hat keine Ausdehnung",
     }
     /// A coordinate or length that is too large, or a length of zero.
     TOO_LARGE: InvalidDxf {
         en: "{entity} lies or reaches more than 1,000,000 mm from the origin, or its size is 0",
         de: "{entity} liegt oder reicht weiter als 1.000.000 mm vom Nullpunkt, oder seine Größe ist 0",
-        help_en: "draw near the origin, at true size: move the entity, or the block that it is in, or delete it",
-        help_de: "nahe am Nullpunkt und in wahrer Größe zeichnen: das Element oder seinen Block verschieben oder löschen",
+        help_en: "draw near the origin, at true size: move the entity or its block, or delete the entity",
+        help_de: "nahe am Nullpunkt und in wahrer Größe zeichnen: das Element oder seinen Block verschieben, oder das Element löschen",
     }
     /// An extrusion direction other than (0,0,1) and (0,0,-1).
     TILTED: OffPlane {
@@ -486,29 +486,29 @@ messages! {
     NO_END_OF_FILE: NoEndOfFile {
         en: "the file does not end with EOF",
         de: "die Datei endet nicht mit EOF",
-        help_en: "the entities were read, but perhaps the CAD is still writing the file; save the drawing again",
-        help_de: "die Elemente wurden gelesen, aber vielleicht schreibt das CAD die Datei noch; die Zeichnung noch einmal speichern",
+        help_en: "save the drawing again; the entities were read, but perhaps the CAD is still writing the file",
+        help_de: "die Zeichnung noch einmal speichern; die Elemente wurden gelesen, aber vielleicht schreibt das CAD die Datei noch",
     }
     /// Bytes of a text that are invalid in the encoding of the file.
     UNDECODABLE: DoubtfulEncoding {
         en: "the file is in {encoding}, in which some bytes of this text are invalid",
         de: "die Datei ist in {encoding} kodiert, worin einige Bytes dieses Textes ungültig sind",
-        help_en: "special characters of texts and layer names may be wrong; save the drawing as R2007 or later",
-        help_de: "Sonderzeichen in Texten und Layernamen können falsch sein; die Zeichnung als R2007 oder neuer speichern",
+        help_en: "save the drawing as R2007 or later; special characters in texts and layer names may be wrong",
+        help_de: "die Zeichnung als R2007 oder neuer speichern; Sonderzeichen in Texten und Layernamen können falsch sein",
     }
     /// An unknown code page in the header of a drawing, in place of which ANSI_1252 is used.
     UNKNOWN_CODE_PAGE: DoubtfulEncoding {
         en: "the code page \"{encoding}\" is not known; texts are read as ANSI_1252",
         de: "die Codepage \"{encoding}\" ist nicht bekannt; Texte werden als ANSI_1252 gelesen",
-        help_en: "special characters of texts and layer names may be wrong; save the drawing as R2007 or later",
-        help_de: "Sonderzeichen in Texten und Layernamen können falsch sein; die Zeichnung als R2007 oder neuer speichern",
+        help_en: "save the drawing as R2007 or later; special characters in texts and layer names may be wrong",
+        help_de: "die Zeichnung als R2007 oder neuer speichern; Sonderzeichen in Texten und Layernamen können falsch sein",
     }
     /// An entity that is neither part of the drawing language nor an annotation.
     FOREIGN: UnsupportedCurve {
         en: "{entity} is left out: a path consists of lines, arcs, circles, polylines and texts",
         de: "{entity} wird ausgelassen: ein Pfad besteht aus Linien, Bögen, Kreisen, Polylinien und Texten",
-        help_en: "draw it with these (many CAD programs can explode it), or move it to a layer that is not a path",
-        help_de: "damit zeichnen (viele CAD-Programme können es auflösen) oder auf einen Layer legen, der kein Pfad ist",
+        help_en: "draw it with such elements (many CAD programs can explode it), or move it to a layer that is not a path",
+        help_de: "mit solchen Elementen zeichnen (viele CAD-Programme können es auflösen) oder auf einen Layer legen, der kein Pfad ist",
     }
     /// An ELLIPSE or SPLINE that is left out, because `approximate-curves` is not set.
     NOT_APPROXIMATED: UnsupportedCurve {
@@ -519,10 +519,10 @@ messages! {
     }
     /// The first polyline, block or curve that is left out because of `compatible`. Reported once per drawing.
     NOT_COMPATIBLE: UnsupportedCurve {
-        en: "polylines, blocks and curves on path layers are left out, as PathDxf2GCode does; the first is {entity}",
-        de: "Polylinien, Blöcke und Kurven auf Pfadlayern werden ausgelassen wie von PathDxf2GCode; die erste ist {entity}",
-        help_en: "explode them into lines and arcs, or remove `compatible`: then they are milled",
-        help_de: "in Linien und Bögen auflösen oder `compatible` weglassen: dann werden sie gefräst",
+        en: "polylines, blocks and curves on path layers are left out, as in PathDxf2GCode; the first is {entity}",
+        de: "Polylinien, Blöcke und Kurven auf Pfadlayern werden wie in PathDxf2GCode ausgelassen; zuerst {entity}",
+        help_en: "explode them into lines and arcs, or remove `compatible` so that they are milled",
+        help_de: "in Linien und Bögen auflösen oder `compatible` weglassen, damit sie gefräst werden",
     }
     /// A three-dimensional polyline or a mesh.
     POLYLINE_NOT_FLAT: UnsupportedCurve {
@@ -542,8 +542,8 @@ messages! {
     INSERT_SCALED: UnsupportedCurve {
         en: "block {block} is left out: it is inserted with different scales in x and y",
         de: "Block {block} wird ausgelassen: er ist in x und y verschieden skaliert eingefügt",
-        help_en: "explode it, or insert it with one scale",
-        help_de: "auflösen oder mit einem einzigen Maßstab einfügen",
+        help_en: "explode it, or insert it with the same scale in x and y",
+        help_de: "auflösen oder in x und y mit demselben Maßstab einfügen",
     }
     /// An INSERT of a block that the file does not contain.
     BLOCK_MISSING: UnsupportedCurve {
@@ -554,10 +554,10 @@ messages! {
     }
     /// An INSERT on a layer that is read, of a block that draws only on other layers.
     BLOCK_ELSEWHERE: UnsupportedCurve {
-        en: "block {block} is inserted on this layer, but nothing in it belongs to it: what it contains lies on other layers ({layers}) and is ignored",
-        de: "Block {block} ist auf diesem Layer eingefügt, aber nichts darin gehört dazu: sein Inhalt liegt auf anderen Layern ({layers}) und wird nicht beachtet",
-        help_en: "move its contents to layer 0 in the block editor, or explode it and move them to this layer; if nothing in it is to be milled, insert it on another layer",
-        help_de: "seinen Inhalt im Blockeditor auf Layer 0 legen oder den Block auflösen und den Inhalt auf diesen Layer legen; soll nichts davon gefräst werden, ihn auf einem anderen Layer einfügen",
+        en: "block {block} is inserted on this layer, but its contents lie on other layers ({layers}) and are ignored",
+        de: "Block {block} ist auf diesem Layer eingefügt, sein Inhalt liegt aber auf anderen Layern ({layers}) und wird nicht beachtet",
+        help_en: "move the block's contents to layer 0 in the block editor, or explode the block and move its contents to this layer; if nothing in it is to be milled, insert it on another layer",
+        help_de: "den Inhalt des Blocks im Blockeditor auf Layer 0 legen oder den Block auflösen und den Inhalt auf diesen Layer legen; soll nichts davon gefräst werden, den Block auf einem anderen Layer einfügen",
     }
     /// A block that contains itself or is nested too deeply.
     BLOCK_NESTED: InvalidDxf {
@@ -575,7 +575,7 @@ messages! {
     }
     /// An entity in a block that is inserted on a frozen layer.
     INSERTED_FROZEN: LayerNotVisible {
-        en: "{entity} is in a block that is inserted on layer {layer}, which is frozen, but it is still used",
+        en: "{entity} belongs to a block that is inserted on the frozen layer {layer}, but is still used",
         de: "{entity} gehört zu einem Block, der auf dem gefrorenen Layer {layer} eingefügt ist, gilt aber trotzdem",
         help_en: "thaw the layer, or delete the insertion if it is not meant to be milled",
         help_de: "den Layer auftauen oder die Einfügung löschen, wenn sie nicht gefräst werden soll",

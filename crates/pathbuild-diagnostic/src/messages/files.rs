@@ -12,15 +12,15 @@ messages! {
     UNLISTABLE: UnreadableFile {
         en: "cannot list the directory: {reason}",
         de: "das Verzeichnis lässt sich nicht auflisten: {reason}",
-        help_en: "give the user who runs pathbuild permission to read it; drawings in it may be missing here",
-        help_de: "dem Benutzer, der pathbuild aufruft, das Leserecht geben; hier können Zeichnungen daraus fehlen",
+        help_en: "give the user who runs pathbuild read permission for the directory; until then, drawings in it may be missing",
+        help_de: "dem Benutzer, der pathbuild aufruft, das Leserecht für das Verzeichnis geben; bis dahin können Zeichnungen daraus fehlen",
     }
     /// A drawing or directory with a name that is not UTF-8.
     NAME_NOT_UTF_8: UnreadableFile {
         en: "the name {name} in this directory is not valid UTF-8; the file or directory is not read",
         de: "der Name {name} in diesem Verzeichnis ist kein gültiges UTF-8; die Datei oder das Verzeichnis wird nicht gelesen",
-        help_en: "rename it",
-        help_de: "umbenennen",
+        help_en: "rename it, with a name in valid UTF-8",
+        help_de: "umbenennen, mit einem Namen in gültigem UTF-8",
     }
     /// A file that does not exist.
     MISSING: UnreadableFile {
@@ -66,15 +66,15 @@ messages! {
     WRONG_UNITS: WrongUnits {
         en: "the drawing's units are {unit}, not millimetres ($INSUNITS is {number})",
         de: "die Einheit der Zeichnung ist {unit}, nicht Millimeter ($INSUNITS ist {number})",
-        help_en: "set the drawing's units to millimetres, or `units` in pathbuild.toml: \"drawing\" converts, \"mm\" ignores the header",
+        help_en: "set the drawing's units to millimetres, or set `units` in pathbuild.toml: \"drawing\" converts, \"mm\" ignores the header",
         help_de: "die Einheit in der Zeichnung auf Millimeter stellen oder `units` in pathbuild.toml setzen: \"drawing\" rechnet um, \"mm\" beachtet den Kopf nicht",
     }
     /// A bug in pathbuild.
     INTERNAL: InternalError {
         en: "internal error: {reason}",
         de: "interner Fehler: {reason}",
-        help_en: "this is a bug in pathbuild; please report it with this drawing and the version that `pathbuild --version` prints",
-        help_de: "das ist ein Fehler in pathbuild; bitte mit dieser Zeichnung und der Ausgabe von `pathbuild --version` melden",
+        help_en: "please report this bug in pathbuild, with the drawing and the version that `pathbuild --version` prints",
+        help_de: "bitte diesen Fehler in pathbuild melden, mit der Zeichnung und der Ausgabe von `pathbuild --version`",
     }
     /// A quantity that exceeds a configured limit.
     LIMIT: LimitReached {
@@ -87,8 +87,8 @@ messages! {
     TOO_MANY_MOVES: LimitReached {
         en: "this path has {count} moves, which exceeds the limit of {limit}",
         de: "dieser Pfad hat {count} Bewegungen und überschreitet damit die Grenze von {limit}",
-        help_en: "embed less in one project; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
-        help_de: "weniger in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
+        help_en: "embed fewer paths in one project; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "weniger Pfade in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// A program that would take more memory than the limit permits.
     TOO_MUCH_MEMORY: LimitReached {
@@ -101,14 +101,14 @@ messages! {
     TOO_MANY_RULES: LimitReached {
         en: "the .gitignore and .ignore files below {directory} add up to more than {limit} bytes: the directory is skipped",
         de: "die .gitignore- und .ignore-Dateien unter {directory} haben zusammen mehr als {limit} Byte: das Verzeichnis wird übergangen",
-        help_en: "name a deeper directory; or raise `{key}` under [limits] in pathbuild.toml: these files together may have 16 times that size",
-        help_de: "ein tieferes Verzeichnis nennen; oder `{key}` unter [limits] in pathbuild.toml erhöhen: diese Dateien dürfen zusammen 16-mal so groß sein",
+        help_en: "name a deeper directory, or raise `{key}` under [limits] in pathbuild.toml: together, these files may be 16 times as large as that limit",
+        help_de: "ein tieferes Verzeichnis nennen oder `{key}` unter [limits] in pathbuild.toml erhöhen: zusammen dürfen diese Dateien 16-mal so groß sein wie diese Grenze",
     }
     /// A line of output that is longer than any reader accepts, including pathbuild itself.
     OUTPUT_LINE_TOO_LONG: LimitReached {
         en: "line {line} of {name} has {length} bytes, which exceeds the limit of {limit}; nothing is written",
         de: "Zeile {line} von {name} hat {length} Byte und überschreitet damit die Grenze von {limit}; es wird nichts geschrieben",
-        help_en: "shorten the comment Q; with many probes, use another `z-model` than \"plane\": each formula then uses only four probes",
+        help_en: "shorten the comment Q; with many probes, use a `z-model` other than \"plane\": each formula then uses only four probes",
         help_de: "den Kommentar Q kürzen; bei vielen Proben ein anderes `z-model` als \"plane\" wählen: jede Formel verwendet dann nur vier Proben",
     }
     /// A program that is too large to write.
@@ -129,15 +129,15 @@ messages! {
     TOO_MANY_PATHS: LimitReached {
         en: "the number of different embedded paths (each with its values) exceeds the limit of {limit}",
         de: "die Zahl verschiedener eingebetteter Pfade (jeder mit seinen Werten) überschreitet die Grenze von {limit}",
-        help_en: "embed less in one project; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
-        help_de: "weniger in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
+        help_en: "embed fewer paths in one project; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "weniger Pfade in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// A directory tree with more entries than the limit permits.
     TOO_MANY_ENTRIES: LimitReached {
         en: "there are more than {limit} files and directories below {directory}: the directory is skipped",
         de: "unter {directory} liegen mehr als {limit} Dateien und Verzeichnisse: das Verzeichnis wird übergangen",
-        help_en: "name a deeper directory; or list everything that does not belong to the library in an .ignore file; or raise `{key}` under [limits] in pathbuild.toml",
-        help_de: "ein tieferes Verzeichnis nennen; oder was nicht zur Bibliothek gehört, in einer Datei .ignore aufführen; oder `{key}` unter [limits] in pathbuild.toml erhöhen",
+        help_en: "name a deeper directory, exclude what does not belong to the library with an .ignore file, or raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "ein tieferes Verzeichnis nennen, mit einer Datei .ignore ausschließen, was nicht zur Bibliothek gehört, oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// An output or cache file that the system refuses to remove.
     CANNOT_REMOVE: CannotWrite {
@@ -157,21 +157,21 @@ messages! {
     WOULD_REPLACE: CannotWrite {
         en: "cannot write {name}: {reason}",
         de: "{name} kann nicht geschrieben werden: {reason}",
-        help_en: "nothing was written: give another name",
-        help_de: "nichts wurde geschrieben: einen anderen Namen angeben",
+        help_en: "give another name; nothing was written",
+        help_de: "einen anderen Namen angeben; nichts wurde geschrieben",
     }
     /// A file that cannot be written.
     CANNOT_WRITE: CannotWrite {
         en: "cannot write {name}: {reason}",
         de: "{name} kann nicht geschrieben werden: {reason}",
-        help_en: "nothing was written under that name; check the directory's permissions and free space, and whether another program has the file open",
-        help_de: "unter diesem Namen wurde nichts geschrieben; Rechte und freien Platz des Verzeichnisses prüfen, und ob ein anderes Programm die Datei offen hat",
+        help_en: "check the directory's permissions and the free space, and whether another program has the file open; nothing was written under that name",
+        help_de: "die Rechte des Verzeichnisses und den freien Speicherplatz prüfen, und ob ein anderes Programm die Datei offen hat; unter diesem Namen wurde nichts geschrieben",
     }
     /// A G-code program with more steps than the limit permits.
     PROGRAM_TOO_LONG: LimitReached {
         en: "this program has more than {count} steps, which take about {size} bytes of memory; the limit is {limit}",
         de: "dieses Programm hat mehr als {count} Schritte, die etwa {size} Byte Speicher brauchen; die Grenze ist {limit}",
-        help_en: "check how often cycles repeat (L or K) and their step Q; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
-        help_de: "prüfen, wie oft Zyklen wiederholt werden (L oder K), und ihre Schrittweite Q; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
+        help_en: "check the repetitions (L or K) and the step Q of drilling cycles; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "Wiederholungen (L oder K) und Schrittweite Q der Bohrzyklen prüfen; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
 }

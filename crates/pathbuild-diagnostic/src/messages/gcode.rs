@@ -29,31 +29,31 @@ messages! {
     }
     /// A carriage return within a line that ends with a line feed.
     RETURN_IN_LINE: UnknownCharacter {
-        en: "a carriage return (CR) within the line; the line is left out",
-        de: "ein Wagenrücklauf (CR) mitten in der Zeile; die Zeile bleibt unbeachtet",
-        help_en: "some controls end the line there and obey what follows, even in a comment: end every line with LF or CR LF",
-        help_de: "manche Steuerungen beenden die Zeile dort und führen aus, was folgt, auch in einem Kommentar: alle Zeilen mit LF oder CR LF beenden",
+        en: "the line contains a carriage return (CR) and is left out",
+        de: "die Zeile enthält einen Wagenrücklauf (CR) und bleibt unbeachtet",
+        help_en: "end every line with LF or CR LF: some controls end the line at a CR and obey what follows, even in a comment",
+        help_de: "alle Zeilen mit LF oder CR LF beenden: manche Steuerungen beenden die Zeile bei CR und führen aus, was folgt, auch in einem Kommentar",
     }
     /// A word that the post does not write and that is not interpreted, in a program read in the post's dialect.
     FOREIGN_WORD: ForeignWord {
-        en: "{word} is not checked: the post for {dialect} does not write it, and what it does is not followed",
+        en: "{word} is not checked: the post for {dialect} does not write it, and its effect is not tracked",
         de: "{word} ist nicht geprüft: der Postprozessor für {dialect} schreibt es nicht, und seine Wirkung wird nicht verfolgt",
-        help_en: "remove it, or check at the control what it does",
+        help_en: "remove it, or check its effect at the control",
         help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
     }
     /// A word that the post does not write and that is not interpreted, in a program read by means of the post's definition.
     FOREIGN_TO_DEFINITION: ForeignWord {
-        en: "{word} is not checked: {post} does not write it, and what it does is not followed",
+        en: "{word} is not checked: {post} does not write it, and its effect is not tracked",
         de: "{word} ist nicht geprüft: {post} schreibt es nicht, und seine Wirkung wird nicht verfolgt",
-        help_en: "remove it, or check at the control what it does",
+        help_en: "remove it, or check its effect at the control",
         help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
     }
     /// Words on which controls disagree, in a program that does not reveal its dialect.
     DIALECT_NOT_NAMED: UnnamedDialect {
-        en: "controls disagree on what {words} does; read as {dialect}",
-        de: "was {words} bewirkt, ist von Steuerung zu Steuerung verschieden; gelesen als {dialect}",
-        help_en: "name the control with --dialect",
-        help_de: "die Steuerung mit --dialect nennen",
+        en: "controls disagree on what {words} does; the program is read as {dialect}",
+        de: "was {words} bewirkt, ist von Steuerung zu Steuerung verschieden; das Programm wird als {dialect} gelesen",
+        help_en: "name the control's dialect with --dialect",
+        help_de: "den Dialekt der Steuerung mit --dialect nennen",
     }
     /// A line that does not begin with a command.
     NO_COMMAND: UnknownWord {
@@ -64,14 +64,14 @@ messages! {
     }
     /// Two commands in one line, in a dialect that obeys only the first.
     SECOND_COMMAND: ConflictingWords {
-        en: "{dialect} obeys one command a line: {first}, not {word}",
+        en: "{dialect} obeys only one command per line: {first}, not {word}",
         de: "{dialect} führt je Zeile nur einen Befehl aus: {first}, nicht {word}",
         help_en: "write {word} into a line of its own",
         help_de: "{word} in eine eigene Zeile schreiben",
     }
     /// Two G words or two M words in one line, in a dialect that obeys only the first.
     SECOND_WORD: ConflictingWords {
-        en: "{dialect} obeys one {letter} word a line: {first}, not {word}",
+        en: "{dialect} obeys only one {letter} word per line: {first}, not {word}",
         de: "{dialect} führt je Zeile nur ein {letter}-Wort aus: {first}, nicht {word}",
         help_en: "write {word} into a line of its own",
         help_de: "{word} in eine eigene Zeile schreiben",
@@ -115,8 +115,8 @@ messages! {
     NO_NUMBER: InvalidWord {
         en: "`{found}` is not a number; the line is left out",
         de: "`{found}` ist keine Zahl; die Zeile bleibt unbeachtet",
-        help_en: "numbers have a sign, digits and at most one point",
-        help_de: "Zahlen bestehen aus Vorzeichen, Ziffern und höchstens einem Punkt",
+        help_en: "write digits with at most one point, and a sign if needed",
+        help_de: "Ziffern mit höchstens einem Punkt schreiben, wenn nötig mit Vorzeichen",
     }
     /// A number that no letter precedes.
     NUMBER_WITHOUT_LETTER: InvalidWord {
@@ -129,8 +129,8 @@ messages! {
     BLOCK_NUMBER: InvalidWord {
         en: "`{found}` is not a block number for {dialect}",
         de: "`{found}` ist für {dialect} keine Satznummer",
-        help_en: "N comes first in the line, has no decimals, and is at most {most}",
-        help_de: "N steht am Anfang der Zeile, ohne Nachkommastellen, und ist höchstens {most}",
+        help_en: "put N first in the line, with a whole number of at most {most}",
+        help_de: "N mit einer ganzen Zahl bis {most} an den Anfang der Zeile setzen",
     }
     /// A checksum (`*`) that does not match the rest of its line.
     WRONG_CHECKSUM: InvalidWord {
@@ -150,29 +150,29 @@ messages! {
     NESTED_COMMENT: InvalidComment {
         en: "this is a comment within a comment; the line is left out",
         de: "das ist ein Kommentar in einem Kommentar; die Zeile bleibt unbeachtet",
-        help_en: "write `[` and `]` within comments: {dialect} stops here",
-        help_de: "in Kommentaren `[` und `]` schreiben: {dialect} bleibt hier stehen",
+        help_en: "use `[` and `]` inside comments: {dialect} stops at this line",
+        help_de: "in Kommentaren `[` und `]` schreiben: {dialect} bleibt bei dieser Zeile stehen",
     }
     /// An expression that lacks a value.
     VALUE_EXPECTED: InvalidExpression {
         en: "a value is missing here; the line is left out",
         de: "hier fehlt ein Wert; die Zeile bleibt unbeachtet",
-        help_en: "a value is a number, #n, a function or an expression in [ ]",
-        help_de: "ein Wert ist eine Zahl, #n, eine Funktion oder ein Ausdruck in [ ]",
+        help_en: "write a number, #n, a function or an expression in [ ]",
+        help_de: "eine Zahl, #n, eine Funktion oder einen Ausdruck in [ ] schreiben",
     }
     /// An expression that lacks an operator or a closing bracket.
     OPERATOR_EXPECTED: InvalidExpression {
         en: "an operator or `{bracket}` is missing here; the line is left out",
         de: "hier fehlt ein Rechenzeichen oder `{bracket}`; die Zeile bleibt unbeachtet",
-        help_en: "operators are {operators}",
-        help_de: "Rechenzeichen sind {operators}",
+        help_en: "write the bracket, or one of the operators {operators}",
+        help_de: "die Klammer oder eines der Rechenzeichen {operators} schreiben",
     }
     /// An expression that lacks a bracket.
     BRACKET_EXPECTED: InvalidExpression {
         en: "`{bracket}` is missing here; the line is left out",
         de: "hier fehlt `{bracket}`; die Zeile bleibt unbeachtet",
-        help_en: "expressions stand in [ ]; ATAN is written ATAN[y]/[x]",
-        help_de: "Ausdrücke stehen in [ ]; ATAN schreibt man ATAN[y]/[x]",
+        help_en: "put expressions in [ ]; write ATAN as ATAN[y]/[x]",
+        help_de: "Ausdrücke in [ ] setzen; ATAN als ATAN[y]/[x] schreiben",
     }
     /// A parameter such as `#1` without `=`.
     ASSIGNMENT_EXPECTED: InvalidExpression {
@@ -183,10 +183,10 @@ messages! {
     }
     /// Brackets nested more deeply than the limit.
     NESTED_TOO_DEEPLY: InvalidExpression {
-        en: "brackets are nested deeper than {most}; the line is left out",
-        de: "Klammern sind tiefer als {most} verschachtelt; die Zeile bleibt unbeachtet",
-        help_en: "set a parameter to a part of the expression first",
-        help_de: "zuerst einen Parameter auf einen Teil des Ausdrucks setzen",
+        en: "brackets are nested more than {most} levels deep; the line is left out",
+        de: "Klammern sind über mehr als {most} Ebenen verschachtelt; die Zeile bleibt unbeachtet",
+        help_en: "split the expression: assign part of it to a parameter first",
+        help_de: "den Ausdruck teilen: einen Teil davon zuerst einem Parameter zuweisen",
     }
     /// A line longer than the control accepts.
     LINE_TOO_LONG: LongLine {
@@ -206,8 +206,8 @@ messages! {
     BLANK_IN_NUMBER: DoubtfulSpelling {
         en: "spaces have no meaning in G-code: this is read as {letter}{number}",
         de: "Leerzeichen haben in G-Code keine Bedeutung: das wird als {letter}{number} gelesen",
-        help_en: "if two words are meant, the second one's letter is missing",
-        help_de: "wenn zwei Wörter gemeint sind, fehlt der Buchstabe des zweiten",
+        help_en: "if two words are meant, add the letter of the second one",
+        help_de: "wenn zwei Wörter gemeint sind, den Buchstaben des zweiten ergänzen",
     }
     /// A space between letter and number in a dialect that may not accept it.
     BLANK_AFTER_LETTER: DoubtfulSpelling {
@@ -218,15 +218,15 @@ messages! {
     }
     /// A block number without the checksum that hosts send with it.
     NUMBER_WITHOUT_CHECKSUM: DoubtfulSpelling {
-        en: "N without a checksum: {dialect} takes this line from an SD card, but refuses it from a host",
-        de: "N ohne Prüfsumme: {dialect} nimmt diese Zeile von der SD-Karte an, von einem sendenden Programm aber nicht",
+        en: "the line has N but no checksum: {dialect} accepts it from an SD card, but not from a host",
+        de: "die Zeile hat N, aber keine Prüfsumme: {dialect} nimmt sie von der SD-Karte an, von einem sendenden Programm aber nicht",
         help_en: "leave N out: hosts number the lines themselves",
         help_de: "N weglassen: sendende Programme nummerieren die Zeilen selbst",
     }
     /// A checksum without the block number that hosts send with it.
     CHECKSUM_WITHOUT_NUMBER: DoubtfulSpelling {
-        en: "a checksum without N: {dialect} takes this line from an SD card, but refuses it from a host",
-        de: "Prüfsumme ohne N: {dialect} nimmt diese Zeile von der SD-Karte an, von einem sendenden Programm aber nicht",
+        en: "the line has a checksum but no N: {dialect} accepts it from an SD card, but not from a host",
+        de: "die Zeile hat eine Prüfsumme, aber kein N: {dialect} nimmt sie von der SD-Karte an, von einem sendenden Programm aber nicht",
         help_en: "leave the checksum out: hosts add their own",
         help_de: "die Prüfsumme weglassen: sendende Programme fügen eigene an",
     }
@@ -260,8 +260,8 @@ messages! {
     }
     /// Lines after the end of the program, which are not read.
     AFTER_END: AfterProgramEnd {
-        en: "the program ends in line {line}; this and what follows is not read",
-        de: "das Programm endet in Zeile {line}; dies und alles danach wird nicht gelesen",
+        en: "the program ends in line {line}; this line and all that follow are not read",
+        de: "das Programm endet in Zeile {line}; diese Zeile und alle folgenden werden nicht gelesen",
         help_en: "remove these lines, or the earlier end of the program",
         help_de: "diese Zeilen oder das frühere Programmende entfernen",
     }
@@ -269,15 +269,15 @@ messages! {
     RUN_AFTER_END: AfterProgramEnd {
         en: "{dialect} also runs this line and those after it, despite the M2 or M30 in line {line}; they are not checked",
         de: "{dialect} führt auch diese und die folgenden Zeilen aus, trotz M2 oder M30 in Zeile {line}; sie werden nicht geprüft",
-        help_en: "remove them, or put them into a file of their own; in the middle of a program use M0 instead",
-        help_de: "sie entfernen oder in eine eigene Datei schreiben; mitten im Programm stattdessen M0 verwenden",
+        help_en: "remove these lines, or put them into a file of their own; to stop in the middle of a program, use M0",
+        help_de: "diese Zeilen entfernen oder in eine eigene Datei schreiben; für einen Halt mitten im Programm M0 verwenden",
     }
     /// A program without M2, M30 or %.
     NO_END: NoProgramEnd {
         en: "the program ends without {words}",
         de: "das Programm endet ohne {words}",
-        help_en: "the file may have been cut off; write M30 in its last line",
-        help_de: "die Datei ist vielleicht abgeschnitten; M30 in die letzte Zeile schreiben",
+        help_en: "check whether the file was cut off; if not, write M30 in its last line",
+        help_de: "prüfen, ob die Datei abgeschnitten ist; wenn nicht, M30 in die letzte Zeile schreiben",
     }
     /// A line marked by `/`, which a switch at the machine can skip.
     OPTIONAL_LINE: OptionalLine {
@@ -358,8 +358,8 @@ messages! {
     }
     /// A subprogram that calls itself, which is not followed again.
     CALLED_BY_ITSELF: WordNotFollowed {
-        en: "the subprogram {name} calls itself: it is not followed again",
-        de: "das Unterprogramm {name} ruft sich selbst auf: es wird nicht noch einmal verfolgt",
+        en: "the subprogram {name} calls itself; this call is not followed",
+        de: "das Unterprogramm {name} ruft sich selbst auf; dieser Aufruf wird nicht verfolgt",
         help_en: "write a loop with a number of repetitions instead",
         help_de: "stattdessen eine Schleife mit einer Anzahl von Wiederholungen schreiben",
     }
@@ -386,8 +386,8 @@ messages! {
     }
     /// `break` or `continue` outside of the loop that it names.
     LEFT_WITHOUT_LOOP: WordNotFollowed {
-        en: "this leaves the loop {name}, which is not running here",
-        de: "das verlässt die Schleife {name}, die hier nicht läuft",
+        en: "this word leaves the loop {name}, which is not running here",
+        de: "dieses Wort verlässt die Schleife {name}, die hier nicht läuft",
         help_en: "write the number of the surrounding while or do",
         help_de: "die Nummer der umgebenden Schleife mit while oder do angeben",
     }
@@ -437,15 +437,15 @@ messages! {
     AXIS_NOT_FOLLOWED: WordNotFollowed {
         en: "the axis {word} is not followed",
         de: "die Achse {word} wird nicht verfolgt",
-        help_en: "only X, Y and Z are read: check at the control how this axis moves",
-        help_de: "nur X, Y und Z werden gelesen: an der Steuerung prüfen, wie sich diese Achse bewegt",
+        help_en: "check at the control how this axis moves: only X, Y and Z are read",
+        help_de: "an der Steuerung prüfen, wie sich diese Achse bewegt: nur X, Y und Z werden gelesen",
     }
     /// A word that the dialect knows but ignores.
     IGNORED: IgnoredWord {
         en: "{dialect} ignores {word}",
         de: "{dialect} übergeht {word}",
-        help_en: "remove it, or switch it by hand",
-        help_de: "entfernen oder von Hand schalten",
+        help_en: "remove it, or do by hand what it is meant to do",
+        help_de: "entfernen oder von Hand ausführen, was es bewirken soll",
     }
     /// F words that are ignored because of an option.
     FEED_IGNORED: IgnoredWord {
@@ -461,8 +461,8 @@ messages! {
     }
     /// Two words of the same modal group.
     SAME_GROUP: ConflictingWords {
-        en: "{first} and {second} exclude each other in one line",
-        de: "{first} und {second} schließen einander in einer Zeile aus",
+        en: "{first} and {second} must not be in the same line",
+        de: "{first} und {second} dürfen nicht in derselben Zeile stehen",
         help_en: "put them into two lines",
         help_de: "auf zwei Zeilen verteilen",
     }
@@ -470,8 +470,8 @@ messages! {
     LETTER_TWICE: ConflictingWords {
         en: "{letter} occurs twice in one line",
         de: "{letter} kommt in einer Zeile zweimal vor",
-        help_en: "put the second into a line of its own; a letter may be missing between them",
-        help_de: "das zweite in eine eigene Zeile setzen; vielleicht fehlt dazwischen ein Buchstabe",
+        help_en: "put the second one into a line of its own; perhaps a letter is missing between the two",
+        help_de: "das zweite in eine eigene Zeile setzen; vielleicht fehlt zwischen beiden ein Buchstabe",
     }
     /// Two words that both use the coordinates.
     AXES_WANTED_TWICE: ConflictingWords {
@@ -484,8 +484,8 @@ messages! {
     NEEDS: MissingWord {
         en: "{word} needs {missing}",
         de: "{word} braucht {missing}",
-        help_en: "add the word to the line",
-        help_de: "das Wort in die Zeile schreiben",
+        help_en: "add the missing word to the line",
+        help_de: "das fehlende Wort in der Zeile ergänzen",
     }
     /// Coordinates in a line while no motion mode is active.
     NO_MOTION: MissingWord {
@@ -524,8 +524,8 @@ messages! {
     }
     /// An expression without a value, for example because of a division by zero.
     NO_VALUE: CannotEvaluate {
-        en: "this has no value: {reason}; the line is left out",
-        de: "das hat keinen Wert: {reason}; die Zeile bleibt unbeachtet",
+        en: "the expression has no value: {reason}; the line is left out",
+        de: "der Ausdruck hat keinen Wert: {reason}; die Zeile bleibt unbeachtet",
     }
     /// A parameter with a value that only the machine knows.
     MACHINE_VALUE: MachineValue {
@@ -538,22 +538,22 @@ messages! {
     OFFSET_UNKNOWN: UnknownOffset {
         en: "the position of {system} is unknown; it is assumed to be that of {base}",
         de: "die Lage von {system} ist unbekannt; angenommen wird die von {base}",
-        help_en: "lengths and the overall size are valid only within one work offset",
-        help_de: "Längen und Abmessungen gelten nur innerhalb einer Nullpunktverschiebung",
+        help_en: "use lengths and the overall size only within one work offset",
+        help_de: "Längen und Abmessungen nur innerhalb einer Nullpunktverschiebung verwenden",
     }
     /// G10 L2 for the active work offset, which had an unknown position before.
     ORIGIN_UNKNOWN: UnknownOffset {
-        en: "G10 L2 counts from the machine's zero, and where {system} was before is unknown; it is assumed to have been there",
-        de: "G10 L2 zählt vom Maschinennullpunkt aus, und wo {system} vorher lag, ist unbekannt; angenommen wird: dort",
-        help_en: "set the origin before the first move",
-        help_de: "den Nullpunkt vor der ersten Bewegung setzen",
+        en: "G10 L2 counts from the machine's zero, and the previous position of {system} is unknown; it is assumed to be at the machine's zero",
+        de: "G10 L2 zählt vom Maschinennullpunkt aus, und die vorige Lage von {system} ist unbekannt; angenommen wird der Maschinennullpunkt",
+        help_en: "set the origin with G10 before the first move",
+        help_de: "den Nullpunkt mit G10 vor der ersten Bewegung setzen",
     }
     /// G28, G30 or G53 with an unknown target.
     POSITION_UNKNOWN: UnknownOffset {
         en: "the target of {word} is unknown, so the next move begins at an unknown position",
         de: "das Ziel von {word} ist unbekannt; die nächste Bewegung beginnt daher an unbekannter Stelle",
-        help_en: "check at the machine that its way is free: lengths and checks leave these moves out",
-        help_de: "an der Maschine prüfen, dass der Weg frei ist: Längen und Prüfungen lassen diese Bewegungen aus",
+        help_en: "check at the machine that the way of the next move is free: lengths and checks leave out such moves",
+        help_de: "an der Maschine prüfen, dass der Weg der nächsten Bewegung frei ist: Längen und Prüfungen lassen solche Bewegungen aus",
     }
     /// A program that does not state its unit.
     UNITS_NOT_STATED: UnitsNotStated {
@@ -608,8 +608,8 @@ messages! {
     UNITS_CONTRADICTED: UnitsNotStated {
         en: "{word} is read as {unit}, but the comment says {comment}",
         de: "{word} wird als {unit} gelesen, aber der Kommentar sagt {comment}",
-        help_en: "the table of XpertMILL's import filter and its examples contradict each other; `unit-codes` chooses between them",
-        help_de: "die Tabelle des Importfilters von XpertMILL und seine Beispiele widersprechen einander; `unit-codes` wählt zwischen ihnen",
+        help_en: "choose the right meaning with `unit-codes`: the table of XpertMILL's import filter contradicts its examples",
+        help_de: "mit `unit-codes` die richtige Bedeutung wählen: die Tabelle des Importfilters von XpertMILL widerspricht seinen Beispielen",
     }
     /// A program that does not state a mode such as G90 or G17.
     MODES_NOT_STATED: ModesNotStated {
@@ -697,8 +697,8 @@ messages! {
     RADIUS_TOO_SMALL: InvalidArc {
         en: "the radius {radius} is too small: the arc's ends are {chord} apart",
         de: "der Radius {radius} ist zu klein: die Enden des Bogens liegen {chord} auseinander",
-        help_en: "R must be at least half of that",
-        help_de: "R muss mindestens die Hälfte davon sein",
+        help_en: "make R at least half of that distance",
+        help_de: "R mindestens auf die Hälfte dieses Abstands setzen",
     }
     /// An arc given by a radius of 0.
     RADIUS_ZERO: InvalidArc {
@@ -711,8 +711,8 @@ messages! {
     NEAR_HALF_CIRCLE: DoubtfulArc {
         en: "the centre of this arc with R moves by {shift} mm when the last digit of R changes",
         de: "der Mittelpunkt dieses Bogens mit R wandert um {shift} mm, wenn sich die letzte Ziffer von R ändert",
-        help_en: "write it with I and J",
-        help_de: "mit I und J schreiben",
+        help_en: "write the arc with I and J",
+        help_de: "den Bogen mit I und J schreiben",
     }
     /// An arc that is nearly a full circle.
     NEAR_FULL_CIRCLE: DoubtfulArc {
@@ -737,15 +737,15 @@ messages! {
     }
     /// A program that would require more cells than the limit to simulate its material.
     TOO_LARGE_TO_FOLLOW: LimitReached {
-        en: "following the material of this program takes more cells than the limit of {limit}; not checked: rapid moves into material",
-        de: "um das Material dieses Programms zu verfolgen, sind mehr als die erlaubten {limit} Zellen nötig; nicht geprüft: Eilgang ins Material",
+        en: "tracking the material of this program takes more cells than the limit of {limit}; rapid moves into material are not checked",
+        de: "um das Material dieses Programms zu verfolgen, sind mehr als die erlaubten {limit} Zellen nötig; Eilgänge ins Material werden nicht geprüft",
         help_en: "correct numbers that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Zahlen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// A program that exceeds the limit of pieces into which arcs and ramps are divided to simulate the material.
     TOO_MANY_PIECES: LimitReached {
-        en: "to follow the material, the arcs and slopes of this program are cut into {count} pieces, which exceeds the limit of {limit}; not checked: rapid moves into material",
-        de: "um das Material zu verfolgen, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, mehr als die Grenze von {limit}; nicht geprüft: Eilgang ins Material",
+        en: "to track the material, the arcs and slopes of this program are cut into {count} pieces, which exceeds the limit of {limit}; rapid moves into material are not checked",
+        de: "um das Material zu verfolgen, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, mehr als die Grenze von {limit}; Eilgänge ins Material werden nicht geprüft",
         help_en: "correct radii and heights that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Radien und Höhen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
@@ -754,14 +754,14 @@ messages! {
         en: "the probing move does not go down, so it touches nothing",
         de: "die Antastbewegung führt nicht nach unten und berührt daher nichts",
         help_en: "probe towards the material; G38.4 and G38.5 go away from it",
-        help_de: "zum Material hin messen; G38.4 und G38.5 führen von ihm weg",
+        help_de: "zum Material hin antasten; G38.4 und G38.5 führen von ihm weg",
     }
     /// A probing move while the spindle turns.
     PROBE_WITH_SPINDLE_ON: ProbeWithSpindleOn {
         en: "the spindle turns during this probing move: the cutter mills the touch plate, or the probe breaks",
         de: "bei dieser Antastbewegung dreht sich die Spindel: der Fräser fräst in die Messplatte, oder der Taster bricht ab",
-        help_en: "stop it with M5 before, and start it again after probing",
-        help_de: "vorher mit M5 anhalten und nach dem Antasten wieder einschalten",
+        help_en: "stop the spindle with M5 first, and start it again after probing",
+        help_de: "die Spindel vorher mit M5 anhalten und nach dem Antasten wieder einschalten",
     }
     /// G64 with a P above the limit.
     CORNERS_ROUNDED: RoundedCorners {
@@ -774,8 +774,8 @@ messages! {
     PROBE_WITHOUT_WAY: UselessProbe {
         en: "the probing move ends where it begins",
         de: "die Antastbewegung endet, wo sie beginnt",
-        help_en: "probe to a height below the material",
-        help_de: "bis zu einer Höhe unter dem Material messen",
+        help_en: "probe down to a height below the material's surface",
+        help_de: "bis zu einer Höhe unter der Oberfläche des Materials antasten",
     }
     /// Note: one more finding of this kind is not shown.
     ONE_MORE: DoubtfulSpelling {

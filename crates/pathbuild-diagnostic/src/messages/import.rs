@@ -5,8 +5,8 @@ messages! {
     UNKNOWN_FORMAT: UnreadableDescription {
         en: "the file describes neither a machine nor tools in a known format",
         de: "die Datei beschreibt weder Maschine noch Werkzeuge in einem bekannten Format",
-        help_en: "pathbuild reads the answer of GRBL and grblHAL to $$, FluidNC's YAML, LinuxCNC's ini file and tool table, and tools of FreeCAD and Fusion 360 (.json, .tools)",
-        help_de: "gelesen werden die Antwort von GRBL und grblHAL auf $$, FluidNCs YAML, ini-Datei und Werkzeugtabelle von LinuxCNC sowie Werkzeuge von FreeCAD und Fusion 360 (.json, .tools)",
+        help_en: "give a file in one of these formats: the answer of GRBL or grblHAL to $$, FluidNC's YAML, LinuxCNC's ini file or tool table, or tools of FreeCAD or Fusion 360 (.json, .tools)",
+        help_de: "eine Datei in einem dieser Formate angeben: Antwort von GRBL oder grblHAL auf $$, YAML von FluidNC, ini-Datei oder Werkzeugtabelle von LinuxCNC, Werkzeuge von FreeCAD oder Fusion 360 (.json, .tools)",
     }
     /// A description that the system refuses to read.
     DESCRIPTION_UNREADABLE: UnreadableDescription {
@@ -40,15 +40,15 @@ messages! {
     CORNER_TOO_ROUND: UnreadableDescription {
         en: "the corner radius of tool {number} ({name}) is {radius} mm, which is more than half of its diameter, {diameter} mm",
         de: "der Eckenradius von Werkzeug {number} ({name}) ist {radius} mm, mehr als die Hälfte seines Durchmessers von {diameter} mm",
-        help_en: "correct the tool in the library, and export it again",
-        help_de: "das Werkzeug in der Bibliothek berichtigen und sie noch einmal exportieren",
+        help_en: "correct the tool in the library, and export the library again",
+        help_de: "das Werkzeug in der Bibliothek berichtigen und die Bibliothek noch einmal exportieren",
     }
     /// A configuration into which values cannot be inserted automatically.
     NOT_EDITABLE: UnreadableDescription {
         en: "the values cannot be inserted into this configuration",
         de: "die Werte lassen sich in diese Konfiguration nicht einsetzen",
-        help_en: "write them into it by hand",
-        help_de: "sie von Hand hineinschreiben",
+        help_en: "write the values into the file by hand",
+        help_de: "die Werte von Hand in die Datei schreiben",
     }
     /// A value in the description that the key of the configuration does not permit.
     VALUE_NOT_TAKEN: UnusableValue {
@@ -66,8 +66,8 @@ messages! {
     }
     /// An entry that occurs twice with different values.
     ENTRY_TWICE: UnusableValue {
-        en: "`{name}` is `{value}` here, but the controller takes `{taken}` from line {line}; that is imported",
-        de: "`{name}` ist hier `{value}`, die Steuerung nimmt aber `{taken}` aus Zeile {line}; das wird übernommen",
+        en: "`{name}` is `{value}` here, but the controller takes `{taken}` from line {line}; that value is imported",
+        de: "`{name}` ist hier `{value}`, die Steuerung nimmt aber `{taken}` aus Zeile {line}; übernommen wird dieser Wert",
         help_en: "remove one of the two lines",
         help_de: "eine der beiden Zeilen entfernen",
     }
@@ -75,8 +75,8 @@ messages! {
     NOT_INCLUDED: UnusableValue {
         en: "the values of the included file are not read: `{line}`",
         de: "die Werte der eingefügten Datei werden nicht gelesen: `{line}`",
-        help_en: "put its lines in place of this one in a copy of the file, and import that",
-        help_de: "in einer Kopie der Datei ihre Zeilen an diese Stelle setzen und die Kopie importieren",
+        help_en: "in a copy of the file, replace this line by the contents of the included file, and import the copy",
+        help_de: "in einer Kopie der Datei diese Zeile durch den Inhalt der eingefügten Datei ersetzen und die Kopie importieren",
     }
     /// Spindle speeds that form no range, because the lowest is not below the highest.
     EMPTY_SPEEDS: UnusableValue {
@@ -96,13 +96,13 @@ messages! {
     SEVERAL_SPINDLES: UnusableValue {
         en: "there are several spindles, so no spindle speeds are imported: {names}",
         de: "es gibt mehrere Spindeln, daher werden keine Drehzahlen übernommen: {names}",
-        help_en: "set `spindle-speeds` by hand to those of the spindle that mills",
-        help_de: "`spindle-speeds` von Hand auf die der Spindel setzen, die fräst",
+        help_en: "set `spindle-speeds` by hand to the speeds of the milling spindle",
+        help_de: "`spindle-speeds` von Hand auf die Drehzahlen der Frässpindel setzen",
     }
     /// An ini file that does not state the unit of its lengths.
     UNIT_MISSING: UnusableValue {
         en: "[TRAJ] has no LINEAR_UNITS, so the unit of the lengths is unknown; no length is imported",
-        de: "in [TRAJ] fehlt LINEAR_UNITS, daher ist die Einheit der Längen unbekannt; keine wird übernommen",
+        de: "in [TRAJ] fehlt LINEAR_UNITS, daher ist die Einheit der Längen unbekannt; es wird keine Länge übernommen",
         help_en: "add LINEAR_UNITS = mm or LINEAR_UNITS = inch",
         help_de: "LINEAR_UNITS = mm oder LINEAR_UNITS = inch ergänzen",
     }
@@ -116,29 +116,29 @@ messages! {
     /// A tool with a diameter that is unknown or lacks a unit.
     NO_DIAMETER: UnusableValue {
         en: "the diameter of tool {number} ({name}) or its unit is unknown; the tool is not imported",
-        de: "der Durchmesser von Werkzeug {number} ({name}) oder seine Einheit ist unbekannt; es wird nicht übernommen",
-        help_en: "set the diameter in the library, and export it again",
-        help_de: "den Durchmesser in der Bibliothek setzen und sie noch einmal exportieren",
+        de: "der Durchmesser von Werkzeug {number} ({name}) oder seine Einheit ist unbekannt; das Werkzeug wird nicht übernommen",
+        help_en: "set the diameter in the library, and export the library again",
+        help_de: "den Durchmesser in der Bibliothek setzen und die Bibliothek noch einmal exportieren",
     }
     /// Two different tools with the same number.
     TOOL_TWICE_AT_LINE: UnusableValue {
         en: "tool {number} ({name}) is described differently in line {line} of {file} ({earlier}); neither is imported",
         de: "Werkzeug {number} ({name}) ist in Zeile {line} von {file} ({earlier}) anders beschrieben; keines von beiden wird übernommen",
-        help_en: "give each tool a number of its own in the library, and export it again",
-        help_de: "jedem Werkzeug in der Bibliothek eine eigene Nummer geben und sie noch einmal exportieren",
+        help_en: "give each tool a number of its own in the library, and export the library again",
+        help_de: "jedem Werkzeug in der Bibliothek eine eigene Nummer geben und die Bibliothek noch einmal exportieren",
     }
     /// Two different tools with the same number, in a file without known line numbers.
     TOOL_TWICE: UnusableValue {
         en: "tool {number} ({name}) is described differently in {file} ({earlier}); neither is imported",
         de: "Werkzeug {number} ({name}) ist in {file} ({earlier}) anders beschrieben; keines von beiden wird übernommen",
-        help_en: "give each tool a number of its own in the library, and export it again",
-        help_de: "jedem Werkzeug in der Bibliothek eine eigene Nummer geben und sie noch einmal exportieren",
+        help_en: "give each tool a number of its own in the library, and export the library again",
+        help_de: "jedem Werkzeug in der Bibliothek eine eigene Nummer geben und die Bibliothek noch einmal exportieren",
     }
     /// A tool bit that a library names but that cannot be read.
     BIT_UNREADABLE: UnusableValue {
         en: "the tool bit `{name}` cannot be read: {reason}",
-        de: "das Werkzeug `{name}` ist nicht lesbar: {reason}",
-        help_en: "tool bits are looked for beside the library, and in the directory Bit beside its directory",
-        help_de: "Werkzeuge werden neben der Bibliothek gesucht und im Verzeichnis Bit neben ihrem Verzeichnis",
+        de: "die Werkzeugdatei `{name}` ist nicht lesbar: {reason}",
+        help_en: "put a valid file beside the library, or into the directory Bit beside the library's directory",
+        help_de: "eine gültige Datei neben die Bibliothek legen oder in das Verzeichnis Bit neben dem Verzeichnis der Bibliothek",
     }
 }

@@ -19,15 +19,15 @@ messages! {
     NO_PATH: NoPath {
         en: "the drawing contains no path",
         de: "die Zeichnung enthält keinen Pfad",
-        help_en: "a path's layer has a name that matches {pattern}",
-        help_de: "der Layer eines Pfads hat einen Namen, der {pattern} entspricht",
+        help_en: "give the layer of each path a name that matches {pattern}",
+        help_de: "dem Layer jedes Pfads einen Namen geben, der {pattern} entspricht",
     }
     /// Searched directories that contain no drawing.
     NO_DRAWING: NothingFound {
         en: "there is no drawing in {directories}",
         de: "es gibt keine Zeichnung in {directories}",
-        help_en: "name a directory that holds .dxf files; hidden ones and those that .gitignore or .ignore excludes do not count",
-        help_de: "ein Verzeichnis mit .dxf-Dateien nennen; versteckte und durch .gitignore oder .ignore ausgeschlossene zählen nicht",
+        help_en: "name a directory with .dxf files; hidden files and those that .gitignore or .ignore excludes do not count",
+        help_de: "ein Verzeichnis mit .dxf-Dateien nennen; versteckte und durch .gitignore oder .ignore ausgeschlossene Dateien zählen nicht",
     }
     /// A searched directory that contains no program.
     NO_PROGRAM: NothingFound {
@@ -40,8 +40,8 @@ messages! {
     NO_PATH_ANYWHERE: NothingFound {
         en: "none of the {count} drawings contains a path",
         de: "keine der {count} Zeichnungen enthält einen Pfad",
-        help_en: "a path's layer has a name that matches {pattern}; `path-pattern` in pathbuild.toml sets another pattern",
-        help_de: "der Layer eines Pfads hat einen Namen, der {pattern} entspricht; `path-pattern` in pathbuild.toml setzt ein anderes Muster",
+        help_en: "give the layer of each path a name that matches {pattern}, or set another pattern with `path-pattern` in pathbuild.toml",
+        help_de: "dem Layer jedes Pfads einen Namen geben, der {pattern} entspricht, oder mit `path-pattern` in pathbuild.toml ein anderes Muster setzen",
     }
     /// A pattern for clamps that matches no layer of the library.
     NO_CLAMP_LAYER: PatternWithoutLayer {
@@ -85,8 +85,8 @@ messages! {
     NO_TARGET: NoPath {
         en: "no path of the library matches the target {pattern}",
         de: "kein Pfad der Bibliothek entspricht dem Ziel {pattern}",
-        help_en: "targets are patterns of path names: * is any text, ? one character",
-        help_de: "Ziele sind Muster von Pfadnamen: * ist beliebiger Text, ? ein Zeichen",
+        help_en: "give a pattern of path names: * stands for any text, ? for one character",
+        help_de: "ein Muster von Pfadnamen angeben: * steht für beliebigen Text, ? für ein Zeichen",
     }
     /// A name on the command line that is neither a path nor a drawing.
     NO_SUCH_PATH: PathNotFound {
@@ -99,18 +99,18 @@ messages! {
     NO_PATH_LIKE: PathNotFound {
         en: "no path matches {name}",
         de: "kein Pfad entspricht {name}",
-        help_en: "`pathbuild list` shows all; * stands for any characters, ? for one",
-        help_de: "`pathbuild list` zeigt alle; * steht für beliebige Zeichen, ? für eines",
+        help_en: "see `pathbuild list` for all paths; * stands for any characters, ? for one",
+        help_de: "mit `pathbuild list` alle Pfade anzeigen; * steht für beliebige Zeichen, ? für eines",
     }
     /// Note: the drawing that defines the path.
     DEFINED_IN: PathNotFound {
-        en: "the library defines it in {near}: name that drawing",
-        de: "die Bibliothek enthält ihn in {near}: diese Zeichnung nennen",
+        en: "the library defines the path in {near}: name that drawing",
+        de: "die Bibliothek enthält den Pfad in {near}: diese Zeichnung angeben",
     }
     /// Note: the drawing that defines the path, although the file's name does not contain the path's name.
     NOT_IN_FILE_NAME: PathNotFound {
-        en: "{near} defines it, though the file's name does not cover it: name that drawing",
-        de: "{near} enthält ihn, obwohl der Dateiname ihn nicht abdeckt: diese Zeichnung nennen",
+        en: "{near} defines the path, although the file's name does not include it: name that drawing",
+        de: "{near} enthält den Pfad, obwohl der Dateiname ihn nicht nennt: diese Zeichnung angeben",
     }
     /// Note: the path with the most similar name.
     NEAR_PATH: PathNotFound {
@@ -135,8 +135,8 @@ messages! {
     STALE_OR_OF_OTHERS: StaleOutput {
         en: "{name} was written earlier from a drawing that this library does not have",
         de: "{name} wurde früher aus einer Zeichnung geschrieben, die diese Bibliothek nicht hat",
-        help_en: "the directory lies outside of the library: delete the program only if no other library has written it",
-        help_de: "das Verzeichnis liegt außerhalb der Bibliothek: das Programm nur löschen, wenn keine andere Bibliothek es geschrieben hat",
+        help_en: "delete the program only if no other library has written it: its directory lies outside of this library",
+        help_de: "das Programm nur löschen, wenn keine andere Bibliothek es geschrieben hat: sein Verzeichnis liegt außerhalb dieser Bibliothek",
     }
     /// An output file that remains from before its path had errors.
     OLDER_OUTPUT: OlderOutput {
@@ -147,8 +147,8 @@ messages! {
     }
     /// An error that prevents a program although the configuration lowers its severity.
     LOWERED_ERROR: LoweredError {
-        en: "nothing was written: {code} stops a program, also where pathbuild.toml ignores it or makes it a warning",
-        de: "nichts wurde geschrieben: {code} hält ein Programm auf, auch wo pathbuild.toml ihn übergeht oder zur Warnung macht",
+        en: "nothing was written: {code} prevents the program even where pathbuild.toml ignores it or makes it a warning",
+        de: "nichts wurde geschrieben: {code} verhindert das Programm auch dann, wenn pathbuild.toml diesen Fehler übergeht oder zur Warnung macht",
         help_en: "remove {code} from `[severity]` or `[[severity-in]]` to see where it is, and correct it",
         help_de: "{code} aus `[severity]` oder `[[severity-in]]` entfernen, um die Stelle zu sehen, und den Fehler beheben",
     }
@@ -156,29 +156,29 @@ messages! {
     STALE_ADJUSTED: StaleOutput {
         en: "{name} was made from an older version of {clean}",
         de: "{name} wurde aus einer älteren Fassung von {clean} erzeugt",
-        help_en: "do not run it: adjust again with the current probe values; emit --remove-stale removes it",
-        help_de: "nicht laufen lassen: adjust mit den aktuellen Messwerten noch einmal aufrufen; emit --remove-stale entfernt es",
+        help_en: "do not mill with it: run adjust again with the current probe values; emit --remove-stale removes it",
+        help_de: "nicht damit fräsen: adjust mit den aktuellen Messwerten noch einmal aufrufen; emit --remove-stale entfernt die Datei",
     }
     /// An adjusted program that was edited afterwards, or that lacks the measured heights in its header.
     STALE_EDITED: StaleOutput {
         en: "{name} is not what adjust makes of {clean} with the measured heights in its header",
         de: "{name} ist nicht das, was adjust mit den gemessenen Höhen seines Kopfs aus {clean} erzeugt",
-        help_en: "it was edited, or an older version adjusted it: do not run it, adjust again",
-        help_de: "es wurde bearbeitet, oder eine ältere Version hat es angepasst: nicht laufen lassen, noch einmal adjust aufrufen",
+        help_en: "do not mill with it: run adjust again; the file was edited, or adjusted by an older version",
+        help_de: "nicht damit fräsen: noch einmal adjust aufrufen; die Datei wurde bearbeitet oder von einer älteren Version angepasst",
     }
     /// An adjusted program that was made with other heights than those measured now.
     STALE_VALUES: StaleOutput {
         en: "{name} was adjusted with other heights than {values} has now",
         de: "{name} wurde mit anderen Höhen angepasst, als {values} jetzt hat",
-        help_en: "do not run it: adjust again",
-        help_de: "nicht laufen lassen: noch einmal adjust aufrufen",
+        help_en: "do not mill with it: run adjust again",
+        help_de: "nicht damit fräsen: noch einmal adjust aufrufen",
     }
     /// An outdated program that was written by another post-processor.
     STALE_OTHER_MOVES: StaleOutput {
         en: "{name} has other moves than {program}: another post-processor wrote it before the path was changed",
         de: "{name} hat andere Bewegungen als {program}: ein anderer Postprozessor hat es geschrieben, bevor der Pfad geändert wurde",
-        help_en: "do not run it: emit it again with that post-processor, or remove it with emit --remove-stale",
-        help_de: "nicht laufen lassen: mit jenem Postprozessor neu schreiben (emit) oder mit emit --remove-stale entfernen",
+        help_en: "do not mill with it: emit it again with that post-processor, or remove it with emit --remove-stale",
+        help_de: "nicht damit fräsen: mit jenem Postprozessor neu schreiben (emit) oder mit emit --remove-stale entfernen",
     }
     /// A path that the Q-project does not embed.
     LACKS_PATH: QProjectLacksPath {
@@ -205,8 +205,8 @@ messages! {
     PROXY_OF_NOTHING: ProxyDiffers {
         en: "the proxy line names {name}, which is not a path of this drawing",
         de: "die Stellvertreterlinie nennt {name}, das kein Pfad dieser Zeichnung ist",
-        help_en: "the drawing's paths: {names}",
-        help_de: "die Pfade der Zeichnung: {names}",
+        help_en: "name one of the drawing's paths: {names}",
+        help_de: "einen der Pfade der Zeichnung nennen: {names}",
     }
     /// A proxy line that runs along one path, but names another.
     PROXY_OF_OTHER: ProxyDiffers {
@@ -231,14 +231,14 @@ messages! {
     }
     /// A Q-project that needs several paths, although its name permits no further names.
     NO_NAME_FOR_CUTTER: CannotWrite {
-        en: "the drawing's paths use several cutters (O), so the Q-project needs a path for each, but no name can be counted up from {name}",
-        de: "die Pfade der Zeichnung haben verschiedene O, das Q-Projekt braucht also für jedes einen Pfad, aber {name} lässt sich nicht weiterzählen",
+        en: "the drawing's paths use several cutters (O), so the Q-project needs a path for each, but {name} cannot be counted up to give further names",
+        de: "die Pfade der Zeichnung verwenden mehrere Fräser (O); das Q-Projekt braucht für jeden einen Pfad, aber aus {name} lassen sich keine weiteren Namen bilden",
         help_en: "use --path-name to give a name whose last number can be counted up",
         help_de: "mit --path-name einen Namen angeben, dessen letzte Zahl sich hochzählen lässt",
     }
     /// Note: the moves are the same with `--compatible`.
     SAME_IF_COMPATIBLE: MovesDiffer {
-        en: "with --compatible the moves are the same: the program is as PathDxf2GCode writes it",
-        de: "mit --compatible sind die Bewegungen gleich: das Programm ist so, wie PathDxf2GCode es schreibt",
+        en: "with --compatible the moves are the same: this program is the one that PathDxf2GCode writes",
+        de: "mit --compatible sind die Bewegungen gleich: dieses Programm ist das von PathDxf2GCode",
     }
 }

@@ -19,22 +19,22 @@ messages! {
     MISSING_AT_START: MissingParameter {
         en: "{letter} is missing at the path's start",
         de: "{letter} fehlt am Pfadanfang",
-        help_en: "every path needs O (cutter diameter) and T (thickness of the material) in the text of its start marker",
-        help_de: "jeder Pfad braucht O (Fräserdurchmesser) und T (Materialdicke) im Text seiner Anfangsmarke",
+        help_en: "write O (cutter diameter) and T (thickness of the material) in the text of the start marker; every path needs both",
+        help_de: "O (Fräserdurchmesser) und T (Materialdicke) in den Text der Anfangsmarke schreiben; jeder Pfad braucht beide",
     }
     /// A missing M where a path is embedded.
     MISSING_MATERIAL: MissingParameter {
         en: "M is missing: no material is given on {where}",
         de: "M fehlt: bei {where} ist kein Material angegeben",
-        help_en: "where a path is embedded, both it and the segment (or the embedding path) must name the material",
-        help_de: "wo ein Pfad eingebettet wird, müssen er und das Segment (oder der einbettende Pfad) das Material nennen",
+        help_en: "give M both in the embedded path and on the segment (or in the embedding path)",
+        help_de: "M sowohl im eingebetteten Pfad als auch am Segment (oder im einbettenden Pfad) angeben",
     }
     /// A letter that the element does not accept.
     UNKNOWN_LETTER: UnknownParameter {
         en: "{element} does not accept \"{letter}\"",
         de: "{element} kennt \"{letter}\" nicht",
-        help_en: "it accepts {known}; values follow their letter without a space",
-        help_de: "bekannt sind {known}; Werte folgen ihrem Buchstaben ohne Leerzeichen",
+        help_en: "use one of {known}; values follow their letter without a space",
+        help_de: "einen von {known} verwenden; Werte folgen ihrem Buchstaben ohne Leerzeichen",
     }
     /// A lower-case letter that the element accepts in upper case.
     LOWER_CASE_LETTER: UnknownParameter {
@@ -47,8 +47,8 @@ messages! {
     LOWER_CASE_TEXT: UnknownParameter {
         en: "the letters of this text are lower case",
         de: "die Buchstaben dieses Textes sind klein geschrieben",
-        help_en: "letters are upper case: write \"{text}\"",
-        help_de: "Buchstaben werden groß geschrieben: \"{text}\"",
+        help_en: "write \"{text}\", with upper-case letters",
+        help_de: "\"{text}\" schreiben, mit Großbuchstaben",
     }
     /// A text with commas between its parameters, where spaces are required.
     COMMAS: UnknownParameter {
@@ -96,8 +96,8 @@ messages! {
     NAME_ON_OTHER_ELEMENT: UnknownParameter {
         en: "{element} does not accept \"{letter}\": it embeds no path",
         de: "{element} kennt \"{letter}\" nicht: hier wird kein Pfad eingebettet",
-        help_en: "draw a line that embeds a path with line type DASHDOT",
-        help_de: "eine Linie, die einen Pfad einbettet, mit dem Linientyp DASHDOT zeichnen",
+        help_en: "use line type DASHDOT for a line that embeds a path",
+        help_de: "für eine Linie, die einen Pfad einbettet, den Linientyp DASHDOT verwenden",
     }
     /// A path name without `>`.
     NAME_WITHOUT_SIGN: UnknownParameter {
@@ -124,15 +124,15 @@ messages! {
     NOT_ABOVE: ParameterOutOfRange {
         en: "{letter} is {value}, but must be greater than {limit_letter}, which is {limit}",
         de: "{letter} ist {value}, muss aber größer als {limit_letter} ({limit}) sein",
-        help_en: "heights are measured from the clamping plate: S above T above D above B",
-        help_de: "Höhen zählen ab der Aufspannplatte: S über T über D über B",
+        help_en: "correct the heights: all are measured from the plate, S above T above D above B",
+        help_de: "die Höhen berichtigen: alle zählen ab der Aufspannplatte, S über T über D über B",
     }
     /// A value that must be less than another one.
     NOT_BELOW: ParameterOutOfRange {
         en: "{letter} is {value}, but must be less than {limit_letter}, which is {limit}",
         de: "{letter} ist {value}, muss aber kleiner als {limit_letter} ({limit}) sein",
-        help_en: "heights are measured from the clamping plate: S above T above D above B",
-        help_de: "Höhen zählen ab der Aufspannplatte: S über T über D über B",
+        help_en: "correct the heights: all are measured from the plate, S above T above D above B",
+        help_de: "die Höhen berichtigen: alle zählen ab der Aufspannplatte, S über T über D über B",
     }
     /// A value that must be greater than another one, of a letter without effect.
     UNUSED_NOT_ABOVE: ParameterOutOfRange {
@@ -157,8 +157,8 @@ messages! {
     }
     /// A feed that is rounded to zero in a program.
     FEED_ROUNDED_OFF: ParameterOutOfRange {
-        en: "{letter} is less than 0.0005 mm/min, which is 0 with the three decimals of a program",
-        de: "{letter} ist kleiner als 0,0005 mm/min und damit 0 mit den drei Dezimalen eines Programms",
+        en: "{letter} is less than 0.0005 mm/min, which a program with three decimals writes as 0",
+        de: "{letter} ist kleiner als 0,0005 mm/min, was ein Programm mit drei Nachkommastellen als 0 schreibt",
         help_en: "write a feed in mm/min, for example {example}",
         help_de: "einen Vorschub in mm/min schreiben, zum Beispiel {example}",
     }
@@ -187,50 +187,50 @@ messages! {
     BELOW_PLATE: DoubtfulValue {
         en: "B is {value}: {depth} mm below the plate",
         de: "B ist {value}: {depth} mm unter der Platte",
-        help_en: "check B, and that nothing lies there that must not be milled; `below-plate` under [warnings] allows more than {limit} mm",
-        help_de: "B prüfen, und ob dort nichts liegt, das nicht gefräst werden darf; `below-plate` unter [warnings] erlaubt mehr als {limit} mm",
+        help_en: "check B, and that nothing lies there that must not be milled; set `below-plate` under [warnings] to allow more than {limit} mm",
+        help_de: "B prüfen, und ob dort nichts liegt, das nicht gefräst werden darf; mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
     }
     /// A bottom below the plate that was probably meant as a depth.
     BELOW_PLATE_BY_DEPTH: DoubtfulValue {
         en: "B is {value}: {depth} mm below the plate",
         de: "B ist {value}: {depth} mm unter der Platte",
-        help_en: "heights are measured from the plate upwards: {depth} mm deep in T{thickness} is B{example}; where {depth} mm below the plate is meant, `below-plate` under [warnings] allows more than {limit} mm",
-        help_de: "Höhen werden von der Platte nach oben gemessen: {depth} mm tief bei T{thickness} ist B{example}; sind {depth} mm unter der Platte gemeint, erlaubt `below-plate` unter [warnings] mehr als {limit} mm",
+        help_en: "for a depth of {depth} mm in T{thickness}, write B{example}: heights are measured from the plate upwards; if {depth} mm below the plate is meant, set `below-plate` under [warnings] to allow more than {limit} mm",
+        help_de: "für {depth} mm Tiefe bei T{thickness} B{example} schreiben: Höhen werden von der Platte nach oben gemessen; sind {depth} mm unter der Platte gemeint, mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
     }
     /// An embedded path that is lowered instead of raised.
     LOWERED: DoubtfulValue {
         en: "H is {value}: the embedded path is milled {depth} mm lower, into the plate",
         de: "H ist {value}: der eingebettete Pfad wird {depth} mm tiefer gefräst, in die Platte",
-        help_en: "H is the height of the shims under the material, and raises the path; B of the embedded path gives its depth",
-        help_de: "H ist die Höhe der Unterlagen unter dem Material und hebt den Pfad an; seine Tiefe steht als B im eingebetteten Pfad",
+        help_en: "write the depth as B in the embedded path; H is the height of the shims under the material, and raises the path",
+        help_de: "die Tiefe als B im eingebetteten Pfad schreiben; H ist die Höhe der Unterlagen unter dem Material und hebt den Pfad an",
     }
     /// Sweepless milling that begins above the surface.
     FIRST_DEPTH_IN_AIR: DoubtfulValue {
         en: "W is {value}, above the surface T of {thickness}: the first pass cuts air",
         de: "W ist {value} und liegt über der Oberfläche T von {thickness}: der erste Durchgang fräst in der Luft",
-        help_en: "W is the height of the first pass above the plate: write W{example} for a first pass of one infeed",
-        help_de: "W ist die Höhe des ersten Durchgangs über der Platte: W{example} schreiben, wenn er eine Zustellung tief sein soll",
+        help_en: "write W{example} for a first pass of one infeed: W is the height of the first pass above the plate",
+        help_de: "W{example} schreiben, wenn der erste Durchgang eine Zustellung tief sein soll: W ist seine Höhe über der Platte",
     }
     /// Sweepless milling that begins below the bottom.
     FIRST_DEPTH_BELOW_BOTTOM: DoubtfulValue {
         en: "W is {value}, below the bottom {bottom}: everything is milled in one pass, {depth} mm deep",
         de: "W ist {value} und liegt unter dem Grund {bottom}: alles wird in einem Durchgang von {depth} mm Tiefe gefräst",
-        help_en: "W is the height of the first pass above the plate: write W{example} for a first pass of one infeed",
-        help_de: "W ist die Höhe des ersten Durchgangs über der Platte: W{example} schreiben, wenn er eine Zustellung tief sein soll",
+        help_en: "write W{example} for a first pass of one infeed: W is the height of the first pass above the plate",
+        help_de: "W{example} schreiben, wenn der erste Durchgang eine Zustellung tief sein soll: W ist seine Höhe über der Platte",
     }
     /// Support bars that end at the plate or below.
     THIN_BARS: DoubtfulValue {
         en: "D is {value}: the support bars end at that height above the plate, and hold nothing",
         de: "D ist {value}: die Stützstege enden in dieser Höhe über der Platte und halten nichts",
-        help_en: "D is the upper edge of the bars, measured from the plate upwards: write their thickness, for example D1",
-        help_de: "D ist die Oberkante der Stege, von der Platte nach oben gemessen: ihre Dicke schreiben, zum Beispiel D1",
+        help_en: "write the thickness of the bars, for example D1: D is their upper edge, measured from the plate upwards",
+        help_de: "die Dicke der Stege schreiben, zum Beispiel D1: D ist ihre Oberkante, von der Platte nach oben gemessen",
     }
     /// Parameters of support bars without any support segment.
     LOST_BARS: LostBars {
         en: "nothing holds the part inside this outline: the path has {letters} for support bars, but no line with line type BORDER or CENTER",
         de: "das Teil in diesem Umriss wird von nichts gehalten: der Pfad hat {letters} für Stützstege, aber keine Linie mit Linientyp BORDER oder CENTER",
-        help_en: "give the outline line type BORDER or CENTER (some CAD programs and blocks turn it into CONTINUOUS), or remove {letters} where the part is held otherwise",
-        help_de: "dem Umriss den Linientyp BORDER oder CENTER geben (manche CAD-Programme und Blöcke machen CONTINUOUS daraus) oder {letters} entfernen, wenn das Teil anders gehalten wird",
+        help_en: "give the outline line type BORDER or CENTER (some CAD programs and blocks turn it into CONTINUOUS); if the part is held otherwise, remove {letters}",
+        help_de: "dem Umriss den Linientyp BORDER oder CENTER geben (manche CAD-Programme und Blöcke machen CONTINUOUS daraus); wird das Teil anders gehalten, {letters} entfernen",
     }
     /// An infeed greater than the thickness.
     INFEED_ABOVE_THICKNESS: DoubtfulValue {
@@ -243,15 +243,15 @@ messages! {
     DEEP_MARK: DoubtfulValue {
         en: "D is {value}: the mark is {depth} mm deep in material of {thickness} mm",
         de: "D ist {value}: die Markierung ist {depth} mm tief in Material von {thickness} mm",
-        help_en: "D is the height of the mark's bottom above the plate, not its depth: a mark 0.2 mm deep is D{example}; `mark-depth` under [warnings] allows deeper ones",
-        help_de: "D ist die Höhe des Grundes über der Platte, nicht die Tiefe: eine Markierung von 0,2 mm Tiefe ist D{example}; `mark-depth` unter [warnings] erlaubt tiefere",
+        help_en: "write D{example} for a mark 0.2 mm deep: D is the height of the mark's bottom above the plate, not its depth; `mark-depth` under [warnings] allows deeper marks",
+        help_de: "für eine Markierung von 0,2 mm Tiefe D{example} schreiben: D ist die Höhe ihres Grundes über der Platte, nicht die Tiefe; `mark-depth` unter [warnings] erlaubt tiefere Markierungen",
     }
     /// Marks with the path's D that cut through most of the material.
     DEEP_MARKS_OF_PATH: DoubtfulValue {
         en: "marks without D of their own use {value}: they are {depth} mm deep in material of {thickness} mm",
         de: "Markierungen ohne eigenes D verwenden {value}: sie sind {depth} mm tief in Material von {thickness} mm",
-        help_en: "where this D is that of support bars, give each mark its own: a mark 0.2 mm deep is D{example}; `mark-depth` under [warnings] allows deeper ones",
-        help_de: "wo dieses D das der Stützstege ist, jeder Markierung ein eigenes geben: eine Markierung von 0,2 mm Tiefe ist D{example}; `mark-depth` unter [warnings] erlaubt tiefere",
+        help_en: "if this D is meant for support bars, give each mark a D of its own, such as D{example} for a depth of 0.2 mm; `mark-depth` under [warnings] allows deeper marks",
+        help_de: "ist dieses D für die Stützstege gedacht, jeder Markierung ein eigenes geben, etwa D{example} für 0,2 mm Tiefe; `mark-depth` unter [warnings] erlaubt tiefere Markierungen",
     }
     /// A feed that exceeds the limit of the machine.
     FEED_ABOVE_MACHINE: DoubtfulValue {
@@ -269,17 +269,17 @@ messages! {
     }
     /// A chip load below the limits of the tool.
     CHIP_LOAD_SMALL: DoubtfulChipLoad {
-        en: "a chip load of {load} mm per tooth is below {least}: feed {feed} mm/min, {speed} 1/min, {flutes} flutes",
+        en: "the chip load of {load} mm per tooth is below {least}: feed {feed} mm/min, {speed} 1/min, {flutes} flutes",
         de: "der Zahnvorschub von {load} mm liegt unter {least}: Vorschub {feed} mm/min, {speed} 1/min, {flutes} Schneiden",
-        help_en: "the tool rubs instead of cutting; raise F, lower the speed, or change `chip-load` of the tool ({least} to {most})",
-        help_de: "das Werkzeug reibt, statt zu schneiden; F erhöhen, die Drehzahl senken oder `chip-load` des Werkzeugs ändern ({least} bis {most})",
+        help_en: "raise F, lower the speed, or change `chip-load` of the tool ({least} to {most}); otherwise the tool rubs instead of cutting",
+        help_de: "F erhöhen, die Drehzahl senken oder `chip-load` des Werkzeugs ändern ({least} bis {most}); sonst reibt das Werkzeug, statt zu schneiden",
     }
     /// A chip load above the limits of the tool.
     CHIP_LOAD_LARGE: DoubtfulChipLoad {
-        en: "a chip load of {load} mm per tooth is above {most}: feed {feed} mm/min, {speed} 1/min, {flutes} flutes",
+        en: "the chip load of {load} mm per tooth is above {most}: feed {feed} mm/min, {speed} 1/min, {flutes} flutes",
         de: "der Zahnvorschub von {load} mm liegt über {most}: Vorschub {feed} mm/min, {speed} 1/min, {flutes} Schneiden",
-        help_en: "the tool may break; lower F, raise the speed, or change `chip-load` of the tool ({least} to {most})",
-        help_de: "das Werkzeug kann brechen; F senken, die Drehzahl erhöhen oder `chip-load` des Werkzeugs ändern ({least} bis {most})",
+        help_en: "lower F, raise the speed, or change `chip-load` of the tool ({least} to {most}); otherwise the tool may break",
+        help_de: "F senken, die Drehzahl erhöhen oder `chip-load` des Werkzeugs ändern ({least} bis {most}); sonst kann das Werkzeug brechen",
     }
     /// A default sweep height that is not above T.
     DEFAULT_SWEEP_TOO_LOW: ParameterOutOfRange {
@@ -369,15 +369,15 @@ messages! {
     NOT_AN_INTEGER: NotANumber {
         en: "{letter} needs a whole number, not \"{value}\"",
         de: "{letter} braucht eine ganze Zahl, nicht \"{value}\"",
-        help_en: "N gives the order at a star: N1, N2, N3",
-        help_de: "N gibt die Reihenfolge an einem Stern: N1, N2, N3",
+        help_en: "write a whole number, such as N1, N2, N3: N gives the order where several segments meet",
+        help_de: "eine ganze Zahl schreiben, etwa N1, N2, N3: N gibt die Reihenfolge an, wo mehrere Segmente zusammentreffen",
     }
     /// A variable in a value that must be a literal.
     VARIABLE_NOT_ALLOWED: VariableNotAllowed {
         en: "{letter} cannot use a variable",
         de: "{letter} kann keine Variable verwenden",
-        help_en: "N, O and @ are needed before variables have values; write the value itself",
-        help_de: "N, O und @ werden gebraucht, bevor Variablen Werte haben; den Wert selbst hinschreiben",
+        help_en: "write the value itself: N, O and @ are needed before variables have values",
+        help_de: "den Wert selbst hinschreiben: N, O und @ werden gebraucht, bevor Variablen Werte haben",
     }
     /// A start marker without a text.
     NO_PATH_PARAMETERS: MissingPathParameters {
@@ -397,8 +397,8 @@ messages! {
     AT_UNKNOWN: InvalidAtReference {
         en: "there is no path {name} with a start in this drawing",
         de: "es gibt in dieser Zeichnung keinen Pfad {name} mit einem Anfang",
-        help_en: "@ names another path of the same drawing; it has {known}",
-        help_de: "@ nennt einen anderen Pfad derselben Zeichnung; sie hat {known}",
+        help_en: "name another path of the same drawing, which has {known}",
+        help_de: "einen anderen Pfad derselben Zeichnung nennen; sie hat {known}",
     }
     /// @ with a path that uses @ itself.
     AT_CHAINED: InvalidAtReference {
@@ -411,8 +411,8 @@ messages! {
     INVALID_REGEX: InvalidRegex {
         en: "E is not a regular expression: {reason}",
         de: "E ist kein regulärer Ausdruck: {reason}",
-        help_en: "E is searched in the names of embedded paths: E^2050 or E[.]1P",
-        help_de: "E wird in den Namen eingebetteter Pfade gesucht: E^2050 oder E[.]1P",
+        help_en: "write an expression to be found in the names of embedded paths, such as E^2050 or E[.]1P",
+        help_de: "einen Ausdruck schreiben, der in den Namen eingebetteter Pfade gesucht wird, etwa E^2050 oder E[.]1P",
     }
     /// A letter that is permitted but has no effect.
     WITHOUT_EFFECT: ParameterWithoutEffect {
@@ -439,14 +439,14 @@ messages! {
     BOTTOM_OF_MARK: ParameterWithoutEffect {
         en: "{letter} has no effect here: a mark (line type DIVIDE) goes down to D",
         de: "{letter} hat hier keine Wirkung: eine Markierung (Linientyp DIVIDE) geht bis D",
-        help_en: "write D{value} if the mark ends at that height; only line type CONTINUOUS goes down to B",
-        help_de: "D{value} schreiben, wenn die Markierung auf dieser Höhe endet; bis B geht nur der Linientyp CONTINUOUS",
+        help_en: "write D{value} if the mark is to end at that height; only line type CONTINUOUS goes down to B",
+        help_de: "D{value} schreiben, wenn die Markierung auf dieser Höhe enden soll; bis B geht nur der Linientyp CONTINUOUS",
     }
     /// D on a milling segment.
     DEPTH_OF_MILLING: ParameterWithoutEffect {
         en: "{letter} has no effect here: milling (line type CONTINUOUS) goes down to B",
         de: "{letter} hat hier keine Wirkung: Fräsen (Linientyp CONTINUOUS) geht bis B",
-        help_en: "write B{value} if the cut should end at that height; only a mark (line type DIVIDE) goes down to D",
+        help_en: "write B{value} if the cut is to end at that height; only a mark (line type DIVIDE) goes down to D",
         help_de: "B{value} schreiben, wenn bis dorthin gefräst werden soll; bis D geht nur eine Markierung (Linientyp DIVIDE)",
     }
     /// C where no hole becomes a canned cycle.
@@ -502,8 +502,8 @@ messages! {
     VALUE_WITHOUT_DEFINITION: UnknownVariable {
         en: "path {name} has no variable \"{variable}\"",
         de: "Pfad {name} hat keine Variable \"{variable}\"",
-        help_en: "it has {known}",
-        help_de: "er hat {known}",
+        help_en: "variables of the path: {known}",
+        help_de: "Variablen des Pfads: {known}",
     }
     /// A reference to an unknown variable.
     UNKNOWN_REFERENCE: UnknownVariable {
@@ -530,15 +530,15 @@ messages! {
     ENDLESS: EndlessVariable {
         en: "the value of \"{variable}\" refers to itself",
         de: "der Wert von \"{variable}\" verweist auf sich selbst",
-        help_en: "a value may refer to other variables, but not in a circle",
-        help_de: "ein Wert darf auf andere Variablen verweisen, aber nicht im Kreis",
+        help_en: "remove the circle: a value may refer to other variables, but not back to itself",
+        help_de: "den Kreis auflösen: ein Wert darf auf andere Variablen verweisen, aber nicht auf sich selbst zurück",
     }
     /// More combinations of values than are checked.
     COMBINATIONS_CUT: LimitReached {
         en: "{checked} of {all} combinations of the variables' values were checked",
         de: "{checked} von {all} Kombinationen der Variablenwerte wurden geprüft",
-        help_en: "each value occurred in at least one of them; projects are checked with the values that they set",
-        help_de: "jeder Wert kam in mindestens einer vor; Projekte werden mit den Werten geprüft, die sie setzen",
+        help_en: "check the project if a certain combination matters: projects are checked with the values that they set; here each value occurred in at least one combination",
+        help_de: "kommt es auf eine bestimmte Kombination an, das Projekt prüfen: Projekte werden mit den Werten geprüft, die sie setzen; hier kam jeder Wert in mindestens einer Kombination vor",
     }
     /// Note: the values of the variables with which the problem occurs.
     WITH_VALUES: VariableValueNotAllowed {
@@ -554,7 +554,7 @@ messages! {
     TOO_DEEP: EndlessVariable {
         en: "the value of \"{variable}\" refers to itself, or values refer to others more than {limit} levels deep",
         de: "der Wert von \"{variable}\" verweist auf sich selbst, oder Werte verweisen über mehr als {limit} Stufen auf andere",
-        help_en: "a value may refer to other variables, but not in a circle; write long chains of them as one value",
-        help_de: "ein Wert darf auf andere Variablen verweisen, aber nicht im Kreis; lange Ketten davon als einen Wert schreiben",
+        help_en: "remove the circle, or replace a long chain of variables by a single value",
+        help_de: "den Kreis auflösen oder eine lange Kette von Variablen durch einen einzigen Wert ersetzen",
     }
 }

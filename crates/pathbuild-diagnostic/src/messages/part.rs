@@ -19,8 +19,8 @@ messages! {
     GOUGED_NEIGHBOUR: GougedNeighbour {
         en: "the cutter, O{tool}, goes {depth} mm into the part of path {other} at {point}; that part lies at {place} in the program",
         de: "der Fräser, O{tool}, gerät bei {point} {depth} mm tief in das Teil von Pfad {other}, das im Programm bei {place} liegt",
-        help_en: "place the two farther apart: between parts there must be room for the cutter",
-        help_de: "die beiden weiter auseinander setzen: zwischen Teilen muss Platz für den Fräser sein",
+        help_en: "place the two parts farther apart, so that the cutter fits between them",
+        help_de: "die beiden Teile weiter auseinandersetzen, sodass der Fräser dazwischen Platz hat",
     }
     /// Material left beside an outline.
     LEFTOVER: LeftoverAtPart {
@@ -47,8 +47,8 @@ messages! {
     LOOSE_PART: LoosePart {
         en: "the part whose outline begins at {point} is cut out all round, and no support bar holds it",
         de: "das Teil, dessen Umriss bei {point} beginnt, wird rundum ausgefräst, und kein Stützsteg hält es",
-        help_en: "draw parts of its contour with support bars (BORDER), or set part-held = \"otherwise\" if tape or vacuum holds it",
-        help_de: "Teile der Kontur mit Stützstegen (BORDER) zeichnen oder part-held = \"otherwise\" setzen, wenn Klebeband oder Vakuum es hält",
+        help_en: "draw some segments of its outline with support bars (BORDER), or set part-held = \"otherwise\" if tape or vacuum holds it",
+        help_de: "einige Segmente seines Umrisses mit Stützstegen (BORDER) zeichnen oder part-held = \"otherwise\" setzen, wenn Klebeband oder Vakuum es hält",
     }
     /// A part that is held after the cuts of its own path, but not after those of another one.
     SEVERED_PART: LoosePart {
@@ -68,8 +68,8 @@ messages! {
     OUTLINE_GAP: DoubtfulOutline {
         en: "the outline of the part has a gap: it ends at {point} and at {other}, {distance} mm apart",
         de: "der Umriss des Teils hat eine Lücke: er endet bei {point} und bei {other}, {distance} mm auseinander",
-        help_en: "let the ends meet: the CAD's object snap joins them; neither an open outline nor anything inside it is checked",
-        help_de: "die Enden zusammenführen, der Objektfang im CAD verbindet sie; ein offener Umriss und alles darin werden nicht geprüft",
+        help_en: "close the gap with the CAD's object snap; neither an open outline nor anything inside it is checked",
+        help_de: "die Lücke mit dem Objektfang des CAD schließen; ein offener Umriss und alles darin werden nicht geprüft",
     }
     /// An outline that crosses itself.
     OUTLINE_CROSSES_ITSELF: DoubtfulOutline {
@@ -82,8 +82,8 @@ messages! {
     OUTLINE_CROSSES_RIM: DoubtfulOutline {
         en: "this outline crosses the rim of the part at {point}, so it is neither an opening nor a part",
         de: "dieser Umriss kreuzt bei {point} den Rand des Teils und ist deshalb weder ein Ausschnitt noch ein Teil",
-        help_en: "trim the two to one outline; give it another layer or line type if it only shows something, for example a counterbore",
-        help_de: "beide zu einem Umriss stutzen; zeigt er nur etwas an, zum Beispiel eine Senkung, ihm einen anderen Layer oder Linientyp geben",
+        help_en: "trim the two to one outline; if this one only indicates something, such as a counterbore, give it another layer or line type",
+        help_de: "beide zu einem Umriss stutzen; zeigt dieser nur etwas an, etwa eine Senkung, ihm einen anderen Layer oder Linientyp geben",
     }
     /// A layer for parts that has no closed outline.
     NO_CLOSED_OUTLINE: DoubtfulOutline {
@@ -94,16 +94,16 @@ messages! {
     }
     /// An unsupported element on a layer with parts.
     OUTLINE_UNREADABLE: DoubtfulOutline {
-        en: "this {entity} on a layer with a part could not be read, so the outline may lack something",
-        de: "{entity} auf einem Layer mit einem Teil war nicht lesbar; dem Umriss fehlt vielleicht etwas",
-        help_en: "draw the outline with lines, arcs, circles or closed polylines; `approximate-curves` in pathbuild.toml reads ellipses and splines",
-        help_de: "den Umriss mit Linien, Bögen, Kreisen oder geschlossenen Polylinien zeichnen; mit `approximate-curves` in pathbuild.toml werden Ellipsen und Splines gelesen",
+        en: "this {entity} on a layer with a part could not be read, so the outline may be incomplete",
+        de: "{entity} auf einem Layer mit einem Teil war nicht lesbar; der Umriss ist daher vielleicht unvollständig",
+        help_en: "draw the outline with lines, arcs, circles or closed polylines; ellipses and splines are read if `approximate-curves` is set in pathbuild.toml",
+        help_de: "den Umriss mit Linien, Bögen, Kreisen oder geschlossenen Polylinien zeichnen; Ellipsen und Splines werden gelesen, wenn `approximate-curves` in pathbuild.toml gesetzt ist",
     }
     /// An outline of a part that no path cuts.
     OUTLINE_NOT_CUT: OutlineNotCut {
         en: "no path of this drawing cuts along this outline",
         de: "kein Pfad dieser Zeichnung fräst an diesem Umriss entlang",
-        help_en: "draw the missing path, or move what is no outline of the part to another layer",
-        help_de: "den fehlenden Pfad zeichnen, oder was kein Umriss des Teils ist, auf einen anderen Layer legen",
+        help_en: "draw the missing path; if this is not an outline of the part, move it to another layer",
+        help_de: "den fehlenden Pfad zeichnen; ist dies kein Umriss des Teils, ihn auf einen anderen Layer legen",
     }
 }

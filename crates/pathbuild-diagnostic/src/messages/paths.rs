@@ -33,8 +33,8 @@ messages! {
     TURN_FOUND_NOTHING: NothingContinues {
         en: "no segment branches off on the way back from this turn marker; segments not reached: {left}",
         de: "auf dem Rückweg von dieser Wendemarke zweigt kein Segment ab; nicht erreichte Segmente: {left}",
-        help_en: "let one of these segments branch off the way back to the start, or remove the turn marker",
-        help_de: "eines dieser Segmente vom Rückweg zum Anfang abzweigen lassen oder die Wendemarke entfernen",
+        help_en: "draw one of these segments so that it branches off the way back to the start, or remove the turn marker",
+        help_de: "eines dieser Segmente so zeichnen, dass es vom Rückweg zum Anfang abzweigt, oder die Wendemarke entfernen",
     }
     /// Note: the nearest open end.
     NEAREST_END: NothingContinues {
@@ -109,8 +109,8 @@ messages! {
     HELIX_TOO_LARGE: HelixTooLarge {
         en: "the helical circle's diameter {diameter} mm is greater than A, which is {limit}",
         de: "der Durchmesser {diameter} mm des Helixkreises ist größer als A ({limit})",
-        help_en: "a core would break loose; mill the circle as a path with support bars, or give the path an A (default 4 * O)",
-        help_de: "ein Kern würde herausbrechen; den Kreis als Pfad mit Stützstegen fräsen oder dem Pfad ein A geben (sonst gilt 4 * O)",
+        help_en: "mill the circle as a path with support bars, so that no core breaks loose, or give the path a larger A (default 4 * O)",
+        help_de: "den Kreis als Pfad mit Stützstegen fräsen, damit kein Kern herausbricht, oder dem Pfad ein größeres A geben (sonst gilt 4 * O)",
     }
     /// Support bars that are too close to each other.
     NO_ROOM_BETWEEN_BARS: NoRoomBetweenBars {
@@ -151,8 +151,8 @@ messages! {
     JOINED_INTO_CLAMP: InsideKeepOut {
         en: "joined with the other paths, the tool, O{tool}, hits the clamp of layer {layer} at {clamp} in {drawing}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
         de: "mit den anderen Pfaden verbunden trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} bei {clamp} in {drawing}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
-        help_en: "the clamps of all drawings are mounted during the whole program: raise S above them, or write a program for each path",
-        help_de: "die Spannmittel aller Zeichnungen stehen während des ganzen Programms: S darüber anheben oder je Pfad ein Programm schreiben",
+        help_en: "raise S above the clamps, or write a program for each path: the clamps of all drawings are mounted during the whole program",
+        help_de: "S über die Spannmittel anheben oder je Pfad ein Programm schreiben: die Spannmittel aller Zeichnungen stehen während des ganzen Programms",
     }
     /// A G-code program that moves into a clamp, reported at the line of the move.
     LINE_INTO_CLAMP: InsideKeepOut {
@@ -213,8 +213,8 @@ messages! {
     }
     /// A path that is defined at two places.
     DEFINED_TWICE: PathDefinedTwice {
-        en: "path {name} is defined twice: in {first} and in {second}",
-        de: "Pfad {name} ist zweimal festgelegt: in {first} und in {second}",
+        en: "path {name} exists twice: in {first} and in {second}",
+        de: "Pfad {name} gibt es zweimal: in {first} und in {second}",
         help_en: "rename or remove one of them",
         help_de: "einen davon umbenennen oder entfernen",
     }
@@ -229,22 +229,22 @@ messages! {
     CUTTER_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",
         de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
-        help_en: "one cutter mills both paths: give both the same O, or embed a component that is drawn for this cutter",
-        help_de: "ein Fräser fräst beide Pfade: beiden dasselbe O geben oder ein Bauteil einbetten, das für diesen Fräser gezeichnet ist",
+        help_en: "give both paths the same O, or embed a component that is drawn for this cutter: one cutter mills both",
+        help_de: "beiden Pfaden dasselbe O geben oder ein Bauteil einbetten, das für diesen Fräser gezeichnet ist: ein Fräser fräst beide",
     }
     /// An embedding path with another cutter than the embedded one, whatever the segment states.
     CUTTER_OF_PROJECT: SubpathParameterDiffers {
         en: "path {name} is drawn for a cutter of {there} mm, but path {outer} has O{here}",
         de: "Pfad {name} ist für einen Fräser von {there} mm gezeichnet, Pfad {outer} aber hat O{here}",
-        help_en: "a program has one cutter: embed the path in a project with its O, and write both programs into one with --join",
-        help_de: "ein Programm hat einen Fräser: den Pfad in einem Projekt mit seinem O einbetten und beide Programme mit --join zusammen schreiben",
+        help_en: "embed the path in another project, with its O, and write both projects into one program with --join: a project is milled with one cutter",
+        help_de: "den Pfad in einem anderen Projekt mit seinem O einbetten und beide Projekte mit --join in ein Programm schreiben: ein Projekt wird mit einem einzigen Fräser gefräst",
     }
     /// An embedding path with another tool than the embedded one, of the same diameter.
     TOOL_OF_PROJECT: SubpathParameterDiffers {
         en: "path {name} is for the tool {there} ([tool] in pathbuild.toml), but path {outer} is milled with the tool {here}, of the same diameter",
         de: "Pfad {name} ist für das Werkzeug {there} ([tool] in pathbuild.toml), Pfad {outer} wird aber mit dem Werkzeug {here} desselben Durchmessers gefräst",
-        help_en: "a program has one cutter: embed the path in a project whose name `paths` of {there} matches too, and write both programs into one with --join",
-        help_de: "ein Programm hat einen Fräser: den Pfad in einem Projekt einbetten, auf dessen Namen `paths` von {there} auch passt, und beide Programme mit --join zusammen schreiben",
+        help_en: "embed the path in another project, whose name `paths` of {there} also matches, and write both projects into one program with --join: a project is milled with one cutter",
+        help_de: "den Pfad in einem anderen Projekt einbetten, auf dessen Namen `paths` von {there} auch passt, und beide Projekte mit --join in ein Programm schreiben: ein Projekt wird mit einem einzigen Fräser gefräst",
     }
     /// A subpath segment in a block that is inserted mirrored.
     MIRRORED_SUBPATH: MirroredSubpath {
@@ -257,15 +257,15 @@ messages! {
     THICKNESS_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",
         de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
-        help_en: "both paths are milled from the same sheet: give both the same T, or embed a component that is drawn for this thickness",
-        help_de: "beide Pfade werden aus derselben Platte gefräst: beiden dasselbe T geben oder ein Bauteil einbetten, das für diese Dicke gezeichnet ist",
+        help_en: "give both paths the same T, or embed a component that is drawn for this thickness: both are milled from the same sheet",
+        help_de: "beiden Pfaden dasselbe T geben oder ein Bauteil einbetten, das für diese Dicke gezeichnet ist: beide werden aus derselben Platte gefräst",
     }
     /// A subpath segment that states another T, O or M than the embedded path has.
     PARAMETER_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",
         de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
-        help_en: "write the path's {letter} on the segment, if it really is milled from that; else use another component",
-        help_de: "das {letter} des Pfads an das Segment schreiben, wenn wirklich daraus gefräst wird; sonst ein anderes Bauteil verwenden",
+        help_en: "if the value of the path is right, write its {letter} on the segment; otherwise embed another component",
+        help_de: "ist der Wert des Pfads richtig, sein {letter} an das Segment schreiben; sonst ein anderes Bauteil einbetten",
     }
     /// An embedding that the parameter E or the option --restrict forbids.
     FORBIDDEN: SubpathForbidden {
@@ -292,8 +292,8 @@ messages! {
     T_BELOW: PathTBelowSubpathT {
         en: "T of this path is {path}, which is less than the subpath's {segment}",
         de: "T dieses Pfads ist {path} und damit kleiner als {segment} beim Unterpfad",
-        help_en: "the outer path's sweeps would run through the inner path's material; raise the path's T",
-        help_de: "die Leerfahrten des äußeren Pfads würden durch das Material des inneren laufen; T des Pfads erhöhen",
+        help_en: "raise the path's T; otherwise the outer path's sweeps run through the inner path's material",
+        help_de: "T des Pfads erhöhen; sonst laufen die Leerfahrten des äußeren Pfads durch das Material des inneren",
     }
     /// An embedded path with errors.
     HAS_ERRORS: SubpathHasErrors {

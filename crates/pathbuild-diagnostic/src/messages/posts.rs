@@ -40,8 +40,8 @@ messages! {
     MACRO_WITHOUT_SIGN: UnknownMacro {
         en: "{macro} in {section} would be written literally",
         de: "{macro} in {section} würde wörtlich geschrieben",
-        help_en: "a macro has a dollar sign: {nearest}",
-        help_de: "ein Makro hat ein Dollarzeichen: {nearest}",
+        help_en: "write {nearest}: macros begin with a dollar sign",
+        help_de: "{nearest} schreiben: Makros beginnen mit einem Dollarzeichen",
     }
     /// A syntax error in XML or TOML.
     POST_SYNTAX: InvalidPost {
@@ -57,8 +57,8 @@ messages! {
     POST_WRONG_ROOT: InvalidPost {
         en: "the file contains <{found}>, not <PostProcessor>",
         de: "die Datei enthält <{found}>, nicht <PostProcessor>",
-        help_en: "a CamBam definition begins with <PostProcessor>",
-        help_de: "eine CamBam-Definition beginnt mit <PostProcessor>",
+        help_en: "give the file of a CamBam definition: it begins with <PostProcessor>",
+        help_de: "die Datei einer CamBam-Definition angeben: sie beginnt mit <PostProcessor>",
     }
     /// An option of a definition with an invalid value.
     POST_OPTION: InvalidPost {
@@ -105,8 +105,8 @@ messages! {
     POST_MACRO_LINE: DoubtfulPost {
         en: "\"{text}\" defines no macro and is ignored",
         de: "\"{text}\" definiert kein Makro und wird übergangen",
-        help_en: "a macro is defined as $name=value",
-        help_de: "ein Makro wird als $name=Wert definiert",
+        help_en: "define a macro as $name=value",
+        help_de: "ein Makro als $name=Wert definieren",
     }
     /// A user macro with the name of a built-in one.
     POST_SHADOWED_MACRO: DoubtfulPost {
@@ -117,17 +117,17 @@ messages! {
     }
     /// Macros that contain each other, or are nested more deeply than the limit.
     MACRO_DEPTH: EndlessMacro {
-        en: "{section} contains itself, or macros are nested more than {limit} deep",
-        de: "{section} enthält sich selbst, oder Makros sind tiefer als {limit} verschachtelt",
+        en: "{section} contains itself, or macros are nested more than {limit} levels deep",
+        de: "{section} enthält sich selbst, oder Makros sind über mehr als {limit} Ebenen verschachtelt",
         help_en: "remove the macro that leads back to {section}, or nest macros less deeply",
         help_de: "das Makro entfernen, das zu {section} zurückführt, oder Makros weniger tief verschachteln",
     }
     /// A section that contains itself, such as `{$mops}` in MOP.
     BLOCK_WITHIN_ITSELF: EndlessMacro {
-        en: "{macro} in {section}: this section is itself part of the text that {macro} stands for",
-        de: "{macro} in {section}: dieser Abschnitt ist selbst ein Teil des Textes, für den {macro} steht",
-        help_en: "$mops belongs in PostFile, $blocks in MOP, once each",
-        help_de: "$mops gehört in PostFile, $blocks in MOP, je einmal",
+        en: "{macro} in {section}: this section is itself part of the text that {macro} inserts",
+        de: "{macro} in {section}: dieser Abschnitt gehört selbst zu dem Text, den {macro} einsetzt",
+        help_en: "use $mops once in PostFile, and $blocks once in MOP",
+        help_de: "$mops einmal in PostFile verwenden und $blocks einmal in MOP",
     }
     /// Macros that multiply the text that is written.
     MACRO_SIZE: EndlessMacro {
@@ -140,8 +140,8 @@ messages! {
     TOO_MANY_PECKS: EndlessMacro {
         en: "the hole at {place} requires more than {limit} pecks",
         de: "die Bohrung bei {place} braucht mehr als {limit} Stufen",
-        help_en: "check C of the hole",
-        help_de: "C der Bohrung prüfen",
+        help_en: "check C, the depth of a peck, at this hole",
+        help_de: "C, die Tiefe einer Stufe, bei dieser Bohrung prüfen",
     }
     /// A tolerance for chords that is so small that an arc would become too many lines.
     TOO_MANY_CHORDS: EndlessMacro {
@@ -159,8 +159,8 @@ messages! {
     VALUE_MISSING_OPEN: MissingPostValue {
         en: "{macro} in {section} has no value in {operation}",
         de: "{macro} in {section} hat in {operation} keinen Wert",
-        help_en: "drawings do not contain it: write \"{name}\" = \"...\" under [macros] of pathbuild.toml, or ${name}=... in PostProcessorMacros",
-        help_de: "Zeichnungen enthalten ihn nicht: \"{name}\" = \"...\" unter [macros] in pathbuild.toml oder ${name}=... in PostProcessorMacros schreiben",
+        help_en: "write \"{name}\" = \"...\" under [macros] of pathbuild.toml, or ${name}=... in PostProcessorMacros: drawings do not contain this value",
+        help_de: "\"{name}\" = \"...\" unter [macros] in pathbuild.toml oder ${name}=... in PostProcessorMacros schreiben: Zeichnungen enthalten diesen Wert nicht",
     }
     /// A hole for which nothing is written.
     DRILLING_LOST: LostDrilling {
@@ -171,8 +171,8 @@ messages! {
     }
     /// An arc with different radii at its ends after rounding.
     ARC_ROUNDED: RoundedArc {
-        en: "as written, the arc to {place} has the radius {start} at its start and {end} at its end",
-        de: "so, wie er geschrieben wird, hat der Bogen nach {place} am Anfang den Radius {start} und am Ende {end}",
+        en: "in the output, the arc to {place} has the radius {start} at its start and {end} at its end",
+        de: "in der Ausgabe hat der Bogen nach {place} am Anfang den Radius {start} und am Ende {end}",
         help_en: "give the post's number format more decimals",
         help_de: "dem Zahlenformat des Postprozessors mehr Nachkommastellen geben",
     }
@@ -186,7 +186,7 @@ messages! {
     /// A line of output that is not G-code.
     LINE_UNREADABLE: UnreadableLine {
         en: "the post writes \"{line}\", which is not G-code; its effect on the machine is unknown",
-        de: "der Postprozessor schreibt \"{line}\", das kein G-Code ist; seine Wirkung an der Maschine ist unbekannt",
+        de: "der Postprozessor schreibt \"{line}\"; das ist kein G-Code, und die Wirkung an der Maschine ist unbekannt",
         help_en: "if that is intended, set SuppressParserErrors in the post",
         help_de: "wenn das so gewollt ist, SuppressParserErrors im Postprozessor setzen",
     }
@@ -208,8 +208,8 @@ messages! {
     TOOL_NOT_IN_TABLE: UnknownTool {
         en: "T{index} is not in the tool table",
         de: "T{index} ist nicht in der Werkzeugtabelle",
-        help_en: "put the cutter that is meant into the machine's table and as [tool.NAME] with `number` into pathbuild.toml, or change T",
-        help_de: "den gemeinten Fräser in die Tabelle der Maschine und als [tool.NAME] mit `number` in pathbuild.toml aufnehmen oder T ändern",
+        help_en: "add the tool to the machine's table, and to pathbuild.toml as [tool.NAME] with `number`; or correct T",
+        help_de: "das Werkzeug in die Tabelle der Maschine und als [tool.NAME] mit `number` in pathbuild.toml aufnehmen, oder T berichtigen",
     }
     /// A program without operations.
     JOB_EMPTY: NothingToPost {
@@ -227,8 +227,8 @@ messages! {
     POST_UNKNOWN: UnknownPost {
         en: "there is no post-processor {name}",
         de: "es gibt keinen Postprozessor {name}",
-        help_en: "`pathbuild post list` lists the built-in ones; a file is given with its extension",
-        help_de: "`pathbuild post list` führt die eingebauten auf; eine Datei gibt man mit ihrer Endung an",
+        help_en: "choose one from `pathbuild post list`, or name a definition file with its extension",
+        help_de: "einen aus `pathbuild post list` wählen oder eine Definitionsdatei mit ihrer Endung nennen",
     }
     /// An unknown post-processor with a similar known one.
     POST_UNKNOWN_NEAREST: UnknownPost {
@@ -260,8 +260,8 @@ messages! {
     NO_RADIUS: NothingToPost {
         en: "{operation} cannot be wrapped round a cylinder: its surface T, which is the radius, is not above 0",
         de: "{operation} lässt sich nicht um einen Zylinder legen: die Oberfläche T, das ist der Radius, liegt nicht über 0",
-        help_en: "give the radius with --surface, or write it from the drawing with emit, which knows T",
-        help_de: "den Radius mit --surface angeben oder mit emit aus der Zeichnung schreiben, das T kennt",
+        help_en: "give the radius with --surface, or write the program from the drawing with emit, which knows T",
+        help_de: "den Radius mit --surface angeben oder das Programm mit emit aus der Zeichnung schreiben, die T enthält",
     }
     /// A program wrapped around a cylinder more than once.
     WRAPPED_TWICE: DoubtfulPost {
@@ -281,22 +281,22 @@ messages! {
     SPINDLE_UNKNOWN: MissingPostValue {
         en: "no spindle speed is known for {operation} (cutter O = {diameter}): the spindle would not turn",
         de: "für {operation} (Fräser O = {diameter}) ist keine Spindeldrehzahl bekannt: die Spindel stünde still",
-        help_en: "add it to pathbuild.toml as spindle = 12000 in [tool.NAME] with diameter = {diameter}; if the spindle is switched by hand: spindle = \"manual\" outside all tables",
-        help_de: "in pathbuild.toml spindle = 12000 in [tool.NAME] mit diameter = {diameter} eintragen; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen",
+        help_en: "add spindle = 12000 to [tool.NAME] with diameter = {diameter} in pathbuild.toml; if the spindle is switched by hand, write spindle = \"manual\" outside all tables",
+        help_de: "spindle = 12000 in pathbuild.toml unter [tool.NAME] mit diameter = {diameter} eintragen; wird die Spindel von Hand geschaltet, spindle = \"manual\" außerhalb aller Tabellen schreiben",
     }
     /// A tool without a known spindle speed, in a program that states only the number of the tool.
     SPINDLE_UNKNOWN_OF_NUMBER: MissingPostValue {
         en: "no spindle speed is known for {operation} (T{index}): the spindle would not turn",
         de: "für {operation} (T{index}) ist keine Spindeldrehzahl bekannt: die Spindel stünde still",
-        help_en: "put S and M3 into the program, or add [tool.NAME] with number = {index}, diameter and spindle to pathbuild.toml; if the spindle is switched by hand: spindle = \"manual\" outside all tables",
-        help_de: "S und M3 in das Programm aufnehmen oder [tool.NAME] mit number = {index}, diameter und spindle in pathbuild.toml; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen",
+        help_en: "put S and M3 into the program, or add [tool.NAME] with number = {index}, diameter and spindle to pathbuild.toml; if the spindle is switched by hand, write spindle = \"manual\" outside all tables",
+        help_de: "S und M3 in das Programm aufnehmen oder [tool.NAME] mit number = {index}, diameter und spindle in pathbuild.toml; wird die Spindel von Hand geschaltet, spindle = \"manual\" außerhalb aller Tabellen schreiben",
     }
     /// A program without a known spindle speed and without a tool.
     SPINDLE_UNSTATED: MissingPostValue {
         en: "no spindle speed is known for {operation}: the program has no S with M3 or M4, and names no tool",
         de: "für {operation} ist keine Spindeldrehzahl bekannt: das Programm hat kein S mit M3 oder M4 und nennt kein Werkzeug",
-        help_en: "put S and M3, or the tool (T1 M6), into the program; if the spindle is switched by hand: spindle = \"manual\" outside all tables of pathbuild.toml",
-        help_de: "S und M3 oder das Werkzeug (T1 M6) in das Programm aufnehmen; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml",
+        help_en: "put S and M3, or the tool (T1 M6), into the program; if the spindle is switched by hand, write spindle = \"manual\" outside all tables of pathbuild.toml",
+        help_de: "S und M3 oder das Werkzeug (T1 M6) in das Programm aufnehmen; wird die Spindel von Hand geschaltet, spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml schreiben",
     }
     /// Different spindle speeds for one tool, with a definition that writes the speed only at tool changes.
     ONE_SPEED_A_TOOL: NothingToPost {
@@ -335,8 +335,8 @@ messages! {
     SPIN_UP_NOT_WRITTEN: DoubtfulPost {
         en: "the post has no {macro}: the output does not wait for the spindle as long as [machine] spin-up says",
         de: "der Postprozessor hat kein {macro}: die Ausgabe wartet nicht so lange auf die Spindel, wie [machine] spin-up angibt",
-        help_en: "add {macro} to the post after it starts the spindle",
-        help_de: "{macro} im Postprozessor nach dem Einschalten der Spindel aufnehmen",
+        help_en: "add {macro} to the post, after the words that start the spindle",
+        help_de: "{macro} in den Postprozessor aufnehmen, hinter den Wörtern, die die Spindel einschalten",
     }
     /// An unknown key in a TOML definition without a similar known one.
     POST_UNKNOWN_KEY: InvalidPost {
@@ -352,10 +352,10 @@ messages! {
     }
     /// An `[alias]` for an unknown variable.
     ALIAS_UNKNOWN: DoubtfulControlText {
-        en: "there is no variable {name} that another name could stand for",
-        de: "es gibt keine Variable {name}, für die ein anderer Name stehen könnte",
-        help_en: "in [alias], pathbuild's name stands on the left, the texts' own on the right",
-        help_de: "in [alias] steht links der Name von pathbuild, rechts der der Steuertexte",
+        en: "pathbuild has no variable {name}, so [alias] cannot give it another name",
+        de: "pathbuild hat keine Variable {name}; [alias] kann ihr daher keinen anderen Namen geben",
+        help_en: "in [alias], write pathbuild's name on the left and the control texts' name on the right",
+        help_de: "in [alias] links den Namen von pathbuild schreiben, rechts den der Steuertexte",
     }
     /// An unknown variable without a similar known one.
     VARIABLE_UNDEFINED: UnknownMacro {
@@ -373,8 +373,8 @@ messages! {
     VARIABLE_UNDEFINED_NEAREST: UnknownMacro {
         en: "{text}, line {line}, column {column}: there is no variable {name} here",
         de: "{text}, Zeile {line}, Spalte {column}: die Variable {name} gibt es hier nicht",
-        help_en: "did you mean {nearest}? Another program's names are translated in [alias]",
-        help_de: "ist {nearest} gemeint? Namen anderer Programme übersetzt [alias]",
+        help_en: "did you mean {nearest}? Translate names of another program in [alias]",
+        help_de: "ist {nearest} gemeint? Namen eines anderen Programms in [alias] übersetzen",
     }
     /// Variables with texts that refer to each other, nested more deeply than the limit.
     VARIABLE_DEPTH: EndlessMacro {
@@ -388,15 +388,15 @@ messages! {
     }
     /// Statements or terms that are nested too deeply.
     TEXT_DEPTH: EndlessMacro {
-        en: "{text}, line {line}, column {column}: nested more than {limit} deep",
-        de: "{text}, Zeile {line}, Spalte {column}: tiefer als {limit} verschachtelt",
+        en: "{text}, line {line}, column {column}: statements or terms are nested more than {limit} levels deep",
+        de: "{text}, Zeile {line}, Spalte {column}: Anweisungen oder Ausdrücke sind über mehr als {limit} Ebenen verschachtelt",
     }
     /// A `~` that does not begin the name of a variable.
     LONE_TILDE: InvalidControlText {
         en: "{text}, line {line}, column {column}: \"~\" begins no variable",
         de: "{text}, Zeile {line}, Spalte {column}: mit \"~\" beginnt keine Variable",
-        help_en: "a variable is written ~Name~, a tilde \\~",
-        help_de: "eine Variable schreibt man ~Name~, eine Tilde \\~",
+        help_en: "write a variable as ~Name~, a tilde as \\~",
+        help_de: "eine Variable als ~Name~ schreiben, eine Tilde als \\~",
     }
     /// A `}` that closes nothing.
     LONE_BRACE: InvalidControlText {
@@ -419,15 +419,15 @@ messages! {
     STATEMENT_UNKNOWN: InvalidControlText {
         en: "{text}, line {line}, column {column}: statements with \"§\" are not supported",
         de: "{text}, Zeile {line}, Spalte {column}: Anweisungen mit \"§\" werden nicht unterstützt",
-        help_en: "no known manual describes them; write the text without them",
-        help_de: "kein bekanntes Handbuch beschreibt sie; den Text ohne sie schreiben",
+        help_en: "write the text without them; no known manual describes such statements",
+        help_de: "den Text ohne sie schreiben; kein bekanntes Handbuch beschreibt solche Anweisungen",
     }
     /// A missing name of a variable after `=` or `!`.
     NAME_EXPECTED: InvalidControlText {
         en: "{text}, line {line}, column {column}: the name of a variable is expected here",
         de: "{text}, Zeile {line}, Spalte {column}: hier wird der Name einer Variablen erwartet",
-        help_en: "it is written without tildes",
-        help_de: "er wird ohne Tilden geschrieben",
+        help_en: "write the name without tildes",
+        help_de: "den Namen ohne Tilden schreiben",
     }
     /// A condition that lacks the statement of a branch.
     BRANCH_EXPECTED: InvalidControlText {
@@ -458,8 +458,8 @@ messages! {
     TERM_IS_TEXT: InvalidControlText {
         en: "{text}, line {line}, column {column}: \"{found}\" is a text, not a number",
         de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" ist ein Text, keine Zahl",
-        help_en: "write the variable outside of a statement, or in one with s",
-        help_de: "die Variable außerhalb einer Anweisung schreiben oder in einer mit s",
+        help_en: "write the variable outside of a statement, or in a statement with s",
+        help_de: "die Variable außerhalb einer Anweisung schreiben oder in einer Anweisung mit s",
     }
     /// A term without a finite value, for example because of a division by zero.
     TERM_NOT_FINITE: InvalidControlText {
@@ -475,8 +475,8 @@ messages! {
     TERM_FUNCTION: InvalidControlText {
         en: "{text}, line {line}, column {column}: there is no function {name}",
         de: "{text}, Zeile {line}, Spalte {column}: es gibt keine Funktion {name}",
-        help_en: "known functions: abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, and pi",
-        help_de: "bekannte Funktionen: abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, und pi",
+        help_en: "use one of these: abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, or pi",
+        help_de: "eine von diesen verwenden: abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, oder pi",
     }
     /// A function of a term with a wrong number of arguments.
     TERM_ARGUMENTS: InvalidControlText {
@@ -504,29 +504,29 @@ messages! {
     READ_AFTER_ASSIGNMENT: DoubtfulControlText {
         en: "{text}, line {line}, column {column}: {name} is assigned before this, but here it still has its old value",
         de: "{text}, Zeile {line}, Spalte {column}: {name} wird davor zugewiesen, hat hier aber noch den alten Wert",
-        help_en: "variables are substituted before statements run; only the next text sees the new value",
-        help_de: "Variablen werden eingesetzt, bevor Anweisungen laufen; den neuen Wert sieht erst der nächste Text",
+        help_en: "read the new value in a later text: variables are substituted before statements run",
+        help_de: "den neuen Wert erst in einem späteren Text lesen: Variablen werden eingesetzt, bevor Anweisungen laufen",
     }
     /// A number without a format, as in `X~X1~`.
     NUMBER_UNFORMATTED: DoubtfulControlText {
         en: "{text}, line {line}, column {column}: {name} is written with all its decimals",
         de: "{text}, Zeile {line}, Spalte {column}: {name} wird mit allen Nachkommastellen geschrieben",
         help_en: "put it into a statement that rounds, such as one with \".\" or \"#\"",
-        help_de: "sie in eine Anweisung setzen, die rundet, etwa mit \".\" oder \"#\"",
+        help_de: "die Variable in eine Anweisung setzen, die rundet, etwa mit \".\" oder \"#\"",
     }
     /// A file that is missing, or not below the directory of the post.
     INSERTION_REFUSED: InjectedFile {
         en: "{text}, line {line}, column {column}: {name} cannot be inserted: {reason}",
         de: "{text}, Zeile {line}, Spalte {column}: {name} kann nicht eingefügt werden: {reason}",
-        help_en: "files to insert lie in the post's directory or below it",
-        help_de: "einzufügende Dateien liegen im Verzeichnis des Postprozessors oder darunter",
+        help_en: "put files to insert into the post's directory or below it",
+        help_de: "einzufügende Dateien im Verzeichnis des Postprozessors oder darunter ablegen",
     }
     /// A text without Z for a move that changes Z.
     NO_Z_IN_TEXT: InvalidControlText {
         en: "{operation} goes from Z {from} to Z {to} while it mills, but the text {text} has no ~Z1~",
         de: "{operation} geht beim Fräsen von Z {from} nach Z {to}, aber der Text {text} hat kein ~Z1~",
-        help_en: "add Z to the text; for a straight plunge between passes, lift-between-passes = true is enough (never with T-slot cutters)",
-        help_de: "Z in den Text aufnehmen; für das senkrechte Eintauchen zwischen zwei Durchgängen genügt lift-between-passes = true (nie bei T-Nuten-Fräsern)",
+        help_en: "add ~Z1~ to the text; for a straight plunge between passes, lift-between-passes = true is enough (never with T-slot cutters)",
+        help_de: "~Z1~ in den Text aufnehmen; für das senkrechte Eintauchen zwischen zwei Durchgängen genügt lift-between-passes = true (nie bei T-Nutenfräsern)",
     }
     /// A text without Z for a helix.
     NO_Z_IN_ARC: InvalidControlText {
@@ -560,8 +560,8 @@ messages! {
     DIALECT_UNKNOWN: InvalidPost {
         en: "there is no dialect {name}",
         de: "es gibt keinen Dialekt {name}",
-        help_en: "valid dialects are {known}",
-        help_de: "gültig sind {known}",
+        help_en: "use one of {known}",
+        help_de: "einen von {known} verwenden",
     }
     /// An unknown dialect with a similar known one.
     DIALECT_UNKNOWN_NEAREST: InvalidPost {
@@ -579,10 +579,10 @@ messages! {
     }
     /// Two words of a group in one line, such as G0 and G1, in the output of a definition without a dialect.
     WORDS_EXCLUDE: RejectedWord {
-        en: "{first} and {second} exclude each other in one line: controls refuse the line, or obey only one of the two",
-        de: "{first} und {second} schließen einander in einer Zeile aus: Steuerungen lehnen sie ab oder befolgen nur eines von beiden",
-        help_en: "write them in lines of their own, or remove one",
-        help_de: "sie in eigene Zeilen schreiben oder eines entfernen",
+        en: "{first} and {second} must not be in the same line: controls refuse the line, or obey only one of the two",
+        de: "{first} und {second} dürfen nicht in derselben Zeile stehen: Steuerungen lehnen sie ab oder befolgen nur eines von beiden",
+        help_en: "write them in separate lines, or remove one of them",
+        help_de: "in getrennte Zeilen schreiben oder eines entfernen",
     }
     /// A repeated letter in the output of a definition without a dialect.
     LETTER_REPEATED: RejectedWord {
@@ -636,17 +636,17 @@ messages! {
     /// Note: a dwell of another length than in the program.
     DWELL_DIFFERS: PostDiffers {
         en: "the program dwells for {seconds} s, but the output for {found} s",
-        de: "das Programm verweilt {seconds} s, die Ausgabe aber {found} s",
+        de: "das Programm wartet {seconds} s, die Ausgabe aber {found} s",
     }
     /// Note: a dwell of the program that the output lacks.
     DWELL_LOST: PostDiffers {
         en: "the program dwells for {seconds} s here, but the rest of the output has no such dwell",
-        de: "das Programm verweilt {seconds} s, diese Verweilzeit fehlt aber im Rest der Ausgabe",
+        de: "das Programm wartet hier {seconds} s, diese Wartezeit fehlt aber im Rest der Ausgabe",
     }
     /// Note: the spindle is not started before the first cut.
     SPINDLE_NOT_STARTED: PostDiffers {
-        en: "the tool cuts here, but the output has not switched the spindle on, although the tool has a `spindle` speed; if that is done by hand: spindle = \"manual\" outside all tables of pathbuild.toml",
-        de: "hier wird gefräst, aber die Ausgabe hat die Spindel nicht eingeschaltet, obwohl `spindle` beim Werkzeug eine Drehzahl angibt; geschieht das von Hand: spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml",
+        en: "the tool cuts here, but the output has not switched the spindle on, although the tool has a `spindle` speed; if the spindle is switched by hand, write spindle = \"manual\" outside all tables of pathbuild.toml",
+        de: "hier wird gefräst, aber die Ausgabe hat die Spindel nicht eingeschaltet, obwohl `spindle` beim Werkzeug eine Drehzahl angibt; wird die Spindel von Hand geschaltet, spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml schreiben",
     }
     /// Note: the spindle turns in the wrong direction.
     SPINDLE_OTHER_WAY: PostDiffers {
@@ -734,13 +734,13 @@ messages! {
     }
     /// Note: the section and line of the definition that wrote the line of output.
     WRITTEN_BY_LINE: PostDiffers {
-        en: "it is written by {section}, line {at} of the definition",
-        de: "sie wird von {section} geschrieben, Zeile {at} der Definition",
+        en: "the line comes from {section}, line {at} of the definition",
+        de: "die Zeile stammt aus {section}, Zeile {at} der Definition",
     }
     /// Note: the section with the default text that wrote the line of output.
     WRITTEN_BY: PostDiffers {
-        en: "it is written by the default text of {section}, which the definition does not contain",
-        de: "sie wird vom vorgegebenen Text von {section} geschrieben, den die Definition nicht enthält",
+        en: "the line comes from the default text of {section}, which the definition does not contain",
+        de: "die Zeile stammt aus dem vorgegebenen Text von {section}, den die Definition nicht enthält",
     }
     /// A program with several work offsets, to be written through a post.
     JOB_SYSTEM: NothingToPost {
@@ -753,15 +753,15 @@ messages! {
     JOB_PLACE_UNKNOWN: NothingToPost {
         en: "a cut from or to an unknown position cannot be written through a post",
         de: "einen Schnitt von oder zu einer unbekannten Position kann kein Postprozessor schreiben",
-        help_en: "before its first cut, the program must move to X, Y and Z once with absolute coordinates (G90)",
-        help_de: "vor seinem ersten Schnitt muss das Programm X, Y und Z einmal mit absoluten Koordinaten (G90) anfahren",
+        help_en: "before the first cut, move to X, Y and Z once with absolute coordinates (G90)",
+        help_de: "vor dem ersten Schnitt X, Y und Z einmal mit absoluten Koordinaten (G90) anfahren",
     }
     /// A value that only the machine knows, such as the height that a probe found.
     JOB_MACHINE_VALUE: NothingToPost {
         en: "only the machine knows {parameter}, so what depends on it cannot be written through a post",
         de: "nur die Maschine kennt {parameter}; was davon abhängt, kann kein Postprozessor schreiben",
-        help_en: "a post writes numbers: measure and calculate in a program of the machine's own",
-        help_de: "ein Postprozessor schreibt Zahlen: in einem Programm der Maschine selbst messen und rechnen",
+        help_en: "measure and calculate in a program of the machine's own: a post can only write numbers",
+        help_de: "in einem eigenen Programm der Maschine messen und rechnen: ein Postprozessor kann nur Zahlen schreiben",
     }
     /// M6 without T in the middle of a program.
     JOB_TOOL_UNNAMED: NothingToPost {
@@ -781,8 +781,8 @@ messages! {
     JOB_NAMED_PLACE: NothingToPost {
         en: "a move to a position that only the machine knows cannot be written through a post",
         de: "eine Bewegung an eine Position, die nur die Maschine kennt, kann kein Postprozessor schreiben",
-        help_en: "remove the move, and put it into the texts of the post if the machine needs it",
-        help_de: "die Bewegung entfernen und, wenn die Maschine sie braucht, in die Texte des Postprozessors schreiben",
+        help_en: "remove the move; if the machine needs it, put it into the texts of the post",
+        help_de: "die Bewegung entfernen; braucht die Maschine sie, in die Texte des Postprozessors schreiben",
     }
     /// A move that cannot be written through a post: an arc of several turns, or a probing move away from the material.
     JOB_MOVE: NothingToPost {
@@ -795,22 +795,22 @@ messages! {
     POST_BUILD_FAILED: PostBuildFailed {
         en: "the post's command \"{command}\" failed: {reason}",
         de: "der Befehl \"{command}\" des Postprozessors ist fehlgeschlagen: {reason}",
-        help_en: "the program was written; only the command failed",
-        help_de: "das Programm wurde geschrieben, nur der Befehl ist fehlgeschlagen",
+        help_en: "correct the command, or run it by hand; the program itself was written",
+        help_de: "den Befehl berichtigen oder von Hand ausführen; das Programm selbst wurde geschrieben",
     }
     /// A command of a definition in an untrusted repository.
     POST_BUILD_REFUSED: PostBuildFailed {
         en: "the post's command \"{command}\" is not run: the repository is not trusted",
         de: "der Befehl \"{command}\" des Postprozessors wird nicht ausgeführt: dem Repository wird nicht vertraut",
-        help_en: "nothing was written; leave out --run-post-build",
-        help_de: "nichts wurde geschrieben; --run-post-build weglassen",
+        help_en: "leave out --run-post-build; nothing was written",
+        help_de: "--run-post-build weglassen; nichts wurde geschrieben",
     }
     /// A path with probes that is written through a post.
     POST_WITH_PROBES: UncorrectedHeights {
         en: "the path has Z-probes: written through a post, its heights would stay uncorrected",
         de: "der Pfad hat Z-Proben: über einen Postprozessor geschrieben blieben seine Höhen unkorrigiert",
-        help_en: "emit it without a post, measure, run `pathbuild adjust`, then `pathbuild post DRAWING_Milling.gcode --post POST`",
-        help_de: "ohne Postprozessor ausgeben, messen, `pathbuild adjust` ausführen, dann `pathbuild post ZEICHNUNG_Milling.gcode --post POST`",
+        help_en: "run emit without a post, measure, run `pathbuild adjust`, then `pathbuild post DRAWING_Milling.gcode --post POST`",
+        help_de: "emit ohne Postprozessor ausführen, messen, `pathbuild adjust` ausführen, dann `pathbuild post ZEICHNUNG_Milling.gcode --post POST`",
     }
     /// A program with correction formulas that were not applied, to be written through a post.
     POST_UNADJUSTED: UncorrectedHeights {

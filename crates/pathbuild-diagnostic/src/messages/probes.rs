@@ -5,8 +5,8 @@ messages! {
     NO_PROBE_LINE: InvalidProbeLine {
         en: "this is not a valid probe line",
         de: "das ist keine gültige Messzeile",
-        help_en: "a line has the form ([X Y]/T=HEIGHT) #NUMBER=VALUE; enter only the value by hand",
-        help_de: "eine Zeile hat die Form ([X Y]/T=HÖHE) #NUMMER=WERT; von Hand nur den Wert eintragen",
+        help_en: "restore the form ([X Y]/T=HEIGHT) #NUMBER=VALUE; enter only the value by hand",
+        help_de: "die Form ([X Y]/T=HÖHE) #NUMMER=WERT wiederherstellen; von Hand nur den Wert eintragen",
     }
     /// A probe without a measured value.
     NO_VALUE: InvalidProbeLine {
@@ -31,73 +31,73 @@ messages! {
     }
     /// A value in the file of measured values that differs from the log.
     VALUE_DIFFERS_FROM_LOG: InvalidProbeLine {
-        en: "#{probe} has a value here, but {measured} in the log",
-        de: "#{probe} hat hier einen Wert, im Protokoll aber {measured}",
-        help_en: "remove the wrong one: the value here, or --log",
-        help_de: "das Falsche entfernen: den Wert hier oder --log",
+        en: "the value of #{probe} here differs from {measured} in the log",
+        de: "der Wert von #{probe} weicht hier von {measured} im Protokoll ab",
+        help_en: "remove the value here if it is wrong, or leave out --log",
+        help_de: "den Wert hier entfernen, wenn er falsch ist, sonst --log weglassen",
     }
     /// A probe that made no contact, according to the log.
     PROBE_FAILED: InvalidProbeLine {
         en: "this probe made no contact",
         de: "diese Probe hatte keinen Kontakt",
         help_en: "probe again; remove lines of other probes or of earlier runs from the log",
-        help_de: "noch einmal messen; aus dem Protokoll Zeilen entfernen, die von anderen Proben oder einem früheren Lauf sind",
+        help_de: "noch einmal antasten; aus dem Protokoll die Zeilen anderer Proben und früherer Läufe entfernen",
     }
     /// A line of a sender's log that is no probe result.
     BROKEN_LOG_LINE: InvalidProbeLine {
         en: "this line is not a probe result",
         de: "diese Zeile ist kein Messergebnis",
-        help_en: "a result has the form [PRB:X,Y,Z:1]: measure again if the line was cut off, or remove it",
-        help_de: "ein Ergebnis hat die Form [PRB:X,Y,Z:1]: noch einmal messen, wenn die Zeile abgeschnitten ist, oder sie entfernen",
+        help_en: "measure again if the line was cut off, otherwise remove it: a result has the form [PRB:X,Y,Z:1]",
+        help_de: "noch einmal messen, wenn die Zeile abgeschnitten ist, sonst sie entfernen: ein Ergebnis hat die Form [PRB:X,Y,Z:1]",
     }
     /// A log with more or fewer results than there are probes.
     LOG_COUNT: InvalidProbeLine {
         en: "the log has {found} probe results, but {file} has {expected} probes",
         de: "das Protokoll hat {found} Messergebnisse, {file} aber {expected} Proben",
-        help_en: "the log must have one result [PRB:X,Y,Z:1] for each probe, in the order of the probing run, and no other",
-        help_de: "das Protokoll muss für jede Probe genau ein Ergebnis [PRB:X,Y,Z:1] enthalten, in der Reihenfolge des Antastprogramms, und kein anderes",
+        help_en: "keep exactly one result [PRB:X,Y,Z:1] for each probe in the log, in the order of the probing run",
+        help_de: "im Protokoll für jede Probe genau ein Ergebnis [PRB:X,Y,Z:1] lassen, in der Reihenfolge des Antastprogramms",
     }
     /// A result in a log that was measured at another position than that of its probe.
     LOG_ELSEWHERE: InvalidProbeLine {
         en: "this result was measured at {found}, but #{probe} is at {expected}, counted from the first probe",
         de: "dieses Ergebnis wurde bei {found} gemessen, #{probe} liegt aber, von der ersten Probe aus gezählt, bei {expected}",
-        help_en: "the log must be that of this drawing's probing run, with its results in the order of the run: measure again",
-        help_de: "das Protokoll muss vom Antastprogramm dieser Zeichnung stammen, mit den Ergebnissen in dessen Reihenfolge: noch einmal messen",
+        help_en: "measure again: the log must come from this drawing's probing run, with its results in the order of the run",
+        help_de: "noch einmal messen: das Protokoll muss vom Antastprogramm dieser Zeichnung stammen, mit den Ergebnissen in dessen Reihenfolge",
     }
     /// A measured height too far from the drawn one.
     TOO_FAR: CorrectionTooLarge {
         en: "#{probe} is {value}, which is {off} mm away from the drawn height {expected}; at most {limit} mm are allowed",
         de: "#{probe} ist {value} und weicht um {off} mm von der gezeichneten Höhe {expected} ab; erlaubt sind höchstens {limit} mm",
-        help_en: "measure again; if it is right, correct T in the drawing, or allow more with --max-correction",
-        help_de: "noch einmal messen; wenn es stimmt, T in der Zeichnung berichtigen oder mit --max-correction mehr erlauben",
+        help_en: "measure again; if the value is right, correct T in the drawing, or allow more with --max-correction",
+        help_de: "noch einmal messen; wenn der Wert stimmt, T in der Zeichnung berichtigen oder mit --max-correction mehr erlauben",
     }
     /// A correction that is too large, although each measured height is near enough.
     HEIGHT_TOO_FAR: CorrectionTooLarge {
         en: "this height would be changed by {off} mm; at most {limit} mm are allowed",
         de: "diese Höhe würde um {off} mm verändert; erlaubt sind höchstens {limit} mm",
-        help_en: "it lies far outside the probes: draw probes there, or allow more with --max-correction",
-        help_de: "sie liegt weit außerhalb der Proben: dort Proben zeichnen oder mit --max-correction mehr erlauben",
+        help_en: "draw probes near this place, which lies far outside the probes, or allow more with --max-correction",
+        help_de: "Proben in der Nähe dieser Stelle zeichnen, die weit außerhalb der Proben liegt, oder mit --max-correction mehr erlauben",
     }
     /// A formula that uses a probe which the file of measured values does not contain.
     UNKNOWN_PROBE: UnknownProbe {
         en: "the formula uses #{probe}, which {file} does not have",
         de: "die Formel verwendet #{probe}, das es in {file} nicht gibt",
-        help_en: "both files must come from the same run of emit: emit again, and measure with the new program",
-        help_de: "beide Dateien müssen vom selben emit stammen: noch einmal ausgeben und mit dem neuen Programm messen",
+        help_en: "emit again, and measure with the new program: both files must come from the same run of emit",
+        help_de: "noch einmal ausgeben und mit dem neuen Programm messen: beide Dateien müssen vom selben Lauf von emit stammen",
     }
     /// A probe in the file of measured values that its program does not have.
     PROBE_OF_OTHER_PROGRAM: UnknownProbe {
         en: "{file} was written without a probe #{probe}",
         de: "{file} wurde ohne die Probe #{probe} geschrieben",
-        help_en: "both files must come from the same run of emit: emit again, and measure with the new program",
-        help_de: "beide Dateien müssen vom selben emit stammen: noch einmal ausgeben und mit dem neuen Programm messen",
+        help_en: "emit again, and measure with the new program: both files must come from the same run of emit",
+        help_de: "noch einmal ausgeben und mit dem neuen Programm messen: beide Dateien müssen vom selben Lauf von emit stammen",
     }
     /// A probe in the program at another position than in the file of measured values.
     OTHER_PROBE: UnknownProbe {
         en: "#{probe} is {here} here, but {file} was written with {there}",
         de: "#{probe} ist hier {here}, aber {file} wurde mit {there} geschrieben",
-        help_en: "the drawing has changed since; emit again, and measure with the new program",
-        help_de: "die Zeichnung hat sich seither geändert; noch einmal ausgeben und mit dem neuen Programm messen",
+        help_en: "emit again, and measure with the new program: the drawing has changed since",
+        help_de: "noch einmal ausgeben und mit dem neuen Programm messen: die Zeichnung hat sich seither geändert",
     }
     /// A probe with an unknown expected height: its line has an older form, and no formula contains the height.
     NO_EXPECTED_HEIGHT: InvalidProbeLine {
@@ -110,71 +110,71 @@ messages! {
     VALUE_EXPECTED: InvalidFormula {
         en: "the formula needs a number, #51 or a bracket here",
         de: "die Formel braucht hier eine Zahl, #51 oder eine Klammer",
-        help_en: "it was damaged or edited: emit again and use the new program",
-        help_de: "sie wurde beschädigt oder bearbeitet: noch einmal ausgeben und das neue Programm verwenden",
+        help_en: "emit again and use the new program: the formula was damaged or edited",
+        help_de: "noch einmal ausgeben und das neue Programm verwenden: die Formel wurde beschädigt oder bearbeitet",
     }
     /// A formula that lacks an operator.
     OPERATOR_EXPECTED: InvalidFormula {
         en: "the formula is malformed here",
         de: "die Formel ist hier fehlerhaft",
         help_en: "write one of + - * / between values, and close each bracket with one of its kind: ( ) or [ ]",
-        help_de: "zwischen Werten steht eines von + - * /, und zu jeder Klammer gehört die passende: ( ) oder [ ]",
+        help_de: "zwischen Werte eines von + - * / schreiben und jede Klammer mit der passenden schließen: ( ) oder [ ]",
     }
     /// An unclosed formula.
     UNCLOSED: InvalidFormula {
         en: "the formula is not closed",
         de: "die Formel ist nicht geschlossen",
-        help_en: "its line was cut off: emit again and use the new program",
-        help_de: "die Zeile ist abgeschnitten: noch einmal ausgeben und das neue Programm verwenden",
+        help_en: "emit again and use the new program: the line was cut off",
+        help_de: "noch einmal ausgeben und das neue Programm verwenden: die Zeile ist abgeschnitten",
     }
     /// A malformed number in a formula.
     NOT_A_NUMBER: InvalidFormula {
         en: "{found} is not a number",
         de: "{found} ist keine Zahl",
-        help_en: "a number has at most one decimal point",
-        help_de: "eine Zahl hat höchstens einen Dezimalpunkt",
+        help_en: "write a number with at most one decimal point",
+        help_de: "eine Zahl mit höchstens einem Dezimalpunkt schreiben",
     }
     /// A formula that is nested too deeply.
     TOO_DEEP: InvalidFormula {
-        en: "the formula has more than {limit} nested brackets",
-        de: "die Formel hat mehr als {limit} verschachtelte Klammern",
-        help_en: "no formula of pathbuild has more than one: emit again and use the new program",
-        help_de: "keine Formel von pathbuild hat mehr als eine: noch einmal ausgeben und das neue Programm verwenden",
+        en: "brackets in the formula are nested more than {limit} levels deep",
+        de: "Klammern in der Formel sind über mehr als {limit} Ebenen verschachtelt",
+        help_en: "emit again and use the new program: formulas of pathbuild have only one level",
+        help_de: "noch einmal ausgeben und das neue Programm verwenden: Formeln von pathbuild haben nur eine Ebene",
     }
     /// A formula that divides by zero.
     DIVISION_BY_ZERO: InvalidFormula {
         en: "the formula divides by 0 here",
         de: "die Formel teilt hier durch 0",
-        help_en: "it was damaged or edited: emit again and use the new program",
-        help_de: "sie wurde beschädigt oder bearbeitet: noch einmal ausgeben und das neue Programm verwenden",
+        help_en: "emit again and use the new program: the formula was damaged or edited",
+        help_de: "noch einmal ausgeben und das neue Programm verwenden: die Formel wurde beschädigt oder bearbeitet",
     }
     /// A formula with a value that is too large for a number.
     NOT_FINITE: InvalidFormula {
         en: "the formula's value is too large for a number",
         de: "der Wert der Formel ist zu groß für eine Zahl",
-        help_en: "it was damaged or edited: emit again and use the new program",
-        help_de: "sie wurde beschädigt oder bearbeitet: noch einmal ausgeben und das neue Programm verwenden",
+        help_en: "emit again and use the new program: the formula was damaged or edited",
+        help_de: "noch einmal ausgeben und das neue Programm verwenden: die Formel wurde beschädigt oder bearbeitet",
     }
     /// A program that is already adjusted.
     ADJUSTED_BEFORE: InvalidFormula {
         en: "this program has been adjusted already",
         de: "dieses Programm ist schon angepasst",
-        help_en: "adjust starts from _Clean.gcode as emit wrote it: emit again, or fetch the original file",
-        help_de: "adjust geht von der _Clean.gcode aus, wie emit sie geschrieben hat: noch einmal ausgeben oder die ursprüngliche Datei holen",
+        help_en: "emit again, or use the original file: adjust needs the _Clean.gcode as emit wrote it",
+        help_de: "noch einmal ausgeben oder die ursprüngliche Datei verwenden: adjust braucht die _Clean.gcode, wie emit sie geschrieben hat",
     }
     /// A file with measured values of other probes, which would be overwritten.
     VALUES_PRESENT: ProbeValuesPresent {
         en: "{name} contains measured values that belong to other probes",
         de: "{name} enthält gemessene Werte, die zu anderen Proben gehören",
-        help_en: "the drawing's probes have changed since; nothing was written for this path. Measure anew and use --force",
-        help_de: "die Proben der Zeichnung haben sich seither geändert; für diesen Pfad wurde nichts geschrieben. Neu messen und --force verwenden",
+        help_en: "use --force and measure again: the drawing's probes have changed since; nothing was written for this path",
+        help_de: "--force verwenden und neu messen: die Proben der Zeichnung haben sich seither geändert; für diesen Pfad wurde nichts geschrieben",
     }
     /// A path that mills outside of the area that its probes enclose.
     OUTSIDE: OutsideProbes {
         en: "the path mills up to {distance} mm outside the probes, at {at} in the program",
         de: "der Pfad fräst bis zu {distance} mm außerhalb der Proben, bei {at} im Programm",
-        help_en: "draw probes at the outer corners of what is milled; outside them heights are only guessed",
-        help_de: "Proben an die äußeren Ecken dessen zeichnen, was gefräst wird; außerhalb sind Höhen nur geschätzt",
+        help_en: "draw probes at the outer corners of the milled area; outside the probes, heights are only guessed",
+        help_de: "Proben an die äußeren Ecken des gefrästen Bereichs zeichnen; außerhalb der Proben sind Höhen nur geschätzt",
     }
     /// A measured height that differs strongly from those of the neighbouring probes.
     ODD: OddProbe {
@@ -187,22 +187,22 @@ messages! {
     UNUSED: UnusedProbe {
         en: "no formula in {file} uses #{probe}",
         de: "keine Formel in {file} verwendet #{probe}",
-        help_en: "the formulas were removed or changed: emit again and use the new program. If the probe lies too far from everything that is milled, remove it from the drawing",
-        help_de: "die Formeln wurden entfernt oder geändert: noch einmal ausgeben und das neue Programm verwenden. Liegt die Probe zu weit von allem, was gefräst wird, sie aus der Zeichnung entfernen",
+        help_en: "if formulas were removed or changed, emit again and use the new program; if the probe lies too far from everything that is milled, remove it from the drawing",
+        help_de: "wurden Formeln entfernt oder geändert, noch einmal ausgeben und das neue Programm verwenden; liegt die Probe zu weit von allem, was gefräst wird, sie aus der Zeichnung entfernen",
     }
     /// A probe that corrects no height, reported when the program is written.
     WILL_BE_UNUSED: UnusedProbe {
         en: "the probe {probe} corrects no height of this path",
         de: "die Probe {probe} korrigiert keine Höhe dieses Pfads",
-        help_en: "others lie nearer to everything that is milled: remove the probe, or move it nearer",
-        help_de: "andere liegen näher an allem, was gefräst wird: die Probe entfernen oder näher heran setzen",
+        help_en: "remove the probe, or move it nearer to what is milled: other probes are nearer everywhere",
+        help_de: "die Probe entfernen oder näher an das setzen, was gefräst wird: überall sind andere Proben näher",
     }
     /// A program that was edited after `emit` had written it.
     EDITED_PROGRAM: OldProgram {
         en: "{name} is not what emit writes for {drawing}",
         de: "{name} ist nicht das, was emit für {drawing} schreibt",
-        help_en: "it was edited, or written with other options: run emit again, then adjust with the same options (--z-model, --compatible)",
-        help_de: "es wurde bearbeitet oder mit anderen Optionen geschrieben: noch einmal emit aufrufen, dann adjust mit denselben Optionen (--z-model, --compatible)",
+        help_en: "run emit again, then adjust with the same options (--z-model, --compatible): the program was edited, or written with other options",
+        help_de: "noch einmal emit aufrufen, dann adjust mit denselben Optionen (--z-model, --compatible): das Programm wurde bearbeitet oder mit anderen Optionen geschrieben",
     }
     /// A program that is older than its drawing.
     OLD_PROGRAM: OldProgram {
@@ -215,14 +215,14 @@ messages! {
     COMPATIBLE_PROGRAM: OldProgram {
         en: "{name} was written with --compatible: without that option, the drawing gives a different program",
         de: "{name} wurde mit --compatible geschrieben: ohne diese Option ergibt die Zeichnung ein anderes Programm",
-        help_en: "adjust it with --compatible, or run emit again without it",
+        help_en: "run adjust with --compatible, or run emit again without that option",
         help_de: "adjust mit --compatible aufrufen oder emit noch einmal ohne diese Option",
     }
     /// A program that was written without `--compatible`.
     NOT_COMPATIBLE_PROGRAM: OldProgram {
         en: "{name} was written without --compatible: with that option, the drawing gives a different program",
         de: "{name} wurde ohne --compatible geschrieben: mit dieser Option ergibt die Zeichnung ein anderes Programm",
-        help_en: "adjust it without --compatible (`compat` gives that option), or run emit again with it",
+        help_en: "run adjust without --compatible (`compat` sets that option), or run emit again with it",
         help_de: "adjust ohne --compatible aufrufen (`compat` setzt diese Option) oder emit noch einmal mit ihr",
     }
 }

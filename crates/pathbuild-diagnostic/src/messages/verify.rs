@@ -3,8 +3,8 @@
 messages! {
     /// `verify --against`: no T word selects the tool before the first cut.
     TOOL_NOT_CHOSEN: MovesDiffer {
-        en: "the tool is not chosen before the first cut: the drawing's program says {expected}",
-        de: "das Werkzeug ist vor der ersten Fräsbewegung nicht gewählt: das Programm der Zeichnung sagt {expected}",
+        en: "the tool is not selected before the first cut: the drawing's program has {expected}",
+        de: "vor dem ersten Schnitt ist das Werkzeug nicht gewählt: im Programm der Zeichnung steht {expected}",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
@@ -87,8 +87,8 @@ messages! {
     }
     /// `verify --against`: a line with words of unknown effect, which the post's definition does not write.
     LINE_NOT_WRITTEN: MovesDiffer {
-        en: "the definition writes \"{expected}\" here, and this program something else, with words whose effect is unknown",
-        de: "die Definition schreibt hier \"{expected}\", dieses Programm aber etwas anderes, mit Wörtern unbekannter Wirkung",
+        en: "the definition writes \"{expected}\" here, but this program has something else, with words whose effect is unknown",
+        de: "die Definition schreibt hier \"{expected}\", dieses Programm enthält aber etwas anderes, mit Wörtern, deren Wirkung unbekannt ist",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
@@ -103,15 +103,15 @@ messages! {
     NUMBERS_DIFFER: MovesDiffer {
         en: "the program's number is O{found}, but the drawing's is O{expected}: on the control, O{found} may be another program",
         de: "die Programmnummer ist O{found}, für die Zeichnung ist sie O{expected}: in der Steuerung kann O{found} ein anderes Programm sein",
-        help_en: "write the program again with `pathbuild emit`; set `program-number` if the control has another number for it",
-        help_de: "das Programm mit `pathbuild emit` neu schreiben; hat die Steuerung eine andere Nummer dafür, `program-number` setzen",
+        help_en: "write the program again with `pathbuild emit`; if its number on the control is another one, set `program-number`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben; hat es in der Steuerung eine andere Nummer, `program-number` setzen",
     }
     /// `verify --against`: a tool length offset (G43, H) other than that of the tool in the spindle.
     LENGTHS_DIFFER: MovesDiffer {
         en: "the tool length in effect is not that of the tool in the spindle",
         de: "es gilt nicht die Länge des eingewechselten Werkzeugs",
-        help_en: "use G43 H with the number of the tool that M6 changed to; native programs use none",
-        help_de: "G43 H mit der Nummer des mit M6 eingewechselten Werkzeugs schreiben; in nativen Programmen steht keines",
+        help_en: "write G43 H with the number of the tool that M6 changed to; native programs have no G43",
+        help_de: "G43 H mit der Nummer des mit M6 eingewechselten Werkzeugs schreiben; in nativen Programmen steht kein G43",
     }
     /// `verify --against`: a spindle direction or speed other than that for the drawing's cutter.
     SPINDLES_DIFFER: MovesDiffer {
@@ -129,15 +129,15 @@ messages! {
     }
     /// Rapid moves down and up again without a feed move between them, as in `G0 Z-3`, `G0 X50`, `G0 Z2`.
     RAPID_DIP: RapidPlunge {
-        en: "a rapid move down to Z {z} below the material's surface, and up again: nothing was cut there before",
-        de: "ein Eilgang hinunter auf Z {z} unter die Oberfläche des Materials und wieder hinauf: dort wurde vorher nichts gefräst",
-        help_en: "drill and mill with G01 and a feed",
-        help_de: "mit G01 und einem Vorschub bohren und fräsen",
+        en: "a rapid move goes down to Z {z}, below the material's surface, and up again where nothing was cut before",
+        de: "ein Eilgang fährt unter die Oberfläche des Materials auf Z {z} hinunter und wieder hinauf, wo vorher nichts gefräst wurde",
+        help_en: "drill or mill with G01 and a feed",
+        help_de: "mit G01 und einem Vorschub bohren oder fräsen",
     }
     /// A move to a machine position, such as `G28`, while the tool is below the surface of the material.
     HOME_FROM_DEPTH: RapidInMaterial {
-        en: "a rapid move from Z {z} to a fixed position of the machine: the material reaches up to Z {surface}",
-        de: "ein Eilgang ab Z {z} zu einer festen Position der Maschine: das Material reicht bis Z {surface}",
+        en: "a rapid move to a fixed position of the machine starts at Z {z}, but the material reaches up to Z {surface}",
+        de: "ein Eilgang zu einer festen Position der Maschine beginnt bei Z {z}, das Material reicht aber bis Z {surface}",
         help_en: "raise the tool above the material first",
         help_de: "das Werkzeug zuerst über das Material heben",
     }
@@ -173,15 +173,15 @@ messages! {
     FORMULA_DIFFERS: FormulaDiffers {
         en: "the machine goes to {number}, but the formula comes to {value}",
         de: "die Maschine fährt auf {number}, die Formel ergibt aber {value}",
-        help_en: "the program was edited: emit again, and adjust it again",
-        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
+        help_en: "emit and adjust again: the program was edited",
+        help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
     }
     /// A formula that differs from that in the drawing's program.
     FORMULA_NOT_DRAWN: FormulaDiffers {
         en: "the formula is {found}, the drawing gives {expected}",
         de: "die Formel ist {found}, die Zeichnung ergibt {expected}",
-        help_en: "the program was edited, or written with another --z-model: emit and adjust it again",
-        help_de: "das Programm wurde bearbeitet oder mit einem anderen --z-model geschrieben: noch einmal ausgeben und anpassen",
+        help_en: "emit and adjust again: the program was edited, or written with another --z-model",
+        help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet oder mit einem anderen --z-model geschrieben",
     }
     /// A probe that differs from that in the drawing's program.
     PROBE_NOT_DRAWN: FormulaDiffers {
@@ -194,15 +194,15 @@ messages! {
     PROBE_NOT_STATED: UncheckedFormula {
         en: "the formula uses #{probe}, which the program's header does not state",
         de: "die Formel verwendet #{probe}, das der Kopf des Programms nicht nennt",
-        help_en: "the program was edited: emit again, and adjust it again",
-        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
+        help_en: "emit and adjust again: the program was edited",
+        help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
     }
     /// A formula that was applied, although the program's header does not list a measured height for it.
     HEIGHT_NOT_MEASURED: UncheckedFormula {
         en: "the formula has been worked out, but the program's header does not state the measured height of #{probe}",
         de: "die Formel ist ausgerechnet, der Kopf des Programms nennt aber keine gemessene Höhe von #{probe}",
-        help_en: "an older version adjusted the program, or it was edited: run adjust again",
-        help_de: "eine ältere Version hat das Programm angepasst, oder es wurde bearbeitet: noch einmal adjust aufrufen",
+        help_en: "run adjust again: an older version adjusted the program, or it was edited",
+        help_de: "noch einmal adjust aufrufen: eine ältere Version hat das Programm angepasst, oder es wurde bearbeitet",
     }
     /// A formula that was not applied in an adjusted program.
     FORMULA_NOT_APPLIED: UncheckedFormula {
@@ -215,36 +215,36 @@ messages! {
     FORMULA_WITHOUT_PROBES: UncheckedFormula {
         en: "the program has a correction formula, but no probes",
         de: "das Programm hat eine Korrekturformel, aber keine Proben",
-        help_en: "the program was edited: emit it again",
-        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
+        help_en: "emit again: the program was edited",
+        help_de: "noch einmal ausgeben: das Programm wurde bearbeitet",
     }
     /// A formula without a value, for example because of a division by zero.
     FORMULA_WITHOUT_VALUE: UncheckedFormula {
         en: "the formula has no value: it divides by 0, or its result is too large",
         de: "die Formel hat keinen Wert: sie teilt durch 0, oder ihr Ergebnis ist zu groß",
-        help_en: "the program was edited: emit again, and adjust it again",
-        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
+        help_en: "emit and adjust again: the program was edited",
+        help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
     }
     /// A height without a formula in a program where all others have one.
     HEIGHT_WITHOUT_FORMULA: UncheckedFormula {
         en: "this height has no correction formula",
         de: "diese Höhe hat keine Korrekturformel",
-        help_en: "an editor or the sending program may have removed it: emit again, and adjust it again",
-        help_de: "ein Editor oder das Sendeprogramm hat sie vielleicht entfernt: noch einmal ausgeben und noch einmal anpassen",
+        help_en: "emit and adjust again: an editor or the sending program may have removed the formula",
+        help_de: "noch einmal ausgeben und anpassen: ein Editor oder das Sendeprogramm hat die Formel vielleicht entfernt",
     }
     /// A probe that is listed twice in the header.
     PROBE_STATED_TWICE: UncheckedFormula {
         en: "the header states #{probe} twice, with different values",
         de: "der Kopf nennt #{probe} zweimal, mit verschiedenen Werten",
-        help_en: "the program was edited: emit again, and adjust it again",
-        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
+        help_en: "emit and adjust again: the program was edited",
+        help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
     }
     /// An adjusted program that does not list its measured heights.
     HEIGHTS_NOT_STATED: UncheckedFormula {
-        en: "the program does not state its measured heights, so that the numbers before its formulas are not checked",
+        en: "the program does not state its measured heights, so the numbers before its formulas are not checked",
         de: "das Programm nennt seine gemessenen Höhen nicht; die Zahlen vor den Formeln sind darum nicht geprüft",
-        help_en: "adjust it with pathbuild, which writes them into the header",
-        help_de: "mit pathbuild anpassen: adjust schreibt sie in den Kopf",
+        help_en: "adjust the program with pathbuild, which writes the heights into the header",
+        help_de: "das Programm mit pathbuild anpassen: adjust schreibt die Höhen in den Kopf",
     }
     /// A cutter in the header that differs from the tool table.
     OTHER_CUTTER_IN_TABLE: Disagreement {
@@ -290,15 +290,15 @@ messages! {
     }
     /// A check that `--require` names but that was not made.
     CHECK_NOT_MADE: UnmadeCheck {
-        en: "the required check `{check}` was not made: {reason}",
+        en: "the required check `{check}` was not carried out: {reason}",
         de: "die verlangte Prüfung `{check}` fand nicht statt: {reason}",
         help_en: "needed: {option}",
         help_de: "nötig: {option}",
     }
     /// A check of rapid moves that `--require` names but that is incomplete.
     CHECK_INCOMPLETE: UnmadeCheck {
-        en: "the required check `{check}` is incomplete: rapid moves below the material's surface begin at unknown positions, so their route is unknown; number of moves: {count}, the first in line {line}",
-        de: "die verlangte Prüfung `{check}` ist unvollständig: Eilgänge unter die Oberfläche des Materials beginnen an unbekannter Stelle, und ihr Weg ist daher unbekannt; Anzahl: {count}, der erste in Zeile {line}",
+        en: "the required check `{check}` is incomplete: rapid moves to below the material's surface start at unknown positions (number: {count}, the first in line {line})",
+        de: "die verlangte Prüfung `{check}` ist unvollständig: Eilgänge unter die Oberfläche des Materials beginnen an unbekannter Stelle (Anzahl: {count}, der erste in Zeile {line})",
         help_en: "go to X and Y above the material first, then down",
         help_de: "zuerst über dem Material nach X und Y fahren, dann hinunter",
     }
@@ -325,8 +325,8 @@ messages! {
     }
     /// T after a tool change, followed by cuts without M6.
     TOOL_NOT_INSERTED: Disagreement {
-        en: "T{tool} is selected here, but no M6 inserts it: the cuts after it are made with the tool before",
-        de: "T{tool} wird hier gewählt, aber kein M6 wechselt es ein: die Schnitte danach macht das Werkzeug davor",
+        en: "T{tool} is selected here, but no M6 changes to it: the cuts that follow are made with the previous tool",
+        de: "T{tool} wird hier gewählt, aber kein M6 wechselt es ein: die folgenden Schnitte macht das vorige Werkzeug",
         help_en: "write M6 after it, or remove T",
         help_de: "M6 dahinter schreiben oder T entfernen",
     }
@@ -341,36 +341,36 @@ messages! {
     LENGTH_DIFFERS: Disagreement {
         en: "`{label}` states {stated} mm, but the program's moves add up to {length} mm",
         de: "`{label}` nennt {stated} mm, die Bewegungen des Programms ergeben aber {length} mm",
-        help_en: "the program was edited: emit it again",
-        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
+        help_en: "emit again: the program was edited",
+        help_de: "noch einmal ausgeben: das Programm wurde bearbeitet",
     }
     /// A comment that differs from what `emit` writes.
     TEXT_DIFFERS: Disagreement {
         en: "emit writes `{expected}` here",
         de: "emit schreibt hier `{expected}`",
-        help_en: "the program was edited: emit it again",
-        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
+        help_en: "emit again: the program was edited",
+        help_de: "noch einmal ausgeben: das Programm wurde bearbeitet",
     }
     /// A rapid move in the plane through material.
     RAPID_IN_MATERIAL: RapidInMaterial {
-        en: "a rapid move at Z {z} through material that still stands up to Z {height}, near {point}",
-        de: "ein Eilgang auf Z {z} durch Material, das noch bis Z {height} steht, bei {point}",
+        en: "a rapid move at Z {z} goes through material that still stands up to Z {height}, near {point}",
+        de: "ein Eilgang auf Z {z} führt durch Material, das noch bis Z {height} steht, bei {point}",
         help_en: "raise the cutter first, or mill there beforehand (stock known to within {resolution} mm)",
         help_de: "den Fräser vorher anheben oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
     }
     /// A rapid move in the plane at cutting depth, where the surface of the material is unknown.
     RAPID_AT_DEPTH: RapidAtDepth {
-        en: "a rapid move at Z {z} past {point}, where nothing was cut to that depth: the program cuts as deep just before or after it, so there is probably material",
-        de: "ein Eilgang auf Z {z} über {point}, wo nichts so tief gefräst wurde: davor oder danach fräst das Programm so tief, also steht dort wahrscheinlich Material",
-        help_en: "raise the cutter first; if the material does not reach there, `--surface` gives its height, for an exact check",
-        help_de: "den Fräser vorher anheben; reicht das Material nicht bis dorthin, gibt `--surface` seine Höhe für eine genaue Prüfung an",
+        en: "a rapid move at Z {z} passes {point}, where nothing was cut to that depth; the program cuts as deep just before or after it, so there is probably material",
+        de: "ein Eilgang auf Z {z} führt über {point}, wo nichts so tief gefräst wurde; davor oder danach fräst das Programm so tief, also steht dort wahrscheinlich Material",
+        help_en: "raise the cutter first; if the material is not that high, give its height with `--surface` for an exact check",
+        help_de: "den Fräser vorher anheben; ist das Material nicht so hoch, seine Höhe mit `--surface` angeben, damit genau geprüft wird",
     }
     /// A rapid move in the plane at cutting depth, where neither the surface of the material nor the cutter is known.
     RAPID_FAR_FROM_CUTS: RapidAtDepth {
-        en: "a rapid move at Z {z} past {point}, where no cutter of up to {widest} mm can have cut to that depth: the program cuts as deep just before or after it, so there is probably material",
-        de: "ein Eilgang auf Z {z} über {point}, wo kein Fräser bis {widest} mm so tief gefräst haben kann: davor oder danach fräst das Programm so tief, also steht dort wahrscheinlich Material",
-        help_en: "raise the cutter first; `--cutter` gives its diameter for a closer check, and `--surface` the height of the material for an exact one",
-        help_de: "den Fräser vorher anheben; `--cutter` gibt seinen Durchmesser für eine genauere Prüfung an, `--surface` die Höhe des Materials für eine genaue",
+        en: "a rapid move at Z {z} passes {point}, where no cutter of up to {widest} mm can have cut to that depth; the program cuts as deep just before or after it, so there is probably material",
+        de: "ein Eilgang auf Z {z} führt über {point}, wo kein Fräser bis {widest} mm so tief gefräst haben kann; davor oder danach fräst das Programm so tief, also steht dort wahrscheinlich Material",
+        help_en: "raise the cutter first; give its diameter with `--cutter` for a closer check, and the height of the material with `--surface` for an exact one",
+        help_de: "den Fräser vorher anheben; für eine genauere Prüfung seinen Durchmesser mit `--cutter` angeben, für eine genaue auch die Höhe des Materials mit `--surface`",
     }
     /// A cut before X and Y are known, as in a program that is incremental from its beginning.
     UNKNOWN_POSITION: UnknownPosition {
@@ -381,15 +381,15 @@ messages! {
     }
     /// A cut at a height that is relative to a machine position, because Z was not stated after G28, G30 or G53.
     HEIGHT_OF_MACHINE: UnknownPosition {
-        en: "this cut is at a height that is counted from a machine position: since G28, G30 or G53, the program has not stated Z",
+        en: "the height of this cut counts from a machine position: since G28, G30 or G53, the program has not stated Z",
         de: "die Höhe dieses Schnitts zählt von einer Maschinenposition aus: seit G28, G30 oder G53 hat das Programm kein Z angegeben",
         help_en: "write G90 after G91 G28, and go to a height above the material before the cut",
         help_de: "nach G91 G28 wieder G90 schreiben und vor dem Schnitt eine Höhe über dem Material anfahren",
     }
     /// A rapid move down into material.
     RAPID_PLUNGE: RapidPlunge {
-        en: "a rapid move down to Z {z} into material that stands up to Z {height}, at {point}",
-        de: "ein Eilgang hinunter auf Z {z} in Material, das bis Z {height} steht, bei {point}",
+        en: "a rapid move goes down to Z {z} into material that stands up to Z {height}, at {point}",
+        de: "ein Eilgang fährt auf Z {z} hinunter in Material, das bis Z {height} steht, bei {point}",
         help_en: "go down with G1 and a feed (stock known to within {resolution} mm)",
         help_de: "mit G1 und einem Vorschub hinunterfahren (Material auf {resolution} mm genau bekannt)",
     }
@@ -416,8 +416,8 @@ messages! {
     }
     /// A rapid move in the plane and down at the same time.
     DIAGONAL_RAPID: DiagonalRapid {
-        en: "a rapid move in the plane and down to Z {z} at once: many machines do not go straight",
-        de: "ein Eilgang in der Ebene und zugleich hinunter auf Z {z}: viele Maschinen fahren nicht gerade",
+        en: "a rapid move in the plane also goes down to Z {z}: many machines do not follow a straight line",
+        de: "ein Eilgang in der Ebene fährt zugleich auf Z {z} hinunter: viele Maschinen fahren dabei nicht gerade",
         help_en: "move in the plane first, then down",
         help_de: "zuerst in der Ebene fahren, dann hinunter",
     }
@@ -453,8 +453,8 @@ messages! {
     COARSE_ARCS: CoarseArcs {
         en: "arcs are written with {decimals} decimals of a millimetre",
         de: "Bögen sind mit {decimals} Nachkommastellen eines Millimeters geschrieben",
-        help_en: "set the post-processor to three or more: the ends and centres of rounded arcs do not match",
-        help_de: "den Postprozessor auf drei oder mehr einstellen: die Enden und Mittelpunkte gerundeter Bögen passen nicht zusammen",
+        help_en: "set the post-processor to three or more decimals: the ends and centres of rounded arcs do not match",
+        help_de: "den Postprozessor auf drei oder mehr Nachkommastellen einstellen: die Enden und Mittelpunkte gerundeter Bögen passen nicht zusammen",
     }
     /// A move in the plane straight after probing, before the tool is retracted.
     PROBE_NOT_RAISED: ProbeNotRaised {
@@ -467,15 +467,15 @@ messages! {
     RAPID_BELOW_CONTACT: ProbeNotRaised {
         en: "this rapid move ends {below} mm below the end of the probing move before it, in what the tool has touched",
         de: "dieser Eilgang endet {below} mm unter dem Ende der Antastbewegung davor, in dem, was das Werkzeug berührt hat",
-        help_en: "after contact raise the tool: G91 G0 Z with a positive number, or a height above the end of the probing move",
-        help_de: "nach der Berührung das Werkzeug anheben: G91 G0 Z mit positiver Zahl, oder eine Höhe über dem Ende der Antastbewegung",
+        help_en: "raise the tool after contact: G91 G0 Z with a positive number, or a height above the end of the probing move",
+        help_de: "das Werkzeug nach der Berührung anheben: G91 G0 Z mit positiver Zahl, oder eine Höhe über dem Ende der Antastbewegung",
     }
     /// A spindle speed outside of the machine's range.
     SPINDLE_SPEED: SpindleSpeed {
         en: "S {speed} is outside the machine's range of {least} to {most}",
         de: "S {speed} liegt außerhalb des Bereichs der Maschine von {least} bis {most}",
-        help_en: "change S, or the spindle's range under [machine]",
-        help_de: "S ändern oder den Bereich der Spindel unter [machine]",
+        help_en: "correct S, or the spindle's range under [machine]",
+        help_de: "S oder den Bereich der Spindel unter [machine] berichtigen",
     }
     /// A cut with M3 for a tool that turns counter-clockwise, or the reverse.
     SPINDLE_DIRECTION: SpindleDirection {
@@ -502,15 +502,15 @@ messages! {
     OUTSIDE_MACHINE: OutsideMachine {
         en: "{axis} {value} is outside the machine's travel of {least} to {most}",
         de: "{axis} {value} liegt außerhalb des Verfahrwegs der Maschine von {least} bis {most}",
-        help_en: "move the part, or change the travel under [machine]",
-        help_de: "das Werkstück versetzen oder den Verfahrweg unter [machine] ändern",
+        help_en: "move the part, or correct the travel under [machine]",
+        help_de: "das Werkstück versetzen oder den Verfahrweg unter [machine] berichtigen",
     }
     /// A program that is larger than the working area of the machine.
     LARGER_THAN_MACHINE: OutsideMachine {
         en: "the program needs {size} mm in {axis}, but the machine has {most}",
         de: "das Programm braucht {size} mm in {axis}, die Maschine hat aber nur {most}",
-        help_en: "use a larger machine, or correct the travel under [machine]: the program does not fit, wherever the part is clamped",
-        help_de: "eine größere Maschine nehmen oder den Verfahrweg unter [machine] berichtigen: das Programm passt nicht, wo immer das Werkstück gespannt ist",
+        help_en: "use a larger machine, or correct the travel under [machine]; on this one the program does not fit, wherever the part is clamped",
+        help_de: "eine größere Maschine nehmen oder den Verfahrweg unter [machine] berichtigen; auf diese passt das Programm nicht, wo immer das Werkstück gespannt ist",
     }
     /// A tool change below the surface.
     TOOL_CHANGE_AT_DEPTH: ToolChangeAtDepth {

@@ -315,8 +315,10 @@ fn combine(operator: Binary, left: f64, right: f64) -> Result<f64, Fault> {
 const NOT_FINITE: Fault = Fault(&Text { en: "the result is too large", de: "das Ergebnis ist zu groß" });
 const NEVER_SET: Fault =
     Fault(&Text { en: "the parameter was never set", de: "der Parameter wurde nie gesetzt" });
-const NO_SUCH_PARAMETER: Fault =
-    Fault(&Text { en: "there is no parameter of that number", de: "es gibt keinen Parameter dieser Nummer" });
+const NO_SUCH_PARAMETER: Fault = Fault(&Text {
+    en: "there is no parameter with that number",
+    de: "es gibt keinen Parameter mit dieser Nummer",
+});
 const OUTSIDE_ONE: Fault =
     Fault(&Text { en: "the number is not between -1 and 1", de: "die Zahl liegt nicht zwischen -1 und 1" });
 const LOGARITHM: Fault = Fault(&Text {
@@ -326,8 +328,8 @@ const LOGARITHM: Fault = Fault(&Text {
 const NEGATIVE_ROOT: Fault =
     Fault(&Text { en: "the root of a negative number", de: "die Wurzel einer negativen Zahl" });
 const NEGATIVE_POWER: Fault = Fault(&Text {
-    en: "a negative number to a power that is not whole",
-    de: "eine negative Zahl mit einem nicht ganzen Exponenten",
+    en: "a negative number with a fractional exponent",
+    de: "eine negative Zahl mit gebrochenem Exponenten",
 });
 const DIVISION_BY_ZERO: Fault = Fault(&Text { en: "division by zero", de: "Division durch null" });
 

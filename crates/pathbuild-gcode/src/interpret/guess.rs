@@ -80,7 +80,7 @@ signs! {
         line.starts_with(b"M6 ") && is_number(&line[3..])
             || line.starts_with(b"M06 ") && is_number(&line[4..])
     },
-        "it has a tool number without T behind M6", "es hat hinter M6 eine Werkzeugnummer ohne T";
+        "it has a tool number without T after M6", "es hat hinter M6 eine Werkzeugnummer ohne T";
     Din is_title, "its first line is `%` and a name", "seine erste Zeile ist `%` und ein Name";
     Fanuc |line| matches!(line, [b'O', b'0'..=b'9', ..]) && !ends_in_keyword(line),
         "it has a program number", "es hat eine Programmnummer";
@@ -139,9 +139,15 @@ fn guess_by_words(head: &[u8]) -> Guess {
     let dialect =
         candidates.into_iter().zip(strangers).find(|(_, count)| *count == fewest).map(|(dialect, _)| dialect);
     let reason = if fewest == 0 {
-        &Text { en: "it knows every word", de: "es kennt jedes Wort" }
+        &Text {
+            en: "this dialect has all words of the program",
+            de: "dieser Dialekt kennt alle Wörter des Programms",
+        }
     } else {
-        &Text { en: "it knows most of the words", de: "es kennt die meisten Wörter" }
+        &Text {
+            en: "this dialect has most words of the program",
+            de: "dieser Dialekt kennt die meisten Wörter des Programms",
+        }
     };
     Guess {
         dialect: dialect.unwrap_or(Dialect::Rs274),

@@ -416,7 +416,7 @@ fn real_time_effect(byte: u8) -> Option<&'static Text> {
     Some(match byte {
         0x18 => &Text { en: "reset", de: "Zurücksetzen" },
         b'!' => &Text { en: "feed hold", de: "Vorschub anhalten" },
-        b'~' => &Text { en: "go on after a hold", de: "nach einem Halt weiterfahren" },
+        b'~' => &Text { en: "resume after a hold", de: "nach einem Halt weiterfahren" },
         b'?' => &Text { en: "report the state", de: "Zustand melden" },
         0x84 => &Text { en: "safety door", de: "Schutztür" },
         0x85 => &Text { en: "cancel jogging", de: "Handfahrt abbrechen" },

@@ -36,7 +36,7 @@ macro_rules! kinds {
 kinds! {
     ProgramStart "program-start" "once, first" "einmal, zuerst";
     ProgramEnd "program-end" "once, last" "einmal, zuletzt";
-    ToolChange "tool-change" "before the first object, and before each whose tool differs from the one before" "vor dem ersten Objekt und vor jedem mit anderem Werkzeug als das vorige";
+    ToolChange "tool-change" "before the first object, and before each object whose tool differs from the previous one" "vor dem ersten Objekt und vor jedem Objekt, dessen Werkzeug ein anderes ist als das vorige";
     ContourStart "contour-start" "at the start of each contour, at the height of rapid moves: over its first point, down by rapid to `~ZWorking~`, by feed to `~Z1~`" "am Anfang jeder Kontur, in Eilganghöhe: über ihren ersten Punkt, im Eilgang abwärts bis `~ZWorking~`, mit Vorschub bis `~Z1~`";
     ContourEnd "contour-end" "at the end of each contour: by rapid up to `~ZClearance~`" "am Ende jeder Kontur: im Eilgang aufwärts bis `~ZClearance~`";
     Line "line" "for each straight element" "bei jedem geraden Element";
@@ -49,10 +49,10 @@ kinds! {
     BeforeRepeat "before-repeat" "once, after `primary-run`" "einmal, nach `primary-run`";
     SubprogramStart "subprogram-start" "never: no program has subprograms" "nie: Kein Programm hat Unterprogramme";
     SubprogramEnd "subprogram-end" "never: no program has subprograms" "nie: Kein Programm hat Unterprogramme";
-    Rapid "rapid" "pathbuild's own: for each rapid move. With it, `contour-start` and `contour-end` are not called, and every move is written as it is" "Zusatz von pathbuild: bei jedem Eilgang. Damit werden `contour-start` und `contour-end` nicht aufgerufen, und jede Bewegung steht für sich";
-    Stop "stop" "pathbuild's own: where the machine waits for the operator" "Zusatz von pathbuild: wo die Maschine auf den Bediener wartet";
-    Dwell "dwell" "pathbuild's own: where the tool stands still for `~DwellTime~` seconds" "Zusatz von pathbuild: wo das Werkzeug `~DwellTime~` Sekunden steht";
-    Comment "comment" "pathbuild's own: for each comment, `~CommentText~`" "Zusatz von pathbuild: bei jedem Kommentar, `~CommentText~`";
+    Rapid "rapid" "extension of pathbuild: for each rapid move. With it, `contour-start` and `contour-end` are not called, and every move is written as it is" "Zusatz von pathbuild: bei jedem Eilgang. Damit werden `contour-start` und `contour-end` nicht aufgerufen, und jede Bewegung steht für sich";
+    Stop "stop" "extension of pathbuild: where the machine waits for the operator" "Zusatz von pathbuild: wo die Maschine auf den Bediener wartet";
+    Dwell "dwell" "extension of pathbuild: where the tool stands still for `~DwellTime~` seconds" "Zusatz von pathbuild: wo das Werkzeug `~DwellTime~` Sekunden steht";
+    Comment "comment" "extension of pathbuild: for each comment, `~CommentText~`" "Zusatz von pathbuild: bei jedem Kommentar, `~CommentText~`";
 }
 
 /// A control text, exactly as written in the file of its definition.

@@ -495,31 +495,31 @@ settings! {
     "description" |_, v| v.as_str().map(drop), "a text", "ein Text",
         "a comment on the definition", "ein Kommentar zur Definition";
     "extension" |s, v| put(&mut s.extension, extension(v)), "a file name's extension", "die Endung eines Dateinamens",
-        "extension of the files that are written; `nc` without it",
+        "extension of the files that are written; default `nc`",
         "Endung der geschriebenen Dateien; sonst `nc`";
     "end-of-line" |s, v| put(&mut s.end_of_line, end_of_line(v)), "lf or crlf", "lf oder crlf",
-        "line ends; `lf` without it", "Zeilenenden; sonst `lf`";
+        "line ends; default `lf`", "Zeilenenden; sonst `lf`";
     "decimals" |s, v| put(&mut s.decimals, decimals(v)), "a whole number up to 9", "eine ganze Zahl bis 9",
-        "decimals of rounded numbers; 3 without it", "Nachkommastellen gerundeter Zahlen; sonst 3";
+        "decimals of rounded numbers; default 3", "Nachkommastellen gerundeter Zahlen; sonst 3";
     "units" |s, v| put(&mut s.units, units(v).map(Some)), "mm or inch", "mm oder inch",
-        "unit of all lengths; that of the program without it",
+        "unit of all lengths; default: that of the program",
         "Einheit aller Längen; sonst die des Programms";
     "number-lines" |s, v| put(&mut s.number_lines, v.as_bool()), "true or false", "true oder false",
-        "whether `line-number` is called; `true` without it", "ob `line-number` aufgerufen wird; sonst `true`";
+        "whether `line-number` is called; default `true`", "ob `line-number` aufgerufen wird; sonst `true`";
     "trim" |s, v| put(&mut s.trim, v.as_bool()), "true or false", "true oder false",
-        "whether blanks at line ends are removed; `true` without it",
+        "whether blanks at line ends are removed; default `true`",
         "ob Leerzeichen am Zeilenende entfallen; sonst `true`";
     "dialect" |s, v| put(&mut s.dialect, text(v).map(Some)), "a text", "ein Text",
         "the dialect in which the output is read back", "der Dialekt, in dem die Ausgabe zurückgelesen wird";
     "arc-tolerance" |s, v| put(&mut s.arc_tolerance, positive(v)), "mm above 0", "mm über 0",
-        "greatest distance of a line from the arc that it stands for; 0.01 without it",
+        "greatest distance of a line from the arc that it stands for; default 0.01",
         "größter Abstand einer Strecke vom Bogen, für den sie steht; sonst 0.01";
     "arc-sweep" |s, v| put(&mut s.arc_sweep, sweep(v)), "degrees from 10 to 360", "Grad von 10 bis 360",
-        "largest angle of an arc, larger ones are divided; 360 without it",
-        "größter Winkel eines Bogens, größere werden geteilt; sonst 360";
+        "largest angle of an arc (larger arcs are divided); default 360",
+        "größter Winkel eines Bogens (größere werden geteilt); sonst 360";
     "lift-between-passes" |s, v| put(&mut s.lift_between_passes, v.as_bool()), "true or false", "true oder false",
-        "whether the tool may be lifted out between two passes instead of going down in the cut; `false` without it",
-        "ob das Werkzeug zwischen zwei Zustellungen herausgehoben werden darf, statt im Schnitt abwärts zu fahren; sonst `false`";
+        "whether the tool may be lifted out between two passes instead of going down in the cut; default `false`",
+        "ob das Werkzeug zwischen zwei Durchgängen herausgehoben werden darf, statt im Schnitt abwärts zu fahren; sonst `false`";
 }
 
 fn put<T>(setting: &mut T, value: Option<T>) -> Option<()> {

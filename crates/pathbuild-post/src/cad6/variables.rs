@@ -58,21 +58,25 @@ impl Variable {
             Presence::Feed => {
                 &Text { en: "the program has no feed here", de: "das Programm nennt hier keinen Vorschub" }
             }
-            Presence::Arcs => &Text { en: "only the text arc has it", de: "nur der Text arc hat sie" },
+            Presence::Arcs => {
+                &Text { en: "it has a value only in the text arc", de: "sie hat nur im Text arc einen Wert" }
+            }
             Presence::Never => &Text {
-                en: "only curves have it, and no program has any",
-                de: "nur Kurven haben sie, und kein Programm hat welche",
+                en: "it has a value only for curves, and programs contain none",
+                de: "sie hat nur bei Kurven einen Wert, und Programme enthalten keine",
             },
-            Presence::Holes => {
-                &Text { en: "only cycle and point have it", de: "nur cycle und point haben sie" }
-            }
+            Presence::Holes => &Text {
+                en: "it has a value only in cycle and point",
+                de: "sie hat nur in cycle und point einen Wert",
+            },
             Presence::Waits => &Text {
-                en: "only cycle, point and dwell have it",
-                de: "nur cycle, point und dwell haben sie",
+                en: "it has a value only in cycle, point and dwell",
+                de: "sie hat nur in cycle, point und dwell einen Wert",
             },
-            Presence::Comments => {
-                &Text { en: "only the text comment has it", de: "nur der Text comment hat sie" }
-            }
+            Presence::Comments => &Text {
+                en: "it has a value only in the text comment",
+                de: "sie hat nur im Text comment einen Wert",
+            },
             Presence::Always | Presence::FirstMove | Presence::Contours | Presence::Elements => {
                 &Text { en: "no move has been made yet", de: "es gab noch keine Bewegung" }
             }

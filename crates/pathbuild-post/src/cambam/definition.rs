@@ -246,8 +246,8 @@ impl<'a> CbppReader<'a> {
         let mark = mark.trim();
         if mark == "/" {
             let expected = &Text {
-                en: "a mark that controls take for a comment, such as ( or ;",
-                de: "ein Zeichen, das Steuerungen als Kommentar lesen, etwa ( oder ;",
+                en: "a mark that begins a comment on controls, such as ( or ;",
+                de: "ein Zeichen, mit dem bei Steuerungen ein Kommentar beginnt, etwa ( oder ;",
             };
             let diagnostic = Diagnostic::new(&posts::POST_OPTION).quoting("option", section.name());
             self.report(diagnostic.quoting("value", mark).with("expected", expected), line);

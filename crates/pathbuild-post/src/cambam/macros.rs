@@ -102,8 +102,8 @@ words! {
     MopPlungeFeedrate "the plunge feed, if one is given", "der Vorschub beim Eintauchen, wenn einer vorliegt";
     MopCutFeedrate "the feed, if one is given", "der Vorschub, wenn einer vorliegt";
     MopDepthIncrement "I, else 0", "I, sonst 0";
-    MopDwell "seconds of the first hole that waits, else 0",
-        "Sekunden, die die erste Bohrung mit Wartezeit wartet, sonst 0";
+    MopDwell "dwell in seconds of the first hole with a dwell, else 0",
+        "Wartezeit in Sekunden der ersten Bohrung mit Wartezeit, sonst 0";
     MopHoleDiameter "diameter of a hole: O", "Durchmesser einer Bohrung: O";
     MopPeckDistance "depth of a peck of the first hole drilled in pecks, else 0",
         "Tiefe je Stufe der ersten Bohrung in Stufen, sonst 0";
@@ -119,17 +119,17 @@ words! {
     ToolProfile "profile in the tool table, else `EndMill`", "Form in der Werkzeugtabelle, sonst `EndMill`";
     ToolComment "comment in the tool table, else nothing", "Kommentar in der Werkzeugtabelle, sonst nichts";
     ToolVeeAngle "angle in the tool table", "Winkel in der Werkzeugtabelle";
-    MoveAxis(Register) "the number of the present move", "die Zahl der laufenden Bewegung";
-    ArcOffset(Register) "from the start of the present arc to its centre",
+    MoveAxis(Register) "the value in the current move", "der Wert in der laufenden Bewegung";
+    ArcOffset(Register) "from the start of the current arc to its centre",
         "vom Anfang des laufenden Bogens zum Mittelpunkt";
-    ArcRadius "radius of the present arc", "Radius des laufenden Bogens";
-    ArcStart "where the present arc starts, degrees", "Anfang des laufenden Bogens in Grad";
-    ArcEnd "where the present arc ends, degrees", "Ende des laufenden Bogens in Grad";
-    ArcSweep "degrees, clockwise positive, of the present arc",
-        "Grad, im Uhrzeigersinn positiv, des laufenden Bogens";
+    ArcRadius "radius of the current arc", "Radius des laufenden Bogens";
+    ArcStart "start of the current arc in degrees", "Anfang des laufenden Bogens in Grad";
+    ArcEnd "end of the current arc in degrees", "Ende des laufenden Bogens in Grad";
+    ArcSweep "angle of the current arc in degrees, clockwise positive",
+        "Winkel des laufenden Bogens in Grad, im Uhrzeigersinn positiv";
     StockSize(usize) "size of the stock", "Maß des Rohteils";
     StockCorner(usize) "corner of the stock", "Ecke des Rohteils";
-    StockCornerReversed(usize) "the same with the other sign", "dasselbe mit umgekehrtem Vorzeichen";
+    StockCornerReversed(usize) "the same with the opposite sign", "dasselbe mit umgekehrtem Vorzeichen";
 }
 
 words! {
@@ -138,8 +138,8 @@ words! {
     Mops "each operation through the section `MOP`", "jede Operation durch den Abschnitt `MOP`";
     Blocks "the moves of the operation", "die Bewegungen der Operation";
     ToolTable "`ToolTableItem` for each tool", "`ToolTableItem` für jedes Werkzeug";
-    ToolChange "the section `ToolChange`, unless the tool is in",
-        "den Abschnitt `ToolChange`, wenn das Werkzeug nicht steckt";
+    ToolChange "the section `ToolChange`, unless the tool is already in use",
+        "den Abschnitt `ToolChange`, wenn das Werkzeug nicht schon im Einsatz ist";
     FirstToolChange "the same for the first operation's tool",
         "dasselbe für das Werkzeug der ersten Operation";
     Clearance "a rapid move up to the clearance plane, unless the tool is there",

@@ -127,7 +127,7 @@ element_options! {
     "ArcOutput" = "Normal", |o, v| put(&mut o.arcs_as_lines, arc_output(v)),
         "whether arcs become lines", "ob Bögen zu Strecken werden";
     "ArcCenterMode" = "Incremental", |o, v| put(&mut o.absolute_centres, centre_mode(v)),
-        "whether I and J are places or distances", "ob I und J Orte oder Abstände sind";
+        "whether I and J are absolute or distances from the start of the arc", "ob I und J absolut oder Abstände vom Bogenanfang sind";
     "ArcToLinesTolerance" = "0.01", |o, v| put(&mut o.arc_tolerance, positive(v)),
         "greatest distance of a line from its arc, in the program's unit",
         "größter Abstand einer Strecke vom Bogen, in der Einheit des Programms";
@@ -279,7 +279,7 @@ fn count(value: &str) -> OptionResult<u32> {
 
 fn length(value: &str) -> OptionResult<f64> {
     let number = value.trim().parse().ok().filter(|length: &f64| length.is_finite() && *length >= 0.0);
-    number.ok_or(Refusal::Expected(&Text { en: "a number from 0", de: "eine Zahl ab 0" }))
+    number.ok_or(Refusal::Expected(&Text { en: "a number of at least 0", de: "eine Zahl ab 0" }))
 }
 
 fn positive(value: &str) -> OptionResult<f64> {

@@ -46,7 +46,7 @@ fn option_row(option: &ElementOption, lang: Lang) -> Row {
     vec![code(option.element), expected, code(option.default), about]
 }
 
-const EXTENSION_OF_PATHBUILD: Text = Text { en: "pathbuild's own", de: "Zusatz von pathbuild" };
+const EXTENSION_OF_PATHBUILD: Text = Text { en: "an extension of pathbuild", de: "Zusatz von pathbuild" };
 const TEXT_OF: Text = Text { en: "the text of the element", de: "der Text des Elements" };
 const SPEED: Text =
     Text { en: "`S` with the speed, if one is given", de: "`S` mit der Drehzahl, wenn eine vorliegt" };

@@ -266,8 +266,8 @@ fn report_cached(context: &Workspace, selection: &TargetSelection, plans: &[Answ
     let read = selection.drawings().filter(|drawing| drawing.inputs.is_some()).count();
     let known = [(selection.targets.len() - open, selection.targets.len()), (drawings - read, drawings)];
     let phrases = [
-        context.choose("paths whose results still hold", "Pfade, deren Ergebnisse noch gelten"),
-        context.choose("drawings that are known", "Zeichnungen, die bekannt sind"),
+        context.choose("paths with valid cached results", "Pfade mit gültigen gespeicherten Ergebnissen"),
+        context.choose("drawings known from the cache", "Zeichnungen, die aus dem Cache bekannt sind"),
     ];
     for (phrase, (known, all)) in phrases.iter().zip(known) {
         context.reporter.detail(&format!("{phrase}: {known} / {all}"));

@@ -327,8 +327,8 @@ static NO_LIMIT: Text =
 static NO_DRAWING: Text =
     Text { en: "there is no drawing to compare with", de: "es fehlt die Zeichnung zum Vergleich" };
 static OTHER_MOVES: Text = Text {
-    en: "the moves differ, and those after the first difference were not compared",
-    de: "die Bewegungen weichen ab, und die nach der ersten Abweichung wurden nicht verglichen",
+    en: "the moves differ; moves after the first difference were not compared",
+    de: "die Bewegungen weichen ab; nach der ersten Abweichung wurden sie nicht mehr verglichen",
 };
 static NO_KEEP_OUT: Text = Text {
     en: "the configuration names no layers with clamps",
@@ -336,8 +336,8 @@ static NO_KEEP_OUT: Text = Text {
 };
 static NO_CUTTER: Text = Text { en: "the cutter is not known", de: "der Fräser ist nicht bekannt" };
 static NO_SURFACE: Text = Text {
-    en: "the height of the material is not known, only those at cutting depth were examined",
-    de: "die Höhe des Materials ist nicht bekannt, nur die in Frästiefe wurden untersucht",
+    en: "the height of the material is not known, so only rapid moves at cutting depth were examined",
+    de: "die Höhe des Materials ist nicht bekannt, daher wurden nur Eilgänge in Frästiefe untersucht",
 };
 static TOO_LARGE: Text = Text { en: "the program is too large", de: "das Programm ist zu groß" };
 static NO_SPEED: Text = Text {

@@ -457,7 +457,7 @@ pub struct ConfigArgs {
 /// Subcommands of `config`.
 #[derive(Clone, Debug, Subcommand)]
 pub enum ConfigCommand {
-    /// Print the values in force
+    /// Print the values in effect
     Show {
         /// Also say where each value comes from
         #[arg(long)]
@@ -524,7 +524,7 @@ german! {
     "Remove cached results that are no longer used", "Löscht gespeicherte Ergebnisse, die nicht mehr gebraucht werden";
     "Remove all cached results", "Löscht alle gespeicherten Ergebnisse";
     "Check every cached result for damage", "Prüft jedes gespeicherte Ergebnis auf Schäden";
-    "Print the values in force", "Gibt die geltenden Werte aus";
+    "Print the values in effect", "Gibt die geltenden Werte aus";
     "Compare descriptions of the machine with `[machine]` and `[tool]`, and take them over with --write",
         "Vergleicht Beschreibungen der Maschine mit `[machine]` und `[tool]` und übernimmt sie mit --write";
     "The answer of GRBL or grblHAL to $$, `FluidNC`'s YAML, `LinuxCNC`'s ini file or tool table, tools of FreeCAD or Fusion 360",
@@ -633,7 +633,7 @@ german! {
         "`XpertMILL`: din: G70 heißt Zoll und G71 Millimeter; table: umgekehrt";
     "`XpertMILL`: I and J are the arc's centre itself, not its distance from the arc's start",
         "`XpertMILL`: I und J sind der Bogenmittelpunkt selbst, nicht sein Abstand vom Bogenanfang";
-    "`XpertMILL`: ignore F and use the feeds of the layers", "`XpertMILL`: F wird ignoriert; es gelten die Vorschübe der Layer";
+    "`XpertMILL`: ignore F and use the feeds of the layers", "`XpertMILL`: ignoriert F und verwendet die Vorschübe der Layer";
     "G70 inches, G71 millimetres", "G70 Zoll, G71 Millimeter";
     "The other way round", "Umgekehrt";
     "FILE|DIRECTORY", "DATEI|VERZEICHNIS";

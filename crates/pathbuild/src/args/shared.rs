@@ -169,7 +169,7 @@ pub struct WaiverArgs {
     /// Accept the findings with this code: write them into the baseline file with --reason
     #[arg(long, value_name = "CODE", value_parser = code, requires = "reason", conflicts_with = "update_baseline")]
     pub accept: Option<Code>,
-    /// With --accept: why
+    /// With --accept: the reason
     #[arg(long, value_name = "TEXT", requires = "accept")]
     pub reason: Option<String>,
     /// With --accept: the last day on which this holds
@@ -181,7 +181,7 @@ pub struct WaiverArgs {
 }
 
 fn code(text: &str) -> Result<Code, &'static str> {
-    text.parse().map_err(|()| "there is no such diagnostic: `pathbuild explain` lists all of them")
+    text.parse().map_err(|()| "there is no such diagnostic: `pathbuild explain` lists all codes")
 }
 
 pub(super) fn date(text: &str) -> Result<Date, &'static str> {
@@ -372,7 +372,7 @@ german! {
     "Print more", "Gibt mehr aus";
     "Number of threads", "Anzahl der Threads";
     "Do not trust the tree: read no file outside of it, and run no command that it names",
-        "Dem Verzeichnisbaum nicht trauen: keine Datei außerhalb lesen, keinen dort genannten Befehl ausführen";
+        "Traut dem Verzeichnisbaum nicht: liest keine Datei außerhalb und führt keinen dort genannten Befehl aus";
     "Date that waivers are compared with (default: `SOURCE_DATE_EPOCH`, else today in UTC)",
         "Datum für den Vergleich mit Ausnahmen (sonst `SOURCE_DATE_EPOCH`, sonst heute in UTC)";
     "Report only findings that are not in this file (default: pathbuild-baseline.txt beside pathbuild.toml)",
@@ -381,11 +381,11 @@ german! {
         "Schreibt alle Meldungen in die Datei von --baseline, statt sie zu zeigen";
     "Accept the findings with this code: write them into the baseline file with --reason",
         "Nimmt die Meldungen mit diesem Code hin: schreibt sie mit --reason in die Datei von --baseline";
-    "With --accept: why", "Mit --accept: warum";
+    "With --accept: the reason", "Mit --accept: der Grund";
     "With --accept: the last day on which this holds", "Mit --accept: der letzte Tag, an dem das gilt";
     "expected a date such as 2026-12-31", "erwartet wird ein Datum wie 2026-12-31";
-    "there is no such diagnostic: `pathbuild explain` lists all of them",
-        "eine solche Meldung gibt es nicht: `pathbuild explain` führt alle auf";
+    "there is no such diagnostic: `pathbuild explain` lists all codes",
+        "eine solche Meldung gibt es nicht: `pathbuild explain` führt alle Codes auf";
     "Use no cached results and cache none", "Verwendet keine gespeicherten Ergebnisse und speichert keine";
     "Directory for cached results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)",
         "Verzeichnis für gespeicherte Ergebnisse, auch für Kopien des Verzeichnisbaums (auch: `PATHBUILD_CACHE_DIR`)";

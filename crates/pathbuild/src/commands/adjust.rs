@@ -44,8 +44,8 @@ pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
     }
     if args.log.is_some() && jobs.len() > 1 {
         return context.usage(context.choose(
-            "--log is of one probing run: name one program with it",
-            "--log gehört zu einem Antastprogramm: dazu ein Programm nennen",
+            "--log holds the results of one probing run: name only one program",
+            "--log enthält die Ergebnisse eines einzigen Antastprogramms: nur ein Programm nennen",
         ));
     }
     for job in &jobs {
@@ -234,7 +234,7 @@ impl<'a> Adjustment<'a> {
                 return Err(vec![problem.in_file(&job.clean)]);
             }
             DrawingComparison::NoDrawing { drawing } => {
-                let is_missing = context.choose("is not found", "wird nicht gefunden");
+                let is_missing = context.choose("was not found", "wurde nicht gefunden");
                 context.printer.status(format_args!("{}: {not_compared}: {drawing} {is_missing}", job.clean));
             }
             DrawingComparison::NeedsOptions(missing) => {

@@ -31,7 +31,8 @@ fn code(name: &str) -> Option<Code> {
 
 fn unknown(context: &Context, name: &str) -> String {
     let unknown = context.choose("there is no diagnostic", "es gibt keine Meldung");
-    let all = context.choose("`pathbuild explain` lists all of them", "`pathbuild explain` führt alle auf");
+    let all =
+        context.choose("`pathbuild explain` lists all codes", "`pathbuild explain` führt alle Codes auf");
     let near = nearest_code(name).map(|near| match context.lang() {
         Lang::En => format!("did you mean {near}? "),
         Lang::De => format!("ist {near} gemeint? "),

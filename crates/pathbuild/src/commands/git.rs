@@ -97,8 +97,8 @@ impl<'a> Repository<'a> {
         let repository = Self { workspace, root };
         if workspace.settings.confined.is_some() && repository.leads_out() {
             return Err(workspace.phrase(
-                "the .git in {} leads out of the repository, which is not trusted",
-                "das .git in {} führt aus dem Repository hinaus, dem nicht vertraut wird",
+                "the .git in {} leads out of the untrusted repository",
+                "das .git in {} führt aus dem nicht vertrauenswürdigen Repository hinaus",
                 repository.root.as_str(),
             ));
         }

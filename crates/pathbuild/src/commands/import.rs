@@ -210,7 +210,7 @@ impl Formatter<'_> {
     fn not_followed(&self, line: u32) -> String {
         let [begin, end] = [
             self.choose("not known: line", "unbekannt: Zeile"),
-            self.choose("is not followed", "ist nicht verfolgt"),
+            self.choose("is not followed", "wird nicht verfolgt"),
         ];
         format!("{begin} {line} {end}")
     }
@@ -271,7 +271,7 @@ impl Formatter<'_> {
             (None, _) => self
                 .choose(
                     "not known: a cutting move has no feed",
-                    "unbekannt: einer Schnittbewegung fehlt der Vorschub",
+                    "unbekannt: einer Fräsbewegung fehlt der Vorschub",
                 )
                 .to_owned(),
             (Some(minutes), Some(rapid)) => format!(
@@ -306,7 +306,7 @@ impl Formatter<'_> {
         let summary = &facts.summary;
         let mut waits = Vec::new();
         if summary.dwell > 0.0 {
-            waits.push(format!("{} s {}", self.tenths(summary.dwell), self.choose("dwelling", "Verweilen")));
+            waits.push(format!("{} s {}", self.tenths(summary.dwell), self.choose("dwelling", "Wartezeit")));
         }
         if summary.stops > 0 {
             waits.push(format!(

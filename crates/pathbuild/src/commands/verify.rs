@@ -218,7 +218,7 @@ fn report_comparison(context: &Context, file: &Utf8Path, comparison: &MoveCompar
         ("agreement", row)
     });
     let lang = context.lang();
-    let rest = context.choose("; what follows is not compared", "; was folgt, ist nicht verglichen");
+    let rest = context.choose("; the rest is not compared", "; der Rest ist nicht verglichen");
     let rest = if equal < moves { rest } else { "" };
     let [equal, all] = [*equal, *moves].map(|number| count(number, lang));
     let line = match lang {

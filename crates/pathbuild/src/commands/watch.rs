@@ -166,8 +166,8 @@ impl Listener for WatchPrinter<'_> {
 
     fn not_watched(&self, drawings: &[(Utf8PathBuf, String)]) {
         let cannot = self.context.choose(
-            "this is a link, and changes of the file that it leads to cannot be watched",
-            "das ist eine Verknüpfung, und Änderungen der Datei an ihrem Ende sind nicht zu beobachten",
+            "this is a link, and changes to the file behind it cannot be watched",
+            "das ist eine Verknüpfung, und Änderungen an der Datei dahinter lassen sich nicht beobachten",
         );
         for (drawing, reason) in drawings {
             let line = format!("{drawing}: {cannot}: {reason}");

@@ -74,7 +74,7 @@ fn material(sheet: &Sheet, words: Words) -> String {
             )
             .collect();
     let facts = facts.join(", ");
-    words.choose(format!("Material lies ready: {facts}"), format!("Material liegt bereit: {facts}"))
+    words.choose(format!("Material is ready: {facts}"), format!("Material liegt bereit: {facts}"))
 }
 
 fn clamped_text(sheet: &Sheet, words: Words) -> String {
@@ -82,13 +82,13 @@ fn clamped_text(sheet: &Sheet, words: Words) -> String {
     let highest = sheet.scene.keep_outs.iter().map(|clamp| clamp.height).reduce(f64::max);
     match highest {
         Some(highest) => words.choose(
-            format!("Clamps ({clamps}) are where the picture has them, none higher than Z {}", mm(highest)),
+            format!("Clamps ({clamps}) stand as in the picture, none higher than Z {}", mm(highest)),
             format!("Spannpratzen ({clamps}) sitzen wie im Bild, keine höher als Z {}", mm(highest)),
         ),
         None => words
             .choose(
-                "Material is clamped; no clamp stands in a milled line or a rapid move",
-                "Material ist gespannt; keine Spannpratze steht in einer Fräsbahn oder einem Eilgang",
+                "Material is clamped; no clamp is in the way of a cut or a rapid move",
+                "Material ist gespannt; keine Spannpratze steht einem Schnitt oder Eilgang im Weg",
             )
             .into(),
     }
@@ -153,7 +153,7 @@ pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
     facts.fact("marking", "Markieren", feeds(|kind| kind == MoveKind::Mark));
     facts.fact("plunging", "Eintauchen", feeds(|kind| kind == MoveKind::Plunge));
     facts.fact("rapid", "Eilgang", sheet.rapid.map(mm));
-    facts.heading("Way of the cutter's tip", "Weg der Fräserspitze");
+    facts.heading("Toolpath of the cutter's tip", "Weg der Fräserspitze");
     for (axis, extent) in ["X", "Y", "Z"].into_iter().zip(sheet.cutting_box) {
         let range = |(low, high)| {
             words.choose(format!("{} to {}", mm(low), mm(high)), format!("{} bis {}", mm(low), mm(high)))
@@ -166,8 +166,8 @@ pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
     let (inside, above) = rapids.across.split_at(rapids.inside);
     facts.fact("rapid across", "Eilgang quer", format_numbers(above).map(|heights| format!("Z {heights}")));
     facts.fact(
-        "rapid across inside what is milled",
-        "Eilgang quer in Gefrästem",
+        "rapid across, inside milled areas",
+        "Eilgang quer, im gefrästen Bereich",
         format_numbers(inside).map(|heights| format!("Z {heights}")),
     );
     facts.fact("rapid down to", "Eilgang hinab", rapids.down.map(|z| format!("Z {}", mm(z))));

@@ -37,8 +37,8 @@ pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
         Ok([Side::Program(old), Side::Program(new)]) => Ok(single(*old, *new, pictures)),
         Ok(_) => {
             return context.usage(context.choose(
-                "a program is compared with a path or another program",
-                "ein Programm wird mit einem Pfad oder einem anderen Programm verglichen",
+                "compare a program with a path or with another program",
+                "ein Programm mit einem Pfad oder einem anderen Programm vergleichen",
             ));
         }
         Err(failure) => Err(failure),
