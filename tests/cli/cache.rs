@@ -73,7 +73,7 @@ fn reused_drawings(place: &Place) -> String {
     let run = place.run("check -v");
     run.stderr
         .lines()
-        .find_map(|line| line.strip_prefix("drawings whose results still hold: "))
+        .find_map(|line| line.strip_prefix("drawings with valid cached results: "))
         .unwrap()
         .to_owned()
 }
@@ -555,7 +555,7 @@ fn what_is_hidden_or_linked_is_left_out_with_and_without_rules() {
 /// Returns the number of drawings whose cached results a check uses, and the number of all drawings.
 fn known(place: &Place, arguments: &str) -> String {
     let run = place.run(&format!("check -v {arguments}"));
-    let line = run.stderr.lines().find(|line| line.starts_with("drawings whose results still hold"));
+    let line = run.stderr.lines().find(|line| line.starts_with("drawings with valid cached results"));
     line.unwrap_or_default().rsplit(": ").next().unwrap_or_default().to_owned()
 }
 

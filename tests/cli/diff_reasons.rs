@@ -124,7 +124,7 @@ fn embedded_paths_are_followed_level_by_level() {
             "    embedded 1002.1P changed",
             "      embedded 1001.1P changed",
             "        start marker: text B1 became B0.5",
-            "    embedded 1001.1P changed, as above",
+            "    embedded path 1001.1P changed, as above",
         ],
         "{run}"
     );

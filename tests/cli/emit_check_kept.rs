@@ -88,7 +88,7 @@ fn known(run: &Run) -> ((u32, u32), (u32, u32)) {
         let (known, all) = line.trim_start_matches(": ").split_once(" / ").unwrap();
         (known.parse().unwrap(), all.parse().unwrap())
     };
-    (count("paths whose results still hold"), count("drawings that are known"))
+    (count("paths with valid cached results"), count("drawings known from the cache"))
 }
 
 #[track_caller]

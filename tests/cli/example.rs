@@ -32,7 +32,7 @@ fn a_template_lacks_nothing_but_a_path() {
 fn the_example_leaves_files_alone() {
     let place = Place::new().file("components/2002.1P.dxf", "mine");
     let run = place.run("init --example");
-    assert!(run.stderr.contains("2002.1P.dxf: it is there already"), "{run}");
+    assert!(run.stderr.contains("2002.1P.dxf: it already exists"), "{run}");
     assert_eq!((run.status, place.read("components/2002.1P.dxf").as_str()), (Some(1), "mine"));
     assert!(!place.path().join("pathbuild.toml").exists(), "nothing is written where one file cannot be");
 }

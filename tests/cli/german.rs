@@ -14,7 +14,7 @@ use pathbuild_diagnostic::Lang;
 const REFUSALS: [&str; 8] = [
     "expected a number from 1 to 1024",
     "expected a date such as 2026-12-31",
-    "there is no such diagnostic: `pathbuild explain` lists all of them",
+    "there is no such diagnostic: `pathbuild explain` lists all codes",
     "expected FORMAT=FILE",
     "the format is full, concise, json, sarif, github, gitlab, junit or html",
     "the name of the file is missing",

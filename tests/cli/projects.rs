@@ -245,7 +245,7 @@ fn a_second_definition_is_noticed_even_in_the_drawing_that_embeds_it() {
         place.run("check 8001.dxf --feed 1 --rapid 1 --sweep-height 20 --format concise")
     };
     let run = check("1234.dxf", "1234.1P");
-    let expected = "path 1234.1P is defined twice: in 8001.dxf and in 1234.dxf";
+    let expected = "path 1234.1P exists twice: in 8001.dxf and in 1234.dxf";
     assert!(run.status == Some(1) && run.stderr.contains(expected), "{run}");
     // Neither another path in a drawing of that name counts, nor a drawing whose name does not admit the path.
     for (beside, layer) in [("1234.dxf", "1234.2P"), ("1300.dxf", "1234.1P")] {

@@ -103,7 +103,7 @@ fn links_of_a_strangers_configuration_lead_into_its_repository() {
 /// A drawing, an ignore file, a program, a post definition and a directory are links.
 #[test]
 fn links_that_lead_out_are_not_read() {
-    let outside = "it leads out of the repository, which is not trusted";
+    let outside = "it leads out of the untrusted repository";
     let cases = [
         ("1203.1P.dxf", "1203.1P.dxf", "check . --untrusted"),
         ("1203.1P.dxf", "1203.1P.dxf", "check 1203.1P.dxf --untrusted"),

@@ -310,9 +310,9 @@ fn reports_carry_the_reason() {
 fn kept_results_do_not_depend_on_the_date() {
     let place = place().file("pathbuild.toml", entry("reason = \"why\"\nuntil = 2031-12-31\n"));
     let run = |date: &str| place.run(&format!("check -v --date {date}"));
-    assert!(run("2031-12-31").stderr.contains("drawings whose results still hold: 0 / 2"));
+    assert!(run("2031-12-31").stderr.contains("drawings with valid cached results: 0 / 2"));
     let after = run("2032-01-01");
-    assert!(after.stderr.contains("drawings whose results still hold: 2 / 2"), "{after}");
+    assert!(after.stderr.contains("drawings with valid cached results: 2 / 2"), "{after}");
     assert!(after.stderr.contains(CODE), "{after}");
     let before = run("2031-12-31");
     assert!(before.stderr.contains("2 / 2") && !before.stderr.contains(CODE), "{before}");

@@ -398,7 +398,7 @@ fn a_block_inserted_on_a_frozen_layer_is_told() {
     };
     assert_eq!(
         found("70 1"),
-        ["LINE is in a block that is inserted on layer X, which is frozen, but it is still used"]
+        ["LINE belongs to a block that is inserted on the frozen layer X, but is still used"]
     );
     assert_eq!(found("70 0"), [""; 0]);
     assert_eq!(found("70 0\n62 -7"), [""; 0], "off: what lies on other layers stays visible");
@@ -421,7 +421,7 @@ fn a_block_that_draws_on_unread_layers_only_is_left_out() {
     let [(text, layers)] = &left_out_on_p(&block("B", "", &format!("{}\n{}", on("X"), on("Y"))))[..] else {
         panic!()
     };
-    let said = "block B is inserted on this layer, but nothing in it belongs to it: what it contains lies on other layers (X, Y) and is ignored";
+    let said = "block B is inserted on this layer, but its contents lie on other layers (X, Y) and are ignored";
     assert_eq!((text.as_str(), &layers[..]), (said, &["X".to_owned(), "Y".to_owned()][..]));
     let nested = block("B", "", "0 INSERT\n8 0\n2 C\n10 0\n20 0\n0 INSERT\n8 Z\n2 D\n10 0\n20 0")
         + &block("C", "", &on("X"))

@@ -100,12 +100,12 @@ fn a_section_must_end_before_the_next() {
     let text = section("TABLES", "").replace("  0\nENDSEC\n", "") + &entities(CIRCLE);
     assert_eq!(
         file_findings(text),
-        "PB002 5 section TABLES has no end: \"SECTION\" stands where ENDSEC is missing"
+        "PB002 5 section TABLES has no end: ENDSEC is missing before \"SECTION\""
     );
     let text = entities(CIRCLE).replace("  0\nENDSEC\n", "");
     assert_eq!(
         file_findings(text),
-        "PB002 15 section ENTITIES has no end: \"EOF\" stands where ENDSEC is missing"
+        "PB002 15 section ENTITIES has no end: ENDSEC is missing before \"EOF\""
     );
 }
 

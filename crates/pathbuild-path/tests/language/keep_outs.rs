@@ -127,7 +127,7 @@ fn each_outline_has_one_text_inside_or_overlapping_it() {
     );
     assert_wrong(
         &texts(4),
-        &["4 texts are inside the outline of this clamp or overlap it, the first are Z25, Z30, Z30"],
+        &["4 texts are inside the outline of this clamp or overlap it; the first are Z25, Z30, Z30"],
     );
     // The circle of the text, with a radius of 2.57 mm, just touches the outline from outside, or just does not.
     let beside = |x: f64| SQUARE.replace("12,4", &format!("{x},4"));
@@ -385,7 +385,7 @@ fn a_block_of_other_layers_is_an_unclear_clamp() {
     assert_wrong(
         &inserted("parts"),
         &[
-            "block screw is inserted on a layer with clamps, but what it contains lies on other layers (parts)",
+            "block screw is inserted on a layer with clamps, but its contents lie on other layers (parts)",
         ],
     );
     assert!(clamps_of(&inserted("parts")).problems[0].is_error());

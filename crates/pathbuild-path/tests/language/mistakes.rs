@@ -329,7 +329,7 @@ fn a_second_text_on_an_element_says_so() {
     };
     assert_eq!(
         second("20,0.5"),
-        ["here a circle at (20, 0) has a text already: write all letters into one text"]
+        ["a circle at (20, 0) already has a text: write all letters into one text"]
     );
     assert_eq!(second("20,9"), [""; 0], "it overlaps nothing");
 }

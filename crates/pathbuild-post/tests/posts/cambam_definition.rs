@@ -132,7 +132,7 @@ fn what_is_no_definition_is_refused() {
     assert_eq!(
         texts(&read("<Other/>").unwrap_err()),
         [
-            "PB750 the file contains <Other>, not <PostProcessor> (a CamBam definition begins with <PostProcessor>)"
+            "PB750 the file contains <Other>, not <PostProcessor> (give the file of a CamBam definition: it begins with <PostProcessor>)"
         ]
     );
     assert_eq!(read("<PostProcessor>").unwrap_err()[0].code().to_string(), "PB750");
@@ -179,7 +179,7 @@ fn lines_that_define_no_macro_and_built_in_names_are_warnings() {
     let text = bare("<PostProcessorMacros>o=1\n$x=2</PostProcessorMacros>");
     let written = output(&text, &job(vec![]), &PostOptions::default()).unwrap();
     let expected = [
-        "3: PB752 \"o=1\" defines no macro and is ignored (a macro is defined as $name=value)",
+        "3: PB752 \"o=1\" defines no macro and is ignored (define a macro as $name=value)",
         "4: PB752 $x is built in; its definition is ignored (give your macro another name)",
     ];
     assert_eq!(texts(&written.warnings), expected);

@@ -193,7 +193,7 @@ fn an_arc_whose_rounded_numbers_are_no_circle_is_an_error() {
     let (sin, cos) = libm::sincos(1.0);
     let steps = vec![feed(10.0, 0.0, 5.0), arc([10.0, 0.0, 5.0], [0.0, 0.0], [10.0 * cos, 10.0 * sin, 5.0])];
     let coarse = bare("<NumberFormat>0.0</NumberFormat>");
-    let expected = "PB756 as written, the arc to (5.403, 8.415) has the radius 10.0000 at its start and 9.9860 at its end (give the post's number format more decimals)";
+    let expected = "PB756 in the output, the arc to (5.403, 8.415) has the radius 10.0000 at its start and 9.9860 at its end (give the post's number format more decimals)";
     assert_eq!(errors(&coarse, &job(steps.clone())), [expected]);
     assert_eq!(moves("<NumberFormat>0.0##</NumberFormat>", steps)[1], "G3 X5.403 Y8.415 I-10.0 J0.0");
 }

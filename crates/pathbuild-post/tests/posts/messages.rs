@@ -24,7 +24,7 @@ fn a_finding_names_the_text_that_wrote_the_line() {
     let text = bare("<Rapid/>\n<FeedMove>\n{$_g1} {$_f}\n  {$_x} {$_y}\n</FeedMove>");
     let found = read(&text).unwrap().write(&milled(), &PostOptions::default()).unwrap_err();
     assert!(
-        notes(&found).iter().any(|note| note.starts_with("it is written by FeedMove, line ")),
+        notes(&found).iter().any(|note| note.starts_with("the line comes from FeedMove, line ")),
         "{:?}",
         notes(&found)
     );
@@ -32,7 +32,7 @@ fn a_finding_names_the_text_that_wrote_the_line() {
     let line = 1 + text.lines().position(|line| line.starts_with("line =")).expect("the text");
     let options = PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() };
     let found = read_toml(&text).write(&milled(), &options).unwrap_err();
-    let expected = format!("it is written by line, line {line} of the definition");
+    let expected = format!("the line comes from line, line {line} of the definition");
     assert!(notes(&found).contains(&expected), "{:?}", notes(&found));
     // A default text has no line.
     let found = read(&definition("<Dialect>grbl</Dialect>"))
@@ -41,7 +41,7 @@ fn a_finding_names_the_text_that_wrote_the_line() {
         .unwrap_err();
     assert!(
         notes(&found).contains(
-            &"it is written by the default text of ToolChange, which the definition does not contain".into()
+            &"the line comes from the default text of ToolChange, which the definition does not contain".into()
         ),
         "{:?}",
         notes(&found)
@@ -62,7 +62,7 @@ fn a_variable_that_exists_has_a_reason_for_having_no_value() {
         without("")
     );
     assert!(without("(~Date~)").contains("Date has no value here: --date is not given"));
-    assert!(without("(~XC~)").contains("XC has no value here: only the text arc has it"));
+    assert!(without("(~XC~)").contains("XC has no value here: it has a value only in the text arc"));
     assert!(
         without("(~MilingSpindleRate~)").contains("did you mean MillingSpindleRate?"),
         "one that there is not"
