@@ -136,7 +136,7 @@ fn a_stock_block_gives_the_surface() {
 #[test]
 fn what_is_too_large_to_doubt_is_told() {
     let head = fusion("flat end mill");
-    for (between, expected) in [(THROUGH, "too large"), (OVER, "only those at")] {
+    for (between, expected) in [(THROUGH, "too large"), (OVER, "only rapid moves at")] {
         let place = Place::new().file("pathbuild.toml", "[limits]\nverify-cells = 100\n");
         let place = place.file("a.nc", slots(&head, between));
         let run = place.run("verify a.nc --dialect linuxcnc --format concise");

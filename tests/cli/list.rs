@@ -57,7 +57,10 @@ fn a_path_of_another_directory_is_told_with_its_drawing() {
     let place = Place::of(LIBRARY);
     let elsewhere = place.run("list components 8001.1P");
     assert_eq!(elsewhere.status, Some(1), "{elsewhere}");
-    assert!(elsewhere.stderr.contains("note: the library defines the path in projects/8001.dxf"), "{elsewhere}");
+    assert!(
+        elsewhere.stderr.contains("note: the library defines the path in projects/8001.dxf"),
+        "{elsewhere}"
+    );
     let nowhere = place.run("list components 801.1P");
     assert_eq!(nowhere.status, Some(1), "{nowhere}");
     assert!(!nowhere.stderr.contains("defines it"), "{nowhere}");

@@ -1429,6 +1429,7 @@ fn limits_of_values_are_said_in_both_languages() {
             "erlaubt: eine ganze Zahl von Bohrungen ab 1",
         ),
         ("G0 X0 Y0 Z0\nG83 X1 Z-1 R1 Q0 F9", "the value must be more than 0", "erlaubt: größer als 0"),
+        ("G0 X0 Y0 Z0\nG82 X1 Z-1 R1 P-1 F9", "the value must be 0 or more", "erlaubt: 0 oder mehr"),
         ("G0 X0 Y0 Z0\nG81 X1 Z1 R0 F9", "the value must be at least Z", "erlaubt: mindestens Z"),
         ("G10 L2 P11 X0", "the value must be 0 to 9", "erlaubt: 0 bis 9"),
     ] {

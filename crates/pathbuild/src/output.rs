@@ -47,7 +47,7 @@ impl Output {
         if !self.is_document && (!self.reports.is_empty() || self.format.is_report() || is_json) {
             return Some(workspace.phrase(
                 "`{}` has no findings to report",
-                "`{}` hat keine Meldungen für einen Bericht",
+                "`{}` hat keine Befunde für einen Bericht",
                 self.command,
             ));
         }
@@ -61,7 +61,7 @@ impl Output {
         (self.command == "watch" && (self.format.is_whole() || !self.reports.is_empty())).then(|| {
             let reason = workspace.choose(
                 "`watch` supports only the formats full, concise, json and github, because it never ends",
-                "`watch` endet nie und kann Meldungen deshalb nur als full, concise, json oder github zeigen",
+                "`watch` endet nie und kann Befunde deshalb nur als full, concise, json oder github zeigen",
             );
             reason.to_owned()
         })

@@ -71,7 +71,7 @@ fn show(context: &Context, most: Option<usize>, findings: &Findings) {
     let hidden = findings.diagnostics.len() - shown.len();
     context.show_some(findings, &Findings { diagnostics: shown, ..Findings::default() });
     if hidden > 0 {
-        let findings = counted(hidden, [["finding", "findings"], ["Meldung", "Meldungen"]], context.lang());
+        let findings = counted(hidden, [["finding", "findings"], ["Befund", "Befunde"]], context.lang());
         let phrase = context.choose("not shown (--max-errors)", "nicht gezeigt (--max-errors)");
         context.printer.status(format_args!("{findings} {phrase}"));
     }

@@ -68,7 +68,7 @@ fn update(context: &Context, file: &Utf8Path, findings: &[Diagnostic], coverage:
     if !faults.is_empty() {
         return context.refuse(faults);
     }
-    let known = [["known finding", "known findings"], ["bekannte Meldung", "bekannte Meldungen"]];
+    let known = [["known finding", "known findings"], ["bekannter Befund", "bekannte Befunde"]];
     let known = counted(findings.len(), known, context.lang());
     write(context, file, &baseline.rewritten_text(findings, context, coverage), &known)
 }
@@ -92,12 +92,11 @@ fn accept(
     if count == 0 {
         return context.usage(&context.phrase(
             "there is no finding {} to accept",
-            "es gibt keine Meldung {}, die hinzunehmen wäre",
+            "es gibt keinen Befund {}, der hinzunehmen wäre",
             &code.to_string(),
         ));
     }
-    let accepted =
-        [["finding accepted", "findings accepted"], ["Meldung hingenommen", "Meldungen hingenommen"]];
+    let accepted = [["finding accepted", "findings accepted"], ["Befund hingenommen", "Befunde hingenommen"]];
     let accepted = counted(count, accepted, context.lang());
     write(context, file, &text, &accepted)
 }

@@ -233,14 +233,14 @@ messages! {
     /// A baseline file that cannot be read.
     BASELINE_UNREADABLE: InvalidConfiguration {
         en: "cannot read the baseline: {reason}",
-        de: "die Liste bekannter Meldungen ist nicht lesbar: {reason}",
+        de: "die Liste bekannter Befunde ist nicht lesbar: {reason}",
         help_en: "check the file's name, or write a new baseline with --update-baseline",
         help_de: "den Dateinamen prüfen oder mit --update-baseline eine neue Liste schreiben",
     }
     /// A line of a baseline that does not begin with a fingerprint.
     BASELINE_LINE: InvalidConfiguration {
         en: "this line of the baseline does not begin with a fingerprint of 32 hexadecimal digits",
-        de: "diese Zeile der Liste bekannter Meldungen beginnt nicht mit einem Kennzeichen aus 32 Hexadezimalziffern",
+        de: "diese Zeile der Liste bekannter Befunde beginnt nicht mit einem Kennzeichen aus 32 Hexadezimalziffern",
         help_en: "remove it, or rewrite the file with --update-baseline",
         help_de: "die Zeile entfernen oder die Datei mit --update-baseline neu schreiben",
     }
@@ -268,9 +268,9 @@ messages! {
     /// A waiver that matches no finding.
     UNUSED_WAIVER: UnusedWaiver {
         en: "this waiver matches no finding any more",
-        de: "diese Ausnahme trifft auf keine Meldung mehr zu",
+        de: "diese Ausnahme trifft auf keinen Befund mehr zu",
         help_en: "remove it, so that it does not hide the same finding later",
-        help_de: "sie entfernen, damit sie nicht später dieselbe Meldung verdeckt",
+        help_de: "sie entfernen, damit sie nicht später denselben Befund verdeckt",
     }
     /// Note: a waiver would apply, but its last day has passed.
     WAIVER_ENDED: InvalidConfiguration {

@@ -421,7 +421,8 @@ fn a_block_that_draws_on_unread_layers_only_is_left_out() {
     let [(text, layers)] = &left_out_on_p(&block("B", "", &format!("{}\n{}", on("X"), on("Y"))))[..] else {
         panic!()
     };
-    let said = "block B is inserted on this layer, but its contents lie on other layers (X, Y) and are ignored";
+    let said =
+        "block B is inserted on this layer, but its contents lie on other layers (X, Y) and are ignored";
     assert_eq!((text.as_str(), &layers[..]), (said, &["X".to_owned(), "Y".to_owned()][..]));
     let nested = block("B", "", "0 INSERT\n8 0\n2 C\n10 0\n20 0\n0 INSERT\n8 Z\n2 D\n10 0\n20 0")
         + &block("C", "", &on("X"))

@@ -103,10 +103,7 @@ fn a_section_must_end_before_the_next() {
         "PB002 5 section TABLES has no end: ENDSEC is missing before \"SECTION\""
     );
     let text = entities(CIRCLE).replace("  0\nENDSEC\n", "");
-    assert_eq!(
-        file_findings(text),
-        "PB002 15 section ENTITIES has no end: ENDSEC is missing before \"EOF\""
-    );
+    assert_eq!(file_findings(text), "PB002 15 section ENTITIES has no end: ENDSEC is missing before \"EOF\"");
 }
 
 #[test]

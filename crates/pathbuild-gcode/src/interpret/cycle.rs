@@ -168,9 +168,13 @@ impl Interpreter<'_> {
         let step = if needs_step { q? } else { f64::INFINITY };
         let dwell = if needs_dwell { p? } else { 0.0 };
         if step <= 0.0 || dwell < 0.0 {
-            let (word, value) = if step <= 0.0 { ("Q", step) } else { ("P", dwell) };
+            let (word, value, limits) = if step <= 0.0 {
+                ("Q", step, &limits::POSITIVE)
+            } else {
+                ("P", dwell, &limits::NOT_NEGATIVE)
+            };
             self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
-                d.quoting("word", word).with("value", value).with("limits", &limits::POSITIVE)
+                d.quoting("word", word).with("value", value).with("limits", limits)
             });
             return None;
         }

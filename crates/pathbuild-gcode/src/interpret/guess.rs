@@ -227,8 +227,8 @@ fn union_g_word(code: u16) -> UnionWord {
         // G70 and G71 select the units in DIN 66025.
         700 => 200,
         710 => 210,
-        // G31 ("skip") probes; it counts as G38.2.
-        310 => 382,
+        // G31 ("skip") is like G38.3: if the probe makes no contact, the program continues.
+        310 => 383,
         other => other,
     };
     match Command::of(code) {

@@ -5,7 +5,7 @@ use rstar::{AABB, Envelope as _};
 use super::bars::{LostBar, lost_bars};
 use super::boxes::may_be_near;
 use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar, THROUGH};
-use super::gouge::{gouges, classify_cuts};
+use super::gouge::{classify_cuts, gouges};
 use super::loose::is_cut_out;
 use super::prepared::PreparedPart;
 use super::{Part, placed_part};

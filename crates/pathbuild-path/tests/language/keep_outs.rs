@@ -384,9 +384,7 @@ fn a_block_of_other_layers_is_an_unclear_clamp() {
     };
     assert_wrong(
         &inserted("parts"),
-        &[
-            "block screw is inserted on a layer with clamps, but its contents lie on other layers (parts)",
-        ],
+        &["block screw is inserted on a layer with clamps, but its contents lie on other layers (parts)"],
     );
     assert!(clamps_of(&inserted("parts")).problems[0].is_error());
     // Elements on the layer of a path belong to the path.

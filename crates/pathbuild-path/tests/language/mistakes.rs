@@ -327,10 +327,7 @@ fn a_second_text_on_an_element_says_so() {
     let second = |at: &str| {
         noted(&path(P, &format!("sweep 0,0 20,0\ncircle 20,0 d 5\ntext 20,-1 \"B1\" height 1\ntext {at} \"F50\" height 1\nend 20,0"))).1
     };
-    assert_eq!(
-        second("20,0.5"),
-        ["a circle at (20, 0) already has a text: write all letters into one text"]
-    );
+    assert_eq!(second("20,0.5"), ["a circle at (20, 0) already has a text: write all letters into one text"]);
     assert_eq!(second("20,9"), [""; 0], "it overlaps nothing");
 }
 

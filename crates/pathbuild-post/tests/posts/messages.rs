@@ -41,7 +41,8 @@ fn a_finding_names_the_text_that_wrote_the_line() {
         .unwrap_err();
     assert!(
         notes(&found).contains(
-            &"the line comes from the default text of ToolChange, which the definition does not contain".into()
+            &"the line comes from the default text of ToolChange, which the definition does not contain"
+                .into()
         ),
         "{:?}",
         notes(&found)

@@ -299,7 +299,7 @@ fn first_findings(findings: &[Finding], shown: VisibleParts) -> (Vec<(Option<&Fi
         if number > 0 && all.len() + next.len() > MAX_LINES {
             let more = shown.choose(
                 "further findings, circled without a number: `pathbuild check` lists them",
-                "weitere Meldungen, ohne Nummer eingekreist: `pathbuild check` zeigt sie",
+                "weitere Befunde, ohne Nummer eingekreist: `pathbuild check` zeigt sie",
             );
             all.push((None, format!("… {} {more}", findings.len() - number)));
             return (all, number);

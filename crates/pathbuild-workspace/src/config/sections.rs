@@ -237,7 +237,7 @@ pub mod limits {
         library_entries: u64 = "library-entries", COUNT, 200_000, "200_000", Neither;
         /// largest .gitignore or .ignore file
         ignore_file_size: u64 = "ignore-file-size", SIZE, 64 << 10, r#""64 KiB""#, Neither;
-        /// largest number of characters in a parameter text
+        /// largest number of bytes in a parameter text
         text_length: u64 = "text-length", COUNT, 65_536, "65_536", Check;
         /// longest time for one path
         seconds_per_path: Duration = "seconds-per-path", SECONDS, Duration::from_mins(1), "60", Check;

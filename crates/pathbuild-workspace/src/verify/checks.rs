@@ -378,8 +378,10 @@ static KEEP_OUT_OPTION: Text = Text { en: "keep-out in pathbuild.toml", de: "kee
 static CUTTER_OPTIONS: Text = Text { en: "--cutter or --against PATH", de: "--cutter oder --against PFAD" };
 static SURFACE_OPTIONS: Text =
     Text { en: "--surface or --against PATH", de: "--surface oder --against PFAD" };
-static LIMITS: Text =
-    Text { en: "[limits] verify-cells and verify-pieces", de: "[limits] verify-cells und verify-pieces" };
+static LIMITS: Text = Text {
+    en: "higher verify-cells and verify-pieces under [limits]",
+    de: "höhere verify-cells und verify-pieces unter [limits]",
+};
 static STOCK_OPTIONS: Text = Text {
     en: "--cutter and --surface, --against PATH, or rapids=assumed",
     de: "--cutter und --surface, --against PFAD oder rapids=assumed",

@@ -564,7 +564,7 @@ german! {
     "Show how long each stage took", "Zeigt, wie lange jede Stufe gedauert hat";
     "Show at most N errors; the last lines count all of them", "Zeigt höchstens N Fehler; die letzten Zeilen zählen alle";
     "Write a picture of each finding into this directory: a detail of the drawing with the place circled",
-        "Schreibt zu jeder Meldung ein Bild in dieses Verzeichnis: einen Ausschnitt der Zeichnung mit eingekreister Stelle";
+        "Schreibt zu jedem Befund ein Bild in dieses Verzeichnis: einen Ausschnitt der Zeichnung mit eingekreister Stelle";
     "Write nothing; report the files on disk that are out of date",
         "Schreibt nichts; meldet Dateien auf der Platte, die nicht aktuell sind";
     "With --check: compare only the moves", "Mit --check: vergleicht nur die Bewegungen";

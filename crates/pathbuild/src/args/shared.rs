@@ -366,7 +366,7 @@ german! {
     "Use this configuration instead of the drawing's pathbuild.toml", "Nimmt diese Konfiguration statt der pathbuild.toml der Zeichnung";
     "Format of the messages", "Format der Meldungen";
     "Write a report of the findings into a file as well; `-` is standard output (repeatable)",
-        "Schreibt die Meldungen auch in eine Datei; `-` ist die Standardausgabe (wiederholbar)";
+        "Schreibt die Befunde auch in eine Datei; `-` ist die Standardausgabe (wiederholbar)";
     "When to use colours", "Wann Farben verwendet werden";
     "Print less: no status lines; given twice: results only", "Gibt weniger aus: keine Statuszeilen; zweimal: nur Ergebnisse";
     "Print more", "Gibt mehr aus";
@@ -376,11 +376,11 @@ german! {
     "Date that waivers are compared with (default: `SOURCE_DATE_EPOCH`, else today in UTC)",
         "Datum für den Vergleich mit Ausnahmen (sonst `SOURCE_DATE_EPOCH`, sonst heute in UTC)";
     "Report only findings that are not in this file (default: pathbuild-baseline.txt beside pathbuild.toml)",
-        "Zeigt nur Meldungen, die nicht in dieser Datei stehen (sonst: pathbuild-baseline.txt neben pathbuild.toml)";
+        "Zeigt nur Befunde, die nicht in dieser Datei stehen (sonst: pathbuild-baseline.txt neben pathbuild.toml)";
     "Write all findings into the baseline file instead of reporting them",
-        "Schreibt alle Meldungen in die Datei von --baseline, statt sie zu zeigen";
+        "Schreibt alle Befunde in die Datei von --baseline, statt sie zu zeigen";
     "Accept the findings with this code: write them into the baseline file with --reason",
-        "Nimmt die Meldungen mit diesem Code hin: schreibt sie mit --reason in die Datei von --baseline";
+        "Nimmt die Befunde mit diesem Code hin: schreibt sie mit --reason in die Datei von --baseline";
     "With --accept: the reason", "Mit --accept: der Grund";
     "With --accept: the last day on which this holds", "Mit --accept: der letzte Tag, an dem das gilt";
     "expected a date such as 2026-12-31", "erwartet wird ein Datum wie 2026-12-31";

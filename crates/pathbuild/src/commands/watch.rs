@@ -150,7 +150,7 @@ impl Listener for WatchPrinter<'_> {
         let checked = [["drawing checked", "drawings checked"], ["Zeichnung geprüft", "Zeichnungen geprüft"]];
         let checked = counted(count, checked);
         let has_news = !new.is_empty() || gone > 0;
-        let new = counted(new.len(), [["new finding", "new findings"], ["neue Meldung", "neue Meldungen"]]);
+        let new = counted(new.len(), [["new finding", "new findings"], ["neuer Befund", "neue Befunde"]]);
         let time = with_decimal_separator(format!("{milliseconds:.1}"), context.lang());
         let tail = format!("{checked}{open}, {new}, {gone} {} ({time} ms)", phrase("fixed", "behoben"));
         let changed = update.changed.iter().map(|path| {

@@ -12,7 +12,7 @@ use pathbuild_workspace::waivers::WaivedFinding;
 
 /// Renders the page. `pictures` has one entry per finding; `None` if it has no picture.
 pub(crate) fn page(findings: &Findings, pictures: &[Option<String>], view: &View) -> RenderedText {
-    let title = view.choose("Findings", "Meldungen");
+    let title = view.choose("Findings", "Befunde");
     let mut text = format!("<!doctype html>\n<html lang=\"{}\">\n{HEAD}", view.choose("en", "de"));
     _ = writeln!(text, "<title>pathbuild: {title}</title>\n{STYLE}\n<h1>{title}</h1>");
     _ = writeln!(text, "<p>{}</p>", summary(findings, view));
