@@ -287,7 +287,7 @@ fn a_drawing_is_known_as_it_was_read_last() {
     write(&place.path().join("library/parts/1001.dxf"), &[path("1001.1P", 5, &[]), path("1001.2P", 5, &[])]);
     place.run("check ./library/projects");
     let again = place.run("check -v ./library/projects");
-    assert!(again.stderr.contains("results still hold: 3 / 3"), "{again}");
+    assert!(again.stderr.contains("with valid cached results: 3 / 3"), "{again}");
 }
 
 /// The path is correct with its example value, but with the other one the tool mills through the table.

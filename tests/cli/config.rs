@@ -200,7 +200,8 @@ fn the_schema_refuses_what_the_reader_refuses() {
 fn a_line_type_is_named_once_in_whatever_case() {
     let twice = complaints("[line-types]\nfoo = \"DIVIDE\"\nbar = \"CENTER\"\nFOO = \"BORDER\"");
     assert!(
-        twice.contains("`line-types` has FOO and foo") || twice.contains("`line-types` has foo and FOO"),
+        twice.contains("`line-types` has both FOO and foo")
+            || twice.contains("`line-types` has both foo and FOO"),
         "{twice}"
     );
     let different = "[line-types]\nfoo = \"DIVIDE\"\nfo = \"BORDER\"";
@@ -442,7 +443,11 @@ fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
         ),
         // A misspelt key is compared with the keys of its own table first.
         ("[emit]\ntarget = []\n", "did you mean `targets`?\n", "ist `targets` gemeint?\n"),
-        ("[watch]\nsomething = 1\n", "known here: debounce, poll", "hier bekannt: debounce, poll"),
+        (
+            "[watch]\nsomething = 1\n",
+            "use one of the keys known here: debounce, poll",
+            "einen der hier bekannten Schlüssel verwenden: debounce, poll",
+        ),
     ] {
         says(text, "en", english);
         says(text, "de", german);

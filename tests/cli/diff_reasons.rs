@@ -119,10 +119,10 @@ fn embedded_paths_are_followed_level_by_level() {
         explanations(&run),
         [
             "    start marker: text B1 became B0.5",
-            "    embedded 1001.1P changed",
+            "    embedded path 1001.1P changed",
             "      start marker: text B1 became B0.5",
-            "    embedded 1002.1P changed",
-            "      embedded 1001.1P changed",
+            "    embedded path 1002.1P changed",
+            "      embedded path 1001.1P changed",
             "        start marker: text B1 became B0.5",
             "    embedded path 1001.1P changed, as above",
         ],
@@ -146,7 +146,7 @@ fn variables_and_settings_are_named() {
         explanations(&two(&all("1"), &all("2")).run("diff old new")),
         [
             "    line at (0, 0): text :A1 became :A2",
-            "    embedded 1001.1P changed",
+            "    embedded path 1001.1P changed",
             "      variable A: 1 became 2"
         ]
     );

@@ -63,7 +63,7 @@ fn a_path_of_another_directory_is_told_with_its_drawing() {
     );
     let nowhere = place.run("list components 801.1P");
     assert_eq!(nowhere.status, Some(1), "{nowhere}");
-    assert!(!nowhere.stderr.contains("defines it"), "{nowhere}");
+    assert!(!nowhere.stderr.contains("defines the path"), "{nowhere}");
     assert!(nowhere.stderr.contains("note: did you mean 8001.1P?"), "{nowhere}");
     assert_eq!(place.run("list projects 8001.1P").status, Some(0));
 }

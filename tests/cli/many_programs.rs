@@ -64,7 +64,11 @@ fn results_are_kept_as_long_as_nothing_they_depend_on_changes() {
     let place = place();
     let run = |arguments: &str| place.run(&format!("verify nc {OPTIONS} -v {arguments}"));
     let known = |run: &Run| {
-        let line = run.stderr.lines().find(|line| line.contains("results still hold")).map(ToOwned::to_owned);
+        let line = run
+            .stderr
+            .lines()
+            .find(|line| line.contains("programs with valid cached results"))
+            .map(ToOwned::to_owned);
         line.unwrap_or_default().rsplit(": ").next().unwrap_or_default().to_owned()
     };
     let first = run("");
@@ -102,8 +106,8 @@ fn accepted_findings_hold_for_kept_results_and_directories() {
         let run = run(&format!("{arguments} --date 2031-12-31"));
         assert!(run.status == Some(0) && plunging(&run).is_empty(), "{run}");
         assert!(!run.stderr.contains("PB610"), "{run}");
-        let all = run.stderr.matches("still hold: ").count();
-        assert!(all == 1 && !run.stderr.contains("still hold: 0"), "{run}");
+        let all = run.stderr.matches("valid cached results: ").count();
+        assert!(all == 1 && !run.stderr.contains("valid cached results: 0"), "{run}");
     }
     let after = run("nc --date 2032-01-01");
     assert_eq!(plunging(&after), ["nc/a.nc", "nc/deep/c.tap"], "{after}");

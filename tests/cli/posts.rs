@@ -201,7 +201,7 @@ fn the_feed_of_paths_without_f_is_held_against_the_machine_s() {
 fn a_joined_program_is_not_named_like_a_device() {
     let is_device = |name: &str| {
         let run = library("").run(&format!("emit --join {name} 1234.1P --post linuxcnc --lang en"));
-        let is_refused = run.stderr.contains("means a device");
+        let is_refused = run.stderr.contains("denotes a device");
         assert_eq!(run.status, Some(i32::from(is_refused)), "{run}");
         is_refused
     };

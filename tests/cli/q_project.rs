@@ -128,8 +128,8 @@ fn a_q_project_that_its_file_name_does_not_cover_is_named_with_its_drawing() {
     let place = Place::of(&DRAWING.replace("gear 1234.dxf", "1234.1-1234.3P.dxf").replace("T4 O3", "T4 O2"));
     assert_eq!(place.run("q-project 1234.1-1234.3P.dxf").status, Some(0));
     for (lang, note) in [
-        ("en", "note: 1234.1-1234.3P_Q.dxf defines it, though the file's name does not cover it"),
-        ("de", "1234.1-1234.3P_Q.dxf enthält ihn, obwohl der Dateiname ihn nicht abdeckt"),
+        ("en", "note: 1234.1-1234.3P_Q.dxf defines the path, although the file's name does not include it"),
+        ("de", "1234.1-1234.3P_Q.dxf enthält den Pfad, obwohl der Dateiname ihn nicht nennt"),
     ] {
         for command in ["emit", "check", "where", "deps", "view", "sheet", "texts"] {
             let missed = place.run(&format!("{command} 1234.0Q --lang {lang}"));
@@ -138,7 +138,10 @@ fn a_q_project_that_its_file_name_does_not_cover_is_named_with_its_drawing() {
         }
     }
     let nowhere = place.run("emit 1234.9Q");
-    assert!(!nowhere.stderr.contains("did you mean") && !nowhere.stderr.contains("defines it"), "{nowhere}");
+    assert!(
+        !nowhere.stderr.contains("did you mean") && !nowhere.stderr.contains("defines the path"),
+        "{nowhere}"
+    );
     assert_eq!(place.run("emit 1234.1-1234.3P_Q.dxf").status, Some(0));
 }
 

@@ -55,7 +55,7 @@ fn outside(more: &str, expected: &str) {
 
 #[test]
 fn paths_of_a_strangers_configuration_lie_in_its_repository() {
-    let leads_out = "leads out of the repository";
+    let leads_out = "out of the untrusted repository";
     for key in ["library", "search"] {
         inside(&format!("{key} = [\"../parts\"]"));
         outside(&format!("{key} = [\"../../outside\"]"), leads_out);

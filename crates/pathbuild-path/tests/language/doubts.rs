@@ -207,8 +207,8 @@ fn a_depth_that_was_meant_from_the_surface_is_named() {
         messages("B-2")
             .starts_with("for a depth of 2 mm in T4, write B2: heights are measured from the plate upwards")
     );
-    assert!(messages("B-3.99").contains("is B0.01"));
-    assert!(messages("B-4").contains("4 mm deep in T4 is B0"), "through");
+    assert!(messages("B-3.99").contains("write B0.01:"));
+    assert!(messages("B-4").contains("4 mm in T4, write B0:"), "through");
     assert!(messages("B-4.01").starts_with("check B"));
     assert_eq!(messages("B-0.5"), "");
 }

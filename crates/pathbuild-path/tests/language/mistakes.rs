@@ -207,7 +207,7 @@ fn a_cut_of_almost_no_length_is_left_over() {
     };
     for length in [0.001, 0.002, 0.009] {
         let begin = format!("PB121 a line here is only {length} mm long");
-        assert_one(&found(length), &begin, "of its own text or of the path applies here");
+        assert_one(&found(length), &begin, "it is milled with its own depth or that of the path");
     }
     assert_eq!(found(0.0101), [""; 0]);
     assert_eq!(codes_of("polyline CONTINUOUS 0,0 20,0 20.002,0\nend 20.002,0"), [""; 0], "one depth");

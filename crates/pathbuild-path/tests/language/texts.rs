@@ -134,7 +134,7 @@ fn letters_are_upper_case_and_the_help_says_so() {
     let found = problems_of("X1", ElementClass::Mill);
     assert_eq!(
         found[0].help(pathbuild_diagnostic::Lang::En).unwrap(),
-        "it accepts B, F, I, N, Q, W; values follow their letter without a space"
+        "use one of B, F, I, N, Q, W; values follow their letter without a space"
     );
 }
 

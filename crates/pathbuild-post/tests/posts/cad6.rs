@@ -274,7 +274,7 @@ fn aliases_are_other_names() {
     assert_eq!(written(definition, &job(vec![feed(2.0, 0.0, 5.0)])), "X2 5\n7\n");
     let unknown = PostDefinition::read(b"[alias]\nX9 = \"Xe\"", Utf8Path::new("t.toml")).unwrap();
     let warnings = texts(&unchecked(&unknown, &job(vec![]), &PostOptions::default()).unwrap().warnings);
-    assert!(warnings[0].starts_with("2: PB760 there is no variable X9"), "{warnings:?}");
+    assert!(warnings[0].starts_with("2: PB760 pathbuild has no variable X9"), "{warnings:?}");
     for name in ["X e", "X~", ""] {
         let wrong =
             PostDefinition::read(format!("[alias]\nX1 = \"{name}\"").as_bytes(), Utf8Path::new("t.toml"));
