@@ -1101,11 +1101,11 @@ fn what_changes_beside_the_moves_is_a_step() {
     assert_eq!(
         changes(LinuxCnc, "G10 L2 P1 X1\nG52 X0\nG52 X1\nG92 X1\nG92.1"),
         [
-            "1 Offsets { code: 100, are_shifted: None }",
-            "2 Offsets { code: 520, are_shifted: Some(false) }",
-            "3 Offsets { code: 520, are_shifted: Some(true) }",
-            "4 Offsets { code: 920, are_shifted: Some(true) }",
-            "5 Offsets { code: 921, are_shifted: Some(false) }"
+            "1 Offsets { code: 100, are_shifted: None, is_followed: false }",
+            "2 Offsets { code: 520, are_shifted: Some(false), is_followed: true }",
+            "3 Offsets { code: 520, are_shifted: Some(true), is_followed: false }",
+            "4 Offsets { code: 920, are_shifted: Some(true), is_followed: false }",
+            "5 Offsets { code: 921, are_shifted: Some(false), is_followed: true }"
         ]
     );
 }

@@ -184,6 +184,9 @@ pub enum Change {
         code: u16,
         /// Whether G52 or G92 is active from here on; `None` if the command does not change that.
         are_shifted: Option<bool>,
+        /// Whether later positions count from the same zero as earlier ones. They do not if the command sets the zero before the first move,
+        /// or at a position that only the machine knows.
+        is_followed: bool,
     },
     /// G61, G64: sets the behaviour at corners.
     Corners(Corners),

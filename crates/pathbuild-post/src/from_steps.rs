@@ -1,12 +1,14 @@
 //! Converts a parsed program to a job, to write it for another machine. (book: program/reading, `post FILE --post X`)
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::code_name;
 use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_motion::{
-    Action, Axes, Coolant, Move, MoveShape, Pace, Plane, Position, Spindle, Step, Turning, WorkSystem,
+    Action, Axes, Change, Coolant, Move, MoveShape, Pace, Plane, Position, Spindle, Step, ToolLength,
+    Turning, WorkSystem,
 };
 
 use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, describe};
@@ -47,8 +49,8 @@ impl Job {
     /// material is assumed to be at Z 0, because programs do not contain it: see [`set_surface`](Self::set_surface).
     ///
     /// # Errors
-    /// Things that a job cannot express: other coordinate systems, positions known only to the machine, cuts from or to an unknown
-    /// position, arcs of several turns.
+    /// Things that a job cannot express: other coordinate systems, zeros that the program sets before its first move, positions known only
+    /// to the machine, cuts from or to an unknown position, arcs of several turns.
     pub fn from_steps(
         name: &str,
         steps: &[Step],
@@ -123,6 +125,8 @@ struct Builder {
     is_raised: bool,
     /// Whether the last move was a probing move, so that only the machine knows the position.
     has_probed: bool,
+    /// Whether the tool in the spindle has cut: from then on, positions reflect changes of its length.
+    has_cut_with_tool: bool,
     errors: Vec<Diagnostic>,
 }
 
@@ -150,6 +154,7 @@ impl Builder {
             has_ended: false,
             is_raised: false,
             has_probed: false,
+            has_cut_with_tool: false,
             errors: Vec::new(),
         }
     }
@@ -164,6 +169,12 @@ impl Builder {
             Action::Coolant(coolant) => self.set_coolant(*coolant),
             Action::System { system, .. } if *system != WorkSystem::default() => {
                 self.refuse(step.line, &posts::JOB_SYSTEM);
+            }
+            Action::Change(Change::Offsets { code, is_followed: false, .. }) => {
+                self.refuse_zero(step.line, code_name('G', *code));
+            }
+            Action::Change(Change::ToolLength(ToolLength::Other)) if !self.has_cut_with_tool => {
+                self.refuse_zero(step.line, "G43.1, G44".to_owned());
             }
             Action::Comment(text) => match remark(text) {
                 Remark::Stays => self.push(JobStep::Comment(text.trim().into())),
@@ -191,6 +202,16 @@ impl Builder {
     fn refuse(&mut self, line: u32, message: &'static pathbuild_diagnostic::Message) {
         if self.errors.iter().all(|error| error.message != message) {
             self.errors.push(Diagnostic::new(message).at_line(line, None));
+        }
+    }
+
+    /// Reports a word that sets the zero or the tool length at the machine, which the post does not write.
+    fn refuse_zero(&mut self, line: u32, word: String) {
+        self.refuse(line, &posts::JOB_ZERO);
+        if let Some(error) = self.errors.iter_mut().find(|error| error.message == &posts::JOB_ZERO)
+            && error.arguments.is_empty()
+        {
+            error.arguments.push(("word", Value::quoted(word)));
         }
     }
 
@@ -249,7 +270,7 @@ impl Builder {
             let name = last.name.clone();
             self.begin(&name);
         }
-        self.has_cut = true;
+        (self.has_cut, self.has_cut_with_tool) = (true, true);
         self.operation()
     }
 
@@ -260,6 +281,7 @@ impl Builder {
     /// Handles a stop for the operator, who may insert another tool or set a new zero point. If the tool was raised before the stop, it is
     /// raised again before it next moves in the plane.
     fn stop(&mut self) {
+        self.has_cut_with_tool = false;
         self.push(JobStep::Stop);
         if self.is_raised {
             self.push(JobStep::rapid([None, None, Some(self.at.z())]));
@@ -268,6 +290,7 @@ impl Builder {
 
     /// Handles a tool change. Moves since the last cut are dropped, because they only led to the change.
     fn change_tool(&mut self, line: u32, tool: Option<u32>) {
+        self.has_cut_with_tool &= self.has_layers;
         // At the start, M6 without T means the tool that is in the spindle; after a cut it means a manual change.
         let has_cut = || self.job.operations.iter().any(Operation::cuts);
         self.unnamed_change = (tool.is_none() && has_cut()).then_some(line);
@@ -338,6 +361,9 @@ impl Builder {
         }
         let step = JobStep::Move(*movement);
         if movement.pace == Pace::Rapid {
+            if moves_by_unknown_axis(movement) {
+                return self.refuse(line, &posts::JOB_WAY_UNKNOWN);
+            }
             if movement.to.z() != movement.from.z() {
                 let [x, y, _] = movement.to.axes();
                 self.retract_after_change([x, y]);
@@ -395,6 +421,13 @@ fn tool_with_number(tool: Option<u32>) -> Tool {
 /// Whether both ends of a cut are known. After a probing move, the start need not be.
 fn is_known(movement: &Move, has_probed: bool) -> bool {
     movement.to.known == Axes::ALL && (movement.from.known == Axes::ALL || has_probed)
+}
+
+/// Whether a move counts along an axis from a position that only the machine knows, such as G91 after a probe. A job has absolute
+/// coordinates only.
+fn moves_by_unknown_axis(movement: &Move) -> bool {
+    let Move { from, to, .. } = movement;
+    (0..3).any(|axis| !to.known.has(Axes::of(axis)) && to.at[axis] != from.at[axis])
 }
 
 /// Whether a step raises the tool to the level at which it then moves to a hole of the same line. The rise must remain a move of its own,

@@ -756,6 +756,20 @@ messages! {
         help_en: "before the first cut, move to X, Y and Z once with absolute coordinates (G90)",
         help_de: "vor dem ersten Schnitt X, Y und Z einmal mit absoluten Koordinaten (G90) anfahren",
     }
+    /// A rapid move that counts from an unknown position, such as G91 after a probe, in a program to be written through a post.
+    JOB_WAY_UNKNOWN: NothingToPost {
+        en: "this move counts from a position that only the machine knows, so it cannot be written through a post",
+        de: "diese Bewegung zählt von einer Position aus, die nur die Maschine kennt; das kann kein Postprozessor schreiben",
+        help_en: "write the height or place with absolute coordinates (G90)",
+        help_de: "die Höhe oder den Ort mit absoluten Koordinaten (G90) schreiben",
+    }
+    /// A zero or a tool length that the program sets at the machine, in a program to be written through a post.
+    JOB_ZERO: NothingToPost {
+        en: "{word} sets a zero or a tool length at the machine, and a post does not write it: everything after it would be somewhere else",
+        de: "{word} setzt an der Maschine einen Nullpunkt oder eine Werkzeuglänge, und ein Postprozessor schreibt das nicht: alles danach läge woanders",
+        help_en: "set the zero and the length at the machine before the program starts, and remove the word if the program then counts from there",
+        help_de: "Nullpunkt und Länge vor dem Start des Programms an der Maschine setzen und das Wort entfernen, wenn das Programm dann von dort aus zählt",
+    }
     /// A value that only the machine knows, such as the height that a probe found.
     JOB_MACHINE_VALUE: NothingToPost {
         en: "only the machine knows {parameter}, so what depends on it cannot be written through a post",

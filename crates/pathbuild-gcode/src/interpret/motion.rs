@@ -9,7 +9,7 @@ use pathbuild_motion::{
 
 use super::codes::{self, Command, Motion, Origin};
 use super::execute::{Interpreter, Slot, Values, limits, whole};
-use super::state::{INCH, StatedLength};
+use super::state::{INCH, State, StatedLength};
 use crate::dialect::RadiusTolerance;
 use crate::read::{Block, Span};
 
@@ -150,7 +150,9 @@ impl Interpreter<'_> {
 
     /// Records that the program has specified the position of an axis.
     pub(super) fn mark_axis_stated(&mut self, axis: usize) {
-        self.state.stated_axes = self.state.stated_axes.with(Axes::of(axis));
+        let State { stated_axes, stated_since_stop, .. } = &mut self.state;
+        *stated_axes = stated_axes.with(Axes::of(axis));
+        *stated_since_stop = stated_since_stop.with(Axes::of(axis));
     }
 
     fn machine_target(&mut self, block: &Block<'_>, coordinates: [Option<Slot>; 3]) -> Position {
@@ -224,7 +226,8 @@ impl Interpreter<'_> {
                 let stated = StatedLength { line: block.line, unit: self.state.unit };
                 self.state.shift_stated = are_shifted.then_some(stated);
             }
-            self.step(block, Action::Change(Change::Offsets { code, are_shifted }));
+            let is_followed = self.is_zero_followed(command);
+            self.step(block, Action::Change(Change::Offsets { code, are_shifted, is_followed }));
         }
         match command {
             Command::SetOffsets => self.set_offsets(block, span),
@@ -261,6 +264,38 @@ impl Interpreter<'_> {
             Command::Origin(Origin::Clear | Origin::Suspend) => Some(false),
             _ => None,
         }
+    }
+
+    /// Whether the positions after a command that moves origins count from the same zero as those before it.
+    fn is_zero_followed(&self, command: Command) -> bool {
+        let offsets = &self.state.offsets;
+        let value = |letter: u8| self.words.values.peek(letter).map(|slot| slot.value);
+        match command {
+            Command::SetOffsets => {
+                let number = value(b'P').and_then(whole).filter(|number| *number > 0);
+                let is_active =
+                    number.is_none_or(|number| WorkSystem::from_number(number) == Some(offsets.active));
+                let is_here = value(b'L').and_then(whole) == Some(20);
+                is_active && if is_here { self.knows_place() } else { offsets.is_fixed_to_machine() }
+            }
+            Command::SetOrigin => self.knows_place(),
+            Command::LocalOffset => {
+                let keeps = |(axis, letter): (usize, u8)| {
+                    value(letter).is_none_or(|value| value * self.state.unit == offsets.local(axis))
+                };
+                offsets.is_fixed() || Values::AXES.into_iter().enumerate().all(keeps)
+            }
+            Command::Origin(_) => offsets.is_fixed() || !offsets.is_shifted_by_origin(),
+            _ => true,
+        }
+    }
+
+    /// Whether the position of the tool is known along the axes in the block: the program has moved there since the last stop, at which the
+    /// operator may have moved the axes, and no probe has made contact since.
+    fn knows_place(&self) -> bool {
+        let known = self.state.position.known.and(self.state.stated_since_stop);
+        let given = |axis: &usize| self.words.values.has(Values::AXES[*axis]);
+        self.state.offsets.is_fixed() && (0..3).filter(given).all(|axis| known.has(Axes::of(axis)))
     }
 
     fn set_offsets(&mut self, block: &Block<'_>, span: Span) {

@@ -15,6 +15,8 @@ pub(super) struct State {
     pub(super) position: Position,
     /// The axes whose position has been specified since the last tool change; all axes before the first tool change.
     pub(super) stated_axes: Axes,
+    /// The axes whose position has been specified since the last tool change or stop for the operator.
+    pub(super) stated_since_stop: Axes,
     /// Line and code (times ten) of a move to a machine position that is unknown in the program's coordinates.
     pub(super) lost: Option<(u32, u16)>,
     /// Whether a move at feed has been made.
@@ -97,6 +99,7 @@ impl State {
         Self {
             position: Position::default(),
             stated_axes: Axes::ALL,
+            stated_since_stop: Axes::ALL,
             lost: None,
             has_cut: false,
             referenced: None,
@@ -206,6 +209,26 @@ impl Offsets {
             self.first = Some(self.active);
             self.is_base_known = self.systems[self.active.index()].origin == SystemOrigin::Machine;
         }
+    }
+
+    /// Whether the zero of all positions has been fixed.
+    pub(super) fn is_fixed(&self) -> bool {
+        self.base.is_some()
+    }
+
+    /// Whether the zero of all positions has been fixed and is known in machine coordinates.
+    pub(super) fn is_fixed_to_machine(&self) -> bool {
+        self.is_fixed() && self.is_base_known
+    }
+
+    /// Whether G92 shifts coordinates.
+    pub(super) fn is_shifted_by_origin(&self) -> bool {
+        self.origin != [0.0; 3]
+    }
+
+    /// Returns the offset of G52 along an axis.
+    pub(super) fn local(&self, axis: usize) -> f64 {
+        self.local[axis]
     }
 
     /// Returns the amount added to an axis value of the program to get its position.

@@ -48,6 +48,7 @@ impl Interpreter<'_> {
             self.enter_layer(block, self.state.tool.unwrap_or(0));
         } else {
             self.state.stated_axes = Axes::NONE;
+            self.state.stated_since_stop = Axes::NONE;
             self.state.offsets.release_length();
         }
         let is_turning = self.state.spindle.turning.is_on();
@@ -312,6 +313,7 @@ impl Interpreter<'_> {
                 if self.rules.stop_is_complete {
                     self.switch_off(block);
                 }
+                self.state.stated_since_stop = Axes::NONE;
                 self.state.offsets.release_length();
                 self.step(block, Action::Stop { optional: code == 10 });
             }

@@ -100,7 +100,7 @@ impl<'c> Rules<'c> {
         match &step.action {
             Action::Move(movement) => self.check_move(line, movement),
             Action::Spindle(spindle) => self.check_spindle_switch(line, *spindle),
-            Action::Change(Change::Offsets { code, are_shifted: Some(are_shifted) }) => {
+            Action::Change(Change::Offsets { code, are_shifted: Some(are_shifted), .. }) => {
                 self.shifted = are_shifted.then_some((line, *code, self.has_cut));
             }
             Action::End => self.spindle.turning = Turning::Unstated,

@@ -135,6 +135,100 @@ fn what_a_job_cannot_say_is_an_error_with_its_line() {
     assert!(errors(&format!("{start}G2 X0 Y0 I5 P2 F60"))[0].starts_with("2: PB765 a move of this kind"));
 }
 
+/// Returns the job of a program in a dialect, or what prevents one.
+fn job_of(text: &str, dialect: Dialect) -> Result<Job, Vec<String>> {
+    let steps = interpret(text.as_bytes(), dialect, &Options::default()).steps;
+    Job::from_steps("job", &steps, dialect, &|_| Remark::Stays).map_err(|errors| texts(&errors))
+}
+
+#[track_caller]
+fn is_zero_refused(text: &str, dialect: Dialect, line: u32, word: &str) {
+    let errors = job_of(text, dialect).expect_err(text);
+    let expected = format!("{line}: PB765 {word} sets a zero or a tool length at the machine");
+    assert!(errors[0].starts_with(&expected), "{text}: {errors:?}");
+}
+
+const HEAD: &str = "G21 G90 G17 G94 G54\n";
+const CUT: &str = "M3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20\n";
+
+#[test]
+fn a_zero_that_a_probe_has_found_is_an_error() {
+    let probe = format!("{HEAD}G0 Z30\nG0 X50 Y50\nG38.2 Z-20 F50\n");
+    for (word, name) in [("G10 L20 P1 Z15", "G10"), ("G10 L20 P0 Z15", "G10"), ("G92 Z15", "G92")] {
+        for dialect in [Dialect::LinuxCnc, Dialect::Grbl] {
+            is_zero_refused(&format!("{probe}{word}\nG0 Z30\n{CUT}"), dialect, 5, name);
+            // A program that only finds a zero does nothing through a post either.
+            is_zero_refused(&format!("{probe}{word}\nM30"), dialect, 5, name);
+            // The probe was along Z, and after an absolute height Z is known again.
+            let known = word.replace("Z15", "X50");
+            assert!(job_of(&format!("{probe}{known}\nG0 Z30\n{CUT}"), dialect).is_ok(), "{known}");
+            assert!(job_of(&format!("{probe}G0 Z30\n{word}\n{CUT}"), dialect).is_ok(), "{word}");
+        }
+    }
+}
+
+#[test]
+fn a_zero_that_the_program_sets_before_its_first_move_is_an_error() {
+    for (word, name) in [
+        ("G10 L2 P1 X50 Y60 Z-70", "G10"),
+        ("G10 L2 P0 X0", "G10"),
+        ("G10 L20 P1 X0 Y0 Z0", "G10"),
+        ("G92 X0 Y0 Z0", "G92"),
+        ("G92 Z2", "G92"),
+    ] {
+        is_zero_refused(&format!("{HEAD}{word}\n{CUT}"), Dialect::LinuxCnc, 2, name);
+        is_zero_refused(&format!("{HEAD}{word}\n{CUT}"), Dialect::Grbl, 2, name);
+    }
+    is_zero_refused(&format!("{HEAD}G52 X10 Y0\n{CUT}"), Dialect::Fanuc, 2, "G52");
+    assert!(job_of(&format!("{HEAD}G52 X0 Y0 Z0\n{CUT}"), Dialect::Fanuc).is_ok());
+    assert!(job_of(&format!("{HEAD}G92.1\n{CUT}"), Dialect::LinuxCnc).is_ok());
+    // A system that the program does not use keeps its zero only if the output sets it too.
+    is_zero_refused(&format!("{HEAD}{CUT}G10 L20 P2 X0\n"), Dialect::LinuxCnc, 7, "G10");
+}
+
+#[test]
+fn a_zero_set_where_the_tool_is_known_to_be_is_followed() {
+    for word in ["G92 X0", "G10 L20 P1 X0", "G52 X20"] {
+        let job = job_of(&format!("{HEAD}{CUT}{word}\nG1 X5\n"), Dialect::LinuxCnc);
+        let job = job.unwrap_or_else(|errors| panic!("{word}: {errors:?}"));
+        let last = job.operations[0].steps.last();
+        assert!(matches!(last, Some(JobStep::Move(movement)) if movement.to.x() == 25.0), "{word}: {last:?}");
+    }
+    // G10 L2 counts from the machine's zero, and where the tool is in the machine is unknown.
+    is_zero_refused(&format!("{HEAD}{CUT}G10 L2 P1 X0\n"), Dialect::LinuxCnc, 7, "G10");
+    // At a stop and at a tool change, the axes may be moved.
+    for stop in ["M0", "T2 M6"] {
+        is_zero_refused(&format!("{HEAD}{CUT}G0 Z5\n{stop}\nG92 Z0\n"), Dialect::LinuxCnc, 9, "G92");
+        let stated = format!("{HEAD}{CUT}G0 Z5\n{stop}\nG0 Z6\nG92 Z0\nG0 Z5\n");
+        assert!(job_of(&stated, Dialect::LinuxCnc).is_ok(), "{stop}");
+    }
+}
+
+#[test]
+fn a_length_that_the_program_states_before_its_first_cut_is_an_error() {
+    for dialect in [Dialect::Grbl, Dialect::LinuxCnc] {
+        is_zero_refused(&format!("{HEAD}G43.1 Z7\n{CUT}"), dialect, 2, "G43.1, G44");
+        let job = job_of(&format!("{HEAD}G49\n{CUT}G43.1 Z7\nG1 Z-1\n"), dialect).expect("followed");
+        let last = job.operations[0].steps.last();
+        assert!(matches!(last, Some(JobStep::Move(movement)) if movement.to.z() == 6.0), "{last:?}");
+        // Another tool has another length.
+        is_zero_refused(&format!("{HEAD}G49\n{CUT}M0\nG43.1 Z7\nG0 Z5\n{CUT}"), dialect, 9, "G43.1, G44");
+    }
+}
+
+#[test]
+fn a_lift_from_where_a_probe_has_stopped_is_an_error() {
+    let probe = format!("{HEAD}G0 Z30\nG0 X50 Y50\nG38.2 Z-20 F50\n");
+    let errors = job_of(&format!("{probe}G91 G0 Z30\nG90\n{CUT}"), Dialect::Grbl).unwrap_err();
+    assert!(errors[0].starts_with("5: PB765 this move counts from a position that only"), "{errors:?}");
+    for known in ["G0 Z30", "G91 G0 X5", "G91 G0 Z0"] {
+        assert!(job_of(&format!("{probe}{known}\nG90\n{CUT}"), Dialect::Grbl).is_ok(), "{known}");
+    }
+    // At the start, too, the program does not know where the tool is.
+    let errors = job_of(&format!("{HEAD}G91 G0 Z5\nG90\n{CUT}"), Dialect::Grbl).unwrap_err();
+    assert!(errors[0].starts_with("2: PB765 this move counts"), "{errors:?}");
+}
+
 /// Returns a step that makes a move. The length stated for it has no effect, as long as it exceeds that of arcs that become lines.
 fn go(to: PlannedMove) -> ProgramStep {
     ProgramStep::Move { to, count: Count { class: MoveClass::Milling, length: 99.0, feed: None } }
