@@ -4,7 +4,7 @@ use rstar::{AABB, Envelope as _};
 
 use super::bars::{LostBar, lost_bars};
 use super::boxes::may_be_near;
-use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar, THROUGH};
+use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar, THROUGH_HEIGHT};
 use super::gouge::{classify_cuts, gouges};
 use super::loose::is_cut_out;
 use super::prepared::PreparedPart;
@@ -149,7 +149,7 @@ impl<'c> PlacedCuts<'c> {
         let foreign: Vec<&ForeignCut> = foreign.iter().filter(meets).collect();
         let bars = || own.iter().flat_map(|path| path.bars.iter().map(|bar| (bar, path.radius)));
         let is_at_part = |(bar, radius): &(&StandingBar, f64)| {
-            around(&bar.foot, 2.0 * radius).intersects(&prepared.extent())
+            widened_box(&bar.foot, 2.0 * radius).intersects(&prepared.extent())
         };
         let bars = bars().filter(is_at_part);
         let distance = |cut: &ForeignCut| {
@@ -200,7 +200,7 @@ impl<'c> PlacedCuts<'c> {
 
 /// Returns the sections of a path's cuts that go through the plate, each with the cutter's radius and the index of the element.
 fn through_cuts(path: &PathCuts) -> impl Iterator<Item = (Curve, (f64, u32))> {
-    path.cuts.iter().filter_map(|cut| Some((cut.way.below(THROUGH)?, (path.radius, cut.element))))
+    path.cuts.iter().filter_map(|cut| Some((cut.way.part_below(THROUGH_HEIGHT)?, (path.radius, cut.element))))
 }
 
 /// Returns the bounding box of a box that is placed, and thus possibly rotated.
