@@ -303,7 +303,7 @@ impl Database {
     }
 }
 
-/// Buffers for one drawing.
+/// Buffers for reading one drawing, reused for the next.
 #[derive(Default)]
 pub(crate) struct Scratch {
     /// The bytes of the file.
@@ -348,7 +348,7 @@ impl fmt::Debug for ScratchPool {
 #[derive(Debug, Default)]
 pub(crate) struct Listings(Mutex<FxHashMap<Directory, ListingState>>);
 
-/// The state of a listing.
+/// A listing that no query has taken yet.
 #[derive(Debug)]
 enum ListingState {
     /// The listing is complete.

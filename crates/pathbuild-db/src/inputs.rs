@@ -23,7 +23,7 @@ pub struct SourceFile {
 /// A directory. Its file names determine where paths are defined.
 #[salsa::input(debug)]
 pub struct Directory {
-    /// The normalised path.
+    /// The normalised path of the directory.
     #[returns(ref)]
     pub path: Utf8PathBuf,
     /// Incremented whenever a file in the directory was created, removed or renamed.
@@ -37,10 +37,10 @@ pub struct Target {
     /// The drawing that defines the path.
     #[returns(copy)]
     pub file: SourceFile,
-    /// The path's name.
+    /// Name of the path. Its case does not matter.
     #[returns(ref)]
     pub name: Box<str>,
-    /// The purpose of the query.
+    /// The purpose for which the path is queried.
     #[returns(ref)]
     pub role: Role,
 }
@@ -77,7 +77,7 @@ pub struct Settings {
     /// Values used if a drawing gives no F or S.
     #[returns(copy)]
     pub fold: PathOptions,
-    /// Limits beyond which work is refused.
+    /// Limits on the size of programs, beyond which they are refused.
     #[returns(copy)]
     pub limits: Limits,
 }
@@ -91,7 +91,7 @@ pub struct Reading {
     pub approximate_curves: f64,
     /// Maximum size of a file in bytes.
     pub file_size: u64,
-    /// Maximum number of entities.
+    /// Maximum number of entities in a drawing.
     pub entities: usize,
     /// Maximum length of a text in bytes.
     pub text_length: usize,

@@ -13,7 +13,7 @@ use encoding_rs::Encoding;
 /// A group code with its value, borrowed from the crate's output or the drawing, or created here.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pair<'a> {
-    /// The group code.
+    /// The group code, which determines the meaning and type of the value.
     pub code: i32,
     /// The value as text, whatever its type.
     pub value: Cow<'a, str>,

@@ -124,7 +124,7 @@ pub struct TextSize {
 }
 
 impl TextSize {
-    /// Estimates the extent of a TEXT.
+    /// Estimates the extent of a TEXT with this string and letter height in mm.
     pub fn of_text(value: &str, height: f64) -> Self {
         let width = 0.6 * height * value.chars().count() as f64;
         Self { width, height, radius: libm::hypot(width, height) / 2.0 }

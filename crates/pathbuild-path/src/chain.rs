@@ -54,7 +54,7 @@ pub struct Chain {
     pub(crate) members: Range<usize>,
 }
 
-/// A member of a chain.
+/// A segment that belongs to a chain, in walking direction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChainSegment {
     segment: u32,
@@ -110,7 +110,6 @@ pub(crate) struct ChainBuilder<'a> {
 }
 
 impl<'a> ChainBuilder<'a> {
-    /// Creates a builder without segments.
     pub(crate) fn new(path: &'a Path) -> Self {
         let members = Vec::with_capacity(path.cuts.len());
         Self { path, walked: WalkedPath { members, ..WalkedPath::default() }, chained: 0 }

@@ -55,7 +55,7 @@ pub struct Origin {
     pub point: Point,
 }
 
-/// The shape of an element.
+/// The shape of an element: a line, an arc or a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "a circle's parts")]
 pub enum Shape {
@@ -63,7 +63,7 @@ pub enum Shape {
     Circle { centre: Xy, radius: f64 },
 }
 
-/// The meaning of an element.
+/// The meaning of an element, by its line type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Role {
     /// A cut: milled, marked, or milled with bars. On a circle: a hole or a helical circle.
@@ -78,7 +78,7 @@ pub enum Role {
     Subpath,
 }
 
-/// The kind of a cut.
+/// The kind of a cut, which determines its depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Cut {
     /// Cuts down to B.
@@ -124,7 +124,7 @@ impl Origin {
 }
 
 impl Shape {
-    /// The radius of a circle.
+    /// Returns the radius of a circle in mm; `None` for lines and arcs.
     pub(crate) fn radius(&self) -> Option<f64> {
         match self {
             Self::Circle { radius, .. } => Some(*radius),
@@ -239,7 +239,7 @@ pub const END_RADIUS: f64 = 1.0;
 /// Radius in mm of a probe's circle.
 pub(crate) const PROBE_RADIUS: f64 = 3.0;
 
-/// The meaning of a circle.
+/// Returns the meaning of a circle by its line type and its radius in mm.
 pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning {
     let is_probe = near(radius, PROBE_RADIUS);
     match line_type {

@@ -84,14 +84,14 @@ pub struct SubpathCall {
 const COMPARED_LETTERS: [Letter; 5] = [Letter::Embed, Letter::T, Letter::O, Letter::M, Letter::H];
 
 impl PathHeader {
-    /// The header of a path.
+    /// Creates the header of a path.
     pub fn of(raw: &RawPath) -> Self {
         Self { name: raw.name.clone(), is_sound: raw.is_sound(), definitions: raw.definitions.clone() }
     }
 }
 
 impl PathSignature {
-    /// The signature of a path.
+    /// Creates the signature of a path.
     pub fn of(path: &Path) -> Self {
         let call = |(index, segment): (usize, &Segment)| match &segment.kind {
             SegmentKind::Subpath(subpath) => Some(SubpathCall::new(path, index, segment, subpath)),
@@ -170,7 +170,7 @@ impl ProbeTop {
 #[derive(Clone, Debug, PartialEq)]
 pub struct OwnSweep {
     origin: Origin,
-    /// S in mm.
+    /// Sweep height (S) in mm.
     height: f64,
     fault: Option<TextFault>,
 }
@@ -260,7 +260,7 @@ pub struct SweepLimits {
 struct UpperFace {
     /// The element that gives T.
     origin: Origin,
-    /// T in mm.
+    /// Thickness of the material (T) in mm.
     thickness: f64,
     fault: Option<TextFault>,
 }

@@ -8,7 +8,7 @@ use crate::approx::coincide;
 /// A point in the plane, in mm.
 pub type Xy = Point2<f64>;
 
-/// A line segment.
+/// A straight line from `start` to `end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "its ends")]
 pub struct Line {
@@ -72,7 +72,7 @@ impl Curve {
         (self.end() - self.start()).norm()
     }
 
-    /// The length in mm.
+    /// Returns the length along the curve in mm.
     pub fn length(&self) -> f64 {
         match self {
             Self::Line(line) => (line.end - line.start).norm(),
@@ -128,7 +128,7 @@ impl Arc {
         Self { centre, radius, start, end, clockwise, degrees: 360.0 * (turns - turns.floor()) }
     }
 
-    /// The length in mm.
+    /// Returns the length of the arc in mm.
     pub fn length(&self) -> f64 {
         self.radius * self.degrees.to_radians()
     }
@@ -159,12 +159,12 @@ impl Placement {
         Self { turn, shift: onto_start.coords - turn * start.coords }
     }
 
-    /// Places a point.
+    /// Applies the placement to a point.
     pub fn place(&self, point: Xy) -> Xy {
         self.turn * point + self.shift
     }
 
-    /// Places a curve.
+    /// Applies the placement to a curve.
     pub fn place_curve(&self, curve: &Curve) -> Curve {
         match curve {
             Curve::Line(line) => {

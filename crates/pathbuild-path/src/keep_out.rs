@@ -21,7 +21,7 @@ pub struct KeepOut {
     pub outline: Vec<Curve>,
 }
 
-/// The clamps of a drawing.
+/// The clamps of a drawing, with findings about them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct KeepOuts {
     /// The valid clamps, layer by layer in file order.

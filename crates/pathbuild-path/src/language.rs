@@ -31,11 +31,11 @@ pub struct Language {
     pub text_limit: usize,
     /// Thresholds beyond which values are reported as doubtful.
     pub doubts: DoubtThresholds,
-    /// The configured tools.
+    /// Lookup of the configured tools by path.
     pub tools: PathTools,
 }
 
-/// A configured tool.
+/// The properties of a configured tool that checks of a path need.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathTool {
     /// Name of the tool: NAME in `[tool.NAME]`.

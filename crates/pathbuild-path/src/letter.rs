@@ -51,7 +51,6 @@ letters! {
 pub(crate) struct Letters(u32);
 
 impl Letter {
-    /// The number of letters.
     pub(crate) const COUNT: usize = Self::ALL.len();
 
     /// The letters by their characters, all of which are ASCII.

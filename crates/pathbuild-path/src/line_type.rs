@@ -35,7 +35,7 @@ impl LineType {
         ("PHANTOM", Self::Phantom),
     ];
 
-    /// Returns the usual name.
+    /// Returns the usual name, in upper case.
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(_, known)| *known == self).map_or("", |(name, _)| name)
     }

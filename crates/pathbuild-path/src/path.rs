@@ -70,13 +70,13 @@ pub struct Path {
 pub(crate) struct Surface {
     /// The element that gives T.
     pub(crate) origin: Origin,
-    /// T in mm.
+    /// Thickness of the material (T) in mm.
     pub(crate) thickness: f64,
     /// The text that may give T, see [`DrawnElements::texts`].
     pub(crate) text: Option<TextId>,
 }
 
-/// A turn marker.
+/// A turn marker, at which the tool goes back.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "a point")]
 pub struct Turn {
@@ -112,7 +112,7 @@ pub struct Segment {
     pub kind: SegmentKind,
 }
 
-/// The kinds of segments.
+/// The kind of a segment, with its parameters or their index.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "glossary in book: reference/glossary")]
 pub enum SegmentKind {
@@ -189,7 +189,7 @@ pub struct Helix {
     pub bottom: f64,
     /// For circles with bars: Z down to which the circle is milled between the bars (B), and the bars.
     pub bars: Option<(f64, Bars)>,
-    /// F in mm/min.
+    /// Feed (F) in mm/min.
     pub feed: Option<f64>,
     /// I: greatest depth of a turn, in mm.
     pub infeed: f64,
@@ -197,14 +197,14 @@ pub struct Helix {
     pub comment: Option<SmolStr>,
 }
 
-/// A subpath segment.
+/// Parameters of a subpath segment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Subpath {
     /// The position of the embedded path's start.
     pub start: Xy,
     /// The point that determines the direction to the embedded path's end.
     pub end: Xy,
-    /// The name of the embedded path.
+    /// The name of the embedded path, as far as the text gives one.
     pub name: SubpathName,
     /// T in mm, from the segment or the path.
     pub thickness: f64,

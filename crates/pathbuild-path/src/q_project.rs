@@ -149,9 +149,9 @@ fn completed_text(raw: &RawPath, path: &Path, proxy: Option<&ProxyLine>) -> Stri
 /// Disagreements between a component and its Q-project.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QProjectFindings {
-    /// PB517, in the component's drawing.
+    /// Findings in the component's drawing (PB517).
     pub in_component: Vec<Diagnostic>,
-    /// PB515 and PB516, in the Q-project.
+    /// Findings in the Q-project (PB515 and PB516).
     pub in_q_project: Vec<Diagnostic>,
 }
 

@@ -48,7 +48,7 @@ pub struct RawPath {
 pub struct DrawnElements {
     /// All circles, then all lines, then all arcs, each in file order. (book: language/chains-and-passes)
     pub elements: Vec<Element>,
-    /// The texts of elements.
+    /// The parameter texts, to which elements and markers refer by number.
     pub texts: ParameterTexts,
     /// The path's layers in file order; at least one.
     pub layers: Vec<SmolStr>,

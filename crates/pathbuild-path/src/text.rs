@@ -104,12 +104,11 @@ impl ParameterTexts {
         TextId(NonZeroU32::MIN.saturating_add(number(self.texts.len() - 1)))
     }
 
-    /// The text with this number.
+    /// Returns the text with this number; `None` if there is no such text.
     pub fn get(&self, text: TextId) -> Option<ParameterText<'_>> {
         self.texts.get(text.0.get() as usize - 1).map(|text| self.text(text))
     }
 
-    /// All texts.
     pub(crate) fn iter(&self) -> impl Iterator<Item = ParameterText<'_>> {
         self.texts.iter().map(|text| self.text(text))
     }

@@ -29,7 +29,7 @@ pub(crate) enum GivenNumber {
     Number(f64),
 }
 
-/// The values of a text.
+/// The values that a parameter text gives.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Values<'t> {
     text: ParameterText<'t>,

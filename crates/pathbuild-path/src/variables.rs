@@ -16,7 +16,7 @@ use crate::text::parse_number;
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Bindings(Vec<(char, SmolStr)>);
 
-/// Substitutes values for references.
+/// Substitution of values for references to variables.
 pub(crate) struct Interpolation<'a> {
     pub(crate) bindings: &'a Bindings,
     pub(crate) limit: usize,
@@ -46,13 +46,13 @@ impl Bindings {
         Self::new(definitions.iter().enumerate().map(value))
     }
 
-    /// The value of a variable.
+    /// Returns the value of a variable; `None` if it is not bound.
     pub fn get(&self, name: char) -> Option<&str> {
         let index = self.0.binary_search_by_key(&name, |(known, _)| *known).ok()?;
         Some(&self.0[index].1)
     }
 
-    /// All names with their values.
+    /// Returns all names with their values, in order of name.
     pub fn iter(&self) -> impl Iterator<Item = (char, &str)> {
         self.0.iter().map(|(name, value)| (*name, value.as_str()))
     }

@@ -566,7 +566,7 @@ fn helixes(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     pen.circle(diameter, "DIVIDE", &format!("D{} I0,2", tool.mark()));
 }
 
-/// Draws a path element by element.
+/// A pen that draws a path element by element.
 #[derive(Debug)]
 pub(super) struct Pen<'a> {
     pub(super) random: &'a mut Random,

@@ -42,7 +42,7 @@ impl Random {
         low + step * self.below(steps) as f64
     }
 
-    /// True with probability 1 / `count`.
+    /// Returns true with probability 1 / `count`.
     pub(crate) fn once_in(&mut self, count: usize) -> bool {
         self.below(count) == 0
     }

@@ -121,7 +121,7 @@ fn milled_point(step: &ProgramStep) -> Option<Xy> {
 
 // Splits a move into parts, each of which ends at the height that the move has at that point.
 
-/// Position of the tool.
+/// Position of the tool in the plane, and its Z, in mm.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ToolPosition {
     pub(crate) at: Xy,

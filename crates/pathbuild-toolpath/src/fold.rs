@@ -109,7 +109,7 @@ fn fold_with<P: FoldPaths>(
 /// Maximum number of steps for which memory is reserved in advance. Beyond that, reallocation is cheap compared with computing the steps.
 pub(crate) const MAX_RESERVED_STEPS: usize = 1 << 16;
 
-/// Position of the tool tip.
+/// Position of the tool tip in the plane, and its Z, in mm.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tip {
     pub(crate) at: Xy,

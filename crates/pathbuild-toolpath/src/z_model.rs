@@ -132,7 +132,7 @@ impl Scatter {
         (self.moments.m11 - self.moments.m22) / 2.0
     }
 
-    /// Returns the main direction.
+    /// Returns the direction in which the points extend farthest.
     fn direction(&self) -> Vector2<f64> {
         let (difference, eccentricity) = (self.difference(), self.eccentricity());
         // Use the form of the eigenvector in which no digits cancel.

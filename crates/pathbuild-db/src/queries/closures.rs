@@ -39,9 +39,9 @@ pub struct Closure<'db> {
 /// An option that must be given because a path does not set the parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MissingOption {
-    /// The option `--feed`.
+    /// The option `--feed`, because a path needs a feed and gives none.
     Feed,
-    /// The option `--sweep-height`.
+    /// The option `--sweep-height`, because the emitted path gives no S.
     SweepHeight,
 }
 
@@ -614,7 +614,7 @@ pub fn trace(db: &dyn Db, target: Target) -> Trace {
     Trace { files: files.all, lookups: lookups.all }
 }
 
-/// A list without duplicates.
+/// A list without duplicates, in the order in which items were added.
 struct UniqueList<T> {
     all: Vec<T>,
     seen: FxHashSet<T>,

@@ -17,7 +17,7 @@ use crate::inputs::Settings;
 pub struct SecondDefinition<'a> {
     /// Name of the path, as the first drawing spells it.
     pub name: &'a PathName,
-    /// Paths of the two drawings.
+    /// File paths of the two drawings. PB504 is reported at the first.
     pub files: [&'a Utf8Path; 2],
 }
 

@@ -19,13 +19,13 @@ use crate::queries::raw::{raw_path, read_layers};
 /// A subpath segment and the result of resolving it.
 #[derive(Clone, Debug, PartialEq, salsa::SalsaValue)]
 pub struct Embedding<'db> {
-    /// Index into [`Path::segments`](pathbuild_path::Path::segments).
+    /// Index of the segment in [`Path::segments`](pathbuild_path::Path::segments).
     pub segment: usize,
     /// The element that draws the segment.
     pub origin: Origin,
     /// The name of the embedded path, if the segment has one.
     pub name: Option<CaseSensitiveName>,
-    /// The result of resolving the segment.
+    /// The embedded path, or the first error that prevents embedding it.
     pub outcome: Outcome<'db>,
     /// Warnings about the segment.
     pub warnings: Vec<Diagnostic>,

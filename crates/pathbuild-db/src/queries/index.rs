@@ -331,12 +331,12 @@ impl PathIndex {
 }
 
 impl<'db> NameKey<'db> {
-    /// Returns the key of a name.
+    /// Returns the key of a name, which is equal for names that differ only in case.
     pub fn of(db: &'db dyn Db, name: &PathName) -> Self {
         Self::new(db, name.canonical().into_boxed_str())
     }
 
-    /// Returns the folded name.
+    /// Returns the name in upper case.
     pub(super) fn name(self, db: &dyn Db) -> PathName {
         PathName::new(self.folded(db))
     }

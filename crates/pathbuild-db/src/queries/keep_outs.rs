@@ -103,7 +103,7 @@ impl Collision {
         Self { what, moves: 0, lowest: f64::INFINITY }
     }
 
-    /// Adds a move.
+    /// Counts a move that hits the clamp.
     pub fn add(&mut self, way: &TipMove) {
         self.moves += 1;
         self.lowest = self.lowest.min(way.lowest());

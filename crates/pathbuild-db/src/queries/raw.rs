@@ -61,12 +61,12 @@ pub(super) struct PathEntry {
     pub(super) map: SourceMap,
 }
 
-/// The place of a path.
+/// The place where a path is drawn.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathPlace {
     /// Name of the path, in the spelling of its layer.
     pub name: CaseSensitiveName,
-    /// The first of the path's layers.
+    /// Name of the path's first layer.
     pub layer: Box<str>,
     /// Point of the path's start marker, or of its first element if it has none.
     pub point: Option<Point>,

@@ -14,7 +14,7 @@ use crate::letter::Letter;
 use crate::line_type::LineType;
 use crate::text::{LetterValue, ParameterText};
 
-/// An element or marker.
+/// An element or marker as it is compared, with its text and its effective parameters.
 #[derive(Debug)]
 pub(super) struct Item<'a> {
     pub(super) kind: ElementKind,
@@ -204,7 +204,7 @@ fn line_type(role: Role) -> LineType {
     line_types.into_iter().find(is_role).unwrap_or(LineType::Continuous)
 }
 
-/// A change of a shape.
+/// A difference between two shapes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ShapeChange {
     /// The shape was moved by this vector in mm.

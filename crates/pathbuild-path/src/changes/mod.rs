@@ -108,7 +108,7 @@ pub fn drawn_changes(old: DrawnSide<'_>, new: DrawnSide<'_>) -> DrawnChanges {
     DrawnChanges { changes: group_changes(found), is_reordered }
 }
 
-/// A change with its element: the one in the new drawing, or in the old drawing if the element was removed.
+/// A change with its element in the new drawing, or in the old drawing if the element was removed.
 type FoundChange<'i> = (&'i Item<'i>, ElementChange);
 
 /// The changes from one version of an element to the other.

@@ -138,7 +138,7 @@ impl<'i> Pairing<'i> {
         self.new.retain(|_| !is_taken.next().unwrap_or_default());
     }
 
-    /// Pairs elements whose coordinates were rounded.
+    /// Pairs elements that differ only because their coordinates were rounded.
     fn pair_by_rounded_place(&mut self) {
         let mut cells: HashMap<(ElementKind, [i64; 2]), Vec<usize>> = HashMap::new();
         for (index, item) in self.new.iter().enumerate() {
@@ -282,7 +282,7 @@ impl Place {
     }
 }
 
-/// The centre of a circle.
+/// Returns the centre of a circle; `None` for other elements.
 fn centre(item: &Item<'_>, place: Place) -> Option<Micrometres> {
     (item.kind == ElementKind::Circle).then_some(place.first)
 }

@@ -19,7 +19,7 @@ pub struct PathCuts {
     pub radius: f64,
     /// Whether the path is milled with a slot cutter.
     pub is_slot: bool,
-    /// The elements that cut.
+    /// The elements of the path that cut.
     pub elements: Vec<CutElement>,
     /// The moves in the material, as if each element were milled in a single pass.
     pub cuts: Vec<PartCut>,
@@ -42,7 +42,7 @@ pub struct EmbeddedPlace {
     pub height: f64,
 }
 
-/// An element that cuts.
+/// A drawn element that cuts, with its depth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CutElement {
     /// Location of the drawn element.
@@ -138,7 +138,7 @@ impl IndexedCut<'_> {
         (self.path, self.cut.element)
     }
 
-    /// The element that makes the cut.
+    /// Returns the element that makes the cut.
     pub(super) fn element<'c>(&self, index: &CutIndex<'c>) -> &'c CutElement {
         &index.paths[self.path].elements[self.cut.element as usize]
     }

@@ -121,7 +121,7 @@ impl<'s> LeftoverSearch<'s> {
         Self { part, cuts, judged, contours, tolerance, grooves: grooves.collect() }
     }
 
-    /// Returns the material left at all rings. Of the rings of a nest, only the one with the least leftover material counts.
+    /// Returns the material left at all rings. Of the rings of a nest, only the ring with the least leftover material counts.
     pub(super) fn leftovers(&self) -> Leftovers {
         let mut nests: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (ring, drawn) in self.part.part.rings.iter().enumerate() {
@@ -326,7 +326,7 @@ impl<'s> LeftoverSearch<'s> {
         })
     }
 
-    /// Adds the unreachable stretches of a ring. `longest`: the length in mm of the longest stretch so far, the one that is described.
+    /// Adds the unreachable stretches of a ring. `longest`: the length in mm of the longest stretch so far, which `found` describes.
     fn add_unreachable(
         &self,
         ring: usize,

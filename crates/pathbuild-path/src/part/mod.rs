@@ -86,10 +86,10 @@ pub struct Part {
     pub rings: Vec<PartRing>,
 }
 
-/// A closed ring of a part.
+/// A closed ring of curves: the outer edge of a part, or an opening.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartRing {
-    /// The curves of the ring, in order; each begins where the one before ends.
+    /// The curves of the ring, in order. Each begins at the end of the previous curve.
     pub curves: Vec<Curve>,
     /// Index of the outermost opening that contains this ring, or of the ring itself if none does. Rings of the same nest are alternatives,
     /// of which only one must be cut: for example, a hole and the circle around it that shows its thread.
@@ -104,7 +104,7 @@ fn placed_part(part: &Part, placement: &Placement) -> Part {
     Part { rings: part.rings.iter().map(ring).collect(), ..part.clone() }
 }
 
-/// The parts as drawn.
+/// The parts of a drawing, with findings about their outlines.
 #[derive(Clone, Debug, Default)]
 pub struct DrawnParts {
     /// The parts in file order.

@@ -71,7 +71,7 @@ struct ForeignCut {
 }
 
 impl<'c> PlacedCuts<'c> {
-    /// Places a path.
+    /// Places a path and its parts, and computes their bounding boxes.
     pub fn new(cuts: &'c PathCuts, parts: Vec<&'c Part>, placement: Placement, raised: f64) -> Self {
         let merged = |one: AABB<[f64; 2]>, other: AABB<[f64; 2]>| one.merged(&other);
         let swept = cuts.cuts.iter().map(|cut| widened_box(&cut.way.curve, cuts.radius)).reduce(merged);

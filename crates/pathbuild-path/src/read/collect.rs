@@ -294,7 +294,7 @@ pub(super) struct PathLayers {
     memberships: Vec<Option<Membership>>,
 }
 
-/// A path layer.
+/// A layer of the drawing that belongs to a path.
 pub(super) struct FoundLayer {
     /// Name of the path to which the layer belongs, in the spelling of the layer.
     pub(super) path: PathName,

@@ -381,7 +381,7 @@ fn one_line(text: AnyText<'_>) -> String {
     without_percent_codes(text.string()).trim_end().replace('\n', " ")
 }
 
-/// A problem of a whole layer.
+/// Places a problem at a layer as a whole.
 fn on_layer(layer: &str, mut problem: Diagnostic) -> Diagnostic {
     problem.place.layer = Some(layer.into());
     problem

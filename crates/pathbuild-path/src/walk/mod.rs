@@ -101,7 +101,7 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// The result of the walk.
+    /// Returns the items of the walk, or only diagnostics if it is not complete.
     fn finish(self, result: Result<(), Failure>) -> WalkedPath {
         let idle = self.unused_turn_markers();
         let Self { path, chains, mut joined, open_end, gaps, .. } = self;

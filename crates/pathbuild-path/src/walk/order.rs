@@ -193,7 +193,7 @@ pub(super) struct Square(u64, u64);
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Squares {
     first: Square,
-    /// The exclusive upper limit.
+    /// The column and the row after the last ones.
     end: Square,
 }
 

@@ -27,7 +27,7 @@ pub struct Entity {
     pub paper: bool,
     /// Whether the entity is hidden (group 60).
     pub invisible: bool,
-    /// Colour number.
+    /// AutoCAD colour number (group 62).
     pub colour: Option<u8>,
     /// The text style of TEXT and MTEXT.
     pub style: Option<String>,
@@ -170,7 +170,7 @@ pub struct Layer {
     pub name: String,
     /// The line type of BYLAYER entities.
     pub line_type: String,
-    /// Colour number.
+    /// AutoCAD colour number (group 62).
     pub colour: u8,
     /// Unusual states of the layer.
     pub states: Vec<LayerState>,
@@ -362,7 +362,7 @@ pub struct Polyline {
 /// A vertex of a polyline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
-    /// The position.
+    /// Position of the vertex.
     pub point: Point,
     /// Bulge of the segment to the next vertex: the tangent of a quarter of the arc's angle, positive counterclockwise; 0 for a line.
     pub bulge: f64,
@@ -413,15 +413,15 @@ pub struct Spline {
 /// A block reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Insert {
-    /// The block's name.
+    /// Name of the block that is inserted.
     pub block: String,
     /// The position of the block's base point.
     pub at: Point,
-    /// Factors in x, y and z.
+    /// Scale factors in x, y and z.
     pub scale: Point,
     /// Rotation in degrees, counterclockwise.
     pub rotation: f64,
-    /// Number of columns and rows.
+    /// Numbers of columns and rows.
     pub count: (i16, i16),
     /// Distance between columns and between rows.
     pub spacing: (f64, f64),
@@ -440,7 +440,7 @@ pub struct Dimension {
     pub label: String,
     /// The centre of the label.
     pub text: Point,
-    /// The name of the block.
+    /// Name of the block with the visible parts.
     pub block: String,
 }
 
@@ -501,7 +501,7 @@ pub enum Horizontal {
     Right,
     /// 3: the text fits between the anchor and this point, and its height follows its width.
     Aligned(Point),
-    /// 4: centred in both directions
+    /// 4: centred in both directions.
     Middle,
     /// 5: the text fits between the anchor and this point, with a fixed height.
     Fit(Point),
@@ -556,14 +556,14 @@ pub enum Attachment {
 /// The form in which the direction of an MTEXT is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Direction {
-    /// Group 50, in degrees.
+    /// As a rotation in degrees (group 50).
     Rotation(f64),
-    /// Groups 11, 21, 31.
+    /// As a vector (groups 11, 21 and 31).
     Vector(Point),
 }
 
 impl Direction {
-    /// The rotation in degrees.
+    /// Returns the rotation in degrees, whichever form is used.
     pub fn degrees(self) -> f64 {
         match self {
             Self::Rotation(degrees) => degrees,
@@ -595,7 +595,7 @@ impl Attachment {
 /// A block definition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
-    /// The block's name.
+    /// Name of the block, by which inserts refer to it.
     pub name: String,
     /// The block's base point.
     pub base: Point,

@@ -581,7 +581,7 @@ impl Tables<'_> {
     }
 }
 
-/// Inserts the type after each dash.
+/// Inserts the type (group 74) after the length of each dash (group 49).
 fn mend_line_type(record: &mut Record<'_>) {
     let kind = |pair: &Pair<'_>| (pair.code == 49).then(|| Pair::new(74, "     0"));
     let pairs = std::mem::take(record).into_iter();

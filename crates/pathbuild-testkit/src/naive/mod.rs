@@ -31,7 +31,7 @@ pub struct Rules {
     pub restrict: Vec<(String, String)>,
 }
 
-/// All drawings of a library.
+/// The model of a library: all its drawings, and the rules by which paths are found.
 pub struct Model {
     drawings: Vec<Drawing>,
     language: Arc<Language>,
@@ -211,7 +211,7 @@ fn is_drawing(path: &str) -> bool {
 pub struct Finding {
     /// The code, for example `PB503`.
     pub code: String,
-    /// Path of the drawing.
+    /// File path of the drawing.
     pub file: String,
     /// Name of the path, if the finding is about one.
     pub path: Option<String>,

@@ -53,7 +53,7 @@ struct Parser {
 }
 
 impl Parser {
-    /// Parses a line.
+    /// Parses the line with this number, and collects its errors.
     pub(crate) fn line(&mut self, line: &str, number: u32) {
         let result = match self.raw.take() {
             Some((pairs, begun)) => self.raw_line(line, number, pairs, begun),
@@ -232,7 +232,7 @@ fn is_option(word: &str) -> bool {
     WORDS.contains(&word)
 }
 
-/// Parses an option.
+/// Parses a line with an option for writing the drawing.
 fn options_line(cursor: &mut Cursor, options: &mut Options, furniture: &mut Option<u64>) -> Parsed<()> {
     let word = cursor.name("an option")?;
     match word.as_str() {

@@ -205,7 +205,7 @@ fn arc_by_radius(cursor: &mut Cursor, from: Point, to: Point) -> Parsed<Arc> {
     bulged(from, to, bulge).ok_or_else(|| cursor.error("this arc has no length"))
 }
 
-/// The arc through three points.
+/// Returns the arc through three points; `None` if they lie on a line.
 fn through(from: Point, via: Point, to: Point) -> Option<Arc> {
     let (a, b) = (via - from, to - from);
     let cross = a.x * b.y - a.y * b.x;
@@ -357,7 +357,7 @@ pub(crate) fn line_type(cursor: &mut Cursor, draft: &mut Draft) -> Parsed<Option
     Ok(Some(name))
 }
 
-/// Parses a line type.
+/// Parses a line type, which must be given.
 pub(crate) fn required_line_type(cursor: &mut Cursor, draft: &mut Draft) -> Parsed<String> {
     if let Some(name) = line_type(cursor, draft)? {
         return Ok(name);
