@@ -291,7 +291,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     let severed = program.as_ref().map(PlacedProgram::severed_parts).unwrap_or_default();
     let radius = traced.program.tool / 2.0;
     let ways = milled_moves(traced);
-    for (number, occurrence) in (0_u32..).zip(&traced.trace.occurrences) {
+    for occurrence in &traced.trace.occurrences {
         let cutting = &traced.parts[occurrence.id];
         let (Some(found), Some(findings)) = (file_parts(db, cutting.file), part_findings(db, cutting.file))
         else {
@@ -302,11 +302,6 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
         let (mut left, mut lost_bars) = (&*findings.left[place], &*findings.lost_bars[place]);
         for part in &findings.parts[place] {
             let drawn = &found.parts[*part];
-            let near = ways.iter().filter(|(by, _)| {
-                let other = &traced.parts[traced.trace.occurrences[*by as usize].id];
-                *by == number || other.file != cutting.file || drawn.may_belong_to(&other.path.name)
-            });
-            let ways = near.map(|(_, way)| way);
             let is_drawn = |(other, placement): &(&Part, Placement)| {
                 std::ptr::eq(*other, drawn) && is_same(placement, &occurrence.placement)
             };
@@ -316,7 +311,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
                 left: std::mem::take(&mut left),
                 lost_bars: std::mem::take(&mut lost_bars),
                 bars_lost_to_neighbours: std::mem::take(&mut foreign),
-                gouges: gouging_moves(drawn, &occurrence.placement, raised, ways, [radius, tolerance]),
+                gouges: gouging_moves(drawn, &occurrence.placement, raised, &ways, [radius, tolerance]),
                 is_loose: findings.loose.contains(part) || severed.iter().any(is_drawn),
                 radius,
                 placement: occurrence.placement,
@@ -328,11 +323,8 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     all
 }
 
-/// The cuts of a program, each with the occurrence of its path.
-fn milled_moves(traced: &TracedProgram) -> Vec<(u32, TipMove)> {
+/// The cuts of a program.
+fn milled_moves(traced: &TracedProgram) -> Vec<TipMove> {
     let milled = traced.program.moves().filter(|(_, movement)| movement.pace.feed().is_some());
-    let ways = milled.filter_map(|(step, movement)| {
-        Some((traced.trace.steps.get(step as usize - 1)?.occurrence, tip_move(&movement)?))
-    });
-    ways.collect()
+    milled.filter_map(|(_, movement)| tip_move(&movement)).collect()
 }

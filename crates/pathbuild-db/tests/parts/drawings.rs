@@ -392,6 +392,43 @@ fn a_group_in_the_expression_names_the_path() {
     assert_eq!(test.codes(&[("1234.1P.dxf", &part("Part 1234_"))]), ["PB220"], "digits follow");
 }
 
+/// The second path is more than O away from all outlines of the part.
+#[test]
+fn a_path_that_cuts_through_the_inside_of_a_part_is_found() {
+    let second = |from: &str, to: &str, bottom: f64| {
+        let drawing = format!(
+            "{}layer 1234.1L\nstart -8,-8 \"T2 O2 I0.5 B{bottom} S5\"\nsweep -8,-8 {from}\nmill {from} {to}\n\
+             sweep {to} 60,-5\nend 60,-5\n",
+            plate("bars")
+        );
+        PartTest::default().diagnostics(&[("1234.1.dxf", &drawing)])
+    };
+    let found = second("16,21", "26,21", 0.0);
+    let [found] = &found[..] else { panic!("{found:?}") };
+    assert_eq!((found.code().to_string().as_str(), found.path.as_deref()), ("PB213", Some("1234.1L")));
+    assert!((number(found, "length") - 10.0).abs() < 1e-6, "{found:?}");
+    assert_eq!(second("16,21", "26,21", 0.002), [], "a groove");
+    assert_eq!(second("10,13", "12,13", 0.0), [], "in an opening");
+    assert_eq!(second("16,31", "26,31", 0.0), [], "outside");
+}
+
+/// The second path runs along the upper side between two bars.
+#[test]
+fn a_group_hides_no_cut_into_the_part_by_other_paths() {
+    let second = |y: f64| {
+        let drawing = format!(
+            "{}layer 1234.2P\nstart -8,-8 \"T2 O2 I0.5 B0 S5\"\nsweep -8,-8 23,{y}\nmill 23,{y} 19,{y}\n\
+             sweep 19,{y} 60,-5\nend 60,-5\n",
+            plate("bars").replace("layer Part", "layer \"Part 1234_1\"")
+        );
+        let test = PartTest { pattern: Some("Part ([0-9_]+)"), ..PartTest::default() };
+        test.codes(&[("1234.dxf", &drawing)])
+    };
+    assert_eq!(second(26.97), ["PB213"], "into the part");
+    assert_eq!(second(26.99), [""; 0], "within the tolerance");
+    assert_eq!(second(27.5), [""; 0], "what it leaves is not its own");
+}
+
 /// The findings are the same far from the origin, rotated, and with three decimals.
 #[test]
 fn places_and_directions_do_not_matter() {

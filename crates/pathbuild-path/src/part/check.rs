@@ -1,6 +1,6 @@
 //! The check that the cuts of a drawing leave its parts as drawn. (book: language/part)
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
@@ -23,7 +23,7 @@ pub struct PartFindings {
     pub uncut: Vec<(usize, usize)>,
     /// The findings about each path, by the index of the path.
     pub of_paths: Vec<Vec<Diagnostic>>,
-    /// The indices of the parts that each path cuts, by path.
+    /// The indices of the parts that each path cuts out or into, by path.
     pub parts: Vec<Vec<usize>>,
     /// The material that each path leaves at outlines, by path.
     pub left: Vec<Vec<LeftMaterial>>,
@@ -74,8 +74,11 @@ pub fn check_parts(
         for left in leftovers.stretches {
             findings.left[left.path].push(left.material);
         }
-        for (path, _) in check.owners.iter().enumerate().filter(|(_, is_owner)| **is_owner) {
-            findings.parts[path].push(number);
+        let entering = check.entering_paths();
+        for (path, is_owner) in check.owners.iter().enumerate() {
+            if *is_owner || entering.contains(&path) {
+                findings.parts[path].push(number);
+            }
         }
     }
     for lost in lost_bars(&cuts, settings.tolerance) {
@@ -106,11 +109,11 @@ struct PartCheck<'s> {
     settings: &'s PartSettings,
     /// For each ring, whether each path comes within O of it.
     near_paths: Vec<Vec<bool>>,
-    /// For each path, whether it may cut the part and comes within O of one of its rings; these paths are the owners.
+    /// For each path, whether it may own the part and comes within O of one of its rings. Only these paths, the owners, can leave material at the part.
     owners: Vec<bool>,
     /// For each path, whether it is an owner that cuts parts out.
     contours: Vec<bool>,
-    /// The classified cuts of the owners, by the number of the cut.
+    /// The classified cuts of all paths near the part, by the number of the cut.
     judged: BTreeMap<usize, ClassifiedCut<'s>>,
 }
 
@@ -121,8 +124,7 @@ impl<'s> PartCheck<'s> {
         let is_owner = |path: usize| near_paths.iter().any(|near| near[path]);
         let owners: Vec<bool> = (0..cuts.paths.len()).map(is_owner).collect();
         let contours = owners.iter().zip(&cuts.contours).map(|(own, contour)| *own && *contour).collect();
-        let near = cuts.near(part.extent()).into_iter().filter(|cut| owners[cuts.cuts[*cut].path]);
-        let judged = classify_cuts(part, cuts, near, settings.tolerance);
+        let judged = classify_cuts(part, cuts, cuts.near(part.extent()).into_iter(), settings.tolerance);
         Self { part, cuts, settings, near_paths, owners, contours, judged }
     }
 
@@ -136,7 +138,7 @@ impl<'s> PartCheck<'s> {
         (0..rings.len()).filter(move |ring| rings[*ring].nest == *ring && !is_near(*ring))
     }
 
-    /// The findings about the owners, each with the index of its path. Whether material is left depends on the cuts of all owners together.
+    /// The findings about the part, each with the index of its path. Whether material is left depends on the cuts of all owners together.
     fn problems(&self, is_complete: bool, leftovers: &Leftovers) -> Vec<(usize, Diagnostic)> {
         let mut found: Vec<_> = self.gouge_findings().collect();
         found.extend(self.leftover_findings(leftovers));
@@ -153,6 +155,12 @@ impl<'s> PartCheck<'s> {
             let path_cuts = self.cuts.paths[path];
             (path, path_cuts.at_element(element, gouge_problem(&gouge, path_cuts.radius)))
         })
+    }
+
+    /// The paths with cuts into the part.
+    fn entering_paths(&self) -> BTreeSet<usize> {
+        let enters = |judged: &&ClassifiedCut<'_>| judged.cut.through.is_some() && !judged.entered.is_empty();
+        self.judged.values().filter(enters).map(|judged| judged.cut.path).collect()
     }
 
     fn leftovers(&self) -> Leftovers {

@@ -80,7 +80,7 @@ impl fmt::Debug for SlotPaths {
 pub struct Part {
     /// The layer of the outermost ring.
     pub layer: SmolStr,
-    /// The paths that may cut the part: the name captured by the pattern, in upper case and with points. `None` if the pattern captures nothing.
+    /// The paths to which the part may belong: the name captured by the pattern, in upper case and with points. `None` if the pattern captures nothing.
     pub paths: Option<SmolStr>,
     /// The outermost ring, counterclockwise, then the openings, clockwise: the material is on the left.
     pub rings: Vec<PartRing>,
@@ -116,9 +116,9 @@ pub struct DrawnParts {
 }
 
 impl Part {
-    /// Whether a path may cut the part. If the pattern captures no name, any path may; otherwise, paths with the captured name, possibly followed
-    /// by letters.
-    pub fn may_belong_to(&self, path: &PathName) -> bool {
+    /// Whether the part may belong to a path. If the pattern captures no name, it may belong to any path; otherwise, to paths with the captured
+    /// name, possibly followed by letters.
+    pub(crate) fn may_belong_to(&self, path: &PathName) -> bool {
         let Some(name) = &self.paths else { return true };
         let path = path.canonical();
         path.strip_prefix(name.as_str()).is_some_and(|rest| rest.chars().all(char::is_alphabetic))
