@@ -199,6 +199,63 @@ fn a_contour_whose_bars_a_second_path_cuts_is_loose() {
     assert_eq!(PartTest::default().codes(&[("1234.1.dxf", &drawing)]), ["PB217", "PB218"]);
 }
 
+/// Returns the plate with bars on its lower side only, and a second path.
+fn plate_with_bars_below(second: &str) -> String {
+    let plate = plate("mill").replace("mill 0,0 42,0", "bars 0,0 42,0");
+    format!("{plate}layer 1234.2P\nstart -8,-8 \"T2 O2 I0.5 B-0.2 S5\"\n{second}\nend 60,-5\n")
+}
+
+/// The bars are between Y-1 and 1. The second path cuts off what they lead to, without removing them.
+#[test]
+fn a_cut_beside_all_bars_separates_them_from_the_plate() {
+    let cut = |y: f64, end: f64| {
+        let second = format!("sweep -8,-8 -3,{y}\nmill -3,{y} {end},{y}\nsweep {end},{y} 60,-5");
+        plate_with_bars_below(&second)
+    };
+    let codes = |drawing: &str| PartTest::default().codes(&[("1234.dxf", drawing)]);
+    assert_eq!(codes(&cut(-1.5, 45.0)), ["PB217"]);
+    assert_eq!(codes(&cut(-1.99, 45.0)), ["PB217"], "the cuts just overlap");
+    assert_eq!(codes(&cut(-2.01, 45.0)), [""; 0], "they just do not");
+    assert_eq!(codes(&cut(-1.5, 39.9)), [""; 0], "it ends 0.1 mm before the contour's right side");
+    let held = PartTest { is_held_otherwise: true, ..PartTest::default() };
+    assert_eq!(held.codes(&[("1234.dxf", &cut(-1.5, 45.0))]), [""; 0]);
+    let grouped = PartTest { pattern: Some("Part ([0-9_]+)"), ..PartTest::default() };
+    let drawing = cut(-1.5, 45.0).replace("layer Part", "layer \"Part 1234_1\"");
+    let found = grouped.diagnostics(&[("1234.dxf", &drawing)]);
+    let [found] = &found[..] else { panic!("{found:?}") };
+    assert_eq!((found.code().to_string().as_str(), found.path.as_deref()), ("PB217", Some("1234.2P")));
+}
+
+/// What is farther away may be milled from another plate, or after the part was taken out.
+#[test]
+fn cuts_of_other_paths_count_within_twice_the_cutter_diameter() {
+    let codes = |y: f64| {
+        let second = format!("sweep -8,-8 -1.5,5\nmill -1.5,5 -1.5,{y} 43.5,{y} 43.5,5\nsweep 43.5,5 60,-5");
+        PartTest::default().codes(&[("1234.dxf", &plate_with_bars_below(&second))])
+    };
+    assert_eq!(codes(-2.99), ["PB217"]);
+    assert_eq!(codes(-3.01), [""; 0]);
+}
+
+/// The upper component has bars on its lower side only, which the upper cut of the lower component passes.
+#[test]
+fn bars_between_components_need_material_to_hold_to() {
+    let component = component().replace("bars to 27,12 3,12 3,-12", "mill to 27,12 3,12 3,-12");
+    let found = |distance: f64, test: &PartTest<'_>| {
+        let project = project(distance, 0.0);
+        let found = test.diagnostics(&[("8001.1P.dxf", &project), ("1234.1P.dxf", &component)]);
+        found.into_iter().filter(|found| found.code().to_string() != "PB210").collect::<Vec<_>>()
+    };
+    let test = PartTest::default();
+    for distance in [3.1, 3.99] {
+        let found = found(distance, &test);
+        let [found] = &found[..] else { panic!("{distance}: {found:?}") };
+        assert_eq!((found.code().to_string().as_str(), found.path.as_deref()), ("PB217", Some("8001.1P")));
+    }
+    assert_eq!(found(4.01, &test), []);
+    assert_eq!(found(3.5, &PartTest { is_held_otherwise: true, ..PartTest::default() }), []);
+}
+
 /// Short lines without a gap stay whole, and are one bar.
 #[test]
 fn a_whole_segment_may_be_a_bar() {

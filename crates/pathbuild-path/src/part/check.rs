@@ -6,10 +6,10 @@ use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 
 use super::bars::lost_bars;
-use super::cuts::{CutIndex, PathCuts};
+use super::cuts::{CutIndex, IndexedCut, PathCuts};
+use super::enclosure::Enclosure;
 use super::gouge::{ClassifiedCut, Gouge, classify_cuts, gouges};
 use super::leftover::{LeftMaterial, Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
-use super::loose::is_cut_out;
 use super::prepared::PreparedPart;
 use super::{Part, PartSettings};
 use crate::element::diagnostic_point;
@@ -193,31 +193,26 @@ impl<'s> PartCheck<'s> {
         found
     }
 
-    /// Returns PB217 if cuts go all round the part, so that nothing holds it. Reported for the first of its paths.
+    /// Returns PB217 if the part is cut out all round: reported in the first of its paths, or at the cut of another path that separates it from
+    /// the plate.
     fn loose_part_finding(&self) -> Option<(usize, Diagnostic)> {
         if self.settings.is_held_otherwise {
             return None;
         }
-        let own = self.cuts.cuts.iter().filter(|cut| self.contours[cut.path]);
-        let through: Vec<_> = own.filter_map(|cut| Some((cut, cut.through?))).collect();
-        let sweeps: Vec<(Curve, f64)> = through.iter().map(|(cut, curve)| (*curve, cut.radius)).collect();
-        let near = |curve: &Curve, radius: f64| {
-            rstar::Envelope::intersects(&widened_box(curve, 2.0 * radius), &self.part.extent())
-        };
-        let paths = self.cuts.paths.iter().zip(&self.contours).filter(|(_, is_contour)| **is_contour);
-        let bars = paths.flat_map(|(path, _)| path.bars.iter().map(|bar| (bar, path.radius)));
-        let near_bars = bars.filter(|(bar, radius)| near(&bar.foot, *radius));
-        if !is_cut_out(self.part, &sweeps, &near_bars) {
-            return None;
+        let enclosure = Enclosure::new(self.part, self.cuts, &self.contours);
+        let start = diagnostic_point(self.part.part.rings[0].curves[0].start());
+        if let Some(cut) = enclosure.own_cut() {
+            return Some(self.at(cut, Diagnostic::new(&messages::LOOSE_PART).with("point", start)));
         }
-        let outer = &self.part.part.rings[0].curves;
-        let distance =
-            |curve: &Curve| outer.iter().map(|ring| ring.distance(curve)).fold(f64::INFINITY, f64::min);
-        let near = through.iter().filter(|(cut, curve)| distance(curve) < 2.0 * cut.radius);
-        let (cut, _) = near.min_by_key(|(cut, _)| (cut.path, cut.cut.element)).or(through.first())?;
-        let problem =
-            Diagnostic::new(&messages::LOOSE_PART).with("point", diagnostic_point(outer[0].start()));
-        Some((cut.path, self.cuts.paths[cut.path].at_element(cut.cut.element, problem)))
+        let owner = self.contours.iter().position(|is_contour| *is_contour)?;
+        let problem = Diagnostic::new(&messages::SEVERED_PART)
+            .quoting("other", self.cuts.paths[owner].name.as_str())
+            .with("place", start);
+        Some(self.at(enclosure.severing_cut()?, problem))
+    }
+
+    fn at(&self, cut: &IndexedCut<'_>, problem: Diagnostic) -> (usize, Diagnostic) {
+        (cut.path, self.cuts.paths[cut.path].at_element(cut.cut.element, problem))
     }
 }
 

@@ -4,6 +4,7 @@ mod bars;
 mod boxes;
 mod check;
 mod cuts;
+mod enclosure;
 mod gouge;
 mod intervals;
 mod leftover;

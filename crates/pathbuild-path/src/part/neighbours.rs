@@ -3,10 +3,9 @@
 use rstar::{AABB, Envelope as _};
 
 use super::bars::{LostBar, lost_bars};
-use super::boxes::may_be_near;
-use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar, THROUGH_HEIGHT};
+use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar};
+use super::enclosure::{Enclosure, reach};
 use super::gouge::{classify_cuts, gouges};
-use super::loose::is_cut_out;
 use super::prepared::PreparedPart;
 use super::{Part, placed_part};
 use crate::geometry::{Curve, Placement, Xy};
@@ -56,18 +55,10 @@ pub struct NeighbourCuts {
 pub struct SeveredPart {
     /// Index of the part in [`PlacedCuts::parts`].
     pub part: usize,
-    /// Index of the other path with the cut nearest to a bar.
+    /// Index of the other path whose cut closes the ring round the part.
     pub path: usize,
     /// Index of the cutting element in [`PathCuts::elements`] of that path.
     pub element: u32,
-}
-
-/// A cut of another path that goes through the plate.
-struct ForeignCut {
-    curve: Curve,
-    radius: f64,
-    path: usize,
-    element: u32,
 }
 
 impl<'c> PlacedCuts<'c> {
@@ -106,64 +97,30 @@ impl<'c> PlacedCuts<'c> {
         NeighbourCuts { gouges: gouged, bars }
     }
 
-    /// Returns the parts that cuts of other paths at their contours leave loose, although the cuts of `own` alone leave support bars. `own` are the
-    /// paths of the same drawing at the same place, including this one; `others` are the remaining paths, each with its index.
+    /// Returns the parts that nothing holds because of the cuts of other paths beside them, though the cuts of `own` alone leave something that does.
+    /// `own` are the paths that belong to the same drawing at the same place, including this one; `others` are the remaining paths by their index.
     pub fn severed_by(&self, own: &[&Self], others: &[(usize, &Self)]) -> Vec<SeveredPart> {
-        let is_near = |other: &&(usize, &Self)| {
-            self.swept.zip(other.1.swept).is_some_and(|(own, swept)| own.intersects(&swept))
+        let is_near = |(_, other): &&(usize, &Self)| {
+            let reach = reach(self.cuts.radius.max(other.cuts.radius));
+            self.kept.zip(other.swept).is_some_and(|(kept, swept)| widened(&kept, reach).intersects(&swept))
         };
         let others: Vec<&(usize, &Self)> = others.iter().filter(is_near).collect();
         if self.parts.is_empty() || others.is_empty() {
             return Vec::new();
         }
-        let own: Vec<PathCuts> = own.iter().map(|path| path.placed(self.raised)).collect();
-        let sweeps: Vec<(Curve, f64)> =
-            own.iter().flat_map(through_cuts).map(|(way, cut)| (way, cut.0)).collect();
-        let foreign: Vec<ForeignCut> = others
-            .iter()
-            .flat_map(|(path, other)| {
-                let cuts = other.placed(self.raised);
-                let cut = |(curve, (radius, element))| ForeignCut { curve, radius, path: *path, element };
-                through_cuts(&cuts).map(cut).collect::<Vec<_>>()
-            })
-            .collect();
-        let severed = |part: usize| self.severed(part, &own, &sweeps, &foreign);
-        (0..self.parts.len()).filter_map(severed).collect()
-    }
-
-    fn severed(
-        &self,
-        part: usize,
-        own: &[PathCuts],
-        sweeps: &[(Curve, f64)],
-        foreign: &[ForeignCut],
-    ) -> Option<SeveredPart> {
-        let placed = placed_part(self.parts[part], &self.placement);
-        let prepared = PreparedPart::new(&placed);
-        let outer = &placed.rings[0].curves;
-        // Only cuts that meet the cut around the part can separate its bars from the plate.
-        let meets = |cut: &&ForeignCut| {
-            let reach = 2.0 * self.cuts.radius + cut.radius;
-            outer.iter().any(|ring| may_be_near(ring, &cut.curve, reach) && ring.distance(&cut.curve) < reach)
-        };
-        let foreign: Vec<&ForeignCut> = foreign.iter().filter(meets).collect();
-        let bars = || own.iter().flat_map(|path| path.bars.iter().map(|bar| (bar, path.radius)));
-        let is_at_part = |(bar, radius): &(&StandingBar, f64)| {
-            widened_box(&bar.foot, 2.0 * radius).intersects(&prepared.extent())
-        };
-        let bars = bars().filter(is_at_part);
-        let distance = |cut: &ForeignCut| {
-            let distances = bars.clone().map(|(bar, _)| bar.foot.distance(&cut.curve));
-            distances.fold(f64::INFINITY, f64::min)
-        };
-        let nearest = foreign.iter().min_by(|one, other| distance(one).total_cmp(&distance(other)))?;
-        let all = foreign.iter().map(|cut| (cut.curve, cut.radius)).chain(sweeps.iter().copied());
-        let is_loose = |cuts: &[(Curve, f64)]| is_cut_out(&prepared, cuts, &bars);
-        (is_loose(&all.collect::<Vec<_>>()) && !is_loose(sweeps)).then_some(SeveredPart {
-            part,
-            path: nearest.path,
-            element: nearest.element,
-        })
+        let all = own.iter().copied().chain(others.iter().map(|(_, other)| *other));
+        let placed: Vec<PathCuts> = all.map(|path| path.placed(self.raised)).collect();
+        let paths: Vec<&PathCuts> = placed.iter().collect();
+        let cuts = CutIndex::new(&paths);
+        let contours = cuts.contours.iter().enumerate();
+        let is_own: Vec<bool> = contours.map(|(path, is_contour)| *is_contour && path < own.len()).collect();
+        let severed = self.parts.iter().enumerate().filter_map(|(number, part)| {
+            let part = placed_part(part, &self.placement);
+            let prepared = PreparedPart::new(&part);
+            let cut = Enclosure::new(&prepared, &cuts, &is_own).severing_cut()?;
+            Some(SeveredPart { part: number, path: others[cut.path - own.len()].0, element: cut.cut.element })
+        });
+        severed.collect()
     }
 
     /// The start of a part's outermost ring, as placed.
@@ -198,9 +155,10 @@ impl<'c> PlacedCuts<'c> {
     }
 }
 
-/// Returns the sections of a path's cuts that go through the plate, each with the cutter's radius and the index of the element.
-fn through_cuts(path: &PathCuts) -> impl Iterator<Item = (Curve, (f64, u32))> {
-    path.cuts.iter().filter_map(|cut| Some((cut.way.part_below(THROUGH_HEIGHT)?, (path.radius, cut.element))))
+/// A box whose sides are moved outwards by `reach` mm.
+fn widened(extent: &AABB<[f64; 2]>, reach: f64) -> AABB<[f64; 2]> {
+    let ([left, low], [right, high]) = (extent.lower(), extent.upper());
+    AABB::from_corners([left - reach, low - reach], [right + reach, high + reach])
 }
 
 /// Returns the bounding box of a box that is placed, and thus possibly rotated.

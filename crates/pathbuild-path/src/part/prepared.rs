@@ -94,6 +94,18 @@ impl<'p> PreparedPart<'p> {
             && outline.get_or_init(|| Outline::new(&self.part.rings[ring].curves)).contains(at)
     }
 
+    /// Whether a curve comes nearer to the outermost ring than `reach` mm.
+    pub(crate) fn is_near_rim(&self, curve: &Curve, reach: f64) -> bool {
+        let mut near = self.curves_near(widened_box(curve, reach));
+        near.any(|(ring, rim)| ring == 0 && rim.distance(curve) < reach)
+    }
+
+    /// The distance in mm between a curve and the outermost ring.
+    pub(crate) fn distance_to_rim(&self, curve: &Curve) -> f64 {
+        let rim = self.part.rings[0].curves.iter();
+        rim.map(|rim| rim.distance(curve)).fold(f64::INFINITY, f64::min)
+    }
+
     pub(crate) fn is_material(&self, at: Xy) -> bool {
         self.side(at) == Side::Material
     }
