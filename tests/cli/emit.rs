@@ -655,3 +655,31 @@ fn programs_of_another_library_are_not_removed() {
     let within = place.run_in("two", &["emit", "--out-dir", "all", "--format", "concise"]);
     assert!(!within.stderr.contains("PB520"), "{within}");
 }
+
+/// Joined paths are milled from one plate. In the program, the part of 1234.1P lies between (1, 1) and (41, 21), and its upper bars are at X14 and X28.
+#[test]
+fn joined_paths_cut_into_no_parts_of_each_other() {
+    let options = "feed = 150\nrapid = 1000\nsweep-height = 20\npart = 'Part'\nspindle = \"manual\"\n";
+    let plate = "layer 1234.1P\nstart -1,-1 \"T2 O2 I2 B0 D0.8 P3 U8\"\nbars -1,-1 41,-1\nbars to 41,21 -1,21 -1,-1\n\
+                 sweep -1,-1 50,-1\nend 50,-1\nlayer Part\npolyline 0,0 40,0 40,20 0,20 closed\n";
+    let emit = |x: f64, y: f64, paths: &str| {
+        let to = x + 2.0;
+        let other = format!(
+            "layer 1300.1P\nstart 0,0 \"T2 O2 I2 B0\"\nsweep 0,0 {x},{y}\nmill {x},{y} {to},{y}\n\
+             sweep {to},{y} 60,0\nend 60,0\n"
+        );
+        let place = Place::new().file("pathbuild.toml", options);
+        let place = place.file("1234.1P.dxf", dxf(plate)).file("1300.1P.dxf", dxf(&other));
+        let run = place.run(&format!("emit {paths} --join both --post linuxcnc --format concise"));
+        assert_eq!(place.path().join("both_Milling.ngc").exists(), run.status == Some(0), "{run}");
+        run
+    };
+    for paths in ["1234.1P 1300.1P", "1300.1P 1234.1P"] {
+        let gouged = emit(20.0, 21.97, paths);
+        assert!(gouged.stderr.contains("error[PB214]") && gouged.stderr.contains("path 1300.1P"), "{gouged}");
+        let within_tolerance = emit(20.0, 21.99, paths);
+        assert_eq!(within_tolerance.status, Some(0), "{within_tolerance}");
+        let bar = emit(13.0, 22.0, paths);
+        assert!(bar.stderr.contains("error[PB218]"), "{bar}");
+    }
+}

@@ -46,4 +46,6 @@ pub use programs::{
     DrawnPath, Part, TracedProgram, drawn_path, effective_parameters, remaining_layers, traced_program,
 };
 pub use raw::{PathPlace, assigned_texts, combinations, path_place, raw_file};
-pub use results::{check_file, check_target, locate, program, q_project, q_project_findings};
+pub use results::{
+    check_file, check_joined_parts, check_target, locate, program, q_project, q_project_findings,
+};

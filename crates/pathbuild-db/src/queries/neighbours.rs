@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{
-    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PlacedCuts, Placement, SeveredPart, TipMove, Xy,
+    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PartSettings, PlacedCuts, Placement, SeveredPart, TipMove, Xy,
     gouging_moves,
 };
 use pathbuild_toolpath::tip_move;
@@ -32,38 +32,41 @@ fn has_neighbours(db: &dyn Db, target: Target) -> bool {
 
 #[salsa::tracked]
 fn cuts_into_neighbours(db: &dyn Db, target: Target) -> Vec<Diagnostic> {
-    let Some(program) = placed_program(db, target) else { return Vec::new() };
+    neighbour_findings(db, &[target])
+}
+
+/// Returns the same for one or more targets whose programs are joined into one.
+pub(super) fn neighbour_findings(db: &dyn Db, targets: &[Target]) -> Vec<Diagnostic> {
+    let Some(program) = placed_program(db, targets) else { return Vec::new() };
     let mut found = program.findings();
     lower_to_warnings(db, &mut found);
     found
 }
 
-/// The paths of a program at their places; `None` if it has errors or no parts.
-fn placed_program(db: &dyn Db, target: Target) -> Option<PlacedProgram<'_>> {
-    let closure = closure(db, target);
-    let (settings, root) = (Settings::get(db).language(db).part.as_ref()?, closure.root?);
+/// The paths of one or more joined programs at their places; `None` if one of them has errors, or none has parts.
+fn placed_program<'db>(db: &'db dyn Db, targets: &[Target]) -> Option<PlacedProgram<'db>> {
+    let settings = Settings::get(db).language(db).part.as_ref()?;
+    let closures: Vec<_> = targets.iter().map(|target| closure(db, *target)).collect();
     let has_parts = |file| file_parts(db, file).is_some_and(|found| !found.parts.is_empty());
-    let is_known = !closure.has_errors() && closure.missing_options.is_empty();
-    if !is_known || !closure.files(db).into_iter().any(has_parts) {
+    let is_known = closures.iter().all(|closure| !closure.has_errors() && closure.missing_options.is_empty());
+    if !is_known || !closures.iter().flat_map(|closure| closure.files(db)).any(has_parts) {
         return None;
     }
-    let mut program = PlacedProgram {
-        db,
-        tolerance: settings.tolerance,
-        is_held_otherwise: settings.is_held_otherwise,
-        paths: Vec::new(),
-    };
-    let start = path_cuts(db, root).map_or(Xy::origin(), |cuts| cuts.ends.0);
-    program.add(root, Placement::from_origin(start), 0.0, None);
+    let mut program = PlacedProgram { db, settings, is_joined: targets.len() > 1, paths: Vec::new() };
+    for closure in closures {
+        let root = closure.root?;
+        let start = path_cuts(db, root).map_or(Xy::origin(), |cuts| cuts.ends.0);
+        program.add(root, Placement::from_origin(start), 0.0, None);
+    }
     Some(program)
 }
 
 /// The paths of a program with their placements.
 struct PlacedProgram<'db> {
     db: &'db dyn Db,
-    tolerance: f64,
-    /// Whether something else than support bars holds the parts.
-    is_held_otherwise: bool,
+    settings: &'db PartSettings,
+    /// Whether several programs are joined. Then only paths of different programs are compared.
+    is_joined: bool,
     /// The paths, each after the path that embeds it.
     paths: Vec<PlacedPath<'db>>,
 }
@@ -71,7 +74,7 @@ struct PlacedProgram<'db> {
 struct PlacedPath<'db> {
     instance: Instance<'db>,
     cuts: PlacedCuts<'db>,
-    /// Index of the path that embeds this one, and the embedding segment; `None` for the target's own path.
+    /// Index of the path that embeds this one, and the embedding segment; `None` for a target's own path.
     parent: Option<(usize, &'db Origin)>,
 }
 
@@ -95,7 +98,7 @@ impl<'db> PlacedProgram<'db> {
     ) {
         let Some(cuts) = path_cuts(self.db, instance) else { return };
         let is_known = |part: &&_| self.is_known(instance, &placement, part);
-        let own = if parent.is_some() { parts_of(self.db, instance) } else { Vec::new() };
+        let own = if parent.is_some() || self.is_joined { parts_of(self.db, instance) } else { Vec::new() };
         let parts = own.into_iter().filter(|part| !is_known(part)).collect();
         let number = self.paths.len();
         self.paths.push(PlacedPath {
@@ -136,7 +139,7 @@ impl<'db> PlacedProgram<'db> {
             let mut gouges: BTreeMap<_, (NeighbourGouge, usize, &Origin)> = BTreeMap::new();
             let mut bars = Vec::new();
             for cutting in (0..self.paths.len()).filter(|cutting| self.is_foreign(owner, *cutting)) {
-                let taken = self.paths[owner].cuts.cuts_made_by(&self.paths[cutting].cuts, self.tolerance);
+                let taken = self.paths[owner].cuts.cuts_made_by(&self.paths[cutting].cuts, self.settings.tolerance);
                 for gouge in taken.gouges {
                     let (path, origin) = self.innermost_common_path(cutting, gouge.element, owner);
                     let key = (gouge.part, path, origin.id.0);
@@ -165,7 +168,7 @@ impl<'db> PlacedProgram<'db> {
 
     /// Returns the parts of a path that cuts of other paths leave loose.
     fn severed(&self, owner: usize) -> Vec<SeveredPart> {
-        if self.is_held_otherwise {
+        if self.settings.is_held_otherwise {
             return Vec::new();
         }
         let (others, own): (Vec<_>, Vec<_>) =
@@ -198,15 +201,21 @@ impl<'db> PlacedProgram<'db> {
         let pairs = numbers.clone().flat_map(|owner| numbers.clone().map(move |cutting| (owner, cutting)));
         let foreign = pairs.filter(|(owner, cutting)| self.is_foreign(*owner, *cutting));
         let taken = foreign.flat_map(|(owner, cutting)| {
-            self.paths[owner].cuts.cuts_made_by(&self.paths[cutting].cuts, self.tolerance).bars
+            self.paths[owner].cuts.cuts_made_by(&self.paths[cutting].cuts, self.settings.tolerance).bars
         });
         taken.map(|lost| lost.middle).collect()
     }
 
-    /// Whether a path is independent of the parts of another: it neither belongs to the same drawing at the same place nor is embedded in it.
+    /// Whether a path is independent of the parts of another: it neither belongs to the same drawing at the same place nor is embedded in it. In
+    /// joined programs, it also belongs to another program.
     fn is_foreign(&self, owner: usize, cutting: usize) -> bool {
         let PlacedPath { instance, cuts, .. } = &self.paths[cutting];
-        let is_within = self.path_and_embedders(cutting).any(|around| around == owner);
+        let root = |path| self.path_and_embedders(path).last();
+        let is_within = if self.is_joined {
+            root(cutting) == root(owner)
+        } else {
+            self.path_and_embedders(cutting).any(|around| around == owner)
+        };
         !is_within && !self.is_at(&self.paths[owner], *instance, &cuts.placement)
     }
 
@@ -286,7 +295,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     let Some(settings) = &Settings::get(db).language(db).part else { return Vec::new() };
     let Some(traced) = traced_program(db, target).as_deref() else { return Vec::new() };
     let mut all = Vec::new();
-    let program = has_neighbours(db, target).then(|| placed_program(db, target)).flatten();
+    let program = has_neighbours(db, target).then(|| placed_program(db, &[target])).flatten();
     let mut foreign = program.as_ref().map(PlacedProgram::lost_bars).unwrap_or_default();
     let severed = program.as_ref().map(PlacedProgram::severed_parts).unwrap_or_default();
     let radius = traced.program.tool / 2.0;

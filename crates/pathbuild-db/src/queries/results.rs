@@ -13,7 +13,7 @@ use crate::inputs::{Settings, SourceFile, Target};
 use crate::queries::closures::closure;
 use crate::queries::index::{bind, file_index};
 use crate::queries::keep_outs::entered_keep_outs;
-use crate::queries::neighbours::harmed_neighbours;
+use crate::queries::neighbours::{harmed_neighbours, neighbour_findings};
 use crate::queries::part::{part_findings, uncut_outlines};
 use crate::queries::programs::ClosurePaths;
 use crate::queries::raw::{locate_in, raw_file, read_layers};
@@ -50,6 +50,12 @@ fn problems_with_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
 pub fn check_target(db: &dyn Db, target: Target) -> impl Iterator<Item = &Diagnostic> {
     let found = closure(db, target).diagnostics.iter();
     found.chain(entered_keep_outs(db, target)).chain(harmed_neighbours(db, target))
+}
+
+/// Findings about cuts of each of these targets into the parts of the others (PB214, PB217, PB218), if their programs are joined into one: all of
+/// them begin at the same place. What a program does to its own parts is not repeated.
+pub fn check_joined_parts(db: &dyn Db, targets: &[Target]) -> Vec<Diagnostic> {
+    neighbour_findings(db, targets).into_iter().map(|problem| locate(db, problem)).collect()
 }
 
 /// Fills in line and handle of the element that a diagnostic is about. Called last, so that no query depends on lines.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{Database, program};
+use pathbuild_db::{Database, check_joined_parts, program};
 use pathbuild_diagnostic::limits::{exceeded, moves_after_splitting};
 use pathbuild_diagnostic::messages::{files, probes};
 use pathbuild_diagnostic::{Diagnostic, Lang, Point, Severity};
@@ -41,8 +41,9 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
     delivered.provenance = Some(provenance);
     let machine = settings.machine.as_ref();
     let unsafe_moves = programs.iter().find_map(|program| move_errors(db, job, program, machine));
-    let unsafe_moves = unsafe_moves.or_else(|| joint_errors(db, job, &programs));
-    delivered.problems.extend(joined_programs::joining_doubts(db, job, &programs));
+    let (errors, doubts) = problems_of_joining(db, job, &programs);
+    let unsafe_moves = unsafe_moves.or_else(|| (!errors.is_empty()).then_some(errors));
+    delivered.problems.extend(doubts);
     let result =
         unsafe_moves.map_or_else(|| outputs(db, job, &programs, &line, settings, &mut delivered), Err);
     let result = result.and_then(|mut outputs| {
@@ -101,11 +102,19 @@ fn move_errors(
     (!errors.is_empty()).then_some(errors)
 }
 
-/// Returns errors of programs that are correct on their own but cannot be joined.
-fn joint_errors(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Vec<Diagnostic>> {
-    let errors =
-        if programs.len() > 1 { joined_programs::moves_into_clamps(db, job, programs) } else { Vec::new() };
-    (!errors.is_empty()).then_some(errors)
+/// Returns the errors and warnings about programs that are correct on their own and are joined.
+fn problems_of_joining(
+    db: &Database,
+    job: &Job,
+    programs: &[Arc<Program>],
+) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
+    if programs.len() < 2 {
+        return (Vec::new(), Vec::new());
+    }
+    let mut found = joined_programs::joining_doubts(db, job, programs);
+    found.extend(joined_programs::moves_into_clamps(db, job, programs));
+    found.extend(check_joined_parts(db, &job.targets));
+    found.into_iter().partition(Diagnostic::is_error)
 }
 
 /// Returns PB005 if splitting moves into pieces (z-split) exceeds a limit. Moves were counted before splitting, so the pieces are counted here.
