@@ -88,12 +88,7 @@ fn embedded(path: &Path, item: &Item) -> Option<EmbeddedPlace> {
 /// Creates an element without cuts.
 fn cut_element(path: &Path, number: u32, supported: Option<Curve>) -> CutElement {
     let element = &path.drawn.elements[number as usize];
-    CutElement {
-        origin: path.drawn.origin(element),
-        is_mark: element.role == Role::Cut(Cut::Mark),
-        lowest: f64::INFINITY,
-        supported,
-    }
+    CutElement { origin: path.drawn.origin(element), lowest: f64::INFINITY, supported }
 }
 
 /// Returns the support bars of a path.

@@ -544,17 +544,35 @@ fn what_paths_leave_is_judged_on_their_union() {
     assert_eq!(left(&format!("{}{}{EDGE}", path("P", -0.6), path("L", -0.5))), 1, "beside a worse one");
 }
 
+/// A mark half of O beside an outline is a line type that was chosen by mistake: it touches nothing but waste.
 #[test]
-fn marks_along_an_outline_leave_nothing() {
-    let along = |cut: &str| {
+fn a_mark_along_an_outline_does_not_cut_it() {
+    let along = |verb: &str, y: f64, depth: &str| {
         let drawing = format!(
-            "{START}sweep -5,-5 0,0\n{cut}\nsweep 40,0 0,-10\nmill 0,-10 20,-10 \"B0\"\n\
-             sweep 20,-10 50,-5\nend 50,-5\n{EDGE}"
+            "{START}sweep -5,-5 0,{y}\n{verb} 0,{y} 40,{y} \"{depth}\"\nsweep 40,{y} 0,-10\n\
+             mill 0,-10 20,-10 \"B0\"\nsweep 20,-10 50,-5\nend 50,-5\n{EDGE}"
         );
         codes(&drawing).contains(&"PB215".to_owned())
     };
-    assert!(!along("mark 0,0 40,0 \"D1.5\""));
-    assert!(along("mill 0,0 40,0 \"B1.5\""));
+    for (verb, depth) in [("mark", "D1.5"), ("mill", "B1.5")] {
+        assert!(along(verb, 0.0, depth));
+        assert!(along(verb, -0.019, depth));
+        assert!(!along(verb, -0.021, depth), "farther outside than the tolerance");
+        assert!(along(verb, 0.019, depth));
+        assert!(!along(verb, 0.021, depth), "a groove in the part");
+    }
+}
+
+/// Both holes have the diameter of the cutter, and one of them is only marked.
+#[test]
+fn a_marked_hole_is_not_made() {
+    let drawing = |mark: &str| {
+        let holes =
+            format!("sweep 31,13 20,20\ncircle 20,20 d 2\nsweep 20,20 24,20\n{mark}\nsweep 24,20 0,0");
+        plate("bars").replace("sweep 31,13 0,0", &holes) + "circle 20,20 d 2\ncircle 24,20 d 2\n"
+    };
+    assert_eq!(codes(&drawing("circle 24,20 d 2")), [""; 0]);
+    assert_eq!(codes(&drawing("mark circle 24,20 d 2 \"D1.8\"")), ["PB215"]);
 }
 
 /// An embedded path cuts across the outline that the project draws, which is only for the project's own cuts.

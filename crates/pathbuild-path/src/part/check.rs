@@ -291,7 +291,6 @@ mod tests {
                 layer: "1.1P".into(),
                 point: Point::new(f64::from(number), 0.0),
             },
-            is_mark: false,
             lowest: 0.0,
             supported: None,
         };

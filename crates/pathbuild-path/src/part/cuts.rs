@@ -47,8 +47,6 @@ pub struct EmbeddedPlace {
 pub struct CutElement {
     /// Location of the drawn element.
     pub origin: Origin,
-    /// Whether the element only marks the plate.
-    pub is_mark: bool,
     /// Z of the element's lowest cut in mm.
     pub lowest: f64,
     /// For an element with support bars, its whole segment: the cuts, and the sections with bars.

@@ -47,7 +47,7 @@ pub(super) fn classify_cuts<'c>(
     for number in numbers {
         let cut = index.cuts[number];
         let element = cut.element(index);
-        let shapes = || cut.cut.way.lowest() <= element.lowest + JOIN_GAP && !element.is_mark;
+        let shapes = || cut.cut.way.lowest() <= element.lowest + JOIN_GAP;
         let Some(curve) = cut.through.or_else(|| shapes().then_some(cut.cut.way.curve)) else { continue };
         let known = last.take().filter(|(number, _)| *number == cut.number()).map(|(_, side)| side);
         let clear = known.unwrap_or_else(|| {

@@ -209,7 +209,6 @@ impl<'s> LeftoverSearch<'s> {
             };
             is_on_side
                 && self.contours[judged.cut.path]
-                && !element.is_mark
                 && judged.cut.cut.way.lowest() <= element.lowest + JOIN_GAP
                 && !self.grooves.contains(&judged.cut.number())
         })
@@ -354,13 +353,16 @@ impl<'s> LeftoverSearch<'s> {
         distances.fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the cut beside the part with the edge nearest to a point of a ring.
+    /// The cut beside the part whose edge is nearest to a point of a ring. A cut that ends above the plate only counts where it reaches the ring.
     fn nearest(&self, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {
         let point = Curve::Line(crate::geometry::Line { start: at, end: at });
         let curve = RingCurve { ring, curve: &point, near: self.cuts.near(square(at, 0.0)) };
         let distance = |judged: &ClassifiedCut<'_>| judged.curve.distance_to(at) - judged.cut.radius;
         let element = |judged: &ClassifiedCut<'_>| (judged.cut.path, judged.cut.cut.element);
-        self.cuts_beside(&curve).min_by(|one, other| {
+        let counts = |judged: &&ClassifiedCut<'_>| {
+            judged.cut.through.is_some() || distance(judged) <= self.tolerance + JOIN_GAP
+        };
+        self.cuts_beside(&curve).filter(counts).min_by(|one, other| {
             distance(one).total_cmp(&distance(other)).then_with(|| element(one).cmp(&element(other)))
         })
     }
