@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{
-    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PartSettings, PlacedCuts, Placement, SeveredPart, TipMove, Xy,
-    gouging_moves,
+    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PartSettings, PlacedCuts, Placement, SeveredPart,
+    TipMove, Xy, gouging_moves,
 };
 use pathbuild_toolpath::tip_move;
 
@@ -139,7 +139,8 @@ impl<'db> PlacedProgram<'db> {
             let mut gouges: BTreeMap<_, (NeighbourGouge, usize, &Origin)> = BTreeMap::new();
             let mut bars = Vec::new();
             for cutting in (0..self.paths.len()).filter(|cutting| self.is_foreign(owner, *cutting)) {
-                let taken = self.paths[owner].cuts.cuts_made_by(&self.paths[cutting].cuts, self.settings.tolerance);
+                let taken =
+                    self.paths[owner].cuts.cuts_made_by(&self.paths[cutting].cuts, self.settings.tolerance);
                 for gouge in taken.gouges {
                     let (path, origin) = self.innermost_common_path(cutting, gouge.element, owner);
                     let key = (gouge.part, path, origin.id.0);

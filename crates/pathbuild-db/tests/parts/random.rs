@@ -1,5 +1,6 @@
 //! Tests random outlines with arcs and openings, with paths that are offset exactly, and with paths that are not.
 
+use std::collections::HashSet;
 use std::f64::consts::TAU;
 
 use pathbuild_diagnostic::{Diagnostic, Lang};
@@ -295,4 +296,110 @@ fn a_stray_cut_is_found_where_it_is_deepest() {
 
 fn number_of(found: &Diagnostic, name: &str) -> f64 {
     number(found, name)
+}
+
+/// A straight cut.
+type Line = [Xy; 2];
+
+/// Returns the sides of a contour 1 mm outside a part of 20 x 12 mm, each whole or with a gap.
+fn contour_with_gaps(random: &mut Random) -> Vec<Line> {
+    let corners = [[-1.0, -1.0], [21.0, -1.0], [21.0, 13.0], [-1.0, 13.0]].map(Xy::from);
+    let mut lines = Vec::new();
+    for side in 0..4 {
+        let (from, to) = (corners[side], corners[(side + 1) % 4]);
+        let (length, way) = ((to - from).norm(), (to - from).normalize());
+        let (gap, width) = (random.between(2.0, length - 8.0), random.between(3.0, 6.0));
+        if random.between(0.0, 1.0) < 0.3 {
+            lines.extend([[from, from + way * gap], [from + way * (gap + width), to]]);
+        } else {
+            lines.push([from, to]);
+        }
+    }
+    lines
+}
+
+/// Returns a line beside a side of the part, from 1.2 to 3.4 mm away.
+fn line_beside(random: &mut Random) -> Line {
+    let (away, from) = (random.between(1.2, 3.4), random.between(-4.0, 2.0));
+    let to = from + random.between(14.0, 26.0);
+    let points = match random.between(0.0, 4.0) as u32 {
+        0 => [[from, -away], [to, -away]],
+        1 => [[from, 12.0 + away], [to, 12.0 + away]],
+        2 => [[-away, from], [-away, to]],
+        _ => [[20.0 + away, from], [20.0 + away, to]],
+    };
+    points.map(Xy::from)
+}
+
+/// Whether the middle of the part is cut off from the border of a grid by cuts of this radius.
+fn is_cut_off(cuts: &[Line], radius: f64) -> bool {
+    const STEP: f64 = 0.5;
+    const MIDDLE: (i32, i32) = (36, 28);
+    let place = |column: i32, row: i32| Xy::new(f64::from(column) * STEP - 8.0, f64::from(row) * STEP - 8.0);
+    let is_cut = |at: Xy| {
+        cuts.iter().any(|[from, to]| {
+            let way = to - from;
+            let share = (way.dot(&(at - from)) / way.norm_squared()).clamp(0.0, 1.0);
+            (from + way * share - at).norm() < radius
+        })
+    };
+    let mut seen = HashSet::from([MIDDLE]);
+    let mut open = vec![MIDDLE];
+    while let Some((column, row)) = open.pop() {
+        if column == 0 || row == 0 || column == 2 * MIDDLE.0 || row == 2 * MIDDLE.1 {
+            return false;
+        }
+        for next in [(column - 1, row), (column + 1, row), (column, row - 1), (column, row + 1)] {
+            if !seen.contains(&next) && !is_cut(place(next.0, next.1)) {
+                seen.insert(next);
+                open.push(next);
+            }
+        }
+    }
+    true
+}
+
+/// The second path cuts off bridges that the first one leaves. Cases in which cuts barely meet are not counted.
+#[test]
+fn parts_are_loose_where_a_grid_is_cut_off() {
+    let statements = |lines: &[Line], start: &str| {
+        let mut text = String::new();
+        let mut at = start.to_owned();
+        for [from, to] in lines {
+            let (from, to) = (format!("{},{}", from.x, from.y), format!("{},{}", to.x, to.y));
+            if at != from {
+                text += &format!("sweep {at} {from}\n");
+            }
+            text += &format!("mill {from} {to}\n");
+            at = to;
+        }
+        format!("{text}sweep {at} 60,-30\nend 60,-30\n")
+    };
+    let mut random = Random(77);
+    let (mut loose, mut held, mut severed) = (0, 0, 0);
+    while loose + held < 80 {
+        let contour = contour_with_gaps(&mut random);
+        let beside = [0; 3].map(|_| line_beside(&mut random));
+        let all = [&contour[..], &beside].concat();
+        let expected = is_cut_off(&all, 0.65);
+        if expected != is_cut_off(&all, 1.35) {
+            continue;
+        }
+        severed += u32::from(expected && !is_cut_off(&contour, 1.35));
+        if expected {
+            loose += 1
+        } else {
+            held += 1
+        }
+        let drawing = format!(
+            "layer 1234.1P\nstart -30,-30 \"T2 O2 I1 B0 S5\"\n{}layer 1234.2P\nstart -30,-30 \"T2 O2 I1 B0 S5\"\n{}\
+             layer Part\npolyline 0,0 20,0 20,12 0,12 closed\n",
+            statements(&contour, "-30,-30"),
+            statements(&beside, "-30,-30")
+        );
+        let found = PartTest::default().diagnostics(&[("1234.dxf", &drawing)]);
+        let is_loose = found.iter().any(|found| found.code().to_string() == "PB217");
+        assert_eq!(is_loose, expected, "{found:?}\n{drawing}");
+    }
+    assert!(severed >= 5 && held >= 20, "{loose} loose, {severed} of them by the second path, {held} held");
 }

@@ -72,8 +72,9 @@ impl<'s> Enclosure<'s> {
     fn is_closed(&self, through: &[Cut<'_>]) -> bool {
         let sweeps: Vec<(Curve, f64)> = through.iter().map(|(cut, curve)| (*curve, cut.radius)).collect();
         let extent = self.part.extent();
-        let is_near =
-            |curve: &Curve, radius: f64| rstar::Envelope::intersects(&widened_box(curve, 2.0 * radius), &extent);
+        let is_near = |curve: &Curve, radius: f64| {
+            rstar::Envelope::intersects(&widened_box(curve, 2.0 * radius), &extent)
+        };
         let paths = self.cuts.paths.iter().zip(&self.cuts.contours).filter(|(_, is_contour)| **is_contour);
         let bars = paths.flat_map(|(path, _)| path.bars.iter().map(|bar| (bar, path.radius)));
         is_cut_out(self.part, &sweeps, &bars.filter(|(bar, radius)| is_near(&bar.foot, *radius)))
