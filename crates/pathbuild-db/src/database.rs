@@ -28,10 +28,10 @@ pub trait Db: salsa::Database {
     /// The file system and the clock.
     fn system(&self) -> &dyn System;
 
-    /// The input of a file, which need not exist. The path must be normalised.
+    /// Returns the input of a file, which need not exist. The path must be normalised.
     fn file(&self, path: &Utf8Path) -> SourceFile;
 
-    /// The input of a directory, which need not exist. The path must be normalised.
+    /// Returns the input of a directory, which need not exist. The path must be normalised.
     fn directory(&self, path: &Utf8Path) -> Directory;
 
     /// Returns the names in a directory that was listed in advance, and waits for a listing in progress. `None` if no listing was started.
@@ -101,14 +101,14 @@ impl Database {
         Self { shared: Arc::new(shared), storage }
     }
 
-    /// The inputs of these files, which need not exist. The paths must be normalised.
+    /// Returns the inputs of these files, which need not exist. The paths must be normalised.
     pub fn files(&self, paths: Vec<Utf8PathBuf>) -> Vec<SourceFile> {
         let mut inputs = self.inputs();
         inputs.files.reserve(paths.len());
         paths.into_iter().map(|path| self.file_among(&mut inputs, Cow::Owned(path))).collect()
     }
 
-    /// The input for a path of a drawing in a role. The same arguments always give the same input.
+    /// Returns the input for a path of a drawing in a role. The same arguments always give the same input.
     pub fn target(&self, file: SourceFile, name: &str, role: Role) -> Target {
         let key = (file, name.into(), role);
         let new = |(file, name, role): &(SourceFile, Box<str>, Role)| {

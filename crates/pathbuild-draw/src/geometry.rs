@@ -28,7 +28,7 @@ impl Point {
         Self { x: self.x + distance * cos, y: self.y + distance * sin, ..self }
     }
 
-    /// Returns the horizontal distance to another point.
+    /// Returns the distance to another point in the plane, regardless of the heights.
     pub fn distance(self, other: Self) -> f64 {
         libm::hypot(other.x - self.x, other.y - self.y)
     }

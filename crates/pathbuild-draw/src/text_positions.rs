@@ -155,7 +155,7 @@ impl<'a> TextPositions<'a> {
         Self { candidates, taken: vec![false; candidates.len()] }
     }
 
-    /// Marks the element to which a text of the drawing belongs as having a text.
+    /// Finds the element to which a text of the drawing belongs, and records that it has a text.
     pub fn mark_element_with_text(&mut self, layer: &str, centre: Point, radius: f64) {
         if let Some(found) = self.matched_element(layer, centre, radius) {
             self.taken[found] = true;

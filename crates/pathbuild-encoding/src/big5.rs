@@ -27,7 +27,7 @@ pub(crate) fn decode(mut bytes: &[u8], pair: impl Fn([u8; 2]) -> Option<String>)
     (text, all_known)
 }
 
-/// The pairs that decode to a letter and a combining accent.
+/// Returns the letter and the combining accent of a pair that decodes to two characters; `None` for other pairs.
 fn two_characters(pair: [u8; 2]) -> Option<String> {
     let text = match pair {
         [0x88, 0x62] => "\u{CA}\u{304}",

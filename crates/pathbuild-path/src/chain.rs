@@ -48,7 +48,7 @@ pub enum Item {
 pub struct Chain {
     /// Infeed (I) in mm.
     pub infeed: f64,
-    /// W in mm: the depth from which on milling is sweepless.
+    /// W in mm: the depth from which milling is sweepless.
     pub first_depth: Option<f64>,
     /// Range of the chain's members in [`WalkedPath::members`]; never empty.
     pub(crate) members: Range<usize>,
@@ -133,7 +133,7 @@ impl<'a> ChainBuilder<'a> {
         self.walked
     }
 
-    /// The item for a segment outside of chains. Going back over such a segment is a sweep.
+    /// Returns the item for a segment outside of chains. Going back over such a segment is a sweep.
     fn single_item(&self, segment: usize, passage: &Passage, is_return: bool) -> Option<Item> {
         let Passage { start, end, .. } = *passage;
         Some(match &self.path.segments[segment].kind {
@@ -277,8 +277,7 @@ impl Passage {
         Self { start, end, is_turned: false, moved: None }
     }
 
-    /// The passage in the opposite direction. A subpath is then embedded the other way round, so that its start is where the walk comes
-    /// from.
+    /// Returns the passage in the opposite direction. A subpath is then embedded the other way round, so that its start is where the walk comes from.
     pub(crate) fn reversed(self) -> Self {
         self.reversed_if(true)
     }
@@ -295,21 +294,21 @@ impl Passage {
         self
     }
 
-    /// The passage with its start moved to a nearby point; a cut then runs straight from there to its end.
+    /// Returns the passage with its start moved to a nearby point; a cut then runs straight from there to its end.
     pub(crate) fn starting_at(self, start: Xy, segment: &Segment) -> Self {
         let line = Curve::Line(Line { start, end: self.end });
         let moved = matches!(segment.kind, SegmentKind::Cut(_)).then(|| Box::new(line));
         Self { start, moved, ..self }
     }
 
-    /// A short line from a nearby point to the start of the passage.
+    /// Returns a short line from a nearby point to the start of the passage.
     pub(crate) fn lead_in(&self, from: Xy) -> Self {
         let line = Curve::Line(Line { start: from, end: self.start });
         Self { start: from, end: self.start, is_turned: false, moved: Some(Box::new(line)) }
     }
 }
 
-/// The curve of a segment in walking direction; `None` for circles.
+/// Returns the curve of a segment in walking direction; `None` for circles.
 pub(crate) fn curve(path: &Path, segment: &Segment, is_turned: bool, moved: Option<&Curve>) -> Option<Curve> {
     if let Some(moved) = moved {
         return Some(*moved);

@@ -113,7 +113,7 @@ impl Provider {
 }
 
 impl<'v, 't> Texts<'v, 't> {
-    /// The values that contain a letter, and their origin; `None` if no applicable text contains it.
+    /// Returns the values that contain a letter, and their origin; `None` if no applicable text contains it.
     pub(crate) fn source(&self, letter: Letter) -> Option<(&'v Values<'t>, Provider)> {
         let own = match use_of(self.class, letter) {
             LetterUse::Unknown | LetterUse::Ignored => return None,
@@ -134,13 +134,13 @@ impl<'v, 't> Texts<'v, 't> {
         own.filter(has).or_else(|| path().filter(has))
     }
 
-    /// The number that the texts give for a letter.
+    /// Returns the number that the texts give for a letter.
     #[inline]
     pub(crate) fn number(&self, letter: Letter) -> GivenNumber {
         self.source(letter).map_or(GivenNumber::Absent, |(values, _)| values.number(letter))
     }
 
-    /// The number that the texts give for a letter, or else the language's default. Options are not considered.
+    /// Returns the number that the texts give for a letter, or else the language's default. Options are not considered.
     pub(crate) fn number_or_default(&self, letter: Letter) -> Option<f64> {
         match self.number(letter) {
             GivenNumber::Absent => {
@@ -160,7 +160,7 @@ impl PathNumbers {
     }
 }
 
-/// The use of a letter on an element. Elements with an ignored text are swept at the path's height.
+/// Returns the use of a letter on an element. Elements with an ignored text are swept at the path's height.
 fn use_of(class: ElementClass, letter: Letter) -> LetterUse {
     match (class, letter) {
         (ElementClass::Unread, Letter::S) => LetterUse::PathOnly,
@@ -169,7 +169,7 @@ fn use_of(class: ElementClass, letter: Letter) -> LetterUse {
     }
 }
 
-/// The value of a letter that no text gives, and its origin, which is [`Provider::Path`] if it follows from another letter of the path.
+/// Returns the value of a letter that no text gives, and its origin, which is [`Provider::Path`] if it follows from another letter of the path.
 pub fn fallback(
     letter: Letter,
     class: ElementClass,

@@ -47,9 +47,9 @@ pub struct Marker {
 pub struct Origin {
     /// Number of the element in the path's source map.
     pub id: ElementId,
-    /// Type of its entity in the file.
+    /// Type of the element's entity in the file.
     pub entity: EntityKind,
-    /// Name of its layer.
+    /// Name of the element's layer.
     pub layer: SmolStr,
     /// The start of a line or arc, or the centre of a circle.
     pub point: Point,
@@ -200,7 +200,7 @@ impl ElementClass {
 /// Tolerance in mm within which a circle has the cutter's diameter and is a drilled hole: numbers with three decimals cannot distinguish the two.
 const DRILLED_DIAMETER_TOLERANCE: f64 = 0.001;
 
-/// The class of a circle. One with the cutter's diameter is a drilled hole, whatever its line type.
+/// Returns the class of a circle. One with the cutter's diameter is a drilled hole, whatever its line type.
 fn circle_class(cut: Cut, radius: f64, tool: Option<f64>) -> ElementClass {
     let Some(tool) = tool else { return ElementClass::UnknownCircle };
     if at_least(DRILLED_DIAMETER_TOLERANCE, (2.0 * radius - tool).abs()) {
@@ -216,7 +216,7 @@ fn circle_class(cut: Cut, radius: f64, tool: Option<f64>) -> ElementClass {
     }
 }
 
-/// The meaning of a line or arc with this line type; `None` if it has none.
+/// Returns the meaning of a line or arc with this line type; `None` if it has none.
 pub(crate) fn curve_role(line_type: LineType) -> Option<Role> {
     Some(match line_type {
         LineType::Continuous => Role::Cut(Cut::Mill),

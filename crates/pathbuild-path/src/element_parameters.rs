@@ -139,7 +139,7 @@ impl ParameterTable<'_> {
     }
 }
 
-/// The value that a text gives a letter, for display; `None` if it is faulty.
+/// Returns the value that a text gives a letter, for display; `None` if it is faulty.
 fn display_value(values: &Values<'_>, letter: Letter) -> Option<SmolStr> {
     match values.number(letter) {
         _ if letter == Letter::Variable => {

@@ -51,7 +51,7 @@ pub struct PathSignature {
     pub embeds_only: Option<SmolStr>,
     /// The distance from the path's start to its end.
     pub size: f64,
-    /// Whether any milling uses the feed of the options.
+    /// Whether the path needs `--feed`: it gives no F, and at least one of its elements depends on that.
     pub needs_feed: bool,
     /// Whether the path has Z-probes of its own.
     pub has_probes: bool,
@@ -80,7 +80,7 @@ pub struct SubpathCall {
     faults: Box<[(Letter, TextFault)]>,
 }
 
-/// The letters of a subpath segment that are compared with the paths on both sides.
+/// The letters of a subpath segment that are compared with the embedding path and with the embedded path.
 const COMPARED_LETTERS: [Letter; 5] = [Letter::Embed, Letter::T, Letter::O, Letter::M, Letter::H];
 
 impl PathHeader {
@@ -156,7 +156,7 @@ pub struct ProbeTop {
 }
 
 impl ProbeTop {
-    /// The probes of a path that are raised by H. T of the others is checked together with S.
+    /// Returns the probes of a path that are raised by H. T of the others is checked together with S.
     fn raised(path: &Path) -> Vec<Self> {
         let top = |probe: &crate::path::Probe| {
             let fault = path.drawn.text(probe.text)?.fault_of(Letter::H)?;
@@ -266,7 +266,7 @@ struct UpperFace {
 }
 
 impl SweepLimits {
-    /// The limits of a path: T of the path itself, of its probes and of its subpath segments.
+    /// Creates the limits of a path: T of the path itself, of its probes and of its subpath segments.
     pub fn of(path: &Path) -> Self {
         let Some(surface) = &path.surface else {
             return Self { path: path.name.clone(), faces: Box::default() };
@@ -394,7 +394,7 @@ impl<'a> SubpathChecker<'a> {
         !self.is_compatible && name.is_part_of_word(value)
     }
 
-    /// The path that a segment names.
+    /// Returns the path that a segment names.
     ///
     /// # Errors
     /// PB501, PB502 and PB507: the segment names no path, or one that must not be embedded.
@@ -422,7 +422,7 @@ impl<'a> SubpathChecker<'a> {
         Err(Box::new(problem))
     }
 
-    /// The rule that forbids embedding a path of this name.
+    /// Returns the rule that forbids embedding a path of this name.
     fn broken_rule(&self, name: &PathName) -> Option<&str> {
         let (rule, is_kept) = match &self.rule {
             Rule::Own(rule, pattern) => {

@@ -90,7 +90,7 @@ impl Curve {
         }
     }
 
-    /// The area in mm² between a point and the curve, positive if the curve runs counterclockwise around the point. The sum over a closed
+    /// Returns the area in mm² between a point and the curve, positive if the curve runs counterclockwise around the point. The sum over a closed
     /// sequence of curves is its area.
     pub(crate) fn area_from(&self, point: Xy) -> f64 {
         let triangle = (self.start() - point).perp(&(self.end() - point)) / 2.0;
@@ -104,7 +104,7 @@ impl Curve {
         }
     }
 
-    /// The section between two distances from the start, in mm along the curve.
+    /// Returns the section between two distances from the start, in mm along the curve.
     pub fn section(&self, from: f64, to: f64) -> Self {
         match self {
             Self::Line(line) => {
@@ -117,7 +117,7 @@ impl Curve {
 }
 
 impl Arc {
-    /// An arc by its angles in degrees as drawn; a full circle according to [`is_full_turn`].
+    /// Creates an arc from its angles in degrees as drawn; a full circle according to [`is_full_turn`].
     pub fn from_angles(centre: Xy, radius: f64, start_angle: f64, end_angle: f64, clockwise: bool) -> Self {
         let ahead = if clockwise { start_angle - end_angle } else { end_angle - start_angle };
         let start = on_circle(centre, radius, start_angle);
@@ -145,12 +145,12 @@ impl Arc {
 }
 
 impl Placement {
-    /// The placement that moves `origin` to (0, 0) without rotation.
+    /// Creates the placement that moves `origin` to (0, 0) without rotation.
     pub fn from_origin(origin: Xy) -> Self {
         Self { turn: UnitComplex::identity(), shift: -origin.coords }
     }
 
-    /// The placement that maps `start` exactly to `onto_start`, and the direction from `start` to `end` to that from `onto_start` to
+    /// Returns the placement that maps `start` exactly to `onto_start`, and the direction from `start` to `end` to the direction from `onto_start` to
     /// `onto_end`. If a direction is undefined because its points coincide, the rotation is that of the surrounding placement `around`.
     pub fn aligning((start, end): (Xy, Xy), (onto_start, onto_end): (Xy, Xy), around: &Self) -> Self {
         let has_no_direction = coincide(start, end) || coincide(onto_start, onto_end);
@@ -180,12 +180,12 @@ impl Placement {
     }
 }
 
-/// The point of a circle at an angle in degrees. Quarter turns are exact, so that points drawn at 90 degrees stay there.
+/// Returns the point of a circle at an angle in degrees. Quarter turns are exact, so that points drawn at 90 degrees stay there.
 pub fn on_circle(centre: Xy, radius: f64, degrees: f64) -> Xy {
     centre + direction(degrees) * radius
 }
 
-/// The unit vector at an angle in degrees, exact at quarter turns.
+/// Returns the unit vector at an angle in degrees, exact at quarter turns.
 pub fn direction(degrees: f64) -> Vector2<f64> {
     if degrees == 0.0 {
         return Vector2::new(1.0, 0.0);
@@ -203,7 +203,7 @@ pub fn direction(degrees: f64) -> Vector2<f64> {
     }
 }
 
-/// The rotation from one direction to another, neither of which is 0. Computed from products and a square root, since angles would lose
+/// Returns the rotation from one direction to another, neither of which is 0. Computed from products and a square root, since angles would lose
 /// precision.
 fn rotation_between(from: Vector2<f64>, to: Vector2<f64>) -> UnitComplex<f64> {
     let along = from.dot(&to);
@@ -213,7 +213,7 @@ fn rotation_between(from: Vector2<f64>, to: Vector2<f64>) -> UnitComplex<f64> {
 }
 
 impl Curve {
-    /// The distance in mm between two curves; 0 if they cross or touch.
+    /// Returns the distance in mm between two curves; 0 if they cross or touch.
     pub fn distance(&self, other: &Self) -> f64 {
         if self.crosses(other) {
             return 0.0;
@@ -224,7 +224,7 @@ impl Curve {
         to_other.chain(to_self.map(|point| self.distance_to(point))).fold(f64::INFINITY, f64::min)
     }
 
-    /// The distance in mm between a point and the curve.
+    /// Returns the distance in mm between a point and the curve.
     pub fn distance_to(&self, point: Xy) -> f64 {
         match self {
             Self::Line(line) => (line.nearest(point) - point).norm(),
@@ -290,7 +290,7 @@ impl Arc {
         (if ahead < 0.0 { ahead + 360.0 } else { ahead }) <= self.degrees
     }
 
-    /// The points of the arc on the line through its centre and another point.
+    /// Returns the points of the arc on the line through its centre and another point.
     fn on_line_through(&self, other: Xy) -> Vec<Xy> {
         let way = other - self.centre;
         let Some(out) = way.try_normalize(0.0) else { return Vec::new() };

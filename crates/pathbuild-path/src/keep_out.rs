@@ -104,7 +104,7 @@ impl TipMove {
         self.from_z.min(self.to_z)
     }
 
-    /// The part of the move below a height, as a curve in the plane.
+    /// Returns the part of the move below a height, as a curve in the plane.
     pub(crate) fn part_below(&self, height: f64) -> Option<Curve> {
         let (from, to) = (above(height, self.from_z), above(height, self.to_z));
         let length = self.curve.length();
@@ -197,7 +197,7 @@ impl OutlinePiece {
     }
 }
 
-/// The monotone pieces of a curve: arcs are split at their highest and lowest points.
+/// Returns the monotone pieces of a curve: arcs are split at their highest and lowest points.
 fn monotone(curve: &Curve) -> Vec<Curve> {
     let Curve::Arc(arc) = curve else { return vec![*curve] };
     let out = arc.start - arc.centre;
@@ -214,7 +214,7 @@ fn monotone(curve: &Curve) -> Vec<Curve> {
     cuts.windows(2).map(|cut| curve.section(along(cut[0]), along(cut[1]))).collect()
 }
 
-/// The bounding box of a curve, widened by `near`; an arc gets that of its whole circle.
+/// Returns the bounding box of a curve, widened by `near`; an arc gets that of its whole circle.
 pub(crate) fn widened_box(curve: &Curve, near: f64) -> AABB<[f64; 2]> {
     let (a, b) = match curve {
         Curve::Line(line) => (line.start, line.end),

@@ -232,7 +232,7 @@ impl LetterUse {
 }
 
 impl ElementClass {
-    /// The use of a letter on this element.
+    /// Returns the use of a letter on this element.
     pub fn use_of(self, letter: Letter) -> LetterUse {
         CELLS.get(self as usize).map_or(LetterUse::Allowed, |cells| cells[letter as usize])
     }
@@ -245,7 +245,7 @@ impl ElementClass {
             .map(|(character, _)| character)
     }
 
-    /// The letters that elements of this class require.
+    /// Returns the letters that elements of this class require.
     pub(crate) fn needed_letters(self) -> impl Iterator<Item = Letter> {
         Letter::ALL
             .into_iter()

@@ -63,7 +63,7 @@ impl LineType {
         longest.or_else(abbreviated).or_else(misspelt).map(|(_, line_type)| line_type)
     }
 
-    /// The line type for a name in upper case: by an exact match, without a suffix, or through an alias. It is never guessed from the dash
+    /// Returns the line type for a name in upper case: by an exact match, without a suffix, or through an alias. It is never guessed from the dash
     /// pattern, since DASHED2 and HIDDEN have the same pattern.
     pub fn of(name: &str, aliases: &LineTypeAliases) -> Option<Self> {
         aliases
@@ -117,7 +117,7 @@ fn find_by_name(name: &str) -> Option<LineType> {
     names.find(|(known, _)| *known == name).map(|(_, line_type)| line_type)
 }
 
-/// The names in a table, each with its line type.
+/// Returns the names in a table, each with its line type.
 fn names_in(table: &[(LineType, &[&'static str])]) -> impl Iterator<Item = (&'static str, LineType)> {
     table.iter().flat_map(|(line_type, names)| names.iter().map(|name| (*name, *line_type)))
 }

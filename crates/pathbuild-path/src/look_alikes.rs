@@ -23,7 +23,7 @@ pub(crate) fn ascii(character: char) -> Option<char> {
     }
 }
 
-/// A text with all characters replaced by those that they look like.
+/// Returns a text with all characters replaced by those that they look like.
 pub(crate) fn with_keyboard_characters(text: &str) -> String {
     text.chars().map(|character| ascii(character).unwrap_or(character)).collect()
 }

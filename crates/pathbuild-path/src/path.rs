@@ -269,7 +269,7 @@ impl Path {
         self.unknown_letters().contains(letter)
     }
 
-    /// The letters with values that are hidden by errors.
+    /// Returns the letters with values that are hidden by errors.
     pub(crate) fn unknown_letters(&self) -> Letters {
         self.faults.as_ref().map_or_else(Letters::default, |faults| faults.letters)
     }
@@ -289,7 +289,7 @@ impl Path {
         PathNumbers { tool: Some(self.tool), thickness: Some(self.thickness), feed: self.feed }
     }
 
-    /// Whether any milling uses the feed of the options.
+    /// Whether the path needs `--feed`: it gives no F, and at least one of its elements depends on that.
     pub fn needs_feed(&self) -> bool {
         self.feed.is_none()
             && self.segments.iter().any(|segment| match &segment.kind {
@@ -301,17 +301,17 @@ impl Path {
             })
     }
 
-    /// The location of a segment's element.
+    /// Returns the location of a segment's element.
     pub fn origin(&self, segment: &Segment) -> Origin {
         self.drawn.origin(self.element(segment))
     }
 
-    /// A subpath's own text with a letter underlined, if it gives that letter.
+    /// Returns a subpath's own text with a letter underlined, if it gives that letter.
     pub fn fault(&self, subpath: &Subpath, letter: Letter) -> Option<TextFault> {
         self.drawn.text(subpath.text)?.fault_of(letter)
     }
 
-    /// The drawn start and end of a segment.
+    /// Returns the drawn start and end of a segment.
     pub fn ends(&self, segment: &Segment) -> [Xy; 2] {
         match &self.element(segment).shape {
             Shape::Curve(curve) => [curve.start(), curve.end()],
@@ -319,7 +319,7 @@ impl Path {
         }
     }
 
-    /// The drawn curve of a segment; `None` for circles.
+    /// Returns the drawn curve of a segment; `None` for circles.
     pub(crate) fn curve(&self, segment: &Segment) -> Option<Curve> {
         match self.element(segment).shape {
             Shape::Curve(curve) => Some(curve),
@@ -353,7 +353,7 @@ impl Segment {
 }
 
 impl CutParameters {
-    /// The name of such a segment in messages.
+    /// Returns the name of such a segment in messages.
     pub(crate) fn word(&self) -> &'static Text {
         match self.cut {
             Cut::Mill => &words::MILLING_SEGMENT,
@@ -376,7 +376,7 @@ impl Helix {
 }
 
 impl Bars {
-    /// The number of bars on a segment of this length: as many as fit. A length that is a multiple of U + P except for rounding counts as
+    /// Returns the number of bars on a segment of this length: as many as fit. A length that is a multiple of U + P except for rounding counts as
     /// one, so that the number does not depend on the direction of the segment.
     pub fn count(&self, length: f64) -> f64 {
         let spacing = self.distance + self.length;

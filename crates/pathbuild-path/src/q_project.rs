@@ -51,18 +51,18 @@ impl<'a> Component<'a> {
         self.paths.iter().copied().find(|path| *path.name == *name)
     }
 
-    /// The proxy lines of a path.
+    /// Returns the proxy lines of a path.
     fn proxies(&self, name: &PathName) -> &[&'a ProxyLine] {
         self.by_name.get(name).map_or(&[], Vec::as_slice)
     }
 
-    /// A path bound to the values that a proxy line sets, and to example values for its other variables; `None` if the path has errors.
+    /// Returns a path bound to the values that a proxy line sets, and to example values for its other variables; `None` if the path has errors.
     fn path(&self, raw: &RawPath, proxy: Option<&ProxyLine>) -> Option<Path> {
         raw.is_sound().then(|| bind(raw, &values(raw, proxy), self.language).0)?
     }
 }
 
-/// The values for a path's variables: those that a proxy line sets and the path permits, otherwise example values.
+/// Returns the values for a path's variables: those that a proxy line sets and the path permits, otherwise example values.
 fn values(raw: &RawPath, proxy: Option<&ProxyLine>) -> Bindings {
     let examples = Bindings::check_values(&raw.definitions);
     let value = |definition: &Definition| {
@@ -106,7 +106,7 @@ pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
     by_cutter.into_iter().map(of_cutter).collect()
 }
 
-/// The path that embeds these paths, all of which have the same O.
+/// Returns the path that embeds these paths, all of which have the same O.
 fn of_cutter(planned: Vec<(Path, QProjectLine)>) -> QProject {
     let first = &planned[0].0;
     let thickness = planned.iter().map(|(path, _)| path.thickness).fold(first.thickness, f64::max);
@@ -155,8 +155,8 @@ pub struct QProjectFindings {
     pub in_q_project: Vec<Diagnostic>,
 }
 
-/// Compares a component with its Q-project. `paths`: the paths of the Q-project, unless one has errors and its embeddings are unknown.
-/// `drawing`: the file name of the component.
+/// Compares a component with its Q-project. `paths`: the paths of the Q-project; `None` if one of them has errors, so that its embeddings are
+/// unknown. `drawing`: the file name of the component.
 pub fn compare_q_project(
     component: &Component<'_>,
     drawing: &str,
@@ -270,7 +270,7 @@ impl<'a> QProjectComparison<'a> {
         compared.swap_remove(0).into_iter().map(place).collect()
     }
 
-    /// The differences between a subpath of the Q-project and a proxy line.
+    /// Returns the differences between a subpath of the Q-project and a proxy line.
     fn differences(
         &self,
         name: &PathName,
@@ -306,7 +306,7 @@ fn differing(
     problem.with("here", here).with("there", there).with_text(text)
 }
 
-/// The differences in T, O and M between a proxy line and its path.
+/// Returns the differences in T, O and M between a proxy line and its path.
 fn differences_from_path(proxy: &ProxyLine, path: &Path) -> Vec<Difference> {
     let number = |letter: Letter, there: f64| {
         let (here, fault) = proxy.value(letter)?;
@@ -323,7 +323,7 @@ fn differences_from_path(proxy: &ProxyLine, path: &Path) -> Vec<Difference> {
     numbers.into_iter().flatten().chain(material()).collect()
 }
 
-/// The differences in T, O, M and variables between a subpath of the Q-project and a proxy line.
+/// Returns the differences in T, O, M and variables between a subpath of the Q-project and a proxy line.
 fn differences_from_proxy(path: &Path, subpath: &Subpath, proxy: &ProxyLine) -> Vec<Difference> {
     let fault = |letter| path.fault(subpath, letter);
     let number = |letter: Letter, here: f64| {
@@ -366,7 +366,7 @@ fn differing_variables(subpath: &Subpath, proxy: &ProxyLine) -> Vec<Difference> 
     differences
 }
 
-/// A value in quotation marks, or a hyphen if there is none.
+/// Returns a value in quotation marks, or a hyphen if there is none.
 fn or_dash(value: Option<&str>) -> Value {
     Value::quoted(value.unwrap_or("-"))
 }

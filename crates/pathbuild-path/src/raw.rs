@@ -153,7 +153,7 @@ impl DrawnElements {
         self.texts.get(text?)
     }
 
-    /// The location of an element.
+    /// Returns the location of an element.
     pub fn origin(&self, element: &Element) -> Origin {
         Origin::new(element.source, &self.layers[element.source.layer as usize], element.shape.point())
     }

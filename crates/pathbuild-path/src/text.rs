@@ -160,34 +160,34 @@ impl<'t> ParameterText<'t> {
         self.pieces
     }
 
-    /// The first piece with a letter.
+    /// Returns the first piece with a letter.
     pub fn piece(self, letter: Letter) -> Option<&'t LetterValue> {
         self.pieces.get(self.index(letter)?)
     }
 
-    /// The index of the first piece with a letter.
+    /// Returns the index of the first piece with a letter.
     pub(crate) fn index(self, letter: Letter) -> Option<usize> {
         self.pieces.iter().position(|piece| piece.letter == Some(letter))
     }
 
-    /// The first character of a piece, whether it is a parameter letter or not.
+    /// Returns the first character of a piece, whether it is a parameter letter or not.
     pub(crate) fn letter(self, piece: &LetterValue) -> Option<char> {
         self.string[piece.span()].chars().next()
     }
 
-    /// A piece as written.
+    /// Returns a piece as written.
     pub(crate) fn piece_text(self, piece: &LetterValue) -> &'t str {
         &self.string[piece.span()]
     }
 
-    /// The value of a piece as written.
+    /// Returns the value of a piece as written.
     pub fn value(self, piece: &LetterValue) -> &'t str {
         let mut characters = self.string[piece.span()].chars();
         characters.next();
         characters.as_str()
     }
 
-    /// Letters that pieces without a letter may stand for: B for `b2`, any letter for a lone `2`.
+    /// Returns the letters that pieces without a letter may stand for: B for `b2`, any letter for a lone `2`.
     pub(crate) fn unread_letters(self) -> Letters {
         let meant = |piece: &LetterValue| {
             let first = self.letter(piece).unwrap_or_default();
@@ -197,7 +197,7 @@ impl<'t> ParameterText<'t> {
         unread.fold(Letters::default(), |all, piece| all.and(meant(piece)))
     }
 
-    /// All letters that the text may have been meant to give to some element.
+    /// Returns all letters that the text may have been meant to give to some element.
     pub(crate) fn possible_letters(self) -> Letters {
         match mistake_in_text(self, ElementClass::Unread) {
             Some(misreading) => misreading.unread,
@@ -210,12 +210,12 @@ impl<'t> ParameterText<'t> {
         !self.is_plain && self.pieces.iter().filter(|piece| piece.letter == Some(letter)).nth(1).is_some()
     }
 
-    /// The whole text with a piece underlined.
+    /// Returns the whole text with a piece underlined.
     pub fn fault(self, piece: &LetterValue) -> TextFault {
         TextFault::new(self.string, piece.span())
     }
 
-    /// The whole text with the first piece of a letter underlined, if there is one.
+    /// Returns the whole text with the first piece of a letter underlined, if there is one.
     pub(crate) fn fault_of(self, letter: Letter) -> Option<TextFault> {
         self.piece(letter).map(|piece| self.fault(piece))
     }
@@ -225,7 +225,7 @@ impl<'t> ParameterText<'t> {
         TextFault::new(self.string, 0..self.string.len())
     }
 
-    /// Problems that do not depend on values: PB202, PB204 and PB206, and PB210 as a warning, without places. Texts that are ignored have
+    /// Returns the problems that do not depend on values: PB202, PB204 and PB206, and PB210 as a warning, without places. Texts that are ignored have
     /// none.
     pub fn problems(self, class: ElementClass) -> Vec<Diagnostic> {
         if class == ElementClass::Unread {
@@ -389,7 +389,7 @@ fn is_blank(byte: u8) -> bool {
     byte <= b' ' && matches!(byte, b' ' | b'\t' | b'\n' | b'\r')
 }
 
-/// The first piece at or after a byte offset.
+/// Returns the first piece at or after a byte offset.
 fn next_piece(text: &str, from: usize) -> Option<LetterValue> {
     let bytes = text.as_bytes();
     let start = from + bytes[from..].iter().position(|byte| !is_blank(*byte))?;
@@ -436,7 +436,7 @@ pub(crate) struct Misreading {
     pub(crate) unread: Letters,
 }
 
-/// The mistake in a text as a whole, if there is one.
+/// Returns the mistake in a text as a whole, if there is one.
 pub(crate) fn mistake_in_text(text: ParameterText<'_>, class: ElementClass) -> Option<Misreading> {
     if text.is_plain {
         return None;

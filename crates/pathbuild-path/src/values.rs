@@ -37,7 +37,7 @@ pub(crate) struct Values<'t> {
     filled: Vec<FilledValue<'t>>,
     /// Letters that the text lacks, but that an unreadable piece of it may have been meant to give.
     pub(crate) unread: Letters,
-    /// PB205, PB303, PB305 and PB005, without places.
+    /// Problems with the values: PB205, PB303, PB305 and PB005, without places.
     pub(crate) problems: Vec<Diagnostic>,
 }
 
@@ -50,7 +50,7 @@ enum FilledValue<'t> {
 }
 
 impl GivenNumber {
-    /// The number, if it is valid.
+    /// Returns the number, if it is valid.
     pub(crate) fn number(self) -> Option<f64> {
         match self {
             Self::Number(number) => Some(number),
@@ -65,7 +65,7 @@ impl GivenNumber {
 }
 
 impl<'t> Values<'t> {
-    /// The values of the text of an element of this class. Pieces with problems found by [`ParameterText::problems`] have no value.
+    /// Determines the values of the text of an element of this class. Pieces with problems found by [`ParameterText::problems`] have no value.
     pub(crate) fn of(
         text: ParameterText<'t>,
         class: ElementClass,
@@ -150,7 +150,7 @@ impl<'t> Values<'t> {
         }
     }
 
-    /// The text value of a letter; `None` if it is absent or has a reported problem.
+    /// Returns the text value of a letter; `None` if it is absent or has a reported problem.
     pub(crate) fn text(&self, letter: Letter) -> Option<&str> {
         self.value(self.text.index(letter)?)
     }
@@ -163,7 +163,7 @@ impl<'t> Values<'t> {
         }
     }
 
-    /// The values of variables in the order written, each with its piece.
+    /// Returns the values of variables in the order written, each with its piece.
     pub(crate) fn variables(&self) -> impl Iterator<Item = (&str, &'t LetterValue)> {
         let pieces = self.text.pieces().iter().enumerate();
         let variables = pieces.filter(|(_, piece)| piece.letter == Some(Letter::Variable));
@@ -188,17 +188,17 @@ impl<'t> Values<'t> {
         self.has(letter) || self.unread.contains(letter)
     }
 
-    /// All letters in the text.
+    /// Returns all letters in the text.
     pub(crate) fn letters(&self) -> Letters {
         self.text.letters
     }
 
-    /// The text with the piece of the letter underlined.
+    /// Returns the text with the piece of the letter underlined.
     pub(crate) fn fault(&self, letter: Letter) -> Option<TextFault> {
         self.text.fault_of(letter)
     }
 
-    /// The text with a piece underlined.
+    /// Returns the text with a piece underlined.
     pub(crate) fn underlined(&self, piece: &LetterValue) -> TextFault {
         self.text.fault(piece)
     }
@@ -270,7 +270,7 @@ pub(crate) fn check_limits(own: &Values<'_>, path: &Values<'_>, class: ElementCl
     limits.problems
 }
 
-/// A usual value for a letter that must be positive.
+/// Returns a usual value for a letter that must be positive.
 fn example(letter: Letter) -> &'static str {
     match letter {
         Letter::F => "F150",
@@ -383,7 +383,7 @@ pub(crate) fn check_bar(top: f64, own: &Values<'_>, path: &Values<'_>) -> Option
     Some((says.underline(Letter::D, problem), !is_own))
 }
 
-/// Findings about the values that `own` gives and that have an effect on the element. `path`: the values of the path.
+/// Returns the findings about the values that `own` gives and that have an effect on the element. `path`: the values of the path.
 pub(crate) fn check_doubts(
     own: &Values<'_>,
     path: &Values<'_>,

@@ -40,7 +40,7 @@ impl Bindings {
         Self(values)
     }
 
-    /// The example values for checking a path on its own. They depend on the position of each definition.
+    /// Returns the example values for checking a path on its own. They depend on the position of each definition.
     pub fn check_values(definitions: &[Definition]) -> Self {
         let value = |(k, definition): (usize, &Definition)| (definition.name, definition.check_value(k));
         Self::new(definitions.iter().enumerate().map(value))
@@ -187,7 +187,7 @@ impl Definition {
         }
     }
 
-    /// The example value for checking, if the variable is the `k`-th of its path.
+    /// Returns the example value for checking, if the variable is the `k`-th of its path.
     pub fn check_value(&self, k: usize) -> SmolStr {
         match &self.values {
             AllowedValues::Range { from_text, .. } if k.is_multiple_of(2) => from_text.clone(),
@@ -283,7 +283,7 @@ impl Combinations {
     }
 }
 
-/// The values of a definition, without duplicates.
+/// Returns the values of a definition, without duplicates.
 fn corners(definition: &Definition) -> Vec<SmolStr> {
     let mut values: Vec<SmolStr> = Vec::new();
     for value in definition.corner_values() {
@@ -294,7 +294,7 @@ fn corners(definition: &Definition) -> Vec<SmolStr> {
     values
 }
 
-/// The combination in which `choose` selects the value of each variable, given the variable's index and number of values.
+/// Returns the combination in which `choose` selects the value of each variable, given the variable's index and number of values.
 fn combination(values: &[(char, Vec<SmolStr>)], mut choose: impl FnMut(usize, usize) -> usize) -> Bindings {
     let value = |(index, (name, values)): (usize, &(char, Vec<SmolStr>))| {
         (*name, values[choose(index, values.len())].clone())

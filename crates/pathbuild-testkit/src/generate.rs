@@ -13,7 +13,7 @@ pub struct Library {
     plan: Plan,
 }
 
-/// The drawings of a library, in order: names relative to its directory, and sheets.
+/// Returns the drawings of a library, in order: names relative to its directory, and sheets.
 pub fn library(components: usize, seed: u64) -> impl Iterator<Item = (String, Sheet)> {
     let library = Library::new(components, seed);
     (0..library.len()).map(move |index| library.drawing(index))
@@ -43,7 +43,7 @@ impl Library {
         self.plan.components() / 50
     }
 
-    /// A drawing with its name relative to the library's directory: first components, then projects, then fixture and variable projects
+    /// Returns a drawing with its name relative to the library's directory: first components, then projects, then fixture and variable projects
     /// alternating. Indices beyond the end wrap around.
     pub fn drawing(&self, index: usize) -> (String, Sheet) {
         let index = index.checked_rem(self.len()).unwrap_or_default();
@@ -80,7 +80,7 @@ const ROW: f64 = 90.0;
 const FIELD: Point = Point::new(34.0, 26.0);
 const FIELDS_IN_ROW: usize = 4;
 
-/// The drawing of a component, with its file name.
+/// Draws a component. Returns its file name and its drawing.
 fn component_drawing(plan: &Plan, index: usize) -> (String, Sheet) {
     let mut random = plan.random(index);
     let paths = plan.paths(index);
@@ -129,7 +129,7 @@ fn proxy_line(draft: &mut Draft, path: &PathPlan, start: Point) {
     draft.add(Entity::line(start, start + path.signature.chord).typed("DASHDOT").note(&text));
 }
 
-/// The text of a segment that embeds a path.
+/// Returns the text of a segment that embeds a path.
 fn embedding_text(path: &PathPlan, value: &str) -> String {
     let signature = path.signature;
     let (t, o, m) = (comma(signature.thickness), comma(signature.cutter), signature.material);
@@ -167,7 +167,7 @@ const GRID: f64 = 170.0;
 const FIXTURE: usize = 8;
 const VARIABLE: usize = 7;
 
-/// A project that embeds ten paths.
+/// Draws a project that embeds ten paths. Returns its file name and its drawing.
 fn project_drawing(plan: &Plan, index: usize) -> (String, Sheet) {
     let mut random = plan.project_random(index);
     let cutter = any_path(plan, &mut random).signature.cutter;
@@ -192,7 +192,7 @@ fn path_for(plan: &Plan, cutter: f64, random: &mut Random) -> PathPlan {
     suitable.swap_remove(random.below(suitable.len()))
 }
 
-/// A fixture project, with three path names as variables.
+/// Draws a fixture project, with three path names as variables. Returns its file name and its drawing.
 fn fixture(plan: &Plan, index: usize) -> (String, Sheet) {
     let mut random = plan.project_random(index + plan.components());
     let choices = choices(plan, &mut random);
@@ -202,7 +202,7 @@ fn fixture(plan: &Plan, index: usize) -> (String, Sheet) {
     project(&project_name(index, FIXTURE), &segments(&choices), &definitions, &mut random)
 }
 
-/// A variable project, which embeds a fixture project and sets its variables.
+/// Draws a variable project, which embeds a fixture project and sets its variables. Returns its file name and its drawing.
 fn variable(plan: &Plan, index: usize) -> (String, Sheet) {
     let mut random = plan.project_random(index + plan.components());
     let choices = choices(plan, &mut random);
@@ -249,7 +249,7 @@ fn neighbours(plan: &Plan, cutter: Option<f64>, random: &mut Random) -> [PathPla
     (0..pairs).map(pair).find(|pair| pair.iter().all(is_plain)).unwrap_or_else(|| pair(0))
 }
 
-/// The properties that a segment embedding this project must match.
+/// Returns the properties that a segment embedding this project must match.
 fn signature(segments: &[(String, Signature)]) -> Signature {
     let thickness = segments.iter().map(|(_, signature)| signature.thickness).fold(0.0, f64::max);
     let rows = segments.len().div_ceil(5);
@@ -333,12 +333,12 @@ impl Plan {
         Self { components, seed }
     }
 
-    /// The random numbers for the paths of a component.
+    /// Returns the random numbers for the paths of a component.
     pub(super) fn random(&self, index: usize) -> Random {
         Random::new(self.seed, SHAPE + index as u64)
     }
 
-    /// The random numbers for a project.
+    /// Returns the random numbers for a project.
     pub(super) fn project_random(&self, index: usize) -> Random {
         Random::new(self.seed, PROJECT + index as u64)
     }
@@ -347,7 +347,7 @@ impl Plan {
         self.components
     }
 
-    /// The paths of a component drawing: one, or in some drawings three or four.
+    /// Returns the paths of a component drawing: one, or in some drawings three or four.
     pub(super) fn paths(&self, index: usize) -> Vec<PathPlan> {
         let mut random = self.random(index);
         let count = if random.once_in(10) { 3 + random.below(2) } else { 1 };
@@ -361,7 +361,7 @@ impl Plan {
         (0..count).map(path).collect()
     }
 
-    /// The signature of a path. Pairs of neighbours share it, so that a fixture project can embed either of them.
+    /// Returns the signature of a path. Pairs of neighbours share it, so that a fixture project can embed either of them.
     fn signature(&self, index: usize, path: usize) -> Signature {
         let mut random = Random::new(self.seed, SIGNATURE + (index / 2 * 8 + path) as u64);
         Signature {
@@ -372,7 +372,7 @@ impl Plan {
         }
     }
 
-    /// The file name of a component, derived from the paths it contains.
+    /// Returns the file name of a component, derived from the paths it contains.
     pub(super) fn file(&self, index: usize) -> String {
         let paths = self.paths(index);
         let (first, last) = (&paths[0].name, &paths[paths.len() - 1].name);
@@ -398,12 +398,12 @@ fn number(index: usize) -> usize {
     FIRST + index % NUMBERS
 }
 
-/// The name of the project's path with this index: 8000.1P, 8001.1P, ... 8999.1P, 8000.11P, ...
+/// Returns the name of the project's path with this index: 8000.1P, 8001.1P, ... 8999.1P, 8000.11P, ...
 pub(super) fn project_name(index: usize, path: usize) -> String {
     format!("{}.{}P", 8000 + index % PROJECTS, path + 10 * (index / PROJECTS))
 }
 
-/// A number with a decimal comma, as common in these drawings.
+/// Returns a number with a decimal comma, as common in these drawings.
 pub(super) fn comma(number: f64) -> String {
     number.to_string().replace('.', ",")
 }
@@ -439,7 +439,7 @@ impl Tool {
         format!("{}\\PO{o}\\PT{t}\\PI{i}{bottom}{variable}", path.signature.material)
     }
 
-    /// The text of an element milled to B.
+    /// Returns the text of an element milled to B.
     fn bottom_text(&self, more: &str) -> String {
         let own = if self.bottom_is_inherited { String::new() } else { format!("B{}", self.bottom) };
         format!("{own} {more}").trim().to_owned()

@@ -22,18 +22,18 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// A whole number from 0 to `count` - 1.
+    /// Returns a whole number from 0 to `count` - 1.
     pub(crate) fn below(&mut self, count: usize) -> usize {
         let below = self.next() % (count.max(1) as u64);
         usize::try_from(below).unwrap_or_default()
     }
 
-    /// A random element of a slice.
+    /// Returns a random element of a slice.
     pub(crate) fn pick<T: Copy>(&mut self, all: &[T]) -> T {
         all[self.below(all.len())]
     }
 
-    /// A random multiple of `step` from `low` to `high`.
+    /// Returns a random multiple of `step` from `low` to `high`.
     pub(crate) fn between(&mut self, low: f64, high: f64, step: f64) -> f64 {
         let mut steps = 1;
         while low + step * steps as f64 <= high + step * 1e-6 {

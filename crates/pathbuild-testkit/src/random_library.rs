@@ -193,7 +193,7 @@ fn dxf(text: &str) -> Vec<u8> {
     sheet(text).unwrap_or_else(|errors| unreachable!("{}: {text}", errors[0])).to_dxf()
 }
 
-/// A layer name in one of several spellings.
+/// Returns a layer name in one of several spellings.
 fn layer(name: &str, random: &mut Random) -> String {
     match random.below(8) {
         0 => name.to_lowercase(),
@@ -375,7 +375,7 @@ fn chain() -> Vec<u8> {
     dxf(&text)
 }
 
-/// A quoted text after an element, or nothing if it is empty.
+/// Returns a quoted text after an element, or nothing if it is empty.
 fn quoted(text: &str) -> String {
     if text.is_empty() { String::new() } else { format!(" \"{text}\"") }
 }

@@ -48,7 +48,7 @@ pub(crate) fn finish(mut draft: Draft, seed: Option<u64>) -> Result<Sheet, Vec<D
     Ok(sheet.within(Arc::clone(template), HATCH_LINES - hatch_lines))
 }
 
-/// The surroundings alone, with all hatch lines as the last entities. Entities are in the order in which a user draws: the frame first, then
+/// Returns the surroundings alone, with all hatch lines as the last entities. Entities are in the order in which a user draws: the frame first, then
 /// the path, then what was added to it.
 fn template(variant: usize, version: Version) -> Template {
     let mut room = Surroundings::of(variant);
@@ -130,7 +130,7 @@ impl Surroundings {
     }
 }
 
-/// An entity with BYLAYER colour and line type, like nearly all entities of CAD programs.
+/// Returns an entity with BYLAYER colour and line type, like nearly all entities of CAD programs.
 fn by_layer(entity: Entity, layer: &str) -> Entity {
     Entity { layer: Some(layer.to_owned()), line_type: None, ..entity }
 }

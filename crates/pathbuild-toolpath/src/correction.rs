@@ -29,7 +29,7 @@ pub struct UnprobedPoint {
 /// Distance in mm outside the probes up to which milling is not reported. Numbers in programs are not more precise.
 const NEGLIGIBLE_DISTANCE: f64 = 0.001;
 
-/// Part length used for [`Correction::farthest_unprobed_point`] if moves are not split.
+/// Length in mm of the parts that [`Correction::farthest_unprobed_point`] examines if moves are not split.
 const SAMPLE_LENGTH: f64 = 20.0;
 
 impl Correction {

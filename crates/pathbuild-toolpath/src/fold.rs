@@ -396,7 +396,7 @@ pub(crate) fn distance(a: Tip, b: Tip) -> f64 {
 
 // Determines the order in which Z-probes are measured. (book: language/probes)
 
-/// Distances in the tree with a smaller relative difference are considered equal and compared exactly.
+/// Relative difference below which distances in the tree are not reliable, so that they are compared exactly.
 const ROUNDING: f64 = 1e-12;
 
 /// Starts at (0, 0) and repeatedly visits the nearest remaining probe; the first of these if there are several. Returns the indices of the probes.

@@ -91,7 +91,7 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
     }
 }
 
-/// The closure of a checked path without embeddings and findings, which is by far the most common case.
+/// Returns the closure of a checked path without embeddings and findings, which is by far the most common case.
 fn closure_without_embeddings<'db>(
     db: &'db dyn Db,
     target: Target,
@@ -109,7 +109,7 @@ fn closure_without_embeddings<'db>(
     (is_lone && is_within).then(closure)
 }
 
-/// A target's path with its values, and errors about missing values. `None` if the file has no such path.
+/// Returns a target's path with its values, and errors about missing values. `None` if the file has no such path.
 pub(super) fn root(db: &dyn Db, target: Target) -> Option<(Instance<'_>, Vec<Diagnostic>)> {
     let name = NameKey::of(db, &PathName::new(target.name(db)));
     let file = target.file(db);
@@ -140,7 +140,7 @@ impl Closure<'_> {
         self.root.is_none() || !self.missing_options.is_empty() || self.diagnostics.iter().any(is_other)
     }
 
-    /// The files that the closure was computed from.
+    /// Returns the files that the closure was computed from.
     pub fn files(&self, db: &dyn Db) -> Vec<SourceFile> {
         let mut seen = FxHashSet::default();
         let files = self.reached.iter().map(|reached| reached.instance.file(db));
@@ -518,7 +518,7 @@ fn size_limit_problem(count: u64, limits: Limits) -> Option<Diagnostic> {
     Some(problem.with("count", count))
 }
 
-/// The identity of a diagnostic for removing duplicates: everything except the embeddings that lead to it.
+/// Returns the identity of a diagnostic for removing duplicates: everything except the embeddings that lead to it.
 fn identity(diagnostic: &Diagnostic) -> impl Hash + PartialEq + '_ {
     let Diagnostic { message, place, path, file, arguments, text, .. } = diagnostic;
     (message, place, path, file, arguments, text)
@@ -556,7 +556,7 @@ pub enum Destination<'db> {
 }
 
 impl<'db> Closure<'db> {
-    /// All embeddings, path by path in the order in which paths are reached, segment by segment.
+    /// Returns all embeddings, path by path in the order in which paths are reached, segment by segment.
     pub fn edges(&self, db: &'db dyn Db) -> Vec<Edge<'db>> {
         let of_path =
             |from: Instance<'db>| embeds(db, from).iter().map(move |embedding| edge(from, embedding));
@@ -595,7 +595,7 @@ pub struct NameLookup {
     pub directories: Vec<Utf8PathBuf>,
 }
 
-/// The trace of a target. An edit outside of it cannot change the target's results.
+/// Returns the trace of a target. An edit outside of it cannot change the target's results.
 #[salsa::tracked]
 pub fn trace(db: &dyn Db, target: Target) -> Trace {
     let (mut files, mut lookups) = (UniqueList::default(), UniqueList::default());

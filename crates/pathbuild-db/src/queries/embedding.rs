@@ -51,7 +51,7 @@ pub enum Outcome<'db> {
     },
 }
 
-/// The direct embeddings of a path, in the order of its segments.
+/// Returns the direct embeddings of a path, in the order of its segments.
 pub fn embeds<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Embedding<'db>] {
     // Most paths embed nothing; no query is needed for them.
     if summary(db, instance).has_subpaths() { embeddings(db, instance) } else { &[] }
@@ -176,7 +176,7 @@ pub struct Instance<'db> {
     pub bindings: Bindings,
 }
 
-/// The summary of a path. The summary with example values is part of the drawing's index.
+/// Returns the summary of a path. The summary with example values is part of the drawing's index.
 pub fn summary<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db PathSummary {
     match path_index(db, instance.file(db), instance.name(db)) {
         Some(index) if index.examples == *instance.bindings(db) => &index.summary,
@@ -192,7 +192,7 @@ fn summary_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> PathSum
     PathSummary::new(db, raw, instance.bindings(db), &LayerEnds::new(&read_all), &mut |_, _| {})
 }
 
-/// The bound and checked path. Only programs need it, so few are kept.
+/// Returns the bound and checked path. Only programs need it, so few are kept.
 #[salsa::tracked(lru = 256)]
 pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
     let language = Settings::get(db).language(db);
@@ -200,7 +200,7 @@ pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
     raw.map(|raw| bind(raw, instance.bindings(db), language)).unwrap_or_default()
 }
 
-/// The result of walking a path, for its program. Empty for a path with errors. Few are kept.
+/// Returns the result of walking a path, for its program. Empty for a path with errors. Few are kept.
 #[salsa::tracked(lru = 256)]
 pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> WalkedPath {
     let language = Settings::get(db).language(db);

@@ -146,33 +146,33 @@ fn drawn_parts(bytes: &[u8], drawing: &Drawing, reading: &Reading, language: &La
     pathbuild_path::parts(&entities(bytes, &reading, &|layer| language.is_part(layer)), language)
 }
 
-/// The index of one path of a drawing, unaffected by edits of other paths.
+/// Returns the data of one path from the index of its drawing, unaffected by edits of other paths.
 #[salsa::tracked]
 pub fn path_index<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<Arc<PathIndex>> {
     file_index(db, file).path(&name.name(db)).cloned()
 }
 
-/// The names of a drawing's paths, in order of first appearance.
+/// Returns the names of a drawing's paths, in order of first appearance.
 pub fn path_names(db: &dyn Db, file: SourceFile) -> &[PathName] {
     &file_index(db, file).names
 }
 
-/// The hash of the bytes that a drawing was indexed by. `None` if it could not be read or the settings ask for no hashes.
+/// Returns the hash of the bytes that a drawing was indexed by. `None` if it could not be read or the settings ask for no hashes.
 pub fn content_hash(db: &dyn Db, file: SourceFile) -> Option<[u8; 32]> {
     content(db, file).map(|(hash, _)| hash)
 }
 
-/// The hash of the indexed bytes, with their stamp.
+/// Returns the hash of the indexed bytes, with their stamp.
 pub fn content(db: &dyn Db, file: SourceFile) -> Option<([u8; 32], Stamp)> {
     file_index(db, file).content.hash
 }
 
-/// The clamps of a drawing.
+/// Returns the clamps of a drawing.
 pub fn keep_outs(db: &dyn Db, file: SourceFile) -> &[KeepOut] {
     keep_outs_of_file(db, file).map_or(&[], |found| &found.all)
 }
 
-/// Findings about the clamps of a drawing. If one of them is an error, no path of the drawing becomes a program.
+/// Returns the findings about the clamps of a drawing. If one of them is an error, no path of the drawing becomes a program.
 pub(super) fn keep_out_problems(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
     keep_outs_of_file(db, file).map_or(&[], |found| &found.problems)
 }
@@ -193,7 +193,7 @@ fn keep_outs_of_file(db: &dyn Db, file: SourceFile) -> Option<&KeepOuts> {
     indexed_keep_outs(db, file).as_deref()
 }
 
-/// The clamps in a drawing's index, unaffected by edits of its paths.
+/// Returns the clamps in a drawing's index, unaffected by edits of its paths.
 #[salsa::tracked]
 fn indexed_keep_outs(db: &dyn Db, file: SourceFile) -> Option<Arc<KeepOuts>> {
     file_index(db, file).keep_outs.clone()
@@ -259,7 +259,7 @@ impl FileIndex {
         self
     }
 
-    /// The index of a drawing that could not be read.
+    /// Creates the index of a drawing that could not be read.
     fn unreadable(problem: Diagnostic, content: Content) -> Self {
         Self { diagnostics: vec![problem], content, ..Self::default() }
     }
@@ -269,13 +269,13 @@ impl FileIndex {
         &self.names
     }
 
-    /// Returns the index of one of the drawing's paths.
+    /// Returns the data of one of the drawing's paths; `None` if the drawing has no path of that name.
     pub fn path(&self, name: &PathName) -> Option<&Arc<PathIndex>> {
         let place = self.paths.binary_search_by(|path| path.header.name.cmp(name)).ok()?;
         Some(&self.paths[place])
     }
 
-    /// Returns the indexes of the drawing's paths, in order of name.
+    /// Returns the data of the drawing's paths, in order of name.
     pub fn paths(&self) -> impl Iterator<Item = &PathIndex> {
         self.paths.iter().map(|path| &**path)
     }
@@ -285,7 +285,7 @@ impl FileIndex {
         &self.diagnostics
     }
 
-    /// The fingerprint of the bytes that the index was built from, if they could be read.
+    /// Returns the fingerprint of the bytes that the index was built from, if they could be read.
     pub(super) fn fingerprint(&self) -> Option<Fingerprint> {
         self.content.fingerprint
     }
@@ -397,7 +397,7 @@ impl PathSummary {
         }
     }
 
-    /// The signature as far as it is known, with or without errors.
+    /// Returns the signature as far as it is known, with or without errors.
     pub(super) fn known_signature(&self) -> Option<&PathSignature> {
         self.signature.as_ref().or(self.faulty_signature.as_deref())
     }
@@ -494,7 +494,7 @@ impl FileParts {
     }
 }
 
-/// The cuts of a sound path; `None` after a panic, which is not reported here.
+/// Returns the cuts of a sound path; `None` after a panic, which is not reported here.
 pub(super) fn cuts_of(db: &dyn Db, path: &Path, walked: &WalkedPath) -> Option<PathCuts> {
     let settings = Settings::get(db);
     let is_compatible = settings.reading(db).compatible;

@@ -26,12 +26,12 @@ pub struct PlacedKeepOut {
     pub occurrence: u32,
 }
 
-/// The clamps around the program of a target, from all its drawings. Duplicates at the same place count once. Empty without a program.
+/// Returns the clamps around the program of a target, from all its drawings. Duplicates at the same place count once. Empty without a program.
 pub fn placed_keep_outs(db: &dyn Db, target: Target) -> Vec<PlacedKeepOut> {
     program_with_keep_outs(db, target).map(|traced| compute_placed_keep_outs(db, traced)).unwrap_or_default()
 }
 
-/// The program of a target, if its drawings have clamps.
+/// Returns the program of a target, if its drawings have clamps.
 fn program_with_keep_outs(db: &dyn Db, target: Target) -> Option<&TracedProgram> {
     if has_keep_outs(db, target) { traced_program(db, target).as_deref() } else { None }
 }

@@ -37,7 +37,7 @@ impl NameTable {
         Self { names, ranges: ranges.into_iter().collect(), fault: None }
     }
 
-    /// The files that may define a path, in order of name.
+    /// Returns the files that may define a path, in order of name.
     pub(super) fn files(&self, db: &dyn Db, directory: Directory, key: &PathKey) -> Vec<SourceFile> {
         let name = |file: &u32| self.names.get(*file as usize);
         let mut files = self.ranges.files(key);
@@ -47,7 +47,7 @@ impl NameTable {
     }
 }
 
-/// The name ranges in a directory. Empty if it does not exist or cannot be listed.
+/// Returns the name ranges in a directory. Empty if it does not exist or cannot be listed.
 #[salsa::tracked]
 pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     directory.revision(db);
@@ -78,7 +78,7 @@ pub fn unlistable_error(directory: &Utf8Path, fault: &ReadError) -> Diagnostic {
     Diagnostic::new(&messages::UNLISTABLE).with("reason", reason).in_file(directory)
 }
 
-/// The file names that the name ranges of a directory were read from. Empty after a panic.
+/// Returns the file names that the name ranges of a directory were read from. Empty after a panic.
 pub fn drawing_names(db: &dyn Db, directory: Directory) -> &Names {
     static NONE: Names = Names::none();
     catch_bugs(|| &name_table(db, directory).names).unwrap_or(&NONE)
@@ -136,20 +136,20 @@ pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'d
     ResolvedPath { files, searched, unlisted }
 }
 
-/// The directories to search for paths that drawings in a directory refer to, starting with that directory.
+/// Returns the directories to search for paths that drawings in a directory refer to, starting with that directory.
 #[salsa::tracked]
 pub fn search_path(db: &dyn Db, own: Directory) -> Vec<Directory> {
     let searched = Settings::get(db).search(db).iter();
     distinct(std::iter::once(own).chain(searched.map(|path| db.directory(path))))
 }
 
-/// The directory of a drawing.
+/// Returns the directory of a drawing.
 pub(super) fn own_directory(db: &dyn Db, file: SourceFile) -> Directory {
     db.directory(file.path(db).parent().unwrap_or(Utf8Path::new("")))
 }
 
-/// The files of a directory that define a path, for clients outside of queries. It takes a plain name, since a name interned outside a
-/// query is never reclaimed.
+/// Returns the files of a directory that define a path, for clients outside of queries. It takes a plain name, since a name interned outside a query
+/// is never reclaimed.
 pub fn defining_files(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
     let files = candidate_files(db, directory, name).into_iter();
     files.filter(|file| file_index(db, *file).path(name).is_some()).collect()
@@ -201,7 +201,7 @@ pub fn prefetch(db: &dyn Db, file: SourceFile) {
     }
 }
 
-/// The names that the paths of a drawing embed.
+/// Returns the names that the paths of a drawing embed.
 fn embedded_names(index: &FileIndex) -> impl Iterator<Item = &PathName> {
     let signatures = index.paths().filter_map(|path| path.summary.signature.as_ref());
     signatures.flat_map(|signature| &signature.subpaths).filter_map(|call| match &call.subpath.name {

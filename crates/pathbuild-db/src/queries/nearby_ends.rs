@@ -93,7 +93,7 @@ impl<'a> LayerEnds<'a> {
         self.all.get_or_init(|| AllLayers::new((self.read)()))
     }
 
-    /// The nearest end on another layer, whether or not that belongs to a path.
+    /// Returns the nearest end on another layer, whether or not that belongs to a path.
     fn nearest_end(&self, path: &PathName, language: &Language, problem: &Diagnostic) -> Option<(Note, f64)> {
         let Point { x: Number(x), y: Number(y) } = problem.place.point?;
         let point = Xy::new(x, y);
@@ -116,7 +116,7 @@ impl<'a> LayerEnds<'a> {
         (distance <= MAX_HINT_DISTANCE).then_some((note, distance))
     }
 
-    /// A start or end marker on a layer without a path.
+    /// Returns a start or end marker on a layer without a path.
     fn nearest_marker(
         &self,
         language: &Language,
@@ -143,7 +143,7 @@ impl<'a> LayerEnds<'a> {
         ))
     }
 
-    /// The element on another layer that is nearest to a text.
+    /// Returns the element on another layer that is nearest to a text.
     fn nearest_element(&self, language: &Language, problem: &Diagnostic) -> Option<(Note, f64)> {
         let (Some(Value::Point(centre)), Some(Value::Number(Number(diameter)))) =
             (problem.argument("centre"), problem.argument("diameter"))
@@ -173,7 +173,7 @@ impl<'a> LayerEnds<'a> {
 }
 
 impl LayerEnds<'_> {
-    /// A text with O and T on another layer that lies on a start marker without a text.
+    /// Returns a text with O and T on another layer that lies on a start marker without a text.
     fn start_text(&self, problem: &Diagnostic) -> Option<(Note, f64)> {
         let Point { x: Number(x), y: Number(y) } = problem.place.point?;
         let at = Xy::new(x, y);
@@ -190,7 +190,7 @@ impl LayerEnds<'_> {
         Some((text_note(&drawing::START_TEXT_ON_OTHER_LAYER, layer, string), 0.0))
     }
 
-    /// A text with a path's name that touches a subpath without a name: on another layer, or belonging to another element.
+    /// Returns a text with a path's name that touches a subpath without a name: on another layer, or belonging to another element.
     fn name_text(&self, language: &Language, problem: &Diagnostic) -> Option<Note> {
         let Point { x: Number(x), y: Number(y) } = problem.place.point?;
         let (start, own) = (Xy::new(x, y), problem.place.layer.as_deref());
@@ -273,7 +273,7 @@ fn is_marker(language: &Language, layer: &str, entity: &Entity, radius: f64) -> 
         && language.path_pattern.layer(layer).is_none()
 }
 
-/// The distance in mm that a note gives.
+/// Returns the distance in mm that a note gives.
 fn distance_of(note: &Note) -> Option<f64> {
     match note.argument("distance")? {
         Value::Number(Number(distance)) => Some(*distance),
@@ -286,7 +286,7 @@ const MARKER_RADII: [f64; 2] = [START_RADIUS, END_RADIUS];
 const START_MARKER: usize = 0;
 const END_MARKER: usize = 1;
 
-/// The distance of an element from the circle of a text; `None` for texts.
+/// Returns the distance of an element from the circle of a text; `None` for texts.
 fn distance_to_text(text: &TextCircle, geometry: &Geometry) -> Option<f64> {
     let xy = |point: &pathbuild_dxf::Point3| Xy::new(point.x, point.y);
     Some(match geometry {
@@ -305,7 +305,7 @@ fn distance_to_text(text: &TextCircle, geometry: &Geometry) -> Option<f64> {
     })
 }
 
-/// The bounding box of an entity; an arc and a text get that of their whole circle.
+/// Returns the bounding box of an entity; an arc and a text get that of their whole circle.
 fn box_of(geometry: &Geometry) -> Rectangle<[f64; 2]> {
     let around = |centre: &pathbuild_dxf::Point3, radius: f64| {
         Rectangle::from_corners(
@@ -330,7 +330,7 @@ fn box_of(geometry: &Geometry) -> Rectangle<[f64; 2]> {
     }
 }
 
-/// The ends of a line or arc.
+/// Returns the ends of a line or arc.
 fn ends_of(geometry: &Geometry) -> Option<[Xy; 2]> {
     match geometry {
         Geometry::Line(line) => Some([Xy::new(line.start.x, line.start.y), Xy::new(line.end.x, line.end.y)]),

@@ -247,7 +247,7 @@ impl<'db> PlacedProgram<'db> {
             .with("point", point(gouge.at))
     }
 
-    /// A finding about an element of a path, with the embeddings that lead there.
+    /// Places a finding at an element of a path, with the embeddings that lead there.
     fn at(&self, path: usize, origin: &Origin, problem: Diagnostic) -> Diagnostic {
         let place = |path: usize| {
             let PlacedPath { instance, cuts, .. } = &self.paths[path];
@@ -291,7 +291,7 @@ pub struct PlacedPart<'db> {
     pub tolerance: f64,
 }
 
-/// The finished parts that the program of a target cuts. Empty without a program.
+/// Returns the finished parts that the program of a target cuts. Empty without a program.
 pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     let Some(settings) = &Settings::get(db).language(db).part else { return Vec::new() };
     let Some(traced) = traced_program(db, target).as_deref() else { return Vec::new() };

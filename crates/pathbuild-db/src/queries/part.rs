@@ -19,13 +19,13 @@ pub(super) fn file_parts(db: &dyn Db, file: SourceFile) -> Option<&FileParts> {
     indexed_parts(db, file).as_deref()
 }
 
-/// The parts and cuts in a drawing's index, unaffected by edits of anything else in it.
+/// Returns the parts and cuts in a drawing's index, unaffected by edits of anything else in it.
 #[salsa::tracked]
 fn indexed_parts(db: &dyn Db, file: SourceFile) -> Option<Arc<FileParts>> {
     file_index(db, file).parts.clone()
 }
 
-/// The result of checking a drawing's parts, with example values for the variables of its paths. `None` if it has no parts.
+/// Returns the result of checking a drawing's parts, with example values for the variables of its paths. `None` if it has no parts.
 pub(super) fn part_findings(db: &dyn Db, file: SourceFile) -> Option<&PartFindings> {
     let has_parts = file_parts(db, file).is_some_and(|found| !found.parts.is_empty());
     has_parts.then(|| checked_parts(db, file))
@@ -42,7 +42,7 @@ fn checked_parts(db: &dyn Db, file: SourceFile) -> PartFindings {
     findings
 }
 
-/// Findings about the cuts of a path into the parts of its drawing, and about the material that it leaves at them.
+/// Returns the findings about the cuts of a path into the parts of its drawing, and about the material that it leaves at them.
 pub(super) fn part_problems<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Diagnostic] {
     let file = instance.file(db);
     let Some(findings) = part_findings(db, file) else { return &[] };
@@ -95,7 +95,7 @@ fn is_example<'db>(db: &'db dyn Db, instance: Instance<'db>) -> bool {
     index.as_ref().is_some_and(|index| index.examples == *instance.bindings(db))
 }
 
-/// The outlines of a drawing's parts that no path comes near (PB220).
+/// Returns the outlines of a drawing's parts that no path comes near (PB220).
 pub fn uncut_rings(db: &dyn Db, file: SourceFile) -> Vec<&[Curve]> {
     let (Some(found), Some(findings)) = (file_parts(db, file), part_findings(db, file)) else {
         return Vec::new();

@@ -51,7 +51,7 @@ pub struct DrawnPath<'db> {
     pub positions: &'db SourceMap,
 }
 
-/// The program of a target with the origins of its steps, even if it harms a part; `None` if its moves are unknown. Only the last one is
+/// Returns the program of a target with the origins of its steps, even if it harms a part; `None` if its moves are unknown. Only the last one is
 /// kept.
 #[salsa::tracked(no_eq, lru = 1)]
 pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<TracedProgram>> {
@@ -87,13 +87,13 @@ pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<TracedProgram>>
     Some(Arc::new(TracedProgram { program, trace, parts }))
 }
 
-/// A path as it is drawn; `None` if the drawing has no path of that name.
+/// Returns a path as it is drawn; `None` if the drawing has no path of that name.
 pub fn drawn_path<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Option<DrawnPath<'db>> {
     let entry = raw_file(db, file).entry(name)?;
     Some(DrawnPath { raw: &entry.raw, positions: &entry.map })
 }
 
-/// The effective parameters of each element of a path for these variable values. S is the same as in [`traced_program`]: a path that has
+/// Returns the effective parameters of each element of a path for these variable values. S is the same as in [`traced_program`]: a path that has
 /// variables or lacks an option counts as embedded.
 pub fn effective_parameters(
     db: &dyn Db,
@@ -110,7 +110,7 @@ pub fn effective_parameters(
     raw_file(db, file).entry(name).map(|entry| of_path(&entry.raw)).unwrap_or_default()
 }
 
-/// The contents of a drawing's layers that hold neither paths nor clamps. The drawing is read again for this; only the last one is kept.
+/// Returns the contents of a drawing's layers that hold neither paths nor clamps. The drawing is read again for this; only the last one is kept.
 #[salsa::tracked(no_eq, lru = 1)]
 pub fn remaining_layers(db: &dyn Db, file: SourceFile) -> Arc<Drawing> {
     let language = Settings::get(db).language(db);
@@ -191,12 +191,12 @@ impl<'t> Occurrences<'t> {
         Diagnostic { trace: self.embeddings_leading_to(occurrence), ..origin.at(found) }
     }
 
-    /// The path of an occurrence.
+    /// Returns the path of an occurrence.
     pub(super) fn part(self, occurrence: u32) -> &'t Part {
         &self.traced.parts[self.traced.trace.occurrences[occurrence as usize].id]
     }
 
-    /// The embeddings that lead to a path, outermost first.
+    /// Returns the embeddings that lead to a path, outermost first.
     fn embeddings_leading_to(self, occurrence: u32) -> Vec<TraceStep> {
         let step = |inner: u32| {
             let StepOrigin { occurrence, element } = self.parent(inner)?;

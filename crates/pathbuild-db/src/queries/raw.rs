@@ -29,7 +29,7 @@ fn read_again<R>(db: &dyn Db, file: SourceFile, work: impl FnOnce(&[u8], &mut Dr
     }
 }
 
-/// The entities of an indexed drawing on some of its layers. Empty if it cannot be read.
+/// Reads the entities of an indexed drawing on some of its layers. Empty if it cannot be read.
 pub(super) fn read_layers(db: &dyn Db, file: SourceFile, keep_layer: &dyn Fn(&str) -> bool) -> Drawing {
     read_layers_as(db, file, Settings::get(db).reading(db), keep_layer)
 }
@@ -91,14 +91,14 @@ pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents {
     FileContents::new(raw.paths.into_iter().map(entry).collect())
 }
 
-/// A raw path of a file, unaffected by edits of other paths.
+/// Returns a raw path of a file, unaffected by edits of other paths.
 #[salsa::tracked(returns(as_deref), lru = 256)]
 pub(super) fn raw_path<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<Arc<RawPath>> {
     let name = name.name(db);
     raw_file(db, file).entry(&name).map(|entry| Arc::clone(&entry.raw))
 }
 
-/// A raw path, for clients outside of queries. It takes a plain name, since a name interned outside a query is never reclaimed.
+/// Returns a raw path, for clients outside of queries. It takes a plain name, since a name interned outside a query is never reclaimed.
 fn raw_by_name<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Option<&'db RawPath> {
     raw_file(db, file).entry(name).map(|entry| &*entry.raw)
 }
@@ -110,7 +110,7 @@ pub(super) fn locate_in(db: &dyn Db, file: SourceFile, path: &PathName, diagnost
     }
 }
 
-/// The place of a path; `None` if the file has no such path.
+/// Returns the place of a path; `None` if the file has no such path.
 pub fn path_place(db: &dyn Db, file: SourceFile, name: &PathName) -> Option<PathPlace> {
     let entry = raw_file(db, file).entry(name)?;
     let raw = &*entry.raw;
@@ -131,7 +131,7 @@ impl FileContents {
         Self { paths, by_name }
     }
 
-    /// The raw paths, in order of first appearance.
+    /// Returns the raw paths, in order of first appearance.
     pub(super) fn paths(&self) -> impl Iterator<Item = &RawPath> {
         self.paths.iter().map(|entry| &*entry.raw)
     }
@@ -142,7 +142,7 @@ impl FileContents {
     }
 }
 
-/// The texts of a drawing's paths with the element of each. The drawing is read again for that.
+/// Returns the texts of a drawing's paths with the element of each. The drawing is read again for that.
 #[salsa::tracked]
 pub fn assigned_texts(db: &dyn Db, file: SourceFile) -> Vec<AssignedText> {
     let language = Settings::get(db).language(db);
@@ -150,7 +150,7 @@ pub fn assigned_texts(db: &dyn Db, file: SourceFile) -> Vec<AssignedText> {
     pathbuild_path::assigned_texts(&drawing, language)
 }
 
-/// The combinations of a path's variable values, with a warning if there are more than `limit`. `None` for a path without variables or with
+/// Returns the combinations of a path's variable values, with a warning if there are more than `limit`. `None` for a path without variables or with
 /// errors.
 pub fn combinations(
     db: &dyn Db,

@@ -52,7 +52,7 @@ pub(super) fn read<R>(
     })
 }
 
-/// The entities on some layers. Empty after a panic.
+/// Reads the entities on some layers. Empty after a panic.
 pub(super) fn entities(bytes: &[u8], reading: &Reading, keep_layer: &dyn Fn(&str) -> bool) -> Drawing {
     let mut drawing = Drawing::default();
     _ = catch_bugs(|| read_entities(bytes, &mut drawing, reading, keep_layer));

@@ -34,7 +34,7 @@ pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
     Some(Arc::new(program))
 }
 
-/// Findings about a file as a whole. Its paths are targets of their own.
+/// Returns the findings about a file as a whole. Its paths are targets of their own.
 pub fn check_file(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
     let has_uncut = part_findings(db, file).is_some_and(|findings| !findings.uncut.is_empty());
     if has_uncut { problems_with_outlines(db, file) } else { file_index(db, file).diagnostics() }
@@ -46,7 +46,8 @@ fn problems_with_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
     file_index(db, file).diagnostics().iter().cloned().chain(uncut).collect()
 }
 
-/// Findings about a path, everything it embeds, clamps in its way, and parts that it cuts into. They are not located yet.
+/// Returns the findings about a path, everything it embeds, clamps in its way, and parts that it cuts into. They have no lines and handles yet, see
+/// [`locate`].
 pub fn check_target(db: &dyn Db, target: Target) -> impl Iterator<Item = &Diagnostic> {
     let found = closure(db, target).diagnostics.iter();
     found.chain(entered_keep_outs(db, target)).chain(harmed_neighbours(db, target))
@@ -91,14 +92,14 @@ fn component(db: &dyn Db, drawing: SourceFile) -> Component<'_> {
     Component::new(raw_file(db, drawing).paths(), proxy_lines(db, drawing), language)
 }
 
-/// The proxy lines of a drawing, which is read again with all its layers.
+/// Returns the proxy lines of a drawing, which is read again with all its layers.
 #[salsa::tracked]
 fn proxy_lines(db: &dyn Db, file: SourceFile) -> Vec<ProxyLine> {
     let drawing = read_layers(db, file, &|_| true);
     pathbuild_path::proxy_lines(&drawing, Settings::get(db).language(db))
 }
 
-/// The paths of a Q-project with example values. `None` if one of them has errors.
+/// Returns the paths of a Q-project with example values. `None` if one of them has errors.
 fn sound_paths(db: &dyn Db, file: SourceFile) -> Option<Vec<Path>> {
     let language = Settings::get(db).language(db);
     let is_readable = !check_file(db, file).iter().any(Diagnostic::is_error);

@@ -26,7 +26,7 @@ enum Step {
     Double(usize, usize),
     /// Removes a file.
     Remove(usize),
-    /// Renames a file so that its name no longer admits its path.
+    /// Renames a file so that, according to its name, it cannot define its path.
     Hide(usize),
     /// Makes a path embed one that embeds it, which closes a cycle.
     Close(usize),

@@ -108,7 +108,7 @@ impl World {
         codes
     }
 
-    /// The queries that ran for the last target.
+    /// Returns the queries that ran for the last target.
     pub(crate) fn ran(&self) -> &BTreeSet<String> {
         &self.ran
     }

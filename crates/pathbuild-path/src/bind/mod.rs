@@ -188,7 +188,7 @@ impl<'a> Binder<'a> {
         Some(path)
     }
 
-    /// A marker, or a substitute for a missing one, so that the rest of the path can be checked.
+    /// Returns a marker, or a substitute for a missing one, so that the rest of the path can be checked.
     fn marker(&self, marker: Option<&Marker>) -> Option<Marker> {
         let raw = self.raw;
         let any = marker.or(raw.start.as_ref()).or(raw.end.as_ref()).cloned();
@@ -311,7 +311,7 @@ impl<'a> Binder<'a> {
         self.values.text(letter).map(Into::into)
     }
 
-    /// The checked values of an element's text. Problems are reported at the element.
+    /// Returns the checked values of an element's text. Problems are reported at the element.
     fn element_values(
         &mut self,
         at: FaultSite<'_>,
@@ -381,8 +381,8 @@ impl<'a> Binder<'a> {
     }
 }
 
-/// The last line of a regular expression error, which gives the reason. The lines before it show the position, which our own message shows
-/// already.
+/// Returns the last line of a regular expression error, which gives the reason. The lines before it show the position, as pathbuild's own message
+/// does.
 pub fn regex_reason(error: &regex::Error) -> Value {
     let text = error.to_string();
     let last = text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or_default();
@@ -408,7 +408,7 @@ const CUTTING_LETTERS: Letters = Letters::of(&[
     Letter::At,
 ]);
 
-/// Order of elements without N. (book: language/chains-and-passes)
+/// Order of elements without N among the segments that meet at a point. (book: language/chains-and-passes)
 const UNNUMBERED: f64 = 9998.0;
 
 impl Binder<'_> {
@@ -509,7 +509,7 @@ impl Binder<'_> {
         }
     }
 
-    /// The value of a letter for an element by the table of letters: its own or the path's. PB201 if it is required and neither gives it.
+    /// Returns the value of a letter for an element by the table of letters: its own or the path's. PB201 if it is required and neither gives it.
     fn value(&mut self, scope: &Scope<'_>, letter: Letter) -> Option<f64> {
         let given = scope.texts(&self.values).number(letter);
         // A letter that every path must have is reported once, at the path's start.
@@ -566,7 +566,7 @@ struct Scope<'a> {
 }
 
 impl<'a> Scope<'a> {
-    /// The texts that can give the element its parameters. Chains are not known yet, so the letters of chains come from the element itself.
+    /// Returns the texts that can give the element its parameters. Chains are not known yet, so the letters of chains come from the element itself.
     fn texts(&self, path: &'a Values<'a>) -> Texts<'a, 'a> {
         Texts { class: self.class, own: self.values, chain: None, path }
     }

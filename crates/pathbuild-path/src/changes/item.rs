@@ -32,7 +32,7 @@ pub(super) struct Item<'a> {
 /// A role, and the effective parameters that can change moves.
 type Effect<'i> = (Option<Role>, Vec<(Letter, &'i str)>);
 
-/// The elements and markers of a path.
+/// Returns the elements and markers of a path.
 pub(super) fn items(side: DrawnSide<'_>) -> Vec<Item<'_>> {
     let raw = side.raw;
     let first = usize::from(raw.start.is_some());
@@ -77,7 +77,7 @@ fn handle(side: DrawnSide<'_>, element: ElementId) -> Option<Handle> {
     side.positions.positions().get(element.0 as usize)?.handle
 }
 
-/// The effective parameters that can change moves.
+/// Returns the effective parameters that can change moves.
 fn moving_parameters(row: &ElementParameters) -> impl Iterator<Item = &Parameter> {
     row.parameters.iter().filter(|parameter| can_move(parameter.letter))
 }
@@ -89,18 +89,18 @@ fn can_move(letter: Letter) -> bool {
 }
 
 impl Item<'_> {
-    /// The start of a line or arc, or the centre of a circle.
+    /// Returns the start of a line or arc, or the centre of a circle.
     pub(super) fn at(&self) -> Xy {
         self.shape.point()
     }
 
-    /// The effect of the element on the moves, apart from its shape. It is equal for elements that are treated alike.
+    /// Returns the effect of the element on the moves, apart from its shape. It is equal for elements that are treated alike.
     pub(super) fn effect(&self) -> Effect<'_> {
         let values = self.parameters.iter().map(|parameter| (parameter.letter, parameter.value.as_str()));
         (self.role.map(comparable_role), values.collect())
     }
 
-    /// The line types of both versions, if they have different meanings.
+    /// Returns the line types of both versions, if they have different meanings.
     pub(super) fn line_type_change(&self, new: &Self) -> Option<[&'static str; 2]> {
         let (old_role, new_role) = (self.role?, new.role?);
         let is_changed = comparable_role(old_role) != comparable_role(new_role)
@@ -132,7 +132,7 @@ impl Item<'_> {
     }
 }
 
-/// The change of the path's own parameters, if it can change its moves.
+/// Returns the change of the path's own parameters, if it can change its moves.
 pub(super) fn start_text(old: DrawnSide<'_>, new: DrawnSide<'_>) -> Option<ElementChange> {
     // The cutter, the thickness, the path's own feed and its sweep height are used even if every element gives its own values.
     let is_used = |letter: Letter| {
@@ -176,7 +176,7 @@ fn differing_pieces(
 /// Maximum number of characters that are shown of a text.
 const MAX_SHOWN_CHARACTERS: usize = 200;
 
-/// The text, or its beginning if it is long.
+/// Returns the text, or its beginning if it is long.
 fn excerpt(text: &str) -> String {
     match text.char_indices().nth(MAX_SHOWN_CHARACTERS) {
         Some((end, _)) => format!("{}...", &text[..end]),
@@ -307,7 +307,7 @@ fn in_same_direction(old: &Curve, new: &Curve, shift: Vector2<f64>) -> Curve {
     if is_reversed { reversed } else { *new }
 }
 
-/// The point midway between the ends of a curve, or the centre of a circle. It does not depend on the drawn direction.
+/// Returns the point midway between the ends of a curve, or the centre of a circle. It does not depend on the drawn direction.
 pub(super) fn middle(shape: &Shape) -> Xy {
     match shape {
         Shape::Circle { centre, .. } => *centre,

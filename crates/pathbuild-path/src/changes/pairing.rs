@@ -49,7 +49,7 @@ impl Frame {
     }
 }
 
-/// The most frequent shift between elements of the same form, if at least two share it.
+/// Returns the most frequent shift between elements of the same form, if at least two share it.
 fn common_shift(old: &[Item<'_>], new: &[Item<'_>]) -> Option<Vector2<f64>> {
     let mut by_form: BTreeMap<_, [Vec<Xy>; 2]> = BTreeMap::new();
     for (side, items) in [old, new].into_iter().enumerate() {
@@ -222,7 +222,7 @@ impl<'i> Pairing<'i> {
     }
 }
 
-/// Upper bound on the candidates among which the nearest one is looked for, so that hostile drawings do not take quadratic time.
+/// Maximum number of candidates that are compared to find the nearest one, so that hostile drawings do not take quadratic time.
 const MAX_CANDIDATES: usize = 64;
 
 /// A vector rounded to whole micrometres, the last digit that programs show.
@@ -275,7 +275,7 @@ impl Outline {
 }
 
 impl Place {
-    /// The place of an element after a shift.
+    /// Returns the place of an element after a shift.
     fn of(item: &Item<'_>, shift: Vector2<f64>) -> Self {
         let Outline { first, form } = Outline::of(&item.shape);
         Self { kind: item.kind, form, first: micrometres(first.coords + shift) }
@@ -287,7 +287,7 @@ fn centre(item: &Item<'_>, place: Place) -> Option<Micrometres> {
     (item.kind == ElementKind::Circle).then_some(place.first)
 }
 
-/// Both ends of a line or arc, in a fixed order.
+/// Returns both ends of a line or arc, in a fixed order.
 fn ends(item: &Item<'_>, place: Place) -> Option<[Micrometres; 2]> {
     matches!(item.kind, ElementKind::Line | ElementKind::Arc).then(|| {
         let ([x, y], [along, up]) = (place.first, place.form.points[0]);
@@ -306,7 +306,7 @@ fn micrometre(value: f64) -> i64 {
     (value * 1000.0).round() as i64
 }
 
-/// The cell of a point in a grid of a hundredth of a millimetre.
+/// Returns the cell of a point in a grid of a hundredth of a millimetre.
 #[expect(clippy::cast_possible_truncation, reason = "saturates")]
 fn cell(point: Xy) -> [i64; 2] {
     [point.x, point.y].map(|value| (value * 100.0).floor() as i64)

@@ -45,7 +45,7 @@ impl FilePattern {
         Ok(Self(pattern))
     }
 
-    /// The names and ranges in the stem of a file name: first all ranges, then all names, including those at the ends of ranges.
+    /// Returns the names and ranges in the stem of a file name: first all ranges, then all names, including those at the ends of ranges.
     pub fn ranges(&self, stem: &str) -> Vec<NameRange> {
         let mut found = Vec::new();
         self.each_range(stem, |range| found.push(range));
@@ -73,7 +73,7 @@ impl FilePattern {
 }
 
 impl PathKey {
-    /// The key of a name; `None` if the path pattern does not match it.
+    /// Returns the key of a name; `None` if the path pattern does not match it.
     pub fn new(name: &str, pattern: &PathPattern) -> Option<Self> {
         pattern.groups(name).map(Self)
     }
@@ -208,7 +208,7 @@ impl FromIterator<(NameRange, u32)> for RangeTable {
 }
 
 impl RangeTable {
-    /// The numbers of the files that may define a path, in ascending order without duplicates.
+    /// Returns the numbers of the files that may define a path, in ascending order without duplicates.
     pub fn files(&self, path: &PathKey) -> Vec<u32> {
         let mut files = Vec::new();
         let mut take = |range: &NameRange, file: u32| {

@@ -88,7 +88,7 @@ impl PathPattern {
         Pattern::new(pattern, DefaultPattern::Path).map(Self)
     }
 
-    /// The path of a layer; `None` if it is not a path layer.
+    /// Returns the path of a layer; `None` if it is not a path layer.
     pub fn layer(&self, layer: &str) -> Option<PathLayer> {
         let name = without_tilde(layer);
         let path = with_points(name);
@@ -112,13 +112,13 @@ impl PathPattern {
         self.0.matches(name)
     }
 
-    /// The first path name in the text of a subpath, with its byte range.
+    /// Returns the first path name in the text of a subpath, with its byte range.
     pub fn first_in(&self, text: &str) -> Option<(PathName, Range<usize>)> {
         let found = self.0.find(text)?;
         Some((PathName(text[found.clone()].into()), found))
     }
 
-    /// The groups of a name, for comparison with file names. `None` if it does not match.
+    /// Returns the groups of a name, for comparison with file names. `None` if it does not match.
     pub(crate) fn groups(&self, name: &str) -> Option<Groups> {
         self.0.groups(name)
     }
@@ -205,12 +205,12 @@ impl Ord for PathName {
     }
 }
 
-/// A layer name with `_` replaced by `.`.
+/// Returns a layer name with `_` replaced by `.`.
 fn with_points(layer: &str) -> Cow<'_, str> {
     if layer.contains('_') { Cow::Owned(layer.replace('_', ".")) } else { Cow::Borrowed(layer) }
 }
 
-/// A layer's name without a trailing `~` and letters.
+/// Returns a layer's name without a trailing `~` and letters.
 fn without_tilde(layer: &str) -> &str {
     match layer.bytes().rposition(|byte| byte == b'~') {
         Some(at) if layer[at + 1..].chars().all(char::is_alphabetic) => &layer[..at],

@@ -197,7 +197,7 @@ impl LayerPattern {
         self.0.get().is_match(layer)
     }
 
-    /// The text of the first group that took part in matching a layer.
+    /// Returns the text of the first group that took part in matching a layer.
     pub(crate) fn captured<'l>(&self, layer: &'l str) -> Option<&'l str> {
         let captures = self.0.get().captures(layer)?;
         captures.iter().skip(1).flatten().next().map(|found| found.as_str())
@@ -246,7 +246,7 @@ struct Match {
 }
 
 impl DefaultPattern {
-    /// The pattern as a regular expression.
+    /// Returns the pattern as a regular expression.
     pub(crate) const fn source(self) -> &'static str {
         match self {
             Self::Path => "([0-9]{4})[.]([0-9]+)([A-Z])",
@@ -254,17 +254,17 @@ impl DefaultPattern {
         }
     }
 
-    /// The match of the whole text.
+    /// Returns the match if the text matches as a whole.
     fn whole(self, text: &str) -> Option<Match> {
         self.at(text, 0).filter(|found| found.range.end == text.len())
     }
 
-    /// The first match at or after a byte offset.
+    /// Returns the first match at or after a byte offset.
     fn find(self, text: &str, from: usize) -> Option<Match> {
         (from..text.len()).find_map(|start| self.at(text, start))
     }
 
-    /// All non-overlapping matches from left to right.
+    /// Returns all non-overlapping matches from left to right.
     fn find_all(self, text: &str) -> impl Iterator<Item = Match> {
         let mut from = 0;
         std::iter::from_fn(move || {
@@ -274,7 +274,7 @@ impl DefaultPattern {
         })
     }
 
-    /// All non-overlapping pairs of matches with a hyphen between them, from left to right.
+    /// Returns all non-overlapping pairs of matches with a hyphen between them, from left to right.
     fn find_ranges(self, text: &str) -> impl Iterator<Item = (Match, Match)> {
         let mut from = 0;
         let pair = move |start| {
@@ -315,7 +315,7 @@ impl DefaultPattern {
 }
 
 impl Match {
-    /// The groups of a match.
+    /// Returns the texts of the groups of a match.
     fn groups(&self, text: &str) -> Groups {
         let groups = [Some(&self.first), Some(&self.second), self.third.as_ref()];
         groups.into_iter().flatten().map(|group| text[group.clone()].into()).collect()

@@ -32,7 +32,7 @@ impl BoxIndex {
         Self::Many(RTree::bulk_load(boxed.collect()))
     }
 
-    /// The numbers of the boxes that intersect `extent`, in ascending order, so that no result depends on the shape of the tree.
+    /// Returns the numbers of the boxes that intersect `extent`, in ascending order, so that no result depends on the shape of the tree.
     pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> Vec<usize> {
         match self {
             Self::Few(boxes) => {

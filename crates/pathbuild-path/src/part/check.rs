@@ -270,7 +270,7 @@ mod tests {
     use crate::names::{LayerPattern, PathName};
     use crate::part::{CutElement, PartCut, PartRing, SlotPaths};
 
-    /// The sides of a rectangle, each in several pieces.
+    /// Returns the sides of a rectangle, each in several pieces.
     fn rectangle([left, low]: [f64; 2], [right, high]: [f64; 2], pieces: u32) -> Vec<Line> {
         let corners = [[left, low], [right, low], [right, high], [left, high]].map(Xy::from);
         let side = |number: usize| {

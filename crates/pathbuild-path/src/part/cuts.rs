@@ -77,7 +77,7 @@ pub struct StandingBar {
 pub const THROUGH_HEIGHT: f64 = 0.001 + 1e-6;
 
 impl PathCuts {
-    /// A finding about an element, by its index into [`Self::elements`].
+    /// Places a finding at an element, which is given as an index into [`Self::elements`].
     pub fn at_element(&self, element: u32, problem: Diagnostic) -> Diagnostic {
         self.elements[element as usize].origin.at(problem).in_path(self.name.as_str())
     }

@@ -63,7 +63,7 @@ pub(super) fn classify_cuts<'c>(
     judged
 }
 
-/// The cuts into a part, one for each path and element.
+/// Returns the cuts into a part, one for each path and element.
 pub(super) fn gouges<'j>(
     part: &PreparedPart<'_>,
     judged: impl Iterator<Item = &'j ClassifiedCut<'j>>,

@@ -63,7 +63,7 @@ impl BoundaryCandidates {
         }
     }
 
-    /// The places that lie on the curve, in order.
+    /// Returns the places that lie on the curve, in order.
     fn sorted(&mut self, length: f64) -> &[f64] {
         let mut kept = 0;
         for number in 0..self.count {
@@ -77,7 +77,7 @@ impl BoundaryCandidates {
     }
 }
 
-/// The point of a curve at a distance in mm along it.
+/// Returns the point of a curve at a distance in mm along it.
 pub(crate) fn at(curve: &Curve, along: f64) -> Xy {
     match curve {
         Curve::Line(Line { start, end }) => {
@@ -118,7 +118,7 @@ pub(crate) fn gaps_between(stretches: &[Stretch], (start, end): Stretch) -> Vec<
     gaps
 }
 
-/// The intersection of two sequences of joined stretches.
+/// Returns the intersection of two sequences of joined stretches.
 pub(crate) fn intersection(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
     let mut all = Vec::new();
     let (mut a, mut b) = (one.iter().peekable(), other.iter().peekable());
@@ -156,7 +156,7 @@ pub(crate) fn join_ends(mut stretches: Vec<Stretch>, whole: f64) -> Vec<Stretch>
     stretches
 }
 
-/// A curve shifted to the right, out of the material, by `distance` mm. `None` for an inner arc with a smaller radius.
+/// Returns a curve shifted to the right, out of the material, by `distance` mm. `None` for an inner arc with a smaller radius.
 pub(crate) fn offset_curve(curve: &Curve, distance: f64) -> Option<Curve> {
     match curve {
         Curve::Line(Line { start, end }) => {
@@ -204,7 +204,7 @@ fn cross_circle(along: &Curve, centre: Xy, radius: f64, cuts: &mut BoundaryCandi
     }
 }
 
-/// The places where the infinite line through a line crosses a circle, in mm along the line.
+/// Returns the places where the infinite line through a line crosses a circle, in mm along the line.
 fn line_and_circle(line: &Line, centre: Xy, radius: f64) -> Option<[f64; 2]> {
     let way = line.end - line.start;
     let squared = way.norm_squared();

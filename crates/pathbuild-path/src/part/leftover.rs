@@ -80,7 +80,7 @@ pub(super) struct LeftoverSearch<'s> {
     cuts: &'s CutIndex<'s>,
     /// The cuts near the part that go through the plate or shape an outline, by number.
     judged: &'s BTreeMap<usize, ClassifiedCut<'s>>,
-    /// The paths that cut the part out.
+    /// For each path, whether it cuts the part out.
     contours: &'s [bool],
     tolerance: f64,
     /// The elements, with their paths, that enter the part above the plate: grooves, which have no influence on the part's outline.
@@ -196,7 +196,7 @@ impl<'s> LeftoverSearch<'s> {
         all.unreachable.extend(shifted(intersection(&open, &corners)));
     }
 
-    /// The cuts near a curve that run beside the part, along this ring.
+    /// Returns the cuts near a curve that run beside the part, along this ring.
     fn cuts_beside(&self, curve: &RingCurve<'_>) -> impl Iterator<Item = &'s ClassifiedCut<'s>> {
         let ring = curve.ring;
         let judged = curve.near.iter().filter_map(|number| self.judged.get(number));
@@ -214,7 +214,7 @@ impl<'s> LeftoverSearch<'s> {
         })
     }
 
-    /// The stretches of a curve that are within the tolerance of through cuts, or of the support bars between them.
+    /// Returns the stretches of a curve that are within the tolerance of through cuts, or of the support bars between them.
     fn covered_stretches(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         let mut last = None;
@@ -232,7 +232,7 @@ impl<'s> LeftoverSearch<'s> {
         join_stretches(found, JOIN_GAP)
     }
 
-    /// The stretches of a curve near a cut beside the part: within O of a cut that goes through the plate, or reached by one that does not.
+    /// Returns the stretches of a curve near a cut beside the part: within O of a cut that goes through the plate, or reached by a cut that does not.
     fn close_stretches(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         for judged in self.cuts_beside(curve) {
@@ -243,7 +243,7 @@ impl<'s> LeftoverSearch<'s> {
         join_stretches(found, JOIN_GAP)
     }
 
-    /// The stretches that the smallest cutter beside a curve cannot reach without entering the part elsewhere.
+    /// Returns the stretches that the smallest cutter beside a curve cannot reach without entering the part elsewhere.
     fn unreachable_stretches(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let radii = self.cuts_beside(curve).map(|judged| judged.cut.radius);
         let Some(radius) = radii.min_by(f64::total_cmp) else { return Vec::new() };
@@ -346,7 +346,7 @@ impl<'s> LeftoverSearch<'s> {
         }
     }
 
-    /// The distance in mm from a point of an outline to the edge of the nearest cut of any depth, even above a bar.
+    /// Returns the distance in mm from a point of an outline to the edge of the nearest cut of any depth, even above a bar.
     fn distance(&self, at: Xy) -> f64 {
         let near = self.cuts.near(square(at, 0.0));
         let distances = self.contour_cuts(&near).map(|cut| cut.cut.way.curve.distance_to(at) - cut.radius);

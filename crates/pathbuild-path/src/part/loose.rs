@@ -116,7 +116,7 @@ fn is_ring_closed(centre: Xy, sweeps: &[SweptLine]) -> bool {
 /// Minimum overlap in mm for two sweeps to count as connected.
 const MIN_OVERLAP: f64 = 1e-6;
 
-/// The angle from one point to another as seen from `centre`, from -pi to pi.
+/// Returns the angle from one point to another as seen from `centre`, from -pi to pi.
 fn turn(centre: Xy, from: Xy, to: Xy) -> f64 {
     let (from, to) = (from - centre, to - centre);
     libm::atan2(from.perp(&to), from.dot(&to))
@@ -178,7 +178,7 @@ impl Groups {
     }
 }
 
-/// A point of the part near its edge that no cut covers.
+/// Returns a point of the part near its edge that no cut covers.
 fn point_in_material(part: &PreparedPart<'_>, cuts: &[(Curve, f64)], boxes: &BoxIndex) -> Option<Xy> {
     let mut curves: Vec<&Curve> = part.part.rings[0].curves.iter().collect();
     curves.sort_by(|one, other| other.length().total_cmp(&one.length()));
@@ -210,7 +210,7 @@ fn swept_lines(curve: &Curve, radius: f64) -> Vec<SweptLine> {
         .collect()
 }
 
-/// The nearest points of two lines.
+/// Returns the nearest points of two lines.
 fn nearest_points(one: &Line, other: &Line) -> (Xy, Xy) {
     let (along, across) = (one.end - one.start, other.end - other.start);
     let between = other.start - one.start;

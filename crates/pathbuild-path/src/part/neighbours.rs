@@ -123,12 +123,12 @@ impl<'c> PlacedCuts<'c> {
         severed.collect()
     }
 
-    /// The start of a part's outermost ring, as placed.
+    /// Returns the start of a part's outermost ring, as placed.
     pub fn start_of(&self, part: usize) -> Xy {
         self.placement.place(self.parts[part].rings[0].curves[0].start())
     }
 
-    /// The path as placed, with heights above a level.
+    /// Returns the path as placed, with heights above a level.
     fn placed(&self, level: f64) -> PathCuts {
         let raised = self.raised - level;
         let curve = |curve: &Curve| self.placement.place_curve(curve);

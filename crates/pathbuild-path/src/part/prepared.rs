@@ -68,12 +68,12 @@ impl<'p> PreparedPart<'p> {
         }
     }
 
-    /// The bounding box of the part.
+    /// Returns the bounding box of the part.
     pub(crate) fn extent(&self) -> AABB<[f64; 2]> {
         self.rings[0].extent
     }
 
-    /// The curves near a box, with their rings.
+    /// Returns the curves near a box, with their rings.
     pub(crate) fn curves_near(&self, extent: AABB<[f64; 2]>) -> impl Iterator<Item = (usize, &Curve)> {
         let near = self.curve_boxes.near(extent).into_iter();
         near.map(|number| (self.curves[number].0, &self.curves[number].1))

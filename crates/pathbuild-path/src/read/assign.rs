@@ -184,7 +184,7 @@ impl<'d> LayerTexts<'d> {
         self.origin(text.source, text.anchor()).at(diagnostic)
     }
 
-    /// The element that a text with this circle would belong to on this layer.
+    /// Returns the element that a text with this circle would belong to on this layer.
     fn possible_owner(
         &self,
         circle: &TextCircle,

@@ -112,7 +112,7 @@ impl SortedOutlines {
 }
 
 impl BrokenOutline {
-    /// A ring that crosses itself or another one.
+    /// Describes a ring that crosses itself or another one.
     fn crossing_ring(message: &'static Message, ring: &NumberedCurves, crossing: &Crossing) -> Self {
         Self {
             curve: ring[crossing.first.0].0,
@@ -123,13 +123,13 @@ impl BrokenOutline {
         }
     }
 
-    /// The half of an outline that a line closes, while the other half has a gap.
+    /// Describes the half of an outline that a line closes, while the other half has a gap.
     fn closed_half(ring: &NumberedCurves) -> Self {
         let border = EnclosedArea::new(&curves_of(ring));
         Self { curve: ring[0].0, at: ring[0].1.start(), problem: None, overlong: None, border }
     }
 
-    /// The outline that an open chain was probably meant to be: its ends cross or almost meet, or it is drawn round a ring.
+    /// Returns the outline that an open chain was probably meant to be: its ends cross or almost meet, or it is drawn round a ring.
     fn of_chain(chain: &NumberedCurves, rims: &OutermostRings) -> Option<Self> {
         Self::crossing(chain, rims).or_else(|| Self::with_gap(chain, rims))
     }
@@ -166,8 +166,8 @@ impl BrokenOutline {
     }
 }
 
-/// The outlines that open chains form between the points where they cross each other, if hardly any part of the chains lies beyond those
-/// points. An example are lines that overshoot all corners, as in `#`.
+/// Returns the outlines that open chains form between the points where they cross each other, if hardly any part of the chains lies beyond those
+/// points: for example, lines that overshoot all corners, as in `#`.
 fn overshooting(chains: &[NumberedCurves]) -> Vec<BrokenOutline> {
     let curves: Vec<(usize, usize, Curve)> = (0..)
         .zip(chains)
@@ -287,7 +287,7 @@ impl<'c> OpenSide<'c> {
         (at - self.begin).norm() > JOIN_DISTANCE
     }
 
-    /// The half that this chain forms if its end is near a point of the ring.
+    /// Returns the half that this chain forms if its end is near a point of the ring.
     fn closed_at_ring(&self, nodes: &RTree<NumberedPoint>) -> Option<OpenHalf> {
         let near = nodes.nearest_neighbor_iter([self.end.x, self.end.y]).take(MAX_NEIGHBOURS);
         let mut points = near.filter(|node| node.data == self.ring).map(|node| Xy::from(*node.geom()));
@@ -310,7 +310,7 @@ impl<'c> OpenSide<'c> {
         if number > own { self.closed(other.end, Some(other)) } else { None }
     }
 
-    /// The outline that this chain forms with the ring, if a small gap separates its end from a point of the ring, or from the end of another
+    /// Returns the outline that this chain forms with the ring, if a small gap separates its end from a point of the ring, or from the end of another
     /// chain.
     fn closed(&self, to: Xy, other: Option<&OpenSide<'_>>) -> Option<OpenHalf> {
         let gap = (to - self.end).norm();

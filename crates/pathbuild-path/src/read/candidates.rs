@@ -37,7 +37,7 @@ pub(crate) enum Owner {
 }
 
 impl Candidate {
-    /// The name of the element for messages.
+    /// Returns the name of the element for messages.
     pub(super) fn word(&self) -> &'static Text {
         match self.owner {
             Owner::Start => &words::PATH_START,
@@ -91,7 +91,7 @@ impl SearchBudget {
     }
 }
 
-/// The candidate that a text with this circle belongs to: the nearest overlapped circle, or else arc, or else line; the first of several at
+/// Returns the candidate that a text with this circle belongs to: the nearest overlapped circle, or else arc, or else line; the first of several at
 /// the same distance. `None` if the budget is exhausted.
 pub(crate) fn find(
     circle: &TextCircle,
@@ -137,7 +137,7 @@ pub(crate) fn find(
     })
 }
 
-/// The nearest candidate that a text overlaps and that has a text already.
+/// Returns the nearest candidate that a text overlaps and that has a text already.
 pub(crate) fn find_taken(
     circle: &TextCircle,
     candidates: &[Candidate],
@@ -158,7 +158,7 @@ pub(crate) fn find_taken(
     nearest.map(|(.., index)| index)
 }
 
-/// The nearest free candidate to a text that overlaps none; the first of several. `None` if the budget is exhausted.
+/// Returns the nearest free candidate to a text that overlaps none; the first of several. `None` if the budget is exhausted.
 pub(crate) fn nearest_miss(
     circle: &TextCircle,
     candidates: &[Candidate],
@@ -189,7 +189,7 @@ pub(crate) fn nearest_miss(
     nearest
 }
 
-/// The kind of overlap and the distance if a text overlaps a shape.
+/// Returns the kind of overlap and the distance if a text overlaps a shape.
 fn overlap(text: &TextCircle, shape: &Shape) -> Option<(OverlapKind, f64)> {
     match shape {
         Shape::Circle { centre, radius } => {
@@ -262,7 +262,7 @@ impl CandidateIndex {
         }
     }
 
-    /// The candidates, each with a lower bound for its distance in mm from a point, in ascending order.
+    /// Returns the candidates, each with a lower bound for its distance in mm from a point, in ascending order.
     fn nearest(&self, point: Xy) -> Box<dyn Iterator<Item = (usize, f64)> + '_> {
         let at_least = |squared: f64| libm::sqrt(squared) - BOX_MARGIN;
         match self {
@@ -276,7 +276,7 @@ impl CandidateIndex {
     }
 }
 
-/// The bounding box of a shape; an arc gets that of its whole circle.
+/// Returns the bounding box of a shape; an arc gets that of its whole circle.
 fn box_around(shape: &Shape) -> AABB<[f64; 2]> {
     match shape {
         Shape::Circle { centre, radius } => square(*centre, *radius),
@@ -358,7 +358,7 @@ mod tests {
         }
     }
 
-    /// A number of lines through one point.
+    /// Returns this number of lines through one point.
     fn bundle(count: usize) -> Vec<Candidate> {
         let line = Shape::Curve(Curve::Line(Line { start: Xy::new(-1.0, 0.0), end: Xy::new(1.0, 0.0) }));
         (0..count).map(|_| candidate((line, false))).collect()

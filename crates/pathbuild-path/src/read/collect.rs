@@ -67,7 +67,7 @@ pub(super) struct SharedProblem {
     count: usize,
 }
 
-/// The paths of a drawing in order of first appearance, before their texts are assigned.
+/// Collects the paths of a drawing in order of first appearance, before their texts are assigned.
 pub(super) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<PathCollector<'d>> {
     let layers = PathLayers::find(drawing, &language.path_pattern);
     let mut paths: Vec<_> = layers.by_path().map(|layers| PathCollector::new(drawing, layers)).collect();
@@ -127,7 +127,7 @@ impl PathCollector<'_> {
         path
     }
 
-    /// Findings about the texts of layers that have a path name but contain nothing else.
+    /// Returns the findings about the texts of layers that have a path name but contain nothing else.
     pub(crate) fn orphans(mut self) -> Vec<Diagnostic> {
         take(&mut self.texts).assign(&mut self, 0.0);
         let mut diagnostics = take(&mut self.diagnostics);
@@ -210,7 +210,7 @@ impl PathCollector<'_> {
         }
     }
 
-    /// The text that belongs to an owner.
+    /// Returns the text that belongs to an owner.
     pub(super) fn text_of(&self, owner: Owner) -> Option<ParameterText<'_>> {
         let text = match owner {
             Owner::Start => self.start.as_ref()?.text?,
@@ -343,7 +343,7 @@ impl PathLayers {
         by_path(&self.found)
     }
 
-    /// The membership of a layer; `None` if it is not a path layer.
+    /// Returns the membership of a layer; `None` if it is not a path layer.
     pub(super) fn membership(&self, layer: u32) -> Option<Membership> {
         self.memberships[layer as usize]
     }
@@ -514,7 +514,7 @@ impl<'d> PathCollector<'d> {
     }
 }
 
-/// A length with enough digits to distinguish it from a similar one: 1.0001, not 1.
+/// Returns a length with enough digits to distinguish it from a similar length: 1.0001, not 1.
 fn exact_length(length: f64) -> Value {
     let is_shown = (length * 1000.0 - (length * 1000.0).round()).abs() <= 1e-6;
     if is_shown { length.into() } else { Value::quoted(format!("{length:.9}").trim_end_matches('0')) }
@@ -554,7 +554,7 @@ impl PathCollector<'_> {
         }
     }
 
-    /// The first circle of unknown line type with the diameter of this marker.
+    /// Returns the first circle of unknown line type with the diameter of this marker.
     fn take_unclear(&mut self, meant: IntendedMarker) -> Option<Marker> {
         let index = self.unclear.iter().position(|circle| circle.meant == meant)?;
         let marker = self.unclear.remove(index).marker;
@@ -620,7 +620,7 @@ impl PathCollector<'_> {
         Diagnostic::new(message).quoting("name", self.name.as_str()).quoting("layer", &*marker.origin.layer)
     }
 
-    /// The marker that a circle among the elements would be.
+    /// Returns the marker that a circle among the elements would be.
     fn marker_of(&self, index: usize, texts: &Texts<'_>) -> Marker {
         let element = &self.elements[index];
         let at = element.shape.point();

@@ -24,7 +24,7 @@ pub(super) enum AnyText<'d> {
 }
 
 impl<'d> FoundText<'d> {
-    /// The string as in the drawing.
+    /// Returns the string as in the drawing.
     pub(super) fn string(&self) -> &'d str {
         self.text.string()
     }
@@ -43,7 +43,7 @@ impl<'d> FoundText<'d> {
 }
 
 impl<'d> AnyText<'d> {
-    /// The text, if the entity is one.
+    /// Returns the text, if the entity is one.
     pub(super) fn of(geometry: &'d Geometry) -> Option<Self> {
         match geometry {
             Geometry::Text(text) => Some(Self::Text(text)),
@@ -52,7 +52,7 @@ impl<'d> AnyText<'d> {
         }
     }
 
-    /// The string as in the drawing.
+    /// Returns the string as in the drawing.
     pub(super) fn string(self) -> &'d str {
         match self {
             Self::Text(text) => &text.string,
@@ -85,7 +85,7 @@ pub struct TextCircle {
 const LETTER_WIDTH: f64 = 0.6;
 
 impl TextCircle {
-    /// The circle of a single-line text.
+    /// Returns the circle of a single-line text.
     pub fn of_text(text: &Text) -> Self {
         let width = LETTER_WIDTH * text.height * text.string.chars().count() as f64;
         let mut offset = offset(text.horizontal, text.vertical, width, text.height);
@@ -102,7 +102,7 @@ impl TextCircle {
         }
     }
 
-    /// The circle of a multi-line text.
+    /// Returns the circle of a multi-line text.
     pub fn of_mtext(text: &MText) -> Self {
         let letter = LETTER_WIDTH * text.height;
         let room = text.width.map_or(f64::INFINITY, |width| width / letter);
@@ -118,22 +118,22 @@ impl TextCircle {
         }
     }
 
-    /// The distance between the centres of this circle and another one.
+    /// Returns the distance between the centres of this circle and another one.
     pub fn distance_to_centre(&self, centre: Xy) -> f64 {
         (centre - self.centre).norm()
     }
 
-    /// The distance from the centre of this circle to the rim of another one.
+    /// Returns the distance from the centre of this circle to the rim of another one.
     pub(crate) fn distance_to_circle(&self, centre: Xy, radius: f64) -> f64 {
         ((self.centre - centre).norm() - radius).abs()
     }
 
-    /// The distance from the circle's centre to an arc, if the radial projection of the centre lies on the arc.
+    /// Returns the distance from the circle's centre to an arc, if the radial projection of the centre lies on the arc.
     pub fn distance_to_arc(&self, arc: &Arc) -> Option<f64> {
         arc.spans(self.centre - arc.centre).then(|| self.distance_to_circle(arc.centre, arc.radius))
     }
 
-    /// The distance from the circle's centre to a line, if the foot of the perpendicular lies on the line.
+    /// Returns the distance from the circle's centre to a line, if the foot of the perpendicular lies on the line.
     pub fn distance_to_line(&self, line: &Line) -> Option<f64> {
         let direction = line.end - line.start;
         let length = direction.norm();
@@ -145,7 +145,7 @@ impl TextCircle {
         (0.0..=length).contains(&foot).then(|| (direction.perp(&out) / length).abs())
     }
 
-    /// The gap between the rim of the circle and a curve, for help; 0 if they touch.
+    /// Returns the gap between the rim of the circle and a curve, for help; 0 if they touch.
     pub fn gap_to(&self, curve: &Curve) -> f64 {
         let beside = match curve {
             Curve::Line(line) => self.distance_to_line(line),
@@ -183,7 +183,7 @@ impl Iterator for Rows<'_> {
     }
 }
 
-/// The vector from the anchor to the centre of an unrotated text.
+/// Returns the vector from the anchor to the centre of an unrotated text.
 fn offset(horizontal: HorizontalAlign, vertical: VerticalAlign, width: f64, height: f64) -> Vector2<f64> {
     let right = match horizontal {
         HorizontalAlign::Left => width / 2.0,
@@ -211,7 +211,7 @@ pub(super) fn plane_arc(arc: &pathbuild_dxf::Arc) -> Arc {
     Arc::from_angles(xy(arc.centre), arc.radius, arc.start_angle, arc.end_angle, arc.clockwise)
 }
 
-/// The curve of a line or an arc.
+/// Returns the curve of a line or an arc.
 pub(super) fn curve(geometry: &Geometry) -> Option<Curve> {
     match geometry {
         Geometry::Line(line) => Some(Curve::Line(Line { start: xy(line.start), end: xy(line.end) })),
@@ -220,7 +220,7 @@ pub(super) fn curve(geometry: &Geometry) -> Option<Curve> {
     }
 }
 
-/// The start, centre or anchor of an entity.
+/// Returns the start, centre or anchor of an entity.
 pub(super) fn begin(geometry: &Geometry) -> Xy {
     match geometry {
         Geometry::Line(line) => xy(line.start),

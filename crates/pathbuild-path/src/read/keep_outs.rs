@@ -19,7 +19,7 @@ use crate::letter::Letter;
 use crate::read::entities::{AnyText, TextCircle, at_entity, curve, xy};
 use crate::text::{ParameterText, ParameterTexts, ValueKind, without_percent_codes};
 
-/// The clamps of a drawing. At least the layers with clamps must have been read.
+/// Finds the clamps of a drawing. At least the layers with clamps must have been read.
 pub fn keep_outs(drawing: &Drawing, language: &Language) -> KeepOuts {
     let mut found = KeepOuts::default();
     let Some(pattern) = &language.keep_out else { return found };
@@ -105,18 +105,18 @@ pub(super) fn unread_clamps(
     found
 }
 
-/// A map of outlines to be searched with [`at_point`].
+/// Creates a map of outlines to be searched with [`at_point`].
 fn flat_map<'k>(outlines: impl Iterator<Item = &'k [Curve]>) -> KeepOutMap {
     KeepOutMap::new(outlines.map(|outline| (1.0, outline)))
 }
 
-/// The numbers of the outlines that a disc around a point overlaps. `radius` in mm.
+/// Returns the numbers of the outlines that a disc around a point overlaps. `radius` in mm.
 fn at_point(map: &KeepOutMap, centre: Xy, radius: f64) -> Vec<usize> {
     let way = TipMove { curve: Curve::Line(Line { start: centre, end: centre }), from_z: 0.0, to_z: 0.0 };
     map.entered_clamps(&way, radius, 0.0)
 }
 
-/// The indices of the entities on each layer.
+/// Returns the indices of the entities on each layer.
 fn by_layer(drawing: &Drawing) -> Vec<Vec<usize>> {
     let mut layers = vec![Vec::new(); drawing.layers.len()];
     for (number, entity) in drawing.entities.iter().enumerate() {
@@ -157,7 +157,7 @@ struct ClosedOutline {
 }
 
 impl ClampReader<'_> {
-    /// The clamps on the layer, unless the layer has errors.
+    /// Returns the clamps on the layer, unless the layer has errors.
     fn clamps(&mut self, entities: &[usize]) -> Vec<KeepOut> {
         if self.layer.hidden {
             self.report(on_layer(&self.layer.name, Diagnostic::new(&messages::CLAMPS_NOT_VISIBLE)));
@@ -215,7 +215,7 @@ impl ClampReader<'_> {
         self.report(problem);
     }
 
-    /// A point of the entity that is not at Z 0.
+    /// Returns a point of the entity that is not at Z 0.
     fn point_off_plane(&self, entity: usize) -> Option<Point3> {
         let points: &[Point3] = match &self.drawing.entities[entity].geometry {
             Geometry::Line(line) => &[line.start, line.end],
@@ -323,7 +323,7 @@ impl ClampReader<'_> {
         None
     }
 
-    /// The height given by a text.
+    /// Returns the height given by a text.
     fn height_in(&mut self, number: usize, text: AnyText<'_>) -> Option<f64> {
         let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
         let read = texts.first().unwrap_or_default();
@@ -355,7 +355,7 @@ impl<'d> OutlineTexts<'d> {
     }
 }
 
-/// The corners of the box around curves.
+/// Returns the corners of the box around curves.
 fn box_around(curves: &[Curve]) -> Option<[Xy; 2]> {
     let boxes = curves.iter().map(|curve| match curve {
         Curve::Line(line) => [line.start.inf(&line.end), line.start.sup(&line.end)],
@@ -367,7 +367,7 @@ fn box_around(curves: &[Curve]) -> Option<[Xy; 2]> {
     boxes.reduce(|[low, high], [other_low, other_high]| [low.inf(&other_low), high.sup(&other_high)])
 }
 
-/// The height in a text of the form `Z25`.
+/// Returns the height in a text of the form `Z25`.
 fn height(text: ParameterText<'_>) -> Option<f64> {
     let [piece] = text.pieces() else { return None };
     match (piece.letter, piece.written) {
@@ -376,7 +376,7 @@ fn height(text: ParameterText<'_>) -> Option<f64> {
     }
 }
 
-/// A text on one line, for messages.
+/// Returns a text on one line, for messages.
 fn one_line(text: AnyText<'_>) -> String {
     without_percent_codes(text.string()).trim_end().replace('\n', " ")
 }
@@ -407,7 +407,7 @@ pub(crate) enum Ring {
     Branch { part: RingPart, at: Xy },
 }
 
-/// The rings formed by curves: first polylines that are closed themselves, then everything else.
+/// Returns the rings formed by curves: first polylines that are closed themselves, then everything else.
 pub(crate) fn rings(parts: &[RingPart]) -> Vec<Ring> {
     let (mut rings, mut loose) = (Vec::new(), Vec::new());
     for polyline in parts.chunk_by(|one, other| one.group.is_some() && one.group == other.group) {
@@ -510,7 +510,7 @@ impl<'p> RingBuilder<'p> {
         (ring, end)
     }
 
-    /// The only end that this end meets, if that other end meets no further one.
+    /// Returns the only end that this end meets, if that end meets no further end.
     fn next(&self, end: CurveEnd) -> Option<CurveEnd> {
         let Junction::One(next) = self.junctions[end] else { return None };
         (self.junctions[next] == Junction::One(end)).then_some(next)

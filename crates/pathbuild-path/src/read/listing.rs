@@ -51,7 +51,7 @@ pub struct AssignedElement {
     pub shape: Shape,
 }
 
-/// The texts on the path layers of a drawing, in file order.
+/// Returns the texts on the path layers of a drawing, in file order.
 pub fn assigned_texts(drawing: &Drawing, language: &Language) -> Vec<AssignedText> {
     let entities = entities_by_path(drawing, language);
     let mut texts: Vec<AssignedText> = Vec::new();
@@ -91,7 +91,7 @@ fn assigned(
     }
 }
 
-/// The entities of each path in file order, which is the order of element numbers.
+/// Returns the entities of each path in file order, which is the order of element numbers.
 fn entities_by_path<'d>(drawing: &'d Drawing, language: &Language) -> BTreeMap<PathName, Vec<&'d Entity>> {
     let paths = drawing.layers.iter().map(|layer| language.path_pattern.layer(&layer.name));
     let paths: Vec<Option<PathName>> = paths.map(|layer| layer.map(|layer| layer.path)).collect();
@@ -133,7 +133,7 @@ impl ProxyLine {
             .filter(|name| !name.is_part_of_word(value))
     }
 
-    /// The value of a letter. `None` if it refers to variables, which belong to the project that the line is copied into.
+    /// Returns the value of a letter. `None` if it refers to variables, which belong to the project that the line is copied into.
     pub fn value(&self, letter: Letter) -> Option<(&str, TextFault)> {
         self.known(self.text().piece(letter)?)
     }
@@ -153,7 +153,7 @@ impl ProxyLine {
     }
 }
 
-/// The proxy lines of a drawing in file order. The drawing must contain all layers; other texts and lines are ignored.
+/// Returns the proxy lines of a drawing in file order. The drawing must contain all layers; other texts and lines are ignored.
 pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
     let is_path: Vec<bool> =
         drawing.layers.iter().map(|layer| language.path_pattern.is_layer(&layer.name)).collect();

@@ -65,13 +65,13 @@ impl Graph {
         });
     }
 
-    /// The point where a half-edge begins.
+    /// Returns the point where a half-edge begins.
     pub(super) fn end(&self, half_edge: usize) -> Xy {
         let curve = &self.curves[half_edge / 2];
         if half_edge.is_multiple_of(2) { curve.start() } else { curve.end() }
     }
 
-    /// Pairs of loose ends that almost meet, each as the half-edges that begin there.
+    /// Returns the pairs of loose ends that almost meet, each as the half-edges that begin there.
     pub(super) fn near_misses(&self) -> Vec<(usize, usize)> {
         let mut degrees = vec![0; self.tails.len()];
         let ends = || self.numbers.iter().flat_map(|number| [2 * number, 2 * number + 1]);
@@ -96,7 +96,7 @@ impl Graph {
         pairs
     }
 
-    /// The outer rings of all connected curves, counterclockwise, each curve with its number. Curves with the same area on both sides are
+    /// Returns the outer rings of all connected curves, counterclockwise, each curve with its number. Curves with the same area on both sides are
     /// dropped: dangling chains, and lines from one ring to another. A ring that crosses itself may run either way round.
     pub(super) fn rings(&self) -> Vec<NumberedCurves> {
         let outer = self.faces(&self.dividing_curves()).into_iter().filter(|face| {
@@ -131,8 +131,8 @@ impl Graph {
         self.numbers.iter().copied().filter(divides).collect()
     }
 
-    /// The longest chain of each connected group of curves that belong to no ring. Ends that almost meet count as joined, except for the
-    /// two ends of a chain.
+    /// Returns the longest chain of each connected group of curves that belong to no ring. Ends that almost meet count as joined, except for the two
+    /// ends of a chain.
     pub(super) fn open_chains(&self) -> Vec<NumberedCurves> {
         let dividing = self.dividing_curves().into_iter().collect();
         let mut forest = Forest::new(self, &dividing);
@@ -142,7 +142,7 @@ impl Graph {
         roots.into_iter().filter(|root| known.insert(*root)).map(|root| forest.longest_chain(root)).collect()
     }
 
-    /// The longest chain from a ring in each connected group of curves that belong to no ring. Ends that almost meet count as joined.
+    /// Returns the longest chain from a ring in each connected group of curves that belong to no ring. Ends that almost meet count as joined.
     pub(super) fn hanging_chains(&self) -> Vec<NumberedCurves> {
         let dividing: BTreeSet<usize> = self.dividing_curves().into_iter().collect();
         let mut forest = Forest::new(self, &dividing);
@@ -161,7 +161,7 @@ impl Graph {
         if half_edge.is_multiple_of(2) { curve } else { curve.reversed() }
     }
 
-    /// The faces of the kept curves, each on the left of its half-edges.
+    /// Returns the faces of the kept curves, each on the left of its half-edges.
     fn faces(&self, curves: &[usize]) -> Vec<Vec<usize>> {
         let half_edges = || curves.iter().flat_map(|curve| [2 * curve, 2 * curve + 1]);
         let mut outgoing: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
@@ -200,7 +200,7 @@ impl Graph {
         faces
     }
 
-    /// The area inside half-edges in mm², positive if they run counterclockwise.
+    /// Returns the area inside half-edges in mm², positive if they run counterclockwise.
     fn area(&self, face: &[usize]) -> f64 {
         let origin = self.end(face[0]);
         face.iter().map(|half_edge| self.directed_curve(*half_edge).area_from(origin)).sum()
@@ -219,7 +219,7 @@ struct Forest<'g> {
 }
 
 impl<'g> Forest<'g> {
-    /// The curves that are not in `dividing`. Ends that almost meet become one node, except for the two ends of a tree.
+    /// Creates the forest of the curves that are not in `dividing`. Ends that almost meet become one node, except for the two ends of a tree.
     fn new(graph: &'g Graph, dividing: &BTreeSet<usize>) -> Self {
         let open = || graph.numbers.iter().copied().filter(|number| !dividing.contains(number));
         let mut trees: Vec<usize> = (0..graph.tails.len()).collect();
@@ -241,7 +241,7 @@ impl<'g> Forest<'g> {
         Self { graph, nodes, outgoing, trees }
     }
 
-    /// The longest chain in the tree that contains a node.
+    /// Returns the longest chain in the tree that contains a node.
     fn longest_chain(&self, node: usize) -> NumberedCurves {
         let one_end = self.half_edges_to_farthest(self.nodes[node]).last().map_or(node, |last| last ^ 1);
         self.chain(self.half_edges_to_farthest(self.nodes[one_end]))
@@ -282,7 +282,7 @@ fn unite(groups: &mut [usize], one: usize, other: usize) -> bool {
     one != other
 }
 
-/// The first node of a group.
+/// Returns the first node of a group.
 fn root(groups: &mut [usize], node: usize) -> usize {
     let mut root = node;
     while groups[root] != root {

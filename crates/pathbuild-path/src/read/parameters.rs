@@ -178,7 +178,7 @@ impl PathCheck<'_> {
     }
 }
 
-/// The path named by @, with its start.
+/// Returns the path named by @, with its start.
 fn referenced<'s>(
     text: ParameterText<'_>,
     piece: &LetterValue,

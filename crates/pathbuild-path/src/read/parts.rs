@@ -18,7 +18,7 @@ use crate::read::outline_graph::Graph;
 use crate::read::rings::{JOIN_DISTANCE, curves_of, nesting};
 use crate::read::stray::may_be_stray_text;
 
-/// The parts of a drawing. At least the layers with parts must have been read.
+/// Finds the parts of a drawing. At least the layers with parts must have been read.
 pub fn parts(drawing: &Drawing, language: &Language) -> DrawnParts {
     let mut found = DrawnParts::default();
     let Some(settings) = &language.part else { return found };
@@ -66,7 +66,7 @@ struct OutlineCurve {
 struct OutlineLayers<'d> {
     drawing: &'d Drawing,
     language: &'d Language,
-    /// The layers with parts.
+    /// For each layer of the drawing, whether it holds parts.
     layers: Vec<bool>,
     /// The curves, by the name that the pattern captures in the name of their layer.
     curves: BTreeMap<Option<SmolStr>, Vec<OutlineCurve>>,

@@ -21,7 +21,7 @@ pub(super) fn curves_of(chain: &NumberedCurves) -> Vec<Curve> {
     chain.iter().map(|(_, curve)| *curve).collect()
 }
 
-/// The area of a ring in mm².
+/// Returns the area of a ring in mm².
 fn area(ring: &[Curve]) -> f64 {
     let origin = ring[0].start();
     ring.iter().map(|curve| curve.area_from(origin)).sum::<f64>().abs()
@@ -67,7 +67,7 @@ pub(super) struct Crossing {
 }
 
 impl Crossing {
-    /// The curves from the first passage to the second.
+    /// Returns the curves from the first passage to the second.
     pub(super) fn between(&self, curves: &[Curve]) -> Vec<Curve> {
         let ((first, from), (second, to)) = (self.first, self.second);
         let begin = curves[first].section(from, curves[first].length());
@@ -96,7 +96,8 @@ pub(super) fn self_crossing(curves: &[Curve]) -> Option<Crossing> {
     })
 }
 
-/// The places in mm along each curve where others cross it, in ascending order. There are no places if too many curves would have to be compared.
+/// Returns the places in mm along each curve where others cross it, in ascending order. There are no places if too many curves would have to be
+/// compared.
 pub(super) fn crossings(curves: &[Curve]) -> Vec<Vec<f64>> {
     let boxes = BoxIndex::new(curves.iter().map(|curve| widened_box(curve, 0.0)));
     let mut compared = 0;
@@ -117,7 +118,7 @@ pub(super) fn crossings(curves: &[Curve]) -> Vec<Vec<f64>> {
     cuts
 }
 
-/// The rings that cross the rim of a larger one, each with the crossing, which refers to the ring's own curves.
+/// Returns the rings that cross the rim of a larger one, each with the crossing, which refers to the ring's own curves.
 pub(super) fn crossed_rings(rings: &[NumberedCurves], is_outermost: &[bool]) -> Vec<(usize, Crossing)> {
     let all: Vec<(usize, usize, Curve)> = (0..)
         .zip(rings)
@@ -144,7 +145,7 @@ pub(super) fn crossed_rings(rings: &[NumberedCurves], is_outermost: &[bool]) -> 
     found
 }
 
-/// The place in mm along a curve where it crosses another one. A curve that ends on the other only touches it.
+/// Returns the place in mm along a curve where it crosses another one. A curve that ends on the other only touches it.
 fn crossing(along: &Curve, other: &Curve) -> Option<f64> {
     let mut near: Vec<Stretch> = Vec::new();
     add_stretches_within(along, other, JOIN_DISTANCE, &mut near);

@@ -45,7 +45,7 @@ pub fn may_be_stray_text(text: &[u8]) -> bool {
     letters.any(|(at, _)| is_begin(&text[..at]) && has_value(&text[at + 1..]))
 }
 
-/// A text without the mistakes that would be errors on the layer of a path, but do not hide its meaning: lower-case letters, spaces before
+/// Returns a text without the mistakes that would be errors on the layer of a path, but do not hide its meaning: lower-case letters, spaces before
 /// values, and commas between parameters.
 fn without_mistakes(text: &str) -> String {
     let mut meant = String::with_capacity(text.len());
@@ -174,8 +174,8 @@ pub fn is_near_clamps_or_parts(layer: &str, language: &Language) -> bool {
 /// Length in characters below which a name resembles too many others.
 const MIN_NAME_CHARACTERS: usize = 4;
 
-/// Whether a name that a pattern does not match would match without a tilde and the text after it, without up to two characters at its end, or
-/// with another plural ending. Spaces are ignored, and look-alikes are replaced by plain characters.
+/// Whether a name that a pattern does not match would match after one of these changes: removing a tilde and the text after it, removing up to two
+/// characters at the end, or replacing a plural ending by another. Spaces are ignored, and look-alikes are replaced by plain characters.
 fn nearly_matches(layer: &str, is_layer: &dyn Fn(&str) -> bool) -> bool {
     let plain = look_alikes::with_keyboard_characters(layer);
     let plain = plain.split('~').next().unwrap_or_default().trim_end();

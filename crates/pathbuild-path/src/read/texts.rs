@@ -51,12 +51,12 @@ impl<'d> Texts<'d> {
         self.layers.push(LayerTexts { name: name.into(), ..LayerTexts::default() });
     }
 
-    /// The names of the layers in order.
+    /// Returns the names of the layers in order.
     pub(super) fn layer_names(self) -> Vec<SmolStr> {
         self.layers.into_iter().map(|layer| layer.name).collect()
     }
 
-    /// The location of an entity that starts, or has its centre, at a point.
+    /// Returns the location of an entity that starts, or has its centre, at a point.
     pub(crate) fn origin(&self, source: Source, point: Xy) -> Origin {
         self.layers[source.layer as usize].origin(source, point)
     }
@@ -116,7 +116,7 @@ impl<'d> Texts<'d> {
         &mut self.layers[layer as usize]
     }
 
-    /// Each text with its circle and its candidates, layer by layer.
+    /// Returns each text with its circle and its candidates, layer by layer.
     pub(crate) fn match_texts(mut self) -> Vec<TextMatch<'d>> {
         let mut matched = Vec::new();
         let budget = SearchBudget::new(MAX_EXAMINED_ELEMENTS);
@@ -144,7 +144,7 @@ impl<'d> Texts<'d> {
         }
     }
 
-    /// The candidates without a text that a text with this circle would belong to, each with its layer name.
+    /// Returns the candidates without a text that a text with this circle would belong to, each with its layer name.
     pub(super) fn free_candidates<'t>(
         &'t self,
         circle: &'t TextCircle,

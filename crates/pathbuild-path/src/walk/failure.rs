@@ -84,7 +84,7 @@ impl Walker<'_> {
         if is_told { problem } else { self.with_duplicate(problem) }
     }
 
-    /// A segment that passes through a point without ending there.
+    /// Returns a segment that passes through a point without ending there.
     fn segment_through(&self, point: Xy) -> Option<usize> {
         let at = TextCircle { centre: point, radius: 0.0 };
         let is_on = |curve: Curve| {
@@ -111,7 +111,7 @@ impl Walker<'_> {
             .with("end", diagnostic_point(self.path.end)))
     }
 
-    /// The segments that were not reached.
+    /// Returns the segments that were not reached.
     pub(super) fn unreached_segments(&self) -> impl Iterator<Item = usize> {
         let open = self.is_traversed.iter().enumerate().filter(|(_, traversed)| !**traversed);
         open.map(|(segment, _)| segment)
@@ -123,7 +123,7 @@ impl Walker<'_> {
         self.with_left_out(self.with_duplicate(problem), point)
     }
 
-    /// The nearest end of a remaining segment, with its distance.
+    /// Returns the nearest end of a remaining segment, with its distance.
     pub(super) fn nearest_end(&self, point: Xy) -> Option<(usize, Xy, f64)> {
         let ends =
             self.unreached_segments().flat_map(|segment| self.ends.of(segment).map(|end| (segment, end)));

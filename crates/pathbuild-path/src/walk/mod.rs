@@ -174,7 +174,7 @@ impl<'a> Walker<'a> {
         Ok(())
     }
 
-    /// The end at which the walk continues after a small gap, to find independent problems.
+    /// Returns the end at which the walk continues after a small gap, to find independent problems.
     fn end_beyond_gap(&self, problem: Option<&Diagnostic>) -> Option<Xy> {
         let is_gap = problem.is_some_and(|problem| problem.message == &paths::NOTHING_CONTINUES);
         let (_, end, distance) =
@@ -261,7 +261,7 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// The passage along a segment that ends near the current point. Holes, circles and arcs stay in place.
+    /// Returns the passage along a segment that ends near the current point. Holes, circles and arcs stay in place.
     fn joined_passage(&self, number: usize, passage: Passage, is_return: bool) -> Passage {
         let segment = &self.path.segments[number];
         let is_nearer_at_end = (passage.end - self.at).norm() < (passage.start - self.at).norm();
@@ -345,7 +345,7 @@ impl OpenEnds {
         }
     }
 
-    /// The segment with the end nearest to a point, and its distance; the first of several.
+    /// Returns the segment with the end nearest to a point, and its distance; the first of several.
     fn nearest(&self, point: Xy) -> Option<(usize, f64)> {
         let by_distance = self.points.nearest_neighbor_iter([point.x, point.y]);
         let mut points = by_distance.map(|end| (end, (Xy::from(*end) - point).norm())).peekable();
@@ -356,7 +356,7 @@ impl OpenEnds {
     }
 }
 
-/// The ends of a segment as keys; zeros get a positive sign, since points are compared by their bits.
+/// Returns the ends of a segment as keys; zeros get a positive sign, since points are compared by their bits.
 fn of(segment: usize, ends: &Ends) -> [[f64; 2]; 2] {
     ends.of(segment).map(|end| [end.x + 0.0, end.y + 0.0])
 }

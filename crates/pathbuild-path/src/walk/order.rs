@@ -21,7 +21,7 @@ pub(super) fn comes_before(path: &Path, ends: &Ends, a: usize, b: usize) -> bool
     if near(length, other) { a < b } else { length < other }
 }
 
-/// The order and preference of a segment.
+/// Returns the order and preference of a segment.
 fn rank(path: &Path, segment: usize) -> (f64, u8) {
     let segment = &path.segments[segment];
     (segment.order, segment.preference())
@@ -97,7 +97,7 @@ impl Star {
         Self { corners, groups: groups.collect() }
     }
 
-    /// The next segment. Since lengths in different groups are not near each other, scanning the first group gives the same result as
+    /// Returns the next segment. Since lengths in different groups are not near each other, scanning the first group gives the same result as
     /// scanning all segments.
     pub(super) fn next(&mut self, path: &Path, ends: &Ends, is_traversed: &[bool]) -> Option<usize> {
         while let Some(group) = self.groups.last_mut() {
@@ -163,7 +163,7 @@ impl Turns {
         found
     }
 
-    /// The markers that were never used.
+    /// Returns the markers that were never used.
     pub(super) fn unused(&self) -> impl Iterator<Item = usize> {
         (0..self.first.len()).filter(|turn| !self.has_acted[self.first[*turn]])
     }
@@ -239,7 +239,7 @@ impl Ends {
         Self { segments, buckets }
     }
 
-    /// The start and end of a segment as drawn.
+    /// Returns the start and end of a segment as drawn.
     pub(super) fn of(&self, segment: usize) -> [Xy; 2] {
         self.segments[segment].drawn
     }
@@ -256,7 +256,7 @@ impl Ends {
         }
     }
 
-    /// The wanted segments with an end at a point; `None` if there are other ends so close that another nearby point may have different
+    /// Returns the wanted segments with an end at a point; `None` if there are other ends so close that another nearby point may have different
     /// segments.
     pub(super) fn crowd(&self, point: Xy, is_wanted: impl Fn(usize) -> bool) -> Option<Crowd> {
         let ([mut low, mut high], mut segments, mut is_alone) = ([point; 2], Vec::new(), true);
@@ -303,12 +303,12 @@ impl Squares {
     }
 }
 
-/// The square of a point.
+/// Returns the square of a point.
 pub(super) fn square(point: Xy) -> Square {
     Square(strip_number(in_squares(point.x)), strip_number(in_squares(point.y)))
 }
 
-/// The columns or rows near a coordinate: one, or two near a border.
+/// Returns the columns or rows near a coordinate: one, or two near a border.
 fn strips_around(coordinate: f64, reach: f64) -> Range<u64> {
     let place = in_squares(coordinate);
     let from_middle = place - (place + ROUNDING_ADDEND - ROUNDING_ADDEND);
@@ -327,7 +327,7 @@ fn strip_number(place: f64) -> u64 {
     (place + ROUNDING_ADDEND).to_bits()
 }
 
-/// The bucket of a square. The upper bits of a product depend on all bits of its factors.
+/// Returns the bucket of a square. The upper bits of a product depend on all bits of its factors.
 fn bucket_of(Square(column, row): Square, count: usize) -> usize {
     const ODD: u64 = 0x9E37_79B9_7F4A_7C15;
     let mixed = column.wrapping_mul(ODD).rotate_left(32) ^ row;
@@ -345,7 +345,7 @@ mod tests {
     use crate::approx::coincide;
     use crate::geometry::Xy;
 
-    /// The number of ends examined when each end is queried for its neighbours.
+    /// Counts the ends that are examined when each end is queried for its neighbours.
     fn examined_ends(points: &[Xy]) -> usize {
         let ends = Ends::of_segments(points.iter().map(|point| [*point; 2]));
         let mut count = 0;
@@ -375,7 +375,7 @@ mod tests {
         assert!(one <= 100 * 2500, "{one}");
     }
 
-    /// A point, and another one at this distance in a random direction.
+    /// Generates a point, and another one at this distance in a random direction.
     fn apart(distance: f64) -> impl Strategy<Value = [Xy; 2]> {
         let coordinate = || {
             prop_oneof![-0.01..0.01, -9000.0..9000.0, (-90..90).prop_map(|tenths| f64::from(tenths) / 10.0)]

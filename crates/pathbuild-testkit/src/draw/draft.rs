@@ -186,7 +186,7 @@ impl Sheet {
         &self.entities
     }
 
-    /// The handles of the entities drawn by a line of the text form; each element's handle is followed by that of its text.
+    /// Returns the handles of the entities drawn by a line of the text form; each element's handle is followed by the handle of its text.
     pub fn handles_of_line(&self, line: u32) -> impl Iterator<Item = Handle> + '_ {
         self.entities.iter().filter(move |entity| entity.line == line).filter_map(|entity| entity.handle)
     }
@@ -201,12 +201,12 @@ impl Sheet {
         self.template.as_ref().map(|(template, left_out)| (&**template, *left_out))
     }
 
-    /// The entities in the order of their tags: those of the drawing, then those of the blocks.
+    /// Returns the entities in the order of their tags: those of the drawing, then those of the blocks.
     pub(crate) fn tagged(&self) -> Vec<&Entity> {
         self.entities.iter().chain(self.blocks.iter().flat_map(|block| &block.entities)).collect()
     }
 
-    /// The first handle after those of all entities.
+    /// Returns the first handle after those of all entities.
     pub(crate) fn next_handle(&self) -> u64 {
         self.next_handle
     }

@@ -14,7 +14,7 @@ use super::model::{
 /// Maximum nesting depth of blocks to follow, which also bounds the recursion for blocks that contain themselves.
 const DEPTH: u8 = 8;
 
-/// All elements of a list of entities, with blocks expanded.
+/// Returns all elements of a list of entities, with blocks expanded.
 pub(crate) fn candidates(entities: &[Entity], blocks: &[Block], layers: &[Layer]) -> Vec<Candidate> {
     let mut found = Vec::new();
     for (index, entity) in entities.iter().enumerate().filter(|(_, entity)| !entity.paper) {
@@ -138,7 +138,7 @@ fn expand(
     }
 }
 
-/// The offsets of an insert's columns and rows.
+/// Returns the offsets of an insert's columns and rows.
 fn copies(insert: &Insert) -> impl Iterator<Item = Point> + '_ {
     let (columns, rows) = insert.count;
     let at = |column, row| {
@@ -176,7 +176,7 @@ pub struct TextCircle {
     pub radius: f64,
 }
 
-/// The circle of a TEXT or MTEXT; `None` for other entities. (book: language/parameter-texts)
+/// Returns the circle of a TEXT or MTEXT; `None` for other entities. (book: language/parameter-texts)
 pub fn text_circle(entity: &Entity) -> Option<TextCircle> {
     match &entity.shape {
         Shape::Text(text) => Some(of_text(text, entity.orientation == Orientation::Mirrored)),
@@ -248,7 +248,7 @@ fn kind_of(note: &Note, options: &Options) -> NoteKind {
     }
 }
 
-/// Marks the element to which an ordinary text of the drawing belongs as having a text.
+/// Finds the element to which an ordinary text of the drawing belongs, and records that it has a text.
 fn take_for_text(seats: &mut TextPositions<'_>, entity: &Entity, kind: NoteKind) {
     let is_kind = match entity.shape {
         Shape::Text(_) => kind == NoteKind::Text,
@@ -271,7 +271,7 @@ fn extent(note: &Note, kind: NoteKind, height: f64) -> TextSize {
     }
 }
 
-/// The entity for a note, anchored at the lower left (TEXT) or upper left (MTEXT), as CAD programs do.
+/// Returns the entity for a note, anchored at the lower left (TEXT) or upper left (MTEXT), as CAD programs do.
 fn note_entity(
     entity: &Entity,
     note: &Note,
@@ -303,7 +303,7 @@ fn note_entity(
     Entity { layer: entity.layer.clone(), paper: entity.paper, line: entity.line, ..Entity::new(shape) }
 }
 
-/// The lines of an MTEXT as plain text: without formatting codes, but with `%%c` and the like unchanged.
+/// Returns the lines of an MTEXT as plain text: without formatting codes, but with `%%c` and the like unchanged.
 pub(crate) fn lines(value: &str) -> Vec<String> {
     let mut plain = String::new();
     let mut chars = value.chars().peekable();

@@ -215,7 +215,7 @@ fn variables<'a>(pairs: &[Pair<'a>]) -> Vec<Record<'a>> {
     pairs.chunk_by(|_, next| next.code != 9).map(<[Pair<'_>]>::to_vec).collect()
 }
 
-/// The entity of a record, by the tag in place of its handle.
+/// Returns the entity of a record, by the tag in place of its handle.
 fn entity_of<'e>(record: &Record<'_>, tagged: &[&'e Entity]) -> Option<&'e Entity> {
     let tag = u64::from_str_radix(value(record, 5)?, 16).ok()?;
     let index = usize::try_from(tag.checked_sub(TAG)?).ok()?;
@@ -426,7 +426,7 @@ fn append_chunk(hex: &str, bytes: &mut Vec<u8>) {
     bytes.extend(chunk);
 }
 
-/// The encoding of a sheet's strings; `None` for ASCII only.
+/// Returns the encoding of a sheet's strings; `None` for ASCII only.
 pub(crate) fn encoding(options: &Options) -> Option<&'static Encoding> {
     match options.encoding {
         // A byte order mark implies UTF-8 for the whole file.
@@ -437,7 +437,7 @@ pub(crate) fn encoding(options: &Options) -> Option<&'static Encoding> {
     }
 }
 
-/// The encoding for a value of $DWGCODEPAGE. `None` if it is unknown: ASCII with escapes is correct in any encoding.
+/// Returns the encoding for a value of $DWGCODEPAGE. `None` if it is unknown: ASCII with escapes is correct in any encoding.
 fn code_page(name: &str) -> Option<&'static Encoding> {
     let lower = name.to_ascii_lowercase();
     let number = lower.strip_prefix("ansi_").or_else(|| lower.strip_prefix("dos"));
@@ -506,7 +506,7 @@ impl Tables<'_> {
         (pairs, owners)
     }
 
-    /// The records of a table, without unlisted layers and without names that the crate added because an entity spells them differently.
+    /// Returns the records of a table, without unlisted layers and without names that the crate added because an entity spells them differently.
     fn listed<'r>(&self, table: &str, mut records: Vec<Record<'r>>) -> Vec<Record<'r>> {
         let mut names = BTreeSet::new();
         records.retain(|record| {
@@ -612,7 +612,7 @@ impl Objects {
         Self { first }
     }
 
-    /// The first handle after those of the objects.
+    /// Returns the first handle after those of the objects.
     pub(crate) fn end(self) -> u64 {
         self.first + COUNT
     }

@@ -181,7 +181,7 @@ impl Place {
     }
 }
 
-/// The heights of the passes, from the surface down.
+/// Returns the heights of the passes, from the surface down.
 fn passes(surface: f64, infeed: f64, bottom: f64) -> impl Iterator<Item = f64> {
     let next = move |z: &f64| (*z > bottom + LENGTH).then(|| (z - infeed).max(bottom));
     std::iter::successors(Some(surface), next).skip(1)
@@ -196,7 +196,7 @@ fn corners(clamp: &KeepOut) -> [Pair; 2] {
     })
 }
 
-/// The distance between a line and a rectangle, for axis-parallel lines.
+/// Returns the distance between a line and a rectangle, for axis-parallel lines.
 fn distance(ends: [Pair; 2], rectangle: &[Pair; 2]) -> f64 {
     let gap = [0, 1].map(|axis| {
         let (low, high) = (ends[0][axis].min(ends[1][axis]), ends[0][axis].max(ends[1][axis]));
@@ -213,7 +213,7 @@ fn minus(a: Pair, b: Pair) -> Pair {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// The product of two complex numbers.
+/// Returns the product of two complex numbers.
 fn times(a: Pair, b: Pair) -> Pair {
     [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
 }

@@ -112,7 +112,7 @@ impl<'m> Visit<'m> {
                 return self.stop(at("PB502", &[value]));
             }
             SubpathName::Found { name, has_more } => {
-                // This is only a warning.
+                // Text after the name is only a warning.
                 self.found.extend(has_more.as_ref().map(|value| at("PB502", &[value])));
                 name
             }
@@ -202,7 +202,7 @@ impl<'m> Visit<'m> {
 }
 
 impl Model {
-    /// The findings of a path and all that it embeds.
+    /// Returns the findings of a path and all that it embeds.
     pub(super) fn check_path(&self, drawing: usize, path: usize) -> Vec<Finding> {
         let (raw, _) = &self.drawings[drawing].content.paths[path];
         let values = Bindings::check_values(&raw.definitions);
@@ -214,7 +214,7 @@ impl Model {
         visit.found
     }
 
-    /// The path that a subpath embeds, if exactly one drawing defines it.
+    /// Returns the path that a subpath embeds, if exactly one drawing defines it.
     pub(super) fn child(&self, outer: &Instance, name: &PathName, subpath: &Subpath) -> Option<Instance> {
         let holder = *self.holders(outer.0, name).first()?;
         let paths = &self.drawings[holder].content.paths;
@@ -242,7 +242,7 @@ fn allows(definition: &Definition, value: &str) -> bool {
     }
 }
 
-/// Mismatches in M, T, O and the length: the code, and the letter.
+/// Returns the mismatches in M, T, O and the length, each with its code and its letter.
 fn misfits(path: &Path, subpath: &Subpath, inner: &Path) -> Vec<(&'static str, String)> {
     let differs = |a: f64, b: f64| (a - b).abs() > LENGTH;
     let mut found = Vec::new();
@@ -352,7 +352,7 @@ impl Model {
         found
     }
 
-    /// The disagreements between a proxy line and its own path.
+    /// Returns the disagreements between a proxy line and its own path.
     fn proxy_faults(&self, number: usize, proxy: &ProxyLine) -> Vec<Finding> {
         let drawing = &self.drawings[number];
         let at = |word: &str| Finding {
@@ -409,7 +409,7 @@ fn joined(drawing: &Drawing, proxy: &ProxyLine, named: usize) -> Option<usize> {
     if all.contains(&named) { None } else { all.first().copied() }
 }
 
-/// Letters and variables in which a subpath differs from a proxy line.
+/// Returns the letters and variables in which a subpath differs from a proxy line.
 fn differing(subpath: &Subpath, proxy: &ProxyLine) -> Vec<String> {
     let mut found = Vec::new();
     for (letter, name, here) in [(Letter::T, "T", subpath.thickness), (Letter::O, "O", subpath.tool)] {

@@ -74,7 +74,7 @@ impl Model {
         Self { drawings, language, rules: rules.clone() }
     }
 
-    /// The findings of checking the drawings in a directory and below.
+    /// Returns the findings of checking the drawings in a directory and below.
     pub fn check(&self, directory: &str) -> Vec<Finding> {
         let wanted = |drawing: &&Drawing| drawing.path.starts_with(&format!("{directory}/"));
         let numbers: Vec<usize> =
@@ -109,7 +109,7 @@ impl Model {
         paths.filter_map(second_definition).collect()
     }
 
-    /// The findings of checking a single path; none if the drawing does not exist.
+    /// Returns the findings of checking a single path; none if the drawing does not exist.
     pub fn check_alone(&self, file: &str, name: &str) -> Vec<Finding> {
         let Some(number) = self.drawings.iter().position(|drawing| drawing.path == file) else {
             return Vec::new();
@@ -121,7 +121,7 @@ impl Model {
         each_once(found)
     }
 
-    /// The paths of the drawings in a directory and below, as file and name.
+    /// Returns the paths of the drawings in a directory and below, as file and name.
     pub fn paths(&self, directory: &str) -> Vec<(String, String)> {
         let below = self.drawings.iter().filter(|drawing| drawing.path.starts_with(&format!("{directory}/")));
         let names = |drawing: &Drawing| {
@@ -136,12 +136,12 @@ impl Model {
         &self.drawings[*drawing].content.paths[*path].0
     }
 
-    /// The bound path, unless its drawing or values have errors.
+    /// Returns the bound path, unless its drawing or values have errors.
     fn sound(&self, instance: &Instance) -> Option<Path> {
         self.bound(instance).path.filter(|path| !path.has_faults())
     }
 
-    /// The path as far as it is known, with the errors in its values.
+    /// Returns the path as far as it is known, with the errors in its values.
     fn bound(&self, instance: &Instance) -> ExaminedPath {
         pathbuild_path::examine(self.raw(instance), &instance.2, &self.language)
     }
@@ -182,7 +182,7 @@ impl Drawing {
             && self.content.diagnostics.iter().chain(&self.clamp_problems).any(Diagnostic::is_error)
     }
 
-    /// The handle of an element of a path.
+    /// Returns the handle of an element of a path.
     fn handle(&self, path: &PathName, element: ElementId) -> Option<String> {
         let (_, map) = self.content.paths.iter().find(|(raw, _)| *raw.name == *path)?;
         map.positions().get(element.0 as usize)?.handle.map(|handle| handle.to_string())
@@ -264,7 +264,7 @@ fn each_once(mut found: Vec<Finding>) -> Vec<Finding> {
     found
 }
 
-/// Findings of the model that the program does not report, and the reverse.
+/// Returns the findings of the model that the program does not report, and the reverse.
 pub fn differences(model: &[Finding], program: &[Finding]) -> Vec<String> {
     let mut open: Vec<Finding> = model.iter().cloned().map(Finding::without_chain).collect();
     open = each_once(open);

@@ -35,7 +35,7 @@ const STATES: [(&str, LayerState); 4] = [
     ("unlisted", LayerState::Unlisted),
 ];
 
-/// The state of the parser.
+/// State of parsing a drawing in text form, line by line.
 #[derive(Debug, Default)]
 struct Parser {
     draft: Draft,

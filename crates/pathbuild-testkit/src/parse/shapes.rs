@@ -184,7 +184,7 @@ fn arc_by_angles(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     Ok(one(Shape::Arc(arc), Some(centre.polar(radius, end))))
 }
 
-/// A DXF arc, which always runs counterclockwise: the ends of a clockwise one are swapped.
+/// Creates a DXF arc, which always runs counterclockwise: the ends of a clockwise arc are swapped.
 fn directed(centre: Point, radius: f64, from: f64, to: f64, clockwise: bool) -> Arc {
     let (start, end) = if clockwise { (to, from) } else { (from, to) };
     Arc { centre, radius, start, end }
@@ -278,7 +278,7 @@ fn numbers(cursor: &mut Cursor, what: &str) -> Parsed<Vec<f64>> {
     Ok(numbers)
 }
 
-/// Knots of a curve that begins and ends at its outer control points.
+/// Returns the knots of a curve that begins and ends at its outer control points.
 fn clamped_knots(control: usize, degree: usize) -> Vec<f64> {
     let spans = control - degree;
     (0..=control + degree).map(|index| index.saturating_sub(degree).min(spans) as f64).collect()
@@ -370,7 +370,7 @@ fn unknown(name: &str) -> String {
     format!("{name:?} is no known line type; list it with `linetype {name}`, or put it in quotation marks")
 }
 
-/// The pattern of a usual or declared line type.
+/// Returns the pattern of a usual or declared line type.
 fn pattern(name: &str, draft: &Draft) -> Option<Vec<f64>> {
     if let Some((_, pattern)) = draft.line_types.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)) {
         return Some(pattern.clone());
