@@ -85,7 +85,7 @@ pub struct Settings {
 /// Options for reading drawings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// The treatment of $INSUNITS.
+    /// The treatment of $INSUNITS, which states the unit of a drawing.
     pub units: Units,
     /// Tolerance in mm for approximating ELLIPSE and SPLINE; 0 ignores them.
     pub approximate_curves: f64,

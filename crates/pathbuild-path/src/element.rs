@@ -176,7 +176,7 @@ impl Cut {
 }
 
 impl ElementClass {
-    /// Returns the name of such elements in messages.
+    /// Returns the name of elements of this class in messages.
     pub fn word(self) -> &'static Text {
         match self {
             Self::PathStart => &words::PATH_START,

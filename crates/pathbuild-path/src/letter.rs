@@ -237,7 +237,7 @@ impl ElementClass {
         CELLS.get(self as usize).map_or(LetterUse::Allowed, |cells| cells[letter as usize])
     }
 
-    /// Returns the letters that have an effect in the text of such an element, for help.
+    /// Returns the letters that have an effect in the text of an element of this class, for help.
     pub fn known_letters(self) -> impl Iterator<Item = char> {
         Letter::ALL
             .into_iter()
@@ -253,7 +253,7 @@ impl ElementClass {
             .filter(move |letter| self.use_of(*letter) == LetterUse::Needed)
     }
 
-    /// Whether such elements have support bars, or give the parameters for the support bars of others.
+    /// Whether elements of this class have support bars, or give the parameters for the support bars of others.
     pub(crate) fn has_bars(self) -> bool {
         matches!(self, Self::PathStart | Self::Support | Self::HelicalSupport)
     }

@@ -353,7 +353,7 @@ impl Segment {
 }
 
 impl CutParameters {
-    /// Returns the name of such a segment in messages.
+    /// Returns the name of a segment with these parameters in messages.
     pub(crate) fn word(&self) -> &'static Text {
         match self.cut {
             Cut::Mill => &words::MILLING_SEGMENT,

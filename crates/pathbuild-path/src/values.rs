@@ -368,7 +368,7 @@ pub(crate) fn check_mark(
 /// A usual depth of a mark in mm, for help.
 const USUAL_MARK_DEPTH: f64 = 0.2;
 
-/// Thickness in mm below which a support bar holds nothing, in material of twice that thickness or more.
+/// Thickness in mm below which a support bar is too weak to hold a part, in material of twice that thickness or more.
 const MIN_BAR_THICKNESS: f64 = 0.1;
 
 /// Returns the finding about support bars with this upper edge in mm, and whether the edge is the path's D rather than their own.

@@ -35,7 +35,7 @@ fn cuts_into_neighbours(db: &dyn Db, target: Target) -> Vec<Diagnostic> {
     neighbour_findings(db, &[target])
 }
 
-/// Returns the same for one or more targets whose programs are joined into one.
+/// Like [`harmed_neighbours`], but for one or more targets with programs that are joined into one.
 pub(super) fn neighbour_findings(db: &dyn Db, targets: &[Target]) -> Vec<Diagnostic> {
     let Some(program) = placed_program(db, targets) else { return Vec::new() };
     let mut found = program.findings();
@@ -43,7 +43,7 @@ pub(super) fn neighbour_findings(db: &dyn Db, targets: &[Target]) -> Vec<Diagnos
     found
 }
 
-/// The paths of one or more joined programs at their places; `None` if one of them has errors, or none has parts.
+/// Returns the paths of one or more joined programs at their places; `None` if one of them has errors, or none has parts.
 fn placed_program<'db>(db: &'db dyn Db, targets: &[Target]) -> Option<PlacedProgram<'db>> {
     let settings = Settings::get(db).language(db).part.as_ref()?;
     let closures: Vec<_> = targets.iter().map(|target| closure(db, *target)).collect();
@@ -333,7 +333,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     all
 }
 
-/// The cuts of a program.
+/// Returns the cuts of a program.
 fn milled_moves(traced: &TracedProgram) -> Vec<TipMove> {
     let milled = traced.program.moves().filter(|(_, movement)| movement.pace.feed().is_some());
     milled.filter_map(|(_, movement)| tip_move(&movement)).collect()

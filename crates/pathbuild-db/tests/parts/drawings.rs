@@ -226,7 +226,7 @@ fn a_cut_beside_all_bars_separates_them_from_the_plate() {
     assert_eq!((found.code().to_string().as_str(), found.path.as_deref()), ("PB217", Some("1234.2P")));
 }
 
-/// What is farther away may be milled from another plate, or after the part was taken out.
+/// A cut that is farther away may be made in another plate, or after the part was taken out.
 #[test]
 fn cuts_of_other_paths_count_within_twice_the_cutter_diameter() {
     let codes = |y: f64| {

@@ -128,7 +128,7 @@ impl<'s> PartCheck<'s> {
         Self { part, cuts, settings, near_paths, owners, contours, judged }
     }
 
-    /// Returns, of each nest that no path comes near, one ring.
+    /// Returns the outermost ring of each nest that no path comes near.
     fn nests_without_cuts(&self) -> impl Iterator<Item = usize> {
         let rings = &self.part.part.rings;
         let is_near = |nest: usize| {
@@ -138,7 +138,7 @@ impl<'s> PartCheck<'s> {
         (0..rings.len()).filter(move |ring| rings[*ring].nest == *ring && !is_near(*ring))
     }
 
-    /// The findings about the part, each with the index of its path. Whether material is left depends on the cuts of all owners together.
+    /// Returns the findings about the part, each with the index of its path. Whether material is left depends on the cuts of all owners together.
     fn problems(&self, is_complete: bool, leftovers: &Leftovers) -> Vec<(usize, Diagnostic)> {
         let mut found: Vec<_> = self.gouge_findings().collect();
         found.extend(self.leftover_findings(leftovers));

@@ -34,7 +34,7 @@ impl<'s> Enclosure<'s> {
         Self { part, cuts, own, beside }
     }
 
-    /// The first own cut within O of the rim, if the own cuts suffice to close a ring.
+    /// Returns the first own cut within O of the rim, if the own cuts suffice to close a ring.
     pub(super) fn own_cut(&self) -> Option<&'s IndexedCut<'s>> {
         let through = self.own_cuts();
         if !self.is_closed(&through) {
@@ -45,7 +45,7 @@ impl<'s> Enclosure<'s> {
         Some(cut)
     }
 
-    /// The cut of another path that closes a ring together with the own cuts, if these alone do not: of the first such path, the cut that is
+    /// Returns the cut of another path that closes a ring together with the own cuts, if these alone do not: of the first such path, the cut that is
     /// nearest to the rim. If it takes several paths to close the ring, the nearest cut of all.
     pub(super) fn severing_cut(&self) -> Option<&'s IndexedCut<'s>> {
         if self.beside.is_empty() {

@@ -353,7 +353,8 @@ impl<'s> LeftoverSearch<'s> {
         distances.fold(f64::INFINITY, f64::min)
     }
 
-    /// The cut beside the part whose edge is nearest to a point of a ring. A cut that ends above the plate only counts where it reaches the ring.
+    /// Returns the cut beside the part with the edge nearest to a point of a ring. A cut that ends above the plate only counts where it reaches the
+    /// ring.
     fn nearest(&self, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {
         let point = Curve::Line(crate::geometry::Line { start: at, end: at });
         let curve = RingCurve { ring, curve: &point, near: self.cuts.near(square(at, 0.0)) };

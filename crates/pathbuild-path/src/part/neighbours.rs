@@ -55,7 +55,7 @@ pub struct NeighbourCuts {
 pub struct SeveredPart {
     /// Index of the part in [`PlacedCuts::parts`].
     pub part: usize,
-    /// Index of the other path whose cut closes the ring round the part.
+    /// Index of the other path with the cut that closes the ring round the part.
     pub path: usize,
     /// Index of the cutting element in [`PathCuts::elements`] of that path.
     pub element: u32,
@@ -155,7 +155,7 @@ impl<'c> PlacedCuts<'c> {
     }
 }
 
-/// A box whose sides are moved outwards by `reach` mm.
+/// Returns a box with its sides moved outwards by `reach` mm.
 fn widened(extent: &AABB<[f64; 2]>, reach: f64) -> AABB<[f64; 2]> {
     let ([left, low], [right, high]) = (extent.lower(), extent.upper());
     AABB::from_corners([left - reach, low - reach], [right + reach, high + reach])

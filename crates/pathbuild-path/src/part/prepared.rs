@@ -100,7 +100,7 @@ impl<'p> PreparedPart<'p> {
         near.any(|(ring, rim)| ring == 0 && rim.distance(curve) < reach)
     }
 
-    /// The distance in mm between a curve and the outermost ring.
+    /// Returns the distance in mm between a curve and the outermost ring.
     pub(crate) fn distance_to_rim(&self, curve: &Curve) -> f64 {
         let rim = self.part.rings[0].curves.iter();
         rim.map(|rim| rim.distance(curve)).fold(f64::INFINITY, f64::min)

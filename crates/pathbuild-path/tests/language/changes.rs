@@ -179,7 +179,7 @@ fn order_and_direction_do_not_matter() {
     let turned = "sweep 0,20 40,20\nmill 40,20 40,0\nmill 40,0 0,0\nend 0,20\n";
     let changes = compared(&drawing(PARAMETERS, ROUND), &drawing(PARAMETERS, turned));
     assert_eq!(in_words(&changes), [""; 0]);
-    // The order may still decide between lines of equal rank at a star.
+    // The order may still decide between lines of equal rank that meet at a point.
     assert!(changes.is_reordered);
     assert!(!compared(&drawing(PARAMETERS, ROUND), &drawing(PARAMETERS, ROUND)).is_reordered);
 }

@@ -556,9 +556,9 @@ pub enum Attachment {
 /// The form in which the direction of an MTEXT is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Direction {
-    /// As a rotation in degrees (group 50).
+    /// A rotation in degrees (group 50).
     Rotation(f64),
-    /// As a vector (groups 11, 21 and 31).
+    /// A vector in the text's direction (groups 11, 21 and 31).
     Vector(Point),
 }
 
