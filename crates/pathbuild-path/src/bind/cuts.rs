@@ -56,7 +56,7 @@ impl Binder<'_> {
         }
     }
 
-    /// Returns the support bars of a segment of this length, spaced so that the cutter fits between consecutive bars.
+    /// Returns the support bars of a segment of this length. Reports bars that are thin or leave no room for the cutter between them.
     pub(super) fn bars(&mut self, scope: &Scope<'_>, length: f64, tool: Option<f64>) -> Option<Bars> {
         let [top, bar, distance] = [Letter::D, Letter::P, Letter::U].map(|letter| self.value(scope, letter));
         let bars = Bars { top: top?, length: bar?, distance: distance? };

@@ -22,7 +22,7 @@ use crate::read::rings::{
 /// larger gaps.
 const MAX_RELATIVE_GAP: f64 = 0.1;
 
-/// Minimum share of a chain's length between its two passages through a crossing, for a chain that crosses itself only because its ends are too long.
+/// Minimum share of the length of chains that lies between the points where they cross, if only their ends are too long for an outline.
 const MIN_CHAIN_SHARE: f64 = 0.9;
 
 /// An outline that cannot be compared with cuts.

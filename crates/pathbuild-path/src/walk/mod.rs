@@ -37,7 +37,7 @@ pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> 
 /// The reason why a walk failed; `None` if it may follow from other errors.
 type Failure = Option<Box<Diagnostic>>;
 
-/// Number of segments at a point from which they are sorted once instead of being scanned in each step.
+/// Number of segments at a point above which they are sorted once instead of being scanned in each step.
 const MIN_CROWD: usize = 16;
 
 /// Number of segments between calls of the checkpoint.
