@@ -1,7 +1,9 @@
 //! Plans and generates realistic libraries of drawings for benchmarks and property tests: any number of components, projects that embed
 //! them, fixture projects and variable projects. All of them compile without errors, and the same seed gives the same bytes.
 
-use crate::draw::model::{Entity, LineEnds, Point, Polyline, PolylineKind, Shape, Version, Vertex, bulged};
+use crate::draw::model::{
+    Entity, LineEnds, Point, Polyline, PolylineKind, Shape, Version, Vertex, arc_of_bulge,
+};
 use crate::draw::{Draft, Sheet};
 use crate::random::Random;
 use crate::surroundings::finish;
@@ -77,7 +79,7 @@ const ORIGIN: Point = Point::new(20.0, 80.0);
 const ROW: f64 = 90.0;
 
 /// Width and height of the field for one feature.
-const FIELD: Point = Point::new(34.0, 26.0);
+const FIELD_SIZE: Point = Point::new(34.0, 26.0);
 const FIELDS_IN_ROW: usize = 4;
 
 /// Draws a component. Returns its file name and its drawing.
@@ -95,11 +97,11 @@ fn component_drawing(plan: &Plan, index: usize) -> (String, Sheet) {
         draft.layer("Part").add(plate_outline(path.signature.cutter, origin + field(features)));
         proxy_line(&mut draft, path, origin);
     }
-    (plan.file(index), finished(draft, furniture))
+    (plan.file(index), finish_drawing(draft, furniture))
 }
 
 /// Finishes a generated drawing. Its elements are far enough apart that there is room for all texts.
-fn finished(draft: Draft, furniture: u64) -> Sheet {
+fn finish_drawing(draft: Draft, furniture: u64) -> Sheet {
     finish(draft, Some(furniture))
         .unwrap_or_else(|errors| unreachable!("a generated drawing has a fault: {}", errors[0]))
 }
@@ -126,7 +128,7 @@ fn proxy_line(draft: &mut Draft, path: &PathPlan, start: Point) {
     let layer = format!("{} PROXY", path.name.split('.').next().unwrap_or_default());
     draft.layer(&layer);
     let text = embedding_text(path, &comma(0.2));
-    draft.add(Entity::line(start, start + path.signature.chord).typed("DASHDOT").note(&text));
+    draft.add(Entity::line(start, start + path.signature.chord).with_line_type("DASHDOT").note(&text));
 }
 
 /// Returns the text of a segment that embeds a path.
@@ -141,7 +143,7 @@ fn embedding_text(path: &PathPlan, value: &str) -> String {
 fn field(feature: usize) -> Point {
     let (row, column) = (feature / FIELDS_IN_ROW, feature % FIELDS_IN_ROW);
     let column = if row.is_multiple_of(2) { column } else { FIELDS_IN_ROW - 1 - column };
-    Point::new(FIELD.x * column as f64, 16.0 + FIELD.y * row as f64)
+    Point::new(FIELD_SIZE.x * column as f64, 16.0 + FIELD_SIZE.y * row as f64)
 }
 
 /// Draws a path: features in rows above the line from start to end, with sweeps between them.
@@ -161,7 +163,7 @@ fn draw_path(path: &PathPlan, start: Point, features: usize, random: &mut Random
 const EMBEDDINGS: usize = 10;
 
 /// Distance between the embeddings of a project.
-const GRID: f64 = 170.0;
+const EMBEDDING_DISTANCE: f64 = 170.0;
 
 /// Path numbers of fixture and variable projects.
 const FIXTURE: usize = 8;
@@ -253,7 +255,7 @@ fn neighbours(plan: &Plan, cutter: Option<f64>, random: &mut Random) -> [PathPla
 fn signature(segments: &[(String, Signature)]) -> Signature {
     let thickness = segments.iter().map(|(_, signature)| signature.thickness).fold(0.0, f64::max);
     let rows = segments.len().div_ceil(5);
-    let chord = Point::new(0.0, GRID * rows as f64 + 20.0);
+    let chord = Point::new(0.0, EMBEDDING_DISTANCE * rows as f64 + 20.0);
     let cutter = segments.first().map_or(3.0, |(_, signature)| signature.cutter);
     Signature { thickness, cutter, material: "MProjekt", chord }
 }
@@ -273,14 +275,15 @@ fn project(
     let mut pen = Pen::new(random, start, &text);
     for (index, (text, signature)) in segments.iter().enumerate() {
         let (row, column) = (index / 5, index % 5);
-        let at = start + Point::new(20.0 + GRID * column as f64, 80.0 + GRID * row as f64);
+        let at = start
+            + Point::new(20.0 + EMBEDDING_DISTANCE * column as f64, 80.0 + EMBEDDING_DISTANCE * row as f64);
         pen.sweep(at, whole.thickness);
         embed(&mut pen, text, *signature);
     }
     let end = start + whole.chord;
     pen.sweep(end, whole.thickness);
     draft.layer(name).extend(pen.end(end));
-    (format!("projects/{name}.dxf"), finished(draft, furniture))
+    (format!("projects/{name}.dxf"), finish_drawing(draft, furniture))
 }
 
 /// Draws a subpath segment with the length of the path from the current point, in a random direction.
@@ -288,7 +291,7 @@ fn embed(pen: &mut Pen<'_>, text: &str, signature: Signature) {
     let turn = pen.random.pick(&[0.0, 5.0, 10.0, 15.0, -10.0]);
     let length = Point::default().distance(signature.chord);
     let to = pen.at.polar(length, turn);
-    pen.add(Entity::line(pen.at, to).typed("DASHDOT").note(text));
+    pen.add(Entity::line(pen.at, to).with_line_type("DASHDOT").note(text));
     pen.at = to;
 }
 
@@ -587,22 +590,22 @@ impl<'a> Pen<'a> {
     pub(super) fn line(&mut self, to: Point, line_type: &str, text: &str) {
         // One line in four is drawn from its end, as happens when users copy and mirror.
         let (from, end) = if self.random.once_in(4) { (to, self.at) } else { (self.at, to) };
-        self.add(Entity::line(from, end).typed(line_type).note(text));
+        self.add(Entity::line(from, end).with_line_type(line_type).note(text));
         self.at = to;
     }
 
     /// Draws an arc with this bulge from the current point.
     pub(super) fn arc(&mut self, to: Point, bulge: f64, line_type: &str, text: &str) {
-        match bulged(self.at, to, bulge) {
-            Some(arc) => self.add(Entity::new(Shape::Arc(arc)).typed(line_type).note(text)),
-            None => self.add(Entity::line(self.at, to).typed(line_type).note(text)),
+        match arc_of_bulge(self.at, to, bulge) {
+            Some(arc) => self.add(Entity::new(Shape::Arc(arc)).with_line_type(line_type).note(text)),
+            None => self.add(Entity::line(self.at, to).with_line_type(line_type).note(text)),
         }
         self.at = to;
     }
 
     /// Draws a circle around the current point.
     pub(super) fn circle(&mut self, diameter: f64, line_type: &str, text: &str) {
-        self.add(Entity::circle(self.at, diameter).typed(line_type).note(text));
+        self.add(Entity::circle(self.at, diameter).with_line_type(line_type).note(text));
     }
 
     /// Draws a rapid move, sometimes with its own sweep height.

@@ -47,10 +47,10 @@ const COMPONENTS: u32 = 6;
 const PROJECTS: u32 = 4;
 
 /// Length in mm of the rapid moves between the embeddings of a project.
-const SWEEP: u32 = 30;
+const SWEEP_LENGTH: u32 = 30;
 
 /// Number of paths in a chain: two more than may be nested.
-const CHAIN: u32 = 13;
+const CHAIN_LENGTH: u32 = 13;
 
 impl RandomLibrary {
     /// Creates the library of a seed.
@@ -95,7 +95,7 @@ impl RandomLibrary {
                 self.files.remove(&file);
             }
             1 => self.rename(slot),
-            2 | 3 => return vec![self.spare()],
+            2 | 3 => return vec![self.add_or_remove_spare()],
             _ => self.draw(slot),
         }
         before.into_iter().chain(self.slots[slot].file.clone()).collect()
@@ -132,7 +132,7 @@ impl RandomLibrary {
     }
 
     /// Adds or removes a second definition of a component.
-    fn spare(&mut self) -> String {
+    fn add_or_remove_spare(&mut self) -> String {
         if !self.spares.is_empty() && self.random.once_in(2) {
             let number = self.spares.remove(self.random.below(self.spares.len()));
             let file = format!("spare/{number}.dxf");
@@ -348,8 +348,8 @@ fn project(number: u32, random: &mut Random) -> Vec<u8> {
         _ = writeln!(text, "subpath {x},0 {},0 \"{content}\"", x + length);
         x += length;
         if segment == 0 {
-            _ = writeln!(text, "sweep {x},0 {},0", x + SWEEP);
-            x += SWEEP;
+            _ = writeln!(text, "sweep {x},0 {},0", x + SWEEP_LENGTH);
+            x += SWEEP_LENGTH;
         }
     }
     _ = writeln!(text, "end {x},0");
@@ -362,10 +362,10 @@ fn project(number: u32, random: &mut Random) -> Vec<u8> {
 /// Returns a drawing with paths that each embed the next.
 fn chain() -> Vec<u8> {
     let mut text = String::new();
-    for path in 1..=CHAIN {
+    for path in 1..=CHAIN_LENGTH {
         let y = 30 * path;
         _ = writeln!(text, "layer 7001.{path}P\nstart 0,{y} \"T5 O2 I1 B0 MPlate\"");
-        if path < CHAIN {
+        if path < CHAIN_LENGTH {
             _ = writeln!(text, "subpath 0,{y} 40,{y} \">7001.{}P\"", path + 1);
         } else {
             _ = writeln!(text, "mill 0,{y} 40,{y}");

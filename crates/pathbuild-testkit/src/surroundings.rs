@@ -42,7 +42,7 @@ pub(crate) fn finish(mut draft: Draft, seed: Option<u64>) -> Result<Sheet, Vec<D
     let target = MIN_BYTES + random.below(BYTE_RANGE);
     // The estimate assumes CRLF: with one byte less per line, more lines are needed for the same size.
     let target = if sheet.options().line_ends == LineEnds::CrLf { target } else { target * 20 / 17 };
-    let hatch_lines = (target.saturating_sub(size) / HATCH_LINE).min(HATCH_LINES);
+    let hatch_lines = (target.saturating_sub(size) / HATCH_LINE_BYTES).min(HATCH_LINES);
     let version = sheet.options().version;
     let template = TEMPLATES[version as usize][variant].get_or_init(|| Arc::new(template(variant, version)));
     Ok(sheet.within(Arc::clone(template), HATCH_LINES - hatch_lines))
@@ -379,16 +379,16 @@ fn hatch(room: &mut Surroundings) {
 }
 
 /// Bytes of the fixed parts (header, usual tables, empty blocks and objects), of a layer, and of a block.
-const EMPTY: usize = 14_500;
-const LAYER: usize = 155;
-const BLOCK: usize = 500;
+const EMPTY_DRAWING_BYTES: usize = 14_500;
+const LAYER_BYTES: usize = 155;
+const BLOCK_BYTES: usize = 500;
 
 /// Bytes of a hatch line.
-const HATCH_LINE: usize = 167;
+const HATCH_LINE_BYTES: usize = 167;
 
 /// Estimated size of a drawing in bytes in R2000, precise to a few per cent.
 fn estimate<'a>(layers: usize, blocks: usize, entities: impl Iterator<Item = &'a Entity>) -> usize {
-    EMPTY + LAYER * layers + BLOCK * blocks + entities.map(entity).sum::<usize>()
+    EMPTY_DRAWING_BYTES + LAYER_BYTES * layers + BLOCK_BYTES * blocks + entities.map(entity).sum::<usize>()
 }
 
 fn entity(entity: &Entity) -> usize {

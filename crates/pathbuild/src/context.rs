@@ -53,7 +53,7 @@ impl Context {
     /// Creates the context for a command line in the working directory. Also returns diagnostics of the configuration.
     pub fn of(cli: &Cli) -> (Self, Vec<Diagnostic>) {
         let Cli { command, common } = cli;
-        let (user, mut faults) = environment::user();
+        let (user, mut faults) = environment::load_user_settings();
         let date = environment::date(command.date());
         let overrides = Overrides { trusted: user.trusted.clone(), date, ..common.overrides() };
         let (workspace, more) = environment::workspace(&overrides, &user, &command.inputs());
@@ -91,7 +91,7 @@ impl Context {
 
     /// Returns a workspace for another tree, with that tree's configuration and without a cache. Also returns diagnostics of that
     /// configuration.
-    pub fn elsewhere(&self, inputs: &Inputs) -> (Workspace, Vec<Diagnostic>) {
+    pub fn workspace_of_inputs(&self, inputs: &Inputs) -> (Workspace, Vec<Diagnostic>) {
         let (settings, faults) =
             config::load(&OsSystem::shared(), &self.overrides, inputs, &self.working_directory);
         let workspace = Workspace {
@@ -105,7 +105,7 @@ impl Context {
 
     /// Shows findings: on stderr as text, or as part of the document if the format is machine-readable.
     pub fn show(&self, findings: &Findings) {
-        if let Some((stream, text)) = self.output.take(findings, |stream| self.view(stream)) {
+        if let Some((stream, text)) = self.output.collect_findings(findings, |stream| self.view(stream)) {
             if self.format.is_for_machines() {
                 self.printer.document(stream, &text);
             } else {
@@ -123,7 +123,7 @@ impl Context {
 
     /// Shows only `some` of the findings to users. Reports contain all of them.
     pub(crate) fn show_some(&self, findings: &Findings, some: &Findings) {
-        _ = self.output.take(findings, |stream| self.view(stream));
+        _ = self.output.collect_findings(findings, |stream| self.view(stream));
         let view = self.view(Stream::Stderr);
         self.printer.diagnostics(Stream::Stderr, &render(self.format, some, &view));
     }
@@ -138,7 +138,7 @@ impl Context {
     /// Prints a result as a line of JSON in the document.
     #[expect(clippy::needless_pass_by_value, reason = "callers create the row just for this call")]
     pub(crate) fn row(&self, kind: &str, row: Value) {
-        self.printer.json(self.output.stream, lines::typed(kind, &row));
+        self.printer.json(self.output.stream, lines::serialize_with_type(kind, &row));
     }
 
     /// Like [`row`](Self::row), but only if the format is JSON.
@@ -169,7 +169,7 @@ impl Context {
             let view = if report.format.is_for_machines() { self.machine_view() } else { self.plain_view() };
             let text = match report.format {
                 Format::Html => self.output.page(self, &view),
-                format => self.output.whole(format, status.code(), &view),
+                format => self.output.whole_report(format, status.code(), &view),
             };
             if report.is_stdout() {
                 self.printer.document(Stream::Stdout, &text);
@@ -239,7 +239,7 @@ impl Context {
 
     /// Reports a usage error.
     pub fn usage(&self, reason: &str) -> ExitStatus {
-        german::wrong(reason, self.lang(), &self.printer)
+        german::print_usage_error(reason, self.lang(), &self.printer)
     }
 
     /// Returns the view for a stream in the chosen format.

@@ -17,16 +17,16 @@ use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 
 /// Environment variable with the time, in seconds since 1970, to use as the current one, so that results can be reproduced
 /// (reproducible-builds.org).
-const EPOCH: &str = "SOURCE_DATE_EPOCH";
+const EPOCH_VARIABLE: &str = "SOURCE_DATE_EPOCH";
 
 /// Environment variable for the language of messages.
-const OWN_LANG: &str = "PATHBUILD_LANG";
+const LANG_VARIABLE: &str = "PATHBUILD_LANG";
 
 /// Environment variable that names the cache directory, like `--cache-dir`.
-const CACHE_DIR: &str = "PATHBUILD_CACHE_DIR";
+const CACHE_DIR_VARIABLE: &str = "PATHBUILD_CACHE_DIR";
 
 /// Loads the user's own settings. Also returns diagnostics of their file.
-pub(crate) fn user() -> (UserSettings, Vec<Diagnostic>) {
+pub(crate) fn load_user_settings() -> (UserSettings, Vec<Diagnostic>) {
     user_configuration().map(|file| UserSettings::load(&OsSystem, &file)).unwrap_or_default()
 }
 
@@ -76,7 +76,7 @@ pub(crate) fn user_configuration() -> Option<Utf8PathBuf> {
 
 /// Returns the language chosen by `PATHBUILD_LANG`: `de`, `en`, or the name of a locale such as `de_AT.UTF-8`.
 fn lang() -> Option<Lang> {
-    named_lang(&env::var(OWN_LANG).ok()?)
+    named_lang(&env::var(LANG_VARIABLE).ok()?)
 }
 
 /// Returns the language of the system's locale: from the POSIX variables on every system, or else the user's language on Windows and
@@ -101,38 +101,39 @@ pub(crate) fn date(given: Option<Date>) -> Option<RunDate> {
     if let Some(date) = given {
         return Some(RunDate { date, source: DateSource::Given });
     }
-    if env::var_os(EPOCH).is_some() {
-        return Some(RunDate { date: epoch()?, source: DateSource::Epoch });
+    if env::var_os(EPOCH_VARIABLE).is_some() {
+        return Some(RunDate { date: date_of_epoch()?, source: DateSource::Epoch });
     }
     let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).ok()?;
     Some(RunDate { date: Date::of_unix_time(now.as_secs())?, source: DateSource::Clock })
 }
 
 /// Returns the date of `SOURCE_DATE_EPOCH`; `None` if the variable is missing or not a time.
-fn epoch() -> Option<Date> {
-    Date::of_unix_time(env::var(EPOCH).ok()?.parse().ok()?)
+fn date_of_epoch() -> Option<Date> {
+    Date::of_unix_time(env::var(EPOCH_VARIABLE).ok()?.parse().ok()?)
 }
 
 /// Returns an error for an environment variable that is set but invalid. Ignoring it would put the cache in another place than the user
 /// expects, compare waivers with another date, or answer in another language.
 pub(crate) fn refusal(workspace: &Workspace) -> Option<String> {
-    if env::var_os(EPOCH).is_some() && epoch().is_none() {
+    if env::var_os(EPOCH_VARIABLE).is_some() && date_of_epoch().is_none() {
         return Some(workspace.phrase(
             "{} is not a number of seconds since 1970",
             "{} ist keine Anzahl von Sekunden seit 1970",
-            EPOCH,
+            EPOCH_VARIABLE,
         ));
     }
-    if let Some(name) = env::var_os(OWN_LANG).filter(|name| !name.is_empty() && lang().is_none()) {
-        let name = format!("{OWN_LANG}={}", shown::line(&name.to_string_lossy()));
+    if let Some(name) = env::var_os(LANG_VARIABLE).filter(|name| !name.is_empty() && lang().is_none()) {
+        let name = format!("{LANG_VARIABLE}={}", shown::line(&name.to_string_lossy()));
         return Some(workspace.phrase(
             "{}: the language must be en or de",
             "{}: die Sprache muss en oder de sein",
             &name,
         ));
     }
-    let is_unreadable = matches!(env::var(CACHE_DIR), Err(VarError::NotUnicode(_)));
-    is_unreadable.then(|| workspace.phrase("{}: it is not UTF-8", "{}: das ist nicht in UTF-8", CACHE_DIR))
+    let is_unreadable = matches!(env::var(CACHE_DIR_VARIABLE), Err(VarError::NotUnicode(_)));
+    is_unreadable
+        .then(|| workspace.phrase("{}: it is not UTF-8", "{}: das ist nicht in UTF-8", CACHE_DIR_VARIABLE))
 }
 
 /// Returns the directory of `--cache-dir` or `PATHBUILD_CACHE_DIR`, or else the user's cache directory, which `config.toml` may name;
@@ -142,7 +143,7 @@ pub(crate) fn cache_home(
     configured: Option<Utf8PathBuf>,
     working_directory: &Utf8Path,
 ) -> Option<CacheHome> {
-    let named = named.map(Utf8Path::to_owned).or_else(|| directory(CACHE_DIR));
+    let named = named.map(Utf8Path::to_owned).or_else(|| directory(CACHE_DIR_VARIABLE));
     match named {
         Some(named) => Some(CacheHome::Named(clean(&working_directory.join(named)))),
         None => configured.or_else(user_caches).map(CacheHome::User),

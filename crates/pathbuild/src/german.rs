@@ -22,14 +22,14 @@ pub fn command(lang: Lang) -> Command {
     command.build();
     match lang {
         Lang::En => command,
-        Lang::De => translated(command),
+        Lang::De => translate_command(command),
     }
 }
 
 /// Returns every help text, value name and possible value in English and German, except for settings. A test compares them with the
 /// definition of the command line.
 pub fn catalogue() -> impl Iterator<Item = (&'static str, &'static str)> {
-    args::GERMAN.into_iter().chain([OTHERS]).flatten().copied()
+    args::GERMAN.into_iter().chain([OTHER_TRANSLATIONS]).flatten().copied()
 }
 
 /// Returns the German translation of a text of the command line.
@@ -39,7 +39,7 @@ pub fn german(english: &str) -> Option<&'static str> {
 }
 
 /// Translates the words that clap itself inserts into help texts.
-fn shown(help: &str) -> String {
+fn translate_clap_words(help: &str) -> String {
     let words = [
         ("[OPTIONS]", "[OPTIONEN]"),
         ("\nArguments:\n", "\nArgumente:\n"),
@@ -50,7 +50,7 @@ fn shown(help: &str) -> String {
     words.into_iter().fold(help.to_owned(), |help, (en, de)| help.replace(en, de))
 }
 
-fn translated(command: Command) -> Command {
+fn translate_command(command: Command) -> Command {
     let about = command.get_about().and_then(|about| german(&about.to_string()));
     let after = command.get_after_help().and_then(|after| german(&after.to_string()));
     let command = about.into_iter().fold(command, Command::about);
@@ -60,7 +60,7 @@ fn translated(command: Command) -> Command {
         .subcommand_help_heading("Befehle")
         .subcommand_value_name("BEFEHL")
         .mut_args(argument)
-        .mut_subcommands(translated)
+        .mut_subcommands(translate_command)
 }
 
 fn argument(argument: Arg) -> Arg {
@@ -91,13 +91,13 @@ fn value(value: PossibleValue) -> PossibleValue {
 }
 
 /// Prints clap's answer to a command line that is not run, in this language: help, the version, or a usage error.
-pub(crate) fn answer(error: &Error, lang: Lang, printer: &Printer) -> ExitStatus {
+pub(crate) fn print_clap_error(error: &Error, lang: Lang, printer: &Printer) -> ExitStatus {
     let text = error.render().to_string();
-    let text = if lang == Lang::De { shown(&text) } else { text };
+    let text = if lang == Lang::De { translate_clap_words(&text) } else { text };
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => help(&text, printer),
         _ if lang == Lang::De && error.kind() != ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
-            wrong(&reason(error), lang, printer)
+            print_usage_error(&german_error(error), lang, printer)
         }
         _ => {
             printer.usage(text);
@@ -113,7 +113,7 @@ pub(crate) fn help(text: &str, printer: &Printer) -> ExitStatus {
 }
 
 /// Prints a usage error.
-pub(crate) fn wrong(reason: &str, lang: Lang, printer: &Printer) -> ExitStatus {
+pub(crate) fn print_usage_error(reason: &str, lang: Lang, printer: &Printer) -> ExitStatus {
     let (error, advice) = match lang {
         Lang::En => ("error", "For more information, try '--help'."),
         Lang::De => ("Fehler", ADVICE),
@@ -126,19 +126,19 @@ pub(crate) fn wrong(reason: &str, lang: Lang, printer: &Printer) -> ExitStatus {
 const ADVICE: &str = "Mehr dazu mit '--help'.";
 
 /// Returns the German message for a usage error, with tips and the usage. It is composed from the parts of clap's error.
-fn reason(error: &Error) -> String {
-    let mut text = what(error);
+fn german_error(error: &Error) -> String {
+    let mut text = error_description(error);
     let tips = tips(error);
     if !tips.is_empty() {
         _ = write!(text, "\n\n  Tipp: {}", tips.join("\n  Tipp: "));
     }
     if let Some(ContextValue::StyledStr(usage)) = error.get(ContextKind::Usage) {
-        _ = write!(text, "\n\n{}", shown(&usage.to_string()).replace("Usage:", "Aufruf:"));
+        _ = write!(text, "\n\n{}", translate_clap_words(&usage.to_string()).replace("Usage:", "Aufruf:"));
     }
     text
 }
 
-fn what(error: &Error) -> String {
+fn error_description(error: &Error) -> String {
     let one = |kind| context_values(error, kind).join(", ");
     let argument = one(ContextKind::InvalidArg);
     let value = one(ContextKind::InvalidValue);
@@ -224,7 +224,7 @@ fn context_values(error: &Error, kind: ContextKind) -> Vec<String> {
 }
 
 /// Texts of clap itself and of values that are defined elsewhere, in English and German.
-const OTHERS: &[(&str, &str)] = &[
+const OTHER_TRANSLATIONS: &[(&str, &str)] = &[
     (
         "Print this message or the help of the given subcommand(s)",
         "Gibt diese Hilfe oder die eines Befehls aus",

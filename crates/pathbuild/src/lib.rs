@@ -46,7 +46,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
             let lang = lang_of(&arguments);
             // Parse again with the German definition to get the error message in German.
             let message = Cli::matches(&german::command(lang), &arguments).err().unwrap_or(error);
-            print(|printer| german::answer(&message, lang, printer))
+            print(|printer| german::print_clap_error(&message, lang, printer))
         }
     }
 }
@@ -69,9 +69,9 @@ fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) ->
         Ok(Translation::Help(own)) => {
             return print(|printer| german::help(compat::help(own.unwrap_or(lang)), printer));
         }
-        Err(reason) => return print(|printer| german::wrong(&reason, lang, printer)),
+        Err(reason) => return print(|printer| german::print_usage_error(&reason, lang, printer)),
     };
-    let line = |command: &Vec<String>| format!("pathbuild {}\n", compat::shown(command));
+    let line = |command: &Vec<String>| format!("pathbuild {}\n", compat::shell_command_line(command));
     if args.print {
         let lines: String = translated.iter().map(line).collect();
         return print(|printer| german::help(&lines, printer));
@@ -108,7 +108,7 @@ fn execute(cli: &Cli) -> ExitStatus {
     context.begin();
     context.warn_about_unused_configuration();
     if cli.command.reads_programs() {
-        say_unexpected_configuration(&context);
+        report_unexpected_configuration(&context);
     }
     let status = if faults.is_empty() || !cli.command.needs_configuration() {
         commands::run(&context, &cli.command)
@@ -120,7 +120,7 @@ fn execute(cli: &Cli) -> ExitStatus {
 }
 
 /// Reports which configuration applies to a program, unless it is obvious.
-fn say_unexpected_configuration(context: &Context) {
+fn report_unexpected_configuration(context: &Context) {
     if let Some(file) = context.unexpected_configuration() {
         let configuration = context.choose("configuration", "Konfiguration");
         context.printer.status(format_args!("{configuration}: {}", shown::line(file.as_str())));

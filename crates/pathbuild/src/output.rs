@@ -79,7 +79,7 @@ impl Output {
     }
 
     /// Collects findings. Returns the text to show now and its stream; `None` if the format is only written at the end.
-    pub(crate) fn take(
+    pub(crate) fn collect_findings(
         &self,
         findings: &Findings,
         view: impl FnOnce(Stream) -> View,
@@ -98,7 +98,7 @@ impl Output {
     }
 
     /// Adds a number to the last line of the JSON document.
-    pub(crate) fn figure(&self, name: &str, value: impl Into<Value>) {
+    pub(crate) fn add_figure(&self, name: &str, value: impl Into<Value>) {
         self.figures.borrow_mut().insert(name.to_owned(), value.into());
     }
 
@@ -111,8 +111,8 @@ impl Output {
     pub(crate) fn end(&self, status: u8, view: &View) -> Option<RenderedText> {
         match self.format {
             _ if !self.is_document => None,
-            Format::Json => Some(lines::rendered(&self.summary(status))),
-            format if format.is_whole() => Some(self.whole(format, status, view)),
+            Format::Json => Some(lines::escaped_lines(&self.summary(status))),
+            format if format.is_whole() => Some(self.whole_report(format, status, view)),
             _ => None,
         }
     }
@@ -124,13 +124,13 @@ impl Output {
     }
 
     /// Returns the findings as a report in another format.
-    pub(crate) fn whole(&self, format: Format, status: u8, view: &View) -> RenderedText {
+    pub(crate) fn whole_report(&self, format: Format, status: u8, view: &View) -> RenderedText {
         let found = self.found.borrow();
         let rendered = render(format, &found, view);
         if format != Format::Json {
             return rendered;
         }
-        lines::rendered(&format!(
+        lines::escaped_lines(&format!(
             "{}\n{}{}",
             lines::header(self.command),
             rendered.as_str(),
@@ -148,6 +148,6 @@ impl Output {
         if let Value::Object(object) = &mut summary {
             object.extend(self.figures.borrow().clone());
         }
-        lines::typed("summary", &summary) + "\n"
+        lines::serialize_with_type("summary", &summary) + "\n"
     }
 }

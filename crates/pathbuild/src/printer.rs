@@ -265,9 +265,9 @@ fn write_unless(failed: &mut Option<io::Error>, mut stream: impl Write, text: &s
 /// Time after which a progress bar appears. Shorter work shows none.
 const BAR_DELAY: Duration = Duration::from_millis(500);
 /// Interval at which the progress bar is redrawn.
-const INTERVAL: Duration = Duration::from_millis(100);
+const REDRAW_INTERVAL: Duration = Duration::from_millis(100);
 /// Width of the progress bar in columns.
-const WIDTH: usize = 30;
+const BAR_WIDTH: usize = 30;
 
 /// A progress bar on a terminal. It is drawn by a thread of its own, and erased when dropped.
 #[derive(Debug)]
@@ -324,7 +324,7 @@ impl Counters {
         }
         loop {
             let is_drawn = write!(stream, "\r\x1b[K{}", self.bar()).and_then(|()| stream.flush()).is_ok();
-            if self.is_over_after(INTERVAL) || !is_drawn {
+            if self.is_over_after(REDRAW_INTERVAL) || !is_drawn {
                 break;
             }
         }
@@ -340,7 +340,7 @@ impl Counters {
     /// Formats the progress bar: `[#######-----------------------] 512/2014`.
     fn bar(&self) -> String {
         let done = self.done.load(Ordering::Relaxed).min(self.total);
-        let full = (done * WIDTH).checked_div(self.total).unwrap_or(WIDTH);
-        format!("[{}{}] {done}/{}", "#".repeat(full), "-".repeat(WIDTH - full), self.total)
+        let full = (done * BAR_WIDTH).checked_div(self.total).unwrap_or(BAR_WIDTH);
+        format!("[{}{}] {done}/{}", "#".repeat(full), "-".repeat(BAR_WIDTH - full), self.total)
     }
 }

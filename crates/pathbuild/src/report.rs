@@ -38,11 +38,11 @@ fn deliver(context: &Context, args: &CheckArgs, findings: &Findings, time: Durat
     let failed = pictures.map(|directory| write_pictures(context, directory, findings)).unwrap_or_default();
     show(context, args.max_errors, findings);
     if findings.diagnostics.len() > MAX_LISTED_FINDINGS && !context.format.is_for_machines() {
-        context.printer.status_lines(by_code(context, findings));
+        context.printer.status_lines(table_by_code(context, findings));
     }
-    context.output.figure("paths", findings.checked.iter().map(|file| file.paths.len()).sum::<usize>());
-    context.output.figure("drawings", findings.checked.len());
-    context.output.figure("known", findings.waived.len());
+    context.output.add_figure("paths", findings.checked.iter().map(|file| file.paths.len()).sum::<usize>());
+    context.output.add_figure("drawings", findings.checked.len());
+    context.output.add_figure("known", findings.waived.len());
     if let Some(line) = waivers::date_line(context, findings) {
         context.printer.status(line);
     }
@@ -78,7 +78,7 @@ fn show(context: &Context, most: Option<usize>, findings: &Findings) {
 }
 
 /// Formats a table of how often each code was found, the most frequent first.
-fn by_code(context: &Context, findings: &Findings) -> String {
+fn table_by_code(context: &Context, findings: &Findings) -> String {
     let mut counts: BTreeMap<(Code, Severity), usize> = BTreeMap::new();
     for found in &findings.diagnostics {
         *counts.entry((found.code(), found.severity)).or_default() += 1;
@@ -101,7 +101,9 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
     let counted = |number, noun| counted(number, noun, lang);
     let errors = match findings.errors() {
         0 => lang.choose("no errors", "keine Fehler").to_owned(),
-        errors => format!("{} in {}", counted(errors, ERROR), counted(erroneous(findings), DRAWING)),
+        errors => {
+            format!("{} in {}", counted(errors, ERROR), counted(count_faulty_drawings(findings), DRAWING))
+        }
     };
     let warnings = match findings.warnings() {
         0 => lang.choose("no warnings", "keine Warnungen").to_owned(),
@@ -118,7 +120,7 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
 }
 
 /// Returns the number of drawings with errors.
-fn erroneous(findings: &Findings) -> usize {
+fn count_faulty_drawings(findings: &Findings) -> usize {
     let errors = findings.diagnostics.iter().filter(|diagnostic| diagnostic.is_error());
     errors.filter_map(|diagnostic| diagnostic.file.as_deref()).collect::<BTreeSet<_>>().len()
 }

@@ -24,7 +24,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
     let mut server = None;
     let home = working_directory();
     loop {
-        if has_begun && !is_back(cli, &home, server.as_ref()) {
+        if has_begun && !return_to_working_directory(cli, &home, server.as_ref()) {
             return Context::of(cli).0.printer.finish(ExitStatus::Success);
         }
         // Read the sources before the configuration is loaded, so that later changes are noticed.
@@ -48,7 +48,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
             // An editor may remove the configuration before it writes the new one.
             true if is_lost => {
                 if let Some(server) = &server {
-                    server.halt(&[], lost(&context));
+                    server.halt(&[], lost_configuration_message(&context));
                 }
                 Ok(ExitStatus::Usage)
             }
@@ -74,7 +74,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
                         return context.printer.finish(ExitStatus::Success);
                     }
                     thread::sleep(CONFIGURATION_INTERVAL);
-                    enter(&home);
+                    change_directory(&home);
                 }
             }
             Err(because) => {
@@ -88,11 +88,11 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
 
 /// Changes back to the working directory, which may have been replaced. If arguments are relative to it, waits until it exists again.
 /// Returns false if the page was closed meanwhile, so that the run ends.
-fn is_back(cli: &Cli, home: &Utf8Path, server: Option<&Server>) -> bool {
+fn return_to_working_directory(cli: &Cli, home: &Utf8Path, server: Option<&Server>) -> bool {
     let inputs = cli.command.inputs();
     let is_named = inputs.inputs.iter().all(|input| Utf8Path::new(input).is_absolute());
     let is_configured = cli.common.config.as_ref().is_none_or(|file| file.is_absolute());
-    if enter(home) || is_named && is_configured && !inputs.inputs.is_empty() {
+    if change_directory(home) || is_named && is_configured && !inputs.inputs.is_empty() {
         return true;
     }
     let (context, _) = Context::of(cli);
@@ -105,7 +105,7 @@ fn is_back(cli: &Cli, home: &Utf8Path, server: Option<&Server>) -> bool {
         server.halt(&[], &line);
     }
     context.printer.status(line);
-    while !enter(home) {
+    while !change_directory(home) {
         if server.is_some_and(Server::is_over) {
             return false;
         }
@@ -115,13 +115,13 @@ fn is_back(cli: &Cli, home: &Utf8Path, server: Option<&Server>) -> bool {
 }
 
 /// Changes the working directory. Returns whether that succeeded.
-fn enter(home: &Utf8Path) -> bool {
+fn change_directory(home: &Utf8Path) -> bool {
     // `home` is empty if the system could not determine the working directory.
     home.as_str().is_empty() || std::env::set_current_dir(home).is_ok()
 }
 
 /// Returns the message that the configuration has disappeared, so that nothing is checked.
-fn lost(context: &Context) -> &'static str {
+fn lost_configuration_message(context: &Context) -> &'static str {
     context.choose("pathbuild.toml is missing", "pathbuild.toml fehlt")
 }
 

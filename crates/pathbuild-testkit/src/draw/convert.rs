@@ -18,10 +18,10 @@ use super::model::{
     Arc, Attachment, Circle, Dimension, Direction, Ellipse, Entity, Horizontal, Insert, Layer, LayerState,
     MText, Orientation, Point, Polyline, PolylineKind, Shape, Spline, Text, Version, Vertical,
 };
-use super::place::text_circle;
+use super::text_positions::text_circle;
 
 /// The tag of an entity, which stands in for its handle, is this number plus the index of the entity.
-pub(crate) const TAG: u64 = 1 << 60;
+pub(crate) const TAG_BASE: u64 = 1 << 60;
 
 /// The usual line types with their patterns in mm: dashes positive, gaps negative, dots 0.
 pub const LINE_TYPES: [(&str, &[f64]); 11] = [
@@ -52,11 +52,11 @@ pub(crate) fn drawing(sheet: &Sheet, tickets: &mut StringPlaceholders) -> Drawin
     add_blocks(&mut drawing, sheet, tickets);
     let inner = sheet.entities().len();
     for (index, entity) in drawing.entities_mut().enumerate() {
-        entity.common.handle = Handle(TAG + index as u64);
+        entity.common.handle = Handle(TAG_BASE + index as u64);
     }
     let blocks = drawing.blocks_mut().flat_map(|block| &mut block.entities);
     for (index, entity) in blocks.enumerate() {
-        entity.common.handle = Handle(TAG + (inner + index) as u64);
+        entity.common.handle = Handle(TAG_BASE + (inner + index) as u64);
     }
     drawing
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pathbuild_diagnostic::Handle;
 
 use super::model::{Block, DrawError, Entity, Layer, NoteKind, Options, Shape, Template, Version};
-use super::place::{candidates, position_notes};
+use super::text_positions::{candidates, position_notes};
 
 /// A drawing under construction, in which parameter texts have no positions yet.
 #[derive(Clone, Debug)]
@@ -143,11 +143,11 @@ impl Sheet {
         }
         let mut sheet =
             Self { options, layers, line_types, blocks, entities, template: None, next_handle: FIRST_HANDLE };
-        sheet.allot_handles();
+        sheet.assign_handles();
         sheet
     }
 
-    fn allot_handles(&mut self) {
+    fn assign_handles(&mut self) {
         let inner = self.blocks.iter_mut().flat_map(|block| &mut block.entities);
         let entities: Vec<&mut Entity> = self.entities.iter_mut().chain(inner).collect();
         let own: BTreeSet<Handle> = entities.iter().filter_map(|entity| entity.handle).collect();

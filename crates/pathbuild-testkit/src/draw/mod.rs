@@ -6,10 +6,10 @@
 mod convert;
 mod draft;
 pub mod model;
-mod place;
+mod text_positions;
 mod write;
 
 pub use convert::LINE_TYPES;
 pub use draft::{Draft, Sheet};
 pub use model::{Block, DrawError, Entity, Layer, Options, Point, Shape, Template, Version};
-pub use place::{TextCircle, text_circle};
+pub use text_positions::{TextCircle, text_circle};

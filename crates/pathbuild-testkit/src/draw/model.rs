@@ -126,32 +126,32 @@ impl Entity {
 
     /// Creates a start marker: a PHANTOM circle 1 mm in diameter.
     pub fn start(at: impl Into<Point>) -> Self {
-        Self::circle(at, 1.0).typed("PHANTOM")
+        Self::circle(at, 1.0).with_line_type("PHANTOM")
     }
 
     /// Creates an end marker: a PHANTOM circle 2 mm in diameter.
     pub fn end(at: impl Into<Point>) -> Self {
-        Self::circle(at, 2.0).typed("PHANTOM")
+        Self::circle(at, 2.0).with_line_type("PHANTOM")
     }
 
     /// Creates a turn marker: a PHANTOM circle 1.5 mm in diameter.
     pub fn turn(at: impl Into<Point>) -> Self {
-        Self::circle(at, 1.5).typed("PHANTOM")
+        Self::circle(at, 1.5).with_line_type("PHANTOM")
     }
 
     /// Creates a Z-probe: a PHANTOM circle 6 mm in diameter.
     pub fn probe(at: impl Into<Point>) -> Self {
-        Self::circle(at, 6.0).typed("PHANTOM")
+        Self::circle(at, 6.0).with_line_type("PHANTOM")
     }
 
     /// Sets the line type.
-    pub fn typed(mut self, line_type: &str) -> Self {
+    pub fn with_line_type(mut self, line_type: &str) -> Self {
         self.line_type = Some(line_type.to_owned());
         self
     }
 
     /// Sets the layer.
-    pub fn on(mut self, layer: &str) -> Self {
+    pub fn on_layer(mut self, layer: &str) -> Self {
         self.layer = Some(layer.to_owned());
         self
     }
@@ -453,7 +453,7 @@ impl Polyline {
 }
 
 /// Returns the arc of a segment with this bulge; `None` if the segment is straight or has no length.
-pub fn bulged(from: Point, to: Point, bulge: f64) -> Option<Arc> {
+pub fn arc_of_bulge(from: Point, to: Point, bulge: f64) -> Option<Arc> {
     let chord = from.distance(to);
     if bulge == 0.0 || chord == 0.0 {
         return None;

@@ -10,7 +10,7 @@ use pathbuild_draw::pairs::{
 };
 
 use super::convert;
-use super::convert::TAG;
+use super::convert::TAG_BASE;
 use super::draft::Sheet;
 use super::model::{
     Change, Direction, Entity, Layer, LayerState, LineEnds, Options, Part, Shape, Template, TextEncoding,
@@ -45,7 +45,7 @@ fn with_written<T>(sheet: &Sheet, next: impl FnOnce(CrateOutput<'_>) -> T) -> T 
     _ = drawing.save(&mut text);
     let text = String::from_utf8_lossy(&text);
     let mut written = CrateOutput::of(&text, &tickets);
-    written.tidy(&sheet.tagged(), sheet.options().version);
+    written.correct_entities(&sheet.tagged(), sheet.options().version);
     next(written)
 }
 
@@ -198,7 +198,7 @@ impl<'a> CrateOutput<'a> {
     }
 
     /// Corrects the entities in the crate's output.
-    fn tidy(&mut self, tagged: &[&Entity], version: Version) {
+    fn correct_entities(&mut self, tagged: &[&Entity], version: Version) {
         for record in self.entities.iter_mut().chain(&mut self.blocks) {
             pairs::remove_unwanted_pairs(record);
             if version < Version::R13 {
@@ -218,7 +218,7 @@ fn variables<'a>(pairs: &[Pair<'a>]) -> Vec<Record<'a>> {
 /// Returns the entity of a record, by the tag in place of its handle.
 fn entity_of<'e>(record: &Record<'_>, tagged: &[&'e Entity]) -> Option<&'e Entity> {
     let tag = u64::from_str_radix(value(record, 5)?, 16).ok()?;
-    let index = usize::try_from(tag.checked_sub(TAG)?).ok()?;
+    let index = usize::try_from(tag.checked_sub(TAG_BASE)?).ok()?;
     tagged.get(index).copied()
 }
 
@@ -234,7 +234,7 @@ fn header_pairs<'a>(sheet: &'a Sheet, mut variables: Vec<Record<'a>>, hand_seed:
     let options = sheet.options();
     variables.retain(|variable| !POINTERS.contains(&kind(variable)));
     for variable in &mut variables {
-        let Some(fixed) = fixed(kind(variable), hand_seed) else { continue };
+        let Some(fixed) = fixed_value(kind(variable), hand_seed) else { continue };
         variable.truncate(2);
         if let Some(pair) = variable.last_mut() {
             *pair = Pair::new(pair.code, fixed);
@@ -253,7 +253,7 @@ fn header_pairs<'a>(sheet: &'a Sheet, mut variables: Vec<Record<'a>>, hand_seed:
     variables.into_iter().flatten().collect()
 }
 
-fn fixed(variable: &str, hand_seed: u64) -> Option<String> {
+fn fixed_value(variable: &str, hand_seed: u64) -> Option<String> {
     Some(match variable {
         "$TDCREATE" | "$TDUCREATE" | "$TDUPDATE" | "$TDUUPDATE" => DATE.to_owned(),
         "$FINGERPRINTGUID" | "$VERSIONGUID" => GUID.to_owned(),
@@ -488,13 +488,13 @@ impl Tables<'_> {
         let mut owners = Owners::new();
         let tables = TABLES.into_iter().zip(of_table);
         for (name, records) in tables.filter(|(name, _)| version >= Version::R13 || *name != "BLOCK_RECORD") {
-            let listed = self.listed(name, records);
+            let listed = self.listed_records(name, records);
             let head = next();
             pairs.extend(self.head(name, head, listed.len()));
             let owner = head.filter(|_| version >= Version::R2000);
             for mut record in listed {
                 let handle = next();
-                self.mend(name, &mut record);
+                self.correct_table_record(name, &mut record);
                 identify(&mut record, if name == "DIMSTYLE" { 105 } else { 5 }, handle, owner);
                 if let (Some(handle), "BLOCK_RECORD") = (handle, name) {
                     owners.push((value(&record, 2).unwrap_or_default().to_owned(), handle));
@@ -507,7 +507,7 @@ impl Tables<'_> {
     }
 
     /// Returns the records of a table, without unlisted layers and without names that the crate added because an entity spells them differently.
-    fn listed<'r>(&self, table: &str, mut records: Vec<Record<'r>>) -> Vec<Record<'r>> {
+    fn listed_records<'r>(&self, table: &str, mut records: Vec<Record<'r>>) -> Vec<Record<'r>> {
         let mut names = BTreeSet::new();
         records.retain(|record| {
             let is_new = names.insert(value(record, 2).unwrap_or_default().to_lowercase());
@@ -540,23 +540,23 @@ impl Tables<'_> {
         table == "LAYER" && self.layer(record).is_some_and(|layer| layer.is(LayerState::Unlisted))
     }
 
-    fn mend(&self, table: &str, record: &mut Record<'_>) {
+    fn correct_table_record(&self, table: &str, record: &mut Record<'_>) {
         let version = self.sheet.options().version;
         if version < Version::R13 {
             drop_codes(record, &[100, 290, 370, 390, 347, 348]);
         }
         match table {
-            "LAYER" => self.mend_layer(record),
-            "LTYPE" if version >= Version::R13 => mend_line_type(record),
+            "LAYER" => self.correct_layer(record),
+            "LTYPE" if version >= Version::R13 => correct_line_type(record),
             // Handles of styles and blocks, which the crate leaves empty.
             "DIMSTYLE" => drop_codes(record, &[340, 341, 342, 343, 344, 345, 346, 347]),
-            "BLOCK_RECORD" => self.mend_block_record(record),
+            "BLOCK_RECORD" => self.correct_block_record(record),
             _ => {}
         }
     }
 
     /// Adds layer flags, which the crate does not know, and removes the crate's pointer to a plot style that does not exist.
-    fn mend_layer(&self, record: &mut Record<'_>) {
+    fn correct_layer(&self, record: &mut Record<'_>) {
         let Some(layer) = self.layer(record) else { return };
         let flags = i64::from(layer.is(LayerState::Frozen)) + 4 * i64::from(layer.is(LayerState::Locked));
         drop_codes(record, &[347, 348, 370]);
@@ -569,7 +569,7 @@ impl Tables<'_> {
         }
     }
 
-    fn mend_block_record(&self, record: &mut Record<'_>) {
+    fn correct_block_record(&self, record: &mut Record<'_>) {
         let layout = match value(record, 2) {
             Some("*Model_Space") => self.layouts[0],
             Some("*Paper_Space") => self.layouts[1],
@@ -582,7 +582,7 @@ impl Tables<'_> {
 }
 
 /// Inserts the type (group 74) after the length of each dash (group 49).
-fn mend_line_type(record: &mut Record<'_>) {
+fn correct_line_type(record: &mut Record<'_>) {
     let kind = |pair: &Pair<'_>| (pair.code == 49).then(|| Pair::new(74, "     0"));
     let pairs = std::mem::take(record).into_iter();
     record.extend(pairs.flat_map(|pair| {

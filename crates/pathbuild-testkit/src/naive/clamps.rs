@@ -8,7 +8,7 @@ use pathbuild_path::{KeepOut, Path, Segment, SegmentKind, SubpathName, Xy};
 use super::{Finding, Instance, Model};
 
 /// Tolerance in mm within which lengths are equal.
-const LENGTH: f64 = 1e-6;
+const LENGTH_TOLERANCE: f64 = 1e-6;
 
 /// X and Y in mm, or cosine and sine of an angle.
 type Pair = [f64; 2];
@@ -64,7 +64,7 @@ impl ExpandedPath<'_> {
         parent: Option<(usize, Option<String>)>,
         place: impl Fn(&Path) -> Place,
     ) {
-        let Some(path) = self.model.sound(&instance) else { return };
+        let Some(path) = self.model.sound_path(&instance) else { return };
         let (number, place) = (self.occurrences.len(), place(&path));
         self.occurrences.push(Occurrence { instance, path: path.clone(), parent, place });
         for segment in &path.segments {
@@ -146,8 +146,9 @@ impl ExpandedPath<'_> {
     /// Whether a move hits a clamp: it is lower than the clamp, and closer than the cutter's radius.
     fn is_in(&self, motion: &Move, around: &Occurrence, clamp: &KeepOut) -> bool {
         let radius = self.occurrences[0].path.tool / 2.0;
-        motion.z < clamp.height + around.place.raised - LENGTH
-            && distance(motion.ends.map(|end| around.place.back(end)), &corners(clamp)) < radius - LENGTH
+        motion.z < clamp.height + around.place.raised - LENGTH_TOLERANCE
+            && distance(motion.ends.map(|end| around.place.back(end)), &corners(clamp))
+                < radius - LENGTH_TOLERANCE
     }
 
     /// Returns the innermost path that contains a clamp's drawing and a move, and the element of that path that leads to the move.
@@ -183,7 +184,7 @@ impl Place {
 
 /// Returns the heights of the passes, from the surface down.
 fn passes(surface: f64, infeed: f64, bottom: f64) -> impl Iterator<Item = f64> {
-    let next = move |z: &f64| (*z > bottom + LENGTH).then(|| (z - infeed).max(bottom));
+    let next = move |z: &f64| (*z > bottom + LENGTH_TOLERANCE).then(|| (z - infeed).max(bottom));
     std::iter::successors(Some(surface), next).skip(1)
 }
 

@@ -59,7 +59,7 @@ impl<'m> Visit<'m> {
         let drawing = &self.model.drawings[instance.0];
         self.found.extend(drawing.faults());
         let raw = self.model.raw(instance);
-        let ExaminedPath { path, problems } = self.model.bound(instance);
+        let ExaminedPath { path, problems } = self.model.bind_known(instance);
         let mut is_wrong =
             self.report(instance, &raw.findings_except(&problems)) | drawing.has_unclear_clamps;
         is_wrong |= self.report(instance, &problems);
@@ -108,7 +108,7 @@ impl<'m> Visit<'m> {
         let name = match &subpath.name {
             SubpathName::Missing { .. } => return self.stop(at("PB501", &[])),
             SubpathName::Invalid { value } => return self.stop(at("PB502", &[value])),
-            SubpathName::Found { name, has_more: Some(value) } if is_glued(value, name.as_str()) => {
+            SubpathName::Found { name, has_more: Some(value) } if is_part_of_word(value, name.as_str()) => {
                 return self.stop(at("PB502", &[value]));
             }
             SubpathName::Found { name, has_more } => {
@@ -124,7 +124,7 @@ impl<'m> Visit<'m> {
             self.found.push(at("PB508", &[]));
             return Errors::TooDeep;
         }
-        match *model.holders(outer.0, name) {
+        match *model.defining_drawings(outer.0, name) {
             [] => {
                 if let [only] = model.searched(outer.0, name)[..]
                     && model.drawings[only].is_unreadable()
@@ -175,8 +175,8 @@ impl<'m> Visit<'m> {
             }
             Errors::Cycle(_) | Errors::Own => return self.stop(at("PB511", &[raw.name.as_str()])),
         }
-        let inner = model.sound(&child);
-        let misfits = inner.map_or(Vec::new(), |inner| misfits(path, subpath, &inner));
+        let inner = model.sound_path(&child);
+        let misfits = inner.map_or(Vec::new(), |inner| mismatches(path, subpath, &inner));
         for (code, word) in &misfits {
             self.found.push(at(code, &[word]));
         }
@@ -216,7 +216,7 @@ impl Model {
 
     /// Returns the path that a subpath embeds, if exactly one drawing defines it.
     pub(super) fn child(&self, outer: &Instance, name: &PathName, subpath: &Subpath) -> Option<Instance> {
-        let holder = *self.holders(outer.0, name).first()?;
+        let holder = *self.defining_drawings(outer.0, name).first()?;
         let paths = &self.drawings[holder].content.paths;
         let number = paths.iter().take_while(|(raw, _)| *raw.name != *name).count();
         let values = subpath.values.iter().filter_map(|given| Some((given.variable?, given.value.clone())));
@@ -225,7 +225,7 @@ impl Model {
 }
 
 /// Whether a letter or digit directly adjoins the name in the text after `>`.
-fn is_glued(value: &str, name: &str) -> bool {
+fn is_part_of_word(value: &str, name: &str) -> bool {
     let at = value.find(name).unwrap_or_default();
     let (before, behind) = (value[..at].chars().last(), value[at + name.len()..].chars().next());
     [before, behind].into_iter().flatten().any(char::is_alphanumeric)
@@ -243,8 +243,8 @@ fn allows(definition: &Definition, value: &str) -> bool {
 }
 
 /// Returns the mismatches in M, T, O and the length, each with its code and its letter.
-fn misfits(path: &Path, subpath: &Subpath, inner: &Path) -> Vec<(&'static str, String)> {
-    let differs = |a: f64, b: f64| (a - b).abs() > LENGTH;
+fn mismatches(path: &Path, subpath: &Subpath, inner: &Path) -> Vec<(&'static str, String)> {
+    let differs = |a: f64, b: f64| (a - b).abs() > LENGTH_TOLERANCE;
     let mut found = Vec::new();
     for (letter, here, there) in [("T", subpath.thickness, inner.thickness), ("O", subpath.tool, inner.tool)]
     {
@@ -261,7 +261,7 @@ fn misfits(path: &Path, subpath: &Subpath, inner: &Path) -> Vec<(&'static str, S
         _ => found.push(("PB201", "M".to_owned())),
     }
     let is_thickness_known = !subpath.hides(Letter::T) && !path.hides(Letter::T);
-    if is_thickness_known && path.thickness < subpath.thickness - LENGTH {
+    if is_thickness_known && path.thickness < subpath.thickness - LENGTH_TOLERANCE {
         found.push(("PB510", String::new()));
     }
     let length = |from: pathbuild_path::Xy, to: pathbuild_path::Xy| (to - from).norm();
@@ -274,7 +274,7 @@ fn misfits(path: &Path, subpath: &Subpath, inner: &Path) -> Vec<(&'static str, S
 // Disagreements between Q-projects and their drawings. (book: language/q-projects)
 
 /// Tolerance in mm within which lengths are equal.
-const LENGTH: f64 = 0.001;
+const LENGTH_TOLERANCE: f64 = 0.001;
 
 impl Model {
     /// Returns the findings about each pair of a drawing and its Q-project among these drawings.
@@ -302,7 +302,7 @@ impl Model {
             found.extend(self.proxy_faults(drawing, proxy));
         }
         let values = |path: usize| Bindings::check_values(&project.content.paths[path].0.definitions);
-        let bound = |path: usize| self.sound(&(q_project, path, values(path)));
+        let bound = |path: usize| self.sound_path(&(q_project, path, values(path)));
         let paths: Option<Vec<Path>> = (0..project.content.paths.len()).map(bound).collect();
         let Some(paths) =
             paths.filter(|_| project.content.diagnostics.iter().all(|problem| !problem.is_error()))
@@ -336,7 +336,7 @@ impl Model {
             let right: Vec<&ProxyLine> = proxies.iter().filter(of_path).collect();
             for (path, segment, subpath, _) in embedded {
                 let mut compared: Vec<Vec<String>> =
-                    right.iter().map(|proxy| differing(subpath, proxy)).collect();
+                    right.iter().map(|proxy| differing_letters(subpath, proxy)).collect();
                 if compared.is_empty() || compared.iter().any(Vec::is_empty) {
                     continue;
                 }
@@ -368,7 +368,7 @@ impl Model {
         let Some(path) = paths.iter().position(|(raw, _)| Some(&*raw.name) == named.as_ref()) else {
             return vec![at(written)];
         };
-        if let Some(other) = joined(drawing, proxy, path) {
+        if let Some(other) = connected_path(drawing, proxy, path) {
             return vec![at(&paths[other].0.name.to_string())];
         }
         let raw = &paths[path].0;
@@ -378,7 +378,7 @@ impl Model {
             let given = given.filter(|value| allows(definition, value));
             Some((definition.name, given.or_else(|| examples.get(definition.name))?.into()))
         });
-        let Some(bound) = self.sound(&(number, path, Bindings::new(values))) else { return Vec::new() };
+        let Some(bound) = self.sound_path(&(number, path, Bindings::new(values))) else { return Vec::new() };
         let is = |letter: Letter, there: f64| {
             proxy.value(letter).is_none_or(|(here, _)| is_same(here, &there.to_string()))
         };
@@ -390,7 +390,7 @@ impl Model {
         if material.is_some_and(|here| bound.material.as_deref() != Some(&*here)) {
             found.push(at("M"));
         }
-        if (proxy.curve.chord() - (bound.end - bound.start).norm()).abs() > LENGTH {
+        if (proxy.curve.chord() - (bound.end - bound.start).norm()).abs() > LENGTH_TOLERANCE {
             found.push(at(""));
         }
         found
@@ -398,7 +398,7 @@ impl Model {
 }
 
 /// Returns the index of the path with the ends that a proxy line connects, if the named path has other ends.
-fn joined(drawing: &Drawing, proxy: &ProxyLine, named: usize) -> Option<usize> {
+fn connected_path(drawing: &Drawing, proxy: &ProxyLine, named: usize) -> Option<usize> {
     let (start, end) = (proxy.curve.start(), proxy.curve.end());
     let joins = |path: &usize| {
         let raw = &drawing.content.paths[*path].0;
@@ -410,7 +410,7 @@ fn joined(drawing: &Drawing, proxy: &ProxyLine, named: usize) -> Option<usize> {
 }
 
 /// Returns the letters and variables in which a subpath differs from a proxy line.
-fn differing(subpath: &Subpath, proxy: &ProxyLine) -> Vec<String> {
+fn differing_letters(subpath: &Subpath, proxy: &ProxyLine) -> Vec<String> {
     let mut found = Vec::new();
     for (letter, name, here) in [(Letter::T, "T", subpath.thickness), (Letter::O, "O", subpath.tool)] {
         let on_proxy = proxy.value(letter);
@@ -431,7 +431,7 @@ fn differing(subpath: &Subpath, proxy: &ProxyLine) -> Vec<String> {
         let agree = matches!((here, on_proxy), (Some(here), Some((_, there))) if is_same(&here.value, there));
         found.extend((!agree).then(|| format!(":{variable}")));
     }
-    if ((subpath.end - subpath.start).norm() - proxy.curve.chord()).abs() > LENGTH {
+    if ((subpath.end - subpath.start).norm() - proxy.curve.chord()).abs() > LENGTH_TOLERANCE {
         found.push(String::new());
     }
     found

@@ -137,22 +137,23 @@ impl Model {
     }
 
     /// Returns the bound path, unless its drawing or values have errors.
-    fn sound(&self, instance: &Instance) -> Option<Path> {
-        self.bound(instance).path.filter(|path| !path.has_faults())
+    fn sound_path(&self, instance: &Instance) -> Option<Path> {
+        self.bind_known(instance).path.filter(|path| !path.has_faults())
     }
 
     /// Returns the path as far as it is known, with the errors in its values.
-    fn bound(&self, instance: &Instance) -> ExaminedPath {
+    fn bind_known(&self, instance: &Instance) -> ExaminedPath {
         pathbuild_path::examine(self.raw(instance), &instance.2, &self.language)
     }
 }
 
 impl Drawing {
     fn read(path: &str, bytes: &[u8], language: &Language) -> Self {
-        let mut content = raw_file(&drawn(bytes, &|layer| language.path_pattern.is_layer(layer)), language);
-        content.diagnostics.extend(stray_findings(&drawn(bytes, &|_| true), language));
+        let mut content =
+            raw_file(&read_drawing(bytes, &|layer| language.path_pattern.is_layer(layer)), language);
+        content.diagnostics.extend(stray_findings(&read_drawing(bytes, &|_| true), language));
         let KeepOuts { all: clamps, problems: clamp_problems } =
-            keep_outs(&drawn(bytes, &|layer| language.is_keep_out(layer)), language);
+            keep_outs(&read_drawing(bytes, &|layer| language.is_keep_out(layer)), language);
         let has_unclear_clamps = clamp_problems.iter().any(Diagnostic::is_error);
         Self {
             path: path.to_owned(),
@@ -166,7 +167,7 @@ impl Drawing {
 
     /// Returns the drawing's proxy lines.
     fn proxies(&self, language: &Language) -> Vec<ProxyLine> {
-        proxy_lines(&drawn(&self.bytes, &|_| true), language)
+        proxy_lines(&read_drawing(&self.bytes, &|_| true), language)
     }
 
     /// Findings about the drawing itself rather than its paths.
@@ -189,7 +190,7 @@ impl Drawing {
     }
 }
 
-fn drawn(bytes: &[u8], keep_layer: &dyn Fn(&str) -> bool) -> pathbuild_dxf::Drawing {
+fn read_drawing(bytes: &[u8], keep_layer: &dyn Fn(&str) -> bool) -> pathbuild_dxf::Drawing {
     let options = Options {
         keep_layer,
         note_text: None,
@@ -248,7 +249,7 @@ impl Finding {
     }
 
     /// Whether a finding of the program agrees with this one.
-    fn is_meant_by(&self, program: &Self) -> bool {
+    fn agrees_with(&self, program: &Self) -> bool {
         let place = |finding: &Self| {
             (finding.code.clone(), finding.file.clone(), finding.path.clone(), finding.handle.clone())
         };
@@ -275,7 +276,7 @@ pub fn differences(model: &[Finding], program: &[Finding]) -> Vec<String> {
     let mut differences = Vec::new();
     for found in each_once(program) {
         // Choose the most specific match, since other findings may match the less specific ones.
-        let meant = (0..open.len()).filter(|place| open[*place].is_meant_by(&found));
+        let meant = (0..open.len()).filter(|place| open[*place].agrees_with(&found));
         match meant.max_by_key(|place| open[*place].words.concat().len()) {
             Some(place) => _ = open.remove(place),
             None => differences.push(format!("only the program: {found:?}")),
@@ -298,7 +299,7 @@ pub(super) fn pattern(text: &str) -> Regex {
 
 impl Model {
     /// Returns the drawings that define a path to which the drawing `from` refers.
-    pub(super) fn holders(&self, from: usize, name: &PathName) -> Vec<usize> {
+    pub(super) fn defining_drawings(&self, from: usize, name: &PathName) -> Vec<usize> {
         let others = self.searched(from, name).into_iter().filter(|number| *number != from);
         std::iter::once(from).chain(others).filter(|number| self.defines(*number, name)).collect()
     }

@@ -2,7 +2,8 @@
 
 use super::cursor::{Cursor, Parsed, ParsedEntities};
 use crate::draw::model::{
-    Arc, Circle, Ellipse, Entity, Insert, Line, Point, Polyline, PolylineKind, Shape, Spline, Vertex, bulged,
+    Arc, Circle, Ellipse, Entity, Insert, Line, Point, Polyline, PolylineKind, Shape, Spline, Vertex,
+    arc_of_bulge,
 };
 use crate::draw::{Draft, LINE_TYPES};
 
@@ -154,7 +155,7 @@ pub(crate) fn arc(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
         through(from, via, to).ok_or_else(|| cursor.error("these three points lie on a straight line"))?
     } else if cursor.take("bulge") {
         let bulge = cursor.number("a bulge")?;
-        bulged(from, to, bulge).ok_or_else(|| cursor.error("this arc is straight or has no length"))?
+        arc_of_bulge(from, to, bulge).ok_or_else(|| cursor.error("this arc is straight or has no length"))?
     } else if cursor.take("centre") {
         let centre = cursor.point("the centre")?;
         directed(
@@ -202,7 +203,7 @@ fn arc_by_radius(cursor: &mut Cursor, from: Point, to: Point) -> Parsed<Arc> {
     let sagitta = radius - (radius * radius - half * half).max(0.0).sqrt();
     let height = if large { 2.0 * radius - sagitta } else { sagitta };
     let bulge = if clockwise { -height / half } else { height / half };
-    bulged(from, to, bulge).ok_or_else(|| cursor.error("this arc has no length"))
+    arc_of_bulge(from, to, bulge).ok_or_else(|| cursor.error("this arc has no length"))
 }
 
 /// Returns the arc through three points; `None` if they lie on a line.

@@ -14,13 +14,13 @@ fn drafted(paths: &[EmbeddingPath<'_>]) -> Vec<u8> {
         for (index, (length, text)) in path.segments.iter().enumerate() {
             if index > 0 {
                 let next = at + Point::new(20.0, 0.0);
-                draft.add(Entity::line(at, next).typed("HIDDEN"));
+                draft.add(Entity::line(at, next).with_line_type("HIDDEN"));
                 at = next;
             }
             let to = at + Point::new(*length, 0.0);
             let circle = || Entity::arc(at + Point::new(0.0, 5.0), 5.0, 270.0, 270.0);
             let segment = if *length < 1e-3 { circle() } else { Entity::line(at, to) };
-            draft.add(segment.typed("DASHDOT").note(&escaped(text)));
+            draft.add(segment.with_line_type("DASHDOT").note(&escaped(text)));
             at = if *length < 1e-3 { at } else { to };
         }
         draft.add(Entity::end(at));

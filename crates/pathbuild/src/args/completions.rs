@@ -66,7 +66,7 @@ fn is_harmless(name: &str) -> bool {
 
 /// Returns the paths of the working directory's library whose names begin with the current word.
 fn path_names(current: &OsStr) -> Vec<CompletionCandidate> {
-    let (user, mut faults) = environment::user();
+    let (user, mut faults) = environment::load_user_settings();
     let overrides = Overrides { trusted: user.trusted.clone(), ..Overrides::default() };
     let (workspace, more) = environment::workspace(&overrides, &user, &Inputs::default());
     faults.extend(more);

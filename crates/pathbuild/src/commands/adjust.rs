@@ -31,7 +31,7 @@ pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
     let mut jobs: Vec<Job> = Vec::new();
     let out_dir = context.settings.general.out_dir.value.as_deref();
     for file in &args.files {
-        match Job::all(context, file, out_dir) {
+        match Job::adjustments_of_argument(context, file, out_dir) {
             Ok(all) => {
                 for job in all {
                     if jobs.iter().all(|known| known.clean != job.clean) {
@@ -76,8 +76,8 @@ struct Job {
     milling: Utf8PathBuf,
 }
 
-pub(super) const CLEAN: &str = "_Clean.gcode";
-pub(super) const VALUES: &str = "_Z.txt";
+pub(super) const CLEAN_SUFFIX: &str = "_Clean.gcode";
+pub(super) const VALUES_SUFFIX: &str = "_Z.txt";
 
 impl Job {
     /// Returns the programs that an argument refers to. The argument names a file of a program, or a drawing. The programs of a drawing are
@@ -86,7 +86,7 @@ impl Job {
     ///
     /// # Errors
     /// PB006 if listing the programs' directory triggers a bug.
-    fn all(
+    fn adjustments_of_argument(
         context: &Context,
         argument: &Utf8Path,
         out_dir: Option<&Utf8Path>,
@@ -97,7 +97,7 @@ impl Job {
             return Ok(vec![job]);
         };
         // The program may be beside the drawing, although this configuration would write it elsewhere.
-        let beside = Self::new(Utf8Path::new(&format!("{argument}{CLEAN}")), out_dir);
+        let beside = Self::new(Utf8Path::new(&format!("{argument}{CLEAN_SUFFIX}")), out_dir);
         if is_there(&beside) {
             return Ok(vec![beside]);
         }
@@ -105,7 +105,7 @@ impl Job {
         let listed = catch_bugs(|| context.system.list(&directory));
         let listed = listed.map_err(|bug| Box::new(bug.in_file(&directory)))?;
         let Ok(listing) = listed else { return Ok(vec![job]) };
-        let programs = listing.files.iter().filter(|name| without(name, CLEAN).is_some());
+        let programs = listing.files.iter().filter(|name| without_suffix(name, CLEAN_SUFFIX).is_some());
         let mut named: Vec<&str> =
             programs.filter(|name| is_of(context, &join(&directory, name), &drawing)).collect();
         named.sort_unstable();
@@ -121,15 +121,16 @@ impl Job {
         let name = argument.file_name().unwrap_or_default();
         let beside = argument.parent().unwrap_or(Utf8Path::new(""));
         let written = out_dir.unwrap_or(beside);
-        let (stem, from) = match [CLEAN, VALUES].iter().find_map(|suffix| without(name, suffix)) {
-            Some(stem) => (stem, beside),
-            None => (without(name, ".dxf").unwrap_or(name), written),
-        };
-        let is_drawing = without(name, ".dxf").is_some();
+        let (stem, from) =
+            match [CLEAN_SUFFIX, VALUES_SUFFIX].iter().find_map(|suffix| without_suffix(name, suffix)) {
+                Some(stem) => (stem, beside),
+                None => (without_suffix(name, ".dxf").unwrap_or(name), written),
+            };
+        let is_drawing = without_suffix(name, ".dxf").is_some();
         Self {
             drawing: is_drawing.then(|| argument.to_owned()),
-            clean: join(from, format!("{stem}{CLEAN}")),
-            values: join(from, format!("{stem}{VALUES}")),
+            clean: join(from, format!("{stem}{CLEAN_SUFFIX}")),
+            values: join(from, format!("{stem}{VALUES_SUFFIX}")),
             milling: join(written, format!("{stem}_Milling.gcode")),
         }
     }
@@ -138,8 +139,8 @@ impl Job {
 /// Returns the file name of the drawing that an argument names, with or without extension; `None` if the argument is a file of a program.
 fn drawing_of(argument: &Utf8Path) -> Option<String> {
     let name = argument.file_name()?;
-    let is_file = [CLEAN, VALUES].iter().any(|suffix| without(name, suffix).is_some());
-    let stem = without(name, ".dxf").unwrap_or(name);
+    let is_file = [CLEAN_SUFFIX, VALUES_SUFFIX].iter().any(|suffix| without_suffix(name, suffix).is_some());
+    let stem = without_suffix(name, ".dxf").unwrap_or(name);
     (!is_file).then(|| format!("{stem}.dxf"))
 }
 
@@ -150,7 +151,7 @@ fn is_of(context: &Context, program: &Utf8Path, drawing: &str) -> bool {
 }
 
 /// Strips a suffix from a name, ignoring case.
-pub(super) fn without<'n>(name: &'n str, suffix: &str) -> Option<&'n str> {
+pub(super) fn without_suffix<'n>(name: &'n str, suffix: &str) -> Option<&'n str> {
     let (stem, end) = name.split_at_checked(name.len().checked_sub(suffix.len())?)?;
     end.eq_ignore_ascii_case(suffix).then_some(stem)
 }
@@ -212,7 +213,7 @@ impl<'a> Adjustment<'a> {
             comparison,
             DrawingComparison::Other { .. } | DrawingComparison::Edited { .. } | DrawingComparison::Wrong(_)
         );
-        if is_other && let Some(problem) = self.other_mode(job, clean) {
+        if is_other && let Some(problem) = self.other_mode_problem(job, clean) {
             return Err(vec![problem]);
         }
         match comparison {
@@ -248,7 +249,7 @@ impl<'a> Adjustment<'a> {
     }
 
     /// Returns PB608 if the program is up to date with the opposite setting of `--compatible`.
-    fn other_mode(&self, job: &Job, clean: &[u8]) -> Option<Diagnostic> {
+    fn other_mode_problem(&self, job: &Job, clean: &[u8]) -> Option<Diagnostic> {
         let is_compatible = self.context.settings.general.compatible.value;
         let workspace = self.context.in_mode(!is_compatible);
         let beside = job.clean.parent().unwrap_or(Utf8Path::new(""));

@@ -69,12 +69,12 @@ impl<'a> RevisionFiles<'a> {
     /// Git's message if it cannot read the revision.
     fn new(context: &'a Context, inputs: &Inputs, revision: &str) -> Result<Self, String> {
         let revision = git::revision(context, revision)?;
-        let repository = Repository::of(context, &place(context, inputs))?;
+        let repository = Repository::of(context, &repository_place(context, inputs))?;
         let entries = match repository.tree(revision) {
             Ok(tree) => repository.entries(&tree)?,
             // Before the first commit, everything is new.
             Err(_) if repository.is_unborn(revision) => Vec::new(),
-            Err(reason) => return Err(repository.too_shallow(revision).unwrap_or(reason)),
+            Err(reason) => return Err(repository.shallow_clone_advice(revision).unwrap_or(reason)),
         };
         let (files, links, drawings) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
         let mut revision_files = Self { context, repository, files, links, drawings };
@@ -110,7 +110,7 @@ impl<'a> RevisionFiles<'a> {
     }
 
     /// Returns the real path of a file and its blob id in the revision; `None` if the file must count as changed.
-    fn known(&self, file: &Utf8Path) -> Option<(Utf8PathBuf, &str)> {
+    fn file_in_revision(&self, file: &Utf8Path) -> Option<(Utf8PathBuf, &str)> {
         let real = self.real(file);
         let id = self.files.get(&self.below_root(&real)?)?;
         // Git would hang on special files and very large ones, and expects one file name per line.
@@ -176,7 +176,7 @@ impl<'a> RevisionFiles<'a> {
 
 impl EarlierFiles for RevisionFiles<'_> {
     fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool> {
-        let committed: Vec<_> = files.iter().map(|file| self.known(file)).collect();
+        let committed: Vec<_> = files.iter().map(|file| self.file_in_revision(file)).collect();
         let comparable: Vec<&Utf8Path> = committed.iter().flatten().map(|(real, _)| &**real).collect();
         let mut ids = self.repository.ids(&comparable).into_iter();
         let is_same = |(_, id): &(Utf8PathBuf, &str)| ids.next().is_some_and(|now| now == *id);
@@ -199,7 +199,7 @@ impl EarlierFiles for RevisionFiles<'_> {
 
 /// Returns the place that determines the repository: the root of an untrusted tree; otherwise the first argument, the configuration's
 /// directory, or the working directory.
-fn place(context: &Context, inputs: &Inputs) -> Utf8PathBuf {
+fn repository_place(context: &Context, inputs: &Inputs) -> Utf8PathBuf {
     if let Some(confined) = &context.settings.confined {
         return confined.root().to_owned();
     }

@@ -49,7 +49,7 @@ pub(crate) enum Translation {
 pub(crate) fn help(lang: Lang) -> &'static str {
     match lang {
         Lang::En => HELP,
-        Lang::De => HILFE,
+        Lang::De => GERMAN_HELP,
     }
 }
 
@@ -66,7 +66,7 @@ pathbuild compat [/OPTION[VALUE]]... FILES
 `pathbuild compat --print ...` prints the pathbuild command lines instead of running them.
 ";
 
-const HILFE: &str = "\
+const GERMAN_HELP: &str = "\
 pathbuild compat [/OPTION[WERT]]... DATEIEN
 
   /f /v /s /z        --feed, --rapid, --sweep-height, --probe-feed
@@ -160,7 +160,7 @@ pub(crate) fn with_separator(mut arguments: Vec<OsString>) -> Vec<OsString> {
 }
 
 /// Formats arguments as a command line for a shell, with quotes where necessary.
-pub(crate) fn shown(arguments: &[String]) -> String {
+pub(crate) fn shell_command_line(arguments: &[String]) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_=./:,".contains(c);
     let quoted = |word: &String| {
         let needs_none = word.chars().all(is_plain) && !word.is_empty();
@@ -213,7 +213,9 @@ impl CompatArguments {
     /// Whether the command line adjusts programs, judging by its options and file names.
     fn adjusts(&self) -> bool {
         let is_adjusted = |file: &String| {
-            [adjust::CLEAN, adjust::VALUES].iter().any(|suffix| adjust::without(file, suffix).is_some())
+            [adjust::CLEAN_SUFFIX, adjust::VALUES_SUFFIX]
+                .iter()
+                .any(|suffix| adjust::without_suffix(file, suffix).is_some())
         };
         self.max_correction.is_some() || self.files.iter().any(is_adjusted)
     }

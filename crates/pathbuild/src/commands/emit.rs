@@ -154,8 +154,8 @@ fn count_current(context: &Context, delivered: &[ProgramOutcome], outdated: usiz
     let states = || delivered.iter().flat_map(|delivered| &delivered.files);
     let current = states().filter(|(_, state)| matches!(state, State::Current)).count();
     let (all, lang) = (states().count() + outdated, context.lang());
-    context.output.figure("current", current);
-    context.output.figure("not_current", all - current);
+    context.output.add_figure("current", current);
+    context.output.add_figure("not_current", all - current);
     let [current, others] = [current, all - current].map(|number| count(number, lang));
     context.printer.status(match lang {
         Lang::En => format!("{current} current, {others} not current"),

@@ -20,7 +20,7 @@ pub fn run(context: &Context, args: &ExplainArgs) -> ExitStatus {
             context.printer.result(pages.join("\n"));
             ExitStatus::Success
         }
-        Err(name) => refuse(context, &unknown(context, name)),
+        Err(name) => refuse(context, &unknown_code_error(context, name)),
     }
 }
 
@@ -29,7 +29,7 @@ fn code(name: &str) -> Option<Code> {
     name.parse().or_else(|()| format!("PB{name}").parse()).ok()
 }
 
-fn unknown(context: &Context, name: &str) -> String {
+fn unknown_code_error(context: &Context, name: &str) -> String {
     let unknown = context.choose("there is no diagnostic", "es gibt keine Meldung");
     let all =
         context.choose("`pathbuild explain` lists all codes", "`pathbuild explain` führt alle Codes auf");

@@ -41,10 +41,10 @@ pub(super) enum EntryKind {
 pub(super) type TakeBlob<'t> = &'t mut dyn FnMut(usize, Result<&mut dyn Read, u64>) -> io::Result<()>;
 
 /// Maximum length in bytes of a `.git` file, and of the header line of a blob or file in Git's output. No system has longer file names.
-const LONGEST_LINE: u64 = 4096;
+const MAX_LINE_BYTES: u64 = 4096;
 
 /// Maximum total size in bytes of the blobs in a single request, because a few Git objects can expand to any size.
-const MOST_BYTES: u64 = 4 << 30;
+const MAX_TOTAL_BLOB_BYTES: u64 = 4 << 30;
 
 static TOO_MANY_FILES: Text = Text {
     en: "the revision has more than {} files; if that is intended, raise `library-entries` under [limits] in pathbuild.toml",
@@ -57,15 +57,15 @@ static LONG_NAME: Text = Text {
 };
 
 /// Maximum length in bytes of a symbolic link's target.
-const LONGEST_LINK: u64 = 4096;
+const MAX_LINK_BYTES: u64 = 4096;
 
 /// Environment variables that are removed because they could redirect Git to another repository, for example to that of a hook.
-const NOT_INHERITED: [&str; 5] =
+const REMOVED_VARIABLES: [&str; 5] =
     ["GIT_DIR", "GIT_WORK_TREE", "GIT_COMMON_DIR", "GIT_INDEX_FILE", "GIT_PREFIX"];
 
 /// Environment variables that prevent a partial clone from fetching missing objects with configured commands. Older versions of Git know
 /// only the second one.
-const NO_FETCHES: [(&str, &str); 3] =
+const NO_FETCH_VARIABLES: [(&str, &str); 3] =
     [("GIT_NO_LAZY_FETCH", "1"), ("GIT_ALLOW_PROTOCOL", "none"), ("GIT_TERMINAL_PROMPT", "0")];
 
 const OPTIONS: [&str; 10] = [
@@ -111,7 +111,7 @@ impl<'a> Repository<'a> {
         let system = &self.workspace.system;
         let git = self.root.join(".git");
         let text = |file: &Utf8Path| {
-            let bytes = system.read(file, LONGEST_LINE).ok()?;
+            let bytes = system.read(file, MAX_LINE_BYTES).ok()?;
             Some(String::from_utf8_lossy(&bytes).trim().to_owned())
         };
         let place = |text: &str| system.canonical(&self.root.join(text));
@@ -154,7 +154,7 @@ impl<'a> Repository<'a> {
         let (entries, is_whole) =
             self.run_with_input(&arguments, "", |mut answers| entries(&mut answers, most))?;
         let entries = entries.map_err(|word| self.workspace.phrase(word.en, word.de, &most.to_string()))?;
-        if is_whole { Ok(entries) } else { Err(self.failed("")) }
+        if is_whole { Ok(entries) } else { Err(self.failure_message("")) }
     }
 
     /// Passes the contents of blobs to `take`, in order. For a blob larger than `most` bytes, passes only its size.
@@ -168,7 +168,7 @@ impl<'a> Repository<'a> {
             &lines(&mut ids.iter().copied()),
             |mut answers| ids.iter().map(|_| read_size(&mut answers)).collect::<io::Result<Vec<u64>>>(),
         )?;
-        if sizes.iter().filter(|size| **size <= most).sum::<u64>() > MOST_BYTES {
+        if sizes.iter().filter(|size| **size <= most).sum::<u64>() > MAX_TOTAL_BLOB_BYTES {
             let (en, de) = ("the revision has more than 4 GiB", "die Revision hat mehr als 4 GiB");
             return Err(self.workspace.choose(en, de).to_owned());
         }
@@ -192,7 +192,7 @@ impl<'a> Repository<'a> {
     /// A blob is missing.
     pub(super) fn targets(&self, ids: &[&str]) -> Result<Vec<Option<String>>, String> {
         let mut targets = Vec::with_capacity(ids.len());
-        self.each_blob(ids, LONGEST_LINK, &mut |_, bytes| {
+        self.each_blob(ids, MAX_LINK_BYTES, &mut |_, bytes| {
             let mut target = String::new();
             let is_read = bytes.is_ok_and(|bytes| bytes.read_to_string(&mut target).is_ok());
             targets.push(is_read.then_some(target));
@@ -215,7 +215,7 @@ impl<'a> Repository<'a> {
     }
 
     /// Returns advice for the user if the revision is missing because the clone is shallow.
-    pub(super) fn too_shallow(&self, revision: &str) -> Option<String> {
+    pub(super) fn shallow_clone_advice(&self, revision: &str) -> Option<String> {
         let is_shallow = self.run(&["rev-parse", "--is-shallow-repository"]).ok()?;
         let is_there = self.run(&["cat-file", "-e", &format!("{revision}^{{commit}}")]).is_ok();
         (is_shallow.trim_ascii() == b"true" && !is_there).then(|| {
@@ -230,14 +230,14 @@ impl<'a> Repository<'a> {
     }
 
     fn run(&self, arguments: &[&str]) -> Result<Vec<u8>, String> {
-        let output = self.command(arguments).output().map_err(|error| self.not_run(&error))?;
+        let output = self.command(arguments).output().map_err(|error| self.git_not_run_message(&error))?;
         if output.status.success() {
             return Ok(output.stdout);
         }
-        Err(self.failed(&String::from_utf8_lossy(&output.stderr)))
+        Err(self.failure_message(&String::from_utf8_lossy(&output.stderr)))
     }
 
-    fn failed(&self, message: &str) -> String {
+    fn failure_message(&self, message: &str) -> String {
         let nothing = self.workspace.choose("it failed", "fehlgeschlagen");
         format!("git: {}", message.lines().next().unwrap_or(nothing))
     }
@@ -251,7 +251,7 @@ impl<'a> Repository<'a> {
     ) -> Result<(R, bool), String> {
         let mut command = self.command(arguments);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
-        let mut child = command.spawn().map_err(|error| self.not_run(&error))?;
+        let mut child = command.spawn().map_err(|error| self.git_not_run_message(&error))?;
         let (stdin, stdout) = (child.stdin.take(), child.stdout.take());
         let answer = thread::scope(|scope| {
             // Git writes answers while it reads, so writing and reading must happen concurrently to avoid a deadlock.
@@ -270,17 +270,17 @@ impl<'a> Repository<'a> {
         if !self.root.as_str().is_empty() {
             command.current_dir(without_verbatim_prefix(&self.root));
         }
-        for name in NOT_INHERITED {
+        for name in REMOVED_VARIABLES {
             command.env_remove(name);
         }
         // Git must not search for a repository above the root.
         let above = self.root.parent().map(without_verbatim_prefix).unwrap_or_default();
-        command.env("GIT_CEILING_DIRECTORIES", above).envs(NO_FETCHES);
+        command.env("GIT_CEILING_DIRECTORIES", above).envs(NO_FETCH_VARIABLES);
         command.args(OPTIONS).args(arguments).stdin(Stdio::null());
         command
     }
 
-    fn not_run(&self, error: &io::Error) -> String {
+    fn git_not_run_message(&self, error: &io::Error) -> String {
         let (en, de) = ("cannot run git: {}", "git lässt sich nicht starten: {}");
         self.workspace.phrase(en, de, &error.to_string())
     }
@@ -323,7 +323,7 @@ pub(super) fn revision<'a>(workspace: &Workspace, name: &'a str) -> Result<&'a s
 fn entries(answers: &mut impl BufRead, most: u64) -> io::Result<Result<Vec<Entry>, &'static Text>> {
     let mut entries = Vec::new();
     let mut line = Vec::new();
-    while answers.by_ref().take(LONGEST_LINE).read_until(0, &mut line)? > 0 {
+    while answers.by_ref().take(MAX_LINE_BYTES).read_until(0, &mut line)? > 0 {
         if line.pop() != Some(0) {
             return Ok(Err(&LONG_NAME));
         }
@@ -339,7 +339,7 @@ fn entries(answers: &mut impl BufRead, most: u64) -> io::Result<Result<Vec<Entry
 /// Reads the header line of a blob in the output of `cat-file`. Returns the size in bytes.
 fn read_size(answers: &mut impl BufRead) -> io::Result<u64> {
     let mut head = String::new();
-    answers.by_ref().take(LONGEST_LINE).read_line(&mut head)?;
+    answers.by_ref().take(MAX_LINE_BYTES).read_line(&mut head)?;
     let size = head.trim_end().split_once(" blob ").and_then(|(_, size)| size.parse().ok());
     size.ok_or_else(|| io::Error::other(head.trim_end()))
 }

@@ -84,12 +84,12 @@ fn file(node: &Node) -> Cow<'_, str> {
 fn end(graph: &Graph, end: &EmbeddingEnd) -> String {
     match end {
         EmbeddingEnd::Node(node) => path(&graph.nodes[*node]),
-        EmbeddingEnd::Nowhere(name, code) => nowhere(name.as_ref(), *code),
+        EmbeddingEnd::Nowhere(name, code) => missing_target(name.as_ref(), *code),
     }
 }
 
 /// Formats a missing target with the reason: `9999.1P (PB503 path-not-found)`.
-fn nowhere(name: Option<&PathName>, code: Code) -> String {
+fn missing_target(name: Option<&PathName>, code: Code) -> String {
     format!("{} ({code} {})", shown::line(name.map_or("?", PathName::as_str)), code.name())
 }
 
@@ -225,7 +225,7 @@ fn dot(graph: &Graph) -> String {
         match &embedding.to {
             EmbeddingEnd::Node(to) => _ = writeln!(text, "  n{} -> n{to}{label};", embedding.from),
             EmbeddingEnd::Nowhere(name, code) => {
-                let missing = quoted(&nowhere(name.as_ref(), *code));
+                let missing = quoted(&missing_target(name.as_ref(), *code));
                 _ = writeln!(text, "  m{index} [label={missing}, style=dashed];");
                 _ = writeln!(text, "  n{} -> m{index}{label};", embedding.from);
             }
@@ -251,7 +251,7 @@ fn mermaid(graph: &Graph) -> String {
         match &embedding.to {
             EmbeddingEnd::Node(to) => _ = writeln!(text, "  n{} {arrow} n{to}", embedding.from),
             EmbeddingEnd::Nowhere(name, code) => {
-                let missing = escaped(&nowhere(name.as_ref(), *code));
+                let missing = escaped(&missing_target(name.as_ref(), *code));
                 _ = writeln!(text, "  n{} {arrow} m{index}([\"{missing}\"])", embedding.from);
             }
         }

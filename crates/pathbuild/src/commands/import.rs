@@ -175,7 +175,7 @@ impl Formatter<'_> {
             lines.push((if index == 0 { tools } else { "" }, self.used(used, is_layer, facts)));
         }
         lines.push((self.choose("time", "Zeit"), self.time(facts)));
-        lines.extend(self.waits(facts).map(|waits| (self.choose("waits", "Halte"), waits)));
+        lines.extend(self.format_dwells(facts).map(|waits| (self.choose("waits", "Halte"), waits)));
         for (index, taken) in facts.taken.iter().enumerate() {
             let label = if index == 0 { self.choose("assumed", "angenommen") } else { "" };
             let line = taken.place.line.unwrap_or(0);
@@ -302,7 +302,7 @@ impl Formatter<'_> {
         time
     }
 
-    fn waits(&self, facts: &Facts<'_>) -> Option<String> {
+    fn format_dwells(&self, facts: &Facts<'_>) -> Option<String> {
         let summary = &facts.summary;
         let mut waits = Vec::new();
         if summary.dwell > 0.0 {

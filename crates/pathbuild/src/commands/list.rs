@@ -52,7 +52,7 @@ fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row],
     context.conclude(diagnostics)
 }
 
-fn word(state: State, context: &Context) -> &'static str {
+fn state_word(state: State, context: &Context) -> &'static str {
     match state {
         State::Errors => context.choose("errors", "Fehler"),
         State::Stale => context.choose("program not current", "Programm nicht aktuell"),
@@ -100,7 +100,7 @@ fn state_text(row: &Row, context: &Context) -> String {
     let lang = context.lang();
     let errors = match row.state() {
         State::Errors => counted(row.errors, ERROR, lang),
-        state => word(state, context).to_owned(),
+        state => state_word(state, context).to_owned(),
     };
     if row.warnings == 0 {
         return errors;
@@ -123,7 +123,7 @@ fn text(stats: &Stats, context: &Context) -> String {
         decimal(stats.all.minutes, 0, lang),
     );
     for (state, number) in &stats.states {
-        _ = writeln!(text, "  {}: {}", word(*state, context), count(*number, lang));
+        _ = writeln!(text, "  {}: {}", state_word(*state, context), count(*number, lang));
     }
     _ = writeln!(
         text,
@@ -134,17 +134,21 @@ fn text(stats: &Stats, context: &Context) -> String {
     let none = || say("none", "keins").to_owned();
     let materials =
         stats.materials.iter().map(|(name, total)| (name.as_deref().map_or_else(none, str::to_owned), total));
-    text.push_str(&by(context, say("material M", "Material M"), materials));
+    text.push_str(&table_by(context, say("material M", "Material M"), materials));
     let cutters = stats.cutters.iter().map(|(tool, total)| {
         #[expect(clippy::cast_precision_loss, reason = "a diameter within a drawing's limits")]
         let shown = tool.map_or_else(none, |tool| decimal(tool as f64 / 1000.0, 3, lang));
         (shown, total)
     });
-    text.push_str(&by(context, say("cutter O", "Fräser O"), cutters));
+    text.push_str(&table_by(context, say("cutter O", "Fräser O"), cutters));
     text
 }
 
-fn by<'a>(context: &Context, heading: &str, totals: impl Iterator<Item = (String, &'a Total)>) -> String {
+fn table_by<'a>(
+    context: &Context,
+    heading: &str,
+    totals: impl Iterator<Item = (String, &'a Total)>,
+) -> String {
     let lang = context.lang();
     let columns = [
         (heading, false),

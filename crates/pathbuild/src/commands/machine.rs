@@ -33,7 +33,7 @@ pub fn run(context: &Context, args: &MachineArgs) -> ExitStatus {
     });
     let mut descriptions = Vec::new();
     for (file, text) in &texts {
-        match machine::read(file, text, unit, &|name| bit(context, file, name)) {
+        match machine::read(file, text, unit, &|name| tool_bit(context, file, name)) {
             Ok(mut description) => {
                 diagnostics.append(&mut description.problems);
                 descriptions.push((*file, description));
@@ -61,7 +61,7 @@ fn unreadable(file: &Utf8Path, reason: Value) -> Diagnostic {
 
 /// Returns the text of a tool bit that a FreeCAD library names. The bit is a file beside the library, or in the directory `Bit` beside the
 /// library's directory. Other directories are not read.
-fn bit(context: &Context, library: &Utf8Path, name: &str) -> Result<String, Value> {
+fn tool_bit(context: &Context, library: &Utf8Path, name: &str) -> Result<String, Value> {
     let name = Utf8Path::new(name).file_name().unwrap_or(name);
     let library = context.working_directory.join(library);
     let directory = library.parent().unwrap_or(Utf8Path::new(""));

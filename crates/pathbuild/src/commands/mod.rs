@@ -116,5 +116,5 @@ fn format_refusal(context: &Context, command: &Command) -> Option<String> {
 }
 
 fn refuse(context: &Context, reason: &str) -> ExitStatus {
-    german::wrong(reason, context.lang(), &context.printer)
+    german::print_usage_error(reason, context.lang(), &context.printer)
 }

@@ -85,7 +85,7 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
         Err(problems) => return context.fail(problems),
     };
     let mut diagnostics = Vec::new();
-    if let Err(errors) = written(context, file, args, &post_processor, &mut diagnostics) {
+    if let Err(errors) = rewrite_and_report(context, file, args, &post_processor, &mut diagnostics) {
         diagnostics.extend(errors);
         diagnostics.extend(context.lowered_error(&diagnostics));
         context.show(&context.findings(diagnostics));
@@ -96,7 +96,7 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
 
 /// Reads the program, writes its new version and reports that it was written. Adds warnings to `diagnostics`. If there are errors, nothing
 /// is written.
-fn written(
+fn rewrite_and_report(
     context: &Context,
     file: &Utf8Path,
     args: &PostArgs,
@@ -127,7 +127,7 @@ fn written(
     if context.has_error(&*diagnostics) {
         return Err(Vec::new());
     }
-    say(context, &output.notes);
+    show_notes(context, &output.notes);
     let Some(to) = to else {
         context.printer.result_bytes(&output.text);
         return Ok(());
@@ -228,7 +228,7 @@ fn output(
     if let Some(feed) = post_processor.feed() {
         job.set_missing_feeds(feed);
     }
-    let unknown = complete(&mut job, native_cutter, &post_processor.tools);
+    let unknown = complete_tools_of_job(&mut job, native_cutter, &post_processor.tools);
     let mut output = post_processor.write(&job, to, &mut Vec::new())?;
     output.warnings.extend(unknown.into_iter().map(|warning| warning.in_file(&program.file)));
     Ok(output)
@@ -236,7 +236,11 @@ fn output(
 
 /// Completes the tools of a job from the tool table: by their numbers, or for a native program by the path and the cutter O in its header.
 /// Returns warnings about unknown tools.
-fn complete(job: &mut Job, native_cutter: Option<(String, f64)>, tools: &ToolTable) -> Vec<Diagnostic> {
+fn complete_tools_of_job(
+    job: &mut Job,
+    native_cutter: Option<(String, f64)>,
+    tools: &ToolTable,
+) -> Vec<Diagnostic> {
     let Some((path, diameter)) = native_cutter else { return complete_tools(job, tools) };
     let tools = tools.with_numbers();
     let unknown = job.set_cutter(&path, diameter, &tools);
@@ -245,7 +249,7 @@ fn complete(job: &mut Job, native_cutter: Option<(String, f64)>, tools: &ToolTab
 }
 
 /// Shows the notes of a post-processor.
-fn say(context: &Context, notes: &[Note]) {
+fn show_notes(context: &Context, notes: &[Note]) {
     for note in notes {
         context.printer.status(format_args!("{}", note.text(context.lang())));
     }

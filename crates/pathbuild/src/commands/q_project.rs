@@ -32,14 +32,14 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
         Ok(name) => name,
         Err(reason) => return context.usage(&reason),
     };
-    let output = session.normal(args.output.as_deref().unwrap_or(&beside(&args.drawing)));
+    let output = session.normal(args.output.as_deref().unwrap_or(&q_project_file(&args.drawing)));
     if output == *drawing.path(session.db()) {
         return context.usage(context.choose(
             "the Q-project would overwrite its own drawing",
             "das Q-Projekt würde seine eigene Zeichnung überschreiben",
         ));
     }
-    match session.with_stable_files(|session| drawn(context, session, drawing, &output, &name)) {
+    match session.with_stable_files(|session| draw_q_project(context, session, drawing, &output, &name)) {
         Ok((bytes, count)) => write(context, &session, &output, &bytes, count),
         Err(problems) => {
             _ = context.conclude(session.with_hints(problems));
@@ -49,7 +49,7 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
 }
 
 /// Returns `NAME_Q.dxf` in the directory of the drawing `NAME.dxf`.
-fn beside(drawing: &Utf8Path) -> Utf8PathBuf {
+fn q_project_file(drawing: &Utf8Path) -> Utf8PathBuf {
     with_forward_slashes(
         drawing.with_file_name(format!("{}.dxf", q_project_name(drawing.file_stem().unwrap_or_default()))),
     )
@@ -91,7 +91,7 @@ fn default_name(drawing: &Utf8Path) -> String {
 }
 
 /// Draws the Q-project. Returns the DXF and the number of embedded paths.
-fn drawn(
+fn draw_q_project(
     context: &Context,
     session: &Session<'_>,
     drawing: SourceFile,
@@ -138,13 +138,13 @@ fn names(first: &PathName, count: usize, is_free: impl Fn(&PathName) -> bool) ->
     let start = text[..end].trim_end_matches(is_digit).len();
     let number = u64::from(text[start..end].parse::<u32>().unwrap_or_default());
     let next = |offset: u64| PathName::new(&format!("{}{}{}", &text[..start], number + offset, &text[end..]));
-    let others = (1..=MOST_TRIED).filter(|_| start < end).map(next).filter(is_free);
+    let others = (1..=MAX_TRIED_NAMES).filter(|_| start < end).map(next).filter(is_free);
     let names: Vec<PathName> = std::iter::once(first.clone()).chain(others).take(count.max(1)).collect();
     (names.len() >= count).then_some(names)
 }
 
 /// Maximum number of names that are tried.
-const MOST_TRIED: u64 = 1000;
+const MAX_TRIED_NAMES: u64 = 1000;
 
 /// Returns the diagnostics of a drawing and of all its paths, including PB513 if it has none.
 fn faults(session: &Session<'_>, drawing: SourceFile) -> Vec<Diagnostic> {
@@ -163,7 +163,7 @@ fn dxf(planned: &[QProject], names: &[PathName]) -> Result<Vec<u8>, String> {
         paths.push(EmbeddingPath { layer: name.as_str(), parameters: &path.parameters, segments });
     }
     let drawing = pathbuild_draw::q_project(&paths).map_err(|reasons| reasons.join("; "))?;
-    Ok([MARK, &drawing].concat())
+    Ok([Q_PROJECT_MARK, &drawing].concat())
 }
 
 fn write(
@@ -173,7 +173,7 @@ fn write(
     bytes: &[u8],
     count: usize,
 ) -> ExitStatus {
-    if is_of_user(session, output, bytes) {
+    if is_drawn_by_user(session, output, bytes) {
         return context.fail(vec![replace_error(output, &DRAWN_BY_USER)]);
     }
     let state = match session.db().system().write(output, bytes) {
@@ -190,12 +190,13 @@ fn write(
 
 /// Whether the output file is a drawing that q-project did not write: it lacks the mark, which CAD programs drop when they save, and it is
 /// not the drawing that an earlier version wrote without a mark.
-fn is_of_user(session: &Session<'_>, output: &Utf8Path, bytes: &[u8]) -> bool {
+fn is_drawn_by_user(session: &Session<'_>, output: &Utf8Path, bytes: &[u8]) -> bool {
     let system = session.db().system();
     let is_there = system.kind(output) == FileKind::File;
-    let is_ours = |old: Vec<u8>| old.starts_with(MARK) || bytes.strip_prefix(MARK) == Some(&old);
+    let is_ours =
+        |old: Vec<u8>| old.starts_with(Q_PROJECT_MARK) || bytes.strip_prefix(Q_PROJECT_MARK) == Some(&old);
     is_there && !system.read_head(output, bytes.len()).is_ok_and(is_ours)
 }
 
 /// First lines of every Q-project: a DXF comment that marks it.
-const MARK: &[u8] = b"999\r\npathbuild q-project\r\n";
+const Q_PROJECT_MARK: &[u8] = b"999\r\npathbuild q-project\r\n";

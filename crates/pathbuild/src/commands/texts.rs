@@ -93,7 +93,7 @@ fn lines(context: &Context, file: &str, text: &AssignedText) -> String {
     _ = writeln!(
         shown,
         "  {}, {layer} {}, {} {}, {} {}",
-        named(text.entity.name(), text.position),
+        element_name(text.entity.name(), text.position),
         of_layer,
         context.choose("circle around", "Kreis um"),
         point(centre),
@@ -102,7 +102,7 @@ fn lines(context: &Context, file: &str, text: &AssignedText) -> String {
     );
     for element in &text.elements {
         let AssignedElement { entity, line_type, position, shape } = element;
-        let (named, geometry) = (named(entity.name(), *position), geometry(context, shape));
+        let (named, geometry) = (element_name(entity.name(), *position), geometry(context, shape));
         _ = writeln!(shown, "  -> {named}, {layer} {of_layer}, {}, {geometry}", shown::line(line_type));
     }
     if text.elements.is_empty() {
@@ -112,7 +112,7 @@ fn lines(context: &Context, file: &str, text: &AssignedText) -> String {
 }
 
 /// Names an element by its handle, as in `LINE 1F`, or else by its line in the file, as in `LINE :120`.
-fn named(entity: &str, position: Position) -> String {
+fn element_name(entity: &str, position: Position) -> String {
     match position.handle {
         Some(handle) => format!("{entity} {handle}"),
         None => format!("{entity} :{}", position.line),
@@ -215,7 +215,7 @@ fn table<'a>(
     let title = context.choose("parameters of path", "Parameter des Pfads");
     let mut text = format!("{}: {title} {}\n", shown::line(file), shown::line(path.as_str()));
     for (ElementParameters { origin, what, parameters }, position) in elements {
-        let element = named(origin.entity.name(), position);
+        let element = element_name(origin.entity.name(), position);
         let at = context.choose("at", "bei");
         let Point { x, y } = origin.point;
         _ = writeln!(text, "  {element} {at} ({x}, {y}): {}", what.in_lang(context.lang()));

@@ -41,8 +41,10 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         verified => verified,
     };
     let programs = verified.as_ref().map_or(args.files.len(), |verified| verified.programs.len());
-    context.output.figure("programs", programs);
-    context.output.figure("configuration", context.settings.file.as_deref().map(|file| context.file(file)));
+    context.output.add_figure("programs", programs);
+    context
+        .output
+        .add_figure("configuration", context.settings.file.as_deref().map(|file| context.file(file)));
     let verified = match verified {
         Ok(verified) => verified,
         Err(Failure::Found(found)) => return conclude(context, args, &session, &args.files, found),
@@ -116,7 +118,7 @@ fn conclude(
         0 => String::new(),
         known => format!(", {}: {}", phrase("known", "bekannt"), count(known, context.lang())),
     };
-    context.output.figure("known", findings.waived.len());
+    context.output.add_figure("known", findings.waived.len());
     context.printer.status(format_args!(
         "{}: {errors}, {}: {warnings}{known}",
         phrase("errors", "Fehler"),
@@ -151,7 +153,7 @@ impl CheckReport {
                 let checks: Vec<Value> = checks.iter().map(|record| row(record, context.lang())).collect();
                 json!({ "program": file, "checks": checks })
             };
-            context.output.figure("checks", self.0.iter().map(record).collect::<Vec<_>>());
+            context.output.add_figure("checks", self.0.iter().map(record).collect::<Vec<_>>());
         }
     }
 

@@ -32,7 +32,7 @@ pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
     let (scene, findings) = target.report.for_others(context, &target.file);
     context.show(&findings);
     if output.shown.stock && !has_stock(&scene) {
-        return no_stock(context, &findings);
+        return report_missing_stock(context, &findings);
     }
     if let Err(problem) = output.deliver(context, &scene) {
         return context.fail(vec![*problem]);
@@ -41,7 +41,7 @@ pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
 }
 
 /// Reports that there is no stock to show: nothing is cut, or the cutter or the material is unknown.
-fn no_stock(context: &Context, findings: &Findings) -> ExitStatus {
+fn report_missing_stock(context: &Context, findings: &Findings) -> ExitStatus {
     if findings.errors() > 0 {
         return ExitStatus::Errors;
     }

@@ -30,7 +30,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
         let mut report = String::new();
         // Rendering cannot fail: writing to a String succeeds, and labels are within their text.
         _ = handler.render_report(&mut report, &page);
-        text.extend(report.split_inclusive('\n').map(|line| labelled(line, view)));
+        text.extend(report.split_inclusive('\n').map(|line| with_translated_label(line, view)));
         for line in &page.further {
             text.push_str("  ");
             text.push_str(line);
@@ -42,7 +42,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
 }
 
 /// Translates the label that miette puts in front of the help.
-fn labelled<'a>(line: &'a str, view: &View) -> Cow<'a, str> {
+fn with_translated_label<'a>(line: &'a str, view: &View) -> Cow<'a, str> {
     let is_help = line.strip_prefix(HELP_COLOR).unwrap_or(line).starts_with(HELP);
     if is_help { line.replacen(HELP, view.choose(HELP, "  Tipp: "), 1).into() } else { line.into() }
 }
@@ -72,7 +72,7 @@ impl Page {
             help: diagnostic.help(view.lang),
             label: source.as_ref().map(|(_, span)| LabeledSpan::underline(span.clone())),
             source: source.map(|(text, _)| Source::new(text, diagnostic)),
-            further: further(diagnostic, view),
+            further: notes_and_trace(diagnostic, view),
         }
     }
 }
@@ -114,7 +114,7 @@ fn header(diagnostic: &Diagnostic, view: &View) -> String {
 }
 
 /// Returns the notes, followed by the embeddings of the path, innermost first.
-fn further(diagnostic: &Diagnostic, view: &View) -> Vec<String> {
+fn notes_and_trace(diagnostic: &Diagnostic, view: &View) -> Vec<String> {
     let note = view.choose("note", "Hinweis");
     let notes = diagnostic.notes.iter().map(|remark| format!("{note}: {}", remark.text(view.lang)));
     let trace = diagnostic.trace.iter().rev().map(|step| view::embedding(step, view));

@@ -27,17 +27,17 @@ pub(crate) fn page(findings: &Findings, pictures: &[Option<String>], view: &View
             _ = writeln!(text, "<section>\n<h2>{name}</h2>");
             file = Some(&diagnostic.file);
         }
-        article(&mut text, diagnostic, picture.as_deref(), view);
+        add_finding(&mut text, diagnostic, picture.as_deref(), view);
     }
     if file.is_some() {
         text.push_str("</section>\n");
     }
-    accepted(&mut text, findings, view);
+    add_accepted(&mut text, findings, view);
     RenderedText(text + "</html>\n")
 }
 
 /// Adds the findings that are accepted for a stated reason.
-fn accepted(text: &mut String, findings: &Findings, view: &View) {
+fn add_accepted(text: &mut String, findings: &Findings, view: &View) {
     let stated = findings.waived.iter().filter_map(|waived| Some((waived, waived.waiver.reason.as_deref()?)));
     let mut items = String::new();
     for (WaivedFinding { diagnostic, waiver }, reason) in stated {
@@ -69,7 +69,7 @@ fn summary(findings: &Findings, view: &View) -> String {
 }
 
 /// Adds one finding: picture, code, message, help, place.
-fn article(text: &mut String, diagnostic: &Diagnostic, picture: Option<&str>, view: &View) {
+fn add_finding(text: &mut String, diagnostic: &Diagnostic, picture: Option<&str>, view: &View) {
     let severity = view::severity(diagnostic.severity, view);
     let class = if diagnostic.is_error() { "error" } else { "warning" };
     let (code, name) = (diagnostic.code(), diagnostic.code().name());

@@ -71,12 +71,12 @@ pub(crate) fn header(command: &str) -> String {
 }
 
 /// Serializes an object so that its type is the first key.
-pub(crate) fn typed(kind: &str, object: &Value) -> String {
+pub(crate) fn serialize_with_type(kind: &str, object: &Value) -> String {
     format!("{{\"type\":\"{kind}\",{}", object.to_string().trim_start_matches('{'))
 }
 
 /// Escapes characters with special effects in lines of JSON.
-pub(crate) fn rendered(lines: &str) -> RenderedText {
+pub(crate) fn escaped_lines(lines: &str) -> RenderedText {
     RenderedText(shown::json(lines).into_owned())
 }
 

@@ -19,7 +19,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
         let mut suite = TestSuite::new(&*name);
         for (path, case) in cases {
             let path = path.map_or_else(|| name.clone(), shown::line);
-            suite.add_test_case(case.shown(&path, &name, view));
+            suite.add_test_case(case.test_case(&path, &name, view));
         }
         report.add_test_suite(suite);
     }
@@ -51,7 +51,7 @@ fn suites(findings: &Findings) -> SuitesByFile<'_> {
 }
 
 impl PathCase<'_> {
-    fn shown(&self, name: &str, file: &str, view: &View) -> TestCase {
+    fn test_case(&self, name: &str, file: &str, view: &View) -> TestCase {
         let mut shown = TestCase::new(name, self.status(view));
         shown.set_classname(file);
         shown.extra.insert("file".into(), file.into());

@@ -119,13 +119,13 @@ pub(crate) fn write(workspace: &Workspace, directory: &Utf8Path, findings: &Find
 }
 
 /// Maximum length in bytes of the part of a picture's name that is taken from the drawing.
-const LONGEST_STEM: usize = 80;
+const MAX_STEM_BYTES: usize = 80;
 
 /// Returns the file name of a finding's picture, such as `2050.1P-PB401-3f2a9c0d.svg`.
 fn name(diagnostic: &Diagnostic, fingerprint: Fingerprint) -> Utf8PathBuf {
     let stem = diagnostic.file.as_deref().and_then(Utf8Path::file_stem).unwrap_or_default();
     let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, '.' | '_' | ' ' | '~');
     let stem: String = stem.chars().map(|letter| if is_plain(letter) { letter } else { '-' }).collect();
-    let stem = &stem[..stem.floor_char_boundary(LONGEST_STEM)];
+    let stem = &stem[..stem.floor_char_boundary(MAX_STEM_BYTES)];
     format!("{stem}-{}-{}.svg", diagnostic.code(), &fingerprint.to_string()[..8]).into()
 }

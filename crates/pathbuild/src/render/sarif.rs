@@ -12,17 +12,17 @@ use pathbuild_workspace::findings::Fingerprint;
 use pathbuild_workspace::waivers::Waiver;
 
 /// Maximum number of results. GitHub refuses runs with more.
-const MOST_RESULTS: usize = 25_000;
+const MAX_RESULTS: usize = 25_000;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
-    let mut results = reported(findings);
-    results.extend(accepted(findings));
+    let mut results = reported_findings(findings);
+    results.extend(accepted_findings(findings));
     let rules: BTreeSet<Code> = results.iter().map(|result| result.diagnostic.code()).collect();
     let rules: Vec<Code> = rules.into_iter().collect();
-    let left_out = results.len().saturating_sub(MOST_RESULTS);
+    let left_out = results.len().saturating_sub(MAX_RESULTS);
     if left_out > 0 {
         results.sort_by_key(|result| (result.waiver.is_some(), result.diagnostic.severity));
-        results.truncate(MOST_RESULTS);
+        results.truncate(MAX_RESULTS);
     }
     let log = json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
@@ -50,13 +50,13 @@ struct ShownFinding<'a> {
     waiver: Option<&'a Waiver>,
 }
 
-fn reported(findings: &Findings) -> Vec<ShownFinding<'_>> {
+fn reported_findings(findings: &Findings) -> Vec<ShownFinding<'_>> {
     let shown = |(diagnostic, fingerprint)| ShownFinding { diagnostic, fingerprint, waiver: None };
     findings.diagnostics.iter().zip(Fingerprint::of(&findings.diagnostics)).map(shown).collect()
 }
 
 /// Returns the findings that are accepted for a stated reason.
-fn accepted(findings: &Findings) -> impl Iterator<Item = ShownFinding<'_>> {
+fn accepted_findings(findings: &Findings) -> impl Iterator<Item = ShownFinding<'_>> {
     let all: Vec<Diagnostic> = findings.waived.iter().map(|waived| waived.diagnostic.clone()).collect();
     let accepted = findings.waived.iter().zip(Fingerprint::of(&all));
     accepted.filter(|(waived, _)| waived.waiver.reason.is_some()).map(|(waived, fingerprint)| ShownFinding {
@@ -154,13 +154,13 @@ fn location(diagnostic: &Diagnostic, view: &View) -> Option<Json> {
 
 fn artifact(file: &str) -> Json {
     match file.strip_prefix('/') {
-        Some(_) => json!({ "uri": format!("file://{}", encoded(file)) }),
-        None => json!({ "uri": encoded(file), "uriBaseId": "%SRCROOT%" }),
+        Some(_) => json!({ "uri": format!("file://{}", percent_encoded(file)) }),
+        None => json!({ "uri": percent_encoded(file), "uriBaseId": "%SRCROOT%" }),
     }
 }
 
 /// Percent-encodes a file name for a URI.
-fn encoded(name: &str) -> String {
+fn percent_encoded(name: &str) -> String {
     let encode = |byte: u8| match byte {
         b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'.' | b'-' | b'_' | b'~' => {
             char::from(byte).to_string()

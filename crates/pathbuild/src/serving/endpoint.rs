@@ -20,7 +20,7 @@ use tokio::time::sleep;
 use crate::args::{Address, Host};
 
 /// Port used by default.
-pub(super) const PORT: u16 = 8347;
+pub(super) const DEFAULT_PORT: u16 = 8347;
 
 /// The address of a listening socket, and the requirements for requests to it.
 pub(super) struct Endpoint {
@@ -39,14 +39,14 @@ impl Endpoint {
     pub(super) fn open(address: &Address) -> io::Result<(TcpListener, Self)> {
         let listener = match address.port {
             Some(port) => bind(&address.host, port)?,
-            None => match bind(&address.host, PORT) {
+            None => match bind(&address.host, DEFAULT_PORT) {
                 Err(error) if error.kind() == io::ErrorKind::AddrInUse => bind(&address.host, 0)?,
                 other => other?,
             },
         };
         listener.set_nonblocking(true)?;
         let local = listener.local_addr()?;
-        let token = if local.ip().is_loopback() { None } else { Some(random()?) };
+        let token = if local.ip().is_loopback() { None } else { Some(random_token()?) };
         Ok((listener, Self { host: address.host.clone(), local, token }))
     }
 
@@ -130,21 +130,21 @@ fn own_address(unspecified: IpAddr) -> IpAddr {
 }
 
 /// Returns a random number of 128 bits in hexadecimal.
-pub(super) fn random() -> io::Result<String> {
+pub(super) fn random_token() -> io::Result<String> {
     let mut bits = [0; 16];
     getrandom::fill(&mut bits).map_err(io::Error::other)?;
     Ok(format!("{:032x}", u128::from_ne_bytes(bits)))
 }
 
 /// Prefix of routes that return data of drawings.
-pub(super) const DATA: &str = "/api/";
+pub(super) const DATA_PREFIX: &str = "/api/";
 
 /// Route that receives the text of a program, which the server does not store.
-pub(super) const PROGRAM: &str = "/api/program";
+pub(super) const PROGRAM_ROUTE: &str = "/api/program";
 
 /// Returns the method that a route accepts.
 pub(super) fn method(path: &str) -> Method {
-    if path == PROGRAM { Method::POST } else { Method::GET }
+    if path == PROGRAM_ROUTE { Method::POST } else { Method::GET }
 }
 
 /// Decides whether a request is answered.
@@ -175,7 +175,7 @@ pub(super) fn admit(endpoint: &Endpoint, request: &Parts) -> Result<(), StatusCo
         return Err(StatusCode::FORBIDDEN);
     }
     match endpoint.token() {
-        Some(token) if request.uri.path().starts_with(DATA) && !has_token(&request.headers, token) => {
+        Some(token) if request.uri.path().starts_with(DATA_PREFIX) && !has_token(&request.headers, token) => {
             Err(StatusCode::UNAUTHORIZED)
         }
         _ => Ok(()),

@@ -101,11 +101,11 @@ impl Hub {
             state.halted = serde_json::Value::from(reason).to_string();
             state.set_problems(problems);
         });
-        self.leave();
+        self.drop_questions();
     }
 
     /// Drops pending questions, because the watching thread will not answer them any more.
-    pub(super) fn leave(&self) {
+    pub(super) fn drop_questions(&self) {
         let mut state = self.state();
         state.bell = None;
         state.questions.clear();

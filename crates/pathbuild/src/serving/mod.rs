@@ -38,7 +38,7 @@ impl Server {
     pub(crate) fn start(context: &Context, args: &ServeArgs) -> Result<Option<Self>, String> {
         let Some(address) = &args.serve else { return Ok(None) };
         let (listener, endpoint) = Endpoint::open(address).map_err(|reason| format!("--serve: {reason}"))?;
-        tell(context, address, &endpoint);
+        print_address(context, address, &endpoint);
         let link = endpoint.link();
         let hub = Arc::new(Hub::default());
         let routes = Routes::new(endpoint, Arc::clone(&hub), context.lang())?;
@@ -77,11 +77,11 @@ impl Server {
 }
 
 /// Prints the address of the page. The line may contain the token, so it must not be logged.
-fn tell(context: &Context, address: &Address, endpoint: &Endpoint) {
-    if address.port.is_none() && endpoint.port() != endpoint::PORT {
+fn print_address(context: &Context, address: &Address, endpoint: &Endpoint) {
+    if address.port.is_none() && endpoint.port() != endpoint::DEFAULT_PORT {
         context.printer.status(match context.lang() {
-            Lang::En => format!("port {} is taken", endpoint::PORT),
-            Lang::De => format!("Port {} ist belegt", endpoint::PORT),
+            Lang::En => format!("port {} is taken", endpoint::DEFAULT_PORT),
+            Lang::De => format!("Port {} ist belegt", endpoint::DEFAULT_PORT),
         });
     }
     let phrase = context.choose("serving at", "zu sehen unter");

@@ -168,6 +168,6 @@ impl Library {
 
 impl Drop for Page<'_> {
     fn drop(&mut self) {
-        self.hub.leave();
+        self.hub.drop_questions();
     }
 }

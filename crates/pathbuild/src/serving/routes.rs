@@ -24,8 +24,8 @@ use tokio::sync::watch;
 use tokio::time::timeout;
 
 use super::endpoint::answer;
-use super::endpoint::{Endpoint, random};
-use super::endpoint::{HEADERS, PROGRAM, admit, method};
+use super::endpoint::{Endpoint, random_token};
+use super::endpoint::{HEADERS, PROGRAM_ROUTE, admit, method};
 use super::hub::{AnswerForm, Hub, Subject};
 
 /// State that all routes share.
@@ -43,7 +43,7 @@ pub(super) struct Routes {
 const RECONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// Time that a browser may take to start before the page counts as closed.
-const START: Duration = Duration::from_secs(90);
+const BROWSER_START_TIMEOUT: Duration = Duration::from_secs(90);
 
 impl Routes {
     /// Creates the routes.
@@ -51,7 +51,7 @@ impl Routes {
     /// # Errors
     /// The system provides no random numbers.
     pub(super) fn new(endpoint: Endpoint, hub: Arc<Hub>, lang: Lang) -> Result<Self, String> {
-        let run = random().map_err(|error| error.to_string())?;
+        let run = random_token().map_err(|error| error.to_string())?;
         Ok(Self { endpoint, hub, lang, run, pages: watch::Sender::new(0) })
     }
 
@@ -86,7 +86,7 @@ async fn end_by_key(hub: Arc<Hub>) {
 
 /// Ends watching once no page has been open for a while.
 async fn end_without_pages(hub: Arc<Hub>, mut pages: watch::Receiver<usize>) {
-    let mut patience = START;
+    let mut patience = BROWSER_START_TIMEOUT;
     while timeout(patience, pages.wait_for(|open| *open > 0)).await.is_ok_and(|open| open.is_ok()) {
         patience = RECONNECT_TIMEOUT;
         if pages.wait_for(|open| *open == 0).await.is_err() {
@@ -105,13 +105,13 @@ fn router(routes: Arc<Routes>) -> Router {
         .route("/api/scene", get(scene))
         .route("/api/picture", get(picture))
         .route("/api/events", get(events))
-        .route(PROGRAM, post(program).layer(DefaultBodyLimit::max(LARGEST_PROGRAM)))
-        .layer(middleware::from_fn_with_state(Arc::clone(&routes), guarded))
+        .route(PROGRAM_ROUTE, post(program).layer(DefaultBodyLimit::max(MAX_PROGRAM_BYTES)))
+        .layer(middleware::from_fn_with_state(Arc::clone(&routes), admit_and_secure))
         .with_state(routes)
 }
 
 /// Refuses requests that are not admitted, and adds the security headers to every response.
-async fn guarded(State(routes): State<Arc<Routes>>, request: Request, next: Next) -> Response {
+async fn admit_and_secure(State(routes): State<Arc<Routes>>, request: Request, next: Next) -> Response {
     let (parts, body) = request.into_parts();
     let allowed = method(parts.uri.path()).to_string();
     let mut response = match admit(&routes.endpoint, &parts) {
@@ -174,7 +174,7 @@ fn drawing(SceneQuery { file, path }: SceneQuery, form: AnswerForm) -> Subject {
 }
 
 /// Maximum size in bytes of a program that a page may send.
-const LARGEST_PROGRAM: usize = 64 << 20;
+const MAX_PROGRAM_BYTES: usize = 64 << 20;
 
 /// Query of a request that sends a program: the program's name, and assumptions about it.
 #[derive(Deserialize)]

@@ -34,7 +34,7 @@ pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
     let pictures = output.has_pictures().then(|| context.lang());
     let compared = match sides(context, args) {
         Ok([Side::Drawings(old), Side::Drawings(new)]) => Ok(drawings(context, &old, &new, pictures)),
-        Ok([Side::Program(old), Side::Program(new)]) => Ok(single(*old, *new, pictures)),
+        Ok([Side::Program(old), Side::Program(new)]) => Ok(compare_two_programs(*old, *new, pictures)),
         Ok(_) => {
             return context.usage(context.choose(
                 "compare a program with a path or with another program",
@@ -65,7 +65,7 @@ fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<
 }
 
 /// Compares two programs, or a program and a path.
-fn single(old: ComparedProgram, new: ComparedProgram, pictures: Option<Lang>) -> Comparison {
+fn compare_two_programs(old: ComparedProgram, new: ComparedProgram, pictures: Option<Lang>) -> Comparison {
     let changed = compare_moves(&old.path, &new.path, pictures);
     let is_same = changed.groups.is_empty();
     let files = [&old, &new].map(|seen| Some(seen.path.file.clone().into()));
@@ -170,7 +170,7 @@ fn kind_of(context: &Context, argument: &str) -> ArgumentKind {
 fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revision>) -> Result<Side, Failure> {
     let is_drawing = is_drawing(&place);
     let named = Inputs::places([&place]);
-    let (workspace, faults) = context.elsewhere(&named);
+    let (workspace, faults) = context.workspace_of_inputs(&named);
     if !faults.is_empty() {
         return Err(Failure::Refused(faults));
     }
@@ -238,8 +238,8 @@ fn path(
         }
         let path = seen.scene.paths.into_iter().next().unwrap_or_default();
         let path = match post_processor {
-            Some(_) if path.native.is_some() => as_posted(context, path, args)?,
-            _ => as_printed(path),
+            Some(_) if path.native.is_some() => with_posted_program(context, path, args)?,
+            _ => with_printed_program(path),
         };
         Ok(ComparedProgram { path, problems: seen.diagnostics })
     })
@@ -255,7 +255,7 @@ fn post_processor_of(context: &Context, program: &Utf8Path) -> Option<PostProces
 }
 
 /// Replaces a path's program by the text of its post-processor, read in the same way as a program in a file.
-fn as_posted(context: &Context, path: ScenePath, args: &DiffArgs) -> Result<ScenePath, Failure> {
+fn with_posted_program(context: &Context, path: ScenePath, args: &DiffArgs) -> Result<ScenePath, Failure> {
     let text = path.gcode.unwrap_or_default().into_bytes();
     let program = Program::of_text(context, Utf8Path::new(&path.file), text, args.reading.options());
     let program = program.map_err(|problem| Failure::Found(vec![*problem]))?;
@@ -263,7 +263,7 @@ fn as_posted(context: &Context, path: ScenePath, args: &DiffArgs) -> Result<Scen
 }
 
 /// Replaces a path's program by its native text as read back, so that numbers are rounded as printed.
-fn as_printed(path: ScenePath) -> ScenePath {
+fn with_printed_program(path: ScenePath) -> ScenePath {
     let text = path.gcode.unwrap_or_default();
     let read = interpret(text.as_bytes(), Dialect::Native, &Options::default());
     let source = GcodeSource {

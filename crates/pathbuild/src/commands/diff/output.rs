@@ -146,7 +146,7 @@ pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
 }
 
 /// Maximum number of lines of an explanation. Further lines are only counted.
-const MOST_REASONS: usize = 24;
+const MAX_REASON_LINES: usize = 24;
 
 /// Returns the lines that explain the changes, each with its indentation level: an introduction, then the reasons. A reason may have
 /// reasons of its own, which follow it one level deeper. Empty if it is unknown whether there is an explanation.
@@ -165,9 +165,9 @@ fn explanation(program: &ProgramDiff, lang: Lang) -> Vec<(usize, String)> {
         lines.push((depth, message(reason, lang)));
         open.extend(reason.reasons().iter().rev().map(|reason| (depth + 1, reason)));
     }
-    let left_out = lines.len().saturating_sub(1 + MOST_REASONS);
+    let left_out = lines.len().saturating_sub(1 + MAX_REASON_LINES);
     if left_out > 0 {
-        lines.truncate(1 + MOST_REASONS);
+        lines.truncate(1 + MAX_REASON_LINES);
         lines.push((1, format!("{} {left_out}", lang.choose("and further:", "und weitere:"))));
     }
     lines
@@ -406,13 +406,13 @@ pub(super) fn page(comparison: &Comparison, lang: Lang) -> String {
         _ = writeln!(page, "<p>{}</p>", escaped(&problem));
     }
     for path in &comparison.paths {
-        section(&mut page, path, comparison, lang);
+        add_section(&mut page, path, comparison, lang);
     }
     page.push_str(behind);
     page
 }
 
-fn section(page: &mut String, path: &PathDiff, comparison: &Comparison, lang: Lang) {
+fn add_section(page: &mut String, path: &PathDiff, comparison: &Comparison, lang: Lang) {
     _ = writeln!(
         page,
         "<section>\n<h2>{} <small>{}</small></h2>\n<p>{}</p>",
@@ -426,16 +426,16 @@ fn section(page: &mut String, path: &PathDiff, comparison: &Comparison, lang: La
             _ = writeln!(page, "<li>{}</li>", escaped(&line));
         }
         page.push_str("</ul>\n");
-        reasons(page, program, lang);
+        add_reasons(page, program, lang);
         if let Some(pictures) = &program.pictures {
-            show(page, pictures, lang);
+            add_pictures(page, pictures, lang);
         }
     }
     page.push_str("</section>\n");
 }
 
 /// Adds nested lists of the reasons that explain the changes.
-fn reasons(page: &mut String, program: &ProgramDiff, lang: Lang) {
+fn add_reasons(page: &mut String, program: &ProgramDiff, lang: Lang) {
     let mut open = 0;
     for (depth, line) in explanation(program, lang) {
         let line = escaped(&line);
@@ -457,7 +457,7 @@ fn reasons(page: &mut String, program: &ProgramDiff, lang: Lang) {
 
 /// Adds the pictures of a change: the changes, the old and the new moves, and the stock if it changes. Without scripts, only the changes
 /// are visible.
-fn show(page: &mut String, PictureSet { changes, old, new, stock }: &PictureSet, lang: Lang) {
+fn add_pictures(page: &mut String, PictureSet { changes, old, new, stock }: &PictureSet, lang: Lang) {
     let button = |way: &str, en, de| format!("<button data-way=\"{way}\">{}</button>", lang.choose(en, de));
     let label = lang.choose("old to new", "alt bis neu");
     _ = writeln!(

@@ -35,11 +35,11 @@ pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, Strin
             "{} ist weder ein Verzeichnis noch ein Programm noch eine Revision",
             &format!("{name:?}"),
         );
-        repository.too_shallow(name).unwrap_or_else(|| format!("{neither} ({reason})"))
+        repository.shallow_clone_advice(name).unwrap_or_else(|| format!("{neither} ({reason})"))
     })?;
     let entries = repository.entries(&tree)?;
     let files = tempfile::Builder::new().prefix("pathbuild-").tempdir().map_err(|error| error.to_string())?;
-    let place = place_of(context, &files)?;
+    let place = temporary_directory_path(context, &files)?;
     let whole = place.join("tree");
     // Mark the directory as a repository, like the original, so that ignore files apply and no link leads out of it.
     fs::create_dir_all(whole.join(".git")).map_err(|error| error.to_string())?;
@@ -47,7 +47,7 @@ pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, Strin
     File::create_new(place.join(FILE_NAME)).map_err(|error| error.to_string())?;
     let largest = context.settings.limits.file_size.value.max(MIN_SIZE_LIMIT);
     let mut checkout = Checkout { repository: &repository, whole: &whole, largest, left_out: Vec::new() };
-    checkout.all(&entries)?;
+    checkout.write_all(&entries)?;
     report_left_out(context, &checkout.left_out);
     let directory = context.system.canonical(&context.working_directory);
     let below = directory.strip_prefix(&repository.root).unwrap_or(Utf8Path::new(""));
@@ -55,7 +55,7 @@ pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, Strin
     Ok(Revision { name: name.to_owned(), root, _files: files })
 }
 
-fn place_of(context: &Context, files: &TempDir) -> Result<Utf8PathBuf, String> {
+fn temporary_directory_path(context: &Context, files: &TempDir) -> Result<Utf8PathBuf, String> {
     let place = Utf8Path::from_path(files.path()).ok_or_else(|| {
         let reason = context.choose(
             "the directory for temporary files has no UTF-8 name",
@@ -93,7 +93,7 @@ struct Checkout<'a> {
 
 impl Checkout<'_> {
     /// Writes all needed files. Links are written last, so that no file is written through a link.
-    fn all(&mut self, entries: &[Entry]) -> Result<(), String> {
+    fn write_all(&mut self, entries: &[Entry]) -> Result<(), String> {
         let (plain, hostile): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| entry.is_plain());
         for entry in hostile {
             self.leave_out(entry);

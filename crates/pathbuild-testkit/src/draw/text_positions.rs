@@ -8,11 +8,11 @@ use pathbuild_draw::text_positions::{
 use super::model::{
     Arc, Attachment, Block, Circle, Direction, DrawError, Ellipse, Entity, Horizontal, Insert, Layer, Line,
     MText, Note, NoteKind, Options, Orientation, Point, Polyline, Shape, Spline, Text, Version, Vertical,
-    bulged,
+    arc_of_bulge,
 };
 
 /// Maximum nesting depth of blocks to follow, which also bounds the recursion for blocks that contain themselves.
-const DEPTH: u8 = 8;
+const MAX_BLOCK_DEPTH: u8 = 8;
 
 /// Returns all elements of a list of entities, with blocks expanded.
 pub(crate) fn candidates(entities: &[Entity], blocks: &[Block], layers: &[Layer]) -> Vec<Candidate> {
@@ -20,7 +20,7 @@ pub(crate) fn candidates(entities: &[Entity], blocks: &[Block], layers: &[Layer]
     for (index, entity) in entities.iter().enumerate().filter(|(_, entity)| !entity.paper) {
         let layer = entity.layer.as_deref().unwrap_or("0");
         if let Shape::Insert(insert) = &entity.shape {
-            expand(insert, layer, blocks, layers, DEPTH, &mut found);
+            expand(insert, layer, blocks, layers, MAX_BLOCK_DEPTH, &mut found);
         } else {
             found.extend(candidate(entity, Some(index), layer, layers));
         }
@@ -80,7 +80,7 @@ fn pieces(shape: &Shape) -> Vec<ElementPart> {
 
 fn of_polyline(polyline: &Polyline) -> Vec<ElementPart> {
     let piece = |(from, to, bulge)| {
-        bulged(from, to, bulge).map_or(ElementPart::Line(Line { from, to }), ElementPart::Arc)
+        arc_of_bulge(from, to, bulge).map_or(ElementPart::Line(Line { from, to }), ElementPart::Arc)
     };
     polyline.pieces().map(piece).collect()
 }
