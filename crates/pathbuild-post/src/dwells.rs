@@ -49,7 +49,7 @@ fn duration(step: &JobStep) -> Option<f64> {
             HoleKind::Dwell { seconds } => Some(seconds),
             HoleKind::Plain | HoleKind::Peck { .. } => None,
         },
-        JobStep::Move(_) | JobStep::Stop | JobStep::Comment(_) => None,
+        JobStep::Move(_) | JobStep::Stop | JobStep::SpindleOff { .. } | JobStep::Comment(_) => None,
     }
 }
 

@@ -125,6 +125,10 @@ struct Builder {
     is_raised: bool,
     /// Whether the last move was a probing move, so that only the machine knows the position.
     has_probed: bool,
+    /// Whether the program ever starts the spindle.
+    starts_spindle: bool,
+    /// Whether the program has stopped or waited with the spindle off since the last operation began. The operation stays as it is.
+    is_resting: bool,
     /// Whether the tool in the spindle has cut: from then on, positions reflect changes of its length.
     has_cut_with_tool: bool,
     errors: Vec<Diagnostic>,
@@ -154,6 +158,10 @@ impl Builder {
             has_ended: false,
             is_raised: false,
             has_probed: false,
+            starts_spindle: steps
+                .iter()
+                .any(|step| matches!(&step.action, Action::Spindle(spindle) if spindle.turning.is_on())),
+            is_resting: false,
             has_cut_with_tool: false,
             errors: Vec::new(),
         }
@@ -162,7 +170,13 @@ impl Builder {
     fn step(&mut self, step: &Step, remark: &dyn Fn(&str) -> Remark<'_>) {
         match &step.action {
             Action::Move(movement) => self.add_move(step.line, movement),
-            Action::Dwell(seconds) => self.push(JobStep::Dwell { seconds: *seconds }),
+            Action::Dwell(seconds) => {
+                // A dwell after M5 waits until the spindle stands still.
+                if self.state.spindle == Some(Turning::Off) {
+                    self.rest();
+                }
+                self.push(JobStep::Dwell { seconds: *seconds });
+            }
             Action::SelectTool(tool) if !self.has_tool_changes => self.change_tool(step.line, Some(*tool)),
             Action::ChangeTool(tool) => self.change_tool(step.line, *tool),
             Action::Spindle(spindle) => self.set_spindle(spindle),
@@ -219,7 +233,7 @@ impl Builder {
     fn begin(&mut self, name: &str) {
         let mut operation = Operation::new(name, tool_with_number(self.state.tool));
         operation.part.clone_from(&self.job.name);
-        if !self.has_cut {
+        if !self.is_settled() {
             let idle = self.job.operations.pop();
             operation.steps = idle.into_iter().flat_map(|idle| idle.steps).filter(is_not_rapid).collect();
         }
@@ -227,6 +241,7 @@ impl Builder {
         operation.entry = self.entry();
         self.has_cut = false;
         self.has_ended = false;
+        self.is_resting = false;
         self.job.operations.push(operation);
         self.update_operation();
     }
@@ -235,10 +250,16 @@ impl Builder {
         if self.at.known == Axes::ALL { Entry::At(self.at.at) } else { Entry::Clearance }
     }
 
-    /// Updates the last operation to the settings of the machine, unless it has already cut something.
+    /// Whether the settings of the last operation are final, because it has cut something or stopped with the spindle off.
+    fn is_settled(&self) -> bool {
+        self.has_cut || self.is_resting
+    }
+
+    /// Updates the last operation to the settings of the machine, unless they are final.
     fn update_operation(&mut self) {
         let State { tool, spindle, speed, coolant, plane } = self.state;
-        if let Some(operation) = self.job.operations.last_mut().filter(|_| !self.has_cut) {
+        let is_settled = self.is_settled();
+        if let Some(operation) = self.job.operations.last_mut().filter(|_| !is_settled) {
             operation.tool = tool_with_number(tool);
             operation.spindle = spindle;
             operation.speed = speed;
@@ -266,12 +287,18 @@ impl Builder {
             set == (tool.unwrap_or(0), spindle, speed, coolant, plane)
         };
         self.operation();
-        if let Some(last) = self.job.operations.last().filter(|last| self.has_cut && !is_same(last)) {
-            let name = last.name.clone();
-            self.begin(&name);
+        let is_over = |last| self.is_resting || self.has_cut && !is_same(last);
+        if self.job.operations.last().is_some_and(is_over) {
+            self.begin_again();
         }
         (self.has_cut, self.has_cut_with_tool) = (true, true);
         self.operation()
+    }
+
+    /// Starts another operation with the name of the last one.
+    fn begin_again(&mut self) {
+        let name = self.job.operations.last().map(|last| last.name.clone()).unwrap_or_default();
+        self.begin(&name);
     }
 
     fn push(&mut self, step: JobStep) {
@@ -282,10 +309,28 @@ impl Builder {
     /// raised again before it next moves in the plane.
     fn stop(&mut self) {
         self.has_cut_with_tool = false;
+        if !self.state.spindle.is_some_and(Turning::is_on) {
+            self.rest();
+        }
         self.push(JobStep::Stop);
         if self.is_raised {
             self.push(JobStep::rapid([None, None, Some(self.at.z())]));
         }
+    }
+
+    /// Keeps the spindle off during a stop or a dwell. The moves after it belong to another operation, which switches it on again.
+    fn rest(&mut self) {
+        if !self.starts_spindle || self.is_resting {
+            return;
+        }
+        let coolant = !self.state.coolant.is_some_and(Coolant::is_on);
+        self.push(JobStep::SpindleOff { coolant });
+        if let Some(operation) = self.job.operations.last_mut().filter(|_| !self.has_cut) {
+            // Otherwise, the tool table would start the spindle before the stop.
+            operation.spindle = Some(Turning::Off);
+            operation.coolant = operation.coolant.filter(|_| !coolant).or(coolant.then_some(Coolant::OFF));
+        }
+        self.is_resting = true;
     }
 
     /// Handles a tool change. Moves since the last cut are dropped, because they only led to the change.
@@ -300,9 +345,8 @@ impl Builder {
             (self.state.spindle, self.state.speed) = (None, None);
         }
         self.was_changed_low |= is_new && self.at.known.has(Axes::Z) && self.at.z() < self.clearance;
-        if self.has_cut {
-            let name = self.job.operations.last().map(|last| last.name.clone()).unwrap_or_default();
-            self.begin(&name);
+        if self.is_settled() {
+            self.begin_again();
         } else {
             self.update_operation();
             let entry = self.entry();
@@ -320,6 +364,9 @@ impl Builder {
             turning => Some(turning),
         };
         self.state.speed = spindle.speed.filter(|speed| *speed > 0.0);
+        if self.is_resting && self.state.spindle.is_some_and(Turning::is_on) {
+            self.begin_again();
+        }
         self.update_operation();
     }
 
@@ -385,7 +432,7 @@ impl Builder {
         if !self.errors.is_empty() {
             return Err(self.errors);
         }
-        if !self.has_cut && self.job.operations.len() > 1 {
+        if !self.is_settled() && self.job.operations.len() > 1 {
             // The last operation cuts nothing, so it only moves the tool away, which the post does by itself.
             self.job.operations.pop();
         }

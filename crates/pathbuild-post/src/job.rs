@@ -98,7 +98,10 @@ impl Job {
                 match step {
                     JobStep::Move(movement) => movement.pace.set_missing_feed(feed),
                     JobStep::Hole(hole) => _ = hole.feed.get_or_insert(feed),
-                    JobStep::Dwell { .. } | JobStep::Stop | JobStep::Comment(_) => {}
+                    JobStep::Dwell { .. }
+                    | JobStep::Stop
+                    | JobStep::SpindleOff { .. }
+                    | JobStep::Comment(_) => {}
                 }
             }
         }
@@ -201,7 +204,7 @@ impl Operation {
         let target = |step: &JobStep| match step {
             JobStep::Move(movement) => Some(movement.to.axes()),
             JobStep::Hole(hole) => Some([hole.at[0], hole.at[1], hole.level].map(Some)),
-            JobStep::Dwell { .. } | JobStep::Stop | JobStep::Comment(_) => None,
+            JobStep::Dwell { .. } | JobStep::Stop | JobStep::SpindleOff { .. } | JobStep::Comment(_) => None,
         };
         let places = self.steps.iter().filter_map(target);
         let begin = match self.entry {
@@ -343,6 +346,11 @@ pub enum JobStep {
     },
     /// A stop that waits for the operator.
     Stop,
+    /// Switches the spindle off for a stop or a dwell, if it is on. The next operation switches it on again.
+    SpindleOff {
+        /// Whether the coolant goes off too.
+        coolant: bool,
+    },
     /// A comment for the operator.
     Comment(Box<str>),
 }
@@ -417,7 +425,7 @@ impl JobStep {
         match self {
             Self::Move(movement) => movement.pace.stated_feed(),
             Self::Hole(hole) => hole.feed,
-            Self::Dwell { .. } | Self::Stop | Self::Comment(_) => None,
+            Self::Dwell { .. } | Self::Stop | Self::SpindleOff { .. } | Self::Comment(_) => None,
         }
     }
 
@@ -427,7 +435,7 @@ impl JobStep {
             Self::Move(movement) => movement.is_finite(),
             Self::Hole(hole) => hole.is_finite(),
             Self::Dwell { seconds } => seconds.is_finite(),
-            Self::Stop | Self::Comment(_) => true,
+            Self::Stop | Self::SpindleOff { .. } | Self::Comment(_) => true,
         }
     }
 }

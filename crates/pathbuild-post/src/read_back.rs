@@ -377,7 +377,7 @@ impl Mover {
                     self.step(&step)?;
                 }
             }
-            JobStep::Dwell { .. } | JobStep::Stop | JobStep::Comment(_) => {}
+            JobStep::Dwell { .. } | JobStep::Stop | JobStep::SpindleOff { .. } | JobStep::Comment(_) => {}
         }
         Ok(())
     }

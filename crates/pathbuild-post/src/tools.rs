@@ -7,7 +7,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::verify::{LengthFit, ToolState};
 use pathbuild_motion::{Action, Change, Move, Pace, Step, ToolLength, Turning};
 
-use crate::job::{Job, Operation};
+use crate::job::{Job, JobStep, Operation};
 use crate::traverse::MatchedCut;
 
 /// Difference in spindle speed, in 1/min, that is attributed to rounding. Some definitions write whole numbers.
@@ -36,9 +36,11 @@ pub(super) fn check(
             (current, rest) = (Some(*next), after);
         }
         if let Some((_, number)) = current.filter(|(line, _)| *line == step.line) {
+            checker.check_stops_before(number);
             checker.check_cut(step.line, movement, number);
         }
     }
+    checker.check_stops_before(u32::MAX);
     checker.problems
 }
 
@@ -56,6 +58,12 @@ struct Checker<'j> {
     has_stopped: bool,
     /// Line of a stop since the last cut at which the spindle was turning.
     spinning: Option<u32>,
+    /// For each step of the job that is a stop, whether the spindle may turn there.
+    stops: Vec<Option<bool>>,
+    /// Number of the job's steps before the last cut.
+    reached: usize,
+    /// Lines of the stops since the last cut at which the spindle turns.
+    turning_stops: Vec<u32>,
     problems: Vec<Diagnostic>,
 }
 
@@ -88,6 +96,20 @@ impl ToolWords {
     }
 }
 
+/// Returns for each step of a job that is a stop whether the spindle may turn there.
+fn stops(job: &Job) -> Vec<Option<bool>> {
+    let mut is_on = job.operations.iter().all(|operation| operation.spindle.is_none());
+    let mut stops = Vec::new();
+    for operation in &job.operations {
+        is_on = operation.spindle.map_or(is_on, Turning::is_on);
+        for step in &operation.steps {
+            is_on &= !matches!(step, JobStep::SpindleOff { .. });
+            stops.push(matches!(step, JobStep::Stop).then_some(is_on));
+        }
+    }
+    stops
+}
+
 impl<'j> Checker<'j> {
     fn new(steps: &[Step], job: &'j Job, reader: Dialect, is_manual: bool, is_flat: bool) -> Self {
         let operations =
@@ -103,6 +125,9 @@ impl<'j> Checker<'j> {
             last: None,
             has_stopped: false,
             spinning: None,
+            stops: stops(job),
+            reached: 0,
+            turning_stops: Vec::new(),
             problems: Vec::new(),
         }
     }
@@ -113,8 +138,23 @@ impl<'j> Checker<'j> {
             // The tool is changed at M6, or in a text without M6 at the first stop. Later stops are pauses.
             let changes = !self.has_stopped && !self.words.has_change;
             let is_on = self.tools.spindle().turning.is_on();
+            self.turning_stops.extend(is_on.then_some(step.line));
             self.spinning = self.spinning.or((changes && is_on).then_some(step.line));
             self.has_stopped = true;
+        }
+    }
+
+    /// Compares the stops between the last cut and the step with this number (from 1) of the job. If the spindle stands still at one of
+    /// them in the job, it may turn only at as many as in the job.
+    fn check_stops_before(&mut self, number: u32) {
+        let end = usize::try_from(number).unwrap_or(usize::MAX).min(self.stops.len());
+        let stops = self.stops.get(self.reached..end).unwrap_or_default();
+        let count = |turns: bool| stops.iter().filter(|stop| **stop == Some(turns)).count();
+        let (turning, still) = (count(true), count(false));
+        self.reached = self.reached.max(end);
+        let turning_stops = std::mem::take(&mut self.turning_stops);
+        if let Some(line) = turning_stops.get(turning).filter(|_| still > 0 && !self.is_manual) {
+            self.report(&posts::SPINDLE_TURNS_AT_STOP, *line, |d| d);
         }
     }
 

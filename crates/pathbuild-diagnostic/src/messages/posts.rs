@@ -653,6 +653,11 @@ messages! {
         en: "here the spindle turns in the direction opposite to the tool's `direction`",
         de: "hier dreht sich die Spindel entgegen der `direction` des Werkzeugs",
     }
+    /// Note: the spindle turns at a stop for the operator at which it stands still in the program.
+    SPINDLE_TURNS_AT_STOP: PostDiffers {
+        en: "the spindle turns at this stop, but in the program it stands still there",
+        de: "bei diesem Halt dreht sich die Spindel, im Programm steht sie dort",
+    }
     /// Note: the spindle turns at another speed.
     SPINDLE_OTHER_SPEED: PostDiffers {
         en: "the spindle speed is {found} here, but {expected} in the program",
@@ -762,6 +767,13 @@ messages! {
         de: "diese Bewegung zählt von einer Position aus, die nur die Maschine kennt; das kann kein Postprozessor schreiben",
         help_en: "write the height or place with absolute coordinates (G90)",
         help_de: "die Höhe oder den Ort mit absoluten Koordinaten (G90) schreiben",
+    }
+    /// A spindle that is switched off for a stop or a dwell, in a program to be written through a definition of CAD6.
+    JOB_SPINDLE_OFF: NothingToPost {
+        en: "{operation} switches the spindle off before it stops or waits, and this post can only do so at a tool change",
+        de: "{operation} schaltet die Spindel vor einem Halt oder einer Verweilzeit aus; dieser Postprozessor kann das nur beim Werkzeugwechsel",
+        help_en: "split the program at the stop, or use a post in the language of CamBam",
+        help_de: "das Programm am Halt teilen oder einen Postprozessor in der Sprache von CamBam verwenden",
     }
     /// A zero or a tool length that the program sets at the machine, in a program to be written through a post.
     JOB_ZERO: NothingToPost {

@@ -144,6 +144,10 @@ impl<'a> Builder<'a> {
                 self.add_aside(CallContent::Dwell(*seconds));
                 Ok(())
             }
+            JobStep::SpindleOff { .. } => {
+                let diagnostic = Diagnostic::new(&posts::JOB_SPINDLE_OFF);
+                Err(Box::new(diagnostic.quoting("operation", &*self.current_operation().name)))
+            }
             JobStep::Stop => {
                 self.add_aside(CallContent::Stop);
                 Ok(())

@@ -6,7 +6,7 @@ use std::mem::discriminant;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Point};
 use pathbuild_gcode::dialect::DwellUnit;
-use pathbuild_motion::{Arc, Course, Move, Pace, Plane};
+use pathbuild_motion::{Arc, Coolant, Course, Move, Pace, Plane, Turning};
 use pathbuild_path::approx::{at_least, near};
 
 use super::machine::{ArcValues, MoveValues, Register};
@@ -55,8 +55,22 @@ impl Writer<'_> {
                 self.machine.forget(&[Register::Z]);
                 Ok(())
             }
+            JobStep::SpindleOff { coolant } => self.rest(*coolant),
             JobStep::Comment(text) => self.write_comment(text, " "),
         }
+    }
+
+    /// Switches off the spindle, and the coolant if `coolant`, unless they are off.
+    fn rest(&mut self, coolant: bool) -> WriteResult {
+        if self.machine.spindle != Some(Turning::Off) {
+            self.write_named_section(Section::SpindleOff)?;
+            self.end_line();
+        }
+        if coolant && self.machine.coolant.is_some_and(Coolant::is_on) {
+            self.write_named_section(Section::CoolantOff)?;
+            self.end_line();
+        }
+        Ok(())
     }
 
     fn move_to(&mut self, movement: &Move) -> WriteResult {

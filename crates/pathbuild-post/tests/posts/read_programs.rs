@@ -7,8 +7,8 @@ use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_gcode::verify::{Ends, Tolerance, compare};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{
-    BUILT_IN, Entry, Hole, HoleKind, Job, JobStep, Language, PostOptions, Remark, ToolTable, load,
-    native_remark,
+    BUILT_IN, Entry, Hole, HoleKind, Job, JobStep, Language, PostDefinition, PostOptions, Remark, ToolTable,
+    load, native_remark,
 };
 use pathbuild_toolpath::{
     Comment, Count, ElementKind, Height, MoveClass, Names, PlannedMove, Program, ProgramStep, Xy,
@@ -227,6 +227,74 @@ fn a_lift_from_where_a_probe_has_stopped_is_an_error() {
     // At the start, too, the program does not know where the tool is.
     let errors = job_of(&format!("{HEAD}G91 G0 Z5\nG90\n{CUT}"), Dialect::Grbl).unwrap_err();
     assert!(errors[0].starts_with("2: PB765 this move counts"), "{errors:?}");
+}
+
+/// Returns the words of the spindle, of the coolant, and of stops and dwells in the output of a post.
+#[track_caller]
+fn switches(text: &str, post: &str) -> Vec<String> {
+    let lines = posted(text, Dialect::LinuxCnc, post).unwrap_or_else(|errors| panic!("{text}{errors:?}"));
+    let is_switch = |line: &String| line.starts_with(['M', 'S']) || line.starts_with("G4 ");
+    lines
+        .into_iter()
+        .filter(is_switch)
+        .map(|line| line.split(" (").next().unwrap_or_default().to_owned())
+        .collect()
+}
+
+#[test]
+fn the_spindle_stands_still_at_stops_where_it_does_in_the_source() {
+    let around = |stop: &str| {
+        format!(
+            "G21 G90 G17\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X9\nG0 Z5\n{stop}\nG0 X0 Y20\nG1 Z-1\nG0 Z5\nM5\nM30\n"
+        )
+    };
+    for post in ["linuxcnc", "grbl", "mach3"] {
+        for stop in ["M0", "M1", "M60"] {
+            let found = switches(&around(&format!("M5\n{stop}\nM3")), post);
+            assert_eq!(found[..4], ["M3 S9000", "M5", "M0", "M3 S9000"], "{post} {stop}: {found:?}");
+            let found = switches(&around(&format!("M5\n{stop}\nM3 S8000")), post);
+            assert_eq!(found[..4], ["M3 S9000", "M5", "M0", "M3 S8000"], "{post} {stop}: {found:?}");
+        }
+        let found = switches(&around("M0"), post);
+        assert_eq!(found[..3], ["M3 S9000", "M0", "M5"], "{post}: as in the source");
+        let found = switches(&around("M5\nM3"), post);
+        assert_eq!(found[..2], ["M3 S9000", "M5"], "{post}: nothing waits for it");
+        let found = switches(&around("M5\nG4 P30\nM3\nG4 P2"), post);
+        assert_eq!(found[..5], ["M3 S9000", "M5", "G4 P30.0", "M3 S9000", "G4 P2.0"], "{post}: {found:?}");
+        let found = switches(&around("M5 M9\nM0\nM3").replace("S9000", "S9000\nM8"), post);
+        assert_eq!(found[..5], ["M3 S9000", "M8", "M5", "M9", "M0"], "{post}: {found:?}");
+        // The spindle starts behind a stop that comes before M3.
+        let found = switches(&around("M0").replace("M3 S9000", "M0\nM3 S9000"), post);
+        assert_eq!(found[..4], ["M5", "M9", "M0", "M3 S9000"], "{post}: {found:?}");
+    }
+}
+
+#[test]
+fn a_definition_whose_spindle_turns_at_such_a_stop_is_refused() {
+    let built_in = BUILT_IN.iter().find(|post| post.name == "linuxcnc").expect("a built-in post");
+    let text = "G21 G90 G17\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG0 Z5\nM5\nM0\nM3\nG0 X9\nG1 Z-1\nG0 Z5\nM5\nM30\n";
+    let written = |stop: &str, text: &str| {
+        let definition = built_in.text.replace("<Footer>", &format!("<Stop>{stop}</Stop>\n<Footer>"));
+        let definition = PostDefinition::read(definition.as_bytes(), "x.cbpp".into()).expect("a definition");
+        let output = definition.write(&read(text), &PostOptions::default());
+        output.map_err(|errors| format!("{} {}", errors[0].code(), errors[0].notes[0].text(Lang::En)))
+    };
+    assert!(written("M0", text).is_ok());
+    let found = written("M3\nM0", text).unwrap_err();
+    assert!(found.starts_with("PB767 the spindle turns at this stop"), "{found}");
+    assert!(written("M3\nM0", &text.replace("M5\nM0", "M0")).is_ok(), "it turns in the source too");
+}
+
+#[test]
+fn a_post_that_cannot_switch_the_spindle_off_refuses_such_a_wait() {
+    let text = |wait: &str| {
+        format!(
+            "G21 G90 G17\nT1 M6\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG0 Z5\n{wait}\nG0 X9\nG1 Z-1\nG0 Z5\nM5\nM30\n"
+        )
+    };
+    let errors = posted(&text("M5\nG4 P30\nM3"), Dialect::LinuxCnc, "din").unwrap_err();
+    assert!(errors[0].starts_with("PB765 1001 switches the spindle off"), "{errors:?}");
+    assert!(posted(&text("G4 P30"), Dialect::LinuxCnc, "din").is_ok());
 }
 
 /// Returns a step that makes a move. The length stated for it has no effect, as long as it exceeds that of arcs that become lines.
