@@ -129,6 +129,12 @@ struct Builder {
     starts_spindle: bool,
     /// Whether the program has stopped or waited with the spindle off since the last operation began. The operation stays as it is.
     is_resting: bool,
+    /// The number of the tool to which the length in effect belongs, if it is known; `None` without a length.
+    length: Option<Option<u32>>,
+    /// The line that last set or cancelled the tool length.
+    length_line: u32,
+    /// Whether the tool in the spindle has cut with a length (G43); `None` before its first cut.
+    has_cut_with_length: Option<bool>,
     /// Whether the tool in the spindle has cut: from then on, positions reflect changes of its length.
     has_cut_with_tool: bool,
     errors: Vec<Diagnostic>,
@@ -162,6 +168,9 @@ impl Builder {
                 .iter()
                 .any(|step| matches!(&step.action, Action::Spindle(spindle) if spindle.turning.is_on())),
             is_resting: false,
+            length: None,
+            length_line: 0,
+            has_cut_with_length: None,
             has_cut_with_tool: false,
             errors: Vec::new(),
         }
@@ -186,6 +195,12 @@ impl Builder {
             }
             Action::Change(Change::Offsets { code, is_followed: false, .. }) => {
                 self.refuse_zero(step.line, code_name('G', *code));
+            }
+            Action::Change(Change::ToolLength(ToolLength::Off | ToolLength::OfTool(Some(0)))) => {
+                (self.length, self.length_line) = (None, step.line);
+            }
+            Action::Change(Change::ToolLength(ToolLength::OfTool(entry))) => {
+                (self.length, self.length_line) = (Some(entry.or(self.state.tool)), step.line);
             }
             Action::Change(Change::ToolLength(ToolLength::Other)) if !self.has_cut_with_tool => {
                 self.refuse_zero(step.line, "G43.1, G44".to_owned());
@@ -281,6 +296,7 @@ impl Builder {
         if let Some(change) = self.unnamed_change.take() {
             self.refuse(change, &posts::JOB_TOOL_UNNAMED);
         }
+        self.check_length();
         let State { tool, spindle, speed, coolant, plane } = self.state;
         let is_same = |last: &Operation| {
             let set = (last.tool.index, last.spindle, last.speed, last.coolant, last.plane);
@@ -293,6 +309,16 @@ impl Builder {
         }
         (self.has_cut, self.has_cut_with_tool) = (true, true);
         self.operation()
+    }
+
+    /// Refuses a cut with the length of another tool, or with a length where the tool has cut without: a post writes G43 with the number of
+    /// the tool, once for each tool.
+    fn check_length(&mut self) {
+        let is_other = self.length.is_some_and(|tool| tool.is_none() || tool != self.state.tool);
+        let has_length = self.length.is_some();
+        if is_other || *self.has_cut_with_length.get_or_insert(has_length) != has_length {
+            self.refuse(self.length_line, &posts::JOB_LENGTH);
+        }
     }
 
     /// Starts another operation with the name of the last one.
@@ -340,6 +366,7 @@ impl Builder {
         let has_cut = || self.job.operations.iter().any(Operation::cuts);
         self.unnamed_change = (tool.is_none() && has_cut()).then_some(line);
         let is_new = std::mem::replace(&mut self.state.tool, tool) != tool;
+        self.has_cut_with_length = self.has_cut_with_length.filter(|_| !is_new);
         if is_new && self.has_layers {
             // The next layer defines its own speed.
             (self.state.spindle, self.state.speed) = (None, None);

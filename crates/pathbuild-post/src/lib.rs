@@ -23,6 +23,7 @@ macro_rules! words {
     };
 }
 
+mod altered_words;
 mod ambiguous;
 mod arcs;
 mod built_in;
@@ -43,6 +44,7 @@ mod target;
 mod tools;
 mod traverse;
 
+pub use altered_words::altered_words;
 pub use built_in::{BUILT_IN, BuiltIn, load, samples};
 pub use definition::{Language, Output, PostDefinition, reference_table};
 pub use from_program::{ToolEntry, ToolTable};

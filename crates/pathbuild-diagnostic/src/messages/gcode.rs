@@ -48,6 +48,20 @@ messages! {
         help_en: "remove it, or check its effect at the control",
         help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
     }
+    /// A word that a post replaces by another one.
+    WORD_ALTERED: ForeignWord {
+        en: "{word} is written as {written}",
+        de: "{word} wird als {written} geschrieben",
+        help_en: "check that the program may do this instead",
+        help_de: "prüfen, ob das Programm stattdessen dies tun darf",
+    }
+    /// A word that the output of a post does not have.
+    WORD_LEFT_OUT: ForeignWord {
+        en: "{word} is left out: the program that was written does not have it",
+        de: "{word} ist weggelassen: das geschriebene Programm enthält es nicht",
+        help_en: "put it into the texts of the post if the machine needs it, such as a clamp or a suction",
+        help_de: "das Wort in die Texte des Postprozessors aufnehmen, wenn die Maschine es braucht, etwa für Spanner oder Absaugung",
+    }
     /// Words on which controls disagree, in a program that does not reveal its dialect.
     DIALECT_NOT_NAMED: UnnamedDialect {
         en: "controls disagree on what {words} does; the program is read as {dialect}",

@@ -775,6 +775,13 @@ messages! {
         help_en: "split the program at the stop, or use a post in the language of CamBam",
         help_de: "das Programm am Halt teilen oder einen Postprozessor in der Sprache von CamBam verwenden",
     }
+    /// A cut with the length of another tool, or without a length where the tool has one, in a program to be written through a post.
+    JOB_LENGTH: NothingToPost {
+        en: "the length is not that of the tool that cuts: a post writes one length for each tool, with the tool's own number",
+        de: "die Länge ist nicht die des Werkzeugs, das fräst: ein Postprozessor schreibt eine Länge je Werkzeug, mit der Nummer des Werkzeugs",
+        help_en: "name the tool with T, and write H with the same number once after each tool change",
+        help_de: "das Werkzeug mit T nennen und nach jedem Werkzeugwechsel einmal H mit derselben Nummer schreiben",
+    }
     /// A zero or a tool length that the program sets at the machine, in a program to be written through a post.
     JOB_ZERO: NothingToPost {
         en: "{word} sets a zero or a tool length at the machine, and a post does not write it: everything after it would be somewhere else",

@@ -8,7 +8,7 @@ use pathbuild_gcode::verify::{Ends, Tolerance, compare};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{
     BUILT_IN, Entry, Hole, HoleKind, Job, JobStep, Language, PostDefinition, PostOptions, Remark, ToolTable,
-    load, native_remark,
+    altered_words, load, native_remark,
 };
 use pathbuild_toolpath::{
     Comment, Count, ElementKind, Height, MoveClass, Names, PlannedMove, Program, ProgramStep, Xy,
@@ -295,6 +295,50 @@ fn a_post_that_cannot_switch_the_spindle_off_refuses_such_a_wait() {
     let errors = posted(&text("M5\nG4 P30\nM3"), Dialect::LinuxCnc, "din").unwrap_err();
     assert!(errors[0].starts_with("PB765 1001 switches the spindle off"), "{errors:?}");
     assert!(posted(&text("G4 P30"), Dialect::LinuxCnc, "din").is_ok());
+}
+
+#[test]
+fn each_tool_has_one_length_with_its_own_number() {
+    let head = "G21 G90 G17\n";
+    let is_refused = |text: &str, line: u32| {
+        let errors = job_of(&format!("{head}{text}"), Dialect::LinuxCnc).expect_err(text);
+        let start = format!("{line}: PB765 the length is not that of the tool that cuts");
+        assert!(errors[0].starts_with(&start), "{text}: {errors:?}");
+    };
+    is_refused(&format!("T1 M6\nG43 H5\n{CUT}"), 3);
+    is_refused(&format!("G43\n{CUT}"), 2);
+    is_refused(&format!("T1 M6\nG43 H1\n{CUT}G43 H2\nG1 X9\n"), 9);
+    is_refused(&format!("T1 M6\nG43 H1\n{CUT}G49\nG1 X9\n"), 9);
+    is_refused(&format!("T1 M6\nG49\n{CUT}G43\nG1 X9\n"), 9);
+    is_refused(&format!("T1 M6\nG43 H1\n{CUT}M0\nG49\nG1 X9\n"), 10);
+    for fine in [
+        format!("T1 M6\nG43\n{CUT}"),
+        format!("T1 M6\nG43 H1\n{CUT}G0 Z5\nG49\nT2 M6\nG43 H2\n{CUT}"),
+        format!("T1 M6\nG49\n{CUT}G0 Z5\nM30"),
+        format!("T1 M6\nG43 H1\n{CUT}G0 Z5\nG49\nM30"),
+    ] {
+        assert!(job_of(&format!("{head}{fine}"), Dialect::LinuxCnc).is_ok(), "{fine}");
+    }
+}
+
+#[test]
+fn words_that_posts_replace_are_told_once() {
+    let told = |text: &str| {
+        let steps = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default()).steps;
+        texts(&altered_words(&steps)).join("\n")
+    };
+    assert_eq!(told("G21 G90\nM0\nM7\nM9\nM8\nG38.2 Z-1 F9"), "");
+    let found = told("G21 G90\nM1\nM1\nM60\nM7\nM8\nG38.3 Z-1 F9");
+    let lines: Vec<&str> = found.lines().collect();
+    for (line, start) in lines.iter().zip([
+        "2: PB778 M1 is written as M0",
+        "4: PB778 M60 is written as M0",
+        "6: PB778 M7 M8 is written as M8",
+        "7: PB778 G38.3 is written as G38.2",
+    ]) {
+        assert!(line.starts_with(start), "{found}");
+    }
+    assert_eq!(lines.len(), 4, "{found}");
 }
 
 /// Returns a step that makes a move. The length stated for it has no effect, as long as it exceeds that of arcs that become lines.

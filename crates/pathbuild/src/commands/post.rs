@@ -8,7 +8,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_motion::Step;
-use pathbuild_post::{BUILT_IN, Job, Output, Remark, ToolTable, is_of_head, native_remark};
+use pathbuild_post::{BUILT_IN, Job, Output, Remark, ToolTable, altered_words, is_of_head, native_remark};
 use serde_json::json;
 
 use crate::args::{PostArgs, PostCommand};
@@ -116,6 +116,12 @@ fn rewrite_and_report(
         return Err(Vec::new());
     }
     let steps = std::mem::take(&mut program.read.steps);
+    // `emit` replaces G38.3 of native programs as well.
+    if program.dialect != Dialect::Native {
+        let mut altered = altered_words(&steps);
+        program.place_own(&mut altered);
+        diagnostics.extend(altered);
+    }
     let of_header = || Provenance::of_head(&program.text).and_then(|(provenance, _)| provenance.thickness);
     let surface = given.or_else(of_header);
     let to = file_to_write(args);
@@ -157,6 +163,7 @@ fn findings(
         Ok(verifier) => {
             let mut found = verifier.findings(program);
             found.retain(|problem| !is_judged_in_output(problem));
+            found.iter_mut().for_each(tell_left_out);
             Ok(found)
         }
         Err(Failure::Post(problems) | Failure::Found(problems)) => Err(problems),
@@ -182,6 +189,13 @@ fn is_judged_in_output(problem: &Diagnostic) -> bool {
 /// Returns the file to write; `None` for standard output, which may also be given as `-o -`, as in `emit`.
 fn file_to_write(args: &PostArgs) -> Option<&Utf8Path> {
     args.output.as_deref().filter(|file| *file != "-")
+}
+
+/// Converts the warning about a word that is not checked, because the post does not write it either.
+fn tell_left_out(problem: &mut Diagnostic) {
+    if problem.message == &gcode::FOREIGN_WORD {
+        problem.message = &gcode::WORD_LEFT_OUT;
+    }
 }
 
 /// Converts the warning about a value that only the machine knows to an error, because the post would write an assumed number.
