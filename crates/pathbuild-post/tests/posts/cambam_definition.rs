@@ -197,7 +197,7 @@ fn chain(length: usize) -> String {
 #[test]
 fn macros_may_contain_each_other_sixteen_deep() {
     assert_eq!(lines(&chain(16), &job(vec![])), ["M0"]);
-    let expected = "PB753 PostProcessorMacros contains itself, or macros are nested more than 16 deep \
+    let expected = "PB753 PostProcessorMacros contains itself, or macros are nested more than 16 levels deep \
              (remove the macro that leads back to PostProcessorMacros, or nest macros less deeply)";
     assert_eq!(errors(&chain(17), &job(vec![])), [expected]);
 }
@@ -242,7 +242,7 @@ fn sections_that_contain_themselves_are_an_error() {
     let text = definition("<PostFile>{$header}</PostFile><Header>{$header}</Header>");
     assert_eq!(
         errors(&text, &job(vec![])),
-        ["PB753 Header contains itself, or macros are nested more than 16 deep \
+        ["PB753 Header contains itself, or macros are nested more than 16 levels deep \
              (remove the macro that leads back to Header, or nest macros less deeply)"]
     );
 }
