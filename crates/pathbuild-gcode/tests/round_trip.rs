@@ -226,7 +226,7 @@ const BEGINNINGS: [[f64; 2]; 5] =
 /// Calls a function for arcs whose ends are [`GAPS`] apart, with small and large radii in all directions.
 fn for_arcs_with_gaps(mut each: impl FnMut([f64; 2], f64, f64, bool, f64)) {
     for gap in GAPS {
-        for radius in [0.05, 0.0731, 0.4, 5.0, 80.0] {
+        for radius in [0.05, 0.0731, 0.4, 5.0, 80.0, 5000.0] {
             for eighth in 0_u32..8 {
                 let direction = f64::from(eighth) * (std::f64::consts::FRAC_PI_4 + 0.002);
                 for at in BEGINNINGS {
@@ -238,15 +238,14 @@ fn for_arcs_with_gaps(mut each: impl FnMut([f64; 2], f64, f64, bool, f64)) {
     }
 }
 
-/// Returns the end of the arc in a text, and its angle in radians.
-fn arc_in(text: &str) -> ([f64; 3], f64) {
+/// Returns the end of the arc in a text, and its angle in radians; `None` if there is no arc.
+fn arc_in(text: &str) -> Option<([f64; 3], f64)> {
     let read = interpret(text.as_bytes(), Native, &Options::default());
     let moves = read.moves();
-    let arc = moves.iter().find_map(|(_, it)| match it.shape {
+    moves.iter().find_map(|(_, it)| match it.shape {
         MoveShape::Arc(arc) => Some((it.to.at, arc.sweep(&it.from, &it.to))),
         MoveShape::Line => None,
-    });
-    arc.unwrap_or_else(|| panic!("{text}"))
+    })
 }
 
 #[test]
@@ -257,7 +256,7 @@ fn an_arc_just_short_of_a_whole_turn_stays_one() {
         let text = text_of(&program);
         native::read_back(&text, &program).unwrap_or_else(|problem| panic!("{problem:?}\n{text}"));
         let PlannedMove::Arc { to, .. } = arc else { unreachable!() };
-        let (end, sweep) = arc_in(&text);
+        let (end, sweep) = arc_in(&text).unwrap_or_else(|| panic!("{text}"));
         assert!(sweep > PI, "{sweep}: {text}");
         let is_beside = |printed: f64, drawn: f64| (printed - drawn).abs() <= 0.001 + 1e-9;
         assert!(is_beside(end[0], to.x) && is_beside(end[1], to.y), "{gap} {to:?}: {text}");
@@ -280,8 +279,13 @@ fn an_arc_of_next_to_nothing_never_goes_round() {
         let (_, program) = arc_from(at, radius, direction, clockwise, length);
         let text = text_of(&program);
         native::read_back(&text, &program).unwrap_or_else(|problem| panic!("{problem:?}\n{text}"));
-        let (_, sweep) = arc_in(&text);
+        // An arc whose printed ends are in the same direction from the centre is a line.
+        let sweep = arc_in(&text).map_or(0.0, |(_, sweep)| sweep);
         assert!(sweep < std::f64::consts::PI, "{sweep}: {text}");
+        assert!(
+            sweep > 0.0 || radius > 1000.0 && (length - 0.001) / radius < 5e-7,
+            "a line instead of an arc: {text}"
+        );
     });
 }
 

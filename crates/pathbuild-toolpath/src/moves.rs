@@ -108,7 +108,12 @@ pub fn is_point(centre: Xy) -> bool {
 
 /// Whether an arc of this length in mm is so short, or so close to a full turn, that three decimals may change it.
 pub fn is_doubtful(centre: Xy, length: f64) -> bool {
-    length < DOUBTFUL_ARC_LENGTH || length > TAU * centre.coords.norm() - DOUBTFUL_ARC_LENGTH
+    is_short(length) || length > TAU * centre.coords.norm() - DOUBTFUL_ARC_LENGTH
+}
+
+/// Whether an arc of this length in mm is so short that its end may be printed like its start.
+pub fn is_short(length: f64) -> bool {
+    length < DOUBTFUL_ARC_LENGTH
 }
 
 /// Unit of the last printed digit, in mm.

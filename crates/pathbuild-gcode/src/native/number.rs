@@ -109,21 +109,23 @@ impl PrintedArc {
     }
 
     /// Returns the end to print for an arc of this length in mm: `to`, or, if rounding would make the controller mill almost a turn too much or too
-    /// little, the nearest printable point with which it does not.
-    pub(super) fn end(&self, to: Xy, length: f64) -> Xy {
-        let angle = length / self.centre.coords.norm();
-        let fits = |end: &Xy| (self.angle(*end) - angle).abs() <= PI;
-        let nearest = rounded(to);
-        if fits(&nearest) {
-            return to;
+    /// little, the nearest printable point with which it does not. `None` if there is no such point.
+    pub(super) fn end(&self, to: Xy, length: f64) -> Option<Xy> {
+        if self.sweeps(to, length) {
+            return Some(to);
         }
         let beside = |middle: Xy| {
             let steps = || [-LAST_DIGIT, 0.0, LAST_DIGIT].into_iter();
             steps().flat_map(move |x| steps().map(move |y| rounded(Xy::new(middle.x + x, middle.y + y))))
         };
         let distance = |end: &Xy| (end - to).norm();
-        let candidates = beside(nearest).chain(beside(self.from)).filter(fits);
-        candidates.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(to)
+        let candidates = beside(rounded(to)).chain(beside(self.from)).filter(|end| self.sweeps(*end, length));
+        candidates.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// Whether a controller sweeps the angle of an arc of this length in mm to an end, and not a full turn more or less.
+    pub(super) fn sweeps(&self, end: Xy, length: f64) -> bool {
+        (self.angle(rounded(end)) - length / self.centre.coords.norm()).abs() <= PI
     }
 
     /// Returns the angle in radians that a controller sweeps to an end; 2 pi if the end equals the start.

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_motion::WrittenArc;
 use pathbuild_toolpath::{
     Comment, Correction, ElementKind, Height, OmittedCurves, PlannedMove, ProbePoint, Program, ProgramStep,
-    Statistics, Total, Xy, is_doubtful, is_point,
+    Statistics, Total, Xy, is_doubtful, is_point, is_short,
 };
 
 use super::number::{FIRST_PARAMETER, Formulas, PrintedArc, f3, printed, push_f3};
@@ -229,10 +229,10 @@ impl Writer<'_> {
                 self.z(z);
             }
             PlannedMove::Arc { feed, clockwise, centre, to, z, is_spiral } => {
-                if is_point(centre) {
+                let end = self.arc_end(to, centre, clockwise, length).filter(|_| !is_point(centre));
+                let Some(to) = end else {
                     return self.step(&PlannedMove::Line { feed, to, z }, length);
-                }
-                let to = self.arc_end(to, centre, clockwise, length);
+                };
                 let centre = self.arc_centre(to, centre);
                 self.text.push_str(if clockwise { "G02" } else { "G03" });
                 self.word('F', feed);
@@ -249,13 +249,14 @@ impl Writer<'_> {
         self.text.push('\n');
     }
 
-    /// Returns the end to print for an arc: `to`, or a point near it if rounding would change the arc by almost a turn.
-    fn arc_end(&self, to: Xy, centre: Xy, clockwise: bool, length: f64) -> Xy {
-        if is_doubtful(centre, length) {
-            PrintedArc::new(self.at, centre, clockwise).end(to, length)
-        } else {
-            to
+    /// Returns the end to print for an arc: `to`, or a point near it if rounding would change the arc by almost a turn. `None` if a short arc cannot
+    /// be printed as one.
+    fn arc_end(&self, to: Xy, centre: Xy, clockwise: bool, length: f64) -> Option<Xy> {
+        if !is_doubtful(centre, length) {
+            return Some(to);
         }
+        let end = PrintedArc::new(self.at, centre, clockwise).end(to, length);
+        end.or_else(|| (!is_short(length)).then_some(to))
     }
 
     /// Returns the centre to print, relative to the position of the tool. Compatible programs print the nearest one.
