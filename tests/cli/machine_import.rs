@@ -366,3 +366,20 @@ fn a_broken_line_of_a_tool_table_is_named() {
     let broken = import("T3 P1 D6 ;six\nsix D6\n");
     assert!(broken.status == Some(1) && broken.stderr.contains("tool.tbl:2: error[PB612]"), "{broken}");
 }
+
+/// A measured diameter is no other tool, nor is another description of the same tool.
+#[test]
+fn a_number_that_gets_another_tool_is_a_warning() {
+    let import = |line: &str| {
+        let tools = "[tool.6mm]\ndiameter = 6\nnumber = 3\nspindle = 9000\n";
+        let place = Place::new().file("pathbuild.toml", tools).file("tool.tbl", line);
+        let run = place.run("machine import tool.tbl --units mm --format concise");
+        assert_eq!(run.status, Some(0), "{run}");
+        run.stderr.contains("PB777")
+    };
+    assert!(import("T3 P1 D2 ;2mm\n"));
+    assert!(!import("T3 P1 D5.98 ;6mm\n"));
+    assert!(!import("T3 P1 D5.98\n"));
+    assert!(!import("T3 P1 D6 ;roughing cutter\n"));
+    assert!(!import("T4 P1 D2 ;2mm\n"));
+}

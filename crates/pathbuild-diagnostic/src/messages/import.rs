@@ -134,6 +134,13 @@ messages! {
         help_en: "give each tool a number of its own in the library, and export the library again",
         help_de: "jedem Werkzeug in der Bibliothek eine eigene Nummer geben und die Bibliothek noch einmal exportieren",
     }
+    /// A tool whose number the configuration gives to a tool with another name and diameter.
+    TOOL_REPLACED: Disagreement {
+        en: "T{number} of the machine is {name} with {new} mm, but [tool.{table}] with {old} mm has this number: its other keys, such as spindle and paths, remain those of the former tool",
+        de: "T{number} der Maschine ist {name} mit {new} mm, diese Nummer hat aber [tool.{table}] mit {old} mm: die anderen Schlüssel, etwa spindle und paths, bleiben die des bisherigen Werkzeugs",
+        help_en: "if this is another tool, give it a table of its own and change `number` in the old one",
+        help_de: "ist es ein anderes Werkzeug, ihm eine eigene Tabelle geben und `number` in der alten ändern",
+    }
     /// A tool bit that a library names but that cannot be read.
     BIT_UNREADABLE: UnusableValue {
         en: "the tool bit `{name}` cannot be read: {reason}",

@@ -24,7 +24,18 @@ pub struct Change {
     pub is_new: bool,
 }
 
-/// Inserts values into the text of a configuration. Returns the new text, and each value with the previous one.
+/// A configuration into which values were inserted.
+#[derive(Debug)]
+pub struct EditedConfiguration {
+    /// The new text.
+    pub text: String,
+    /// Each value with the previous one.
+    pub changes: Vec<Change>,
+    /// Warnings about tools that seem to replace others.
+    pub problems: Vec<Diagnostic>,
+}
+
+/// Inserts values into the text of a configuration.
 ///
 /// # Errors
 /// If the configuration declares a table in a way that cannot take the values.
@@ -32,10 +43,10 @@ pub fn edit(
     file: &Utf8Path,
     text: &str,
     values: &[DescribedValue],
-) -> Result<(String, Vec<Change>), Box<Diagnostic>> {
+) -> Result<EditedConfiguration, Box<Diagnostic>> {
     let fault = || Box::new(Diagnostic::new(&say::NOT_EDITABLE).in_file(file));
     let mut document: DocumentMut = text.parse().map_err(|_| fault())?;
-    let mut changes = Vec::new();
+    let (mut changes, mut problems) = (Vec::new(), Vec::new());
     // Tools that had no table in the configuration.
     let mut added = Vec::new();
     for value in values {
@@ -62,12 +73,28 @@ pub fn edit(
         if !is_new {
             continue;
         }
+        problems.extend(replaced_tool(value, path.last().map_or("", String::as_str), old));
         match table.get_mut(value.key).and_then(Item::as_value_mut) {
             Some(old) => *old = with_decor_of(new, old),
             None => _ = table.insert(value.key, Item::Value(new)),
         }
     }
-    Ok((with_line_ends(document.to_string(), text), changes))
+    let problems = problems.into_iter().map(|problem: Diagnostic| problem.in_file(file)).collect();
+    Ok(EditedConfiguration { text: with_line_ends(document.to_string(), text), changes, problems })
+}
+
+/// Returns a warning if a value gives the table of this name the diameter of a tool with another name. The machine then has another tool under
+/// this number, and the other keys of the table are still those of the former tool.
+fn replaced_tool(value: &DescribedValue, table: &str, old: Option<&Value>) -> Option<Diagnostic> {
+    let Target::Tool { number: Some(number), name } = &value.target else { return None };
+    let (Some(Quantity::Number(old)), Quantity::Number(new)) = (old.and_then(quantity), &value.value) else {
+        return None;
+    };
+    // A tool without a name in the description is named after its number.
+    let is_same = name == table || *name == format!("T{number}");
+    let problem = Diagnostic::new(&say::TOOL_REPLACED).quoting("name", &**name).quoting("table", table);
+    let problem = problem.with("number", u64::from(*number)).with("new", *new).with("old", old);
+    (value.key == "diameter" && !is_same).then_some(problem)
 }
 
 /// Returns the names that lead to a target's table. A tool with a number gets the configured table with the same number, whatever its name is.

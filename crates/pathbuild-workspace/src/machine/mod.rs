@@ -16,7 +16,7 @@ use pathbuild_diagnostic::{Diagnostic, Value as Shown};
 
 use crate::files::utf_8;
 
-pub use self::edit::{Change, edit};
+pub use self::edit::{Change, EditedConfiguration, edit};
 use self::entries::Entries;
 pub use self::entries::Entry;
 pub use self::merge::merge;

@@ -8,7 +8,7 @@ use pathbuild_diagnostic::messages::import as say;
 use pathbuild_diagnostic::{Diagnostic, Value, shown};
 use pathbuild_workspace::config::faults;
 use pathbuild_workspace::files::{self, FILE_NAME};
-use pathbuild_workspace::machine::{self, Change, DescribedValue, Description, Entry};
+use pathbuild_workspace::machine::{self, Change, DescribedValue, Description, EditedConfiguration, Entry};
 use serde_json::json;
 
 use crate::args::{MachineArgs, MachineCommand};
@@ -43,10 +43,9 @@ pub fn run(context: &Context, args: &MachineArgs) -> ExitStatus {
     }
     let (values, problems) = machine::merge(&descriptions);
     diagnostics.extend(problems);
-    if !diagnostics.iter().any(Diagnostic::is_error)
-        && let Err(problems) = compare(context, &values, &descriptions, *write)
-    {
-        diagnostics.extend(problems);
+    if !diagnostics.iter().any(Diagnostic::is_error) {
+        let compared = compare(context, &values, &descriptions, *write);
+        diagnostics.extend(compared.unwrap_or_else(|problems| problems));
     }
     context.conclude(diagnostics)
 }
@@ -73,13 +72,16 @@ fn tool_bit(context: &Context, library: &Utf8Path, name: &str) -> Result<String,
 /// A file with the description of a machine that it contains.
 type DescribedFile<'f> = (&'f Utf8Path, Description);
 
-/// Shows the values of the descriptions and those of the configuration, and writes them if requested.
+/// Shows the values of the descriptions and those of the configuration, and writes them if requested. Returns warnings.
+///
+/// # Errors
+/// The reasons why the values cannot be written.
 fn compare(
     context: &Context,
     values: &[DescribedValue],
     descriptions: &[DescribedFile<'_>],
     write: bool,
-) -> Result<(), Vec<Diagnostic>> {
+) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
     let file = configuration(context);
     let is_there = files::is_named(&file);
     let old = if is_there {
@@ -87,10 +89,11 @@ fn compare(
     } else {
         String::new()
     };
-    let (new, changes) = machine::edit(&file, &old, values).map_err(|problem| vec![*problem])?;
-    let problems = faults(&file, &new);
-    if problems.iter().any(Diagnostic::is_error) {
-        return Err(problems);
+    let edited = machine::edit(&file, &old, values).map_err(|problem| vec![*problem])?;
+    let EditedConfiguration { text: new, changes, problems } = edited;
+    let faults = faults(&file, &new);
+    if faults.iter().any(Diagnostic::is_error) {
+        return Err(faults);
     }
     show(context, &file, &changes, descriptions);
     if new == old {
@@ -103,7 +106,7 @@ fn compare(
     } else {
         files::create(context, &[(file, new.as_bytes())])?;
     }
-    Ok(())
+    Ok(problems)
 }
 
 /// Returns the configuration file of the run. If there is none, returns the path in the working directory at which it would be created.
