@@ -64,6 +64,13 @@ messages! {
         help_en: "measure again: the log must come from this drawing's probing run, with its results in the order of the run",
         help_de: "noch einmal messen: das Protokoll muss vom Antastprogramm dieser Zeichnung stammen, mit den Ergebnissen in dessen Reihenfolge",
     }
+    /// A result that was measured with another zero than those before it.
+    LOG_ZERO_MOVED: InvalidProbeLine {
+        en: "this result was measured with another zero than those before it: WCO has changed",
+        de: "dieses Ergebnis wurde mit einem anderen Nullpunkt gemessen als die davor: WCO hat sich geändert",
+        help_en: "measure all probes again with the zero with which the program will be milled",
+        help_de: "alle Proben noch einmal mit dem Nullpunkt messen, mit dem gefräst wird",
+    }
     /// A measured height too far from the drawn one.
     TOO_FAR: CorrectionTooLarge {
         en: "#{probe} is {value}, which is {off} mm away from the drawn height {expected}; at most {limit} mm are allowed",

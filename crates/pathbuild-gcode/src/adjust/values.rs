@@ -257,6 +257,8 @@ fn take_measured<'a>(probe: &mut ProbeLine<'a>, measured: LoggedHeight<'a>, prob
 fn read_log<'a>(log: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<LoggedHeight<'a>> {
     let mut measured = Vec::new();
     let mut offset = [0.0; 3];
+    // The offset at the first result. The program is milled in one system, so all heights must be measured in it.
+    let mut first_offset: Option<[f64; 3]> = None;
     for line in lines(log) {
         for report in LOG_REPORT.captures_iter(line.content()) {
             if let Some(found) = report.name("offset") {
@@ -265,7 +267,12 @@ fn read_log<'a>(log: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<LoggedHe
             }
             let at = report.get_match().range();
             match position(&report) {
+                Ok(_) if first_offset.is_some_and(|first| first != offset) => {
+                    problems.push(line.fault(&messages::LOG_ZERO_MOVED, at));
+                    return measured;
+                }
                 Ok(machine) => {
+                    first_offset = Some(offset);
                     let place = std::array::from_fn(|axis| machine[axis] - offset[axis]);
                     measured.push(LoggedHeight { line, at, place });
                 }
