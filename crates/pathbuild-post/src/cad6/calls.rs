@@ -68,11 +68,17 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds a move to the start of the job, for definitions that write every rapid as it is.
+    /// Adds the moves to the start of the job, for definitions that write every rapid as it is. The first tool change leaves the tool at the clearance
+    /// plane, above an unknown place.
     fn begin(&mut self) {
-        if self.abilities.rapid {
-            self.push_call(CallContent::Rapid { to: self.at });
+        if !self.abilities.rapid {
+            return;
         }
+        let ([x, y, z], clearance) = (self.at, self.current_operation().clearance);
+        if z < clearance {
+            self.push_call(CallContent::Rapid { to: [x, y, clearance] });
+        }
+        self.push_call(CallContent::Rapid { to: self.at });
     }
 
     fn current_operation(&self) -> &'a Operation {

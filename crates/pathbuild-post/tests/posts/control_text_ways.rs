@@ -8,7 +8,7 @@ use crate::support::{self, DIN, feed, job, operation, rapid, read_toml, texts};
 /// Returns the output of the manual's definition for a job, read back in a dialect.
 #[track_caller]
 fn written(definition: &str, job: &Job) -> Vec<String> {
-    let options = PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() };
+    let options = PostOptions { dialect: Some("rs274".into()), ..PostOptions::default() };
     let output = read_toml(definition).write(job, &options);
     let output = output.unwrap_or_else(|errors| panic!("{:?}", texts(&errors)));
     String::from_utf8(output.text).unwrap().lines().map(str::to_owned).collect()
@@ -289,4 +289,19 @@ fn a_program_may_end_with_a_helical_hole() {
     let found = read_toml(&more)
         .write(&high(steps), &PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() });
     assert!(texts(&found.expect_err("a cut too many"))[0].starts_with("PB767"));
+}
+
+/// The first tool change leaves the tool at the clearance plane, above an unknown place.
+#[test]
+fn the_first_way_down_begins_above_its_place() {
+    let rapids = |z: f64| {
+        let mut job = high(vec![rapid(5.0, 3.0, z), feed(5.0, 3.0, -1.0), rapid(5.0, 3.0, 25.0)]);
+        job.operations[0].entry = Entry::At([0.0, 0.0, z]);
+        let output = load("xpertmill").unwrap().write(&job, &PostOptions::default());
+        let output = output.unwrap_or_else(|errors| panic!("{:?}", texts(&errors)));
+        let text = String::from_utf8(output.text).unwrap();
+        text.lines().filter(|line| line.starts_with("G00")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(rapids(25.0)[..3], ["G00 Z25", "G00 X0 Y0 Z25", "G00 X5 Y3 Z25"]);
+    assert_eq!(rapids(24.9)[..4], ["G00 Z25", "G00 X0 Y0 Z25", "G00 X0 Y0 Z24.9", "G00 X5 Y3 Z24.9"]);
 }
