@@ -186,7 +186,10 @@ impl PostDefinition {
             let problems = problems.into_iter().map(|problem| read_back::in_output(problem, text, &origins));
             problems.map(|problem| problem.in_file(&self.file)).collect::<Vec<_>>()
         };
-        let doubts = found.map_err(|errors| placed(errors, &output.text))?;
+        let doubts = found.map_err(|errors| {
+            let causes = self.empty_motion().into_iter();
+            causes.chain(placed(errors, &output.text)).collect::<Vec<_>>()
+        })?;
         output.warnings.extend(placed(doubts, &output.text));
         Ok(output)
     }
@@ -229,6 +232,14 @@ impl PostDefinition {
             milliseconds,
         };
         read_back::check(text, job, &expected)
+    }
+
+    /// Returns the error about a text for moves that writes none. It is reported only with the errors that follow from it, because a job may not
+    /// need the text.
+    fn empty_motion(&self) -> Option<Diagnostic> {
+        let Engine::CamBam(definition) = &self.engine else { return None };
+        let problem = Diagnostic::new(&posts::MOTION_EMPTY).quoting("section", definition.empty_motion()?);
+        Some(problem.in_file(&self.file))
     }
 
     /// Returns half a unit of the last digit in mm: the largest rounding error of a coordinate.

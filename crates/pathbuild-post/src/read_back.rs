@@ -85,7 +85,14 @@ pub(super) fn check(
             Ok(cuts) => {
                 let is_spinning_told =
                     broken.iter().any(|problem| problem.message == &gcode::SPINNING_AT_CHANGE);
-                let tools = tools::check(&read.steps, job, &cuts, reader, *is_manual, *is_flat);
+                let tools = tools::check(
+                    &read.steps,
+                    job,
+                    &cuts,
+                    target.map(|target| target.reader),
+                    *is_manual,
+                    *is_flat,
+                );
                 let is_told =
                     |problem: &Diagnostic| is_spinning_told && problem.message == &gcode::SPINNING_AT_CHANGE;
                 problems

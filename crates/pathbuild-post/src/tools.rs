@@ -19,11 +19,11 @@ pub(super) fn check(
     steps: &[Step],
     job: &Job,
     cuts: &[MatchedCut],
-    reader: Dialect,
+    target: Option<Dialect>,
     is_manual: bool,
     is_flat: bool,
 ) -> Vec<Diagnostic> {
-    let mut checker = Checker::new(steps, job, reader, is_manual, is_flat);
+    let mut checker = Checker::new(steps, job, target, is_manual, is_flat);
     let mut rest = cuts;
     let mut current: Option<MatchedCut> = None;
     for step in steps {
@@ -79,19 +79,24 @@ struct ToolWords {
     has_length: bool,
     /// Whether tools are layers, the first of which applies from the beginning.
     has_layers: bool,
+    /// Whether T without M6 changes nothing, so that the operator must.
+    needs_stop: bool,
 }
 
 impl ToolWords {
-    fn of(steps: &[Step], reader: Dialect) -> Self {
+    fn new(steps: &[Step], target: Option<Dialect>) -> Self {
         let any = |is_such: fn(&Action) -> bool| steps.iter().any(|step| is_such(&step.action));
+        let has_change = any(|action| matches!(action, Action::ChangeTool(_)));
+        let only_remembers = matches!(target, Some(Dialect::Grbl | Dialect::LinuxCnc | Dialect::Mach3));
         Self {
             has_selection: any(|action| matches!(action, Action::SelectTool(_) | Action::ChangeTool(_))),
-            has_change: any(|action| matches!(action, Action::ChangeTool(_))),
+            has_change,
             has_length: any(|action| match action {
                 Action::Change(Change::ToolLength(ToolLength::OfTool(entry))) => *entry != Some(0),
                 _ => false,
             }),
-            has_layers: reader.rules().layers,
+            has_layers: target.is_some_and(|target| target.rules().layers),
+            needs_stop: only_remembers && !has_change,
         }
     }
 }
@@ -111,15 +116,15 @@ fn stops(job: &Job) -> Vec<Option<bool>> {
 }
 
 impl<'j> Checker<'j> {
-    fn new(steps: &[Step], job: &'j Job, reader: Dialect, is_manual: bool, is_flat: bool) -> Self {
+    fn new(steps: &[Step], job: &'j Job, target: Option<Dialect>, is_manual: bool, is_flat: bool) -> Self {
         let operations =
             job.operations.iter().flat_map(|operation| operation.steps.iter().map(move |_| operation));
         let cutting = job.operations.iter().filter(|operation| operation.cuts());
         let surface = cutting.map(|operation| operation.surface).reduce(f64::max);
         Self {
             operations: operations.collect(),
-            tools: ToolState::new(reader),
-            words: ToolWords::of(steps, reader),
+            tools: ToolState::new(target.unwrap_or(Dialect::LinuxCnc)),
+            words: ToolWords::new(steps, target),
             is_manual,
             surface: surface.filter(|_| !job.has_no_surface && !is_flat).unwrap_or(f64::INFINITY),
             last: None,
@@ -201,6 +206,9 @@ impl<'j> Checker<'j> {
             // stops.
             None if self.words.has_selection || is_changed && !self.has_stopped => {
                 self.report(&posts::TOOL_NOT_SELECTED, line, |d| d.with("expected", u64::from(expected)));
+            }
+            Some(_) if is_changed && self.words.needs_stop && !self.has_stopped => {
+                self.report(&posts::TOOL_NOT_CHANGED, line, |d| d.with("expected", u64::from(expected)));
             }
             _ => {}
         }

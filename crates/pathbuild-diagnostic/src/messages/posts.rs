@@ -162,6 +162,13 @@ messages! {
         help_en: "write \"{name}\" = \"...\" under [macros] of pathbuild.toml, or ${name}=... in PostProcessorMacros: drawings do not contain this value",
         help_de: "\"{name}\" = \"...\" unter [macros] in pathbuild.toml oder ${name}=... in PostProcessorMacros schreiben: Zeichnungen enthalten diesen Wert nicht",
     }
+    /// A text for moves that moves nothing.
+    MOTION_EMPTY: InvalidPost {
+        en: "{section} writes no move: its text is empty, or only a comment",
+        de: "{section} schreibt keine Bewegung: der Text ist leer oder nur ein Kommentar",
+        help_en: "write the move, as in the default text, or remove the element to get that",
+        help_de: "die Bewegung schreiben wie im vorgegebenen Text, oder das Element entfernen, dann gilt dieser",
+    }
     /// A hole for which nothing is written.
     DRILLING_LOST: LostDrilling {
         en: "the post writes nothing that drills the hole at {place}: {section} is empty",
@@ -672,6 +679,11 @@ messages! {
     TOOL_NOT_SELECTED: PostDiffers {
         en: "the output has not changed to T{expected}, with which the program makes this cut",
         de: "die Ausgabe hat nicht auf T{expected} gewechselt, mit dem das Programm diesen Schnitt macht",
+    }
+    /// Note: a cut after T alone, on a control that changes tools by M6 or by hand only.
+    TOOL_NOT_CHANGED: PostDiffers {
+        en: "T alone does not change the tool on this control, and the output does not stop (M0) for T{expected}",
+        de: "T allein wechselt auf dieser Steuerung kein Werkzeug, und die Ausgabe hält für T{expected} nicht an (M0)",
     }
     /// Note: a cut with the length of another tool, or with none.
     LENGTH_OTHER: PostDiffers {

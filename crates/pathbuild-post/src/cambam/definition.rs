@@ -143,6 +143,18 @@ impl Definition {
         self.options.number_format.most_decimals()
     }
 
+    /// Returns the name of a section for moves whose text is empty or only a comment; `None` if both write something.
+    pub(crate) fn empty_motion(&self) -> Option<&'static str> {
+        let is_mark = |what: &Macro| matches!(what, Macro::Section(Section::Comment | Section::EndComment));
+        let is_empty = |section: &Section| {
+            let text = self.section(*section);
+            let marks = text.macros().filter(|(what, _)| is_mark(what)).count();
+            let found = words(&text.literal(), &self.comment_marks());
+            marks == text.macros().count() && found.words.is_empty() && (marks > 0 || !found.has_more)
+        };
+        [Section::Rapid, Section::FeedMove].into_iter().find(is_empty).map(Section::name)
+    }
+
     /// Whether every number gets a decimal point.
     pub(crate) fn always_writes_point(&self) -> bool {
         self.options.number_format.always_has_point()

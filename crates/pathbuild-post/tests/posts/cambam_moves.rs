@@ -217,7 +217,7 @@ fn the_tolerance_of_rounded_arcs_is_two_micrometres() {
 
 #[test]
 fn moves_that_are_missing_at_the_end_are_named() {
-    let post = read(&bare("<FeedMove></FeedMove>")).unwrap();
+    let post = read(&bare("<FeedMove>{$_f}</FeedMove>")).unwrap();
     let options = PostOptions { manual_spindle: true, ..PostOptions::default() };
     let steps = vec![feed(10.0, 0.0, 5.0), feed(10.0, 9.0, 5.0)];
     let errors = texts(&post.write(&job(steps), &options).unwrap_err());

@@ -339,6 +339,22 @@ fn corners_are_rounded_within_a_limit() {
     }
 }
 
+/// The cause is reported first, then what follows from it.
+#[test]
+fn texts_for_moves_must_move() {
+    let steps = vec![feed(0.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)];
+    for (section, text) in
+        [("Rapid", ""), ("Rapid", "(up)"), ("Rapid", "{$comment} up {$endcomment}"), ("FeedMove", " ")]
+    {
+        let errors = read_back(&format!("<{section}>{text}</{section}>"), steps.clone()).unwrap_err();
+        assert!(errors[0].starts_with(&format!("{section} writes no move")), "{errors:?}");
+        assert!(errors.len() > 1, "{errors:?}");
+    }
+    let errors = read_back("<Rapid>G0 X1</Rapid>", steps.clone()).unwrap_err();
+    assert!(!errors.iter().any(|error| error.contains("writes no move")), "{errors:?}");
+    assert_eq!(read_back("<Rapid>{$g0} {$_x} {$_y} {$_z}</Rapid>", steps), Ok(()));
+}
+
 /// Writes a cut to X10 at the speed of a tool, with these texts before and after it, for LinuxCNC on a machine.
 fn run_on(machine: Machine, before: &str, behind: &str) -> Result<(), Vec<String>> {
     let text = format!(

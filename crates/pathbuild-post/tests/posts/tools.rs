@@ -66,6 +66,10 @@ fn each_cut_has_its_own_tool() {
     );
     // Without M6, T alone changes the tool.
     assert_eq!(changed("T{$tool.index} M6", "T{$tool.index}\nM0"), FINE);
+    let alone = changed("T{$tool.index} M6", "T{$tool.index}");
+    assert!(alone[0].starts_with("T alone does not change the tool"), "{alone:?}");
+    let turret = RIGHT.replace("linuxcnc", "fanuc").replace("T{$tool.index} M6", "T{$tool.index}");
+    assert_eq!(wrong(&turret, &two_tools()), FINE, "a control may change the tool at T");
     // Without any T, the program must stop for the operator.
     let by_hand = |change: &str| changed("T{$tool.index} M6\nG43 H{$tool.index}", change);
     assert_eq!(by_hand("M0"), FINE);
