@@ -144,7 +144,7 @@ impl Plane {
 
 // Arcs: swept angles, points along them, and division into chords.
 
-/// An arc in a plane. Along the third axis it moves linearly from one end to the other (a helix).
+/// An arc in a plane. If its ends differ along the third axis, it is a helix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
     /// The plane of the arc.

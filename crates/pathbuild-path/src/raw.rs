@@ -141,7 +141,7 @@ impl RawPath {
     pub fn tool(&self) -> Option<f64> {
         let parameters = self.parameters();
         match parameters.piece(Letter::O)?.written {
-            ValueKind::Number(number) if number > 0.0 && !parameters.is_repeated(Letter::O) => Some(number),
+            ValueKind::Number(number) if number > 0.0 && !parameters.repeats(Letter::O) => Some(number),
             _ => None,
         }
     }

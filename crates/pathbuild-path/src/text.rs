@@ -206,7 +206,7 @@ impl<'t> ParameterText<'t> {
     }
 
     /// Whether a letter occurs more than once.
-    pub(crate) fn is_repeated(self, letter: Letter) -> bool {
+    pub(crate) fn repeats(self, letter: Letter) -> bool {
         !self.is_plain && self.pieces.iter().filter(|piece| piece.letter == Some(letter)).nth(1).is_some()
     }
 

@@ -86,7 +86,7 @@ impl<'t> Values<'t> {
         let is_value = |letter: &Letter| {
             !matches!(class.use_of(*letter), LetterUse::Unknown | LetterUse::PathOnly)
                 && !is_definition(*letter)
-                && (*letter == Letter::Variable || !text.is_repeated(*letter))
+                && (*letter == Letter::Variable || !text.repeats(*letter))
         };
         let has_unread = values.unread != Letters::default();
         let is_apart = |piece: &LetterValue| {

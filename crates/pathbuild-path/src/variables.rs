@@ -106,7 +106,7 @@ impl Interpolation<'_> {
         let mut rest = value;
         while let Some((before, after)) = rest.split_once('=') {
             let name = after.chars().next();
-            // A project may set a variable with an invalid definition.
+            // The variable's definition is invalid and was reported there; a project may still give the variable a value.
             if name.is_some_and(|name| self.unknown.contains(&name)) {
                 return Err(None);
             }

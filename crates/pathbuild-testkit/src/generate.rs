@@ -327,9 +327,9 @@ const NUMBERS: usize = 7000;
 const PROJECTS: usize = 1000;
 
 /// Offsets of the random number streams.
-const SIGNATURE: u64 = 1 << 32;
-const SHAPE: u64 = 2 << 32;
-const PROJECT: u64 = 3 << 32;
+const SIGNATURE_STREAM: u64 = 1 << 32;
+const SHAPE_STREAM: u64 = 2 << 32;
+const PROJECT_STREAM: u64 = 3 << 32;
 
 impl Plan {
     pub(super) fn new(components: usize, seed: u64) -> Self {
@@ -338,12 +338,12 @@ impl Plan {
 
     /// Returns the random numbers for the paths of a component.
     pub(super) fn random(&self, index: usize) -> Random {
-        Random::new(self.seed, SHAPE + index as u64)
+        Random::new(self.seed, SHAPE_STREAM + index as u64)
     }
 
     /// Returns the random numbers for a project.
     pub(super) fn project_random(&self, index: usize) -> Random {
-        Random::new(self.seed, PROJECT + index as u64)
+        Random::new(self.seed, PROJECT_STREAM + index as u64)
     }
 
     pub(super) fn components(&self) -> usize {
@@ -366,7 +366,7 @@ impl Plan {
 
     /// Returns the signature of a path. Pairs of neighbours share it, so that a fixture project can embed either of them.
     fn signature(&self, index: usize, path: usize) -> Signature {
-        let mut random = Random::new(self.seed, SIGNATURE + (index / 2 * 8 + path) as u64);
+        let mut random = Random::new(self.seed, SIGNATURE_STREAM + (index / 2 * 8 + path) as u64);
         Signature {
             thickness: random.pick(&[2.0, 3.0, 4.0, 5.0, 6.5, 8.0]),
             cutter: random.pick(&[1.0, 1.5, 2.0, 3.0, 4.0]),

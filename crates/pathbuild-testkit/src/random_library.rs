@@ -43,8 +43,8 @@ struct Signature {
     length: u32,
 }
 
-const COMPONENTS: u32 = 6;
-const PROJECTS: u32 = 4;
+const COMPONENT_COUNT: u32 = 6;
+const PROJECT_COUNT: u32 = 4;
 
 /// Length in mm of the rapid moves between the embeddings of a project.
 const SWEEP_LENGTH: u32 = 30;
@@ -57,8 +57,8 @@ impl RandomLibrary {
     pub fn new(seed: u64) -> Self {
         let mut random = Random::new(seed, 7);
         let mut kinds: Vec<ComponentKind> =
-            (1..=COMPONENTS).map(|n| ComponentKind::Component(1000 + n)).collect();
-        kinds.extend((1..=PROJECTS).map(|n| ComponentKind::Project(8000 + n)));
+            (1..=COMPONENT_COUNT).map(|n| ComponentKind::Component(1000 + n)).collect();
+        kinds.extend((1..=PROJECT_COUNT).map(|n| ComponentKind::Project(8000 + n)));
         kinds.push(ComponentKind::QProject(1001));
         kinds.extend(random.once_in(8).then_some(ComponentKind::Chain));
         let mut rules =
@@ -317,7 +317,7 @@ fn project(number: u32, random: &mut Random) -> Vec<u8> {
         let embedded = match fault {
             // The project itself, or another one that may embed it: this may close a cycle.
             4 | 5 => 8001 + u32::try_from(random.below((number - 8000) as usize)).unwrap_or_default(),
-            _ => 1001 + u32::try_from(random.below(COMPONENTS as usize)).unwrap_or_default(),
+            _ => 1001 + u32::try_from(random.below(COMPONENT_COUNT as usize)).unwrap_or_default(),
         };
         let is_variable = number == 8003 && segment == 0 && fault == 0;
         let Signature { thickness, material, values, length, .. } =

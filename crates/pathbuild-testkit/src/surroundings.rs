@@ -383,7 +383,7 @@ const EMPTY_DRAWING_BYTES: usize = 14_500;
 const LAYER_BYTES: usize = 155;
 const BLOCK_BYTES: usize = 500;
 
-/// Bytes of a hatch line.
+/// Estimated size of a hatch line in bytes.
 const HATCH_LINE_BYTES: usize = 167;
 
 /// Estimated size of a drawing in bytes in R2000, precise to a few per cent.

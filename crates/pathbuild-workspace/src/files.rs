@@ -99,7 +99,8 @@ fn already_exists_error(file: &Utf8Path) -> Diagnostic {
     write_error(file, Value::Prose(&IS_THERE))
 }
 
-/// Atomically replaces a report or a baseline. Refuses a name under which a source or a program lies, or would lie.
+/// Atomically replaces a report or a baseline. Refuses the names of drawings, configurations and programs, whether or not the
+/// file exists.
 ///
 /// # Errors
 /// A diagnostic with the reason why the file cannot be written.

@@ -19,7 +19,8 @@ pub struct Workspace {
     pub settings: Settings,
     /// The file system that all commands use.
     pub system: Arc<dyn System>,
-    /// Language of all output, if the user has configured one for all trees.
+    /// Language of messages that the user has chosen: with `--lang`, with `PATHBUILD_LANG`, or in the configuration of the user. The configuration of a
+    /// library does not change it.
     pub own_lang: Option<Lang>,
     /// Language of the system's locale, used for messages if neither the user nor the configuration chooses one.
     pub system_lang: Option<Lang>,

@@ -169,7 +169,7 @@ struct System {
     origin: SystemOrigin,
 }
 
-/// The coordinates in which the origin of a system is known.
+/// Whether the origin of a coordinate system is known, and in which coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum SystemOrigin {
     #[default]

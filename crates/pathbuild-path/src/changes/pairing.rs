@@ -54,7 +54,7 @@ fn common_shift(old: &[Item<'_>], new: &[Item<'_>]) -> Option<Vector2<f64>> {
     let mut by_form: BTreeMap<_, [Vec<Xy>; 2]> = BTreeMap::new();
     for (side, items) in [old, new].into_iter().enumerate() {
         for item in items {
-            let Outline { first, form } = Outline::of(&item.shape);
+            let Outline { first, form } = Outline::from_shape(&item.shape);
             by_form.entry((item.kind, form, item.text.as_str())).or_default()[side].push(first);
         }
     }
@@ -174,7 +174,7 @@ impl<'i> Pairing<'i> {
         let mut groups: BTreeMap<_, [Vec<usize>; 2]> = BTreeMap::new();
         for (side, items) in [&self.old, &self.new].into_iter().enumerate() {
             for (index, item) in items.iter().enumerate() {
-                let key = (item.kind, Outline::of(&item.shape).form, item.role, item.text.as_str());
+                let key = (item.kind, Outline::from_shape(&item.shape).form, item.role, item.text.as_str());
                 groups.entry(key).or_default()[side].push(index);
             }
         }
@@ -251,7 +251,7 @@ struct Place {
 }
 
 impl Outline {
-    fn of(shape: &Shape) -> Self {
+    fn from_shape(shape: &Shape) -> Self {
         let form = |radius: f64, points: [Vector2<f64>; 2]| Form {
             radius: micrometre(radius),
             points: points.map(micrometres),
@@ -277,7 +277,7 @@ impl Outline {
 impl Place {
     /// Returns the place of an element after a shift.
     fn of(item: &Item<'_>, shift: Vector2<f64>) -> Self {
-        let Outline { first, form } = Outline::of(&item.shape);
+        let Outline { first, form } = Outline::from_shape(&item.shape);
         Self { kind: item.kind, form, first: micrometres(first.coords + shift) }
     }
 }

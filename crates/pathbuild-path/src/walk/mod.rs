@@ -16,7 +16,7 @@ use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
 use crate::walk::failure::Curves;
-use crate::walk::order::{Ends, Stars, Turns, comes_before};
+use crate::walk::order::{Ends, Junctions, Turns, comes_before};
 
 /// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning if no other ends coincide.
 pub fn walk(path: &Path, join_tolerance: f64) -> WalkedPath {
@@ -38,7 +38,7 @@ pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> 
 type Failure = Option<Box<Diagnostic>>;
 
 /// Number of segments at a point above which they are sorted once instead of being scanned in each step.
-const MIN_CROWD: usize = 16;
+const MIN_JUNCTION_SEGMENTS: usize = 16;
 
 /// Number of segments between calls of the checkpoint.
 const SEGMENTS_PER_CHECKPOINT: usize = 256;
@@ -46,7 +46,7 @@ const SEGMENTS_PER_CHECKPOINT: usize = 256;
 struct Walker<'a> {
     path: &'a Path,
     ends: Ends,
-    stars: Stars,
+    junctions: Junctions,
     /// Index of the ends of segments that are not traversed; `None` until a join is needed.
     open_ends: Option<OpenEnds>,
     is_traversed: Vec<bool>,
@@ -88,7 +88,7 @@ impl<'a> Walker<'a> {
             open_end: None,
             gaps: Vec::new(),
             ends: Ends::new(path),
-            stars: Stars::default(),
+            junctions: Junctions::default(),
             open_ends: None,
             is_traversed: vec![false; count],
             found: Vec::new(),
@@ -197,8 +197,8 @@ impl<'a> Walker<'a> {
 
     /// The next segment at the current point: the minimum by order, preference and length.
     fn next(&mut self) -> Option<usize> {
-        if let Some(star) = self.stars.at(self.at) {
-            return star.next(self.path, &self.ends, &self.is_traversed);
+        if let Some(junction) = self.junctions.at(self.at) {
+            return junction.next(self.path, &self.ends, &self.is_traversed);
         }
         let mut found = std::mem::take(&mut self.found);
         self.ends.find_near(self.at, |segment| !self.is_traversed[segment], &mut found);
@@ -207,10 +207,10 @@ impl<'a> Walker<'a> {
         let (path, ends) = (self.path, &self.ends);
         let before = |best, other| if comes_before(path, ends, other, best) { other } else { best };
         let next = found.iter().copied().reduce(before);
-        if found.len() > MIN_CROWD
-            && let Some(crowd) = ends.crowd(self.at, |segment| !self.is_traversed[segment])
+        if found.len() > MIN_JUNCTION_SEGMENTS
+            && let Some(segments) = ends.junction_segments(self.at, |segment| !self.is_traversed[segment])
         {
-            self.stars.insert(self.at, crowd, path, ends);
+            self.junctions.insert(self.at, segments, path, ends);
         }
         self.found = found;
         next

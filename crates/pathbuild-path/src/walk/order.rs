@@ -1,7 +1,7 @@
 //! Determines the next segment at a point: the segments that end there, their order, and turn markers. (book: language/chains-and-passes, book:
 //! language/order-and-turns)
 //!
-//! The segments of crowded points are sorted once, so that the work of a walk is linear in the number of segments.
+//! The segments of points at which many meet (junctions) are sorted once, so that the work of a walk is linear in the number of segments.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -33,12 +33,12 @@ pub(super) fn length(ends: &Ends, segment: usize) -> f64 {
     (end - start).norm()
 }
 
-/// The crowded points that were visited.
+/// The junctions that were visited.
 #[derive(Default)]
-pub(super) struct Stars(BTreeMap<Squares, Star>);
+pub(super) struct Junctions(BTreeMap<Squares, Junction>);
 
-/// A crowded point: the segments that meet there, in groups.
-pub(super) struct Star {
+/// A point at which many segments meet (more than `MIN_JUNCTION_SEGMENTS` untraversed ones), with these segments in groups.
+pub(super) struct Junction {
     /// The corners of the bounding box of the ends that meet here.
     corners: [Xy; 2],
     /// Groups in reverse order, so that the next one is last.
@@ -55,25 +55,25 @@ struct Group {
     is_level: bool,
 }
 
-impl Stars {
-    /// Returns the star at a point, if the point is known to be crowded.
-    pub(super) fn at(&mut self, point: Xy) -> Option<&mut Star> {
+impl Junctions {
+    /// Returns the junction at a point, if one is known there.
+    pub(super) fn at(&mut self, point: Xy) -> Option<&mut Junction> {
         if self.0.is_empty() {
             return None;
         }
-        let star = self.0.get_mut(&Squares::around(point))?;
-        star.corners.iter().all(|corner| coincide(*corner, point)).then_some(star)
+        let junction = self.0.get_mut(&Squares::around(point))?;
+        junction.corners.iter().all(|corner| coincide(*corner, point)).then_some(junction)
     }
 
     /// Records that these segments meet at a point.
-    pub(super) fn insert(&mut self, point: Xy, crowd: Crowd, path: &Path, ends: &Ends) {
-        self.0.insert(Squares::around(point), Star::new(crowd, path, ends));
+    pub(super) fn insert(&mut self, point: Xy, segments: JunctionSegments, path: &Path, ends: &Ends) {
+        self.0.insert(Squares::around(point), Junction::new(segments, path, ends));
     }
 }
 
-impl Star {
-    fn new(crowd: Crowd, path: &Path, ends: &Ends) -> Self {
-        let Crowd { corners, mut segments } = crowd;
+impl Junction {
+    fn new(segments: JunctionSegments, path: &Path, ends: &Ends) -> Self {
+        let JunctionSegments { corners, mut segments } = segments;
         let key = |segment: &usize| {
             let (order, preference) = rank(path, *segment);
             // Adding 0 removes the sign of a negative zero.
@@ -198,7 +198,7 @@ pub(super) struct Squares {
 }
 
 /// Segments that meet at a point. They also meet at every other point that coincides with both corners of the bounding box of their ends.
-pub(super) struct Crowd {
+pub(super) struct JunctionSegments {
     pub(super) corners: [Xy; 2],
     pub(super) segments: Vec<usize>,
 }
@@ -258,7 +258,11 @@ impl Ends {
 
     /// Returns the wanted segments with an end at a point; `None` if there are other ends so close that another nearby point may have different
     /// segments.
-    pub(super) fn crowd(&self, point: Xy, is_wanted: impl Fn(usize) -> bool) -> Option<Crowd> {
+    pub(super) fn junction_segments(
+        &self,
+        point: Xy,
+        is_wanted: impl Fn(usize) -> bool,
+    ) -> Option<JunctionSegments> {
         let ([mut low, mut high], mut segments, mut is_alone) = ([point; 2], Vec::new(), true);
         for square in Squares::within(WIDE_SEARCH_DISTANCE, point).each() {
             self.each_in(square, |segment, end| {
@@ -273,7 +277,7 @@ impl Ends {
         }
         segments.sort_unstable();
         segments.dedup();
-        (is_alone && coincide(low, high)).then_some(Crowd { corners: [low, high], segments })
+        (is_alone && coincide(low, high)).then_some(JunctionSegments { corners: [low, high], segments })
     }
 
     /// Calls `take` for the ends in a square and for others in the same bucket.
@@ -402,7 +406,7 @@ mod tests {
     }
 
     fn is_alone(points: [Xy; 2]) -> bool {
-        ends(points).crowd(points[0], |_| true).is_some_and(|crowd| crowd.segments == [0])
+        ends(points).junction_segments(points[0], |_| true).is_some_and(|found| found.segments == [0])
     }
 
     proptest! {

@@ -284,7 +284,7 @@ impl<'a> Evaluator<'a> {
         if let Some(at) = text.find(UNDEFINED_MARK) {
             return Err(self.undefined(span.start + at));
         }
-        // The text in the placeholder may be a number, but no term is evaluated in it.
+        // The text of a placeholder may be a number; it is never evaluated as a term.
         let plain = self.surroundings.variables.without_placeholders(text);
         let is_number = plain.trim_matches(|c: char| c == ' ' || is_mark(c)).parse::<f64>().is_ok();
         let found = text.chars().find_map(|c| self.surroundings.variables.text(c)).filter(|_| !is_number);

@@ -177,7 +177,7 @@ impl<'a> OptionReader<'a> {
     }
 }
 
-/// An option with its texts. For an option that takes one text, the last text counts.
+/// An option of the command line with its values. If the option takes only one value, the last one counts.
 pub(super) struct GivenOption<'a> {
     name: &'static str,
     texts: &'a [String],

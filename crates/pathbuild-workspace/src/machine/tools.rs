@@ -17,7 +17,7 @@ use crate::config::is_too_round;
 /// A function that returns the text of a tool bit named in a FreeCAD library.
 pub(super) type ReadBit<'r> = &'r dyn Fn(&str) -> Result<String, Shown>;
 
-/// Whether the first line of the text that is not a comment describes a tool of `LinuxCNC`.
+/// Whether the text is a tool table of `LinuxCNC`: whether the first line that is not a comment is an entry.
 pub(super) fn is_table(text: &str) -> bool {
     let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with(';'));
     lines.next().is_some_and(is_tool)

@@ -501,7 +501,9 @@ impl<'v> Examination<'v> {
         if rewritten.is_some_and(RewrittenProgram::is_same) {
             // Doubts about the words that a definition writes are reported when a program is written through it.
             let is_own = self.program.by_definition.is_none();
-            doubts.retain(|doubt| doubt.is_error() && is_own || is_of_modes(doubt) || is_of_point(doubt));
+            doubts.retain(|doubt| {
+                doubt.is_error() && is_own || is_of_modes(doubt) || is_about_decimal_point(doubt)
+            });
         } else if self.verifier.against.is_some() {
             let unsaid = doubts.iter_mut().filter(|doubt| is_absent_from_drawing(doubt));
             let unchecked = found.iter_mut().filter(|problem| problem.code() == Code::UncheckedFormula);
@@ -516,8 +518,8 @@ fn is_of_modes(doubt: &Diagnostic) -> bool {
     matches!(doubt.code(), Code::UnitsNotStated | Code::ModesNotStated)
 }
 
-/// Whether the doubt is about a length that the control may read as thousandths.
-fn is_of_point(doubt: &Diagnostic) -> bool {
+/// Whether the doubt is about a length without a decimal point, which some controls read in thousandths.
+fn is_about_decimal_point(doubt: &Diagnostic) -> bool {
     doubt.message.key == NO_DECIMAL_POINT.key
 }
 

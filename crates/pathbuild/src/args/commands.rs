@@ -481,7 +481,7 @@ pub struct MachineArgs {
 /// Subcommands of `machine`.
 #[derive(Clone, Debug, Subcommand)]
 pub enum MachineCommand {
-    /// Compare descriptions of the machine with `[machine]` and `[tool]`, and take them over with --write
+    /// Compare descriptions of the machine with `[machine]` and `[tool]`; with --write, copy their values there
     Import {
         /// The answer of GRBL or grblHAL to $$, `FluidNC`'s YAML, `LinuxCNC`'s ini file or tool table, tools of FreeCAD or Fusion 360
         #[arg(value_name = "FILE", required = true)]
@@ -525,7 +525,7 @@ german! {
     "Remove all cached results", "Löscht alle gespeicherten Ergebnisse";
     "Check every cached result for damage", "Prüft jedes gespeicherte Ergebnis auf Schäden";
     "Print the values in effect", "Gibt die geltenden Werte aus";
-    "Compare descriptions of the machine with `[machine]` and `[tool]`, and take them over with --write",
+    "Compare descriptions of the machine with `[machine]` and `[tool]`; with --write, copy their values there",
         "Vergleicht Beschreibungen der Maschine mit `[machine]` und `[tool]` und übernimmt sie mit --write";
     "The answer of GRBL or grblHAL to $$, `FluidNC`'s YAML, `LinuxCNC`'s ini file or tool table, tools of FreeCAD or Fusion 360",
         "Die Antwort von GRBL oder grblHAL auf $$, die YAML-Datei von `FluidNC`, ini-Datei oder Werkzeugtabelle von `LinuxCNC`, Werkzeuge von FreeCAD oder Fusion 360";

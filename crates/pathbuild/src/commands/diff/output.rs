@@ -241,12 +241,12 @@ pub(super) fn markdown(comparison: &Comparison, lang: Lang) -> String {
         _ = writeln!(text, "- {}", code(&problem));
     }
     if !comparison.paths.is_empty() {
-        table(&mut text, comparison, lang);
+        write_path_table(&mut text, comparison, lang);
     }
     shown::lines(&text).into_owned()
 }
 
-fn table(text: &mut String, comparison: &Comparison, lang: Lang) {
+fn write_path_table(text: &mut String, comparison: &Comparison, lang: Lang) {
     let head = lang.choose("| path | drawing | moves |", "| Pfad | Zeichnung | Bewegungen |");
     _ = writeln!(text, "\n{head}\n| --- | --- | --- |");
     for path in &comparison.paths {
