@@ -683,3 +683,24 @@ fn joined_paths_cut_into_no_parts_of_each_other() {
         assert!(bar.stderr.contains("error[PB218]"), "{bar}");
     }
 }
+
+/// The rules of `emit` are those of `verify`, although it knows coordinates with more than three decimals.
+#[test]
+fn emit_and_verify_agree_on_the_limits_of_a_machine() {
+    let drawing = dxf("layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 MX\"\nmill 0,0 20,0\nend 20,0");
+    let run = |machine: &str| {
+        let configuration = format!("feed = 150\nrapid = 1000\nsweep-height = 10\n[machine]\n{machine}\n");
+        let place = Place::new().file("pathbuild.toml", configuration).file("1234.1P.dxf", drawing.clone());
+        let emitted = place.run("emit 1234.1P --format concise");
+        let verified = place.run("verify 1234.1P_Milling.gcode --format concise");
+        ["PB747", "PB748"].map(|code| {
+            let [emitted, verified] = [&emitted, &verified].map(|run| run.stderr.contains(code));
+            // A program that is refused is not there to be verified.
+            assert!(emitted == verified || code == "PB748", "{machine}");
+            emitted
+        })
+    };
+    assert_eq!(run("z = [0, 10]\nrates = [150, 150, 150]"), [false, false]);
+    assert_eq!(run("rates = [149, 150, 150]"), [true, false]);
+    assert_eq!(run("z = [0, 9.999]"), [false, true]);
+}

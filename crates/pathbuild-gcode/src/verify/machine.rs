@@ -29,6 +29,10 @@ pub enum Travel {
     Size([f64; 3]),
 }
 
+/// Amount in mm by which rounding to three decimals may move a coordinate of a program. `emit` compares the exact coordinates, and `verify` those of the
+/// text; both must come to the same result.
+const ROUNDING: f64 = 0.0005 + 1e-9;
+
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
 
 /// Rule that finds moves and speeds beyond the limits of a machine: pass every step of a program, then call [`finish`](Self::finish).
@@ -136,7 +140,7 @@ impl ReportedExtent {
         problems: &mut Problems,
     ) {
         for (end, value, is_outside) in
-            [(0, extent.0, extent.0 < limits.0), (1, extent.1, extent.1 > limits.1)]
+            [(0, extent.0, extent.0 < limits.0 - ROUNDING), (1, extent.1, extent.1 > limits.1 + ROUNDING)]
         {
             if is_outside && !std::mem::replace(&mut self.said[axis][end], true) {
                 problems.add_at_line(&say::OUTSIDE_MACHINE, line, |d| {
@@ -151,7 +155,7 @@ impl ReportedExtent {
 
     fn check_size(&mut self, line: u32, axis: usize, most: f64, problems: &mut Problems) {
         let size = self.extent[axis].map_or(0.0, |(low, high)| high - low);
-        if size > most && !std::mem::replace(&mut self.said[axis][0], true) {
+        if size > most + 2.0 * ROUNDING && !std::mem::replace(&mut self.said[axis][0], true) {
             problems.add_at_line(&say::LARGER_THAN_MACHINE, line, |d| {
                 d.with("axis", AXES[axis]).with("size", size).with("most", most)
             });

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Database, check_joined_parts, program};
 use pathbuild_diagnostic::limits::{exceeded, moves_after_splitting};
+use pathbuild_diagnostic::messages::gcode::FEED_TOO_HIGH;
 use pathbuild_diagnostic::messages::{files, probes};
 use pathbuild_diagnostic::{Diagnostic, Lang, Point, Severity};
 use pathbuild_gcode::native::{self, probe_name};
@@ -40,7 +41,12 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
     let line = provenance.to_string();
     delivered.provenance = Some(provenance);
     let machine = settings.machine.as_ref();
-    let unsafe_moves = programs.iter().find_map(|program| move_errors(db, job, program, machine));
+    let mut unsafe_moves = None;
+    for program in &programs {
+        let (errors, warnings) = move_problems(db, job, program, machine);
+        delivered.problems.extend(warnings);
+        unsafe_moves = unsafe_moves.or((!errors.is_empty()).then_some(errors));
+    }
     let (errors, doubts) = problems_of_joining(db, job, &programs);
     let unsafe_moves = unsafe_moves.or_else(|| (!errors.is_empty()).then_some(errors));
     delivered.problems.extend(doubts);
@@ -83,23 +89,24 @@ fn sheets(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> Result<Vec
     Ok(outputs)
 }
 
-/// Returns errors that keep a program from being written: rapid moves into material, and moves beyond the machine's capabilities.
-fn move_errors(
+/// Returns errors that keep a program from being written, which are rapid moves into material and moves beyond the machine's capabilities, and
+/// warnings about feeds beyond the rates of an axis. A feed above `maximum-feed` is a warning about the element that gives it (PB211).
+fn move_problems(
     db: &Database,
     job: &Job,
     program: &Program,
     machine: Option<&Machine>,
-) -> Option<Vec<Diagnostic>> {
-    let mut errors = rapids_into_material(program);
-    errors.extend(machine.into_iter().flat_map(|machine| beyond_machine(program, machine)));
-    errors.retain(Diagnostic::is_error);
-    for problem in &mut errors {
+) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
+    let mut problems = rapids_into_material(program);
+    problems.extend(machine.into_iter().flat_map(|machine| beyond_machine(program, machine)));
+    problems.retain(|problem| problem.is_error() || problem.message.key == FEED_TOO_HIGH.key);
+    for problem in &mut problems {
         // `line` is the number of a step here, which means nothing to the user.
         problem.place.line = None;
         problem.file = Some(job.drawing(db).path(db).clone());
         problem.path = Some(job.path.clone());
     }
-    (!errors.is_empty()).then_some(errors)
+    problems.into_iter().partition(Diagnostic::is_error)
 }
 
 /// Returns the errors and warnings about programs that are correct on their own and are joined.
