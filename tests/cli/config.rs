@@ -279,7 +279,7 @@ fn limits_of_values_are_where_the_page_says() {
         ("[limits]\nfile-size = \"17179869183 GiB\"", "[limits]\nfile-size = \"17179869184 GiB\""),
         ("[machine]\nz = [0, 0.1]", "[machine]\nz = [0, 0]"),
         ("[severity]\nPB112 = \"ignore\"", "[severity]\nPB113 = \"ignore\""),
-        ("[severity]\nPB602 = \"warning\"", "[severity]\nPB511 = \"warning\""),
+        ("[severity]\nPB612 = \"warning\"", "[severity]\nPB609 = \"warning\""),
         ("[severity]\nPB203 = \"error\"", "[severity]\nPB203 = \"warning\""),
     ];
     for (inside, outside) in cases {

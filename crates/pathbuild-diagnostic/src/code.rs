@@ -274,10 +274,10 @@ codes! {
 }
 
 impl Code {
-    /// Whether the configuration may lower the severity. This is forbidden for errors that would make a program wrong. (book:
+    /// Whether the configuration may lower the severity. This is forbidden for errors that would make a program wrong, and for those of `adjust`. (book:
     /// reference/configuration)
     pub fn can_be_lowered(self) -> bool {
-        self.severity() == Severity::Warning || self.number() >= 600
+        self.severity() == Severity::Warning || self.number() >= 610
     }
 }
 

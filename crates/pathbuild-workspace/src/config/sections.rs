@@ -319,7 +319,7 @@ pub mod tables {
         /// further names: name in the drawing = one of the known line types
         line_types: Vec<LineTypeAlias> = "line-types", LINE_TYPES, Vec::new(), "[line-types]\n\"MITTE\" = \"CENTER\"", Check;
         /// code = "error" | "warning" | "ignore"; errors that protect programs from being wrong
-        /// (PB0 to PB5) cannot be lowered
+        /// (PB0 to PB609) cannot be lowered
         severity: Vec<(Code, Level)> = "severity", SEVERITY, Vec::new(), "[severity]\nPB210 = \"ignore\"", Neither;
         /// the same for some drawings or programs: globs, relative to this file; with `reason`, and `until` a date, the
         /// last day on which it holds
