@@ -74,6 +74,32 @@ fn options_reach_verify_and_what_was_not_checked_is_kept_out_of_the_way() {
     assert!(place.read("a.nc.rejected.txt").contains("PB523"));
 }
 
+/// Z 0 is on the table, but `--surface` says that it is on the stock.
+#[test]
+fn a_program_whose_cuts_all_end_above_the_surface_is_not_checked() {
+    let verify = |z: &str| {
+        let place = Place::new().file("a.nc", SOUND.replace("Z-2", &format!("Z{z}")));
+        place.run("verify a.nc --cutter 6 --surface 0 --require rapids")
+    };
+    assert_eq!(verify("0").status, Some(0), "{}", verify("0"));
+    let above = verify("0.1");
+    assert!(above.stderr.contains("PB777") && above.stderr.contains("PB523"), "{above}");
+}
+
+/// A severity lowers the error, but the moves are unknown all the same.
+#[test]
+fn moves_after_a_word_that_is_not_followed_do_not_count_as_checked() {
+    let verify = |word: &str| {
+        let configuration = "[severity]\nPB721 = \"warning\"\n[machine]\ntravel = [400, 300, 80]\n";
+        let program = SOUND.replace("G1 X40", &format!("{word}\nG1 X40"));
+        let place = Place::new().file("pathbuild.toml", configuration).file("a.nc", program);
+        place.run("verify a.nc --dialect fanuc --cutter 6 --surface 0 --require rapids,envelope")
+    };
+    assert_eq!(verify("M8").status, Some(0), "{}", verify("M8"));
+    let unknown = verify("G65 P9000 X10. Z-50.");
+    assert_eq!(unknown.stderr.matches("[PB523]").count(), 2, "{unknown}");
+}
+
 /// A rapid move begins at a position that only the machine knows, and goes down below the surface.
 #[test]
 fn a_rapid_move_on_an_unknown_way_does_not_count_as_checked() {

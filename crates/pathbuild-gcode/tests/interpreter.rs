@@ -1597,3 +1597,42 @@ fn a_low_height_of_the_machine_is_doubtful_over_the_part() {
     let text = "G17 G21 G90 G94\nG0 X0 Y0 Z5\nG53 G0 Z-50\nM30\n";
     assert_eq!(faults_with(LinuxCnc, text, &Options { offsets, ..Options::default() }), FINE);
 }
+
+#[test]
+fn g10_l20_after_a_probe_says_where_the_tool_is() {
+    let rises = |zero: &str| {
+        run(LinuxCnc, &format!("G0 X0 Y0 Z30\nG38.2 Z-20 F50\n{zero}\nG0 Z20\nG0 X5"))[2..].to_vec()
+    };
+    for zero in ["G10 L20 P1 Z15", "G10 L20 P0 Z15", "G92 Z15"] {
+        assert_eq!(rises(zero), ["5 rapid to 0 0 20", "6 rapid to 5 0 20"], "{zero}");
+    }
+    // Another system gets a zero that is not known, but the tool stays where it is.
+    assert_eq!(rises("G10 L20 P2 Z15")[0], "5 rapid to 0 0 20");
+}
+
+#[test]
+fn m_codes_of_a_haas_take_effect_after_the_move() {
+    let in_order = |dialect| run(dialect, "G0 X0. Y0. Z5.\nG1 Z-1. F100. S9000 M3\nG1 X9. M5");
+    assert_eq!(
+        in_order(Haas),
+        [
+            "2 rapid to 0 0 5",
+            "3 feed 100 to 0 0 -1",
+            "3 spindle Clockwise 9000",
+            "4 feed 100 to 9 0 -1",
+            "4 spindle Off 9000"
+        ]
+    );
+    assert_eq!(in_order(Fanuc)[1], "3 spindle Clockwise 9000");
+}
+
+#[test]
+fn places_that_the_control_keeps_are_not_set_by_parameters() {
+    let set = |number: u32| wrong(LinuxCnc, &format!("#{number}=7\nG0 X1"));
+    for number in [5161, 5223, 5390] {
+        assert_eq!(set(number), ["2 word-not-followed"], "{number}");
+    }
+    for number in [5160, 5391, 100] {
+        assert_eq!(set(number), FINE, "{number}");
+    }
+}

@@ -10,7 +10,8 @@ use pathbuild_gcode::dialect::Dialect::{Native, Xpertmill};
 use pathbuild_gcode::interpret::{Heights, Interpretation, Options, interpret};
 use pathbuild_gcode::read::quote;
 use pathbuild_gcode::verify::{
-    BlindRapidRules, Cutter, DepthRules, Machine, MachineRules, Stock, StockSpan, Travel, coarse_arc_finding,
+    BlindRapidRules, Cutter, DepthRules, DogLegRules, Machine, MachineRules, Stock, StockSpan, Travel,
+    coarse_arc_finding,
 };
 use pathbuild_motion::Step;
 
@@ -382,6 +383,29 @@ fn a_low_height_of_the_machine_raises_no_tool() {
     assert_eq!(from_unknown(setter).1, None);
 }
 
+/// The slot leads from (0, 0) to (20, 20) or beside it, and the tool returns by a rapid move.
+#[test]
+fn a_slanting_rapid_move_of_a_fanuc_leaves_the_slot() {
+    use pathbuild_gcode::dialect::Dialect::{Fanuc, Haas, LinuxCnc};
+    let back = |dialect, end: &str, lift: &str| {
+        let text = format!(
+            "G17 G21 G90 G94 F100\nG0 Z5.\nG0 X0. Y0.\nG1 Z-1.\n{end}\n{lift}\nG0 X0. Y0.\nG0 Z5.\nM30\n"
+        );
+        let steps = interpret(text.as_bytes(), dialect, &Options::default()).steps;
+        let stock = Stock::uniform(0.0, 2.0);
+        let Some(mut rules) = DogLegRules::new(dialect, &stock) else { return Vec::new() };
+        steps.iter().for_each(|step| rules.step(step));
+        rules.finish(&steps).iter().map(fault_text).collect::<Vec<_>>()
+    };
+    for dialect in [Fanuc, Haas] {
+        assert_eq!(back(dialect, "G1 X20. Y50.", "G0 Z-.5"), ["7 diagonal-rapid"]);
+        assert_eq!(back(dialect, "G1 X20. Y50.", "G0 Z0."), FINE);
+        assert_eq!(back(dialect, "G1 X20. Y20.", "G0 Z-.5"), FINE);
+        assert_eq!(back(dialect, "G1 Y50.", "G0 Z-.5"), FINE);
+    }
+    assert_eq!(back(LinuxCnc, "G1 X20. Y50.", "G0 Z-.5"), FINE);
+}
+
 /// Two vises, G54 and G55, have one part each.
 #[test]
 fn what_is_cut_in_one_coordinate_system_is_not_cut_in_another() {
@@ -530,6 +554,9 @@ fn moves_stay_within_the_machines_travel() {
         wrong("G0 X0 Y0 Z0\nX-10.1\nX-10.2\nX100.1\nY-0.1\nZ30.1"),
         ["3 outside-machine", "5 outside-machine", "6 outside-machine", "7 outside-machine"]
     );
+    // Programs have three decimals, which `emit` takes into account.
+    assert_eq!(wrong("G0 X-10.0005 Y50.0005 Z30"), FINE);
+    assert_eq!(wrong("G0 X-10.0006 Y50 Z30"), ["2 outside-machine"]);
     // The arc leaves the travel between its ends.
     assert_eq!(wrong("G0 X0 Y0 Z0\nG2 X2 Y0 I1"), FINE);
     assert_eq!(wrong("G0 X0 Y0 Z0\nG3 X2 Y0 I1"), ["3 outside-machine"]);
@@ -541,6 +568,8 @@ fn a_program_is_not_larger_than_the_machine() {
     let wrong = |program| wrong_on(&machine, program);
     assert_eq!(wrong("G0 X-1000 Y0 Z0\nX-900 Y50 Z-30"), FINE);
     assert_eq!(wrong("G0 X-1000 Y0 Z0\nX-899.9 Y50 Z-30\nX-1001"), ["3 outside-machine"]);
+    assert_eq!(wrong("G0 X-1000.0005 Y0 Z0\nX-899.9995"), FINE);
+    assert_eq!(wrong("G0 X-1000.001 Y0 Z0\nX-899.9995"), ["3 outside-machine"]);
 }
 
 #[test]

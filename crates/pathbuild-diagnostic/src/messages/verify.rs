@@ -288,6 +288,13 @@ messages! {
         help_en: "correct the wrong value; until then, the check of rapid moves assumes material up to the higher one",
         help_de: "den falschen Wert berichtigen; bis dahin rechnet die Prüfung der Eilgänge mit Material bis zum höheren",
     }
+    /// A program whose cuts all end above the surface given by an option.
+    CUTS_ABOVE_SURFACE: Disagreement {
+        en: "the lowest cut is at Z {found}, but according to --surface the material begins at {given}: the program cuts nothing",
+        de: "der tiefste Schnitt liegt auf Z {found}, laut --surface beginnt das Material bei {given}: das Programm fräst nichts",
+        help_en: "if Z 0 is on the table, give --surface the thickness of the material; until then, rapid moves are not checked",
+        help_de: "liegt Z 0 auf dem Tisch, bei --surface die Dicke des Materials angeben; bis dahin werden Eilgänge nicht geprüft",
+    }
     /// A check that `--require` names but that was not made.
     CHECK_NOT_MADE: UnmadeCheck {
         en: "the required check `{check}` was not carried out: {reason}",
@@ -420,6 +427,13 @@ messages! {
         de: "ein Eilgang in der Ebene fährt zugleich auf Z {z} hinunter: viele Maschinen fahren dabei nicht gerade",
         help_en: "move in the plane first, then down",
         help_de: "zuerst in der Ebene fahren, dann hinunter",
+    }
+    /// A slanting rapid move in the material, on a control that moves each axis at its own speed.
+    BENT_RAPID: DiagonalRapid {
+        en: "a rapid move in X and Y at once below the material's surface: {dialect} does not go straight, and leaves the way that was cut",
+        de: "ein Eilgang zugleich in X und Y unter der Oberfläche des Materials: {dialect} fährt nicht gerade und verlässt den gefrästen Weg",
+        help_en: "raise the tool above the material first, or move with G1",
+        help_de: "das Werkzeug zuerst über das Material heben oder mit G1 fahren",
     }
     /// A cut with the spindle off.
     SPINDLE_OFF: SpindleOff {

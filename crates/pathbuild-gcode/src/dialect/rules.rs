@@ -43,8 +43,10 @@ pub struct Rules {
     pub reference: ReferenceRules,
     /// Words that only controls built with a special setting obey; all other controls ignore them.
     pub unusual: OptionalWords,
-    /// Whether M5 and M9 take effect after the move in the same line.
-    pub stops_last: bool,
+    /// Whether rapid moves are straight. Otherwise each axis moves at its own speed, and the one with the shorter way arrives first.
+    pub straight_rapids: bool,
+    /// When M codes of the spindle and the coolant take effect in the line of a move.
+    pub m_order: MCodeOrder,
     /// Whether rapid moves use the feed F, as all other moves do.
     pub rapids_at_feed: bool,
     /// Whether `O1234` at the beginning of a file is the program number.
@@ -71,6 +73,17 @@ pub struct Rules {
     pub ends_cycles_beside_motion: bool,
     /// Rules for the tool length in effect where the program does not set one.
     pub lengths: LengthRules,
+}
+
+/// When M codes of the spindle and the coolant take effect in the line of a move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MCodeOrder {
+    /// Before the move.
+    First,
+    /// M5 and M9 after the move, the others before it.
+    StopsLast,
+    /// After the move.
+    Last,
 }
 
 /// The effect of a change of the unit on F, G52 and G92.
@@ -256,7 +269,8 @@ const BASE: Rules = Rules {
     runs_past_end: false,
     reference: ReferenceRules { g: &[], loses_zero: false },
     unusual: OptionalWords { g: &[], turns: false },
-    stops_last: false,
+    straight_rapids: true,
+    m_order: MCodeOrder::First,
     rapids_at_feed: false,
     program_numbers: false,
     least_increments: false,
@@ -446,6 +460,8 @@ pub(super) static FANUC: Rules = Rules {
     // From memory: G54.1 P1 to P48, or P300 with an option; G30 P2, P3 and P4 are the second to fourth reference points.
     systems: Some(SystemNumbers { code: 541, regular: 0, most: 247 }),
     numbers_references: true,
+    // Parameter 1401#1 (LRP) is 0 by default: positioning is not linear.
+    straight_rapids: false,
     ..ISO
 };
 
@@ -457,10 +473,14 @@ pub(super) static HAAS: Rules = Rules {
     dwell: DwellRules { p: DwellUnit::ByPoint, seconds: b"", counts_turns: false },
     // Haas Mill Operator's Manual, M00: "It stops the axes, spindle, and turns off the coolant".
     stop_is_complete: true,
+    // Haas Mill Operator's Manual, M codes: "All M-codes take effect at the end of the block."
+    m_order: MCodeOrder::Last,
     // From memory of the operator's manual: L0 defines a cycle without drilling at the present position.
     stores_cycles: true,
     // From memory of the operator's manual: G154 P1 to P99 selects work coordinates.
     systems: Some(SystemNumbers { code: 1540, regular: 0, most: 99 }),
+    // Haas Mill Operator's Manual, G00: "Generally, rapid motion will not be in a single straight line."
+    straight_rapids: false,
     ..ISO
 };
 
@@ -522,7 +542,7 @@ pub(super) static DIN: Rules = Rules {
     dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"XF", counts_turns: true },
     program_numbers: false,
     least_increments: false,
-    stops_last: true,
+    m_order: MCodeOrder::StopsLast,
     ..ISO
 };
 

@@ -9,7 +9,7 @@ use super::codes;
 use super::codes::Command;
 use super::evaluate::{Fault, Parameters, StatedProbes};
 use super::state::{Heights, Options, State};
-use crate::dialect::{Percent, Rules, beginning_of};
+use crate::dialect::{MCodeOrder, Percent, Rules, beginning_of};
 use crate::read::{Block, OWordKind, Problems, SourcePosition, Span};
 
 /// Interpreter of a program, with the modal state of the control and the effects of the last block.
@@ -84,7 +84,7 @@ impl<'i> Interpreter<'i> {
         }
         if !self.words.settings.is_empty() {
             self.step(block, Action::Change(Change::Parameter));
-            self.set_parameters();
+            self.set_parameters(block);
         }
         self.check_conflicts(block);
         self.emit_word_steps(block);
@@ -168,7 +168,11 @@ impl<'i> Interpreter<'i> {
         self.set_feed(block);
         self.set_speed(block);
         self.apply_tool_words(block);
-        let stops_last = self.rules.stops_last && self.words.m_code(&[50, 90]).is_some();
+        let stops_last = match self.rules.m_order {
+            MCodeOrder::First => false,
+            MCodeOrder::StopsLast => self.words.m_code(&[50, 90]).is_some(),
+            MCodeOrder::Last => true,
+        };
         if !stops_last {
             self.apply_spindle_and_coolant(block);
         }

@@ -327,6 +327,11 @@ impl Interpreter<'_> {
             let Some(coordinate) = slot.map(|slot| self.millimetres(slot)) else { continue };
             if kind == 2 {
                 is_followed &= self.state.offsets.place(system, axis, coordinate);
+            } else if system.is_none_or(|system| system == self.state.offsets.active)
+                && !self.state.position.known.has(Axes::of(axis))
+            {
+                // After a probe, only the machine knows where the tool is; from here on the program counts from there.
+                self.set_origin(axis, coordinate);
             } else {
                 let here = self.state.position.at[axis];
                 self.state.offsets.place_here(system, axis, coordinate, here);

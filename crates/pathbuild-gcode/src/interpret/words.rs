@@ -238,15 +238,26 @@ impl Interpreter<'_> {
         }
     }
 
-    pub(super) fn set_parameters(&mut self) {
-        for (target, value) in self.words.settings.drain(..) {
+    pub(super) fn set_parameters(&mut self, block: &Block<'_>) {
+        for (target, value) in std::mem::take(&mut self.words.settings) {
             match target {
-                AssignedParameter::Numbered(number) => self.parameters.set(number, value),
+                AssignedParameter::Numbered(number) => {
+                    if MACHINE_PLACES.contains(&number) {
+                        let span = Span::new(0, block.text.len());
+                        self.report(block, &say::NOT_FOLLOWED, span, |d| {
+                            d.quoting("word", format!("#{number}="))
+                        });
+                    }
+                    self.parameters.set(number, value);
+                }
                 AssignedParameter::Named(name) => self.parameters.set_named(name, value),
             }
         }
     }
 }
+
+/// Parameters in which a control of RS274 keeps the places of G28, G30, G92 and the coordinate systems.
+const MACHINE_PLACES: std::ops::RangeInclusive<u32> = 5161..=5390;
 
 /// Converts a G or M number to ten times its value; `None` if it has more than one decimal. Controls disagree whether `G0.9999` is G0 or G1.
 fn code_of(value: f64) -> Option<u16> {

@@ -87,6 +87,10 @@ pub enum Reason {
     NoSpeed,
     /// The program cuts without limiting the rounding of corners.
     NoCornerLimit,
+    /// All cuts end above the surface that an option states.
+    NoCutBelow,
+    /// A word is not followed, so that the moves are not known.
+    NotFollowed,
     /// A limit of `[limits]` is exceeded.
     TooLarge,
 }
@@ -100,6 +104,8 @@ pub(super) struct References {
     pub(super) is_compared_to_its_end: bool,
     /// Whether the configuration names layers of clamps.
     pub(super) has_keep_out: bool,
+    /// Whether all words that may move the tool are followed.
+    pub(super) are_moves_known: bool,
 }
 
 /// Returns the checks of a program. `rapids` is the outcome of the check of rapid moves.
@@ -122,9 +128,13 @@ pub(super) fn records(
         Outcome::Made(_) if !states_speed => Outcome::NotMade(Reason::NoSpeed),
         other => other,
     };
+    let envelope = match limits(|machine| machine.travel.is_some()) {
+        Outcome::Made(_) if !references.are_moves_known => Outcome::NotMade(Reason::NotFollowed),
+        other => other,
+    };
     let all = [
         (Requirement::Rapids, rapids),
-        (Requirement::Envelope, limits(|machine| machine.travel.is_some())),
+        (Requirement::Envelope, envelope),
         (Requirement::Feeds, limits(|machine| machine.feed.is_some())),
         (Requirement::Spindle, spindle),
         (Requirement::Drawing, with_drawing(references.is_compared_to_its_end, Reason::OtherMoves)),
@@ -201,7 +211,8 @@ impl CheckRecord {
             (Reason::OtherMoves, _) => &SAME_MOVES,
             (Reason::NoKeepOut, _) => &KEEP_OUT_OPTION,
             (Reason::NoCutter, _) => &CUTTER_OPTIONS,
-            (Reason::NoSurface, _) => &SURFACE_OPTIONS,
+            (Reason::NoSurface | Reason::NoCutBelow, _) => &SURFACE_OPTIONS,
+            (Reason::NotFollowed, _) => &KNOWN_WORDS,
             (Reason::TooLarge, _) => &LIMITS,
             (Reason::NoSpeed, _) => &START_OPTIONS,
             (Reason::NoCornerLimit, _) => &CORNER_LIMIT,
@@ -273,6 +284,8 @@ impl Reason {
             Self::TooLarge => &TOO_LARGE,
             Self::NoSpeed => &NO_SPEED,
             Self::NoCornerLimit => &NO_CORNER_LIMIT,
+            Self::NoCutBelow => &NO_CUT_BELOW,
+            Self::NotFollowed => &NOT_FOLLOWED,
         }
     }
 }
@@ -347,6 +360,18 @@ static NO_SPEED: Text = Text {
 static NO_CORNER_LIMIT: Text = Text {
     en: "the program does not limit how far the control rounds corners",
     de: "das Programm begrenzt nicht, wie weit die Steuerung Ecken verrundet",
+};
+static NO_CUT_BELOW: Text = Text {
+    en: "all cuts end above the material of --surface",
+    de: "alle Schnitte enden über dem Material von --surface",
+};
+static NOT_FOLLOWED: Text = Text {
+    en: "a word is not followed, so the moves are not known",
+    de: "einem Wort wird nicht gefolgt, die Bewegungen sind daher nicht bekannt",
+};
+static KNOWN_WORDS: Text = Text {
+    en: "a program without the words of PB720 and PB721",
+    de: "ein Programm ohne die Wörter von PB720 und PB721",
 };
 static CORNER_LIMIT: Text = Text { en: "G64 P or G61 in the program", de: "G64 P oder G61 im Programm" };
 static START_OPTIONS: Text = Text { en: "M3 and S in the program", de: "M3 und S im Programm" };

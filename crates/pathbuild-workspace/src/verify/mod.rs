@@ -18,7 +18,7 @@ use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    BlindRapidRules, ChipLoadRules, ClampCollisions, CornerRules, DepthRules, DirectionRules,
+    BlindRapidRules, ChipLoadRules, ClampCollisions, CornerRules, DepthRules, DirectionRules, DogLegRules,
     DrawingComparison, LengthRules, Machine, MachineRules, PostWords, StatedStatistics, Stock, WordRules,
     coarse_arc_finding, verify,
 };
@@ -313,12 +313,20 @@ struct CheckEvidence {
     blind: Option<BlindRapidRules>,
     speeds: SpindleStarts,
     corners: CornerRules,
+    /// The lowest height in mm that a cut reaches.
+    lowest_cut: Option<f64>,
 }
 
 impl CheckEvidence {
     fn step(&mut self, step: &Step) {
         self.speeds.step(step);
         self.corners.step(step);
+        if let Action::Move(movement) = &step.action
+            && matches!(movement.pace, Pace::Feed(_))
+            && let [_, _, Some((low, _))] = movement.extent()
+        {
+            self.lowest_cut = Some(self.lowest_cut.map_or(low, |lowest| lowest.min(low)));
+        }
         if let Some(blind) = &mut self.blind {
             blind.step(step);
         }
@@ -368,6 +376,7 @@ impl<'v> Examination<'v> {
             blind: self.sources.stock().and_then(BlindRapidRules::new),
             speeds: SpindleStarts::default(),
             corners: CornerRules::new(self.verifier.settings.general.part_tolerance.value),
+            lowest_cut: None,
         };
         let (mut found, comparison) = self.findings(written, rewritten.as_ref(), &mut evidence);
         if let Some(against) =
@@ -418,6 +427,8 @@ impl<'v> Examination<'v> {
         let mut lengths =
             self.milled.is_none().then(|| LengthRules::new(program.dialect, self.sources.stock()));
         let mut depths = DepthRules::default();
+        let stock = self.sources.stock();
+        let mut dog_legs = stock.and_then(|stock| DogLegRules::new(program.dialect, stock));
         let mut found = verify(&program.at_nominal_heights(), self.sources.stock(), &mut |step| {
             nominal.step(step);
             evidence.step(step);
@@ -429,9 +440,16 @@ impl<'v> Examination<'v> {
                 lengths.step(step);
             }
             depths.step(step);
+            if let Some(dog_legs) = &mut dog_legs {
+                dog_legs.step(step);
+            }
         });
         found.extend(lengths.into_iter().flat_map(LengthRules::finish));
         found.extend(self.sources.doubtful_rapids(depths, &found));
+        let bent = dog_legs.map_or_else(Vec::new, |rules| rules.finish(&program.at_nominal_heights()));
+        let is_new = |bent: &Diagnostic| found.iter().all(|problem| problem.place.line != bent.place.line);
+        let bent: Vec<Diagnostic> = bent.into_iter().filter(is_new).collect();
+        found.extend(bent);
         for word in program.words_left_out() {
             nominal.check_omitted_word(word.line, &word.word);
         }
@@ -473,18 +491,21 @@ impl<'v> Examination<'v> {
             // A check that was not made is an error only if it is required.
             problem.severity = Severity::Warning;
         }
-        let CheckEvidence { blind, speeds, corners } = evidence;
+        let CheckEvidence { blind, speeds, corners, lowest_cut } = evidence;
         let verifier = self.verifier;
         let references = checks::References {
             has_drawing: verifier.against.is_some(),
             is_compared_to_its_end: comparison.is_none_or(|comparison| comparison.equal == comparison.moves),
             has_keep_out: verifier.settings.general.keep_out.value.is_some(),
+            are_moves_known: self.sources.are_moves_known(),
         };
         // XpertMILL sets the speeds by layer, and not in the program.
         let states_speed =
             !speeds.has_cut || speeds.has_started || self.program.dialect == Dialect::Xpertmill;
         let machine = verifier.machine.as_ref();
-        let rapids = self.sources.rapids(is_limit_reached, blind.and_then(BlindRapidRules::finish));
+        let rapids =
+            self.sources.rapids(is_limit_reached, blind.and_then(BlindRapidRules::finish), lowest_cut);
+        found.extend(self.sources.cuts_above(lowest_cut));
         let mut records = checks::records(rapids, machine, references, states_speed);
         // Only LinuxCNC has a word that limits the rounding of corners.
         if self.program.dialect == Dialect::LinuxCnc {

@@ -136,8 +136,29 @@ impl<'s> Sources<'s> {
         !is_surface_known || self.cutter_origin() == Some(Origin::Program)
     }
 
+    /// Whether all words that may move the tool are followed.
+    pub(super) fn are_moves_known(&self) -> bool {
+        let hides_moves = |problem: &Diagnostic| {
+            problem.is_error() && matches!(problem.code(), Code::UnknownWord | Code::WordNotFollowed)
+        };
+        !self.program.read.problems.iter().any(hides_moves)
+    }
+
+    /// Returns PB777 if all cuts end above the surface that an option states: the program then cuts nothing, or its Z 0 is on the table.
+    pub(super) fn cuts_above(&self, lowest_cut: Option<f64>) -> Option<Diagnostic> {
+        let is_compared = self.verifier.against.is_some() || self.other_surface_given().is_some();
+        let given = self.options().surface.filter(|_| !is_compared)?;
+        let lowest = lowest_cut.filter(|lowest| *lowest > given + TOLERANCE)?;
+        Some(Diagnostic::new(&say::CUTS_ABOVE_SURFACE).with("found", lowest).with("given", given))
+    }
+
     /// Returns the outcome of the check of rapid moves. `blind` counts the rapid moves that start at an unknown position.
-    pub(super) fn rapids(&self, is_limit_reached: bool, blind: Option<BlindRapids>) -> Outcome {
+    pub(super) fn rapids(
+        &self,
+        is_limit_reached: bool,
+        blind: Option<BlindRapids>,
+        lowest_cut: Option<f64>,
+    ) -> Outcome {
         if is_limit_reached {
             return Outcome::NotMade(Reason::TooLarge);
         }
@@ -147,6 +168,12 @@ impl<'s> Sources<'s> {
         let Some((surface_origin, surface)) = self.surface() else {
             return Outcome::NotMade(Reason::NoSurface);
         };
+        if !self.are_moves_known() {
+            return Outcome::NotMade(Reason::NotFollowed);
+        }
+        if self.cuts_above(lowest_cut).is_some() {
+            return Outcome::NotMade(Reason::NoCutBelow);
+        }
         let cutters = cutters.iter().map(|(_, cutter)| cutter.diameter).collect();
         let values =
             RapidValues { cutters, cutter_origin, surface, is_level: self.is_level(), surface_origin };

@@ -1,0 +1,110 @@
+//! Finds rapid moves that are clear on a straight line, but not on the way of a control that moves each axis at its own speed. (book: program/reading)
+//!
+//! Such a control goes at 45 degrees until the axis with the shorter way arrives, and then along the other axis. Back along a slanting slot, it leaves
+//! the slot.
+
+use std::collections::BTreeSet;
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_motion::{Action, Move, MoveShape, Pace, Position, Step};
+
+use super::frames::Frames;
+use super::height_map::RESIDUE_HEIGHT;
+use super::material::{self, Stock};
+use crate::dialect::Dialect;
+use crate::interpret::Program;
+use crate::read::Problems;
+
+/// Rule that finds slanting rapid moves below the material's surface: pass every step of a program, then call [`finish`](Self::finish).
+#[derive(Debug)]
+pub struct DogLegRules<'c> {
+    dialect: Dialect,
+    stock: &'c Stock,
+    /// Indices of the slanting rapid moves below the surface.
+    found: BTreeSet<usize>,
+    /// Number of moves passed so far.
+    moves: usize,
+    frames: Frames,
+}
+
+impl<'c> DogLegRules<'c> {
+    /// Creates the rule for the beginning of a program; `None` if rapid moves of the dialect are straight.
+    pub fn new(dialect: Dialect, stock: &'c Stock) -> Option<Self> {
+        let rules = Self { dialect, stock, found: BTreeSet::new(), moves: 0, frames: Frames::default() };
+        (!dialect.rules().straight_rapids).then_some(rules)
+    }
+
+    /// Processes the next step of the program.
+    pub fn step(&mut self, step: &Step) {
+        self.frames.step(step);
+        let Action::Move(movement) = &step.action else { return };
+        let surface = self.stock.at(step.line).map(|piece| piece.surface);
+        let height = movement.from.z().max(movement.to.z());
+        if is_slanting_rapid(movement) && surface.is_some_and(|surface| height < surface - RESIDUE_HEIGHT) {
+            self.found.insert(self.moves);
+        }
+        self.moves += 1;
+    }
+
+    /// Reports the found moves whose bent way leads through material. If no moves were found, the program is not processed again.
+    pub fn finish(self, program: &(impl Program + ?Sized)) -> Vec<Diagnostic> {
+        let Self { dialect, stock, found, frames, .. } = self;
+        if found.is_empty() {
+            return Vec::new();
+        }
+        let mut hits = Problems::default();
+        let bent = BentRapids { program, found: &found };
+        frames.each(&bent, &mut |program| material::check(program, stock, &mut hits));
+        let lines: BTreeSet<u32> = hits.into_diagnostics().iter().filter_map(|hit| hit.place.line).collect();
+        let mut problems = Problems::default();
+        for line in lines {
+            problems.add_at_line(&say::BENT_RAPID, line, |d| d.quoting("dialect", dialect.name()));
+        }
+        problems.into_diagnostics()
+    }
+}
+
+fn is_slanting_rapid(movement: &Move) -> bool {
+    let [across, up] = plane_way(movement);
+    movement.pace == Pace::Rapid && movement.is_known() && across != 0.0 && up != 0.0
+}
+
+fn plane_way(movement: &Move) -> [f64; 2] {
+    [0, 1].map(|axis| movement.to.at[axis] - movement.from.at[axis])
+}
+
+/// A program reduced to its cuts, its coordinate systems, and the two legs of each found rapid move.
+struct BentRapids<'p, P: ?Sized> {
+    program: &'p P,
+    found: &'p BTreeSet<usize>,
+}
+
+impl<P: Program + ?Sized> Program for BentRapids<'_, P> {
+    fn each(&self, take: &mut dyn FnMut(&Step)) {
+        let mut index = 0;
+        self.program.each(&mut |step| match &step.action {
+            Action::Move(movement) => {
+                if self.found.contains(&index) {
+                    for leg in legs(movement) {
+                        take(&Step { action: Action::Move(leg), ..step.clone() });
+                    }
+                } else if movement.pace != Pace::Rapid {
+                    take(step);
+                }
+                index += 1;
+            }
+            Action::System { .. } => take(step),
+            _ => {}
+        });
+    }
+}
+
+fn legs(movement: &Move) -> [Move; 2] {
+    let way = plane_way(movement);
+    let shorter = libm::fabs(way[0]).min(libm::fabs(way[1]));
+    let [x, y] = [0, 1].map(|axis| movement.from.at[axis] + libm::copysign(shorter, way[axis]));
+    let corner = Position::known(x, y, movement.from.z().max(movement.to.z()));
+    let leg = |from, to| Move { from, to, shape: MoveShape::Line, ..*movement };
+    [leg(movement.from, corner), leg(corner, movement.to)]
+}
