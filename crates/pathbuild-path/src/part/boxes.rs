@@ -56,6 +56,12 @@ pub(crate) fn may_be_near(one: &Curve, other: &Curve, reach: f64) -> bool {
     widened_box(one, reach).intersects(&widened_box(other, 0.0))
 }
 
+/// Returns a box with its sides moved outwards by `reach` mm.
+pub(super) fn widened(extent: &AABB<[f64; 2]>, reach: f64) -> AABB<[f64; 2]> {
+    let ([left, low], [right, high]) = (extent.lower(), extent.upper());
+    AABB::from_corners([left - reach, low - reach], [right + reach, high + reach])
+}
+
 /// Returns the square around a point, with sides `reach` mm away from the point.
 pub(crate) fn square(at: Xy, reach: f64) -> AABB<[f64; 2]> {
     AABB::from_corners([at.x - reach, at.y - reach], [at.x + reach, at.y + reach])

@@ -199,12 +199,12 @@ impl<'s> PartCheck<'s> {
         if self.settings.is_held_otherwise {
             return None;
         }
+        let owner = self.contours.iter().position(|is_contour| *is_contour)?;
         let enclosure = Enclosure::new(self.part, self.cuts, &self.contours);
         let start = diagnostic_point(self.part.part.rings[0].curves[0].start());
         if let Some(cut) = enclosure.own_cut() {
             return Some(self.at(cut, Diagnostic::new(&messages::LOOSE_PART).with("point", start)));
         }
-        let owner = self.contours.iter().position(|is_contour| *is_contour)?;
         let problem = Diagnostic::new(&messages::SEVERED_PART)
             .quoting("other", self.cuts.paths[owner].name.as_str())
             .with("place", start);

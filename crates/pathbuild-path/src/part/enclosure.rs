@@ -1,5 +1,6 @@
 //! The cuts that may close a ring round a part, together with the cuts of other paths beside it. (book: language/part)
 
+use super::boxes::widened;
 use super::cuts::{CutIndex, IndexedCut};
 use super::loose::is_cut_out;
 use super::prepared::PreparedPart;
@@ -28,7 +29,9 @@ impl<'s> Enclosure<'s> {
     pub(super) fn new(part: &'s PreparedPart<'s>, cuts: &'s CutIndex<'s>, own: &'s [bool]) -> Self {
         let owners = cuts.paths.iter().zip(own).filter(|(_, is_own)| **is_own);
         let largest = owners.map(|(path, _)| path.radius).fold(0.0, f64::max);
-        let others = cuts.cuts.iter().filter(|cut| !own[cut.path] && cuts.contours[cut.path]);
+        let farthest = reach(cuts.paths.iter().map(|path| path.radius).fold(0.0, f64::max));
+        let near = cuts.near(widened(&part.extent(), farthest)).into_iter().map(|number| &cuts.cuts[number]);
+        let others = near.filter(|cut| !own[cut.path] && cuts.contours[cut.path]);
         let is_beside = |(cut, curve): &Cut<'_>| part.is_near_rim(curve, reach(cut.radius.max(largest)));
         let beside = others.filter_map(through).filter(is_beside).collect();
         Self { part, cuts, own, beside }

@@ -3,6 +3,7 @@
 use rstar::{AABB, Envelope as _};
 
 use super::bars::{LostBar, lost_bars};
+use super::boxes::widened;
 use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar};
 use super::enclosure::{Enclosure, reach};
 use super::gouge::{classify_cuts, gouges};
@@ -153,12 +154,6 @@ impl<'c> PlacedCuts<'c> {
         });
         placed
     }
-}
-
-/// Returns a box with its sides moved outwards by `reach` mm.
-fn widened(extent: &AABB<[f64; 2]>, reach: f64) -> AABB<[f64; 2]> {
-    let ([left, low], [right, high]) = (extent.lower(), extent.upper());
-    AABB::from_corners([left - reach, low - reach], [right + reach, high + reach])
 }
 
 /// Returns the bounding box of a box that is placed, and thus possibly rotated.
