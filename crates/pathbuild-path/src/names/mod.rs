@@ -183,6 +183,11 @@ impl Eq for PathName {}
 
 impl Hash for PathName {
     fn hash<H: Hasher>(&self, state: &mut H) {
+        // Fast path with the same result: a name with other letters may be equal to one in ASCII.
+        if self.0.is_ascii() {
+            self.0.bytes().for_each(|byte| char::from(byte.to_ascii_uppercase()).hash(state));
+            return;
+        }
         for letter in self.0.chars().flat_map(char::to_uppercase) {
             letter.hash(state);
         }

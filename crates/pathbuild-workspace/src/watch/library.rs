@@ -154,6 +154,8 @@ impl<'a> Library<'a> {
         self.open.retain(|path, _| !update.removed.contains(path));
         self.unfollowed.extend(self.open.keys().chain(&files).cloned());
         update.changed.extend(files);
+        let configurations = changes.paths.iter().filter(|path| path.file_name() == Some(FILE_NAME));
+        update.changed.extend(configurations.cloned());
         update.changed.append(&mut self.backlog_cause);
         update
     }
