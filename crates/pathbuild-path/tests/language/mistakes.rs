@@ -27,7 +27,7 @@ fn assert_one(found: &[String], begin: &str, end: &str) {
 #[test]
 fn a_text_in_lower_case_is_one_error() {
     let found = of_text("o2 t2 i0.5 B0", ElementClass::PathStart);
-    assert_one(&found, "PB202 the letters of this text", "write \"O2 T2 I0.5 B0\"");
+    assert_one(&found, "PB202 the letters of this text", "write \"O2 T2 I0.5 B0\", with upper-case letters");
     assert_eq!(of_text("o2 T2 B0", ElementClass::PathStart).len(), 1, "one letter is an error of its own");
     assert_eq!(of_text("x2 y2", ElementClass::PathStart).len(), 2, "no letters in upper case either");
 }
