@@ -262,10 +262,7 @@ fn macros_that_multiply_come_to_an_end() {
 fn a_value_that_the_program_lacks_is_an_error() {
     let text = definition("<PostFile>\n{$stock_x} {$tool.length}</PostFile>");
     let found = errors(&text, &job(vec![]));
-    assert!(
-        found[0]
-            .starts_with("4: PB754 {$stock_x} in PostFile has no value in mill (drawings do not contain it")
-    );
+    assert!(found[0].starts_with("4: PB754 {$stock_x} in PostFile has no value in mill (write "));
 }
 
 #[test]

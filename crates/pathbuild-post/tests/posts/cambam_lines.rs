@@ -222,7 +222,7 @@ fn corners_of_the_blank_are_no_moves() {
     assert_eq!(moves(&format!("%\n{blank}G0 X5 Y5")), "G0 X5 Y5");
     assert_ne!(moves("%\nG31 G90 X+100 Y+100 Z+0\nG0 X5 Y5"), "G0 X5 Y5");
     assert_ne!(moves(&format!("%\n{blank}G31 G90 X+100 Y+100 Z+0\nG0 X5 Y5")), "G0 X5 Y5", "it has ended");
-    assert_eq!(moves("G31 X5 Z0 F40"), "G38.3 X5 Z0 F40");
+    assert_eq!(moves("%\nG31 X5 Z0 F40"), "G38.3 X5 Z0 F40");
 }
 
 #[test]
