@@ -383,6 +383,22 @@ fn a_program_with_errors_is_not_rewritten() {
 }
 
 #[test]
+fn words_that_a_rewritten_program_does_not_have_are_told() {
+    let text = "G21 G90 G17 G40 G49 G80 G94 G54\nT1 M6\nM3 S12000\nM64 P1\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG0 Z5\nM1\nM5\nM30\n";
+    let place = Place::new().file("a.ngc", text);
+    let place = place.file("plain.ngc", text.replace("M64 P1\n", "").replace("M1\n", "M0\n"));
+    let options = "--dialect linuxcnc --surface 0 --format concise";
+    let posted = place.run(&format!("post a.ngc --post linuxcnc {options}"));
+    assert!(posted.stderr.contains("a.ngc:4:1: warning[PB778] M64 is left out"), "{posted}");
+    assert!(posted.stderr.contains("a.ngc:9:1: warning[PB778] M1 is written as M0"), "{posted}");
+    assert!(!posted.stdout.contains("M64") && posted.stdout.contains("\nM0\n"), "{posted}");
+    let verified = place.run(&format!("verify a.ngc {options}"));
+    assert!(verified.stderr.contains("M64 is not checked"), "`verify` writes nothing: {verified}");
+    let plain = place.run(&format!("post plain.ngc --post linuxcnc {options}"));
+    assert!(plain.status == Some(0) && !plain.stderr.contains("PB778"), "{plain}");
+}
+
+#[test]
 fn heights_that_are_still_to_be_corrected_are_not_rewritten() {
     let place = Place::of(LIBRARY);
     assert_eq!(place.run("emit 1300.1P").status, Some(0));
