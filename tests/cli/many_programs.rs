@@ -143,5 +143,9 @@ fn what_is_too_large_is_not_checked() {
     assert!(run.status == Some(0) && run.stderr.contains("rapid moves (the program is too large"), "{run}");
     let run = place.run(&format!("verify a.nc {OPTIONS} --require rapids"));
     assert!(run.status == Some(1) && run.stderr.contains("PB523"), "{run}");
-    assert!(run.stderr.contains("needed: higher verify-cells and verify-pieces under [limits]"), "{run}");
+    assert!(
+        run.stderr
+            .contains("(the program is too large: higher verify-cells and verify-pieces under [limits])"),
+        "{run}"
+    );
 }

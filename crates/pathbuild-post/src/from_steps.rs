@@ -421,6 +421,18 @@ impl Builder {
         operation.steps.push(JobStep::rapid([x, y, None]));
     }
 
+    /// After a tool change, a post returns to where the old tool stopped. It need not if the program itself continues with a rapid move above
+    /// everything.
+    fn enter_by_own_rapid(&mut self, movement: &Move) {
+        let [.., before, operation] = self.job.operations.as_mut_slice() else { return };
+        let is_high = movement.to.known == Axes::ALL && movement.to.z() >= self.clearance;
+        let has_moved =
+            operation.steps.iter().any(|step| matches!(step, JobStep::Move(_) | JobStep::Hole(_)));
+        if is_high && !has_moved && before.tool.index != operation.tool.index {
+            operation.entry = Entry::Clearance;
+        }
+    }
+
     fn add_move(&mut self, line: u32, movement: &Move) {
         if movement.named.is_some() {
             return self.refuse(line, &posts::JOB_NAMED_PLACE);
@@ -442,6 +454,7 @@ impl Builder {
                 let [x, y, _] = movement.to.axes();
                 self.retract_after_change([x, y]);
             }
+            self.enter_by_own_rapid(movement);
             self.push(step);
         } else {
             if !is_known(movement, self.has_probed) {
