@@ -394,7 +394,9 @@ fn a_slanting_rapid_move_of_a_fanuc_leaves_the_slot() {
         let steps = interpret(text.as_bytes(), dialect, &Options::default()).steps;
         let stock = Stock::uniform(0.0, 2.0);
         let Some(mut rules) = DogLegRules::new(dialect, &stock) else { return Vec::new() };
-        steps.iter().for_each(|step| rules.step(step));
+        for step in &steps {
+            rules.step(step);
+        }
         rules.finish(&steps).iter().map(fault_text).collect::<Vec<_>>()
     };
     for dialect in [Fanuc, Haas] {

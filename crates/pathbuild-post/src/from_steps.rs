@@ -129,8 +129,10 @@ struct Builder {
     starts_spindle: bool,
     /// Whether the program has stopped or waited with the spindle off since the last operation began. The operation stays as it is.
     is_resting: bool,
-    /// The number of the tool to which the length in effect belongs, if it is known; `None` without a length.
-    length: Option<Option<u32>>,
+    /// Whether a tool length is in effect.
+    has_length: bool,
+    /// The number of the tool to which the length in effect belongs, if it is known.
+    length_tool: Option<u32>,
     /// The line that last set or cancelled the tool length.
     length_line: u32,
     /// Whether the tool in the spindle has cut with a length (G43); `None` before its first cut.
@@ -168,7 +170,8 @@ impl Builder {
                 .iter()
                 .any(|step| matches!(&step.action, Action::Spindle(spindle) if spindle.turning.is_on())),
             is_resting: false,
-            length: None,
+            has_length: false,
+            length_tool: None,
             length_line: 0,
             has_cut_with_length: None,
             has_cut_with_tool: false,
@@ -197,10 +200,11 @@ impl Builder {
                 self.refuse_zero(step.line, code_name('G', *code));
             }
             Action::Change(Change::ToolLength(ToolLength::Off | ToolLength::OfTool(Some(0)))) => {
-                (self.length, self.length_line) = (None, step.line);
+                (self.has_length, self.length_line) = (false, step.line);
             }
             Action::Change(Change::ToolLength(ToolLength::OfTool(entry))) => {
-                (self.length, self.length_line) = (Some(entry.or(self.state.tool)), step.line);
+                (self.has_length, self.length_line) = (true, step.line);
+                self.length_tool = entry.or(self.state.tool);
             }
             Action::Change(Change::ToolLength(ToolLength::Other)) if !self.has_cut_with_tool => {
                 self.refuse_zero(step.line, "G43.1, G44".to_owned());
@@ -314,9 +318,9 @@ impl Builder {
     /// Refuses a cut with the length of another tool, or with a length where the tool has cut without: a post writes G43 with the number of
     /// the tool, once for each tool.
     fn check_length(&mut self) {
-        let is_other = self.length.is_some_and(|tool| tool.is_none() || tool != self.state.tool);
-        let has_length = self.length.is_some();
-        if is_other || *self.has_cut_with_length.get_or_insert(has_length) != has_length {
+        let is_other = self.length_tool.is_none() || self.length_tool != self.state.tool;
+        let has_length = self.has_length;
+        if has_length && is_other || *self.has_cut_with_length.get_or_insert(has_length) != has_length {
             self.refuse(self.length_line, &posts::JOB_LENGTH);
         }
     }

@@ -39,7 +39,7 @@ pub(crate) fn unused_configurations(session: &Session<'_>, directories: &[Utf8Pa
 /// such layers.
 pub(crate) fn patterns_without_layer<'a>(
     session: &Session<'_>,
-    library: impl Iterator<Item = &'a DrawingResult> + Clone,
+    mut library: impl Iterator<Item = &'a DrawingResult> + Clone,
 ) -> Vec<Diagnostic> {
     let has_all = library.clone().next().is_some() && !library.clone().any(DrawingResult::is_unread);
     if !has_all || session.is_compatible() {
@@ -53,7 +53,7 @@ pub(crate) fn patterns_without_layer<'a>(
     let clamps = || problem(&settings.general.keep_out, &outputs::NO_CLAMP_LAYER);
     let parts = || problem(&settings.general.part, &outputs::NO_PART_LAYER);
     let has_clamps = library.clone().any(|drawing| drawing.layers.has_clamps);
-    let has_parts = library.clone().any(|drawing| drawing.layers.has_parts);
+    let has_parts = library.any(|drawing| drawing.layers.has_parts);
     let clamps = (!has_clamps).then(clamps).flatten();
     clamps.into_iter().chain((!has_parts).then(parts).flatten()).collect()
 }

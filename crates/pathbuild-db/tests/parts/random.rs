@@ -387,9 +387,9 @@ fn parts_are_loose_where_a_grid_is_cut_off() {
         }
         severed += u32::from(expected && !is_cut_off(&contour, 1.35));
         if expected {
-            loose += 1
+            loose += 1;
         } else {
-            held += 1
+            held += 1;
         }
         let drawing = format!(
             "layer 1234.1P\nstart -30,-30 \"T2 O2 I1 B0 S5\"\n{}layer 1234.2P\nstart -30,-30 \"T2 O2 I1 B0 S5\"\n{}\

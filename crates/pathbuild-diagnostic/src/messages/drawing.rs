@@ -496,7 +496,7 @@ messages! {
         help_en: "save the drawing as R2007 or later; special characters in texts and layer names may be wrong",
         help_de: "die Zeichnung als R2007 oder neuer speichern; Sonderzeichen in Texten und Layernamen können falsch sein",
     }
-    /// An unknown code page in the header of a drawing, in place of which ANSI_1252 is used.
+    /// An unknown code page in the header of a drawing, in place of which `ANSI_1252` is used.
     UNKNOWN_CODE_PAGE: DoubtfulEncoding {
         en: "the code page \"{encoding}\" is not known; texts are read as ANSI_1252",
         de: "die Codepage \"{encoding}\" ist nicht bekannt; Texte werden als ANSI_1252 gelesen",

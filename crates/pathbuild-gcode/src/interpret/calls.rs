@@ -550,7 +550,7 @@ impl Interpreter<'_> {
                     }
                     (None, _) => self.report_out_of_range(block, "P", place, &limits::COUNT),
                     (_, None) => {
-                        self.report_out_of_range(block, "L", repeats.unwrap_or(place), &limits::COUNT)
+                        self.report_out_of_range(block, "L", repeats.unwrap_or(place), &limits::COUNT);
                     }
                 }
             }

@@ -14,7 +14,7 @@ use crate::dialect::RadiusTolerance;
 use crate::read::{Block, Span};
 
 /// The lowest height of G53, in mm, that counts as a retract. Posts stay some millimetres below machine zero, to keep clear of the switches: Carbide
-/// Create writes `G53G0Z-5.000`, OpenBuilds `G53 G0 Z-10`.
+/// Create writes `G53G0Z-5.000`, `OpenBuilds` `G53 G0 Z-10`.
 pub(crate) const LOWEST_RETRACT: f64 = -10.0;
 
 impl Interpreter<'_> {

@@ -35,7 +35,7 @@ impl CornerRules {
         match &step.action {
             Action::Change(Change::Corners(corners)) => self.corners = Some((step.line, *corners)),
             Action::Move(motion) if matches!(motion.pace, Pace::Feed(_)) && !motion.is_standstill() => {
-                self.cut()
+                self.cut();
             }
             _ => {}
         }

@@ -141,7 +141,7 @@ impl PageTransform {
     }
 
     /// Converts a point to the coordinates of the page.
-    pub(super) fn to_page(&self, [x, y]: Point) -> Point {
+    pub(super) fn to_page(self, [x, y]: Point) -> Point {
         let Frame { low, high, scale, corner } = self.frame;
         [corner[0] + (x + self.zero[0] - low[0]) * scale, corner[1] + (high[1] - y - self.zero[1]) * scale]
     }

@@ -98,10 +98,8 @@ pub enum Reason {
 /// The references that a program can be compared with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct References {
-    /// Whether a drawing was named.
-    pub(super) has_drawing: bool,
-    /// Whether the comparison reached the last move of the drawing.
-    pub(super) is_compared_to_its_end: bool,
+    /// Whether the comparison reached the last move of the drawing; `None` if no drawing was named.
+    pub(super) is_compared_to_its_end: Option<bool>,
     /// Whether the configuration names layers of clamps.
     pub(super) has_keep_out: bool,
     /// Whether all words that may move the tool are followed.
@@ -117,11 +115,9 @@ pub(super) fn records(
 ) -> Vec<CheckRecord> {
     let outcome =
         |is_made: bool, reason| if is_made { Outcome::Made(None) } else { Outcome::NotMade(reason) };
-    let with_drawing = |is_made, reason| {
-        outcome(
-            is_made && references.has_drawing,
-            if references.has_drawing { reason } else { Reason::NoDrawing },
-        )
+    let with_drawing = |is_made, reason| match references.is_compared_to_its_end {
+        Some(_) => outcome(is_made, reason),
+        None => Outcome::NotMade(Reason::NoDrawing),
     };
     let limits = |is_limited: fn(&Machine) -> bool| outcome(machine.is_some_and(is_limited), Reason::NoLimit);
     let spindle = match limits(|machine| machine.spindle.is_some()) {
@@ -137,7 +133,10 @@ pub(super) fn records(
         (Requirement::Envelope, envelope),
         (Requirement::Feeds, limits(|machine| machine.feed.is_some())),
         (Requirement::Spindle, spindle),
-        (Requirement::Drawing, with_drawing(references.is_compared_to_its_end, Reason::OtherMoves)),
+        (
+            Requirement::Drawing,
+            with_drawing(references.is_compared_to_its_end == Some(true), Reason::OtherMoves),
+        ),
         (Requirement::Clamps, with_drawing(references.has_keep_out, Reason::NoKeepOut)),
     ];
     all.map(|(requirement, outcome)| CheckRecord { requirement, outcome }).into()

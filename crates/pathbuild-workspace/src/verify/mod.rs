@@ -494,8 +494,10 @@ impl<'v> Examination<'v> {
         let CheckEvidence { blind, speeds, corners, lowest_cut } = evidence;
         let verifier = self.verifier;
         let references = checks::References {
-            has_drawing: verifier.against.is_some(),
-            is_compared_to_its_end: comparison.is_none_or(|comparison| comparison.equal == comparison.moves),
+            is_compared_to_its_end: verifier
+                .against
+                .as_ref()
+                .map(|_| comparison.is_none_or(|comparison| comparison.equal == comparison.moves)),
             has_keep_out: verifier.settings.general.keep_out.value.is_some(),
             are_moves_known: self.sources.are_moves_known(),
         };
