@@ -84,10 +84,10 @@ const says = (page, id, words) => page.waitForFunction(([id, words]) => document
   assert.deepEqual(faults, []);
   await page.close();
 
-  // The link contains the settings but no program: the page waits for one.
+  // The link contains the settings but no program: the page waits for one. It cuts below the surface of the settings, so that rapid moves are checked.
   const other = await open(link);
   assert.match(await text(other.page, "#trouble"), /settings, but no program/);
-  writeFileSync(join(place, "mine.tap"), "G21 G90 G94 G17\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20\nG0 X40\nG0 Z5\nM30\n");
+  writeFileSync(join(place, "mine.tap"), "G21 G90 G94 G17\nG0 Z5\nG0 X0 Y0\nG1 Z-4 F100\nG1 X20\nG0 X40\nG0 Z5\nM30\n");
   await other.page.setInputFiles("#drawings", join(place, "mine.tap"));
   await shows(other.page, "mine.tap");
   await says(other.page, "checks", "10 mm (--cutter)");
