@@ -10,7 +10,7 @@ use pathbuild_gcode::dialect::Dialect::{Native, Xpertmill};
 use pathbuild_gcode::interpret::{Heights, Interpretation, Options, interpret};
 use pathbuild_gcode::read::quote;
 use pathbuild_gcode::verify::{
-    BlindRapidRules, Cutter, DepthRules, DogLegRules, Machine, MachineRules, Stock, StockSpan, Travel,
+    BentRapidRules, BlindRapidRules, Cutter, DepthRules, Machine, MachineRules, Stock, StockSpan, Travel,
     coarse_arc_finding,
 };
 use pathbuild_motion::Step;
@@ -393,7 +393,7 @@ fn a_slanting_rapid_move_of_a_fanuc_leaves_the_slot() {
         );
         let steps = interpret(text.as_bytes(), dialect, &Options::default()).steps;
         let stock = Stock::uniform(0.0, 2.0);
-        let Some(mut rules) = DogLegRules::new(dialect, &stock) else { return Vec::new() };
+        let Some(mut rules) = BentRapidRules::new(dialect, &stock) else { return Vec::new() };
         for step in &steps {
             rules.step(step);
         }

@@ -578,22 +578,22 @@ messages! {
     }
     /// A cut with an F that was stated before a change of the unit, on a control that may keep the number of F.
     FEED_IN_OTHER_UNIT: UnitChanged {
-        en: "this cut uses the F of line {line}, which is in {unit}: after the change of the unit, {dialect} may take its number for {other}",
-        de: "dieser Schnitt nimmt das F aus Zeile {line}, das in {unit} angegeben ist: nach dem Wechsel der Einheit kann {dialect} die Zahl für {other} nehmen",
+        en: "this cut uses the F of line {line}, which is in {unit}: after the change of the unit, {dialect} may read its number as {other}",
+        de: "dieser Schnitt nimmt das F aus Zeile {line}, das in {unit} angegeben ist: nach dem Wechsel der Einheit kann {dialect} die Zahl als {other} lesen",
         help_en: "write F again in the new unit",
         help_de: "F in der neuen Einheit noch einmal angeben",
     }
     /// A move with a G52 or G92 that was stated before a change of the unit, on a control that may keep its numbers.
     OFFSET_IN_OTHER_UNIT: UnitChanged {
-        en: "this move counts from the offset of line {line}, which is in {unit}: after the change of the unit, {dialect} may take its numbers for {other}",
-        de: "diese Bewegung zählt ab der Verschiebung aus Zeile {line}, die in {unit} angegeben ist: nach dem Wechsel der Einheit kann {dialect} die Zahlen für {other} nehmen",
+        en: "this move counts from the offset of line {line}, which is in {unit}: after the change of the unit, {dialect} may read its numbers as {other}",
+        de: "diese Bewegung zählt ab der Verschiebung aus Zeile {line}, die in {unit} angegeben ist: nach dem Wechsel der Einheit kann {dialect} die Zahlen als {other} lesen",
         help_en: "cancel the offset before the change of the unit, and set it again after it",
         help_de: "die Verschiebung vor dem Wechsel der Einheit aufheben und danach neu setzen",
     }
     /// A hole with an R, Z or Q that was stated before a change of the unit.
     CYCLE_IN_OTHER_UNIT: UnitChanged {
-        en: "this hole takes {word} from line {line}, in {unit}: after the change of the unit, controls such as LinuxCNC take the number for {other}",
-        de: "diese Bohrung nimmt {word} aus Zeile {line}, in {unit}: nach dem Wechsel der Einheit nehmen Steuerungen wie LinuxCNC die Zahl für {other}",
+        en: "this hole takes {word} from line {line}, in {unit}: after the change of the unit, controls such as LinuxCNC read the number as {other}",
+        de: "diese Bohrung nimmt {word} aus Zeile {line}, in {unit}: nach dem Wechsel der Einheit lesen Steuerungen wie LinuxCNC die Zahl als {other}",
         help_en: "write R, Z and Q again in the new unit",
         help_de: "R, Z und Q in der neuen Einheit noch einmal angeben",
     }

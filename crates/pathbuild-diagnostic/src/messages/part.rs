@@ -52,8 +52,8 @@ messages! {
     }
     /// A part that is held after the cuts of its own path, but not after those of another one.
     SEVERED_PART: LoosePart {
-        en: "with this cut, nothing holds the part of path {other} whose outline begins at {place}: it meets the cuts between the support bars",
-        de: "mit diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss bei {place} beginnt: Er trifft auf die Schnitte zwischen den Stützstegen",
+        en: "after this cut, nothing holds the part of path {other} whose outline begins at {place}: it meets the cuts between the support bars",
+        de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss bei {place} beginnt: er trifft auf die Schnitte zwischen den Stützstegen",
         help_en: "place the parts farther apart, or draw support bars on a side where the plate remains",
         help_de: "die Teile weiter auseinander setzen oder Stützstege auf einer Seite zeichnen, an der die Platte stehen bleibt",
     }

@@ -783,7 +783,7 @@ messages! {
     /// A spindle that is switched off for a stop or a dwell, in a program to be written through a definition of CAD6.
     JOB_SPINDLE_OFF: NothingToPost {
         en: "{operation} switches the spindle off before it stops or waits, and this post can only do so at a tool change",
-        de: "{operation} schaltet die Spindel vor einem Halt oder einer Verweilzeit aus; dieser Postprozessor kann das nur beim Werkzeugwechsel",
+        de: "{operation} schaltet die Spindel vor einem Halt oder einer Wartezeit aus; dieser Postprozessor kann das nur beim Werkzeugwechsel",
         help_en: "split the program at the stop, or use a post in the language of CamBam",
         help_de: "das Programm am Halt teilen oder einen Postprozessor in der Sprache von CamBam verwenden",
     }
@@ -796,8 +796,8 @@ messages! {
     }
     /// A zero or a tool length that the program sets at the machine, in a program to be written through a post.
     JOB_ZERO: NothingToPost {
-        en: "{word} sets a zero or a tool length at the machine, and a post does not write it: everything after it would be somewhere else",
-        de: "{word} setzt an der Maschine einen Nullpunkt oder eine Werkzeuglänge, und ein Postprozessor schreibt das nicht: alles danach läge woanders",
+        en: "{word} sets a zero or a tool length at the machine, and a post does not write it: everything after it would be milled somewhere else",
+        de: "{word} setzt an der Maschine einen Nullpunkt oder eine Werkzeuglänge, und ein Postprozessor schreibt das nicht: alles danach würde woanders gefräst",
         help_en: "set the zero and the length at the machine before the program starts, and remove the word if the program then counts from there",
         help_de: "Nullpunkt und Länge vor dem Start des Programms an der Maschine setzen und das Wort entfernen, wenn das Programm dann von dort aus zählt",
     }

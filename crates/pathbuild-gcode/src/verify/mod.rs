@@ -5,13 +5,13 @@
 //! than a missing warning.
 
 mod against;
+mod bent_rapids;
 mod blind_rapids;
 mod chip_load;
 mod compare;
 mod corners;
 mod depth;
 mod direction;
-mod dog_legs;
 mod excursion;
 mod frames;
 mod height_map;
@@ -31,6 +31,7 @@ use pathbuild_motion::Step;
 pub use self::compare::same_move_lines;
 pub use self::rules::coarse_arc_finding;
 pub use against::{Agreement, ClampCollisions, Clamps, DrawingComparison, ExpectedProgram, ToolUse};
+pub use bent_rapids::BentRapidRules;
 pub use blind_rapids::{BlindRapidRules, BlindRapids};
 pub use chip_load::ChipLoadRules;
 pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};
@@ -38,7 +39,6 @@ pub(crate) use compare::{is_near, is_same_move};
 pub use corners::CornerRules;
 pub use depth::DepthRules;
 pub use direction::DirectionRules;
-pub use dog_legs::DogLegRules;
 pub use lengths::LengthRules;
 pub use machine::{Machine, MachineRules, Travel};
 pub use material::{Cutter, Stock, StockSpan, rapid_hits};

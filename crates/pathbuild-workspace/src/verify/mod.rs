@@ -18,7 +18,7 @@ use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    BlindRapidRules, ChipLoadRules, ClampCollisions, CornerRules, DepthRules, DirectionRules, DogLegRules,
+    BentRapidRules, BlindRapidRules, ChipLoadRules, ClampCollisions, CornerRules, DepthRules, DirectionRules,
     DrawingComparison, LengthRules, Machine, MachineRules, PostWords, StatedStatistics, Stock, WordRules,
     coarse_arc_finding, verify,
 };
@@ -428,7 +428,7 @@ impl<'v> Examination<'v> {
             self.milled.is_none().then(|| LengthRules::new(program.dialect, self.sources.stock()));
         let mut depths = DepthRules::default();
         let stock = self.sources.stock();
-        let mut dog_legs = stock.and_then(|stock| DogLegRules::new(program.dialect, stock));
+        let mut bent_rapids = stock.and_then(|stock| BentRapidRules::new(program.dialect, stock));
         let mut found = verify(&program.at_nominal_heights(), self.sources.stock(), &mut |step| {
             nominal.step(step);
             evidence.step(step);
@@ -440,13 +440,13 @@ impl<'v> Examination<'v> {
                 lengths.step(step);
             }
             depths.step(step);
-            if let Some(dog_legs) = &mut dog_legs {
-                dog_legs.step(step);
+            if let Some(bent_rapids) = &mut bent_rapids {
+                bent_rapids.step(step);
             }
         });
         found.extend(lengths.into_iter().flat_map(LengthRules::finish));
         found.extend(self.sources.doubtful_rapids(depths, &found));
-        let bent = dog_legs.map_or_else(Vec::new, |rules| rules.finish(&program.at_nominal_heights()));
+        let bent = bent_rapids.map_or_else(Vec::new, |rules| rules.finish(&program.at_nominal_heights()));
         let is_new = |bent: &Diagnostic| found.iter().all(|problem| problem.place.line != bent.place.line);
         let bent: Vec<Diagnostic> = bent.into_iter().filter(is_new).collect();
         found.extend(bent);

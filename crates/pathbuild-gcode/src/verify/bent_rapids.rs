@@ -18,7 +18,7 @@ use crate::read::Problems;
 
 /// Rule that finds slanting rapid moves below the material's surface: pass every step of a program, then call [`finish`](Self::finish).
 #[derive(Debug)]
-pub struct DogLegRules<'c> {
+pub struct BentRapidRules<'c> {
     dialect: Dialect,
     stock: &'c Stock,
     /// Indices of the slanting rapid moves below the surface.
@@ -28,7 +28,7 @@ pub struct DogLegRules<'c> {
     frames: Frames,
 }
 
-impl<'c> DogLegRules<'c> {
+impl<'c> BentRapidRules<'c> {
     /// Creates the rule for the beginning of a program; `None` if rapid moves of the dialect are straight.
     pub fn new(dialect: Dialect, stock: &'c Stock) -> Option<Self> {
         let rules = Self { dialect, stock, found: BTreeSet::new(), moves: 0, frames: Frames::default() };
