@@ -329,7 +329,7 @@ fn neighbours_leave_the_plate_behind_support_bars() {
     };
     assert_eq!(loose(4.01), [""; 0], "some plate remains between the cuts");
     let found = loose(3.99);
-    assert!(found.len() == 1 && found[0].starts_with("PB217 with this cut"), "{found:?}");
+    assert!(found.len() == 1 && found[0].starts_with("PB217 after this cut"), "{found:?}");
 }
 
 /// A cut of another component beside the part does not enter the part, but cuts through its bar, down to Z0 or above the bar.
