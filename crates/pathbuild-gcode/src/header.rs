@@ -501,7 +501,6 @@ impl Collector {
     }
 }
 
-/// Creates a statement that describes one tool.
 fn tool(scope: Scope, diameter: f64, tip: Tip, unit: StatedUnit) -> Statement {
     Statement { tool: Some(StatedTool { scope, diameter, tip, unit }), ..Statement::default() }
 }

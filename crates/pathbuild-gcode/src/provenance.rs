@@ -101,7 +101,6 @@ pub fn is_same_program(a: &[u8], b: &[u8]) -> bool {
     a == b || is_same(a, b)
 }
 
-/// Finds the position of the version in a program.
 fn version_in(program: &[u8]) -> Option<Range<usize>> {
     let head = &program[..program.len().min(HEAD_BYTES)];
     let mut begin = 0;

@@ -184,7 +184,6 @@ struct Collector {
     counting: LengthFilter,
 }
 
-/// The speeds and feeds that have been recorded for a tool.
 struct KnownTool {
     /// Index of the tool in [`Summary::tools`].
     index: usize,

@@ -56,7 +56,6 @@ fn refused(result: Result<AdjustedProgram, Vec<Diagnostic>>) -> Vec<String> {
     placed_codes(&result.expect_err("it was adjusted"))
 }
 
-/// Returns the value of a formula.
 #[track_caller]
 fn value(formula: &str) -> String {
     let program = adjusted(format!("X0.000(={formula})"), VALUES);

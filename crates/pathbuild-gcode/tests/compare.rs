@@ -27,7 +27,7 @@ fn differ(found: &str, expected: &str) -> Option<Difference> {
     compare(&moves(found), &moves(expected), &Tolerance::of_decimals(3))
 }
 
-/// Returns the kind of difference, and the lines.
+/// Returns the kind of the first difference, and the line of the move in each program.
 fn kind(found: &str, expected: &str) -> Option<(DifferenceKind, Option<u32>, Option<u32>)> {
     differ(found, expected)
         .map(|it| (it.kind, it.found.map(|found| found.0), it.expected.map(|expected| expected.0)))

@@ -1591,7 +1591,7 @@ fn a_low_height_of_the_machine_is_doubtful_over_the_part() {
     assert_eq!(judged(LinuxCnc, "G53 G0 Z-10\nG0 X1\nG53 G0 Z-10"), []);
     assert_eq!(judged(LinuxCnc, "G53 G0 Z-10.1\nG0 X1\nG53 G0 Z-50"), warned("3 unknown-offset"));
     assert_eq!(judged(LinuxCnc, "G53 G0 X0 Y0 Z-10.1"), warned("3 unknown-offset"));
-    // At a place of the machine there is a tool setter.
+    // At a machine position away from the part there may be a tool setter, so a low height is not reported.
     assert_eq!(judged(LinuxCnc, "G53 G0 X0 Y0\nG53 G0 Z-50"), []);
     let offsets = Some(MachineOffsets::default());
     let text = "G17 G21 G90 G94\nG0 X0 Y0 Z5\nG53 G0 Z-50\nM30\n";

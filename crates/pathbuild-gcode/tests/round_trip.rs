@@ -289,7 +289,6 @@ fn an_arc_of_next_to_nothing_never_goes_round() {
     });
 }
 
-/// Half a circle that is so small that all of it is within rounding stays half a circle.
 #[test]
 fn half_a_tiny_circle_stays_half() {
     for radius in [0.001, 0.002, 0.003] {

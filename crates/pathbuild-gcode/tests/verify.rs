@@ -30,7 +30,6 @@ fn wrong(program: &str, stock: Option<&Stock>) -> Vec<String> {
     verify(&run(program).steps, stock).iter().map(fault_text).collect()
 }
 
-/// Returns the problems of a program on a machine.
 fn wrong_on(machine: &Machine, program: &str) -> Vec<String> {
     let mut rules = MachineRules::new(machine);
     for step in &run(program).steps {
@@ -354,7 +353,7 @@ fn a_stop_is_above_the_material() {
         assert_eq!(stop_at("5"), FINE);
         assert_eq!(stop_at("4.999"), FINE);
         assert_eq!(stop_at("4.99"), ["7 stop-at-depth"]);
-        // With T, it is a tool change, and behind the last move it is the end.
+        // After the last move, a stop counts as the end of the program; beside T, it counts as a tool change.
         assert_eq!(behind_slot(stop), ["5 end-not-raised"]);
     }
     assert_eq!(behind_slot("T2\nM0\nG0 Z10"), ["7 tool-change-at-depth"]);
@@ -378,7 +377,7 @@ fn a_low_height_of_the_machine_raises_no_tool() {
     let blind = |z: &str| from_unknown(&format!("G0 Z5\nG0 X0 Y0\nG53 G0 Z{z}\nG0 X9\nG0 Z5\nG0 X0")).1;
     assert_eq!(blind("-10"), None);
     assert_eq!(blind("-10.1"), Some((2, 4)));
-    // The tool is at a place of the machine, and raised again.
+    // The tool goes down at a machine position, where there may be a tool setter, and is raised again.
     let setter = "G0 Z5\nG0 X0 Y0\nG53 G0 Z0\nG53 G0 X0 Y0\nG53 G0 Z-50\nG53 G0 Z0\nG0 X9 Y0\nG0 Z5";
     assert_eq!(from_unknown(setter).1, None);
 }
@@ -419,7 +418,7 @@ fn what_is_cut_in_one_coordinate_system_is_not_cut_in_another() {
     assert_eq!(again("G54", "G55"), ["10 rapid-plunge"]);
     assert_eq!(again("G55", "G54"), ["10 rapid-plunge"]);
     assert_eq!(again("G54", "G55\nG54"), FINE);
-    // The program places both at the same point.
+    // The program places both systems at the same point.
     assert_eq!(again("G10 L2 P1 X0 Y0 Z0\nG10 L2 P2 X0 Y0 Z0", "G55"), FINE);
 }
 

@@ -25,7 +25,6 @@ fn grid() -> Vec<(f64, f64)> {
     (0..9).map(point).collect()
 }
 
-/// Returns the weight of each probe at a point.
 fn weights(model: ZModel, points: &[(f64, f64)], at: (f64, f64)) -> Vec<f64> {
     let mut all = vec![0.0; points.len()];
     for (probe, weight) in Surface::new(model, &places(points)).weights(Xy::new(at.0, at.1)) {
@@ -119,7 +118,6 @@ fn probes_on_a_line_say_nothing_across_it() {
     }
 }
 
-/// The line may run in any direction, with the probes in any order.
 #[test]
 fn a_line_of_probes_may_run_in_any_direction() {
     for (x, y) in [(1.0, 0.0), (0.0, 1.0), (3.0, 1.0), (1.0, 3.0), (-1.0, 3.0), (3.0, -1.0), (0.1, -7.0)] {

@@ -73,11 +73,9 @@ pub(crate) struct FormulaText {
     pub(crate) line: u32,
     /// The text without brackets and without the second `=` that marks applied formulas.
     pub(crate) text: String,
-    /// Whether the formula is marked as applied.
     pub(crate) is_applied: bool,
 }
 
-/// Returns the formulas of a program, in order.
 pub(crate) fn formula_texts(program: &[u8]) -> impl Iterator<Item = FormulaText> {
     (1..).zip(program.split(|byte| *byte == b'\n')).flat_map(|(line, content)| {
         formula_spans(content).map(move |spot| {

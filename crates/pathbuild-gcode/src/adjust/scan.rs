@@ -9,7 +9,6 @@ use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 
 use super::Source;
 
-/// A line of a file, with its number.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line<'a> {
     pub(super) source: Source<'a>,
@@ -39,7 +38,6 @@ impl<'a> Line<'a> {
         content.strip_suffix(b"\r").unwrap_or(content)
     }
 
-    /// Creates a diagnostic for a range of bytes.
     pub(super) fn fault(self, message: &'static Message, span: Range<usize>) -> Diagnostic {
         let content = self.content();
         let text = |range: Range<usize>| String::from_utf8_lossy(&content[range]);
@@ -100,7 +98,6 @@ fn number_before(line: &[u8], end: usize) -> Range<usize> {
     start..end
 }
 
-/// Returns the position of the bracket that closes the one at `open`.
 fn closing_bracket(line: &[u8], open: usize) -> Option<usize> {
     let mut depth = 0_usize;
     line.iter().enumerate().skip(open).find_map(|(at, byte)| {
@@ -122,7 +119,6 @@ pub(super) struct ProbeSurvey<'a> {
 /// The first use of a probe in formulas, and the heights at which the probe was drawn.
 #[derive(Debug)]
 pub(super) struct ProbeUse<'a> {
-    /// Line in which a formula first uses the probe.
     pub(super) line: Line<'a>,
     pub(super) at: Range<usize>,
     /// Least and greatest height in mm at which the probe was drawn, according to the formulas.
@@ -146,7 +142,6 @@ impl<'a> ProbeSurvey<'a> {
     }
 }
 
-/// Converts an error in a line to a diagnostic.
 pub(super) fn located(line: Line<'_>, fault: &Fault) -> Diagnostic {
     let found = String::from_utf8_lossy(line.content().get(fault.at.clone()).unwrap_or_default());
     line.fault(fault.message, fault.at.clone()).quoting("found", &*found).with("limit", DEPTH_LIMIT)
@@ -174,7 +169,6 @@ fn check(line: &[u8], spot: &FormulaSpan, probes: &mut impl Probes) -> Result<()
     Ok(())
 }
 
-/// Parses the number before a formula.
 pub(super) fn number(line: &[u8], spot: &FormulaSpan) -> Option<f64> {
     let text = str::from_utf8(&line[spot.number.clone()]).ok()?;
     text.parse().ok().filter(|number: &f64| number.is_finite())
@@ -221,10 +215,7 @@ pub(super) struct Fault {
     pub(super) at: Range<usize>,
 }
 
-/// Evaluates a formula while parsing it. The result may be infinite or NaN.
-///
-/// # Errors
-/// The first error.
+/// Evaluates a formula while parsing it, up to the first error. The result may be infinite or NaN.
 pub(super) fn value_of(text: &[u8], probes: &mut impl Probes) -> Result<f64, Fault> {
     let mut parser = Parser { text, at: 0, depth: 0, probes };
     let term = parser.sum()?;
@@ -248,7 +239,6 @@ struct Term {
     form: Form,
 }
 
-/// The syntactic form of a term.
 #[derive(Clone, Copy)]
 enum Form {
     Number,

@@ -79,7 +79,6 @@ pub(super) fn read<'a>(values: Source<'a>, problems: &mut Vec<Diagnostic>) -> Ve
 }
 
 impl ProbeLine<'_> {
-    /// Creates a diagnostic for the value.
     pub(super) fn value_fault(&self, message: &'static Message) -> Diagnostic {
         let (line, at) = &self.value_at;
         line.fault(message, at.clone()).with("probe", u64::from(self.probe))
@@ -119,7 +118,6 @@ pub(super) struct ProbeTable {
     pub(super) probes: BTreeMap<u32, ProgramProbe>,
 }
 
-/// A probe listed in a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ProgramProbe {
     pub(super) place: ProbePoint,

@@ -93,7 +93,6 @@ pub fn ascii(text: &str) -> String {
     ascii
 }
 
-/// Returns the ASCII replacement of a character.
 fn transliterated(character: char) -> &'static str {
     match character {
         'ä' | 'æ' => "ae",

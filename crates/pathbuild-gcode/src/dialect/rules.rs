@@ -55,7 +55,7 @@ pub struct Rules {
     pub least_increments: bool,
     /// Whether the control stores H and D, so that both may accompany any word for the tool length.
     pub keeps_offsets: bool,
-    /// Whether G10 needs an axis.
+    /// Whether G10 needs an axis word.
     pub offsets_need_axis: bool,
     /// The letter of the word for the number of repetitions of a drilling cycle.
     pub repeats: u8,
@@ -89,9 +89,9 @@ pub enum MCodeOrder {
 /// The effect of a change of the unit on F, G52 and G92.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnitChange {
-    /// They keep their lengths: the control stores them in a unit of its own, or converts them.
+    /// The values keep their lengths: the control stores them in a unit of its own, or converts them.
     Converts,
-    /// They keep their numbers, or it is not known what they keep.
+    /// The values keep their numbers, or it is not known what they keep.
     Unknown,
     /// The control refuses any other unit than the one that it is set to.
     Refused,
@@ -118,9 +118,9 @@ pub struct ReferenceRules {
 /// Words that a control supports only if it was built with a special setting.
 #[derive(Debug)]
 pub struct OptionalWords {
-    /// G codes that need such a setting, times ten.
+    /// G codes (times ten) that need a special setting.
     pub g: &'static [u16],
-    /// Whether P, the number of turns of an arc, needs such a setting too.
+    /// Whether P, the number of turns of an arc, needs a special setting too.
     pub turns: bool,
 }
 
@@ -180,7 +180,7 @@ pub struct ArcRules {
 /// Permitted difference of the radii at both ends of an arc, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RadiusTolerance {
-    /// `mm` in programs in millimetres, `inch` (also in mm) in programs in inches.
+    /// One tolerance for programs in millimetres and another for programs in inches.
     Fixed {
         /// Tolerance for programs in millimetres.
         mm: f64,
@@ -537,7 +537,7 @@ pub(super) static DIN: Rules = Rules {
     words: &codes::DIN,
     start_motion: StartMotion::None,
     unit_words: [700, 710],
-    // Controls of this kind take F or X for seconds and S for turns of the main spindle: Beckhoff TF5100, "Dwell Time (G04)", and TF5200,
+    // Controls for DIN 66025 take F or X for seconds and S for turns of the main spindle: Beckhoff TF5100, "Dwell Time (G04)", and TF5200,
     // "Dwell time (G04), (#TIME)".
     dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"XF", counts_turns: true },
     program_numbers: false,

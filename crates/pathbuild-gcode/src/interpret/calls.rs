@@ -28,7 +28,6 @@ enum RunEnd {
     Repeated,
     /// A `break` or `continue` ended a pass of the loop that [`Runner::left`] names.
     Left(LoopExit),
-    /// There are no more lines.
     NoLines,
     /// The program has ended, or the caller wants no more steps, or too much has been executed.
     Ended,
@@ -40,7 +39,6 @@ pub(super) struct Runner<'r, 'i> {
     each: &'r mut dyn FnMut(Step) -> ControlFlow<()>,
     /// The start of each subprogram of the file; determined at the first call.
     definitions: Option<HashMap<SubprogramName, Definition>>,
-    /// The subprograms that are being executed.
     active: Vec<SubprogramName>,
     /// The loops with a condition that the current subprogram is executing.
     loops: Vec<OpenLoop>,
@@ -52,7 +50,6 @@ pub(super) struct Runner<'r, 'i> {
     depth: usize,
     /// Number of lines that calls and loops have executed.
     lines: u32,
-    /// Whether any line contained a word.
     pub(super) has_words: bool,
 }
 
@@ -102,7 +99,6 @@ impl<'r, 'i> Runner<'r, 'i> {
         }
     }
 
-    /// Executes a file to its end.
     pub(super) fn run_file(&mut self, reader: &mut BlockReader<'_>) {
         while self.run(reader) == RunEnd::Ended {
             reader.end_program();
@@ -361,7 +357,6 @@ impl<'r, 'i> Runner<'r, 'i> {
         RunEnd::NoLines
     }
 
-    /// Executes the lines from a place on.
     fn run_body(&mut self, reader: &BlockReader<'_>, place: Place) -> RunEnd {
         let mut body = reader.reader_from(place);
         let outcome = self.run(&mut body);
@@ -369,7 +364,6 @@ impl<'r, 'i> Runner<'r, 'i> {
         outcome
     }
 
-    /// Skips the lines up to the end of a subroutine, a loop or an `if`.
     fn skip_to_end(&mut self, reader: &mut BlockReader<'_>, name: &str, end: OWordKind, line: u32) -> RunEnd {
         self.find_end(reader, name, end, line).map_or(RunEnd::NoLines, |_| RunEnd::Repeated)
     }

@@ -68,7 +68,6 @@ pub(super) enum Cycle {
     BoringDwelling,
 }
 
-/// Unit of the feed F.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum FeedUnit {
     /// G94: mm or inches per minute.
@@ -116,7 +115,7 @@ impl Command {
         }
     }
 
-    /// Returns how far the interpreter executes the command; `Followed` for a `NotFollowed` command, which has been reported already.
+    /// Returns how far the interpreter executes the command. `NotFollowed` has been reported already, so it counts as `Followed`.
     pub(super) fn effect(self) -> WordEffect {
         match self {
             Self::NoEffect(Group::ToolLength | Group::PathControl) => WordEffect::Followed,

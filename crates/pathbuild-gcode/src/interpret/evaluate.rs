@@ -32,7 +32,6 @@ pub(super) struct Scope<'s> {
     pub(super) most: u32,
     /// Whether the control has named parameters for values of the machine, such as `#<_x>`.
     pub(super) has_names: bool,
-    /// The state of the machine.
     pub(super) state: &'s State,
 }
 
@@ -68,7 +67,6 @@ impl Parameters {
         LocalParameters { numbered, named }
     }
 
-    /// Restores the parameters of the caller.
     pub(super) fn leave(&mut self, of_caller: LocalParameters) {
         self.numbered.retain(|number, _| *number > LAST_LOCAL_PARAMETER);
         self.named.retain(|name, _| name.starts_with('_'));
@@ -76,7 +74,6 @@ impl Parameters {
         self.named.extend(of_caller.named);
     }
 
-    /// Evaluates an expression of a block.
     pub(super) fn evaluate(
         &mut self,
         block: &Block<'_>,
@@ -249,7 +246,6 @@ pub(super) fn name_of(block: &Block<'_>, name: Span) -> Box<str> {
     name.chars().filter(|letter| !letter.is_whitespace()).flat_map(char::to_lowercase).collect()
 }
 
-/// Converts a number to a parameter number.
 pub(super) fn parameter_number(index: f64, most: u32) -> Result<u32, Fault> {
     let whole = libm::round(index);
     if libm::fabs(index - whole) > 0.0001 || whole < 1.0 || whole > f64::from(most) {

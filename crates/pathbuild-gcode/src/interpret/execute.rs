@@ -234,12 +234,10 @@ impl BlockWords {
         self.settings.clear();
     }
 
-    /// Returns the command of the block that belongs to a group.
     pub(super) fn of_group(&self, group: Group) -> Option<(Command, u16, Span)> {
         self.commands.iter().find(|(command, ..)| command.group() == group).copied()
     }
 
-    /// Returns the M code of the block that is among `codes`.
     pub(super) fn m_code(&self, codes: &[u16]) -> Option<(u16, Span)> {
         self.m_codes.iter().find(|(code, _)| codes.contains(code)).copied()
     }
@@ -316,14 +314,12 @@ impl Values {
         self.given &= !Self::COORDINATES;
     }
 
-    /// Removes a letter from the block and returns its value, if any.
     pub(super) fn remove(&mut self, letter: u8) -> Option<Slot> {
         let slot = self.peek(letter);
         self.given &= !bit(letter);
         slot
     }
 
-    /// Returns X, Y and Z and marks them as used.
     pub(super) fn take_coordinates(&mut self) -> [Option<Slot>; 3] {
         Self::AXES.map(|axis| self.take_slot(axis))
     }
@@ -332,7 +328,6 @@ impl Values {
         self.given & !self.used == 0
     }
 
-    /// Returns the letters that have not been used, with their positions.
     pub(super) fn unused(&self) -> impl Iterator<Item = (u8, Span)> + '_ {
         let remaining = self.given & !self.used;
         (b'A'..=b'Z')
@@ -372,7 +367,6 @@ pub(super) enum Jump {
     Do(Box<str>),
     /// Ends a pass through the loop of this name early.
     Leave(Box<str>, LoopExit),
-    /// Ends the subprogram.
     Return,
     /// Ends a pass through the innermost loop.
     EndRepeat,
@@ -381,9 +375,7 @@ pub(super) enum Jump {
 /// The word that ends a pass through a loop early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LoopExit {
-    /// No other pass of the loop follows.
     Break,
-    /// Another pass of the loop may follow.
     Continue,
 }
 

@@ -249,7 +249,6 @@ fn union_g_word(code: u16) -> UnionWord {
     }
 }
 
-/// The meaning of a G word in a dialect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum WordMeaning {
     Command(Command),

@@ -148,7 +148,6 @@ impl Interpreter<'_> {
         to
     }
 
-    /// Records that the program has specified the position of an axis.
     pub(super) fn mark_axis_stated(&mut self, axis: usize) {
         let State { stated_axes, stated_since_stop, .. } = &mut self.state;
         *stated_axes = stated_axes.with(Axes::of(axis));
@@ -175,7 +174,7 @@ impl Interpreter<'_> {
         to
     }
 
-    /// Reports the first move to a low height of the machine that begins over the part.
+    /// Reports the first move that begins over the part and goes to a low height in machine coordinates.
     fn check_machine_height(&mut self, block: &Block<'_>, z: Option<Slot>) {
         let Some(slot) = z.filter(|_| self.state.offsets.of_machine(2, 0.0).is_none()) else { return };
         let is_over_part = self.state.position.known.has(Axes::XY);
@@ -500,13 +499,12 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns the axes for which the block has a coordinate.
 fn given_axes(coordinates: &[Option<Slot>; 3]) -> Axes {
     let given = (0..3).filter(|axis| coordinates[*axis].is_some());
     given.fold(Axes::NONE, |axes, axis| axes.with(Axes::of(axis)))
 }
 
-/// An arc of almost 180 degrees given by R is doubtful if the last digit of R moves its centre by more than this, in mm.
+/// Shift of the centre in mm, caused by the last digit of R, above which an arc of almost 180 degrees given by R is doubtful.
 const MAX_CENTRE_SHIFT: f64 = 0.05;
 
 /// Maximum distance in mm between different ends at which an almost full circle is doubtful: their last digit decides whether nearly all of it

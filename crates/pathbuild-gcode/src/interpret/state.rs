@@ -253,7 +253,6 @@ impl Offsets {
         self.length.at_cut.is_some_and(|lengths| lengths[axis].is_none())
     }
 
-    /// Whether the tool has cut with a stated length.
     pub(super) fn has_cut_with_length(&self) -> bool {
         self.length.at_cut.is_some()
     }
@@ -275,7 +274,7 @@ impl Offsets {
         !is_other || self.base.is_none() || self.is_placed(system)
     }
 
-    /// Whether the origin of a system is known relative to the program's first one.
+    /// Whether the origin of a system is known relative to that of the program's first system.
     fn is_placed(&self, system: WorkSystem) -> bool {
         match self.systems[system.index()].origin {
             SystemOrigin::Unknown => false,
@@ -284,7 +283,7 @@ impl Offsets {
         }
     }
 
-    /// Returns the first system whose place relative to this one is known.
+    /// Returns the program's first system if the place of this system relative to it is known, otherwise this system.
     pub(super) fn frame(&self, system: WorkSystem) -> WorkSystem {
         self.first.filter(|_| self.is_placed(system)).unwrap_or(system)
     }

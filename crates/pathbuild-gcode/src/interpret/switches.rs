@@ -10,7 +10,7 @@ use super::state::{INCH, StatedLength};
 use crate::dialect::{DwellUnit, FeedMode, UnitChange};
 use crate::read::{Block, Span};
 
-/// M codes of the spindle, of stops and of ends.
+/// M codes (times ten) that switch or orient the spindle.
 pub(super) const SPINDLE: &[u16] = &[30, 40, 50, 190];
 pub(super) const STOPS: &[u16] = &[0, 10, 20, 300, 600];
 pub(super) const TOOL: &[u16] = &[60, 610];

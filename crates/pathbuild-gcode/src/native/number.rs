@@ -103,7 +103,6 @@ pub(super) struct PrintedArc {
 }
 
 impl PrintedArc {
-    /// Creates an arc whose values are rounded as they are printed.
     pub(super) fn new(from: Xy, centre: Xy, clockwise: bool) -> Self {
         Self { from: rounded(from), centre: rounded(centre), clockwise }
     }

@@ -390,7 +390,6 @@ pub(super) struct Remarks {
 }
 
 impl Remarks {
-    /// Formats a comment of the native dialect.
     pub(super) fn comment(self, text: &str) -> String {
         if !self.compatible {
             return Dialect::Native.comment(text, self.charset);

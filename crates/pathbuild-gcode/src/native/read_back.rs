@@ -120,7 +120,6 @@ impl<E: Iterator<Item = (u32, motion::Move)>> LockstepComparison<E> {
     }
 }
 
-/// Interprets a text and returns its moves, with their lines.
 fn moves(text: &str) -> Result<Vec<(u32, motion::Move)>, Box<Diagnostic>> {
     let mut moves = Vec::with_capacity(text.len() / SHORT_LINE);
     each_move(text, |line, movement| moves.push((line, movement)))?;

@@ -12,13 +12,11 @@ const POWERS: [f64; 23] = [
 /// Maximum number of digits of an integer that a double represents exactly, so that one division gives the nearest double.
 const EXACT_DIGITS: usize = 15;
 
-/// A number found in a line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ScannedNumber {
     pub(super) number: Number,
     /// Offset of the first byte after the number.
     pub(super) end: usize,
-    /// Unusual feature of the number's notation, if any.
     pub(super) oddity: Option<UnusualNotation>,
 }
 
@@ -40,7 +38,6 @@ pub(super) fn begins(byte: u8) -> bool {
     byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.')
 }
 
-/// Reads the number that begins at `start`.
 pub(super) fn scan(line: &[u8], start: usize, spelling: &Spelling) -> Result<ScannedNumber, MalformedNumber> {
     let digits = Digits::scan(line, start);
     match line.get(digits.end) {

@@ -83,7 +83,6 @@ impl<'t> BlockReader<'t> {
         Self { at, line, state: State::Program, ..Self::new(self.text, self.rules) }
     }
 
-    /// Creates another reader of the same file, from its beginning.
     pub(crate) fn reader_from_start(&self) -> Self {
         Self::new(self.text, self.rules)
     }
@@ -374,7 +373,6 @@ impl<'t> BlockReader<'t> {
 
 /// The effect of `%` at the beginning of a line.
 enum PercentSign {
-    /// There is no `%`.
     Nothing,
     /// The line continues at this offset.
     Passed(usize),

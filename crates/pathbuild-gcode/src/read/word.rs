@@ -349,7 +349,6 @@ impl Line<'_> {
     }
 }
 
-/// Returns the mark that begins a comment in a dialect.
 pub(super) fn comment_sign(spelling: &Spelling) -> &'static str {
     if spelling.slash_comments == NotationSupport::Usual { "//" } else { "(" }
 }

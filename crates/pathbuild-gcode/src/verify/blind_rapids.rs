@@ -87,10 +87,10 @@ impl BlindRapidRules {
     }
 }
 
-/// Whether a move ends at an unknown height which the machine need not be able to reach above the material.
+/// Whether a move ends at a machine height that is too low for a retract and unknown in program coordinates.
 fn is_low_in_machine(movement: &Move) -> bool {
     let machine = matches!(movement.named, Some(NamedPosition::Machine(axes)) if axes.has(Axes::Z));
-    // An unknown coordinate of G53 is that of the machine.
+    // Where the program coordinate of a G53 move is unknown, its position holds the machine coordinate.
     machine && !movement.to.known.has(Axes::Z) && movement.to.z() < LOWEST_RETRACT
 }
 

@@ -307,8 +307,8 @@ pub(super) fn check_pace(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> R
     }
 }
 
-/// Compares two stretches from their starts up to the given fractions. `radius_error` is that of the expected stretch, whose centre is not known
-/// more exactly than this.
+/// Compares two stretches from their starts up to the given fractions. `radius_error`, the difference in mm between the radii of the expected
+/// stretch, extends the tolerance, because the centre of that stretch is not known more exactly.
 pub(super) fn check_shape(
     one: &Stretch,
     one_end: f64,
@@ -335,7 +335,6 @@ fn is_same_course(one: &Course, other: &Course, tolerance: &Tolerance) -> bool {
     one.quarters().iter().zip(&other.quarters()).all(|(ours, theirs)| is_near(ours, theirs, slack))
 }
 
-/// Whether two positions agree in each coordinate.
 pub(crate) fn is_near(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
     a.iter().zip(b).all(|(a, b)| libm::fabs(a - b) <= slack)
 }
@@ -363,12 +362,10 @@ impl<'m> Walker<'m> {
         Self { moves, index: 0, done: 0.0 }
     }
 
-    /// Returns the current move with its line.
     pub(super) fn current(&self) -> Option<(u32, Move)> {
         self.moves.get(self.index).copied()
     }
 
-    /// Returns the last move of the list with its line.
     pub(super) fn last(&self) -> Option<(u32, Move)> {
         self.moves.last().copied()
     }
@@ -499,7 +496,6 @@ pub fn same_move_lines(found: &str, expected: &str) -> bool {
 /// A letter and its number.
 type Word = (char, f64);
 
-/// One unit of the last printed digit in mm, plus the error of doubles.
 const LAST_DIGIT_UNIT: f64 = 0.001 * (1.0 + 1e-6);
 
 /// Returns the words of each line that moves the tool or sets a mode; `None` for a line that cannot be read.

@@ -11,7 +11,6 @@ pub struct DirectionRules {
     /// The directions of the tools, each with the line from which it cuts, in the order of the lines.
     tools: Vec<(u32, Option<Turning>)>,
     turning: Turning,
-    /// Whether the program sets a speed.
     has_speed: bool,
     /// The lines of the first cut, and of the first cut of a tool with a direction, before the program switches the spindle.
     unstarted: [Option<u32>; 2],

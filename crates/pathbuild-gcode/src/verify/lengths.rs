@@ -24,15 +24,12 @@ pub struct LengthRules<'c> {
     first: Option<u32>,
     /// The line and the tool of the first cut with a known tool before any length was applied.
     bare: Option<(u32, u32)>,
-    /// Tools that have cut with the length in an H whose number is not that of the tool.
     of_entries: Vec<OtherEntry>,
-    /// The tools that have cut with their own length.
     tools_with_own_length: BTreeSet<u32>,
     /// Whether the current combination of tool and length has been checked.
     is_judged: bool,
     /// Whether M6 has inserted a tool.
     has_changed: bool,
-    /// The tool that T has selected after an M6, and that M6 has not inserted yet.
     waiting: Option<WaitingTool>,
     problems: Problems,
 }

@@ -190,7 +190,6 @@ impl MaterialEstimate {
     }
 }
 
-/// The known material on the machine.
 struct KnownMaterial<'s> {
     stock: &'s Stock,
     resolution: f64,
@@ -248,7 +247,6 @@ impl<'s> KnownMaterial<'s> {
         }
     }
 
-    /// Reports material along a rapid move.
     fn check_rapid(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
         let Some(Hit { message, z, height, at: [x, y] }) = self.first_hit(line, movement) else { return };
         let resolution = self.resolution;
@@ -333,7 +331,6 @@ fn covered_area(movement: &Move, cutter: f64) -> f64 {
 /// Maximum height of a part of a slope, in mm.
 const MAX_PART_HEIGHT: f64 = 0.05;
 
-/// Maximum number of parts per move.
 const MAX_PARTS_PER_MOVE: f64 = 4096.0;
 
 /// A straight part of a move.
@@ -387,10 +384,9 @@ pub(super) fn pieces(movement: &Move, sagitta: f64) -> impl Iterator<Item = Move
 /// The finest useful resolution in mm; programs have three decimals.
 const MIN_RESOLUTION: f64 = 0.01;
 
-/// The smallest width in mm of a cutter that counts as a centre line.
+/// Minimum width in mm that the map resolves for a cutter of which only the centre line counts.
 const MIN_CENTRE_LINE_CUTTER: f64 = 1.0;
 
-/// Default for the maximum number of visited cells.
 const DEFAULT_MAX_VISITED_CELLS: u64 = 1_000_000_000;
 
 /// Default for the number of cells across the narrowest cutter.

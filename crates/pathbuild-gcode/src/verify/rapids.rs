@@ -196,7 +196,6 @@ pub(super) struct CutGrid {
 }
 
 impl CutGrid {
-    /// Creates the grid for the program of a drawing.
     pub(super) fn of(drawn: &toolpath::Program, stock: &Stock) -> Self {
         let cuts: Vec<Cut> = cuts(drawn, stock).collect();
         let mut sides = [(f64::INFINITY, f64::NEG_INFINITY); 2];

@@ -41,7 +41,6 @@ pub struct Rules<'c> {
     has_probed: bool,
     /// The height in mm at which the last probe would have stopped without contact; `None` once the program states a height.
     probe_end: Option<f64>,
-    /// Whether anything has been cut.
     has_cut: bool,
     /// Whether a cut at an unknown position has been reported.
     position_said: bool,
@@ -160,7 +159,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    /// Checks the first move in another coordinate system, whose direction is not known.
+    /// Checks the first move in another coordinate system. The direction of this move is unknown.
     fn leave_frame(&mut self, line: u32, movement: &Move) {
         let leaves = std::mem::take(&mut self.changes_frame) && self.at.known.has(Axes::Z);
         let rises = movement.keeps_xy() && movement.to.z() >= movement.from.z();

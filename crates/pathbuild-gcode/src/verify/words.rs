@@ -40,7 +40,6 @@ pub struct PostWords {
     raises_first: Option<bool>,
 }
 
-/// The part of a program that has been reached.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum ReachedPart {
     /// The first move has not been reached.
@@ -126,7 +125,6 @@ impl PostWords {
         self.others.contains(word)
     }
 
-    /// Creates the diagnostic about an unknown word.
     fn foreign_word(&self, word: String, dialect: Dialect, is_strict: bool) -> Diagnostic {
         let severity = if is_strict { Severity::Error } else { Severity::Warning };
         let found = match &self.definition {

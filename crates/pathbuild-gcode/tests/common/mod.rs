@@ -13,7 +13,6 @@ pub(crate) fn trace(dialect: Dialect, program: &str) -> Vec<String> {
     trace_with(dialect, program, &Options::default())
 }
 
-/// Like [`trace`], with options.
 pub(crate) fn trace_with(dialect: Dialect, program: &str, options: &Options) -> Vec<String> {
     let steps = interpret(program.as_bytes(), dialect, options).steps;
     let is_shown =
@@ -32,7 +31,6 @@ pub(crate) fn faults(dialect: Dialect, program: &str) -> Vec<String> {
     faults_with(dialect, program, &Options::default())
 }
 
-/// Like [`faults`], with options.
 pub(crate) fn faults_with(dialect: Dialect, program: &str, options: &Options) -> Vec<String> {
     interpret(program.as_bytes(), dialect, options).problems.iter().map(fault_text).collect()
 }

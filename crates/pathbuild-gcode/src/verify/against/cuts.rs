@@ -328,21 +328,19 @@ impl Plunge {
     }
 }
 
-/// A move and its line.
 type NumberedMove = (u32, Move);
 
 /// The rapid moves of a program since the last cut.
 #[derive(Debug)]
 pub(super) struct RapidSequence {
     moves: Vec<NumberedMove>,
-    /// Whether the chain begins the program.
+    /// Whether the moves begin the program.
     is_head: bool,
 }
 
 /// The expected rapid moves between two cuts.
 #[derive(Debug)]
 pub(super) struct ExpectedTraverse<'w> {
-    /// Position at which the moves start.
     pub(super) start: Position,
     pub(super) expected: &'w [NumberedMove],
     /// Whether the moves end the program.
@@ -355,12 +353,10 @@ pub(super) struct ExpectedTraverse<'w> {
 }
 
 impl RapidSequence {
-    /// Creates the chain at the beginning of a program.
     pub(super) fn new() -> Self {
         Self { moves: Vec::new(), is_head: true }
     }
 
-    /// Creates the chain after a cut.
     pub(super) fn after_cut() -> Self {
         Self { moves: Vec::new(), is_head: false }
     }
@@ -377,7 +373,7 @@ impl RapidSequence {
         plunge.share_at(last.to.z()).filter(|_| stays)
     }
 
-    /// Checks the chain against the expected moves. The error is the first move that deviates; `None` if an expected move is missing.
+    /// Checks the moves against the expected ones. The error is the first move that deviates; `None` if an expected move is missing.
     pub(super) fn check(&self, traverse: &ExpectedTraverse<'_>) -> Result<(), Option<NumberedMove>> {
         if !self.is_head {
             return Self::check_rest(&self.moves, traverse.expected, traverse);

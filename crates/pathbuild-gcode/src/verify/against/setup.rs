@@ -33,7 +33,6 @@ pub(super) struct Setup<'w> {
     at: Position,
     /// Words that the post writes before the first move and that the program has not contained yet.
     missing: BTreeMap<Group, u16>,
-    /// The state of the tool, its length and the spindle.
     tools: ToolState,
     coolant: Coolant,
     coolant_line: u32,
@@ -42,7 +41,6 @@ pub(super) struct Setup<'w> {
     spindle_line: u32,
     /// Seconds that the spindle has been running since it was switched on.
     running: f64,
-    /// The problems reported about the current state.
     reported: ReportedFaults,
 }
 

@@ -2,7 +2,6 @@
 
 use super::Capsule;
 
-/// Returns the distance of a point from a segment.
 fn distance([from, to]: [[f64; 2]; 2], [x, y]: [f64; 2]) -> f64 {
     let along = [to[0] - from[0], to[1] - from[1]];
     let square = along[0] * along[0] + along[1] * along[1];
