@@ -43,7 +43,7 @@ struct Entry {
 /// Fingerprints by which a baseline may identify a finding.
 struct FindingKey {
     fingerprint: String,
-    /// The fingerprint of the same finding as versions up to 0.2.0 wrote it into baselines.
+    /// The finding's fingerprint in the form that versions up to 0.2.0 wrote into baselines.
     earlier: String,
 }
 
@@ -197,7 +197,6 @@ impl Baseline {
         known.map(|(fingerprint, entry)| (fingerprint.as_str(), entry))
     }
 
-    /// Parses the entries from the text; returns diagnostics of faulty lines.
     fn parse(&mut self) -> Vec<Diagnostic> {
         let mut faults = Vec::new();
         for (number, line) in (1..).zip(self.text.lines()) {
@@ -261,7 +260,6 @@ impl Workspace {
     }
 }
 
-/// A run, with the files that it covered.
 struct Run<'a> {
     system: &'a dyn System,
     working_directory: &'a Utf8Path,
@@ -345,7 +343,6 @@ fn depth(diagnostic: &Diagnostic) -> Option<f64> {
 /// Share of 0.01 mm that counts as a rounding error and is not rounded up.
 const ROUNDING_SHARE: f64 = 1e-6;
 
-/// Formats the line of a baseline for a finding.
 fn line(fingerprint: &str, waiver: &Waiver, diagnostic: &Diagnostic, base: &Utf8Path) -> String {
     let mut line = fingerprint.to_owned();
     if let Some(depth) = depth(diagnostic) {
@@ -391,7 +388,6 @@ impl LineFault {
     }
 }
 
-/// Parses a line into its fingerprint and its entry.
 fn entry(line: &str) -> Result<(&str, Entry), LineFault> {
     let Some(fingerprint) = fingerprint(line) else {
         let start = line.len() - line.trim_start().len();

@@ -59,7 +59,6 @@ pub struct CheckedFile {
     pub paths: Vec<PathName>,
 }
 
-/// A drawing, or some of its paths.
 #[derive(Debug)]
 struct CheckTarget {
     drawing: Utf8PathBuf,
@@ -175,7 +174,6 @@ impl Request<'_> {
         Ok(checked)
     }
 
-    /// Resolves the arguments, and checks the drawings or takes their results from the cache.
     fn check_or_take_cached(
         &self,
         session: &mut Session<'_>,
@@ -225,7 +223,6 @@ impl Request<'_> {
     }
 }
 
-/// The resolved arguments and the results of their drawings.
 struct Results {
     selection: Selection,
     /// Results of the drawings that may define a path named in the arguments.
@@ -234,7 +231,6 @@ struct Results {
     each: Vec<Answer<DrawingResult>>,
 }
 
-/// Reports, as a detail, how many drawings have cached results that still hold.
 fn report_known(context: &Workspace, known: usize, all: usize) {
     let phrase = context
         .choose("drawings with valid cached results", "Zeichnungen mit gültigen gespeicherten Ergebnissen");
@@ -263,7 +259,6 @@ fn targets(session: &Session<'_>, selection: &Selection) -> Vec<CheckTarget> {
     targets
 }
 
-/// Compares Q-projects with their drawings.
 fn compare_q_projects(
     session: &Session<'_>,
     memo: &Memo,
@@ -319,7 +314,7 @@ pub fn check_drawings(
     check_paths(session, &targets, with_all_values)
 }
 
-/// A drawing, and the paths of it to check; `None` means all.
+/// A drawing and those of its paths that are checked; `None` means all.
 type NamedDrawing<'a> = (SourceFile, Option<&'a [PathName]>);
 
 /// Like [`check_drawings`], for drawings that may be requested with only some of their paths.
@@ -368,7 +363,6 @@ fn check_drawing(
     (DrawingResult { layers: NamedLayers::of(db, file), ..result }, traces)
 }
 
-/// Combines the diagnostics of a drawing's paths with those of all files that the paths reach.
 fn combine_result(
     db: &Database,
     names: &[PathName],
@@ -445,7 +439,6 @@ impl Checker<'_> {
     }
 }
 
-/// A fault, and the combinations in which it occurs.
 struct MergedFault<'a> {
     diagnostic: &'a Diagnostic,
     first: &'a CheckedTarget,
@@ -547,7 +540,6 @@ struct ChangedDrawings {
 }
 
 impl ReachedInputs {
-    /// Adds the files and directories that a result depends on.
     fn add(&mut self, facts: &Dependencies<'_>) {
         facts.files.iter().for_each(|file| add(&mut self.files, file));
         facts.lookups.iter().for_each(|(directory, _)| add(&mut self.directories, directory));
@@ -579,7 +571,6 @@ impl ChangedDrawings {
         Self { names: by_directory(&files), files, coverage: Coverage::new(session.workspace()) }
     }
 
-    /// Whether a result depends on one of the changed drawings.
     fn affects(&self, facts: &Dependencies<'_>) -> bool {
         facts.files.iter().any(|file| self.files.contains(*file))
             || facts.lookups.iter().any(|(directory, name)| self.may_answer_with(directory, name))

@@ -35,8 +35,8 @@ pub(crate) fn unused_configurations(session: &Session<'_>, directories: &[Utf8Pa
     files.filter(is_unused).map(warning).collect()
 }
 
-/// Returns PB527 for each pattern that matches no layer of the whole library, whose results these are. A drawing that could not be read may have
-/// such layers.
+/// Returns PB527 for each pattern that matches no layer of the library, given the results of all its drawings. Returns nothing if a drawing could
+/// not be read, because it may contain such layers.
 pub(crate) fn patterns_without_layer<'a>(
     session: &Session<'_>,
     mut library: impl Iterator<Item = &'a DrawingResult> + Clone,

@@ -25,7 +25,7 @@ pub struct ExtraInput {
     pub hash: Option<[u8; 32]>,
 }
 
-/// Whether this name exists and is not a directory. Unreadable files are reported when they are read.
+/// Whether this name exists and is not a directory. An unreadable file counts too: the attempt to read it reports it.
 pub fn is_file_name_taken(file: &Utf8Path) -> bool {
     file.as_std_path().metadata().is_ok_and(|data| !data.is_dir())
 }
@@ -48,7 +48,6 @@ pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<String, 
     utf_8(system.read(file, limit).map_err(|error| error.reason(limit))?)
 }
 
-/// Decodes bytes as UTF-8, or returns the reason why they cannot be read.
 pub(crate) fn utf_8(bytes: Vec<u8>) -> Result<String, Value> {
     String::from_utf8(bytes).map_err(|_| Value::Prose(&NOT_UTF_8))
 }

@@ -27,8 +27,8 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Sorts diagnostics and drops duplicates. Several bindings or projects may lead to the same fault: of these, the diagnostic with the shortest
-    /// trace is kept.
+    /// Sorts diagnostics and drops duplicates. If several bindings or projects lead to the same fault, the diagnostic with the shortest trace is
+    /// kept.
     pub fn new(mut diagnostics: Vec<Diagnostic>) -> Self {
         if diagnostics.iter().any(|diagnostic| !diagnostic.trace.is_empty()) {
             diagnostics

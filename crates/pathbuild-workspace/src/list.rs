@@ -223,7 +223,6 @@ impl ListArguments {
         selection.whole(session)
     }
 
-    /// Returns the patterns that match no path.
     fn unmatched_patterns<'a>(&'a self, paths: &'a [ListedPath]) -> impl Iterator<Item = &'a str> {
         let is_unmet = |pattern: &&Pattern| !paths.iter().any(|path| pattern.matches(path.name.as_str()));
         self.patterns.iter().filter(is_unmet).map(Pattern::text)

@@ -198,8 +198,8 @@ impl PostProcessor {
         self.feed
     }
 
-    /// Writes a program to be stored in the file `output`. Adds the files that it inserted or failed to insert to `inserted`, even if writing
-    /// fails.
+    /// Writes the text of a program that will be stored in the file `output`. Adds to `inserted` the files that it inserted or failed to insert, even
+    /// if writing fails.
     ///
     /// # Errors
     /// If the post-processor cannot express a part of the program, or writes it incorrectly.
@@ -325,7 +325,7 @@ pub fn known_words(
         .map_or_else(|_| PostWords::native(dialect), |post_processor| post_processor.words(dialect))
 }
 
-/// Returns a file name relative to the working directory, if the file is inside.
+/// Returns a file name relative to the working directory; unchanged if the file is outside.
 fn relative(file: &Utf8Path, context: &Workspace) -> Utf8PathBuf {
     file.strip_prefix(&context.working_directory).unwrap_or(file).to_owned()
 }

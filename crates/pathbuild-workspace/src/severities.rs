@@ -27,7 +27,6 @@ pub(crate) enum Verdict {
 }
 
 impl Workspace {
-    /// Returns the configured severities.
     pub(crate) fn severities(&self) -> Severities<'_> {
         Severities { settings: &self.settings, working_directory: &self.working_directory }
     }
@@ -53,7 +52,6 @@ impl Workspace {
 }
 
 impl Severities<'_> {
-    /// Whether any of these diagnostics counts as an error under the configuration.
     pub(crate) fn has_error<'d>(&self, diagnostics: impl IntoIterator<Item = &'d Diagnostic>) -> bool {
         let is_error = |diagnostic: &Diagnostic| match self.apply_severity(diagnostic.clone()) {
             Verdict::Reported(diagnostic) => diagnostic.is_error(),

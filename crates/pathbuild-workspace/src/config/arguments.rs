@@ -41,7 +41,7 @@ pub enum OptionValues {
     Directories,
 }
 
-/// The given options that set keys, by name, each with its texts (none for a switch). They are validated when the configuration is loaded.
+/// The given options that set keys: the values of each (none for a switch) by its name. They are validated when the configuration is loaded.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GivenOptions(BTreeMap<&'static str, Vec<String>>);
 

@@ -71,7 +71,7 @@ pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {
 /// Smallest value of a [`PIECE`] other than 0, in mm.
 const MIN_PIECE: f64 = 0.1;
 
-/// Tolerance of the part check in mm. With a tolerance below `FINEST_TOLERANCE`, the rounding of coordinates would be reported.
+/// Tolerance of the part check in mm. With a tolerance below `MIN_PART_TOLERANCE`, the rounding of coordinates would be reported.
 pub(in crate::config) const PART_TOLERANCE: ValueType<f64> = ValueType {
     read: |value, reader| {
         let tolerance = number(value).filter(|number| *number >= MIN_PART_TOLERANCE);
@@ -123,7 +123,6 @@ pub(in crate::config) const AXES: ValueType<Option<[f64; 3]>> = ValueType {
     schema: || json!({ "type": "array", "items": { "type": "number", "exclusiveMinimum": 0 }, "minItems": 3, "maxItems": 3 }),
 };
 
-/// True or false.
 pub(in crate::config) const SWITCH: ValueType<bool> =
     ValueType { read: switch, show: |on| Some(on.to_string()), schema: || json!({ "type": "boolean" }) };
 
@@ -231,7 +230,6 @@ pub(in crate::config) const DIRECTORY: ValueType<Option<Utf8PathBuf>> = ValueTyp
     schema: || json!({ "type": "string" }),
 };
 
-/// A list of directories.
 pub(in crate::config) const DIRECTORIES: ValueType<Directories> = ValueType {
     read: |value, reader| {
         let names = texts(value, reader)?;
@@ -241,7 +239,6 @@ pub(in crate::config) const DIRECTORIES: ValueType<Directories> = ValueType {
     schema: || json!({ "type": "array", "items": { "type": "string" } }),
 };
 
-/// An absolute path of a directory.
 pub(in crate::config) const ABSOLUTE_DIRECTORY: ValueType<Utf8PathBuf> = ValueType {
     read: |value, reader| match reader.text(value).map(Utf8PathBuf::from)? {
         path if path.is_absolute() => Some(path),
@@ -251,7 +248,6 @@ pub(in crate::config) const ABSOLUTE_DIRECTORY: ValueType<Utf8PathBuf> = ValueTy
     schema: || json!({ "type": "string" }),
 };
 
-/// A list of absolute paths of directories.
 pub(in crate::config) const ABSOLUTE_DIRECTORIES: ValueType<Directories> = ValueType {
     read: |value, reader| {
         let names = texts(value, reader)?;
@@ -264,12 +260,12 @@ pub(in crate::config) const ABSOLUTE_DIRECTORIES: ValueType<Directories> = Value
     ..DIRECTORIES
 };
 
-/// Returns the type of a value that is one of the texts of a choice.
+/// Returns the type of a value that is the name of a choice.
 pub(in crate::config) const fn choice<T: Choice>() -> ValueType<T> {
     ValueType { read: read_choice, show: |choice| name_of(*choice).map(quoted), schema: choice_schema::<T> }
 }
 
-/// Returns the type of a value that is a list of texts of a choice.
+/// Returns the type of a value that is a list of names of choices.
 pub(in crate::config) const fn choices<T: Choice>() -> ValueType<Vec<T>> {
     ValueType {
         read: |value, reader| {
@@ -350,7 +346,6 @@ pub(in crate::config) fn list<'a>(texts: impl IntoIterator<Item = &'a str>) -> S
     format!("[{}]", texts.into_iter().map(quoted).collect::<Vec<_>>().join(", "))
 }
 
-/// A regular expression.
 pub(in crate::config) const REGEX: ValueType<Box<str>> = ValueType {
     read: |value, reader| {
         let text = reader.text(value)?;
@@ -360,7 +355,6 @@ pub(in crate::config) const REGEX: ValueType<Box<str>> = ValueType {
     schema: || json!({ "type": "string", "format": "regex" }),
 };
 
-/// An optional regular expression.
 pub(in crate::config) const OPTIONAL_REGEX: ValueType<Option<Box<str>>> = ValueType {
     read: |value, reader| (REGEX.read)(value, reader).map(Some),
     show: |text| text.as_deref().map(literal),
@@ -382,7 +376,6 @@ pub(in crate::config) const RESTRICTIONS: ValueType<Vec<Restriction>> = ValueTyp
     schema: || json!({ "type": "array", "items": { "type": "string", "pattern": ":" } }),
 };
 
-/// A list of globs.
 pub(in crate::config) const PATTERNS: ValueType<Vec<Pattern>> = ValueType {
     read: |value, reader| {
         let patterns =
@@ -399,7 +392,6 @@ pub(in crate::config) fn regex_fault(text: &str) -> Option<Value> {
     Some(regex_reason(&error))
 }
 
-/// Splits a rule into PARENT and CHILD at the first colon.
 pub(in crate::config) fn split_restriction(text: &str) -> Option<Restriction> {
     let (parent, child) = text.split_once(':')?;
     Some(Restriction { parent: parent.into(), child: child.into() })

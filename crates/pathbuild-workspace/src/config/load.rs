@@ -146,7 +146,6 @@ impl Discovery<'_> {
         self.of_working_directory()
     }
 
-    /// Finds the configuration that applies in the working directory.
     pub(super) fn of_working_directory(&self) -> Option<Utf8PathBuf> {
         self.find_above(&clean(self.working_directory))
     }
@@ -158,7 +157,6 @@ impl Discovery<'_> {
         first.map_or_else(|| clean(self.working_directory), |first| self.search_start_of(first))
     }
 
-    /// Returns, for each argument, the directory in which the search for its configuration starts.
     pub(super) fn search_starts(&self) -> impl Iterator<Item = Utf8PathBuf> + '_ {
         self.inputs.iter().map(|input| self.search_start_of(input))
     }
@@ -285,7 +283,6 @@ impl UserSettings {
     }
 }
 
-/// Applies the values from the command line to those of the configuration, and returns the diagnostics of invalid ones.
 fn apply_overrides(
     overrides: &Overrides,
     working_directory: &Utf8Path,

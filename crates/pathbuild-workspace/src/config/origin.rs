@@ -65,7 +65,6 @@ impl<T> SourcedValue<T> {
 }
 
 impl<T> SourcedValue<Vec<T>> {
-    /// Appends items that the command-line option `name` adds to a list.
     pub(super) fn extend(&mut self, name: &'static str, items: Vec<T>) {
         self.origin = match self.origin {
             Origin::File(line) => Origin::Extended { line, configured: self.value.len(), option: name },
@@ -112,7 +111,6 @@ pub(super) struct Key {
     pub(super) meaning: &'static [&'static str],
     /// A value as TOML: the default, or an example if there is no default.
     pub(super) example: &'static str,
-    /// JSON schema of its value.
     pub(super) schema: fn() -> Json,
 }
 

@@ -34,9 +34,7 @@ type LazyKeyIndex = LazyCell<KeyIndex, Box<dyn FnOnce() -> KeyIndex>>;
 /// A kind of value that is limited in number, because each such value takes far more memory than its text.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum LimitedKind {
-    /// A regular expression.
     Regex,
-    /// A glob pattern for names.
     Glob,
 }
 
@@ -104,7 +102,6 @@ impl<'a> TomlReader<'a> {
         }
     }
 
-    /// Whether the configuration is untrusted.
     pub(super) fn is_untrusted(&self) -> bool {
         self.confined.is_some()
     }
@@ -152,7 +149,6 @@ impl<'a> TomlReader<'a> {
         beyond == 0
     }
 
-    /// Adds a diagnostic, which [`finish`](Self::finish) returns.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }
@@ -183,13 +179,11 @@ impl<'a> TomlReader<'a> {
         self.require(value.get_ref().as_str(), &messages::TEXT, value)
     }
 
-    /// Ends reading and returns all diagnostics.
     pub(super) fn finish(self) -> Vec<Diagnostic> {
         self.diagnostics
     }
 }
 
-/// Shortens a very long name for messages.
 fn shortened(name: &str) -> Cow<'_, str> {
     const MAX_NAME_BYTES: usize = 100;
     if name.len() <= MAX_NAME_BYTES {
@@ -201,7 +195,6 @@ fn shortened(name: &str) -> Cow<'_, str> {
 /// Keys of earlier versions, each with the key that replaces it.
 const REPLACED_KEYS: [(&str, &str); 1] = [("support-bars", "compatible")];
 
-/// A table that is being read.
 pub(super) struct Table<'t, 'r, 'a> {
     content: &'t DeTable<'t>,
     prefix: String,
@@ -219,7 +212,6 @@ impl<'a> Table<'_, '_, 'a> {
         (kind.read)(value, self.reader).map(|value| SourcedValue { value, origin: Origin::File(line) })
     }
 
-    /// Whether the configuration is untrusted.
     pub(super) fn is_untrusted(&self) -> bool {
         self.reader.is_untrusted()
     }
@@ -318,12 +310,10 @@ fn misplaced_key(
 #[derive(Debug)]
 pub(super) struct KeyIndex(Vec<(Option<String>, String)>);
 
-/// A known key and its table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct KeyPlace<'a> {
     /// Header of the table; `None` for the keys before all tables.
     pub(super) header: Option<&'a str>,
-    /// Name of the key.
     pub(super) key: &'a str,
     /// Whether the name is spelled exactly like the one that was searched for.
     pub(super) is_exact: bool,
@@ -391,7 +381,6 @@ const BLOCK_BYTES: usize = 1 << 10;
 const MAX_CONTEXT_BYTES: usize = 200;
 
 impl<'a> Source<'a> {
-    /// Creates the map of a file with this text.
     pub(super) fn new(file: &'a Utf8Path, text: &'a str) -> Self {
         let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
         let lines = std::iter::once(0).chain(ends.map(|(end, _)| end + 1)).collect();
@@ -424,7 +413,6 @@ impl<'a> Source<'a> {
         u32::try_from(self.line_index(byte) + 1).unwrap_or(u32::MAX)
     }
 
-    /// Returns the text in a byte range.
     pub(super) fn slice(&self, span: Range<usize>) -> &'a str {
         self.text.get(span).unwrap_or_default()
     }
@@ -455,7 +443,6 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Counts the characters that begin in these bytes.
 fn count_character_starts(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| byte.cast_signed() >= -0x40).count()
 }
@@ -466,7 +453,6 @@ pub(super) struct ValueType<T> {
     pub(super) read: fn(&Spanned<DeValue<'_>>, &mut TomlReader<'_>) -> Option<T>,
     /// Formats the value as TOML; `None` if there is nothing to show.
     pub(super) show: fn(&T) -> Option<String>,
-    /// Returns the JSON schema of the type.
     pub(super) schema: fn() -> Json,
 }
 

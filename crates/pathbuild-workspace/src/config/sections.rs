@@ -44,7 +44,7 @@ macro_rules! section {
         }
 
         impl Settings {
-            /// Passes the values that cached results of the command `result_kind` depend on to `add`.
+            /// Passes to `add` each value on which the cached results of the command `result_kind` depend.
             pub(in crate::config) fn visit_inputs(&self, result_kind: ResultKind, add: &mut dyn FnMut(&'static str, &dyn Debug)) {
                 $(if ResultKind::$results.is_part_of(result_kind) {
                     add($name, &self.$field.value);
@@ -52,7 +52,6 @@ macro_rules! section {
             }
         }
 
-        /// The keys with their descriptions.
         pub(in crate::config) const KEYS: &[Key] = &[
             $(Key { name: $name, meaning: &[$($meaning),+], example: $example, schema: $kind.schema },)*
         ];
@@ -104,7 +103,6 @@ pub mod general {
             ];
 
             impl Options {
-                /// Applies the options of the command line.
                 pub(in crate::config) fn apply(&mut self, reader: &mut OptionReader<'_>) {
                     $($(reader.$applies(&mut self.$field, $name, $read);)?)*
                 }

@@ -71,14 +71,13 @@ macro_rules! tables {
         }
 
         impl Settings {
-            /// Passes each setting that the cached results of a command depend on to `add`, with its name. `result_kind` is [`ResultKind::Check`]
-            /// or [`ResultKind::Emit`].
+            /// Passes to `add` the name and value of each setting on which the cached results of a command depend. `result_kind` is
+            /// [`ResultKind::Check`] or [`ResultKind::Emit`].
             pub fn visit_inputs(&self, result_kind: ResultKind, add: &mut dyn FnMut(&'static str, &dyn Debug)) {
                 $(self.$table.visit_inputs(result_kind, add);)*
             }
         }
 
-        /// The tables, each with its header, its keys, and their values.
         pub(super) const TABLES: &[TableEntry] =
             &[$(($header, $table::KEYS, |settings| settings.$table.shown()),)*];
     };

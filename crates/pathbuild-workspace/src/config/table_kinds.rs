@@ -18,7 +18,6 @@ use crate::waivers::{Date, Waiver};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::PostMacro;
 
-/// A table of aliases of line types.
 pub(in crate::config) const LINE_TYPES: ValueType<Vec<LineTypeAlias>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;
@@ -39,7 +38,6 @@ pub(in crate::config) const LINE_TYPES: ValueType<Vec<LineTypeAlias>> = ValueTyp
     schema: || json!({ "type": "object", "additionalProperties": choice_schema::<LineType>() }),
 };
 
-/// A table of severity levels by code.
 pub(in crate::config) const SEVERITY: ValueType<Vec<(Code, Level)>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;
@@ -119,7 +117,6 @@ const UNCHECKED: ValueType<bool> = ValueType {
     ..SWITCH
 };
 
-/// A table of tools by name.
 pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
     read: |value, reader| {
         let mut tools: Vec<Tool> = Vec::new();
@@ -190,7 +187,6 @@ pub(in crate::config) const POST: ValueType<PostChoice> = ValueType {
     },
 };
 
-/// A table of macros for post-processors.
 pub(in crate::config) const MACROS: ValueType<Vec<PostMacro>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;

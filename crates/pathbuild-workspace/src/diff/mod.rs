@@ -153,7 +153,6 @@ fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Opti
     Comparison { paths, path_count, problems }
 }
 
-/// A path on one side of the comparison.
 #[derive(Clone, Debug)]
 struct SidePath {
     file: SourceFile,
@@ -199,7 +198,6 @@ fn known_paths(
     known.collect()
 }
 
-/// A path on one or both sides.
 struct PathPair {
     old: Option<SidePath>,
     new: Option<SidePath>,

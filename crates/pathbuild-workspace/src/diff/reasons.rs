@@ -159,7 +159,6 @@ struct Explainer<'o, 'n> {
     has_other_order: bool,
 }
 
-/// Both versions of a path.
 #[derive(Clone, Copy)]
 struct Versions<'o, 'n> {
     old: Instance<'o>,
@@ -176,7 +175,6 @@ impl<'o, 'n> Explainer<'o, 'n> {
         variables.into_iter().map(Reason::Variable).chain(drawn).chain(embedded).collect()
     }
 
-    /// Returns the changes in the drawing of a path.
     fn drawn_reasons(&mut self, Versions { old, new }: Versions<'o, 'n>, is_root: bool) -> Vec<Reason> {
         let was = DrawnInstance::of(self.old, old, is_root);
         let is = DrawnInstance::of(self.new, new, is_root);
@@ -190,7 +188,6 @@ impl<'o, 'n> Explainer<'o, 'n> {
         self.has_other_order |= changes.is_reordered;
         changes.changes.into_iter().map(Reason::Drawn).collect()
     }
-    /// Returns the embedded paths that have changed, each with its own reasons.
     fn embedded_reasons(&mut self, Versions { old, new }: Versions<'o, 'n>) -> Vec<Reason> {
         let mut were = children(self.old, old);
         let mut reasons = Vec::new();
@@ -224,7 +221,6 @@ impl<'o, 'n> Explainer<'o, 'n> {
     }
 }
 
-/// An embedded path with its values.
 struct Child<'db> {
     name: CaseSensitiveName,
     instance: Instance<'db>,
@@ -256,7 +252,6 @@ fn children<'db>(db: &'db Database, instance: Instance<'db>) -> Vec<Child<'db>> 
     children
 }
 
-/// A path as drawn, with its values.
 struct DrawnInstance<'db> {
     file: SourceFile,
     drawn: DrawnPath<'db>,
@@ -284,7 +279,6 @@ impl<'db> DrawnInstance<'db> {
     }
 }
 
-/// Returns the variables with different values.
 fn changed_variables(old: &Bindings, new: &Bindings) -> Vec<ValueChange> {
     let names: BTreeSet<char> = old.iter().chain(new.iter()).map(|(name, _)| name).collect();
     let change = |name: char| {

@@ -76,7 +76,6 @@ fn file_too_large(db: &Database, job: &Job, output: &Output, writing: &WriteSett
         .in_path(&job.path)
 }
 
-/// Generates the setup sheets of a job.
 fn sheets(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> Result<Vec<Output>, Box<Diagnostic>> {
     let mut outputs = Vec::new();
     for (kind, path) in &job.files {
@@ -150,7 +149,6 @@ fn unprobed_point_warning(outside: &UnprobedPoint) -> Diagnostic {
         .with("at", Point::new(outside.at.x, outside.at.y))
 }
 
-/// A generated file that is not yet written.
 pub(super) struct Output {
     pub(super) kind: OutputKind,
     pub(super) path: Utf8PathBuf,
@@ -260,7 +258,6 @@ fn write_through_post(
     Ok(Output { kind: *kind, path: path.clone(), text: output.text })
 }
 
-/// Adds the path to a diagnostic of the post-processor.
 fn about_job(problem: Diagnostic, job: &Job) -> Diagnostic {
     if problem.path.is_none() { problem.in_path(&job.path) } else { problem }
 }

@@ -232,7 +232,7 @@ impl Emitter<'_> {
         format!("emit {:?} {identity}", post_processor.file())
     }
 
-    /// Adds what was read to build the plan's program, and the generated files, to the recorded inputs of the plan.
+    /// Adds to the recorded inputs of the plan what was read to build its program, and the generated files.
     fn complete_inputs(&self, answer: &mut Answer<Plan>) {
         let Some(inputs) = &mut answer.inputs else { return };
         let job = answer.value.remaining_job();
@@ -250,14 +250,12 @@ impl Emitter<'_> {
     }
 }
 
-/// The selected paths of a run, with their plans and all diagnostics.
 struct Run {
     selection: TargetSelection,
     plans: Vec<Answer<Plan>>,
     diagnostics: Vec<Diagnostic>,
 }
 
-/// Reports, as a detail, how many results were cached.
 fn report_cached(context: &Workspace, selection: &TargetSelection, plans: &[Answer<Plan>]) {
     // Each plan is for one path, or for all paths if they are joined.
     let paths = selection.targets.len() / plans.len().max(1);

@@ -111,7 +111,6 @@ pub(super) struct OutputSettings<'a> {
 }
 
 impl<'a> OutputSettings<'a> {
-    /// Takes the settings from the configuration.
     pub(super) fn new(workspace: &Workspace, post_processor: Option<&'a PostProcessor>) -> Self {
         let settings = &workspace.settings;
         let provenances = Provenances::new(settings, post_processor);
@@ -137,7 +136,6 @@ pub(super) struct SheetSettings {
 }
 
 impl SheetSettings {
-    /// Takes the settings from the configuration, for programs written natively or through a post-processor.
     pub(super) fn new(settings: &Settings, tools: ToolTable, post_processor: Option<&PostProcessor>) -> Self {
         let starts_spindle = post_processor.is_some_and(PostProcessor::starts_spindle);
         let shapes = settings.tables.tools.value.clone();

@@ -72,7 +72,6 @@ impl ProgramOutcome {
             && !self.problems.iter().any(Diagnostic::is_error)
     }
 
-    /// Returns the generated files and their state on disk.
     pub(super) fn generated(&self, task: Task) -> Vec<GeneratedFile> {
         // A comparison of moves alone does not show whether the bytes are equal.
         let is_compared_whole = task != Task::Compare { moves_only: true };

@@ -47,7 +47,6 @@ pub(super) struct Job {
     pub(super) path: Box<str>,
     /// Output directory, joined with the common stem of the file names.
     pub(super) stem: Utf8PathBuf,
-    /// The files to generate, with their kinds.
     pub(super) files: Vec<(OutputKind, Utf8PathBuf)>,
     /// Title of the program, which the header of the file states after the provenance.
     #[serde(skip)]
@@ -61,7 +60,6 @@ pub(super) struct Job {
 }
 
 impl Plan {
-    /// Iterates over the diagnostics and the reasons why no program is generated.
     pub(super) fn problems(&self) -> impl Iterator<Item = &Diagnostic> {
         self.diagnostics.iter().chain(&self.refusals)
     }
@@ -90,7 +88,6 @@ impl Plan {
         )
     }
 
-    /// Returns the job, unless it is left out.
     pub(super) fn remaining_job(&self) -> Option<&Job> {
         self.job.as_ref().filter(|job| !job.is_left_out)
     }
@@ -102,7 +99,6 @@ impl Job {
         self.targets[0].file(db)
     }
 
-    /// Names the path and its drawing, for messages.
     fn name(&self, session: &Session<'_>) -> String {
         let db = session.db();
         format!("{} ({})", self.path, self.drawing(db).path(db))
@@ -194,7 +190,6 @@ pub(super) fn plan(
     refusal.map_or(Ok(plans), Err)
 }
 
-/// Returns the recorded inputs of a plan, taken from its checked paths.
 fn inputs(checked: &[CheckedTarget]) -> Inputs {
     let traces: Vec<Trace> = checked.iter().filter_map(|checked| checked.trace.clone()).collect();
     // A check that was aborted has no trace.
@@ -256,19 +251,16 @@ pub(super) fn path_diagnostics(session: &Session<'_>, checked: &CheckedTarget) -
     of_files.chain(&checked.diagnostics).cloned().collect()
 }
 
-/// A builder of jobs from checked paths.
 pub(super) struct JobBuilder<'a> {
     pub(super) session: &'a Session<'a>,
     /// The post-processor for the programs; `None` for native programs.
     pub(super) post_processor: Option<&'a PostProcessor>,
     /// Name of the program into which all paths are joined; `None` for one program per path.
     pub(super) join: Option<&'a str>,
-    /// Format of the setup sheet.
     pub(super) sheet: SheetFormat,
 }
 
 impl JobBuilder<'_> {
-    /// Returns the plan for the checked paths of one program.
     pub(super) fn plan(&self, checked: &[CheckedTarget]) -> Plan {
         let diagnostics =
             checked.iter().flat_map(|checked| path_diagnostics(self.session, checked)).collect();
@@ -378,7 +370,6 @@ fn joined_title(name: &str, checked: &[CheckedTarget]) -> String {
     format!("Paths {} joined as {name}", paths.collect::<Vec<_>>().join(" + ")).replace(',', " ")
 }
 
-/// Returns the file name of a program written through a post-processor.
 pub(super) fn program_name(stem: &str, post_processor: &PostProcessor) -> String {
     format!("{stem}_Milling.{}", post_processor.extension())
 }

@@ -204,7 +204,6 @@ impl Session<'_> {
     }
 }
 
-/// Returns the message of a diagnostic in both languages.
 fn bilingual(problem: &Diagnostic) -> BilingualText {
     BilingualText { en: problem.text(Lang::En), de: problem.text(Lang::De) }
 }
@@ -306,7 +305,6 @@ struct ProgramText {
     /// Path that `emit` would write it to.
     file: Utf8PathBuf,
     bytes: Vec<u8>,
-    /// Dialect in which the text is read.
     dialect: Dialect,
 }
 

@@ -76,7 +76,6 @@ impl TargetSelection {
         Some(selection)
     }
 
-    /// Iterates over all drawings that were considered.
     pub(super) fn drawings(&self) -> impl Iterator<Item = &Answer<DrawingResult>> {
         self.covered.iter().chain(&self.named)
     }

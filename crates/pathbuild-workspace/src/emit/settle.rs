@@ -224,7 +224,6 @@ fn compare(
     (state, problems)
 }
 
-/// Settings for reading programs that are compared.
 struct ComparisonSettings {
     dialect: Dialect,
     tolerance: Tolerance,
@@ -249,9 +248,9 @@ impl ComparisonSettings {
     }
 }
 
-/// Compares a program on disk with the expected one. Returns the errors that prevent reading it, or else words that change its moves, or else the
-/// first move that differs. Lines are compared before moves: numbers that differ by one unit of their last digit are equal however they are
-/// interpreted, even where rounding turns a very short arc into a full circle. Only programs with different lines are interpreted.
+/// Compares a program on disk with the expected one. Returns the problems that make its moves uncertain, or else its words that change the meaning of
+/// moves, or else the first move that differs. Lines are compared before moves: numbers that differ by one unit of their last digit are equal however
+/// they are interpreted, even where rounding turns a very short arc into a full circle. Only programs with different lines are interpreted.
 fn difference(present: &[u8], expected: &[u8], reading: &ComparisonSettings) -> Vec<Diagnostic> {
     let [found_text, expected_text] = [present, expected].map(String::from_utf8_lossy);
     if verify::same_move_lines(&found_text, &expected_text) {

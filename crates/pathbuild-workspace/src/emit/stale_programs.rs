@@ -94,7 +94,6 @@ pub(super) struct EarlierPrograms<'a> {
     pub(super) post_processor: Option<&'a PostProcessor>,
     /// Name of the program into which all paths are joined; `None` for one program per path.
     pub(super) join: Option<&'a str>,
-    /// The configured output directory.
     pub(super) out_dir: Option<Utf8PathBuf>,
     pub(super) selection: &'a TargetSelection,
     pub(super) jobs: &'a [&'a Job],
@@ -115,7 +114,6 @@ impl EarlierPrograms<'_> {
         StaleOutcome { older, ..self.settle(stale, is_removed, diagnostics) }
     }
 
-    /// Removes stale programs if `is_removed`, otherwise reports them.
     fn settle(
         &self,
         stale: Vec<StaleProgram>,
@@ -383,7 +381,6 @@ fn is_gcode(name: &str, post_processor: Option<&PostProcessor>) -> bool {
     is_program(name) || post_processor.is_some_and(is_own)
 }
 
-/// Whether `emit` gives this name to a setup sheet.
 fn is_sheet(name: &str) -> bool {
     OutputKind::ALL.iter().any(|kind| kind.sheet().is_some() && name.ends_with(kind.suffix()))
 }

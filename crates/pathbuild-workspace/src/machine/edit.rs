@@ -83,7 +83,7 @@ pub fn edit(
     Ok(EditedConfiguration { text: with_line_ends(document.to_string(), text), changes, problems })
 }
 
-/// Returns a warning if a value gives the table of this name the diameter of a tool with another name. The machine then has another tool under
+/// Returns a warning if a value replaces the diameter in a table that has the tool's number but another name. The machine then has another tool under
 /// this number, and the other keys of the table are still those of the former tool.
 fn replaced_tool(value: &DescribedValue, table: &str, old: Option<&Value>) -> Option<Diagnostic> {
     let Target::Tool { number: Some(number), name } = &value.target else { return None };
@@ -142,7 +142,6 @@ fn with_decor_of(mut new: Value, old: &Value) -> Value {
     }
 }
 
-/// Gives a text the line ends of the old one.
 fn with_line_ends(text: String, old: &str) -> String {
     if old.contains("\r\n") { text.replace("\r\n", "\n").replace('\n', "\r\n") } else { text }
 }

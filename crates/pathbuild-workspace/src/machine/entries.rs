@@ -18,19 +18,17 @@ pub struct Entry {
     pub line: Option<u32>,
 }
 
-/// A number read from an entry, with the entry's line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NumberWithLine {
     pub(super) number: f64,
     line: Option<u32>,
 }
 
-/// The entries of a description.
 #[derive(Debug, Default)]
 pub(super) struct Entries {
     list: Vec<Entry>,
     is_used: Vec<bool>,
-    /// For each name, the index of the entry in force: the last one, unless `is_first_in_force`.
+    /// For each name, the index of the entry in force: the last one, unless `is_first_effective`.
     by_name: FxHashMap<String, usize>,
     /// Whether the first entry of each name is in force, not the last.
     is_first_effective: bool,
@@ -116,7 +114,6 @@ impl Entries {
         self.problems.push(problem);
     }
 
-    /// Adds a value for a key.
     pub(super) fn set(&mut self, key: &'static str, value: Quantity, sources: &[&str]) {
         self.values.push(DescribedValue {
             target: Target::Machine,

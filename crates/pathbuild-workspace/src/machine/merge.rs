@@ -39,7 +39,6 @@ pub fn merge(descriptions: &[(&Utf8Path, Description)]) -> (Vec<DescribedValue>,
     (values, problems)
 }
 
-/// A tool with the file that describes it.
 struct ToolEntry<'d> {
     file: &'d Utf8Path,
     tool: &'d DescribedTool,

@@ -34,7 +34,6 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
-    /// Returns the length of the unit in mm.
     fn millimetres(self) -> f64 {
         match self {
             Self::Millimetre => 1.0,

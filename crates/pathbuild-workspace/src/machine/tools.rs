@@ -262,7 +262,6 @@ impl Fields {
         value_as_text(&self.take(name)?).parse().ok().filter(|number: &f64| number.is_finite())
     }
 
-    /// Returns the values that have not been used.
     fn unused(self) -> impl Iterator<Item = Entry> {
         self.values.into_iter().map(|(name, value)| Entry { name, value: value_as_text(&value), line: None })
     }
@@ -284,7 +283,6 @@ fn value_as_text(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
-/// A tool that is being read.
 #[derive(Debug, Default)]
 struct ToolDescription {
     name: String,
@@ -330,7 +328,6 @@ impl ToolDescription {
     }
 }
 
-/// The tools of a description that is being read.
 struct Tools {
     format: &'static str,
     described: Vec<DescribedTool>,

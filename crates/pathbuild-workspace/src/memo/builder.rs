@@ -45,7 +45,6 @@ impl Store {
     }
 }
 
-/// A catalogue under construction.
 struct CatalogueBuilder<'a> {
     store: &'a Store,
     session: &'a Session<'a>,
@@ -316,7 +315,6 @@ impl<'a> RunFacts<'a> {
     }
 }
 
-/// Returns the content of a drawing; `None` if it changed during the run.
 fn unchanged_content(db: &Database, file: SourceFile) -> Option<Content> {
     content(db, file).filter(|_| !db.has_drifted(file))
 }
@@ -343,7 +341,7 @@ pub struct NamedLayers {
 }
 
 impl NamedLayers {
-    /// Returns those of a drawing.
+    /// Returns which of these layers a drawing has.
     pub fn of(db: &Database, file: SourceFile) -> Self {
         Self { has_clamps: has_clamp_layer(db, file), has_parts: has_part_layer(db, file) }
     }

@@ -180,7 +180,6 @@ impl Store {
         self.kept.records[number].outputs.iter().map(state).collect()
     }
 
-    /// Returns the inputs of a cached result.
     pub(super) fn dependencies(&self, subject: &str) -> Option<Dependencies<'_>> {
         let record = &self.kept.records[self.record(subject)?];
         let files = record.files.iter().map(|file| &*self.kept.files[*file].path);
@@ -257,7 +256,6 @@ fn report_old_cache(context: &Workspace, base: &Utf8Path) {
     }
 }
 
-/// Directory of the cache of earlier versions.
 const OLD_CACHE_DIRECTORY: &str = ".pathbuild";
 
 fn report_fault(context: &Workspace, reason: CacheFault) {
@@ -351,11 +349,9 @@ impl CoveredPaths<'_> {
 /// description follows after a NUL.
 #[derive(Debug)]
 pub(super) enum Scope {
-    /// The run uses all drawings.
     All,
-    /// The run uses certain drawings.
     Drawings {
-        /// Paths of these drawings.
+        /// Paths of the drawings that the run uses.
         drawings: HashSet<String>,
         /// Directories that were listed completely, so that they contain no other drawings.
         directories: HashSet<String>,

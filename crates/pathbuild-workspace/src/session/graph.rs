@@ -159,7 +159,6 @@ impl GraphOutcome {
     }
 }
 
-/// The targets of the arguments, and diagnostics.
 struct GraphArguments {
     targets: Vec<Target>,
     files: Vec<SourceFile>,

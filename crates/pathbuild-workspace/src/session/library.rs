@@ -53,7 +53,6 @@ const MAX_SEQUENTIAL_DIRECTORIES: usize = 4;
 /// Settings of a recursive search.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Walk<'a> {
-    /// The file system that is searched.
     pub(super) system: &'a dyn System,
     /// Upper bound on the number of files and directories that are found.
     pub(super) limit: u64,
@@ -416,10 +415,8 @@ impl Budget {
 /// Upper bound on the length of a line in bytes. Longer lines are not patterns of names, and nested patterns would need a deep stack.
 const MAX_LINE_BYTES: usize = 4096;
 
-/// Names of files that contain ignore rules.
 pub(crate) const IGNORE_FILES: [&str; 2] = [".gitignore", ".ignore"];
 
-/// Whether files of this name contain ignore rules.
 pub(crate) fn is_ignore_file(name: &str) -> bool {
     IGNORE_FILES.contains(&name)
 }

@@ -373,7 +373,6 @@ impl Session<'_> {
         nearest(name, others).map(|near| (&outputs::NEAR_PATH, near.to_owned()))
     }
 
-    /// Collects everything that a name without a separator may refer to.
     fn collect_known_names(&self) -> KnownNames {
         KnownNames {
             paths: self.paths_of_library(MAX_READ_FOR_NAMES),

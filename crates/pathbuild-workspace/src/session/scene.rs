@@ -103,7 +103,6 @@ pub(crate) fn examples(
     examples
 }
 
-/// Returns the scene of a drawing's geometry.
 fn drawn_scene(db: &dyn Db, file: SourceFile) -> Scene {
     let mut scene = Scene::new(file.path(db).file_name().unwrap_or_default());
     scene.keep_outs.extend(keep_outs(db, file).iter().map(|clamp| view::keep_out(clamp, [0.0, 0.0])));

@@ -56,7 +56,6 @@ impl Timings {
         result
     }
 
-    /// Runs the check of a path and records its time.
     pub(super) fn measure_path<R>(&self, name: impl FnOnce() -> String, work: impl FnOnce() -> R) -> R {
         if !self.is_on() {
             return work();

@@ -222,7 +222,6 @@ impl Session<'_> {
         }
     }
 
-    /// Returns the number of threads that process items.
     fn threads(&self) -> usize {
         let shared = || self.workers().map_or(1, Workers::count);
         if self.context.jobs == Some(1) { 1 } else { shared() }
@@ -282,7 +281,6 @@ fn aborted_target(db: &Database, target: Target, problem: Diagnostic) -> Checked
     }
 }
 
-/// Adds the file and the path to a diagnostic about a target as a whole.
 pub(super) fn with_file_and_path(db: &Database, target: Target, problem: Diagnostic) -> Diagnostic {
     problem.in_file(target.file(db).path(db)).in_path(target.name(db))
 }

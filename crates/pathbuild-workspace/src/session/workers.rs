@@ -10,7 +10,6 @@ use std::time::Duration;
 use pathbuild_db::{Database, WorkInProgress};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// A pool of worker threads.
 #[derive(Debug)]
 pub(super) struct Workers {
     pool: ThreadPool,
@@ -33,7 +32,6 @@ impl Workers {
         Some(Self { pool, is_wanted })
     }
 
-    /// Returns the number of worker threads.
     pub(super) fn count(&self) -> usize {
         self.pool.current_num_threads()
     }

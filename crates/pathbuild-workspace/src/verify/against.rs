@@ -43,7 +43,7 @@ pub(super) struct RewrittenProgram {
     other_line: Option<(u32, String)>,
     /// The first position that is stated in all axes.
     start: Option<Position>,
-    /// The moves after that position, with their lines.
+    /// The moves after `start`, with their lines.
     moves: Vec<(u32, Move)>,
     /// Tool and spindle of the cuts.
     tool: ToolUse,
@@ -52,7 +52,6 @@ pub(super) struct RewrittenProgram {
 }
 
 impl RewrittenProgram {
-    /// Whether the verified program has the same lines as this program.
     pub(super) fn is_same(&self) -> bool {
         self.other_line.is_none()
     }
@@ -81,12 +80,10 @@ impl ReferenceProgram {
         Ok(Self { drawn, file, clamps, trace: checked.trace.clone() })
     }
 
-    /// Returns the path of the drawing's file.
     pub(super) fn file(&self) -> &Utf8Path {
         &self.file
     }
 
-    /// Returns the inputs that the program depends on, if the session traces them.
     pub(super) fn trace(&self) -> Option<&Trace> {
         self.trace.as_ref()
     }

@@ -186,7 +186,7 @@ impl CheckRecord {
         }
     }
 
-    /// Describes the check, with the values that it was made with, or the reason why it was not made.
+    /// Describes the check and the values that it used, or the reason why it was not made.
     pub fn text(&self, lang: Lang) -> String {
         let name = requirement_name(self.requirement).in_lang(lang);
         match (&self.outcome, self.values()) {

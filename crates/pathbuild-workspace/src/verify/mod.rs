@@ -194,8 +194,8 @@ impl<'w> Verifier<'w> {
         words
     }
 
-    /// Returns the checks that the configuration or the run requires. If one of them requires a check of rapid moves without assumed values,
-    /// assumed values do not suffice, even if the other accepts them.
+    /// Returns the checks that the configuration or the run requires. If either of them excludes assumed values for the check of rapid moves, they
+    /// do not suffice, even if the other accepts them.
     fn required(&self) -> Vec<Requirement> {
         let sources = [&self.settings.verify.require.value, &self.options.required];
         let is_strict = |source: &&Vec<Requirement>| {

@@ -106,7 +106,6 @@ impl Verifier<'_> {
     }
 }
 
-/// Reports, as a detail, how many programs have cached results that still hold.
 fn report_known(workspace: &Workspace, known: usize, all: usize) {
     let [en, de] = ["programs with valid cached results", "Programme mit gültigen gespeicherten Ergebnissen"];
     workspace.reporter.detail(&format!("{}: {known} / {all}", workspace.choose(en, de)));

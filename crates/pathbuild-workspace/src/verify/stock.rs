@@ -305,7 +305,6 @@ impl<'s> Sources<'s> {
         unknown.into_iter().map(warning).collect()
     }
 
-    /// Returns the configured tool with the number of this tool.
     fn entry(&self, tool: &CuttingTool) -> Option<&'s Tool> {
         self.tools().iter().find(|entry| entry.number.is_some() && entry.number == tool.number)
     }
@@ -340,7 +339,6 @@ impl<'s> Sources<'s> {
         !matches!(self.program.dialect, Dialect::Xpertmill | Dialect::Native)
     }
 
-    /// Returns the configured tools.
     fn tools(&self) -> &'s [Tool] {
         &self.verifier.settings.tables.tools.value
     }

@@ -44,11 +44,9 @@ pub(super) struct Watcher {
 
 /// The outcome of waiting for changes.
 pub(super) enum Batch {
-    /// These files have changed.
     Changes(Changes),
-    /// Watching must start again, for this reason.
     Restart(Restart),
-    /// A wake-up was requested through the `Bell`.
+    /// A wake-up was requested through the [`WakeHandle`].
     WokenUp,
     /// The end of watching was requested.
     Over,
@@ -120,7 +118,6 @@ impl Watcher {
         refused.into_iter().map(|(file, error)| (file, error.to_string())).collect()
     }
 
-    /// Returns a handle that wakes this watcher.
     pub(super) fn wake_handle(&self) -> WakeHandle {
         self.bell.clone()
     }
@@ -179,7 +176,6 @@ impl Watcher {
         self.is_over || pending.is_incomplete || pending.restart.is_some() || has_drawings
     }
 
-    /// Whether the end of watching was requested.
     pub(super) fn is_over(&mut self, session: &Session<'_>) -> bool {
         self.poll_signals(session);
         self.is_over
@@ -190,7 +186,6 @@ impl Watcher {
         std::mem::take(&mut self.is_woken)
     }
 
-    /// Processes pending signals without waiting.
     fn poll_signals(&mut self, session: &Session<'_>) {
         while let Ok(signal) = self.signals.try_recv() {
             self.add(signal, session);
@@ -232,7 +227,6 @@ impl Watcher {
         }
     }
 
-    /// Restarts the debounce interval.
     fn restart_debounce(&mut self) {
         self.due = Instant::now() + self.debounce;
     }

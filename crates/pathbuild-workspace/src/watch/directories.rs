@@ -21,7 +21,7 @@ pub(super) struct WatchedDirectories {
     watched: BTreeMap<Utf8PathBuf, RecursiveMode>,
     /// For each watched directory: the path that events report, its canonical path, and its path in the session, which may begin with `..`.
     roots: BTreeSet<[Utf8PathBuf; 3]>,
-    /// Directories of which a replacement must be noticed: the watched directories and their parents.
+    /// Directories whose replacement must be noticed: the watched directories and their parents.
     names: BTreeSet<Utf8PathBuf>,
     /// Directories that the system refuses to watch because they cannot be listed.
     refused: BTreeSet<Utf8PathBuf>,
@@ -152,7 +152,6 @@ impl WatchedDirectories {
         })
     }
 
-    /// Whether any of the directories has a relative path.
     pub(super) fn are_relative(&self) -> bool {
         self.watched.keys().any(|directory| directory.is_relative())
     }
@@ -329,7 +328,7 @@ pub(super) struct Links {
 pub(super) enum LinkPlace {
     /// A symbolic link that is followed, or the file to which the last one leads.
     Name(Utf8PathBuf),
-    /// A symbolic link to a directory that is followed.
+    /// A followed symbolic link to a directory.
     Directory(Utf8PathBuf),
     /// A file with hard links, through any of which it may be written.
     File(Utf8PathBuf),

@@ -58,7 +58,7 @@ pub struct FirstCheck {
     pub paths: usize,
     /// All diagnostics of the first check.
     pub diagnostics: Vec<Diagnostic>,
-    /// Those of them that belong to no single drawing.
+    /// The diagnostics that belong to no single drawing; they are part of `diagnostics` as well.
     pub problems: Vec<Diagnostic>,
     /// Duration of the first check.
     pub time: Duration,

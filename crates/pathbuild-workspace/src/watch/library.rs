@@ -47,7 +47,6 @@ pub(super) struct Library<'a> {
 pub(super) struct Batch {
     /// The changed files that caused the batch.
     pub(super) changed: BTreeSet<Utf8PathBuf>,
-    /// Drawings that were checked.
     pub(super) checked_files: Vec<SourceFile>,
     /// Number of drawings that are yet to be checked because more changes arrived.
     pub(super) open: usize,
@@ -91,12 +90,10 @@ impl<'a> Library<'a> {
         }
     }
 
-    /// The session that the library uses.
     pub(super) fn session(&self) -> &Session<'a> {
         &self.session
     }
 
-    /// Mutable access to the session, for writing programs.
     pub(super) fn session_mut(&mut self) -> &mut Session<'a> {
         &mut self.session
     }
@@ -214,7 +211,6 @@ impl<'a> Library<'a> {
         !self.open.is_empty()
     }
 
-    /// Iterates over the drawings still to be checked.
     pub(super) fn unchecked_drawings(&self) -> impl Iterator<Item = SourceFile> {
         self.open.values().copied()
     }
@@ -373,7 +369,6 @@ impl<'a> Library<'a> {
         }
     }
 
-    /// Checks drawings and records their inputs.
     fn check_and_record(&mut self, checked_files: Vec<SourceFile>, update: &mut Batch) {
         let results =
             self.session.with_stable_files(|session| check_drawings(session, &checked_files, false));
@@ -484,7 +479,6 @@ impl ReverseIndex {
         self.traces.insert(drawing, traces);
     }
 
-    /// Removes a drawing and its inputs.
     pub(super) fn remove(&mut self, drawing: SourceFile) {
         for trace in self.traces.remove(&drawing).unwrap_or_default() {
             for file in &trace.files {
@@ -550,17 +544,14 @@ impl NameSnapshots {
         }
     }
 
-    /// Whether the names in a directory are stored.
     pub(super) fn has(&self, directory: &Utf8Path) -> bool {
         self.0.contains_key(directory)
     }
 
-    /// Iterates over the directories for which names are stored.
     pub(super) fn directories(&self) -> impl Iterator<Item = &Utf8PathBuf> {
         self.0.keys()
     }
 
-    /// Whether the stored names of a directory contain a name.
     pub(super) fn holds(&self, directory: &Utf8Path, name: &str) -> bool {
         self.0.get(directory).is_some_and(|names| names.contains(name))
     }

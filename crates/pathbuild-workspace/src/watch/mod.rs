@@ -53,7 +53,6 @@ impl Request<'_> {
     }
 }
 
-/// State of a watched library.
 struct WatchLoop<'a> {
     listener: &'a dyn Listener,
     library: Library<'a>,

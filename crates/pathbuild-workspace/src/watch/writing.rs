@@ -55,7 +55,7 @@ impl<'a> Writer<'a> {
         self.post_processor.as_ref()
     }
 
-    /// Returns those of the drawings that contain target paths.
+    /// Returns the drawings that contain target paths.
     pub(super) fn target_drawings(&self, session: &Session<'_>, files: &[SourceFile]) -> Vec<SourceFile> {
         let mut configured = TargetPatterns::new(&self.workspace.settings);
         let mut is_written = |file: &&SourceFile| {

@@ -79,7 +79,6 @@ fn a_bug_in_listing_a_directory_keeps_no_other_from_being_checked() {
     }
 }
 
-/// Returns the paths of a library, each with its drawing.
 fn paths(place: &OnDisk) -> Vec<(String, String)> {
     let inputs = Inputs::default();
     let workspace = place.workspace(&inputs, Arc::new(OsSystem), false);

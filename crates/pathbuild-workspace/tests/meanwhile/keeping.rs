@@ -108,7 +108,6 @@ fn a_directory_in_which_a_drawing_came_meanwhile_is_asked_again() {
     assert!((1..4).any(found), "it came too early to be missed");
 }
 
-/// Results of removed drawings do not stay in the cache.
 #[test]
 fn results_of_drawings_that_are_gone_go() {
     let place = place();

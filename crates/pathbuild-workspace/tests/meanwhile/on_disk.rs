@@ -78,7 +78,7 @@ impl OnDisk {
         Utf8Path::from_path(self.directory.path()).unwrap()
     }
 
-    /// Brings a file on disk to its state in the workshop, or removes it.
+    /// Writes a file of the random library to disk, or removes it from disk if the library no longer contains it.
     pub(crate) fn put(&self, workshop: &RandomLibrary, path: &str) {
         let on_disk = self.path().join(path);
         match workshop.files().get(path) {
@@ -128,7 +128,6 @@ impl OnDisk {
         request.run(&mut request.session(&workspace)).unwrap()
     }
 
-    /// Returns the workspace of a run.
     pub(crate) fn workspace(&self, inputs: &Inputs, system: Arc<dyn System>, is_kept: bool) -> Workspace {
         let given = Overrides { config: Some(self.path().join("pathbuild.toml")), ..Overrides::default() };
         let (settings, faults) = config::load(&OsSystem::shared(), &given, inputs, self.path());
