@@ -234,8 +234,8 @@ impl PostDefinition {
         read_back::check(text, job, &expected)
     }
 
-    /// Returns the error about a text for moves that writes none. It is reported only with the errors that follow from it, because a job may not
-    /// need the text.
+    /// Returns the error about a text that should write moves but writes nothing. It is reported only with the errors that follow from it, because a
+    /// job may not need the text.
     fn empty_motion(&self) -> Option<Diagnostic> {
         let Engine::CamBam(definition) = &self.engine else { return None };
         let problem = Diagnostic::new(&posts::MOTION_EMPTY).quoting("section", definition.empty_motion()?);

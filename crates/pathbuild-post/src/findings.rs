@@ -14,7 +14,6 @@ pub(crate) const MAX_FINDINGS: usize = 100;
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
     found: Vec<Diagnostic>,
-    /// Whether any finding is an error.
     pub(crate) has_error: bool,
 }
 
@@ -46,7 +45,6 @@ impl Findings {
 pub(crate) struct LineStarts(Vec<usize>);
 
 impl LineStarts {
-    /// Determines where the lines of a text begin.
     pub(crate) fn of(text: &str) -> Self {
         Self(std::iter::once(0).chain(text.match_indices('\n').map(|(end, _)| end + 1)).collect())
     }
@@ -74,7 +72,6 @@ pub(crate) struct EngineOutput {
     pub(crate) text: Vec<u8>,
     /// The translation of the text to RS274.
     pub(crate) shadow: TranslatedText,
-    /// The origin of each line.
     pub(crate) origins: Vec<LineOrigin>,
     /// Warnings about doubtful constructs in the definition or the text.
     pub(crate) warnings: Vec<Diagnostic>,

@@ -125,7 +125,6 @@ struct Builder {
     is_raised: bool,
     /// Whether the last move was a probing move, so that only the machine knows the position.
     has_probed: bool,
-    /// Whether the program ever starts the spindle.
     starts_spindle: bool,
     /// Whether the program has stopped or waited with the spindle off since the last operation began. The operation stays as it is.
     is_resting: bool,
@@ -425,8 +424,8 @@ impl Builder {
         operation.steps.push(JobStep::rapid([x, y, None]));
     }
 
-    /// After a tool change, a post returns to where the old tool stopped. It need not if the program itself continues with a rapid move above
-    /// everything.
+    /// Lets the operation after a tool change begin with the program's own rapid move, if that move is above everything. Otherwise the post would
+    /// first return to where the old tool stopped.
     fn enter_by_own_rapid(&mut self, movement: &Move) {
         let [.., before, operation] = self.job.operations.as_mut_slice() else { return };
         let is_high = movement.to.known == Axes::ALL && movement.to.z() >= self.clearance;
@@ -499,7 +498,6 @@ impl Job {
     }
 }
 
-/// Whether a step does something other than a rapid move.
 fn is_not_rapid(step: &JobStep) -> bool {
     !matches!(step, JobStep::Move(Move { pace: Pace::Rapid, .. }))
 }
@@ -574,7 +572,6 @@ pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     Some((hole, moves.steps))
 }
 
-/// The remaining steps of one line.
 struct LineSteps<'a> {
     line: u32,
     steps: &'a [Step],

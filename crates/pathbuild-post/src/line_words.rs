@@ -8,7 +8,6 @@ pub(crate) struct Word {
     pub(crate) number: f64,
 }
 
-/// The words of a line.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct LineWords {
     pub(crate) words: Vec<Word>,
@@ -29,7 +28,6 @@ pub(crate) struct CommentMarks {
     pub(crate) close: String,
 }
 
-/// Parses the words of a line.
 pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
     let mut found = LineWords::default();
     let mut rest = line.trim_start();

@@ -33,7 +33,6 @@ impl NumberFormat {
         Self { whole: 1, least, most }
     }
 
-    /// Maximum number of digits after the decimal point.
     pub(crate) fn most_decimals(self) -> u8 {
         u8::try_from(self.most).unwrap_or(u8::MAX)
     }

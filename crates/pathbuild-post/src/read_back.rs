@@ -68,7 +68,7 @@ pub(super) fn check(
     }
     let (mut broken, mut doubts) = broken_rules(&read.steps, job, expected);
     if target.is_none() && (tolerance.is_none() || !is_started(&read.steps)) {
-        // The text's words may mean something other than the spindle, or the operator switches it and the final M5 is only for safety.
+        // The text's words may mean something other than the spindle, or the operator switches the spindle and the final M5 is only for safety.
         broken.retain(|problem| !is_rule_of_spindle(problem));
     }
     doubts.extend(work_offset_warnings(&read.steps));
@@ -230,7 +230,6 @@ fn work_offset_warnings(steps: &[Step]) -> Vec<Diagnostic> {
     doubts
 }
 
-/// Maximum number of warnings about work offsets.
 const MAX_OFFSET_WARNINGS: usize = 5;
 
 /// Checks the rules of `verify` that do not depend on the material. (book: program/reading)
@@ -293,7 +292,6 @@ pub(super) fn in_output(mut problem: Diagnostic, output: &[u8], origins: &[LineO
     problem
 }
 
-/// Whether the problem's message contains a line of the output.
 fn has_line_in_message(problem: &Diagnostic) -> bool {
     problem.arguments.iter().any(|(name, _)| *name == "line")
 }

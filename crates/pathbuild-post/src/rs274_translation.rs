@@ -100,7 +100,6 @@ pub enum Doubt {
     Unknown,
 }
 
-/// Maximum number of doubtful words that are reported.
 const MAX_DOUBTFUL_WORDS: usize = 20;
 
 impl Rs274Translation {

@@ -114,7 +114,6 @@ fn is_block_number(text: &str) -> bool {
         || text.strip_prefix('N').is_some_and(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
-/// A part of a line: code or a comment.
 #[derive(Clone, Copy, Debug)]
 enum LinePart<'a> {
     Code(&'a str),
@@ -299,7 +298,7 @@ fn harmless_comment(comment: &str, target: &Target) -> String {
     comment.char_indices().map(replace).collect()
 }
 
-/// Guard that inserts texts into the lines of a post in such a way that they cannot be executed. It knows which marks begin and end comments.
+/// Inserter that adds texts to the lines of a post in such a way that they cannot be executed. It knows which marks begin and end comments.
 #[derive(Debug)]
 pub(crate) struct TextInserter<'a> {
     target: Option<&'a Target>,
@@ -308,7 +307,7 @@ pub(crate) struct TextInserter<'a> {
 }
 
 impl<'a> TextInserter<'a> {
-    /// Creates a guard with the comment marks of the target; without a target, with those of the definition and the usual ones.
+    /// Creates an inserter with the comment marks of the target; without a target, with those of the definition and the usual ones.
     pub(crate) fn new(target: Option<&'a Target>, marks: CommentMarks, charset: Charset) -> Self {
         Self { target, marks, charset }
     }

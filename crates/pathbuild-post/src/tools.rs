@@ -150,7 +150,7 @@ impl<'j> Checker<'j> {
     }
 
     /// Compares the stops between the last cut and the step with this number (from 1) of the job. If the spindle stands still at one of
-    /// them in the job, it may turn only at as many as in the job.
+    /// them in the job, the text must not have more stops with a turning spindle than the job has.
     fn check_stops_before(&mut self, number: u32) {
         let end = usize::try_from(number).unwrap_or(usize::MAX).min(self.stops.len());
         let stops = self.stops.get(self.reached..end).unwrap_or_default();

@@ -623,7 +623,6 @@ mod tests {
         assert!(!may_come("G0 Z20, G0 X1 Y0 Z19, G0 X0, G0 Z5"));
     }
 
-    /// A rapid straight up from a cut and back down is allowed.
     #[test]
     fn the_tool_may_be_lifted_from_a_cut() {
         let lifted = |lift: &str| {

@@ -83,7 +83,8 @@ impl Problems {
         }
     }
 
-    /// Returns the diagnostics in line order. If a message occurred more often than it is reported, its last diagnostic states how many more there were.
+    /// Returns the diagnostics in line order. If a message occurred more often than it is reported, its last diagnostic states how many more there
+    /// were.
     pub fn into_diagnostics(mut self) -> Vec<Diagnostic> {
         for &(count, last) in self.counts.values().filter(|(count, _)| *count > MAX_REPORTS_PER_MESSAGE) {
             let message = if count - MAX_REPORTS_PER_MESSAGE == 1 { &ONE_MORE } else { &MORE };

@@ -468,7 +468,6 @@ pub(super) enum CallContent<'a> {
     Comment(&'a str),
 }
 
-/// The position of an element within its contour.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ContourPosition {
     /// Whether the element is the first one of the contour, or the first one after a change of feed.

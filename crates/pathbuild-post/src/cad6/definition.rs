@@ -57,12 +57,10 @@ impl Definition {
         findings.warnings().map(|warnings| (definition, warnings))
     }
 
-    /// Extension of the files that the definition writes.
     pub(crate) fn extension(&self) -> &str {
         &self.settings.extension
     }
 
-    /// Name of the dialect that the definition states; `None` if it states none.
     pub(crate) fn dialect(&self) -> Option<&str> {
         self.settings.dialect.as_deref()
     }
@@ -89,7 +87,6 @@ impl Definition {
                 .all(|(kind, _)| matches!(kind, ControlTextKind::ToolChange | ControlTextKind::ProgramStart))
     }
 
-    /// Number of decimals to which numbers are rounded.
     pub(crate) fn decimals(&self) -> u8 {
         u8::try_from(self.settings.decimals).unwrap_or(u8::MAX)
     }
@@ -136,13 +133,11 @@ impl Definition {
         }
     }
 
-    /// Returns all control texts that the definition has.
     pub(super) fn texts(&self) -> impl Iterator<Item = (ControlTextKind, &ControlText)> {
         ControlTextKind::ALL.iter().filter_map(|&kind| Some((kind, self.text(kind)?)))
     }
 }
 
-/// The reason why no program calls a text.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum UncalledReason {
     /// No program contains anything that needs the text.
@@ -303,7 +298,8 @@ impl ControlTextReader<'_> {
 #[derive(Clone, Copy)]
 #[expect(clippy::struct_excessive_bools, reason = "each is about a text of its own")]
 pub(super) struct Abilities {
-    /// Whether there is a text for rapid moves, so that each is written as it is.
+    /// Whether there is a text for rapid moves. If so, every rapid move is written as its own call; otherwise the texts for contours and holes imply
+    /// them.
     pub(super) rapid: bool,
     /// Whether there is a text for holes.
     pub(super) hole: bool,
@@ -317,13 +313,11 @@ pub(super) struct Abilities {
     pub(super) has_relative_centres: bool,
     /// Whether the text for arcs uses absolute centres.
     pub(super) has_absolute_centres: bool,
-    /// Number of decimals to which numbers are rounded.
     pub(super) decimals: usize,
     /// Whether a straight cut may change Z.
     pub(super) line_z: bool,
     /// Whether an arc may change Z, as in a helix.
     pub(super) arc_z: bool,
-    /// Whether the tool is raised between two passes.
     pub(super) lift_between_passes: bool,
     /// Maximum angle swept by an arc, in radians. Arcs that sweep more are split.
     pub(super) arc_sweep: f64,
@@ -332,7 +326,6 @@ pub(super) struct Abilities {
 }
 
 impl Abilities {
-    /// Determines the abilities of a definition.
     pub(super) fn of(definition: &Definition) -> Self {
         let has = |kind| definition.text(kind).is_some();
         let hole = if has(ControlTextKind::Cycle) { ControlTextKind::Cycle } else { ControlTextKind::Point };
@@ -465,7 +458,6 @@ impl Default for Settings {
 
 /// A key of the table `[post]` in a definition.
 pub(super) struct KeyDeclaration {
-    /// Name of the key.
     pub(super) name: &'static str,
     /// Permitted values, for messages and the book.
     pub(super) expected: &'static Text,
@@ -479,7 +471,6 @@ pub(super) struct KeyDeclaration {
 /// default.
 macro_rules! settings {
     ($($name:literal $set:expr, $expected_en:literal, $expected_de:literal, $en:literal, $de:literal;)*) => {
-        /// All keys of `[post]`.
         pub(super) static SETTINGS: &[KeyDeclaration] = &[$(KeyDeclaration {
             name: $name,
             expected: &Text { en: $expected_en, de: $expected_de },

@@ -14,10 +14,8 @@ use crate::PostFiles;
 /// Maximum nesting depth of statements within statements.
 const MAX_DEPTH: usize = 64;
 
-/// The environment in which a text is evaluated.
 pub(super) struct Environment<'a> {
     pub(super) variables: &'a mut Variables,
-    /// Number of decimals to which numbers are rounded.
     pub(super) decimals: usize,
     /// Access to the files that the text may insert.
     pub(super) files: &'a dyn PostFiles,
@@ -227,7 +225,7 @@ impl<'a> Evaluator<'a> {
         Ok(())
     }
 
-    /// Returns the placeholder of a text if the next `length` bytes of a statement contain nothing else.
+    /// Returns the text placeholder in the next `length` bytes of a statement, if these contain nothing else.
     fn single_placeholder(&self, length: usize) -> Option<char> {
         let mut inside = self.rest()[..length].chars().filter(|c| !is_mark(*c) && *c != ' ');
         let first = inside.next().filter(|c| self.surroundings.variables.text(*c).is_some());
@@ -417,7 +415,6 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Returns the offset of the brace that closes the open statement.
     fn closing_brace(&self, start: usize) -> Evaluated<usize> {
         let mut depth = 0_usize;
         let mut is_escaped = false;

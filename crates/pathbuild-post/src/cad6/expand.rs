@@ -25,7 +25,6 @@ pub(super) struct Expanded {
     pieces: Vec<ExpandedPart>,
     /// Variables that do not exist, each with the offset in the expanded text at which its name was used.
     undefined: Vec<(usize, String)>,
-    /// Number of variables resolved.
     resolved: usize,
 }
 
@@ -38,7 +37,6 @@ struct ExpandedPart {
 }
 
 impl Expanded {
-    /// Replaces the variables of a control text.
     pub(super) fn new(text: &str, variables: &Variables) -> Evaluated<Self> {
         let mut expanded = Self::default();
         let mut rest = text;
@@ -157,7 +155,7 @@ pub(super) fn is_name(text: &str) -> bool {
 /// Mark that introduces the name of an inserted file. The name ends with a `*`.
 pub(super) const INSERTION: &str = r"\\\~*";
 
-/// Names of the files inserted by an expanded text.
+/// Returns the names of the files that an expanded text inserts.
 pub(super) fn names(text: &str) -> Vec<String> {
     let names = text.split(INSERTION).skip(1).filter_map(|rest| Some(rest.split_once('*')?.0));
     names

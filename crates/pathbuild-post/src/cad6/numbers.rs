@@ -60,7 +60,6 @@ forms! {
 const MAX_WIDTH: usize = 64;
 
 impl Form {
-    /// Returns the format that a character selects.
     pub(super) fn of(character: char) -> Option<Self> {
         FORMS.iter().find(|(sign, ..)| *sign == character).map(|(_, form, _)| *form)
     }

@@ -69,7 +69,6 @@ pub(super) fn run<'a>(
     caller.runner.call(ControlTextKind::ProgramEnd)
 }
 
-/// Defines the user's macros as variables.
 pub(super) fn assign_macros(variables: &mut Variables, macros: &[PostMacro]) {
     for own in macros {
         variables.assign(&own.name, &own.value.replace(is_private, "?"));

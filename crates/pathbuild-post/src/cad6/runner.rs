@@ -39,9 +39,7 @@ pub(super) struct Runner<'a> {
     /// Number of bytes that texts may still produce, not counting inserted files.
     fuel: OutputBudget,
     pub(super) warnings: Vec<Diagnostic>,
-    /// The kinds of the texts called so far.
     pub(super) called: Vec<ControlTextKind>,
-    /// The origin of each line of the output.
     origins: Vec<LineOrigin>,
 }
 
@@ -205,7 +203,6 @@ fn with_origins(mut lines: Vec<ResultLine>, expanded: &Expanded, text: &ControlT
     lines
 }
 
-/// Number of line breaks in a text.
 fn line_ends(text: &[u8]) -> usize {
     memchr::memchr_iter(b'\n', text).count()
 }

@@ -236,7 +236,6 @@ fn from_bits(bits: i64) -> f64 {
     bits as f64
 }
 
-/// The reason why a function cannot be evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FunctionError {
     Name,
@@ -256,15 +255,12 @@ impl FunctionError {
 /// The number of arguments that a function takes, and its implementation.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Rule {
-    /// One argument.
     One(fn(f64) -> f64),
-    /// Two arguments.
     Two(fn(f64, f64) -> f64),
     /// Any number of arguments, but at least one.
     Any(fn(&[f64]) -> f64),
 }
 
-/// A function available in terms.
 #[derive(Debug)]
 pub(super) struct Function {
     pub(super) name: &'static str,
@@ -306,7 +302,6 @@ functions! {
     "max" Any |all| all.iter().copied().fold(f64::NEG_INFINITY, f64::max), "the largest", "das Größte";
 }
 
-/// Evaluates the function with this name.
 pub(super) fn call(name: &str, arguments: &[f64]) -> Result<f64, FunctionError> {
     let function = FUNCTIONS.iter().find(|function| function.name == name).ok_or(FunctionError::Name)?;
     match (function.rule, arguments) {
@@ -328,7 +323,6 @@ pub(super) struct Fault {
 pub(super) type Evaluated<T> = Result<T, Box<Fault>>;
 
 impl Fault {
-    /// Creates a fault with a message that has no arguments yet.
     pub(super) fn new(message: &'static Message, span: Range<usize>) -> Box<Self> {
         Box::new(Self { span, diagnostic: Diagnostic::new(message) })
     }

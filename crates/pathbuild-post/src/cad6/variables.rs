@@ -39,7 +39,6 @@ words! {
 }
 
 impl Variable {
-    /// Finds a variable by its name.
     pub(super) fn by_name(name: &str) -> Option<&'static Self> {
         VARIABLES.iter().find(|variable| variable.name == name)
     }
@@ -197,7 +196,6 @@ impl Variables {
         self.aliases.get(name).map_or(name, |own| own)
     }
 
-    /// Returns the value of a variable, or `None` if the variable does not exist.
     pub(super) fn get(&self, name: &str) -> Option<&str> {
         self.values.get(self.own_name(name)).map(|value| &**value)
     }
@@ -213,7 +211,6 @@ impl Variables {
         self.values.remove(name);
     }
 
-    /// Sets a variable to a number.
     pub(super) fn set(&mut self, name: &str, value: f64) {
         self.assign(name, &super::numbers::shortest_text(value));
     }

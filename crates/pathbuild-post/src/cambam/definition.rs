@@ -28,7 +28,6 @@ pub(crate) struct Definition {
     pub(super) options: Options,
     /// The text of `NumberFormat` and its line, if the file contains it.
     number_format: Option<(Box<str>, u32)>,
-    /// The user macros in the element `PostProcessorMacros`.
     pub(super) macros: UserMacros,
 }
 
@@ -49,17 +48,14 @@ impl UserMacros {
         }
     }
 
-    /// Returns the text of a macro, or `None` if it is not defined.
     pub(super) fn get(&self, name: &str) -> Option<&Template> {
         self.by_name.get(name).map(|&index| &self.macros[index].1)
     }
 
-    /// Returns the names of the macros, in order of definition.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.macros.iter().map(|(name, _)| &**name)
     }
 
-    /// Returns the texts of the macros, in order of definition.
     pub(super) fn texts(&self) -> impl Iterator<Item = &Template> {
         self.macros.iter().map(|(_, text)| text)
     }
@@ -84,24 +80,20 @@ impl Definition {
         reader.finish()
     }
 
-    /// Extension of the files that the definition writes.
     pub(crate) fn extension(&self) -> &str {
         &self.options.extension
     }
 
-    /// Name of the dialect that the definition states; `None` if it states none.
     pub(crate) fn dialect(&self) -> Option<&str> {
         self.options.dialect.as_deref()
     }
 
-    /// Whether the definition switches the spindle.
     pub(crate) fn switches_spindle(&self) -> bool {
         let is_spindle =
             |what: &Macro| matches!(what, Macro::State(State::Spindle) | Macro::SpindleUp | Macro::Speed);
         self.templates().flat_map(Template::macros).any(|(what, _)| is_spindle(what))
     }
 
-    /// Whether the definition waits until the spindle is up to speed.
     pub(crate) fn waits_for_spindle(&self) -> bool {
         self.templates().flat_map(Template::macros).any(|(what, _)| *what == Macro::SpindleUp)
     }
@@ -138,7 +130,6 @@ impl Definition {
                 .all(|section| !self.section(section).is_blank())
     }
 
-    /// Number of decimals in the output.
     pub(crate) fn decimals(&self) -> u8 {
         self.options.number_format.most_decimals()
     }
@@ -155,7 +146,6 @@ impl Definition {
         [Section::Rapid, Section::FeedMove].into_iter().find(is_empty).map(Section::name)
     }
 
-    /// Whether every number gets a decimal point.
     pub(crate) fn always_writes_point(&self) -> bool {
         self.options.number_format.always_has_point()
     }
@@ -386,7 +376,6 @@ fn is_built_in(name: &str) -> bool {
     }
 }
 
-/// Converts an error in a template to a diagnostic.
 fn template_error(section: Section, error: &TemplateError, file: &Utf8Path) -> Diagnostic {
     let diagnostic = match &error.fault {
         Fault::Unclosed => Diagnostic::new(&posts::POST_UNCLOSED_MACRO),

@@ -50,7 +50,6 @@ impl Machine {
         }
     }
 
-    /// Whether this motion or cycle is the active one.
     pub(super) fn is_active(&self, (number, _): Code) -> bool {
         self.motion == Some(number * 10)
     }
@@ -192,7 +191,6 @@ impl Register {
         Self::Q,
         Self::R,
     ];
-    /// The registers of the three linear axes.
     pub(super) const AXES: [Self; 3] = [Self::X, Self::Y, Self::Z];
 
     /// Returns the register of a letter, which may be in lower case.
@@ -233,7 +231,6 @@ pub(super) const CODES_WITH_SECTION: [Code; 7] = [
     (83, Section::G83),
 ];
 
-/// The values of the registers in a move.
 #[derive(Debug, Default)]
 pub(super) struct MoveValues {
     registers: [Option<f64>; Register::ALL.len()],

@@ -185,7 +185,6 @@ pub(super) struct MacroArguments {
 }
 
 impl Value {
-    /// Name of the macro.
     pub(super) fn name(self) -> &'static str {
         MACROS_WITHOUT_ARGUMENTS
             .iter()
@@ -270,7 +269,6 @@ fn with_arguments(name: &str) -> Option<&'static MacroWithArguments> {
 
 macro_rules! with_arguments {
     ($($name:literal $read:ident $en:literal, $de:literal;)*) => {
-        /// All macros with arguments.
         pub(super) static MACROS_WITH_ARGUMENTS: &[MacroWithArguments] = &[$(MacroWithArguments {
             name: $name,
             expected: &Text { en: $en, de: $de },

@@ -138,7 +138,6 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Sets the register values for a move.
     fn set_move(&mut self, to: [Option<f64>; 3], values: MoveValues) -> WriteResult {
         self.move_values = values;
         for (axis, target) in to.into_iter().enumerate() {

@@ -13,7 +13,6 @@ pub(super) struct Options {
     pub(super) upper_case: bool,
     pub(super) add_line_numbers: bool,
     pub(super) numbering: Numbering,
-    /// Whether arcs are written as lines.
     pub(super) arcs_as_lines: bool,
     /// Whether I and J are absolute coordinates of the centre.
     pub(super) absolute_centres: bool,
@@ -72,7 +71,6 @@ pub(super) enum Refusal {
 /// An element that contains a value.
 #[derive(Debug)]
 pub(super) struct ElementOption {
-    /// Name of the element.
     pub(super) element: &'static str,
     set: fn(&mut Options, &str) -> OptionResult<()>,
     /// Value if the element is absent, as it would be written in the file.

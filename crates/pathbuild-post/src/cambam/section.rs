@@ -130,7 +130,6 @@ impl Section {
     }
 }
 
-/// Returns the section with the words for a spindle state.
 pub(super) fn spindle_section(spindle: Turning) -> Section {
     match spindle {
         Turning::Clockwise => Section::SpindleCw,
@@ -139,7 +138,6 @@ pub(super) fn spindle_section(spindle: Turning) -> Section {
     }
 }
 
-/// Returns the section with the words for a coolant state.
 pub(super) fn coolant_section(coolant: Coolant) -> Section {
     match coolant {
         Coolant { flood: true, .. } => Section::CoolantFlood,

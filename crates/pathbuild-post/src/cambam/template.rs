@@ -6,9 +6,7 @@ use crate::cambam::section::Section;
 /// A text with macros, and its position in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Template {
-    /// The section that contains the text.
     pub(super) section: Section,
-    /// Literal text and macros, in order.
     pub(super) pieces: Vec<TemplatePart>,
 }
 
@@ -29,7 +27,6 @@ pub(super) enum TemplatePart {
     },
 }
 
-/// The position and cause of an error in a template.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TemplateError {
     /// Line of the definition's file, counted from 1.
@@ -37,7 +34,6 @@ pub(super) struct TemplateError {
     pub(super) fault: Fault,
 }
 
-/// Errors in a template.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Fault {
     /// `{$` without a closing `}`.

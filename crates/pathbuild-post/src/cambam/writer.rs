@@ -54,7 +54,6 @@ pub(super) struct Writer<'a> {
     pub(super) own: [Option<(f64, Option<Box<str>>)>; 3],
     /// The part of the definition being written: a section and a line of its file.
     place: (Section, u32),
-    /// The origin of each line written.
     origins: Vec<LineOrigin>,
     /// Least and greatest angle in degrees of paths wrapped around a cylinder.
     pub(super) angles: Option<[f64; 2]>,
@@ -127,7 +126,6 @@ impl<'a> Writer<'a> {
         self.feeds[self.operation]
     }
 
-    /// The current operation.
     pub(super) fn operation(&self) -> &'a Operation {
         &self.plan.job.operations[self.operation]
     }
@@ -522,7 +520,6 @@ impl<'a> Lines<'a> {
         self.text.len()
     }
 
-    /// Returns the whole text.
     pub(super) fn finish(self) -> String {
         if self.options.upper_case { self.text.to_uppercase() } else { self.text }
     }

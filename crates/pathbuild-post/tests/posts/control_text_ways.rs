@@ -46,7 +46,7 @@ fn a_way_round_something_goes_over_it_or_point_for_point() {
     let lines = written(DIN, &high(steps));
     let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");
     assert_eq!(lines[over - 1], "G00 Z+30", "{lines:?}");
-    // The same applies beyond the path's end, and before its beginning, in X and in Y.
+    // The tool is also retracted if the way leads beyond the end of the path or before its beginning, in X or in Y.
     for (beyond, end) in [
         ([70.0, 0.0], [60.0, 0.0]),
         ([5.0, 0.0], [60.0, 0.0]),
@@ -284,7 +284,7 @@ fn a_program_may_end_with_a_helical_hole() {
     steps.extend([rapid(0.0, 0.0, -2.0), rapid(0.0, 0.0, 25.0)]);
     let lines = written(DIN, &high(steps.clone()));
     assert!(lines.contains(&"G01 X+0 Y+0 Z-2 F100".to_owned()), "{lines:?}");
-    // A cut after the last one is not part of the program.
+    // The text of the program's end makes a cut that the job does not have.
     let more = DIN.replace("program-end = 'M30'", "program-end = '''\nG01 X+50 F100\nM30'''");
     let found = read_toml(&more)
         .write(&high(steps), &PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() });

@@ -7,7 +7,6 @@ use pathbuild_post::{Job, PostDefinition, PostOptions, Units};
 
 use crate::support::{DIN, arc, bare, definition, feed, job, rapid, read, read_toml, texts};
 
-/// Returns the notes of diagnostics.
 fn notes(found: &[Diagnostic]) -> Vec<String> {
     found.iter().flat_map(|found| found.notes.iter().map(|note| note.text(Lang::En))).collect()
 }
@@ -140,7 +139,7 @@ fn doubtful_options_and_bare_macros_are_told() {
     assert!(open[0].contains("PB754") && open[0].contains("under [macros]"), "{open:?}");
 }
 
-/// Two decimals are fine in mm, but 0.127 mm in inches.
+/// Two decimals are precise enough in mm, but in inches they round by up to 0.127 mm.
 #[test]
 fn rounding_is_judged_in_millimetres() {
     let found = |post: PostDefinition, job: &Job| match post.write(job, &PostOptions::default()) {

@@ -135,7 +135,7 @@ fn what_a_job_cannot_say_is_an_error_with_its_line() {
     assert!(errors(&format!("{start}G2 X0 Y0 I5 P2 F60"))[0].starts_with("2: PB765 a move of this kind"));
 }
 
-/// Returns the job of a program in a dialect, or what prevents one.
+/// Returns the job of a program in a dialect, or the errors that prevent it.
 fn job_of(text: &str, dialect: Dialect) -> Result<Job, Vec<String>> {
     let steps = interpret(text.as_bytes(), dialect, &Options::default()).steps;
     Job::from_steps("job", &steps, dialect, &|_| Remark::Stays).map_err(|errors| texts(&errors))

@@ -61,13 +61,11 @@ pub(crate) fn read(text: &str) -> Result<PostDefinition, Vec<Diagnostic>> {
     PostDefinition::read(text.as_bytes(), Utf8Path::new("test.cbpp"))
 }
 
-/// Parses a definition with control texts.
 pub(crate) fn read_toml(text: &str) -> PostDefinition {
     PostDefinition::read(text.as_bytes(), Utf8Path::new("test.toml"))
         .unwrap_or_else(|errors| panic!("{:?}", texts(&errors)))
 }
 
-/// Returns the output of a definition for a job.
 pub(crate) fn output(
     definition: &str,
     job: &Job,
@@ -86,7 +84,6 @@ pub(crate) fn unchecked(
     post.write(job, &PostOptions { unchecked, ..options.clone() })
 }
 
-/// Returns the lines that a definition produces for a job.
 #[track_caller]
 pub(crate) fn lines(definition: &str, job: &Job) -> Vec<String> {
     lines_with(definition, job, &PostOptions::default())
