@@ -13,7 +13,7 @@ pub(crate) fn decode(mut bytes: &[u8], pair: impl Fn([u8; 2]) -> Option<String>)
         let known = match rest {
             [second, others @ ..] if (0x81..=0xFE).contains(first) => {
                 let known = two_characters([*first, *second]).or_else(|| pair([*first, *second]));
-                // An ASCII byte is kept even if the byte before it must not precede it.
+                // An ASCII byte that does not form a pair with the byte before it is not consumed: it is decoded on its own.
                 if known.is_some() || !second.is_ascii() {
                     bytes = others;
                 }

@@ -362,7 +362,6 @@ impl<'a> OpenEdges<'a> {
         }
     }
 
-    /// Removes the next edge of a segment.
     fn remove_edge(&mut self, strand: usize) {
         let depth = Coordinate(self.strands[strand].depths[self.done[strand]]);
         for end in self.ends[strand] {

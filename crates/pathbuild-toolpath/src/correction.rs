@@ -75,7 +75,6 @@ impl Correction {
     }
 }
 
-/// Returns the steps of a program after splitting.
 fn split_steps(program: &Program, longest: f64) -> impl Iterator<Item = ProgramStep> + '_ {
     steps_or_moves(program, longest).flat_map(|(before, cut)| {
         let pieces = cut.into_iter().flat_map(|cut| (1..=cut.pieces()).map(move |number| cut.piece(number)));
@@ -167,7 +166,6 @@ impl SplitMove {
         self.pieces
     }
 
-    /// Returns the position of the tool at the end of the move.
     pub(crate) fn end(&self) -> ToolPosition {
         match self.to {
             PlannedMove::Sweep { to } => ToolPosition { at: to, ..self.from },

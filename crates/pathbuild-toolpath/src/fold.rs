@@ -230,7 +230,6 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
         outside
     }
 
-    /// Makes the given element of the path the current one.
     pub(crate) fn begin_element(&mut self, element: u32) {
         self.here.element = Some(element);
     }
@@ -353,7 +352,6 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
         }
     }
 
-    /// Adds a comment for the start of a drawn element.
     pub(crate) fn add_element_comment(
         &mut self,
         kind: ElementKind,
@@ -373,7 +371,6 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
         });
     }
 
-    /// Adds a comment for the start of a pass.
     pub(crate) fn add_pass_comment(&mut self, number: u32, z: f64) {
         self.comment(Comment::Pass { number, z });
     }
@@ -411,7 +408,6 @@ fn nearest_neighbour_order(found: &[ProbePoint]) -> Vec<usize> {
     std::iter::from_fn(next).collect()
 }
 
-/// Probes that have not been visited yet.
 struct UnvisitedProbes {
     /// Indices of the unvisited probes at each position.
     places: Vec<VecDeque<usize>>,

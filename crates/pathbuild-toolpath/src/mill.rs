@@ -17,7 +17,6 @@ pub(crate) struct Section {
 }
 
 impl Section {
-    /// Returns the section in the opposite direction.
     pub(crate) fn reversed(self) -> Self {
         Self { curve: self.curve.reversed(), from_z: self.to_z, to_z: self.from_z }
     }

@@ -91,7 +91,6 @@ fn cut_element(path: &Path, number: u32, supported: Option<Curve>) -> CutElement
     CutElement { origin: path.drawn.origin(element), lowest: f64::INFINITY, supported }
 }
 
-/// Returns the support bars of a path.
 fn bars(path: &Path) -> Vec<StandingBar> {
     let mut all = Vec::new();
     let mut halves = Vec::new();
@@ -124,7 +123,6 @@ fn bars(path: &Path) -> Vec<StandingBar> {
     all.into_iter().map(|bar: BarPlace| bar.standing_bar(path.tool / 2.0, &goes_on)).collect()
 }
 
-/// The bars of a segment, and the segment that they lie on.
 struct SegmentBars<'b> {
     bars: &'b Bars,
     bottom: f64,

@@ -86,7 +86,6 @@ impl Scatter {
         Self { count, middle, moments }
     }
 
-    /// Returns the distribution without one of the points.
     pub(super) fn without(&self, point: Xy) -> Self {
         let (d, count) = (point - self.middle, self.count - 1.0);
         let moments = self.moments - d * d.transpose() * (self.count / count);
@@ -229,7 +228,6 @@ const MIN_ODD_DISTANCE: f64 = 0.1;
 /// Minimum ratio of a probe's distance from the plane to the scatter of the other probes.
 const MIN_ODD_RATIO: f64 = 4.0;
 
-/// Number of degrees of freedom of a plane.
 const PLANE_DEGREES_OF_FREEDOM: f64 = 3.0;
 
 /// A probe that does not fit its neighbours.
@@ -298,7 +296,6 @@ impl PlaneFit {
     }
 }
 
-/// A triangulation of the probes.
 #[derive(Clone, Debug)]
 pub(crate) struct Triangulation {
     places: Vec<ProbedPoint>,
@@ -307,7 +304,6 @@ pub(crate) struct Triangulation {
     border: Vec<[usize; 2]>,
     /// Bounding boxes of the triangles, with their indices.
     boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
-    /// The edges of the border, with their indices.
     edges: RTree<GeomWithData<Line<[f64; 2]>, usize>>,
 }
 
@@ -429,7 +425,6 @@ fn enlarged(tight: AABB<[f64; 2]>) -> Rectangle<[f64; 2]> {
     )
 }
 
-/// Builds a tree of shapes with their indices.
 fn indexed_tree<T: rstar::RTreeObject>(shapes: impl Iterator<Item = T>) -> RTree<GeomWithData<T, usize>> {
     RTree::bulk_load(shapes.enumerate().map(|(number, shape)| GeomWithData::new(shape, number)).collect())
 }

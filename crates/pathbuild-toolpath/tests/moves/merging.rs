@@ -27,7 +27,7 @@ fn milling_keeps_them_apart() {
     assert_eq!(moves(&path(P, lines)), ["L 10", "S 10,0", "L 5", "D 0", "M 20,0 0", "L 10", "S 30,0"]);
 }
 
-/// Comments keep their position.
+/// Sweeps are merged across comments, which keep their position.
 #[test]
 fn comments_do_not_keep_them_apart() {
     let drawing = "layer 8001.1P\nstart 0,0 \"T9 O3 S8\"\nsweep 0,0 10,0\nsubpath 10,0 20,0 \">1234.1P T5\"\nend 20,0\n\

@@ -6,7 +6,6 @@ use pathbuild_toolpath::{
 
 use crate::support::{counts, path, program};
 
-/// Milling counts with the feed of the segment, and descending to an edge with that of the path.
 #[test]
 fn milling_counts_with_the_segments_feed_and_coming_down_with_the_paths() {
     let line = "mill 0,0 40,0 \"F300\"\nend 40,0";

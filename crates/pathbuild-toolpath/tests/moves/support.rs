@@ -34,7 +34,6 @@ impl FoldPaths for PathsOfDrawing {
 pub(crate) const OPTIONS: PathOptions =
     PathOptions { feed: Some(100.0), sweep_height: Some(10.0), probe_feed: None, compatible: false };
 
-/// Options for compatible programs.
 pub(crate) const COMPATIBLE: PathOptions = PathOptions { compatible: true, ..OPTIONS };
 
 /// Returns the program of the first path of a drawing.
