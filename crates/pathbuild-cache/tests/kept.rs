@@ -70,7 +70,6 @@ fn context<'a>(base: &'a Utf8Path, covers: pathbuild_cache::CoversFn<'a>) -> Ver
     VerifyContext { base, covers, is_requested: &|_| true, is_allowed: &|_| true, read: &read, hash_output }
 }
 
-/// Creates a cache.
 fn cache(base: &Utf8Path) -> TreeStore {
     let place = TreeStore::of_tree(&CacheLocation::Named(base.join("cache")), base);
     place.create().unwrap();

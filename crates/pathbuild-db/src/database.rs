@@ -306,9 +306,7 @@ impl Database {
 /// Buffers for reading one drawing, reused for the next.
 #[derive(Default)]
 pub(crate) struct Scratch {
-    /// The bytes of the file.
     pub(crate) bytes: Vec<u8>,
-    /// The parsed drawing.
     pub(crate) drawing: Drawing,
 }
 
@@ -351,7 +349,6 @@ pub(crate) struct Listings(Mutex<FxHashMap<Directory, ListingState>>);
 /// A listing that no query has taken yet.
 #[derive(Debug)]
 enum ListingState {
-    /// The listing is complete.
     Known(Names),
     /// The listing is in progress on another thread. The channel closes without names if the listing fails or never runs.
     Pending(Receiver<Names>),
@@ -393,7 +390,6 @@ impl Listings {
         PendingListing { system, path, names }
     }
 
-    /// Adds a complete listing.
     pub(crate) fn put(&self, directory: Directory, names: Names) {
         self.states().entry(directory).or_insert(ListingState::Known(names));
     }

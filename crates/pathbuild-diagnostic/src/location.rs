@@ -222,7 +222,6 @@ impl From<f64> for Number {
 /// Maximum number of decimals. Smaller differences have no practical meaning.
 const MAX_DECIMALS: usize = 9;
 
-/// Removes trailing zeros from a number with decimals.
 fn without_trailing_zeros(decimals: &str) -> &str {
     decimals.trim_end_matches('0').trim_end_matches('.')
 }

@@ -49,7 +49,6 @@ macro_rules! words {
     ($($(#[$doc:meta])* $key:ident: $en:literal, $de:literal;)*) => {
         $($(#[$doc])* pub static $key: crate::Text = crate::Text { en: $en, de: $de };)*
 
-        /// All texts of this module.
         pub(crate) static TEXTS: &[&crate::Text] = &[$(&$key),*];
     };
 }

@@ -20,7 +20,6 @@ fn messages_of_one_name_in_two_subjects_are_not_the_same() {
     assert_ne!(messages::drawing::NOT_POSITIVE, messages::parameters::NOT_POSITIVE);
 }
 
-/// Different numbers are displayed differently.
 #[test]
 fn numbers_of_one_message_are_told_apart() {
     let said = |diameter: f64, limit: f64| {

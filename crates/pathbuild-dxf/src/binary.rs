@@ -41,7 +41,6 @@ pub(crate) fn to_ascii(file: &[u8]) -> Option<Vec<u8>> {
     Some(text)
 }
 
-/// Size of a group code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum GroupCodeSize {
     /// Up to R12: one byte, or FF and two bytes.
@@ -89,7 +88,6 @@ impl Section {
 }
 
 impl BinaryGroups<'_> {
-    /// Reads the next group code.
     fn code(&mut self) -> Option<i16> {
         if self.codes == GroupCodeSize::TwoBytes {
             return self.take().map(i16::from_le_bytes);

@@ -18,7 +18,6 @@ use crate::layers::LayerId;
 use crate::names::case_folded;
 use crate::pairs::{Pair, Pairs, Stop};
 
-/// The blocks of a file.
 #[derive(Default)]
 pub(crate) struct Blocks<'a> {
     /// Blocks by folded name. If several have the same name, the first one counts.
@@ -31,7 +30,6 @@ pub(crate) struct Blocks<'a> {
 /// A block, and the layer on which it is inserted.
 type BlockOnLayer = (BlockId, LayerId);
 
-/// Index of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct BlockId(usize);
 
@@ -104,7 +102,6 @@ impl<'a> Blocks<'a> {
             .filter(|block| !self.all[block.0].is_missing_reference())
     }
 
-    /// Returns the base point of a block.
     pub(crate) fn base(&self, block: BlockId) -> Result<Point3, EntityError<'a>> {
         self.all[block.0].base.clone()
     }
@@ -277,7 +274,6 @@ pub(crate) struct StepBudget {
 const STEPS_PER_ENTITY: usize = 16;
 
 impl StepBudget {
-    /// Creates the budget of a drawing with this limit of entities.
     pub(crate) fn new(most_entities: usize) -> Self {
         Self { left: most_entities.saturating_mul(STEPS_PER_ENTITY), most_entities }
     }

@@ -22,7 +22,6 @@ use crate::placement::Placement;
 use crate::shapes::curves::{ApproximationFailure, Tolerance};
 use crate::{Drawing, Entity, Fault, Geometry, Layer, OmittedCurve, Origin, Point3};
 
-/// A builder of a drawing.
 pub(crate) struct Collector<'d> {
     drawing: &'d mut Drawing,
     /// Indices into [`Drawing::layers`] by folded name.
@@ -52,7 +51,6 @@ const MAX_CHEAP_FAULTS: usize = 10_000;
 /// Weight of each fault beyond [`MAX_CHEAP_FAULTS`]: about that many entities take the same memory.
 const FAULT_WEIGHT: usize = 20;
 
-/// Limits from the options.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
     pub(crate) entities: usize,
@@ -305,7 +303,7 @@ impl<'d> Collector<'d> {
         layer
     }
 
-    /// Counts one more entity, fault or left-out curve.
+    /// Checks that the limit allows one more entity, fault or left-out curve.
     #[inline]
     fn count(&self) -> Result<(), Fatal> {
         let drawing = &self.drawing;
@@ -317,7 +315,6 @@ impl<'d> Collector<'d> {
         Err(self.entity_limit_error())
     }
 
-    /// Returns PB005, because the drawing has more entities than the limit allows.
     #[cold]
     fn entity_limit_error(&self) -> Fatal {
         too_many_entities(self.limits.entities)
@@ -348,7 +345,6 @@ fn with_block(mut problem: Diagnostic, block: Option<&str>, layers: &[SmolStr]) 
     problem.with("layers", layers.iter().take(MAX_LISTED_LAYERS).map(SmolStr::to_string).collect::<Value>())
 }
 
-/// Returns PB005 with this limit of entities.
 #[cold]
 pub(crate) fn too_many_entities(most: usize) -> Fatal {
     Box::new(exceeded(&ENTITIES, most, "entities"))

@@ -30,12 +30,12 @@ pub type TextTest<'a> = &'a dyn Fn(&[u8]) -> bool;
 /// The treatment of $INSUNITS, which states the unit of a drawing. (book: reference/configuration, `units`)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Units {
-    /// Accept millimetres (4), none (0) or a missing value; PB113 for all others.
+    /// Millimetres (4), none (0) and a missing value are accepted; PB113 for all others.
     #[default]
     Header,
-    /// Convert from the unit of the header to millimetres.
+    /// Lengths are converted from the unit of the header to millimetres.
     Drawing,
-    /// Ignore the header and take all numbers as millimetres.
+    /// The header is ignored, and all numbers are taken as millimetres.
     Millimetres,
 }
 
@@ -62,7 +62,6 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// Empties the drawing but keeps its memory.
     pub(crate) fn clear(&mut self) {
         self.entities.clear();
         self.origins.clear();

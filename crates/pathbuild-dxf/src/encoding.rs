@@ -20,7 +20,6 @@ use pathbuild_encoding::{
 use crate::faults::value_excerpt;
 use crate::header::Header;
 
-/// A decoder for the strings of one file.
 #[derive(Debug)]
 pub(crate) struct Decoder<'a> {
     charset: Charset<'a>,
@@ -136,7 +135,6 @@ pub(crate) enum CodePage {
     Usual,
     /// An encoding of the WHATWG standard.
     Standard(&'static Encoding),
-    /// A DOS code page.
     Dos(&'static TableType),
     /// An unknown name.
     Unknown,
@@ -213,7 +211,7 @@ fn iso_8859(part: u32) -> CodePage {
 /// Replacement for an escape that does not denote a character.
 const REPLACEMENT: char = char::REPLACEMENT_CHARACTER;
 
-/// Decodes all escapes. Also returns whether each of them denotes a character; those that do not become U+FFFD.
+/// Decodes all escapes; those that denote no character become U+FFFD. Also returns whether all escapes denote a character.
 fn unescape(text: Cow<'_, str>) -> (Cow<'_, str>, bool) {
     let bytes = text.as_bytes();
     if !memchr_iter(b'\\', bytes).any(|at| matches!(bytes[at..], [_, b'U' | b'M', b'+', ..])) {
@@ -234,7 +232,8 @@ fn unescape(text: Cow<'_, str>) -> (Cow<'_, str>, bool) {
     (Cow::Owned(decoded), all_known)
 }
 
-/// Returns the character and the length of the escape at the start of `text`; the inner `None` means that the escape does not denote a character.
+/// Returns the character that the escape at the start of `text` denotes, and the length of the escape in bytes; the inner `None` means that it
+/// denotes no character.
 fn escape(text: &str) -> Option<(Option<char>, usize)> {
     unicode(text).or_else(|| multibyte(text))
 }
@@ -302,7 +301,7 @@ pub(crate) fn without_carets(text: Cow<'_, str>) -> Cow<'_, str> {
     Cow::Owned(decoded)
 }
 
-/// Returns the character and the length of the caret code at the start of `text`.
+/// Returns the character that the caret code at the start of `text` stands for, and the length of the code in bytes.
 pub(crate) fn control(text: &str) -> Option<(char, usize)> {
     let mut characters = text.chars();
     characters.next().filter(|first| *first == '^')?;

@@ -323,7 +323,6 @@ fn fill_decision(layers: &Layers<'_, '_>, layer: LayerId, kind: RecordKind, spac
     if may_be_wanted { FillDecision::Keep } else { FillDecision::Skip }
 }
 
-/// Whether a record ends a section or block.
 fn is_end(head: &Pair<'_>) -> bool {
     END_RECORDS.iter().any(|keyword| head.is(keyword))
 }

@@ -32,7 +32,7 @@ pub(crate) fn bad_value_error(entity: &str, code: i32, value: &[u8], reason: Not
         .with_text(fault)
 }
 
-/// Returns PB002 for a file that ends inside a section.
+/// Returns PB002 for a section in which the file ends, or in which a line that should hold a group code holds something else.
 pub(crate) fn stop_error(stop: Stop<'_>, section: &str) -> Fatal {
     Box::new(match stop {
         Stop::End { line } => Diagnostic::new(&TRUNCATED).quoting("section", section).at_line(line, None),

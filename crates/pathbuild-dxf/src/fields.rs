@@ -10,7 +10,6 @@ use crate::groups::{Group, Groups, Role};
 use crate::number::{NotANumber, real, whole};
 use crate::pairs::{Pair, Stop, without_cr};
 
-/// The value of a group.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Value<'a> {
     /// The bytes, not trimmed.
@@ -60,11 +59,9 @@ pub(crate) struct Fields<'a> {
 /// The decision of [`Fields::fill`] about the groups of an entity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FillDecision {
-    /// Keep the groups of the entity.
     Keep,
-    /// Skip the groups of the entity.
     Skip,
-    /// Skip the groups of the entity, but keep a text (code 1).
+    /// The groups of the entity are skipped, but a text (code 1) is kept.
     Note,
 }
 
@@ -72,7 +69,6 @@ pub(crate) enum FillDecision {
 const SLOTS: usize = 84;
 
 impl<'a> Value<'a> {
-    /// Wraps the value of a pair.
     pub(crate) fn new(bytes: &'a [u8], line: u32) -> Self {
         Self { bytes, line, entity: 0 }
     }
@@ -109,7 +105,6 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Stores the value of a group.
     #[inline]
     fn store(&mut self, group: &Group<'a>) {
         if let Some(value) = self.slots.get_mut(group.role.slot()) {

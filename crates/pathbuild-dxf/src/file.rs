@@ -48,9 +48,7 @@ struct File<'a> {
     has_bom: bool,
     pairs: Pairs<'a>,
     header: Header<'a>,
-    /// The TABLES section, if any.
     tables: Option<Pairs<'a>>,
-    /// The BLOCKS section, if any.
     blocks: Option<Pairs<'a>>,
 }
 

@@ -10,7 +10,6 @@ use crate::pairs::{Pair, Pairs, Stop, without_cr};
 /// A pair with the role of its code.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Group<'a> {
-    /// The role of the code.
     pub(crate) role: Role,
     /// 1-based line of the code.
     line: u64,
@@ -33,7 +32,6 @@ pub(crate) struct Groups<'a> {
 #[derive(Clone, Copy)]
 struct NextPair<'a> {
     stretch: ScannedPairs<'a>,
-    /// Line of the next pair.
     line: u64,
 }
 
@@ -57,7 +55,6 @@ impl<'a> Group<'a> {
 }
 
 impl<'a> Groups<'a> {
-    /// Creates an iterator that starts at this position.
     pub(crate) fn new(begin: Pairs<'a>) -> Self {
         let ahead = NextPair { stretch: ScannedPairs::EMPTY, line: begin.line().into() };
         Self { begin, code_end: CodeEnd::of(&begin), bytes: &begin.bytes()[begin.consumed()..], ahead }
@@ -161,7 +158,6 @@ impl<'a> Records<'a> {
         Ok(())
     }
 
-    /// Skips the head record.
     pub(crate) fn skip(&mut self) -> Result<(), Stop<'a>> {
         self.head = self.groups.next_zero()?;
         Ok(())
@@ -178,7 +174,6 @@ impl<'a> NextPair<'a> {
     }
 }
 
-/// Converts a line number for diagnostics.
 #[inline]
 fn diagnostic_line(line: u64) -> u32 {
     u32::try_from(line).unwrap_or(u32::MAX)
@@ -202,7 +197,6 @@ const WINDOW_BYTES: usize = 64;
 const MAX_CODE_BYTES: usize = 8;
 
 impl<'a> ScannedPairs<'a> {
-    /// A window without pairs.
     const EMPTY: Self = Self { bytes: &[0; WINDOW_BYTES + MAX_CODE_BYTES], at: 0, ends: 0 };
 
     /// Finds the pairs at the start of these bytes; `None` if the first pair is too long or the bytes are nearly exhausted.
@@ -213,13 +207,11 @@ impl<'a> ScannedPairs<'a> {
         (without_first(ends) != 0).then_some(Self { bytes, at: 0, ends })
     }
 
-    /// Number of bytes consumed.
     #[inline]
     pub(crate) fn consumed(&self) -> usize {
         self.at
     }
 
-    /// Whether this is [`Self::EMPTY`].
     pub(crate) fn is_empty(&self) -> bool {
         self.at == 0 && self.ends == 0
     }
@@ -288,7 +280,6 @@ impl CodeEnd {
         Self { last, length, line_end_after_three: end << 24, mask: (1 << (8 * length)) - 1 }
     }
 
-    /// The byte that ends a line.
     pub(crate) fn line_end(self) -> u8 {
         self.last
     }
@@ -306,7 +297,6 @@ impl Role {
     /// Code 102, which opens or closes a group of an application.
     pub(crate) const APPLICATION: Self = Self(87);
 
-    /// Returns the role of a code.
     pub(crate) const fn of(code: i32) -> Self {
         match code {
             0 => Self::BEGIN,

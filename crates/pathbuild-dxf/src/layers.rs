@@ -22,7 +22,6 @@ pub(crate) struct LayerId(u32);
 
 /// The layers of the entities read so far.
 pub(crate) struct Layers<'a, 'o> {
-    /// The LAYER table of the drawing.
     table: LayerTable<'a>,
     keep: &'o dyn Fn(&str) -> bool,
     by_spelling: Spellings<'a, LayerId>,
@@ -59,7 +58,6 @@ pub(crate) struct UsedLayer {
 const RESERVED_LAYERS: usize = 16;
 
 impl<'a, 'o> Layers<'a, 'o> {
-    /// Creates an empty collection of layers.
     pub(crate) fn new(keep: &'o dyn Fn(&str) -> bool, table: LayerTable<'a>) -> Self {
         let by_spelling = Spellings::default();
         Self { table, keep, by_spelling, found: Vec::with_capacity(RESERVED_LAYERS), last: None }
@@ -84,7 +82,6 @@ impl<'a, 'o> Layers<'a, 'o> {
         id
     }
 
-    /// Returns the spelling that was looked up last.
     pub(crate) fn last_spelling(&self) -> &'a [u8] {
         self.last.map_or(b"", |(spelling, _)| spelling)
     }
@@ -164,9 +161,7 @@ impl UsedLayer {
 /// The LAYER table, of which only records of wanted layers are read.
 #[derive(Debug, Default)]
 pub(crate) struct LayerTable<'a> {
-    /// The TABLES section.
     tables: Option<Pairs<'a>>,
-    /// Number of lookups so far.
     lookups: usize,
     /// All layers, read after many lookups.
     all: Option<KnownLayers<'a>>,
@@ -197,7 +192,6 @@ const MAX_SINGLE_LOOKUPS: usize = 4;
 const MIN_SEARCHED_BYTES: usize = 4;
 
 impl<'a> LayerTable<'a> {
-    /// Creates the table of this TABLES section.
     pub(crate) fn new(tables: Option<Pairs<'a>>) -> Self {
         Self { tables, ..Self::default() }
     }
@@ -285,7 +279,6 @@ pub(crate) struct LayerTableReader<'r, 'a, 'd> {
 }
 
 impl<'a> LayerTableReader<'_, 'a, '_> {
-    /// Reads all layers of these tables.
     fn read_all(&mut self, mut tables: Pairs<'a>) -> Result<KnownLayers<'a>, Stop<'a>> {
         let mut layers = KnownLayers::default();
         while let Some(head) = tables.find_pair("0", &LAYER) {
@@ -370,7 +363,6 @@ const USUAL_LINE_TYPES: usize = 8;
 pub(crate) struct LineTypes<'a> {
     by_spelling: Spellings<'a, LineType>,
     names: Vec<SmolStr>,
-    /// The line type where none is given.
     pub(crate) continuous: SmolStr,
 }
 

@@ -55,7 +55,6 @@ struct Insertion {
 const MAX_BLOCK_DEPTH: usize = 64;
 
 impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
-    /// Creates a model without entities.
     pub(crate) fn new(
         reader: &'r mut EntityReader<'a, 'o>,
         collector: Collector<'r>,

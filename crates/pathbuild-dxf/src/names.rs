@@ -66,7 +66,6 @@ impl<T: Copy> Default for Spellings<'_, T> {
 }
 
 impl<'a, T: Copy> Spellings<'a, T> {
-    /// Looks up a spelling.
     #[inline]
     pub(crate) fn get(&self, spelling: &[u8]) -> Option<T> {
         if let Some(short) = ShortSpelling::of(spelling) {

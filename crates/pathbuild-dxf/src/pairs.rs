@@ -65,12 +65,10 @@ impl Pair<'_> {
 }
 
 impl<'a> Pairs<'a> {
-    /// Creates an iterator at the beginning of a file.
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
         Self { bytes, at: 0, line: 1, line_end: line_end(bytes) }
     }
 
-    /// Reads the next pair.
     pub(crate) fn next(&mut self) -> Result<Pair<'a>, Stop<'a>> {
         let line = self.line;
         let code = self.code()?;
@@ -88,7 +86,6 @@ impl<'a> Pairs<'a> {
         self.bytes
     }
 
-    /// Number of bytes consumed.
     pub(crate) fn consumed(&self) -> usize {
         self.at
     }
@@ -98,7 +95,6 @@ impl<'a> Pairs<'a> {
         self.line
     }
 
-    /// The byte that ends lines.
     pub(crate) fn line_end(&self) -> u8 {
         self.line_end
     }
@@ -174,7 +170,7 @@ fn line_end(bytes: &[u8]) -> u8 {
     if after == Some(&b'\n') { b'\n' } else { b'\r' }
 }
 
-/// Removes a trailing CR.
+/// Removes all trailing CRs.
 #[inline]
 pub(crate) fn without_cr(mut line: &[u8]) -> &[u8] {
     while let [before @ .., b'\r'] = line {
@@ -186,7 +182,6 @@ pub(crate) fn without_cr(mut line: &[u8]) -> &[u8] {
 /// A keyword to search for.
 pub(crate) type Keyword = LazyLock<Finder<'static>>;
 
-/// The keyword of LAYER records.
 pub(crate) static LAYER: Keyword = LazyLock::new(|| Finder::new("LAYER"));
 
 static SECTION_OR_END: Keyword = LazyLock::new(|| Finder::new("SEC"));

@@ -77,7 +77,6 @@ impl Placement {
         self.mirrored
     }
 
-    /// Transforms a point.
     pub(crate) fn point(&self, point: Point3) -> Point3 {
         let (x, y) = self.direction(point.x, point.y);
         Point3 { x: self.origin.x + x, y: self.origin.y + y, z: self.origin.z + self.z_scale * point.z }
@@ -162,7 +161,6 @@ impl Geometry {
     }
 }
 
-/// Returns the mirrored alignment.
 pub(crate) fn opposite(side: HorizontalAlign) -> HorizontalAlign {
     match side {
         HorizontalAlign::Left => HorizontalAlign::Right,

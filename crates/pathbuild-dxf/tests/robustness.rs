@@ -247,7 +247,6 @@ proptest! {
         prop_assert!(check(&padded_otherwise(&bytes, &paddings)) == check(&bytes));
     }
 
-    /// The result does not depend on the line ends.
     #[test]
     fn line_ends_make_no_difference(pieces in vec(prop::sample::select(&PIECES[..31]), 0..20)) {
         let file = format!("{}{}{}{}", PIECES[3], pieces.concat(), PIECES[7], PIECES[8]);

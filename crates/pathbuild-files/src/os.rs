@@ -233,7 +233,6 @@ fn replace(path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
     written.map(|()| WriteOutcome::Changed).map_err(|error| reason(&error))
 }
 
-/// Whether a file has exactly these bytes.
 fn holds(path: &Utf8Path, bytes: &[u8]) -> bool {
     OsSystem.read(path, bytes.len() as u64).is_ok_and(|present| present == bytes)
 }

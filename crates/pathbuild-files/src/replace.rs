@@ -82,7 +82,6 @@ pub(crate) fn retry_while_busy<T>(attempt: impl FnMut() -> io::Result<T>) -> io:
     retry_while(is_opened_exclusively, attempt, thread::sleep)
 }
 
-/// Retries an operation while its error satisfies `is_passing`.
 fn retry_while<T>(
     is_passing: impl Fn(&io::Error) -> bool,
     mut attempt: impl FnMut() -> io::Result<T>,

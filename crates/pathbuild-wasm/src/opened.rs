@@ -94,7 +94,6 @@ impl OpenedFiles {
         )
     }
 
-    /// Answers a question about the opened files.
     fn reply(&mut self, question: Question, bytes: &[u8]) -> Answer {
         match question {
             Question::Index { file } => json!({ "rows": self.index(&file) }).into(),
@@ -296,7 +295,6 @@ impl Default for Files {
 }
 
 impl Files {
-    /// Adds a file given by the page.
     fn put(&self, path: Utf8PathBuf, bytes: &[u8]) {
         self.given.put(path, bytes);
     }

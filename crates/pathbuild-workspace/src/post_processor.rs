@@ -349,7 +349,7 @@ pub fn run_post_build(command: &[String], file: &Utf8Path) -> Result<(), Box<Dia
     }
 }
 
-/// Read access to the files in a directory and below it.
+/// The files in a directory and below it, for reading only.
 #[derive(Debug)]
 pub(super) struct DirectoryFiles<'a> {
     pub(super) directory: &'a Utf8Path,

@@ -230,7 +230,7 @@ impl<'db> ClosureWalk<'db> {
         }
     }
 
-    /// Visits a path and everything it embeds. Returns their errors.
+    /// Visits a path and everything that it embeds, each once per depth. Returns their most serious error.
     fn visit(&mut self, instance: Instance<'db>, depth: u32) -> PathErrors<'db> {
         if let Some(errors) = self.visited.get(&(instance, depth)) {
             return *errors;

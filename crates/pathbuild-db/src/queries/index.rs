@@ -259,7 +259,6 @@ impl FileIndex {
         self
     }
 
-    /// Creates the index of a drawing that could not be read.
     fn unreadable(problem: Diagnostic, content: Content) -> Self {
         Self { diagnostics: vec![problem], content, ..Self::default() }
     }
@@ -411,7 +410,6 @@ impl PathSummary {
             && walk_problems.is_empty()
     }
 
-    /// Whether the path embeds others.
     pub(super) fn has_subpaths(&self) -> bool {
         self.known_signature().is_some_and(|signature| !signature.subpaths.is_empty())
     }
@@ -478,7 +476,6 @@ pub(super) fn walk_within_limit(db: &dyn Db, path: &Path, language: &Language) -
 /// The data of a drawing that the part check needs. Positions are left out, so that edits elsewhere in the drawing leave it equal.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FileParts {
-    /// The finished parts.
     pub(super) parts: Vec<Part>,
     /// The cuts of the paths with example values, as far as they are known, in order of name. Without parts, only those of paths that embed
     /// others.

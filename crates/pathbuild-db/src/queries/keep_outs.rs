@@ -1,4 +1,4 @@
-//! Clamps: the clamps of a drawing, their places in a program, and the moves that hit them. (book: language/keep-outs)
+//! The clamps of a drawing, their places in a program, and the moves that hit them. (book: language/keep-outs)
 
 use std::collections::BTreeMap;
 

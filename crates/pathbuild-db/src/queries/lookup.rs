@@ -84,7 +84,6 @@ pub fn drawing_names(db: &dyn Db, directory: Directory) -> &Names {
     catch_bugs(|| &name_table(db, directory).names).unwrap_or(&NONE)
 }
 
-/// File name extension of drawings.
 const EXTENSION: &str = ".dxf";
 
 /// The result of looking for a path.
@@ -143,7 +142,6 @@ pub fn search_path(db: &dyn Db, own: Directory) -> Vec<Directory> {
     distinct(std::iter::once(own).chain(searched.map(|path| db.directory(path))))
 }
 
-/// Returns the directory of a drawing.
 pub(super) fn own_directory(db: &dyn Db, file: SourceFile) -> Directory {
     db.directory(file.path(db).parent().unwrap_or(Utf8Path::new("")))
 }
@@ -160,7 +158,6 @@ pub fn candidate_files(db: &dyn Db, directory: Directory, name: &PathName) -> Ve
     files_for(db, directory, name.as_str())
 }
 
-/// Returns the files of a directory that may define a path according to their names.
 fn files_for(db: &dyn Db, directory: Directory, name: &str) -> Vec<SourceFile> {
     let pattern = &Settings::get(db).language(db).path_pattern;
     let key = PathKey::new(name, pattern);
@@ -201,7 +198,6 @@ pub fn prefetch(db: &dyn Db, file: SourceFile) {
     }
 }
 
-/// Returns the names that the paths of a drawing embed.
 fn embedded_names(index: &FileIndex) -> impl Iterator<Item = &PathName> {
     let signatures = index.paths().filter_map(|path| path.summary.signature.as_ref());
     signatures.flat_map(|signature| &signature.subpaths).filter_map(|call| match &call.subpath.name {

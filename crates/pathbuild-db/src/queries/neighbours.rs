@@ -196,7 +196,7 @@ impl<'db> PlacedProgram<'db> {
         parts.collect()
     }
 
-    /// The middle lines of the bars that cuts of other paths take away.
+    /// Returns the middle lines of the bars that cuts of other paths take away.
     fn lost_bars(&self) -> Vec<Curve> {
         let numbers = 0..self.paths.len();
         let pairs = numbers.clone().flat_map(|owner| numbers.clone().map(move |cutting| (owner, cutting)));

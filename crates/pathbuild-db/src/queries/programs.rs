@@ -22,7 +22,7 @@ use crate::queries::raw::{raw_file, read_layers};
 /// A program with the origin of each step.
 #[derive(Debug)]
 pub struct TracedProgram {
-    /// The same program as that of [`program`](crate::queries::program) for emitted targets. Checked targets use the sweep height of a
+    /// The program. For emitted targets it equals that of [`program`](crate::queries::program); checked targets use the sweep height of a
     /// check.
     pub program: Program,
     /// The origin of each step. Its paths are indices into [`TracedProgram::parts`].

@@ -70,7 +70,7 @@ pub struct PathPlace {
     pub layer: Box<str>,
     /// Point of the path's start marker, or of its first element if it has none.
     pub point: Option<Point>,
-    /// The position of that point in the file.
+    /// Position of `point` in the file.
     pub position: Option<Position>,
 }
 

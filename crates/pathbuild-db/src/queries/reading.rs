@@ -59,7 +59,7 @@ pub(super) fn entities(bytes: &[u8], reading: &Reading, keep_layer: &dyn Fn(&str
     drawing
 }
 
-/// Reads the entities on some layers.
+/// Reads the entities on some layers into `drawing`. Panics are not caught.
 pub(super) fn read_entities(
     bytes: &[u8],
     drawing: &mut Drawing,

@@ -76,7 +76,7 @@ pub fn q_project(db: &dyn Db, drawing: SourceFile) -> Vec<QProject> {
     plan_q_project(&component(db, drawing))
 }
 
-/// Disagreements between the proxy lines of a drawing and its Q-project.
+/// Returns the disagreements between the proxy lines of a drawing and its Q-project.
 #[salsa::tracked]
 pub fn q_project_findings(db: &dyn Db, drawing: SourceFile, q_project: SourceFile) -> Vec<Diagnostic> {
     let paths = sound_paths(db, q_project);

@@ -56,7 +56,6 @@ fn a_drawing_that_went_or_came_has_changed_too() {
     assert_eq!(settled(&mut world, &Role::Checked), (Vec::new(), false, 1));
 }
 
-/// Reading identical bytes again is not a change.
 #[test]
 fn a_drawing_that_was_saved_without_a_change_has_not_changed() {
     let mut world = World::new(&[(FILE, &component("1111.1P", "0"))]);

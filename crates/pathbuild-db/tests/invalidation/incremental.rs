@@ -136,7 +136,6 @@ impl Kept {
         }
     }
 
-    /// Returns the outcome for each file's path.
     fn outcomes(&mut self, library: &Library) -> BTreeMap<String, Outcome> {
         let outcome = |(file, drawing): (&String, &Drawing)| {
             let target = self.targets.entry(file.clone()).or_insert_with(|| {

@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-/// The drawings of a library, by file name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Library {
     pub(crate) files: BTreeMap<String, Drawing>,
@@ -34,12 +33,10 @@ pub(crate) enum Prediction {
 /// The directories in which paths are searched for: the drawings' own, and a search directory.
 pub(crate) const DIRECTORIES: [&str; 2] = ["lib", "parts"];
 
-/// Returns the name of a path.
 pub(crate) fn name(path: usize) -> String {
     format!("{}.1P", 1001 + path)
 }
 
-/// Returns the name of a path's file.
 pub(crate) fn file_name(directory: &str, path: usize, note: &str) -> String {
     format!("{directory}/{}{note}.dxf", 1001 + path)
 }
@@ -58,7 +55,6 @@ impl Library {
         Self { files: files.map(|drawing| (file_name("lib", drawing.path, ""), drawing)).collect() }
     }
 
-    /// Predicts the result for the path of a file.
     pub(crate) fn predict(&self, file: &str) -> Prediction {
         let (mut depths, mut wrong) = (Vec::new(), BTreeSet::new());
         self.follow(file, &mut Vec::new(), &mut depths, &mut wrong);

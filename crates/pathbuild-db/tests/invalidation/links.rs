@@ -11,7 +11,6 @@ use pathbuild_db::{Database, Db, Role, System, check_target};
 use crate::embedding::component;
 use crate::world::{dxf, set_up};
 
-/// Returns the codes of the findings about a path.
 fn codes(drawing: &Utf8Path, path: &str) -> Vec<String> {
     let db = Database::new(Arc::new(OsSystem));
     set_up(&db, &[]);

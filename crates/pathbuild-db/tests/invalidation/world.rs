@@ -26,7 +26,6 @@ pub(crate) struct World {
     ran: BTreeSet<String>,
 }
 
-/// The result for a target.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Outcome {
     /// The findings, which are not located, so they have no lines.
@@ -35,7 +34,6 @@ pub(crate) struct Outcome {
     pub(crate) program: Option<String>,
 }
 
-/// Converts a drawing in text form to DXF.
 pub(crate) fn dxf(text: &str) -> Vec<u8> {
     sheet(text).expect("the text is right").to_dxf()
 }
@@ -108,12 +106,10 @@ impl World {
         codes
     }
 
-    /// Returns the queries that ran for the last target.
     pub(crate) fn ran(&self) -> &BTreeSet<String> {
         &self.ran
     }
 
-    /// Returns the input of a drawing.
     pub(crate) fn file(&self, file: &str) -> SourceFile {
         self.db.file(file.into())
     }
@@ -123,12 +119,10 @@ impl World {
         self.db.run_guarded(Duration::MAX, || work(&self.db))
     }
 
-    /// Writes a drawing without notifying the database.
     pub(crate) fn put_unnoticed(&self, file: &str, text: &str) {
         self.system.put(file, dxf(text));
     }
 
-    /// Removes a drawing without notifying the database.
     pub(crate) fn remove_unnoticed(&self, file: &str) {
         self.system.remove(file.into()).unwrap();
     }
@@ -174,12 +168,10 @@ impl World {
         }
     }
 
-    /// Returns the bytes of a file.
     pub(crate) fn bytes(&self, file: &str) -> Vec<u8> {
         self.system.read(file.into(), u64::MAX).unwrap()
     }
 
-    /// Returns the results for a target.
     pub(crate) fn outcome(&self, label: &str) -> Outcome {
         outcome(&self.db, self.target(label))
     }

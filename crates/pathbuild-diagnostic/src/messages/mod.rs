@@ -13,7 +13,6 @@ macro_rules! messages {
             help: crate::Text { en: concat!($($help_en)?), de: concat!($($help_de)?) },
         };)*
 
-        /// All messages of this module.
         pub(crate) static ALL: &[&crate::Message] = &[$(&$key),*];
     };
 }

@@ -120,28 +120,28 @@ messages! {
         help_en: "write \"{meant}\"",
         help_de: "\"{meant}\" schreiben",
     }
-    /// A value that must be greater than another one.
+    /// A value that is not greater than another one, although it must be.
     NOT_ABOVE: ParameterOutOfRange {
         en: "{letter} is {value}, but must be greater than {limit_letter}, which is {limit}",
         de: "{letter} ist {value}, muss aber größer als {limit_letter} ({limit}) sein",
         help_en: "correct the heights: all are measured from the plate, S above T above D above B",
         help_de: "die Höhen berichtigen: alle zählen ab der Aufspannplatte, S über T über D über B",
     }
-    /// A value that must be less than another one.
+    /// A value that is not less than another one, although it must be.
     NOT_BELOW: ParameterOutOfRange {
         en: "{letter} is {value}, but must be less than {limit_letter}, which is {limit}",
         de: "{letter} ist {value}, muss aber kleiner als {limit_letter} ({limit}) sein",
         help_en: "correct the heights: all are measured from the plate, S above T above D above B",
         help_de: "die Höhen berichtigen: alle zählen ab der Aufspannplatte, S über T über D über B",
     }
-    /// A value that must be greater than another one, of a letter without effect.
+    /// Like [`NOT_ABOVE`], for a letter that has no effect here.
     UNUSED_NOT_ABOVE: ParameterOutOfRange {
         en: "{letter} is {value}, but must be greater than {limit_letter}, which is {limit}",
         de: "{letter} ist {value}, muss aber größer als {limit_letter} ({limit}) sein",
         help_en: "remove it: {letter} has no effect here",
         help_de: "entfernen: {letter} hat hier keine Wirkung",
     }
-    /// A value that must be less than another one, of a letter without effect.
+    /// Like [`NOT_BELOW`], for a letter that has no effect here.
     UNUSED_NOT_BELOW: ParameterOutOfRange {
         en: "{letter} is {value}, but must be less than {limit_letter}, which is {limit}",
         de: "{letter} ist {value}, muss aber kleiner als {limit_letter} ({limit}) sein",

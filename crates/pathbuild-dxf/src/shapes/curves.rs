@@ -103,7 +103,7 @@ fn control_distance(chord: Vector, from: Vector, to: Vector) -> Option<f64> {
     let turn = 2.0 * (1.0 - from.dot(to)).max(0.0);
     let square = chord.dot(chord);
     let root = libm::sqrt(along * along + turn * square);
-    // Both forms are equal; each avoids the difference of nearly equal numbers.
+    // The two forms are equal; the one that does not subtract nearly equal numbers is used.
     let reach = if along > 0.0 { square / (root + along) } else { (root - along) / turn };
     (reach.is_finite() && reach > 0.0).then_some(reach)
 }
@@ -127,7 +127,6 @@ fn piece(start: Vector, end: Vector, direction: Vector) -> CurvePiece {
 }
 
 impl CurvePiece {
-    /// Returns the line between two points.
     pub(crate) fn line(start: Vector, end: Vector) -> Self {
         Self { start, end, bend: PieceShape::Straight }
     }
@@ -142,7 +141,6 @@ impl CurvePiece {
         Self { start: self.end, end: self.start, bend }
     }
 
-    /// Returns the distance of a point from the piece.
     pub(crate) fn distance(&self, point: Vector) -> f64 {
         let to_ends = point.minus(self.start).length().min(point.minus(self.end).length());
         match self.bend {
@@ -205,7 +203,6 @@ pub(crate) trait Curve {
 pub(crate) struct Tolerance {
     /// Largest distance in mm between the curve and its pieces.
     pub(crate) distance: f64,
-    /// Largest number of pieces.
     pub(crate) most_pieces: usize,
 }
 

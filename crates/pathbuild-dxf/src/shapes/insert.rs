@@ -13,7 +13,6 @@ use crate::fields::{BadGroup, Fields};
 use crate::placement::Placement;
 use crate::shapes::is_mirrored;
 
-/// An insertion.
 #[derive(Clone, Debug)]
 pub(crate) struct Insert<'a> {
     /// The block's name as spelt in this INSERT.
@@ -43,7 +42,6 @@ struct Steps {
 }
 
 impl<'a> Insert<'a> {
-    /// Reads an INSERT.
     pub(crate) fn read(fields: &Fields<'a>, decoder: &mut Decoder<'_>) -> Result<Self, EntityError<'a>> {
         let name = fields.get(2).ok_or(BadGroup::Missing { code: 2 })?;
         let block: SmolStr = decoder.decode(name.bytes, name.line).trim().into();

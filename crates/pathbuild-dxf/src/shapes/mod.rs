@@ -57,7 +57,6 @@ pub(crate) fn hatch_point(fields: &Fields<'_>) -> Option<Point> {
     Some(Point::new(if is_mirrored { -second(10)? } else { second(10)? }, second(20)?))
 }
 
-/// Parses a repeated group as a number.
 fn repeated_number<'a>(pair: &Pair<'a>) -> Result<f64, BadGroup<'a>> {
     let value = Value::new(pair.value, pair.line);
     real(pair.value).map_err(|reason| BadGroup::Number { code: pair.code, value, reason })
@@ -69,7 +68,6 @@ pub(crate) fn line<'a>(fields: &Fields<'a>) -> Result<Geometry, EntityError<'a>>
     Ok(Geometry::Line(Line { start: fields.point(10)?, end: fields.point(11)? }))
 }
 
-/// Reads an ARC.
 pub(crate) fn arc<'a>(fields: &Fields<'a>) -> Result<Geometry, EntityError<'a>> {
     let arc = Arc {
         centre: fields.point(10)?,
@@ -81,7 +79,6 @@ pub(crate) fn arc<'a>(fields: &Fields<'a>) -> Result<Geometry, EntityError<'a>> 
     from_object_coordinates(Geometry::Arc(arc), fields)
 }
 
-/// Reads a CIRCLE.
 pub(crate) fn circle<'a>(fields: &Fields<'a>) -> Result<Geometry, EntityError<'a>> {
     let circle = Circle { centre: fields.point(10)?, radius: fields.length(40)? };
     from_object_coordinates(Geometry::Circle(circle), fields)

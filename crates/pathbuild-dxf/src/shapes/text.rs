@@ -11,7 +11,6 @@ use crate::placement::{angle_of, opposite};
 use crate::shapes::{from_object_coordinates, is_mirrored};
 use crate::{Geometry, HorizontalAlign, MText, Options, Point3, Text, VerticalAlign};
 
-/// Reads a TEXT.
 pub(crate) fn text<'a>(
     fields: &Fields<'a>,
     decoder: &mut Decoder<'_>,
@@ -187,7 +186,7 @@ fn is_special(byte: u8) -> bool {
     matches!(byte, b'\\' | b'{' | b'}' | b'^')
 }
 
-/// Appends the meaning of the command at the start of `text` and returns its length. `may_end` tells whether a `;` follows.
+/// Appends what the command at the start of `text` stands for, and returns the length of the command in bytes. `may_end` tells whether a `;` follows.
 fn append_command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usize {
     let Some(letter) = text[1..].chars().next() else {
         plain.push('\\');
@@ -212,7 +211,7 @@ fn append_command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usiz
     short
 }
 
-/// Appends a stacked text up to its `;` and returns its length.
+/// Appends the stacked text at the start of `text`, and returns its length in bytes, including the `;` that ends it.
 fn append_stacked(text: &str, plain: &mut SmolStrBuilder) -> usize {
     let mut characters = text.char_indices().peekable();
     while let Some((index, character)) = characters.next() {
@@ -231,7 +230,7 @@ fn append_stacked(text: &str, plain: &mut SmolStrBuilder) -> usize {
     text.len()
 }
 
-/// Appends the meaning of the caret code at the start of `text` and returns its length.
+/// Appends the character that the caret code at the start of `text` stands for, and returns the length of the code in bytes.
 fn append_caret(text: &str, plain: &mut SmolStrBuilder) -> usize {
     if text.starts_with("^M^J") {
         plain.push('\n');

@@ -17,7 +17,6 @@ pub(crate) struct Expected {
     pub(crate) entities: Vec<Seen>,
 }
 
-/// Reads the results for all files.
 pub(crate) fn expected(corpus: &Path) -> Vec<Expected> {
     let packed = std::fs::read(corpus.join("ezdxf.jsonl.gz")).expect("the oracle");
     let mut lines = String::new();

@@ -55,7 +55,6 @@ pub(crate) fn of_drawing(drawing: &Drawing, is_inserted: impl Fn(u32) -> bool) -
     own.map(|(entity, origin)| seen(drawing, entity, *origin)).collect()
 }
 
-/// Returns the layers in use.
 pub(crate) fn layers_of(drawing: &Drawing) -> SeenLayers {
     drawing.layers.iter().map(|layer| (layer.name.to_uppercase(), layer.hidden)).collect()
 }

@@ -262,7 +262,6 @@ fn on_spline(degree: usize, knots: &[f64], points: &[[f64; 3]], parameter: f64) 
     [sum[0] / sum[2], sum[1] / sum[2]]
 }
 
-/// Returns a SPLINE with these knots and weighted points.
 fn spline(degree: usize, knots: &[f64], points: &[[f64; 3]], groups: &str) -> String {
     let knots: Vec<_> = knots.iter().map(|knot| format!("40 {knot}")).collect();
     let points: Vec<_> =

@@ -60,12 +60,10 @@ pub(crate) fn only(file: impl AsRef<[u8]>) -> Entity {
     drawing.entities.into_iter().next().expect("one entity")
 }
 
-/// Reads a drawing and returns the geometry of its only entity.
 pub(crate) fn only_geometry(file: impl AsRef<[u8]>) -> Geometry {
     only(file).geometry
 }
 
-/// Returns the codes of the diagnostics of the file as a whole.
 pub(crate) fn file_codes(drawing: &Drawing) -> Vec<Code> {
     drawing.diagnostics.iter().map(pathbuild_diagnostic::Diagnostic::code).collect()
 }

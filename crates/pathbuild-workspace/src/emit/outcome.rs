@@ -16,17 +16,17 @@ use crate::session::OutputKind;
 /// A task that `emit` performs with the generated files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Task {
-    /// Write the files.
+    /// Writes the files.
     Write {
         /// Whether to overwrite files with measured values.
         force: bool,
     },
-    /// Compare the generated files with those on disk.
+    /// Compares the generated files with those on disk.
     Compare {
         /// Whether to compare moves only instead of bytes.
         moves_only: bool,
     },
-    /// Print the programs.
+    /// Prints the programs.
     Print,
 }
 

@@ -156,7 +156,7 @@ struct Directory {
     listing: Listing,
     /// Entries with names that are not UTF-8. Their names are lossy, so nothing can be opened under them.
     inexact: Listing,
-    /// Ignore rules that apply in this directory and below, if there are any.
+    /// The ignore rules that apply in this directory and below, if there are any.
     rules: Option<Arc<Rules>>,
     /// Number of entries that are not ignored.
     count: u64,
