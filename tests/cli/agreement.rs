@@ -26,10 +26,10 @@ use crate::support::Place;
 const LIBRARIES: u64 = 300;
 const EDITS: usize = 10;
 
-/// One in this many libraries is also checked by running the program, which takes longer than all other checks together.
+/// Interval of library numbers at which a library is also checked by running the program, which takes longer than all other checks together.
 const OF_PROGRAM: u64 = 20;
 
-/// Kinds of faults, each of which must occur in at least one of twenty states.
+/// Kinds of faults, each of which must occur in at least 5 % of the states.
 const KINDS: [&str; 27] = [
     "PB002", "PB107", "PB117", "PB201", "PB202", "PB203", "PB207", "PB301", "PB302", "PB303", "PB304",
     "PB401", "PB407", "PB501", "PB502", "PB503", "PB504", "PB505", "PB506", "PB507", "PB508", "PB509",
@@ -138,7 +138,6 @@ fn change(
     }
 }
 
-/// A database that is queried for targets.
 struct TargetDatabase {
     db: Database,
     targets: BTreeMap<(String, String), Target>,

@@ -237,7 +237,6 @@ impl Tree {
     }
 }
 
-/// The result of a build.
 struct Build {
     is_success: bool,
     made: BTreeSet<String>,

@@ -250,7 +250,6 @@ fn removed_moves_are_wider_and_beneath() {
     assert!(legend.iter().all(|text| !text.rsplit(' ').nth(1).unwrap().contains('.')), "{picture}");
 }
 
-/// No two of six alterations have the same colour and dashes.
 #[test]
 fn alterations_differ_in_colour_or_dashes() {
     let drawing = |step: f64| {
@@ -316,7 +315,7 @@ fn names_of_what_cannot_be_compared_are_no_markup() {
     assert!(markdown.contains("#\\u{23}[group] a.dxf") && !markdown.contains("##["), "{markdown}");
 }
 
-// Prepares a revision to extract from.
+// Extraction of revisions from Git, including hostile and oversized ones.
 
 fn committed(place: Place) -> Place {
     git(&place, &["init", "-q"]);

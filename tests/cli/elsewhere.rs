@@ -189,7 +189,7 @@ impl Place {
     }
 }
 
-/// Creates a workshop with a program that was copied elsewhere.
+/// Creates the trees of [`WORKSHOP`], and copies a program and the files of a program with probes out of the library.
 fn carried() -> Place {
     let place = Place::of(WORKSHOP);
     assert_eq!(place.at_work("emit 1234.1P 1300.1P").status, Some(0));

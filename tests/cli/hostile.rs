@@ -111,7 +111,6 @@ fn noise_is_no_drawing() {
     assert_says(&error(&noise(b"\n")), "PB002", "nothing but blanks");
 }
 
-/// Noise follows the beginning of a drawing.
 #[test]
 fn noise_within_a_drawing_is_found() {
     let start = find(&drawing(), b"ENTITIES") + 10;

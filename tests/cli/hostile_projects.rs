@@ -12,7 +12,6 @@ const LONGEST: Duration = Duration::from_mins(1);
 
 const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
 
-/// Returns the name of the path at a level.
 fn name(level: usize) -> String {
     format!("{}.{}P", 1000 + level / 1000, level % 1000)
 }

@@ -315,7 +315,7 @@ fn tools_of_several_files_are_combined_by_their_number() {
     assert!(!run.stdout.contains("diameter = 6") && run.stdout.contains("+ diameter = 8 "), "{run}");
 }
 
-/// LinuxCNC takes the first line of a name.
+/// Of two lines with the same name, LinuxCNC uses the first one, so another value in the second one is only a warning.
 #[test]
 fn of_two_lines_the_one_in_force_is_imported() {
     let import =
@@ -367,7 +367,7 @@ fn a_broken_line_of_a_tool_table_is_named() {
     assert!(broken.status == Some(1) && broken.stderr.contains("tool.tbl:2: error[PB612]"), "{broken}");
 }
 
-/// A measured diameter is no other tool, nor is another description of the same tool.
+/// A measured diameter does not make another tool, and neither does another description of the same tool.
 #[test]
 fn a_number_that_gets_another_tool_is_a_warning() {
     let import = |line: &str| {

@@ -117,7 +117,6 @@ fn accepted_findings_hold_for_kept_results_and_directories() {
     assert!(run("nc --date 2031-12-31").stderr.contains("PB610"));
 }
 
-/// If a drawing is given, the result depends on the drawing as well.
 #[test]
 fn a_result_depends_on_the_drawing() {
     let drawn = |depth: &str| {

@@ -109,7 +109,7 @@ fn a_second_definition_is_noticed_although_nothing_embeds_the_path() {
     assert!(!apart("[]"), "nothing finds both");
 }
 
-/// Only drawings that are checked count.
+/// A second definition is reported only if both drawings are checked.
 #[test]
 fn a_second_definition_is_noticed_among_the_drawings_that_are_checked() {
     let place = Place::of(&format!("{LIBRARY}== components/1234-1235.dxf ==\n{SECOND}"));

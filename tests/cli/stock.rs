@@ -15,8 +15,8 @@ use crate::support::{self, Place};
 
 type Point = [f64; 2];
 
-/// Distance in px within which the picture may show the colour of a neighbouring point. A circle is drawn as two halves with their radius; rounding
-/// both to hundredths of a pixel moves their middle by up to a pixel.
+/// Distance in px within which the picture may show the colour of a neighbouring point. A circle is drawn as two half circles; rounding their ends
+/// and their radius to hundredths of a pixel moves their middle by up to a pixel.
 const ROUNDED: f64 = 1.1;
 
 /// Width in px of the line along the edges of cuts.

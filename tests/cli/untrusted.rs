@@ -70,7 +70,6 @@ fn paths_of_a_strangers_configuration_lie_in_its_repository() {
     outside("post = { name = \"../../mine.cbpp\" }", leads_out);
 }
 
-/// Without Git, the repository is the directory of the configuration.
 #[test]
 fn without_git_the_configurations_directory_is_the_repository() {
     for (name, status) in [("below", 0), ("../beside", 2)] {

@@ -661,7 +661,6 @@ fn a_cutter_other_than_that_of_the_header_is_a_warning() {
     assert_eq!(view("--surface 4"), 1);
 }
 
-/// A name from a drawing is never interpreted as markup.
 #[test]
 fn hostile_names_are_escaped() {
     let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0 \"Q<script>&\"\nend 40,0";

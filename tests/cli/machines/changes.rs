@@ -32,7 +32,7 @@ struct Written {
 
 const SPEED: f64 = 12_000.0;
 
-/// Number of changes per program and post. `PATHBUILD_CHANGES` sets a greater one.
+/// Number of changes per program and post, unless `PATHBUILD_CHANGES` sets another.
 const CHANGES: usize = 4;
 
 fn changes() -> usize {

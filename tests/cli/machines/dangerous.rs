@@ -34,7 +34,7 @@ const CHANGES: usize = 600;
 /// Number of programs verified by one process.
 const AT_ONCE: usize = 100;
 
-/// Of the reported changes, one in this many is also read by an independent reader.
+/// Interval at which reported changes are also read by an independent reader.
 const SAMPLED: usize = 10;
 
 /// Distance in mm from which on a move counts as going elsewhere. It exceeds the tolerance of any dialect that is written with arcs.

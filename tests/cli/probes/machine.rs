@@ -21,7 +21,6 @@ pub(crate) enum Way {
     },
 }
 
-/// Returns the motions of a program, in order.
 pub(crate) fn motions(program: &str) -> Vec<Motion> {
     let mut at = [0.0, 0.0, 1000.0];
     let blocks = program.lines().filter(|line| line.starts_with("G0"));

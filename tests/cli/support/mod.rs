@@ -67,12 +67,10 @@ impl Place {
         self.directory.path()
     }
 
-    /// The user's cache directory.
     pub fn caches(&self) -> &Path {
         self.caches.path()
     }
 
-    /// The user's configuration directory.
     pub fn configurations(&self) -> &Path {
         self.configurations.path()
     }
@@ -93,12 +91,10 @@ impl Place {
         self.run_with(&arguments.split_whitespace().collect::<Vec<_>>())
     }
 
-    /// Runs `pathbuild` with these arguments.
     pub fn run_with(&self, arguments: &[&str]) -> Run {
         self.run_in(".", arguments)
     }
 
-    /// Runs `pathbuild` in a subdirectory.
     pub fn run_in(&self, directory: &str, arguments: &[&str]) -> Run {
         self.to_run(arguments, self.command(directory, arguments).output().unwrap())
     }

@@ -512,7 +512,7 @@ fn a_library_that_is_missing_at_the_beginning_is_watched_once_it_comes() {
     watch.until("watching ");
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
     watch.until("1001.dxf: changed");
-    // The same holds for an argument without a configuration.
+    // An argument in a tree without a configuration is also watched once it exists.
     let place = Place::new();
     let watch = Watch::begin(&place, "watch parts --format concise");
     fs::create_dir(place.path().join("parts")).unwrap();
