@@ -67,12 +67,15 @@ fn without_mistakes(text: &str) -> String {
 /// Path names, for comparison with the names of other layers.
 pub struct NearNames {
     by_folded: HashMap<String, PathName>,
+    /// The words for versions, normalized like the names.
+    versions: [String; 6],
 }
 
 impl NearNames {
     /// Collects the names of a drawing's paths.
     pub fn new<'n>(paths: impl Iterator<Item = &'n PathName>) -> Self {
-        Self { by_folded: paths.map(|path| (case_folded(path.as_str()), path.clone())).collect() }
+        let by_folded = paths.map(|path| (case_folded(path.as_str()), path.clone())).collect();
+        Self { by_folded, versions: VERSIONS.map(case_folded) }
     }
 
     /// Returns the path with a name that resembles the name of another layer: the layer has the path's name, followed by a tilde and any text, by at
@@ -84,8 +87,8 @@ impl NearNames {
         let ends = layer.char_indices().rev().map(|(at, _)| at);
         let mut ends = std::iter::once(layer.len()).chain(ends).take(MAX_SLIP_CHARACTERS + 1);
         let version = || {
-            let before = |word: &&str| self.by_folded.get(layer.strip_suffix(&case_folded(word))?);
-            VERSIONS.iter().find_map(before)
+            let before = |word: &String| self.by_folded.get(layer.strip_suffix(word.as_str())?);
+            self.versions.iter().find_map(before)
         };
         before_tilde.or_else(|| ends.find_map(|end| self.by_folded.get(&layer[..end]))).or_else(version)
     }
@@ -153,39 +156,44 @@ enum NearLayer<'n> {
 
 impl<'n> NearLayer<'n> {
     fn of(layer: &str, names: &'n NearNames, language: &Language) -> Option<Self> {
-        if let Some(path) = names.path(layer) {
-            return Some(Self::Path(path));
+        names.path(layer).map(Self::Path).or_else(|| Self::of_clamps_or_parts(layer, language))
+    }
+
+    fn of_clamps_or_parts(layer: &str, language: &Language) -> Option<Self> {
+        if language.is_part(layer) {
+            return None;
         }
-        let is_part = language.is_part(layer);
-        let is_near = |is_layer: &dyn Fn(&str) -> bool| !is_part && nearly_matches(layer, is_layer);
-        if is_near(&|name| language.is_keep_out(name)) {
+        let similar = similar_names(layer);
+        if similar.iter().any(|name| language.is_keep_out(name)) {
             return Some(Self::Clamps);
         }
-        is_near(&|name| language.is_part(name)).then_some(Self::Parts)
+        similar.iter().any(|name| language.is_part(name)).then_some(Self::Parts)
     }
 }
 
 /// Whether the name of a layer resembles that of a layer with clamps or finished parts. [`stray_findings`] reports the entities on such layers.
 pub fn is_near_clamps_or_parts(layer: &str, language: &Language) -> bool {
     let has_patterns = language.keep_out.is_some() || language.part.is_some();
-    has_patterns && NearLayer::of(layer, &NearNames::new(std::iter::empty()), language).is_some()
+    has_patterns && NearLayer::of_clamps_or_parts(layer, language).is_some()
 }
 
 /// Length in characters below which a name resembles too many others.
 const MIN_NAME_CHARACTERS: usize = 4;
 
-/// Whether a name that a pattern does not match would match after one of these changes: removing a tilde and the text after it, removing up to two
-/// characters at the end, or replacing a plural ending by another. Spaces are ignored, and look-alikes are replaced by plain characters.
-fn nearly_matches(layer: &str, is_layer: &dyn Fn(&str) -> bool) -> bool {
+/// Returns the names that may have been meant by a layer's name: without a tilde and the text after it, without up to two characters at the end, and
+/// with the ending of a plural. Look-alikes are replaced by plain characters; one of the names has no spaces.
+fn similar_names(layer: &str) -> Vec<String> {
     let plain = look_alikes::with_keyboard_characters(layer);
     let plain = plain.split('~').next().unwrap_or_default().trim_end();
+    let is_long = |name: &str| name.chars().count() >= MIN_NAME_CHARACTERS;
+    if !is_long(plain) {
+        return Vec::new();
+    }
     let ends = plain.char_indices().rev().map(|(at, _)| at).take(MAX_SLIP_CHARACTERS);
     let shorter = std::iter::once(plain.len()).chain(ends).map(|end| plain[..end].trim_end());
-    let mut shorter = shorter.filter(|name| name.chars().count() >= MIN_NAME_CHARACTERS);
-    let is_long = plain.chars().count() >= MIN_NAME_CHARACTERS;
-    let longer = || PLURALS.iter().any(|plural| is_layer(&format!("{plain}{plural}")));
-    let closed = || is_layer(&plain.split_whitespace().collect::<String>());
-    !is_layer(layer) && (shorter.any(is_layer) || is_long && (longer() || closed()))
+    let shorter = shorter.filter(|name| is_long(name)).map(str::to_owned);
+    let longer = PLURALS.iter().map(|plural| format!("{plain}{plural}"));
+    shorter.chain(longer).chain([plain.split_whitespace().collect()]).collect()
 }
 
 /// Endings of plurals, in English and German.
