@@ -187,7 +187,8 @@ impl Definition {
         }
     }
 
-    /// Returns the example value for checking, if the variable is the `k`-th of its path.
+    /// Returns the value with which a path is checked. `k` is the position of the variable in its path, so that neighbouring variables get different
+    /// values.
     pub fn check_value(&self, k: usize) -> SmolStr {
         match &self.values {
             AllowedValues::Range { from_text, .. } if k.is_multiple_of(2) => from_text.clone(),

@@ -1,4 +1,4 @@
-//! Formats numbers in the conventions of a language, and tables, for texts that users read.
+//! Formats numbers and tables for users, by the conventions of their language.
 
 use comfy_table::{Cell, CellAlignment, Table};
 use pathbuild_diagnostic::{Lang, shown, with_decimal_separator};

@@ -50,8 +50,8 @@ messages! {
     }
     /// Note: an end marker has the text of a start marker, while the path's start marker has no text.
     SWAPPED_MARKERS: MissingPathParameters {
-        en: "the circle at {point} has a text with O and T, but is an end marker (2 mm): are the two markers swapped? The start marker has 1 mm, the end marker 2 mm",
-        de: "der Kreis bei {point} hat einen Text mit O und T, ist aber eine Endmarke (2 mm): sind die beiden Marken vertauscht? Die Anfangsmarke hat 1 mm, die Endmarke 2 mm",
+        en: "the circle at {point} has a text with O and T, but is an end marker (2 mm): are the two markers swapped? A start marker has a diameter of 1 mm, an end marker of 2 mm",
+        de: "der Kreis bei {point} hat einen Text mit O und T, ist aber eine Endmarke (2 mm): sind die beiden Marken vertauscht? Eine Anfangsmarke hat 1 mm Durchmesser, eine Endmarke 2 mm",
     }
     /// Note: a circle with a start marker's text, but a line type other than PHANTOM.
     MEANT_AS_PHANTOM_START: MissingStart {
@@ -414,8 +414,8 @@ messages! {
     }
     /// A file that ends before its ENTITIES section.
     NO_ENTITIES: InvalidDxf {
-        en: "the file ends before the section ENTITIES",
-        de: "die Datei endet vor dem Abschnitt ENTITIES",
+        en: "the file ends before its ENTITIES section",
+        de: "die Datei endet vor ihrem Abschnitt ENTITIES",
         help_en: "save the drawing again; perhaps the CAD is still writing it, or it was copied only in part",
         help_de: "die Zeichnung noch einmal speichern; vielleicht schreibt das CAD noch, oder sie wurde nur teilweise kopiert",
     }

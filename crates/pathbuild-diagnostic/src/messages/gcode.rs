@@ -552,8 +552,8 @@ messages! {
     OFFSET_UNKNOWN: UnknownOffset {
         en: "the position of {system} is unknown; it is assumed to be that of {base}",
         de: "die Lage von {system} ist unbekannt; angenommen wird die von {base}",
-        help_en: "use lengths and the overall size only within one work offset",
-        help_de: "Längen und Abmessungen nur innerhalb einer Nullpunktverschiebung verwenden",
+        help_en: "rely on lengths and on the overall size only if the program stays within one work offset",
+        help_de: "sich auf Längen und Abmessungen nur verlassen, wenn das Programm in einer Nullpunktverschiebung bleibt",
     }
     /// G10 L2 for the active work offset, which had an unknown position before.
     ORIGIN_UNKNOWN: UnknownOffset {
@@ -634,8 +634,8 @@ messages! {
     }
     /// Coordinates without a motion word, as XpertMILL accepts them.
     MOTION_NOT_STATED: MotionNotStated {
-        en: "coordinates without a motion word are read as {word} again; {dialect} is not known to do so",
-        de: "Koordinaten ohne Bewegungswort werden wieder als {word} gelesen; von {dialect} ist das nicht bekannt",
+        en: "these coordinates have no motion word and are read as another {word}; it is not known whether {dialect} does the same",
+        de: "diese Koordinaten haben kein Bewegungswort und werden als weiteres {word} gelesen; ob {dialect} das auch tut, ist nicht bekannt",
         help_en: "write the motion word in every line",
         help_de: "das Bewegungswort in jede Zeile schreiben",
     }

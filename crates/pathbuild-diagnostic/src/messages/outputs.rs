@@ -142,7 +142,7 @@ messages! {
     OLDER_OUTPUT: OlderOutput {
         en: "path {path} was not written, so {name} is out of date",
         de: "Pfad {path} wurde nicht geschrieben, {name} ist daher veraltet",
-        help_en: "do not mill with {name} before the path's errors are fixed and it is written again",
+        help_en: "do not mill with {name} until the path's errors are fixed and the file is written again",
         help_de: "nicht mit {name} fräsen, bevor die Fehler des Pfads behoben sind und die Datei neu geschrieben ist",
     }
     /// An error that prevents a program although the configuration lowers its severity.
@@ -231,9 +231,9 @@ messages! {
     }
     /// A Q-project that needs several paths, although its name permits no further names.
     NO_NAME_FOR_CUTTER: CannotWrite {
-        en: "the drawing's paths use several cutters (O), so the Q-project needs a path for each, but {name} cannot be counted up to give further names",
+        en: "the drawing's paths use several cutters (O), so the Q-project needs a path for each, but no further names can be derived from {name}",
         de: "die Pfade der Zeichnung verwenden mehrere Fräser (O); das Q-Projekt braucht für jeden einen Pfad, aber aus {name} lassen sich keine weiteren Namen bilden",
-        help_en: "use --path-name to give a name whose last number can be counted up",
+        help_en: "use --path-name to give a name whose last number can be increased",
         help_de: "mit --path-name einen Namen angeben, dessen letzte Zahl sich hochzählen lässt",
     }
     /// Note: the moves are the same with `--compatible`.

@@ -530,8 +530,8 @@ messages! {
     ENDLESS: EndlessVariable {
         en: "the value of \"{variable}\" refers to itself",
         de: "der Wert von \"{variable}\" verweist auf sich selbst",
-        help_en: "remove the circle: a value may refer to other variables, but not back to itself",
-        help_de: "den Kreis auflösen: ein Wert darf auf andere Variablen verweisen, aber nicht auf sich selbst zurück",
+        help_en: "remove the circular reference: a value may refer to other variables, but not back to itself",
+        help_de: "den Zirkelbezug auflösen: ein Wert darf auf andere Variablen verweisen, aber nicht auf sich selbst zurück",
     }
     /// More combinations of values than are checked.
     COMBINATIONS_CUT: LimitReached {
@@ -554,7 +554,7 @@ messages! {
     TOO_DEEP: EndlessVariable {
         en: "the value of \"{variable}\" refers to itself, or values refer to others more than {limit} levels deep",
         de: "der Wert von \"{variable}\" verweist auf sich selbst, oder Werte verweisen über mehr als {limit} Stufen auf andere",
-        help_en: "remove the circle, or replace a long chain of variables by a single value",
-        help_de: "den Kreis auflösen oder eine lange Kette von Variablen durch einen einzigen Wert ersetzen",
+        help_en: "remove the circular reference, or replace a long chain of variables with a single value",
+        help_de: "den Zirkelbezug auflösen oder eine lange Kette von Variablen durch einen einzigen Wert ersetzen",
     }
 }

@@ -58,7 +58,7 @@ messages! {
     }
     /// Segments that are not reached when the path ends.
     UNREACHED: UnreachedSegments {
-        en: "the path ends here, but not all of its segments were reached; left: {left}, one of them {element} at {point}",
+        en: "the path ends here, but not all of its segments were reached; number left: {left}, including {element} at {point}",
         de: "der Pfad endet hier, aber nicht alle seine Segmente wurden erreicht; übrig: {left}, darunter {element} bei {point}",
         help_en: "connect them with the path, remove them, or move them to another layer",
         help_de: "mit dem Pfad verbinden, entfernen oder auf einen anderen Layer legen",

@@ -672,7 +672,7 @@ messages! {
     }
     /// Note: a cut with another tool than in the program.
     TOOL_OTHER: PostDiffers {
-        en: "the output makes this cut with T{found}, but the program with T{expected}",
+        en: "the output makes this cut with T{found}, but the program uses T{expected}",
         de: "die Ausgabe führt diesen Schnitt mit T{found} aus, das Programm aber mit T{expected}",
     }
     /// Note: a cut before T selects a tool, or before M6 inserts it if the post writes M6.

@@ -82,8 +82,8 @@ messages! {
     HEIGHT_TOO_FAR: CorrectionTooLarge {
         en: "this height would be changed by {off} mm; at most {limit} mm are allowed",
         de: "diese Höhe würde um {off} mm verändert; erlaubt sind höchstens {limit} mm",
-        help_en: "draw probes near this place, which lies far outside the probes, or allow more with --max-correction",
-        help_de: "Proben in der Nähe dieser Stelle zeichnen, die weit außerhalb der Proben liegt, oder mit --max-correction mehr erlauben",
+        help_en: "this place lies far outside the probes: draw some near it, or allow more with --max-correction",
+        help_de: "diese Stelle liegt weit außerhalb der Proben: welche in ihrer Nähe zeichnen, oder mit --max-correction mehr erlauben",
     }
     /// A formula that uses a probe which the file of measured values does not contain.
     UNKNOWN_PROBE: UnknownProbe {

@@ -47,8 +47,8 @@ fn noise_is_refused_in_no_time() {
 fn a_file_of_other_sections_is_an_empty_drawing_if_it_ends() {
     let header = section("HEADER", "9 $ACADVER\n1 AC1015");
     assert_eq!(file_findings(format!("{header}  0\nEOF\n")), "");
-    assert_eq!(file_findings(&header), "PB002 11 the file ends before the section ENTITIES");
-    assert_eq!(file_findings("  0\nSECTION\n"), "PB002 3 the file ends before the section ENTITIES");
+    assert_eq!(file_findings(&header), "PB002 11 the file ends before its ENTITIES section");
+    assert_eq!(file_findings("  0\nSECTION\n"), "PB002 3 the file ends before its ENTITIES section");
 }
 
 #[test]

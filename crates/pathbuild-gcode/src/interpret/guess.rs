@@ -140,12 +140,12 @@ fn guess_by_words(head: &[u8]) -> Guess {
         candidates.into_iter().zip(strangers).find(|(_, count)| *count == fewest).map(|(dialect, _)| dialect);
     let reason = if fewest == 0 {
         &Text {
-            en: "this dialect has all words of the program",
+            en: "this dialect knows all words of the program",
             de: "dieser Dialekt kennt alle Wörter des Programms",
         }
     } else {
         &Text {
-            en: "this dialect has most words of the program",
+            en: "this dialect knows most words of the program",
             de: "dieser Dialekt kennt die meisten Wörter des Programms",
         }
     };

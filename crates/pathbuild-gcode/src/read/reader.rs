@@ -277,7 +277,7 @@ impl<'t> BlockReader<'t> {
         let is_blank = |byte: &&u8| matches!(byte, b' ' | b'\t');
         let mut blanks = line.iter().take_while(is_blank).count();
         if self.rules.spelling.percent == Percent::Title {
-            blanks += title_number(&line[blanks..]);
+            blanks += block_number_length(&line[blanks..]);
         }
         if line.get(blanks) != Some(&b'%') {
             return PercentSign::Nothing;
@@ -381,7 +381,7 @@ enum PercentSign {
 }
 
 /// Returns the length of a block number before a program name, including the blanks after it.
-fn title_number(line: &[u8]) -> usize {
+fn block_number_length(line: &[u8]) -> usize {
     let [b'N' | b'n', digits @ ..] = line else { return 0 };
     1 + digits.iter().take_while(|byte| matches!(byte, b'0'..=b'9' | b' ' | b'\t')).count()
 }
@@ -424,7 +424,7 @@ fn real_time_effect(byte: u8) -> Option<&'static Text> {
             en: "change the spindle's speed, or stop it",
             de: "Drehzahl der Spindel ändern, oder sie anhalten",
         },
-        0xA0 | 0xA1 => &Text { en: "switch the coolant", de: "Kühlung schalten" },
+        0xA0 | 0xA1 => &Text { en: "switch the coolant on or off", de: "Kühlung ein- oder ausschalten" },
         _ => return None,
     })
 }

@@ -165,7 +165,8 @@ impl<'p> PreparedPart<'p> {
             let is_deep = self.depth(way.start(), radius) > tolerance;
             return if is_deep { vec![(0.0, 0.0)] } else { Vec::new() };
         }
-        // The depth is continuous and equals the tolerance only where a ring is exactly that far away.
+        // The depth of the cutter in the part changes continuously along the way. It can cross the tolerance only where the distance to a ring is
+        // `radius - tolerance`, so the way is divided there.
         let mut cuts = Vec::new();
         for (_, curve) in self.curves_near(widened_box(way, radius)) {
             add_stretches_within(way, curve, radius - tolerance, &mut cuts);

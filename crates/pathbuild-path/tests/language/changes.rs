@@ -1,4 +1,4 @@
-//! Tests the changes that are found between two versions of a path: each kind of change, and one that changes nothing. (book: program/comparing)
+//! Tests the changes that are found between two versions of a path: each kind of change, and edits without effect. (book: program/comparing)
 
 use pathbuild_diagnostic::{Lang, Value};
 use pathbuild_path::{

@@ -87,7 +87,7 @@ fn segments_that_are_left_over_at_the_end_are_counted() {
     let text = compiled.found[0].text(Lang::En);
     assert_eq!(
         text,
-        "the path ends here, but not all of its segments were reached; left: 2, one of them a milling segment at (0, 40)"
+        "the path ends here, but not all of its segments were reached; number left: 2, including a milling segment at (0, 40)"
     );
 }
 

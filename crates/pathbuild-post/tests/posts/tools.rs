@@ -58,7 +58,7 @@ fn each_cut_has_its_own_tool() {
     assert_eq!(wrong(RIGHT, &two_tools()), FINE);
     assert_eq!(
         changed("T{$tool.index} M6", "T1 M6")[0],
-        "the output makes this cut with T1, but the program with T2"
+        "the output makes this cut with T1, but the program uses T2"
     );
     assert_eq!(
         changed("T{$tool.index} M6", "M6")[0],

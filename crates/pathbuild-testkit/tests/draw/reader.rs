@@ -176,7 +176,7 @@ fn texts_found(path: &RawPath) -> Vec<String> {
     markers.chain(path.drawn.elements.iter().map(|element| text(element.text))).collect()
 }
 
-/// Returns the texts that were drawn, in the same order.
+/// Returns the texts of a sheet in the order of [`texts_found`]: markers first, then elements.
 fn texts_drawn(sheet: &Sheet) -> Vec<String> {
     let note = |entity: &Entity| entity.note.as_ref().map_or(String::new(), |note| note.value.clone());
     let special = |diameter: f64| move |entity: &&Entity| matches!(&entity.shape, Shape::Circle(circle) if close(circle.radius * 2.0, diameter) && entity.line_type.as_deref() == Some("PHANTOM"));

@@ -97,7 +97,7 @@ pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translation,
                 let value = takes_value(argument).then(|| rest.next()).flatten();
                 parsed.own.extend(value.cloned());
             }
-            None => parsed.files.push(file_name(argument)),
+            None => parsed.files.push(with_native_separators(argument)),
             Some(('h' | '?', _)) => return Ok(Translation::Help(named_lang_in(arguments))),
             Some(('c', "")) => parsed.check = true,
             Some((letter, glued)) => {
@@ -197,7 +197,7 @@ impl CompatArguments {
         match letter {
             'x' => self.shown = Some(value.to_owned()),
             'm' => self.max_correction = Some(value.to_owned()),
-            'd' => self.options.push(format!("--search={}", file_name(value))),
+            'd' => self.options.push(format!("--search={}", with_native_separators(value))),
             _ => {
                 let known = VALUES.iter().find(|(known, _)| *known == letter);
                 let Some((_, name)) = known else { return false };
@@ -290,6 +290,6 @@ fn option(argument: &str) -> Option<(char, &str)> {
     }
 }
 
-fn file_name(name: &str) -> String {
+fn with_native_separators(name: &str) -> String {
     if cfg!(windows) { name.to_owned() } else { name.replace('\\', "/") }
 }

@@ -131,7 +131,7 @@ fn tree(graph: &Graph, direction: Direction, words: &Words) -> String {
 /// Maximum indentation level. Deeper lines would be unreadable, and the output of a long chain would grow quadratically.
 const MAX_INDENTATION: usize = 100;
 
-/// A line of a tree.
+/// A path in the printed tree of embeddings: one line of output.
 struct Step {
     to: EmbeddingEnd,
     /// Number of segments that embed the path at this point of the tree.
