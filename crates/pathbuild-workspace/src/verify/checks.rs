@@ -369,8 +369,8 @@ static NOT_FOLLOWED: Text = Text {
     de: "einem Wort wird nicht gefolgt, die Bewegungen sind daher nicht bekannt",
 };
 static KNOWN_WORDS: Text = Text {
-    en: "a program without the words of PB720 and PB721",
-    de: "ein Programm ohne die Wörter von PB720 und PB721",
+    en: "a program without words that are unknown or not followed (PB720, PB721)",
+    de: "ein Programm ohne unbekannte Wörter und solche, denen nicht gefolgt wird (PB720, PB721)",
 };
 static CORNER_LIMIT: Text = Text { en: "G64 P or G61 in the program", de: "G64 P oder G61 im Programm" };
 static START_OPTIONS: Text = Text { en: "M3 and S in the program", de: "M3 und S im Programm" };
