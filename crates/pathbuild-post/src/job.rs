@@ -412,7 +412,6 @@ impl JobStep {
         Self::Move(Move { from, to: to.into(), shape: MoveShape::Line, pace, named: None })
     }
 
-    /// Returns the move if the step is one that cuts.
     fn as_cut(&self) -> Option<&Move> {
         match self {
             Self::Move(movement) if matches!(movement.pace, Pace::Feed(_)) => Some(movement),

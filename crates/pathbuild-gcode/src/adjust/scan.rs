@@ -110,7 +110,6 @@ fn closing_bracket(line: &[u8], open: usize) -> Option<usize> {
     })
 }
 
-/// The probes used by the formulas of a program.
 #[derive(Debug, Default)]
 pub(super) struct ProbeSurvey<'a> {
     pub(super) probes: BTreeMap<u32, ProbeUse<'a>>,
@@ -208,7 +207,6 @@ pub(super) trait Probes {
     fn drawn(&mut self, _probe: u32, _height: f64) {}
 }
 
-/// An error in a formula, and its position.
 #[derive(Clone, Debug)]
 pub(super) struct Fault {
     pub(super) message: &'static Message,
@@ -232,7 +230,6 @@ struct Parser<'a, P> {
     probes: &'a mut P,
 }
 
-/// An evaluated part of a formula.
 #[derive(Clone, Copy)]
 struct Term {
     value: f64,

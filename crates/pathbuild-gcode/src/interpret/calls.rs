@@ -21,7 +21,6 @@ const MAX_CALL_DEPTH: usize = 10;
 /// Maximum number of lines executed by all calls and loops of a file, so that a few bytes cannot describe hours of work.
 const MAX_REPEATED_LINES: u32 = 1_000_000;
 
-/// The reason why the execution of consecutive lines ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum RunEnd {
     Returned,

@@ -51,7 +51,6 @@ pub(super) enum Motion {
     Unfollowed,
 }
 
-/// The supported drilling cycles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cycle {
     /// G73: in pecks, with a small retraction to break the chip.

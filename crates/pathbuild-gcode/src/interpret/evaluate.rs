@@ -11,7 +11,6 @@ use crate::read::{Binary, Block, Code, Function, Op, Span};
 /// LinuxCNC considers numbers equal if they differ by less than this.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
-/// The reason why an expression cannot be evaluated.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fault(pub(super) &'static Text);
 
@@ -41,7 +40,6 @@ pub(super) struct LocalParameters {
     named: BTreeMap<Box<str>, f64>,
 }
 
-/// The last numbered parameter that is local to a subroutine.
 const LAST_LOCAL_PARAMETER: u32 = 30;
 
 /// The last parameter that programs use. Those above hold positions, offsets and the state of the machine.
@@ -348,7 +346,6 @@ pub(super) enum ProbeHeight {
     Measured,
 }
 
-/// The reason why a formula cannot be evaluated.
 pub(super) enum NoValue {
     /// The program does not list this probe.
     UnknownProbe(u32),

@@ -309,7 +309,6 @@ impl Values {
         self.has(letter).then(|| self.slots[usize::from(letter - b'A')])
     }
 
-    /// Removes X, Y and Z from the block.
     pub(super) fn discard_coordinates(&mut self) {
         self.given &= !Self::COORDINATES;
     }

@@ -8,7 +8,6 @@ use crate::dialect::{Rules, StartMotion};
 /// Length of an inch in mm.
 pub(super) const INCH: f64 = 25.4;
 
-/// The modal state of the control at a point of the program.
 #[derive(Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "independent modes")]
 pub(super) struct State {

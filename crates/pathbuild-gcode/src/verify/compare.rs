@@ -493,9 +493,9 @@ pub fn same_move_lines(found: &str, expected: &str) -> bool {
     }
 }
 
-/// A letter and its number.
 type Word = (char, f64);
 
+/// One unit of the last printed digit in mm, plus the error of doubles.
 const LAST_DIGIT_UNIT: f64 = 0.001 * (1.0 + 1e-6);
 
 /// Returns the words of each line that moves the tool or sets a mode; `None` for a line that cannot be read.

@@ -20,7 +20,6 @@ pub struct ToolState {
     spindle: Spindle,
 }
 
-/// A tool length set by the program.
 #[derive(Clone, Copy, Debug)]
 struct ActiveLength {
     length: ToolLength,

@@ -21,7 +21,6 @@ pub(super) struct Environment<'a> {
     pub(super) files: &'a dyn PostFiles,
 }
 
-/// A line of the text that an evaluation produces.
 #[derive(Debug, Default)]
 pub(super) struct ResultLine {
     pub(super) text: String,
@@ -35,7 +34,6 @@ pub(super) struct ResultLine {
     pub(super) origin: u32,
 }
 
-/// The result of evaluating a text.
 #[derive(Debug)]
 pub(super) struct Outcome {
     pub(super) lines: Vec<ResultLine>,

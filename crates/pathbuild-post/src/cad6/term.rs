@@ -319,7 +319,6 @@ pub(super) struct Fault {
     pub(super) diagnostic: Diagnostic,
 }
 
-/// Result of reading or evaluating a text.
 pub(super) type Evaluated<T> = Result<T, Box<Fault>>;
 
 impl Fault {

@@ -19,7 +19,6 @@ use crate::number::FormatOption;
 use crate::target::Target;
 use crate::{PostMacro, PostOptions};
 
-/// A definition as parsed from its file.
 #[derive(Clone, Debug)]
 pub(crate) struct Definition {
     /// Template of each section; `None` if the file lacks the element, which is different from an empty element.

@@ -106,7 +106,6 @@ impl Writer<'_> {
         self.write_move(Section::FeedMove, to, values)
     }
 
-    /// Returns register values for a straight move at this feed.
     fn with_feed(&self, feed: Option<f64>) -> MoveValues {
         let mut values = MoveValues::default();
         values.set(Register::F, feed.map(|feed| self.scaled(feed)));

@@ -10,7 +10,6 @@ pub(super) struct Template {
     pub(super) pieces: Vec<TemplatePart>,
 }
 
-/// A part of a template: literal text or a macro.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum TemplatePart {
     /// Text that is copied as it is, possibly with line breaks.
