@@ -26,7 +26,7 @@ pub struct FileFact {
     pub path: Utf8PathBuf,
     /// The file's metadata when it was read.
     pub stamp: Stamp,
-    /// The blake3 hash of its bytes; `None` if it could not be read.
+    /// The blake3 hash of the file's bytes; `None` if it could not be read.
     pub hash: Option<[u8; 32]>,
 }
 

@@ -445,7 +445,7 @@ pub fn bug(reason: &str) -> Diagnostic {
     Diagnostic::new(&messages::INTERNAL).with("reason", Value::foreign(reason))
 }
 
-/// Panic payload of a query that read other bytes than those from which its drawing was indexed. No result may mix the two.
+/// Panic payload of a query that read other bytes than those from which its drawing was indexed. No result may mix old and new bytes.
 pub(crate) struct DriftPanic;
 
 /// Returns PB005 for work that exceeded this time limit, without a place.

@@ -87,7 +87,7 @@ pub struct Settings {
 pub struct Reading {
     /// The treatment of $INSUNITS, which states the unit of a drawing.
     pub units: Units,
-    /// Tolerance in mm for approximating ELLIPSE and SPLINE; 0 ignores them.
+    /// Tolerance in mm for approximating ELLIPSE and SPLINE; 0 leaves them out.
     pub approximate_curves: f64,
     /// Maximum size of a file in bytes.
     pub file_size: u64,
@@ -97,7 +97,7 @@ pub struct Reading {
     pub text_length: usize,
     /// Maximum time for walking a path. It belongs to reading because a drawing's index contains the result of the walk.
     pub walk_time: Duration,
-    /// Whether to hash drawings, so that a program can name its source. This takes about as long as reading them.
+    /// Whether to hash drawings, so that a program can name its source. Hashing takes about as long as reading.
     pub is_hashed: bool,
     /// Whether to ignore all entities that PathDxf2GCode does not know.
     pub compatible: bool,

@@ -162,7 +162,7 @@ impl Baseline {
         unused.collect()
     }
 
-    /// Returns the fingerprints of each of these findings, in the same order. File names in them are relative to `base`.
+    /// Returns the fingerprints of the findings, in the order of the findings. File names in the fingerprints are relative to `base`.
     fn keys(&self, findings: &[Diagnostic], base: &Utf8Path) -> Vec<FindingKey> {
         let now = Fingerprint::with_places(findings, &|file| self.place(file, base));
         let keys = now.iter().zip(Fingerprint::of(findings));

@@ -279,7 +279,7 @@ fn compare_q_projects(
     memo.get_or(&pairs, subject, |_, result| Some(result), compare)
 }
 
-/// Returns PB504 for each path that two of the checked drawings define, if the filter selects one of them.
+/// Returns PB504 for each path that two of the checked drawings define, if the filter selects either drawing.
 fn second_definitions(
     session: &Session<'_>,
     each: &[Answer<DrawingResult>],
@@ -399,7 +399,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Merges the results of all combinations of a path. Each fault is reported once, with values that cause it unless all of them do.
+    /// Merges the results of all combinations of a path. Each fault is reported once, and with the first values that cause it unless it occurs in all
+    /// combinations.
     pub fn merge_combinations(&self, results: &[CheckedTarget]) -> Vec<Diagnostic> {
         let mut merged: Vec<MergedFault<'_>> = Vec::new();
         let mut indices: BTreeMap<Identity<'_>, usize> = BTreeMap::new();

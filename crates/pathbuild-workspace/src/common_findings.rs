@@ -12,7 +12,7 @@ use crate::memo::DrawingResult;
 use crate::session::Session;
 
 /// Warns about each configuration in the searched directories that does not apply to the run. Directories outside the tree of the applied
-/// configuration are skipped: `--config` has then named a configuration from elsewhere for them.
+/// configuration are skipped: for them, `--config` has chosen a configuration of another tree.
 pub(crate) fn unused_configurations(session: &Session<'_>, directories: &[Utf8PathBuf]) -> Vec<Diagnostic> {
     let system = session.db().system();
     let used = session.workspace().settings.file.as_deref().map(|file| session.normal(file));

@@ -37,7 +37,7 @@ pub struct Assumptions {
     pub surface: Option<String>,
 }
 
-/// A scene, and what is known about its program, as the page receives them.
+/// A scene with facts about its program, as it is serialized for the page.
 #[derive(Serialize)]
 struct ProgramScene<'s> {
     #[serde(flatten)]

@@ -130,12 +130,12 @@ pub(crate) fn identity(found: &Diagnostic) -> impl Eq + Hashed + '_ {
 pub struct Fingerprint(u128);
 
 impl Fingerprint {
-    /// Returns the fingerprints of findings, in the same order. They do not depend on the directories of the files.
+    /// Returns the fingerprints of findings, in the order of the findings. They do not depend on the directories of the files.
     pub fn of(diagnostics: &[Diagnostic]) -> Vec<Self> {
         Self::with_places(diagnostics, &|file| file.file_name().unwrap_or_default().to_owned())
     }
 
-    /// Returns the fingerprints of findings, in the same order. `place` returns the name of a file that enters the fingerprint.
+    /// Returns the fingerprints of findings, in the order of the findings. `place` returns the name of a file as it enters the fingerprint.
     pub(crate) fn with_places(diagnostics: &[Diagnostic], place: &dyn Fn(&Utf8Path) -> String) -> Vec<Self> {
         let mut met: BTreeMap<u128, u32> = BTreeMap::new();
         let mut fingerprint = |diagnostic: &Diagnostic| {

@@ -213,8 +213,8 @@ impl PostProcessor {
         self.write_with(job, PostOptions { output, ..self.options.clone() }, inserted)
     }
 
-    /// Returns the words that the post-processor writes in a dialect, collected from sample programs. These use every feature, even those that the
-    /// configured machine cannot run.
+    /// Returns the words that the post-processor writes in a dialect, collected from sample programs. The samples use every feature, even those that
+    /// the configured machine cannot run.
     pub fn words(&self, dialect: Dialect) -> PostWords {
         let written = samples().into_iter().filter_map(|job| {
             let options = PostOptions { unchecked: true, machine: None, ..self.options.clone() };

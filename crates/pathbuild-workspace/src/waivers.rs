@@ -148,7 +148,7 @@ impl Waiver {
 pub struct WaivedFinding {
     /// The finding that is accepted.
     pub diagnostic: Diagnostic,
-    /// The entry that accepts it.
+    /// The entry that accepts the finding.
     pub waiver: Waiver,
 }
 

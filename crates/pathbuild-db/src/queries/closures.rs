@@ -28,7 +28,7 @@ pub struct Closure<'db> {
     pub root: Option<Instance<'db>>,
     /// Every path, in the order in which it is first reached.
     pub reached: Vec<ReachedPath<'db>>,
-    /// Diagnostics of all these paths, without duplicates.
+    /// Diagnostics of all paths in `reached`, without duplicates.
     pub diagnostics: Vec<Diagnostic>,
     /// Estimated number of moves in the program.
     pub moves: u64,

@@ -33,8 +33,8 @@ impl SecondDefinition<'_> {
     }
 }
 
-/// Returns the paths that two of these drawings define, if a project beside one of them would find both by their names. Each drawing comes with the
-/// names of its paths.
+/// Returns the paths that two of these drawings define, if a project beside one of the drawings would find both by their names. Each drawing comes
+/// with the names of its paths.
 pub fn second_definitions<'a>(
     db: &dyn Db,
     drawings: impl IntoIterator<Item = (&'a Utf8Path, &'a [PathName])>,
@@ -57,7 +57,7 @@ pub fn second_definitions<'a>(
     found.into_iter().collect()
 }
 
-/// Takes drawings that define the same path. Returns the pairs that a project beside one of them would find.
+/// Takes drawings that define the same path. Returns the pairs of drawings that a project beside one of the drawings would find.
 fn ambiguous<'a>(
     db: &dyn Db,
     mut files: BTreeMap<&'a str, &'a PathName>,

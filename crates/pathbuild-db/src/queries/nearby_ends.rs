@@ -93,7 +93,7 @@ impl<'a> LayerEnds<'a> {
         self.all.get_or_init(|| AllLayers::new((self.read)()))
     }
 
-    /// Returns the nearest end on another layer, whether or not that belongs to a path.
+    /// Returns the nearest end on another layer, whether or not that layer belongs to a path.
     fn nearest_end(&self, path: &PathName, language: &Language, problem: &Diagnostic) -> Option<(Note, f64)> {
         let Point { x: Number(x), y: Number(y) } = problem.place.point?;
         let point = Xy::new(x, y);

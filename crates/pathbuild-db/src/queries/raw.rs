@@ -15,8 +15,8 @@ use crate::inputs::{Reading, Settings, SourceFile};
 use crate::queries::index::{NameKey, file_index};
 use crate::queries::reading::{Fingerprint, entities, read, read_entities};
 
-/// Calls `work` with the bytes of an indexed drawing. If they no longer match the index, the drawing is marked as changed and the query
-/// abandoned. `None` if it cannot be read, which the index reports.
+/// Calls `work` with the bytes of an indexed drawing. If they no longer match the index, the drawing is marked as changed and the query abandoned.
+/// `None` if the drawing cannot be read, which the index reports.
 fn read_again<R>(db: &dyn Db, file: SourceFile, work: impl FnOnce(&[u8], &mut Drawing) -> R) -> Option<R> {
     let indexed = file_index(db, file).fingerprint();
     let result = read(db, file, |bytes, _, drawing| {

@@ -215,7 +215,7 @@ fn blocks_are_expanded() {
     assert_eq!(codes(&drawing("0,0.9")), ["PB213"]);
 }
 
-/// Four lines that are all too long form an outline between their crossings, unless too much of their length is beyond these.
+/// Four lines that are all too long form an outline between their crossings, unless too much of their length lies beyond the crossings.
 #[test]
 fn lines_that_overshoot_all_corners_form_an_outline() {
     let with_hole = |over: f64| {

@@ -8,7 +8,7 @@ use pathbuild_dxf::{Options, read};
 use crate::support::{file, file_codes, options};
 
 /// Inserts a block on a layer with different scales in x and y, so that its contents are left out if they matter. Returns the number of entities on
-/// layer P, and of those left out there.
+/// layer P that are left out.
 fn left_out(blocks: &str, layer: &str) -> usize {
     let insert = format!("0 INSERT\n8 {layer}\n2 B\n10 0\n20 0\n41 2\n42 3");
     let options = Options { keep_layer: &|name| name == "P", ..options() };

@@ -386,7 +386,7 @@ pub(in crate::config) const PATTERNS: ValueType<Vec<Pattern>> = ValueType {
     schema: || json!({ "type": "array", "items": { "type": "string" } }),
 };
 
-/// Describes the error in a regular expression in short; `None` if it is valid.
+/// Describes briefly what is wrong with a regular expression; `None` if it is valid.
 pub(in crate::config) fn regex_fault(text: &str) -> Option<Value> {
     let error = RegexBuilder::new(text).size_limit(MAX_COMPILED_REGEX_BYTES).build().err()?;
     Some(regex_reason(&error))

@@ -134,8 +134,8 @@ pub(super) struct Discovery<'a> {
 }
 
 impl Discovery<'_> {
-    /// Finds the configuration of a run, which is that above the first argument. If this argument is a program without a configuration above it, the
-    /// next argument decides, and finally the working directory.
+    /// Finds the configuration of a run: the nearest one above the first argument. If this argument is a program without a configuration above it,
+    /// the next argument decides, and finally the working directory.
     pub(super) fn for_run(&self) -> Option<Utf8PathBuf> {
         for input in self.inputs.iter() {
             let configuration = self.find_above(&self.search_start_of(input));
@@ -150,8 +150,8 @@ impl Discovery<'_> {
         self.find_above(&clean(self.working_directory))
     }
 
-    /// Returns the directory that a run without a configuration uses instead of the configuration's: that of the first argument, or the working
-    /// directory.
+    /// Returns the directory that takes the place of the configuration's directory if there is no configuration: that of the first argument, or the
+    /// working directory.
     pub(super) fn search_start(&self) -> Utf8PathBuf {
         let first = self.inputs.iter().next();
         first.map_or_else(|| clean(self.working_directory), |first| self.search_start_of(first))

@@ -25,7 +25,7 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// Returns the line of the configuration, if the value or a part of it comes from there.
+    /// Returns the line of the configuration, if the value, or a part of it, comes from the configuration.
     pub fn line(self) -> Option<u32> {
         match self {
             Self::File(line) | Self::Extended { line, .. } => Some(line),

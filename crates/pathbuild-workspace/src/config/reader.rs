@@ -392,7 +392,7 @@ impl<'a> Source<'a> {
         Self { file, text, lines, characters: counts.collect() }
     }
 
-    /// Returns a diagnostic that underlines a byte range, or the part of it in its first line.
+    /// Returns a diagnostic that underlines a byte range; of a range of several lines, only the part in its first line.
     pub(super) fn fault(&self, message: &'static Message, span: Range<usize>) -> Diagnostic {
         let start = self.text.floor_char_boundary(span.start);
         let number = self.line_index(start);

@@ -40,7 +40,8 @@ macro_rules! tables {
             $(pub $table: $table::Settings,)*
         }
 
-        /// Values from the configuration and, once they are applied, from the options of the command line. Keys that neither sets are `None`.
+        /// Values from the configuration and, once they are applied, from the options of the command line. Keys that neither the configuration nor an
+        /// option sets are `None`.
         #[derive(Clone, Debug, Default)]
         #[expect(missing_docs, reason = "the tables of the configuration, by name")]
         pub struct Options {

@@ -57,7 +57,7 @@ impl Comparison {
 pub struct PathDiff {
     /// Name of the path, as the newer drawing spells it.
     pub name: String,
-    /// Path of the drawing that defines it on the old and on the new side, relative to the root; `None` if the side lacks the path.
+    /// Path of the drawing that defines the path on the old and on the new side, relative to the root; `None` if the side lacks the path.
     pub files: [Option<Utf8PathBuf>; 2],
     /// The kind of difference.
     pub outcome: Outcome,

@@ -29,7 +29,7 @@ pub enum Reason {
     Embedded {
         /// Name of the embedded path.
         path: String,
-        /// The changes in that path; empty if an earlier reason already lists them.
+        /// The changes in the embedded path; empty if an earlier reason already lists them.
         reasons: Vec<Reason>,
     },
 }

@@ -1,5 +1,5 @@
-//! Compares programs on disk with their drawings, and compares programs that differ with those of `--compatible`. (book: language/probes, book:
-//! program/compatible)
+//! Compares programs on disk with their drawings. Programs that differ are also compared with those that `--compatible` would write. (book:
+//! language/probes, book: program/compatible)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, join};

@@ -64,8 +64,8 @@ pub struct ProgramOutcome {
 }
 
 impl ProgramOutcome {
-    /// Whether all `files` files of a program were written or compared without errors. A program with errors is not complete, because they may not
-    /// recur in another run.
+    /// Whether all `files` files of a program were written or compared without errors. A program with errors is not complete, because the errors may
+    /// not recur in another run.
     pub(super) fn is_complete(&self, files: usize) -> bool {
         self.files.len() == files
             && self.hashes.len() == files

@@ -235,7 +235,7 @@ fn cached_plan_if_sufficient(
     Some(plan)
 }
 
-/// Returns the cache subject of the paths of one program. It begins with the first path's drawing, up to the first NUL.
+/// Returns the cache subject of the paths of one program. It begins with the path of the first target's drawing, which ends at the first NUL.
 fn subject(db: &Database, targets: &[Target], join: Option<&str>) -> Box<str> {
     let each = targets.iter().map(|target| format!("{}\0{}", target.file(db).path(db), target.name(db)));
     let mut subject = each.collect::<Vec<_>>().join("\0");

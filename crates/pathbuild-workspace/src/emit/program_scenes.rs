@@ -302,7 +302,7 @@ fn of_job(
 
 /// The bytes of a program file that is not on disk.
 struct ProgramText {
-    /// Path that `emit` would write it to.
+    /// Path to which `emit` would write the program.
     file: Utf8PathBuf,
     bytes: Vec<u8>,
     dialect: Dialect,

@@ -136,8 +136,8 @@ impl TargetCollector<'_> {
         }
     }
 
-    /// Reports PB512, unless a path of the drawing has errors: these are the more likely cause, for example a line that strayed onto another path's
-    /// layer and so made a second path.
+    /// Reports PB512, unless a path of the drawing has errors: such errors are the more likely cause, for example a line that strayed onto another
+    /// path's layer and so made a second path.
     fn refuse_several(&mut self, drawing: &Utf8Path, names: &[PathName]) {
         let file = self.session.file(drawing);
         let checked = self.session.check(&self.session.targets(file, &Role::Checked));

@@ -238,7 +238,8 @@ impl ComparisonSettings {
         Some(Self { dialect, tolerance: Tolerance { ends: Ends::Cutting, ..LAST_DIGIT_TOLERANCE } })
     }
 
-    /// Returns the steps of a program that are compared: without those after the last cut if the end of the program depends on the machine.
+    /// Returns the steps of a program that are compared. If the end of the program depends on the machine, these are only the steps up to the last
+    /// cut.
     fn compared_steps<'s>(&self, steps: &'s [Step]) -> &'s [Step] {
         let is_cut = |step: &Step| step.as_move().is_some_and(|(_, movement)| movement.pace != Pace::Rapid);
         match self.tolerance.ends {

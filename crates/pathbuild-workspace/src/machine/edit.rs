@@ -97,7 +97,8 @@ fn replaced_tool(value: &DescribedValue, table: &str, old: Option<&Value>) -> Op
     (value.key == "diameter" && !is_same).then_some(problem)
 }
 
-/// Returns the names that lead to a target's table. A tool with a number gets the configured table with the same number, whatever its name is.
+/// Returns the path of a target's table: the names of the tables, outermost first. A tool with a number gets the configured table with the same
+/// number, whatever its name is.
 fn table_path(document: &DocumentMut, target: &Target) -> Vec<String> {
     let Target::Tool { number, name } = target else { return vec!["machine".to_owned()] };
     let has_number = |item: &Item| {

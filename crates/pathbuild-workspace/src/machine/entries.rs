@@ -61,7 +61,7 @@ impl Entries {
         self.list.iter()
     }
 
-    /// Returns the entry in force for a name, and marks all entries of this name as used. Reports those with another value.
+    /// Returns the entry in force for a name, and marks all entries of this name as used. Reports the entries of this name with another value.
     pub(super) fn take(&mut self, name: &str) -> Option<&Entry> {
         let index = *self.by_name.get(name)?;
         let taken = &self.list[index];

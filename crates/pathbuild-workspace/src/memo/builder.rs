@@ -50,7 +50,7 @@ struct CatalogueBuilder<'a> {
     session: &'a Session<'a>,
     begun: Clock,
     catalogue: Catalogue,
-    /// Index of each file in the new catalogue. The following maps hold those of directories, lists of directories, and lookups.
+    /// Index of each file in the new catalogue, by path. The next three maps hold the indices of directories, lists of directories, and lookups.
     files: HashMap<Utf8PathBuf, usize>,
     directories: HashMap<Utf8PathBuf, usize>,
     lists: HashMap<Vec<usize>, usize>,
@@ -334,9 +334,9 @@ pub struct DrawingResult {
 /// Whether a drawing has layers that the configuration names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct NamedLayers {
-    /// Whether it has a layer with clamps.
+    /// Whether the drawing has a layer with clamps.
     pub has_clamps: bool,
-    /// Whether it has a layer with finished parts.
+    /// Whether the drawing has a layer with finished parts.
     pub has_parts: bool,
 }
 

@@ -68,8 +68,8 @@ impl Memo {
         Self(Store::open(session.workspace(), ResultKind::Emit, text, scope, Listings::new()))
     }
 
-    /// Returns the result for each item, in the same order: the cached one if it still holds and `accept` takes it, otherwise one that `build`
-    /// computes. `build` gets all items without a cached result at once, and may compute fewer results than it gets items.
+    /// Returns the result for each item, in the order of the items: the cached one if it still holds and `accept` takes it, otherwise one that
+    /// `build` computes. `build` gets all items without a cached result at once, and may compute fewer results than it gets items.
     pub fn get_or<K, T: DeserializeOwned>(
         &self,
         items: &[K],

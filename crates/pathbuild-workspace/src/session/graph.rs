@@ -37,7 +37,7 @@ pub struct Node {
     pub file: Utf8PathBuf,
     /// Values of the path's variables.
     pub bindings: Bindings,
-    /// Whether the values are only examples for checking, and no path embeds this one with them.
+    /// Whether the values are only examples for checking: no path embeds this one with these values.
     pub is_example: bool,
     /// Whether the path's drawing has no errors. A path in a drawing with errors may embed more than is known.
     pub is_sound: bool,

@@ -365,12 +365,12 @@ impl Session<'_> {
 pub(super) struct Rules {
     git: Gitignore,
     own: Gitignore,
-    /// Whether this is the root of a repository: .gitignore files above it do not apply.
+    /// Whether the directory is the root of a repository: .gitignore files above it do not apply.
     is_repository: bool,
     above: Option<Arc<Self>>,
 }
 
-/// A budget for the size of ignore files. It is needed because compiled rules take about two hundred times as much memory as the file.
+/// A budget for the total size of ignore files. It is needed because compiled rules take about two hundred times as much memory as their files.
 #[derive(Debug)]
 pub(super) struct Budget {
     /// Upper bound on a file's size in bytes.

@@ -65,7 +65,7 @@ impl Session<'_> {
         selection
     }
 
-    /// Resolves these arguments, which are some or all of those in `found`.
+    /// Resolves some or all of the arguments in `found`.
     pub fn select_arguments(
         &self,
         found: &ArgumentMatches,

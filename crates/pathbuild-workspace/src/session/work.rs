@@ -122,12 +122,12 @@ impl Session<'_> {
         self.in_batches(all, PROGRAMS * threads, work)
     }
 
-    /// Checks targets, and returns the results in the same order.
+    /// Checks targets, and returns the results in the order of the targets.
     pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
         self.map_with_checker(targets, |checker, target| checker.check(*target))
     }
 
-    /// Processes items on all cores, and returns the results in the same order.
+    /// Processes items on all cores, and returns the results in the order of the items.
     pub fn map_with_checker<T: Sync, R: Send>(
         &self,
         items: &[T],
@@ -177,13 +177,13 @@ impl Session<'_> {
         self.map_in_chunks(items, PROGRAMS_PER_CHUNK, work)
     }
 
-    /// Processes items that need no database, such as programs, in parallel. Returns the results in the same order.
+    /// Processes items that need no database, such as programs, in parallel. Returns the results in the order of the items.
     pub fn map_programs<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
         self.map_in_chunks(items, PROGRAMS_PER_CHUNK, |_, item| work(item))
     }
 
-    /// Processes items in parallel, and returns the results in the same order. A single item is processed on this thread: starting threads takes
-    /// longer than most paths.
+    /// Processes items in parallel, and returns the results in the order of the items. A single item is processed on this thread: starting threads
+    /// takes longer than most paths.
     pub(super) fn map_parallel<T: Sync, R: Send>(
         &self,
         items: &[T],

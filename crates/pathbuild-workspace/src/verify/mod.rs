@@ -93,7 +93,7 @@ pub struct MoveComparison {
     pub drawing: Utf8PathBuf,
     /// Name of the dialect, or of the definition, by means of which the program was read.
     pub dialect: String,
-    /// Name of the dialect or the definition with the evidence for it, in the language of messages.
+    /// Name of the dialect or of the definition, with the evidence for the dialect, in the language of messages.
     pub read_as: String,
     /// Number of moves in the drawing.
     pub moves: usize,
@@ -194,8 +194,8 @@ impl<'w> Verifier<'w> {
         words
     }
 
-    /// Returns the checks that the configuration or the run requires. If either of them excludes assumed values for the check of rapid moves, they
-    /// do not suffice, even if the other accepts them.
+    /// Returns the checks that the configuration or the run requires. If either of them excludes assumed values for the check of rapid moves, assumed
+    /// values do not suffice, even if the other accepts them.
     fn required(&self) -> Vec<Requirement> {
         let sources = [&self.settings.verify.require.value, &self.options.required];
         let is_strict = |source: &&Vec<Requirement>| {

@@ -12,7 +12,7 @@ use crate::findings::identity;
 pub(super) struct FindingTally(HashMap<CountedFinding, usize>);
 
 impl FindingTally {
-    /// Replaces previous findings by current ones. Returns those that are new, and those that no check reports any more.
+    /// Replaces previous findings by current ones. Returns the new findings, and the findings that no check reports any more.
     pub(super) fn replace(
         &mut self,
         before: &[Diagnostic],

@@ -46,7 +46,7 @@ pub(crate) struct Mischief {
 const LONG: Duration = Duration::from_secs(61);
 
 impl Mischief {
-    /// Reads a path with `read`. If the event is due, it happens just before or just after that.
+    /// Reads a path with `read`. If the event is due, it happens just before or just after the read.
     fn around<T>(
         &self,
         path: &Utf8Path,
