@@ -333,8 +333,8 @@ fn a_changed_drawing_is_not_current() {
     assert_snapshot!(check_moves(&place, arguments));
 }
 
-/// Without `--compatible`, a program that the original tool wrote has different moves. A note gives this reason, but only if it is the
-/// reason.
+/// Without `--compatible`, a program that the original tool wrote has different moves. A note names the missing option, but only if nothing else
+/// differs.
 #[test]
 fn a_program_as_the_original_tool_writes_it_is_named_so() {
     let cases = support::project().join("fixtures/conformance/cases");
@@ -684,7 +684,7 @@ fn joined_paths_cut_into_no_parts_of_each_other() {
     }
 }
 
-/// The rules of `emit` are those of `verify`, although it knows coordinates with more than three decimals.
+/// The rules of `emit` are those of `verify`, although `emit` knows coordinates with more than three decimals.
 #[test]
 fn emit_and_verify_agree_on_the_limits_of_a_machine() {
     let drawing = dxf("layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 MX\"\nmill 0,0 20,0\nend 20,0");

@@ -80,7 +80,7 @@ fn is_known(place: &Place, arguments: &str) -> bool {
     paths.0 == paths.1 && drawings.0 == drawings.1
 }
 
-/// Returns the number of cached paths and that of all paths, then the same for drawings.
+/// Returns the numbers of cached and of all paths, and the numbers of cached and of all drawings.
 fn known(run: &Run) -> ((u32, u32), (u32, u32)) {
     let count = |phrase: &str| {
         let line =

@@ -94,7 +94,7 @@ fn results_are_kept_as_long_as_nothing_they_depend_on_changes() {
     }
 }
 
-/// A baseline applies to cached results: to those of a directory, to those of a program in it, and no longer after its end.
+/// A baseline applies to cached results of a directory and of a program in it, but no longer after the last day of its entries.
 #[test]
 fn accepted_findings_hold_for_kept_results_and_directories() {
     let place = place();

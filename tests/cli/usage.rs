@@ -128,7 +128,7 @@ fn a_full_disk_is_an_error() {
     assert!(String::from_utf8_lossy(&output.stderr).starts_with("error: cannot write to standard output"));
 }
 
-/// Normally, only the given command is fully defined; all are if there is an error in the command line. Messages must not differ.
+/// Normally, only the given command is fully defined, but all commands are if the command line has an error. Messages must not differ.
 #[test]
 fn a_command_line_says_the_same_whatever_of_the_commands_is_defined() {
     let lines = [

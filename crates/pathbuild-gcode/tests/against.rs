@@ -13,7 +13,7 @@ const FINE: [&str; 0] = [];
 /// Height of S0 in all programs, in mm.
 const CLEARANCE: f64 = 5.0;
 
-/// Returns the differences of a program from a drawing's moves, given as G-code, which begin above the zero of the path.
+/// Returns the differences between a program and a drawing. `drawn` are the drawing's moves as G-code, beginning above the zero of the path.
 fn differences(dialect: Dialect, program: &str, drawn: &str) -> Vec<String> {
     let drawn = format!("G17 G21 G90 G94\nG0 X0 Y0 Z5\n{drawn}\nM30\n");
     let moves = interpret(drawn.as_bytes(), Native, &Options::default()).moves();

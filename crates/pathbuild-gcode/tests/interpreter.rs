@@ -1251,7 +1251,7 @@ fn subprograms_run_where_they_are_called() {
             "#5=0\no1 do\n#5=[#5+1]\no2 if [#5 eq 2]\no1 continue\no2 endif\nG0 X#5\no1 while [#5 lt 3]\nM2",
             "1 3",
         ),
-        // A condition that is false ends the effect of `continue`, and a `do` loop with a single pass that of `break`.
+        // A condition that is false ends the effect of an earlier `continue`; a `do` loop with a single pass ends the effect of an earlier `break`.
         (
             LinuxCnc,
             "o1 do\no1 continue\no1 while [0]\no2 while [0]\no2 endwhile\no3 repeat [2]\nG0 X1\no3 endrepeat\nM2",

@@ -193,7 +193,7 @@ fn no_text_of_others_leaves_its_comment() {
     }
 }
 
-/// Returns a single arc from this position, as it is written and read back, and as it is in the program.
+/// Returns the move of a single arc from this position, and the program that contains it.
 fn arc_from(
     at: [f64; 2],
     radius: f64,

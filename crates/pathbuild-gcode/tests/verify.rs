@@ -382,7 +382,7 @@ fn a_low_height_of_the_machine_raises_no_tool() {
     assert_eq!(from_unknown(setter).1, None);
 }
 
-/// The slot leads from (0, 0) to (20, 20) or beside it, and the tool returns by a rapid move.
+/// The tool cuts a slot from (0, 0) and returns by a rapid move, which on Fanuc and Haas first goes at 45 degrees.
 #[test]
 fn a_slanting_rapid_move_of_a_fanuc_leaves_the_slot() {
     use pathbuild_gcode::dialect::Dialect::{Fanuc, Haas, LinuxCnc};

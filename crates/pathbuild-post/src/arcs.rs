@@ -62,7 +62,7 @@ impl ArcRounding<'_> {
         arc.sweep(&movement.from, &movement.to) < PI && arc.plane.axes().into_iter().all(alike)
     }
 
-    /// Adjusts the centre so that after rounding it is equidistant from start and end: see [`WrittenArc::fit`].
+    /// Adjusts the centre so that after rounding it is equidistant from start and end: see [`WrittenArc::centre_correction`].
     pub(crate) fn fit_centre(&self, movement: &Move, unit: f64) -> Result<Move, Box<Diagnostic>> {
         let MoveShape::Arc(mut arc) = movement.shape else { return Ok(*movement) };
         let [from, to] = [movement.from, movement.to].map(|end| arc.plane.project(&end.at));

@@ -126,7 +126,8 @@ struct Builder {
     /// Whether the last move was a probing move, so that only the machine knows the position.
     has_probed: bool,
     starts_spindle: bool,
-    /// Whether the program has stopped or waited with the spindle off since the last operation began. The operation stays as it is.
+    /// Whether the program has stopped or waited with the spindle off since the last operation began. From then on, the settings of the operation are
+    /// final.
     is_resting: bool,
     /// Whether a tool length is in effect.
     has_length: bool,

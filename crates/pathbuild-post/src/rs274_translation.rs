@@ -194,8 +194,8 @@ impl Rs274Translation {
         self.line += 1;
     }
 
-    /// Whether a line defines the blank (workpiece). On a Heidenhain control these are G30 with the plane and all axes, and the following
-    /// G31. Other controls have no plane in the same line as G30.
+    /// Whether a line defines the blank (workpiece). On a Heidenhain control, a line with G30, the plane and all axes begins the definition, and the
+    /// following G31 ends it. Other controls have no plane in the same line as G30.
     fn enter_blank_definition(&mut self, line: &LineWords) -> bool {
         let has = |letter: char, number: i64| {
             line.words.iter().any(|word| word.letter == letter && tenths(word) == number)

@@ -244,7 +244,7 @@ impl Names {
 
 // Records which element of which path each step of a program comes from.
 
-/// The origins of the steps of a program. It is as long as the program and only recorded on request.
+/// The origin of each step of a program. It is only recorded on request, because it is as long as the program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace<Id> {
     /// The paths in the program, beginning with the emitted one. A path that is embedded twice occurs twice.

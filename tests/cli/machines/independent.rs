@@ -1,7 +1,7 @@
 //! Compares our reader with independent ones: LinuxCNC's interpreter and gcode-toolpath.
 //!
-//! There is no known reader for XpertMILL, for DIN 66025 or for Estlcam's controller. All words that our posts write for the latter two are words
-//! of RS274, except for the units and the title of DIN: rs274 reads their programs with these replaced.
+//! There is no known reader for XpertMILL, for DIN 66025 or for Estlcam's controller. All words that our posts write for DIN 66025 and for Estlcam's
+//! controller are words of RS274, except for the units and the title of DIN 66025: rs274 reads their programs with these words replaced.
 
 #[path = "../../../crates/pathbuild-gcode/tests/common/oracle.rs"]
 pub(super) mod oracle;

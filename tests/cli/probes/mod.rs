@@ -45,7 +45,7 @@ fn drawing(text: &str) -> Vec<u8> {
     sheet(text).unwrap_or_else(|errors| panic!("{errors:?}")).to_dxf()
 }
 
-/// Creates a place with the plate with probes in a.dxf, and without in b.dxf.
+/// Creates a place with two drawings of the plate: a.dxf with probes, b.dxf without.
 fn plate(configuration: &str) -> Place {
     Place::new()
         .file("a.dxf", drawing(&format!("{PLATE}{PROBES}")))

@@ -63,7 +63,7 @@ pub struct Rules {
     pub stores_cycles: bool,
     /// Rules by which P selects coordinate systems besides G54 to G59; `None` if P does not select any.
     pub systems: Option<SystemNumbers>,
-    /// Whether P of G30 numbers the reference point, from 2.
+    /// Whether P of G30 selects the reference point by its number, counted from 2.
     pub numbers_references: bool,
     /// Whether a drilling cycle that begins below R first rises to it and then goes to the hole, as in RS274/NGC, 3.5.16.1.
     pub rises_before_holes: bool,
@@ -639,7 +639,7 @@ pub enum Slash {
 /// Maximum length of a line, in bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineLength {
-    /// Limits the line as it is in the file, without its line break.
+    /// Limits the whole line in the file, except for its line break.
     Whole(usize),
     /// Limits the line without its blanks and comments.
     Bare(usize),

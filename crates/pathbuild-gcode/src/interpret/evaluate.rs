@@ -42,7 +42,7 @@ pub(super) struct LocalParameters {
 
 const LAST_LOCAL_PARAMETER: u32 = 30;
 
-/// The last parameter that programs use. Those above hold positions, offsets and the state of the machine.
+/// The last parameter that programs use. Parameters above it hold positions, offsets and the state of the machine.
 const LAST_PROGRAM_PARAMETER: u32 = 5000;
 
 impl Parameters {
@@ -54,7 +54,7 @@ impl Parameters {
         self.named.insert(name, value);
     }
 
-    /// Saves the caller's local parameters and sets those of a subroutine. Returns the saved ones.
+    /// Saves the caller's local parameters, sets those of a subroutine, and returns the saved parameters.
     pub(super) fn enter(&mut self, values: &[f64]) -> LocalParameters {
         let own = (1..=LAST_LOCAL_PARAMETER).zip(values.iter().copied().chain(std::iter::repeat(0.0)));
         let numbered = own.filter_map(|(number, value)| Some((number, self.numbered.insert(number, value)?)));

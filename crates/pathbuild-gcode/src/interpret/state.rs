@@ -33,7 +33,7 @@ pub(super) struct State {
     pub(super) feed_unit: FeedUnit,
     /// F in the unit given by [`feed_unit`](Self::feed_unit), with lengths in mm.
     pub(super) feed: f64,
-    /// The place that stated F, unless F is inverse time.
+    /// Where the program stated F, unless F is inverse time.
     pub(super) feed_stated: Option<StatedLength>,
     /// Line and code (times ten) of the feed mode word that cleared F.
     pub(super) feed_cleared: Option<(u32, u16)>,
@@ -50,14 +50,14 @@ pub(super) struct State {
     pub(super) retract_to_r: bool,
     /// The line of a tool change since the last motion word, which left a drilling cycle on.
     pub(super) change_within_cycle: Option<u32>,
-    /// The place that stated the active G52 or G92.
+    /// Where the program stated the active G52 or G92.
     pub(super) shift_stated: Option<StatedLength>,
     pub(super) cycle: CycleState,
     pub(super) offsets: Offsets,
     pub(super) stated: StatedModes,
 }
 
-/// A place of the program that stated lengths, and the unit in mm that it used.
+/// A line of the program that stated lengths, and the unit in mm in effect there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct StatedLength {
     pub(super) line: u32,

@@ -34,7 +34,7 @@ pub(super) fn push_f3(text: &mut String, number: f64) {
     text.push_str(&THOUSANDTHS[fraction..fraction + 4]);
 }
 
-/// Returns the value of a number as it is printed.
+/// Rounds a number to the three decimals that are printed.
 pub(super) fn printed(number: f64) -> f64 {
     let rounded = |thousandths: u64| (thousandths as f64 / 1000.0).copysign(number) + 0.0;
     thousandths(number).map_or(number, rounded)

@@ -68,8 +68,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds the moves to the start of the job, for definitions that write every rapid as it is. The first tool change leaves the tool at the clearance
-    /// plane, above an unknown place.
+    /// Adds the moves to the start of the job, for definitions with a text for rapid moves. The first tool change leaves the tool at the clearance
+    /// plane, above an unknown position.
     fn begin(&mut self) {
         if !self.abilities.rapid {
             return;

@@ -474,7 +474,7 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// Returns a macro as it is written in a template: `{$name}`.
+/// Formats the name of a macro as in a template: `{$name}`.
 pub(super) fn macro_in_braces(name: &str) -> String {
     format!("{{${name}}}")
 }

@@ -37,7 +37,7 @@ impl Writer<'_> {
             Value::MopHoleDiameter | Value::ToolDiameter => Some(self.length(tool.diameter)),
             Value::MopPeckDistance => Some(self.length(operation.holes().find_map(peck).unwrap_or(0.0))),
             Value::MopStockSurface => Some(self.length(operation.surface)),
-            // Operations that do not cut leave the surface as it is.
+            // An operation that does not cut leaves the material up to its surface.
             Value::MopTargetDepth => Some(self.length(operation.target_depth.unwrap_or(operation.surface))),
             Value::MopFirst(axis) => operation.first_point().axes()[axis as usize].map(|at| self.length(at)),
             Value::ToolIndex => Some(tool.index.to_string()),

@@ -263,7 +263,7 @@ fn the_spindle_stands_still_at_stops_where_it_does_in_the_source() {
         assert_eq!(found[..5], ["M3 S9000", "M5", "G4 P30.0", "M3 S9000", "G4 P2.0"], "{post}: {found:?}");
         let found = switches(&around("M5 M9\nM0\nM3").replace("S9000", "S9000\nM8"), post);
         assert_eq!(found[..5], ["M3 S9000", "M8", "M5", "M9", "M0"], "{post}: {found:?}");
-        // The spindle starts behind a stop that comes before M3.
+        // If a stop comes before M3, the spindle starts after that stop.
         let found = switches(&around("M0").replace("M3 S9000", "M0\nM3 S9000"), post);
         assert_eq!(found[..4], ["M5", "M9", "M0", "M3 S9000"], "{post}: {found:?}");
     }

@@ -339,7 +339,7 @@ fn corners_are_rounded_within_a_limit() {
     }
 }
 
-/// The cause is reported first, then what follows from it.
+/// The section that writes no move is reported first, then the errors that follow from it.
 #[test]
 fn texts_for_moves_must_move() {
     let steps = vec![feed(0.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)];
