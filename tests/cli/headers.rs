@@ -178,7 +178,7 @@ fn where_sources_disagree_the_smaller_removes_and_the_larger_collides() {
         let moves = format!("G0 Z5\nG0 Y{y}\nG0 Z-2\nG0 X0\nG0 Z5\nG0 Y0\nG0 X20\nG0 Z0");
         slots(&fusion("flat end mill"), &moves)
     };
-    // The cutter is as wide as the header and `--cutter` say.
+    // The diameter in the header and that of `--cutter` may differ by a rounding error.
     assert_eq!(codes(&beside("0"), "--surface 0 --cutter 6"), [""; 0]);
     assert_eq!(codes(&beside("0"), "--surface 0 --cutter 6.01"), [""; 0]);
     assert_eq!(codes(&beside("0"), "--surface 0 --cutter 6.02"), ["PB777"]);

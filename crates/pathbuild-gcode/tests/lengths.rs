@@ -37,7 +37,7 @@ fn wrong_everywhere(program: &str) -> Vec<String> {
     all[0].clone()
 }
 
-/// Returns a cut at X, from and to above the material.
+/// Returns moves that go down to a cut at X and up again, starting and ending above the material.
 fn cut(x: u8) -> String {
     format!("G0 X{x}.0 Y0.0\nG1 Z-1.0\nG0 Z5.0\n")
 }

@@ -263,7 +263,7 @@ impl Course {
         Self { arc, from: from.at, to: to.at, sweep: arc.sweep(from, to), radius, growth }
     }
 
-    /// Returns the arc itself.
+    /// Returns the arc without the values computed for its ends.
     pub fn arc(&self) -> Arc {
         self.arc
     }

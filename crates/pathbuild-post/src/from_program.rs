@@ -118,7 +118,7 @@ impl<'a> Builder<'a> {
         after
     }
 
-    /// Combines the steps that drill a hole to a single one and returns the steps after it. Returns `None` if they are not a hole, because
+    /// Combines the steps that drill a hole into a single one and returns the steps after it. Returns `None` if they are not a hole, because
     /// the tool does not come from above the material or continues from the bottom.
     fn hole(&mut self, peck: Option<f64>, steps: &'a [ProgramStep]) -> Option<&'a [ProgramStep]> {
         let (remarks, steps) = comments(steps);

@@ -45,7 +45,7 @@ pub fn is_of_head(text: &str) -> bool {
 
 impl Job {
     /// Converts the steps of a program in any dialect. A new operation begins where the tool, the spindle or the coolant changes, and
-    /// where `remark` returns one. Several moves in one line are combined to a drilled hole if they form one. The upper face of the
+    /// where `remark` returns one. Several moves in one line are combined into a drilled hole if they form one. The upper face of the
     /// material is assumed to be at Z 0, because programs do not contain it: see [`set_surface`](Self::set_surface).
     ///
     /// # Errors
@@ -534,7 +534,7 @@ fn rises(movement: &Move) -> bool {
 }
 
 /// Returns the hole at the beginning of `steps`, and the remaining steps. The reader has expanded drilling cycles to moves; all moves of
-/// the hole must come from one line that has no others. The rapid moves to the hole are combined to one, unless one of them rises, because
+/// the hole must come from one line that has no others. The rapid moves to the hole are combined into one, unless one of them rises, because
 /// the tool may then be in the material.
 pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     let [first, second, ..] = steps else { return None };

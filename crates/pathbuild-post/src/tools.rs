@@ -79,7 +79,7 @@ struct ToolWords {
     has_length: bool,
     /// Whether tools are layers, the first of which applies from the beginning.
     has_layers: bool,
-    /// Whether T without M6 changes nothing, so that the operator must.
+    /// Whether T without M6 only remembers the number, so that the operator must change the tool at a stop.
     needs_stop: bool,
 }
 

@@ -549,7 +549,7 @@ fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
     effects
 }
 
-/// Replacements for a byte.
+/// Bytes that a random change puts in place of another byte.
 const BYTES: &[u8] = b"0123456789.-+GMXYZIJKFSTRHPLNO()[];/%#=*!:,\"' \t\r\n<>\x00\xff";
 
 /// Text that a changed comment may hide or expose.

@@ -38,7 +38,7 @@ fn is_refused(known: &Known) -> bool {
     REFUSED.iter().any(|refused| refused.name == known.name)
 }
 
-/// The mistakes that are put into a program, all of them together. Posts raise the cutter at the end.
+/// The mistakes that are put into a program, all of them at once. Posts raise the cutter at the end.
 const BROKEN: [&str; 4] = [
     "rapid move through stock",
     "spindle speed ten times as high",
