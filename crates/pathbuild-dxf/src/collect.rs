@@ -72,7 +72,7 @@ pub(crate) struct PlacedEntity<'p> {
     /// The place of the outermost insertion that draws the entity, or the entity's own place.
     pub(crate) origin: Origin,
     pub(crate) is_invisible: bool,
-    /// The frozen layer, if the block that contains the entity is inserted on one.
+    /// The frozen layer on which a block that contains the entity is inserted; `None` if no such block is on a frozen layer.
     pub(crate) frozen: Option<&'p SmolStr>,
     pub(crate) placement: Option<&'p Placement>,
 }

@@ -28,7 +28,6 @@ pub(crate) struct Groups<'a> {
     ahead: NextPair<'a>,
 }
 
-/// The position of the next pair.
 #[derive(Clone, Copy)]
 struct NextPair<'a> {
     stretch: ScannedPairs<'a>,

@@ -179,7 +179,6 @@ pub(crate) fn without_cr(mut line: &[u8]) -> &[u8] {
     line
 }
 
-/// A keyword to search for.
 pub(crate) type Keyword = LazyLock<Finder<'static>>;
 
 pub(crate) static LAYER: Keyword = LazyLock::new(|| Finder::new("LAYER"));

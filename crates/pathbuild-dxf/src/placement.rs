@@ -89,7 +89,6 @@ impl Placement {
         (cos * x - sin * y, sin * x + cos * y)
     }
 
-    /// Transforms a shape.
     pub(crate) fn apply(&self, geometry: &mut Geometry) {
         match geometry {
             Geometry::Line(line) => *line = Line { start: self.point(line.start), end: self.point(line.end) },

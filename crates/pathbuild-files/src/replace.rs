@@ -17,7 +17,7 @@ use pathbuild_diagnostic::reasons::{TOO_MANY_TEMPORARY, WRITE_PROTECTED, is_open
 /// # Errors
 /// If it cannot be written; the previous file remains.
 pub(crate) fn write(path: &Utf8Path, bytes: &[u8], is_private: bool) -> io::Result<()> {
-    // Renaming asks for access to the directory only.
+    // Renaming needs access to the directory only, so it would also replace a write-protected file.
     if fs::symlink_metadata(path).is_ok_and(|data| data.is_file() && data.permissions().readonly()) {
         return Err(text_error(ErrorKind::PermissionDenied, &WRITE_PROTECTED));
     }

@@ -24,7 +24,6 @@ enum Step {
     Remark(usize),
     /// Draws the path in a second file as well, in its own directory or in the search directory.
     Double(usize, usize),
-    /// Removes a file.
     Remove(usize),
     /// Renames a file so that, according to its name, it cannot define its path.
     Hide(usize),

@@ -205,7 +205,7 @@ fn plate_with_bars_below(second: &str) -> String {
     format!("{plate}layer 1234.2P\nstart -8,-8 \"T2 O2 I0.5 B-0.2 S5\"\n{second}\nend 60,-5\n")
 }
 
-/// The bars are between Y-1 and 1. The second path cuts off what they lead to, without removing them.
+/// The bars are between Y-1 and 1. The second path separates the bars from the plate without removing them.
 #[test]
 fn a_cut_beside_all_bars_separates_them_from_the_plate() {
     let cut = |y: f64, end: f64| {
@@ -237,7 +237,8 @@ fn cuts_of_other_paths_count_within_twice_the_cutter_diameter() {
     assert_eq!(codes(-3.01), [""; 0]);
 }
 
-/// The upper component has bars on its lower side only, which the upper cut of the lower component passes.
+/// Both components have bars on their lower sides only. If the lower component is near, its upper cut leaves no material that the bars of the upper
+/// component could hold to.
 #[test]
 fn bars_between_components_need_material_to_hold_to() {
     let component = component().replace("bars to 27,12 3,12 3,-12", "mill to 27,12 3,12 3,-12");
@@ -332,7 +333,7 @@ fn neighbours_leave_the_plate_behind_support_bars() {
     assert!(found.len() == 1 && found[0].starts_with("PB217 after this cut"), "{found:?}");
 }
 
-/// A cut of another component beside the part does not enter the part, but cuts through its bar, down to Z0 or above the bar.
+/// A cut of another component beside the part does not enter the part, but removes the part's bars if it goes deeper than their upper sides.
 #[test]
 fn bars_must_not_be_cut_by_other_components() {
     let plate = format!(
@@ -355,7 +356,8 @@ fn bars_must_not_be_cut_by_other_components() {
     assert_eq!(codes(0.77).len(), 6, "every bar of this side, by more than the tolerance");
 }
 
-/// A raised component is on a raised plate: cuts of the other component go through it, but its own cuts end above the other one.
+/// A raised component is on a raised plate: cuts of the other component go through the raised plate, but cuts of the raised component end above the
+/// other plate.
 #[test]
 fn heights_of_embeddings_raise_the_plate() {
     let component = component();

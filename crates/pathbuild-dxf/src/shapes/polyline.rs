@@ -69,7 +69,6 @@ impl OpenPolyline {
         Ok(())
     }
 
-    /// Finishes the polyline.
     pub(crate) fn end(self) -> Vec<Geometry> {
         pieces(&self.corners, self.is_closed, self.is_mirrored)
     }

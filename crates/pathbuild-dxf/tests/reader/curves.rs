@@ -113,7 +113,7 @@ fn ellipse(groups: &str) -> String {
     entities(&format!("0 ELLIPSE\n8 A\n10 5\n20 6\n11 30\n21 40\n{groups}"))
 }
 
-/// Returns a point of the ellipse.
+/// Returns the point at a parameter on the ellipse that [`ellipse`] draws.
 fn on_ellipse(ratio: f64, parameter: f64) -> XY {
     let (sin, cos) = libm::sincos(parameter);
     [5.0 + 30.0 * cos - 40.0 * ratio * sin, 6.0 + 40.0 * cos + 30.0 * ratio * sin]

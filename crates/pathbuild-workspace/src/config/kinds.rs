@@ -48,7 +48,6 @@ pub(in crate::config) const SECONDS: ValueType<Duration> = ValueType {
     schema: || json!({ "type": "number", "exclusiveMinimum": 0 }),
 };
 
-/// A number of at least 0.
 pub(in crate::config) const NOT_NEGATIVE: ValueType<f64> = ValueType {
     read: |value, reader| {
         reader.require(number(value).filter(|number| *number >= 0.0), &messages::NOT_NEGATIVE, value)
@@ -260,12 +259,10 @@ pub(in crate::config) const ABSOLUTE_DIRECTORIES: ValueType<Directories> = Value
     ..DIRECTORIES
 };
 
-/// Returns the type of a value that is the name of a choice.
 pub(in crate::config) const fn choice<T: Choice>() -> ValueType<T> {
     ValueType { read: read_choice, show: |choice| name_of(*choice).map(quoted), schema: choice_schema::<T> }
 }
 
-/// Returns the type of a value that is a list of names of choices.
 pub(in crate::config) const fn choices<T: Choice>() -> ValueType<Vec<T>> {
     ValueType {
         read: |value, reader| {

@@ -136,7 +136,7 @@ impl<'a> TomlReader<'a> {
         self.source.fault(message, span).quoting("key", self.key.as_str())
     }
 
-    /// Counts a value of a limited kind. Returns whether the limit allows one more. Exceeding the limit is reported only once.
+    /// Counts a value of a limited kind. Returns whether the limit allows this value. Exceeding the limit is reported only once.
     pub(super) fn counts(&mut self, what: LimitedKind, span: Range<usize>) -> bool {
         let (most, word) = what.maximum();
         let count = &mut self.counts[what as usize];

@@ -321,7 +321,6 @@ pub static ABOVE_FIRST: Text = Text {
     de: "zuerst über dem Material nach X und Y fahren, dann hinunter",
 };
 
-/// Returns the displayed name of a check.
 fn requirement_name(requirement: Requirement) -> Text {
     match requirement {
         Requirement::Rapids | Requirement::AssumedRapids => Text { en: "rapid moves", de: "Eilgänge" },
