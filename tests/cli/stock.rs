@@ -139,7 +139,6 @@ impl TurningMove {
     }
 }
 
-/// Returns the corners of the bounding box of a course.
 fn extent([from, to]: [Point; 2], arc: Option<&TurningMove>) -> [Point; 2] {
     let mut all = vec![from, to];
     if let Some(arc) = arc {
@@ -202,7 +201,6 @@ impl ExactStock {
         has_one_top.then_some(Self { moves, top, low, blank })
     }
 
-    /// Returns the state of the stock at a point after all moves.
     fn at(&self, at: Point) -> Exact {
         let mut exact = Exact { height: self.top, through: f64::NEG_INFINITY, is_hit: false };
         for movement in self.moves.iter().filter(|movement| movement.is_near(at, 0.0)) {

@@ -405,7 +405,6 @@ pub(super) fn check_beam(steps: &[Step]) -> Option<Diagnostic> {
     None
 }
 
-/// Whether the spindle is ever switched on.
 pub(super) fn is_started(steps: &[Step]) -> bool {
     steps.iter().any(|step| match step.action {
         Action::Spindle(spindle) => spindle.turning.is_on(),

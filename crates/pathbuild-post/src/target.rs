@@ -35,12 +35,10 @@ impl Target {
         Dialect::ALL.iter().map(|dialect| dialect.name()).collect()
     }
 
-    /// Whether the control supports the cycle G81.
     pub(super) fn has_cycles(&self) -> bool {
         self.rules.words.has_g(810)
     }
 
-    /// Whether the control supports M3.
     pub(super) fn switches_spindle(&self) -> bool {
         self.rules.words.has_m(30)
     }

@@ -375,7 +375,6 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
         self.comment(Comment::Pass { number, z });
     }
 
-    /// Returns the feed of a segment, or the default feed (--feed), in mm/min.
     pub(crate) fn feed_or_default(&self, own: Option<f64>) -> f64 {
         own.unwrap_or(self.feed)
     }

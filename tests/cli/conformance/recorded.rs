@@ -56,7 +56,6 @@ struct CaseFile {
 }
 
 impl Run {
-    /// Returns the name of the case and the number of the run.
     pub(crate) fn name(&self) -> String {
         format!("{}/{}", self.case.file_name().unwrap().to_str().unwrap(), self.number)
     }

@@ -288,7 +288,6 @@ impl Values {
         self.given & bit(letter) != 0
     }
 
-    /// Whether X, Y or Z is set.
     pub(super) fn has_coordinates(&self) -> bool {
         self.given & Self::COORDINATES != 0
     }

@@ -210,22 +210,18 @@ impl Offsets {
         }
     }
 
-    /// Whether the zero of all positions has been fixed.
     pub(super) fn is_fixed(&self) -> bool {
         self.base.is_some()
     }
 
-    /// Whether the zero of all positions has been fixed and is known in machine coordinates.
     pub(super) fn is_fixed_to_machine(&self) -> bool {
         self.is_fixed() && self.is_base_known
     }
 
-    /// Whether G92 shifts coordinates.
     pub(super) fn is_shifted_by_origin(&self) -> bool {
         self.origin != [0.0; 3]
     }
 
-    /// Returns the offset of G52 along an axis.
     pub(super) fn local(&self, axis: usize) -> f64 {
         self.local[axis]
     }

@@ -339,7 +339,6 @@ impl Interpreter<'_> {
     }
 }
 
-/// Whether an M code changes the order of lines or the meaning of G words.
 pub(super) fn is_jump(m_code: u16) -> bool {
     UNSUPPORTED_M_CODES.contains(&m_code)
 }

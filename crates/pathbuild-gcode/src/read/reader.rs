@@ -73,7 +73,6 @@ impl<'t> BlockReader<'t> {
         }
     }
 
-    /// Returns the place after the line last read.
     pub(crate) fn place(&self) -> Place {
         Place { at: self.at, line: self.line }
     }

@@ -370,7 +370,6 @@ impl<'m> Walker<'m> {
         self.moves.last().copied()
     }
 
-    /// Whether a part of the current move has been passed.
     pub(super) fn is_within(&self) -> bool {
         self.done > 0.0
     }
@@ -395,7 +394,6 @@ impl<'m> Walker<'m> {
         self.done = 0.0;
     }
 
-    /// Advances to this fraction of the current move.
     pub(super) fn go_to(&mut self, share: f64) {
         self.done = share;
     }

@@ -36,7 +36,6 @@ impl HeightMap {
         Self { resolution, tiles: BTreeMap::new(), left: cells }
     }
 
-    /// Whether the limit on visited cells has been reached.
     pub(super) fn is_exhausted(&self) -> bool {
         self.left == 0
     }

@@ -564,7 +564,6 @@ impl Stock {
         Self { most_pieces: most, ..self }
     }
 
-    /// Returns the maximum number of visited cells.
     pub(super) fn cells(&self) -> u64 {
         self.cells
     }

@@ -120,7 +120,6 @@ impl PostWords {
         self.definition.is_some()
     }
 
-    /// Whether a word omitted by the translation is one that the post writes.
     fn has_other(&self, word: &str) -> bool {
         self.others.contains(word)
     }
@@ -139,7 +138,6 @@ impl PostWords {
         self.codes.contains(&(letter, code))
     }
 
-    /// Whether the post selects a coordinate system.
     fn has_systems(&self) -> bool {
         (540..600).any(|code| self.has('G', code))
     }

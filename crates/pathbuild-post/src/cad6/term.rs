@@ -326,7 +326,6 @@ impl Fault {
         Box::new(Self { span, diagnostic: Diagnostic::new(message) })
     }
 
-    /// Sets an argument of the message.
     pub(super) fn with(
         mut self: Box<Self>,
         name: &'static str,

@@ -104,7 +104,6 @@ impl Definition {
             || self.templates().flat_map(Template::macros).any(|(what, _)| is_turned(what))
     }
 
-    /// Whether the definition wraps paths around a cylinder.
     pub(crate) fn is_wrapped(&self) -> bool {
         self.options.rotary.wrap
     }
@@ -161,7 +160,6 @@ impl Definition {
         self.options.arc_tolerance * units.millimetres()
     }
 
-    /// Whether the definition has a word for the drilling cycle G81.
     pub(crate) fn writes_cycles(&self) -> bool {
         !self.section(Section::G81).is_blank()
     }

@@ -38,7 +38,6 @@ impl Machine {
         self.last_text(register)?.parse().ok()
     }
 
-    /// Sets a register, or marks it as unknown.
     pub(super) fn set(&mut self, register: Register, text: Option<String>) {
         self.registers[register as usize] = text.map(Into::into);
     }

@@ -121,7 +121,6 @@ impl<'a> Writer<'a> {
         })
     }
 
-    /// The feeds of the current operation.
     pub(super) fn feeds(&self) -> Feeds {
         self.feeds[self.operation]
     }
@@ -134,12 +133,10 @@ impl<'a> Writer<'a> {
         self.plan.definition.options.number_format
     }
 
-    /// Converts a length or feed to the output unit.
     pub(super) fn scaled(&self, millimetres: f64) -> f64 {
         millimetres / self.plan.unit()
     }
 
-    /// Formats a length in the output unit.
     pub(super) fn length(&self, millimetres: f64) -> String {
         self.number_format().format(self.scaled(millimetres))
     }

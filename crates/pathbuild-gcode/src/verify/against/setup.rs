@@ -165,7 +165,6 @@ impl<'w> Setup<'w> {
         }
     }
 
-    /// Whether the active length is that of the tool inserted by M6.
     fn has_length_of_tool(&self) -> bool {
         self.tools.length_fit() == LengthFit::Fits
     }
@@ -335,7 +334,6 @@ impl<'w> Setup<'w> {
         }
     }
 
-    /// Whether the control keeps the tool length of the previous program unless the program sets one.
     fn keeps_lengths(&self) -> bool {
         self.dialect.rules().lengths.keeps_length
             && (!self.words.is_of_definition() || self.words.has('G', 490) || self.must_apply_length())
