@@ -231,7 +231,6 @@ impl OnDisk {
         }
     }
 
-    /// Returns the findings of `check` with these options.
     fn check(&self, options: &str) -> Vec<Finding> {
         let run = self.0.run(&format!("check --format=json {options}"));
         assert!(matches!(run.status, Some(0 | 1)), "{run}");

@@ -345,7 +345,6 @@ fn what_took_too_long_is_asked_again() {
     }
 }
 
-/// Returns the modification times and contents of the programs.
 fn programs(place: &Place) -> Vec<(std::path::PathBuf, std::time::SystemTime, Vec<u8>)> {
     let listed = fs::read_dir(place.path().join("projects")).unwrap().map(|entry| entry.unwrap().path());
     let mut programs: Vec<_> = listed

@@ -54,7 +54,6 @@ fn a_searched_directory_of_the_command_line_that_is_missing_is_an_error() {
     assert_found(&place, "check 1234.1P.dxf --search 1234.1P.dxf", 1, &["003"]);
 }
 
-/// The diagnostic of a missing directory is located at the source that names it.
 #[test]
 fn a_missing_directory_is_reported_where_it_is_named() {
     let place = place(&[("pathbuild.toml", "\nsearch = [\"gone\"]"), ("1234.1P.dxf", PATH)]);

@@ -160,7 +160,6 @@ fn what_the_machine_cannot_do_is_not_written() {
     ));
 }
 
-/// A program rewritten by `post` states its new dialect.
 #[test]
 fn a_rewritten_program_names_its_own_dialect() {
     let place = library("spindle = \"manual\"\nprobe-feed = 40");

@@ -116,7 +116,6 @@ impl<'a> Served<'a> {
         self.send(&[&format!("GET {what} HTTP/1.1"), "Host: localhost:PORT"])
     }
 
-    /// Returns the status of a request with these headers.
     fn status(&self, what: &str, headers: &[&str]) -> u16 {
         let first = format!("GET {what} HTTP/1.1");
         self.send(&[&[first.as_str()], headers].concat()).status

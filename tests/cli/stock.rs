@@ -225,7 +225,6 @@ impl ExactStock {
     }
 }
 
-/// Returns 16 points on a circle around a point.
 fn ring([x, y]: Point, away: f64) -> [Point; 16] {
     std::array::from_fn(|number| {
         let (sin, cos) = libm::sincos(TAU * number as f64 / 16.0);

@@ -156,7 +156,6 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
     found
 }
 
-/// Returns the words that the post of each dialect writes.
 fn known_words() -> &'static BTreeMap<Dialect, PostWords> {
     static WORDS: OnceLock<BTreeMap<Dialect, PostWords>> = OnceLock::new();
     WORDS.get_or_init(|| Dialect::ALL.iter().map(|dialect| (*dialect, words_of(*dialect))).collect())

@@ -371,7 +371,6 @@ fn are_alike_in_runs(before: &[Effect], after: &[Effect]) -> bool {
     before.len() == after.len() && before.iter().zip(&after).all(is_same_run)
 }
 
-/// Returns the distance of an effect's end from a line.
 fn distance(effect: &Effect, from: &[f64], to: &[f64]) -> f64 {
     let part = |a: &[f64], axis: usize| a[axis] - from[axis];
     let dot = |a: &[f64], b: &[f64]| (0..3).map(|axis| part(a, axis) * part(b, axis)).sum::<f64>();

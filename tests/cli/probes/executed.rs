@@ -20,7 +20,6 @@ fn verify(place: &Place, program: &str) -> [Run; 2] {
     [place.run(&format!("verify {program}")), place.run(&format!("verify {program} --against a.dxf"))]
 }
 
-/// Returns the index of the first line that contains a text.
 fn line_of(text: &str, part: &str) -> usize {
     text.lines().position(|line| line.contains(part)).unwrap_or_else(|| panic!("no {part}"))
 }
@@ -30,7 +29,6 @@ fn with_line(text: &str, number: usize, change: impl Fn(&str) -> String) -> Stri
     text.lines().enumerate().map(line).collect::<Vec<_>>().join("\n") + "\n"
 }
 
-/// Changes the number before the formula of a line.
 fn number_changed(line: &str, by: f64) -> String {
     let (before, formula) = line.split_once("(=").unwrap();
     let (words, number) = before.rsplit_once('Z').unwrap();

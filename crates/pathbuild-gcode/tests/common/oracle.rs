@@ -115,7 +115,6 @@ fn calls_of(output: &str) -> Vec<Call> {
     without_standing(calls)
 }
 
-/// Returns our steps as calls, by the rules of a dialect.
 pub(crate) fn our_calls(text: &str, dialect: Dialect) -> Vec<Call> {
     let result = interpret(text.as_bytes(), dialect, &Options::default());
     let calls = result.steps.iter().filter_map(|step| match &step.action {
