@@ -44,7 +44,6 @@ pub enum ChangeKind {
     Reordered,
 }
 
-/// Origin of a program's coordinates.
 const ORIGIN: Point = [0.0; 2];
 
 /// Returns the changes from one program to another, in the order of the new one; empty if both are equivalent.
@@ -84,7 +83,6 @@ struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    /// Classifies the moves in a pair of differing runs.
     fn classify_runs(&self, old: &Range<usize>, new: &Range<usize>) -> Vec<Change> {
         let mut changes = Vec::new();
         match self.shift_of_runs(old, new) {
@@ -276,14 +274,12 @@ impl Line {
     }
 }
 
-/// The result of milling along a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MillingResult {
     /// Lowest Z in mm.
     pub(super) bottom: f64,
     /// Feed of the deepest pass in mm/min.
     pub(super) feed: f64,
-    /// Number of passes.
     pub(super) passes: u32,
 }
 
@@ -302,7 +298,6 @@ pub(super) fn lines(moves: &[SceneMove]) -> HashMap<Line, MillingResult> {
     lines
 }
 
-/// Whether a move is rapid, in the plane or straight up or down.
 fn is_rapid(movement: &SceneMove) -> bool {
     matches!(movement.kind, MoveKind::Sweep | MoveKind::Lift)
 }

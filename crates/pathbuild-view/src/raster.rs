@@ -16,13 +16,11 @@ use crate::svg::{Sheet, VisibleParts, sheet_pages, svg, xmp};
 /// A subset of `DejaVu Sans` with the characters that pictures need.
 const FONT: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");
 
-/// Name of the font family.
 const FAMILY: &str = "DejaVu Sans";
 
 /// Pixels of a PNG per px of the SVG.
 const PIXELS_PER_PX: f32 = 2.0;
 
-/// The font database, loaded once.
 static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
     let mut fonts = Database::new();
     fonts.load_font_data(FONT.to_vec());

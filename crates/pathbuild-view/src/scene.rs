@@ -394,7 +394,7 @@ pub struct Finding {
     pub number: usize,
     /// Code of the message, for example PB203.
     pub code: String,
-    /// Whether it is an error.
+    /// Whether the finding is an error, not a warning or a note.
     pub is_error: bool,
     /// Message in both languages.
     pub message: BilingualText,
@@ -596,7 +596,6 @@ impl MoveKind {
     }
 }
 
-/// The JSON form of a move.
 #[derive(Serialize)]
 struct MoveJson {
     kind: MoveKind,

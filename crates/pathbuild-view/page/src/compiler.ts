@@ -63,12 +63,10 @@ export class Compiler {
     private options: Options,
   ) {}
 
-  /** Opens the files and returns what they contain. */
   async open(): Promise<Opened> {
     return this.next(() => this.begin());
   }
 
-  /** Returns the paths of a drawing. */
   async index(file: string): Promise<IndexRow[]> {
     return (await this.ask("index", { file, path: null })).head.rows;
   }
@@ -96,7 +94,6 @@ export class Compiler {
     return (await this.next(() => this.put({ ask: "statistics" }))).head.statistics;
   }
 
-  /** Writes the programs of these paths. */
   async emit(places: Place[]): Promise<{ refused: string | null; problems: Finding[]; files: [string, Uint8Array<ArrayBuffer>][] }> {
     const { head, bytes } = await this.next(() => this.put({ ask: "emit", places }, undefined, this.seconds * Math.max(1, places.length)));
     let from = 0;
@@ -104,7 +101,6 @@ export class Compiler {
     return { ...head, files: head.files.map(file) };
   }
 
-  /** Terminates the worker. */
   end(): void {
     this.isOver = true;
     this.stop();

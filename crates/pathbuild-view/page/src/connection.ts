@@ -34,7 +34,7 @@ export class Connection implements Source {
     return (await this.get(`api/program?${new URLSearchParams(given)}`, { method: "POST", body: bytes })).json();
   }
 
-  /** Calls `hear` for each change until the connection ends. A restarted server has a different page. */
+  /** Calls `hear` for each change until the connection ends. If the server was restarted, reloads the page, because the new one may differ. */
   async events(hear: () => void): Promise<void> {
     const answer = await this.get("api/events");
     const reader = answer.body!.pipeThrough(new TextDecoderStream()).getReader();
@@ -67,7 +67,7 @@ function query(file: string, path: string | null): string {
   return wanted.toString();
 }
 
-/** Removes the token from the address, so that it is neither visible nor stored in the browser's history. */
+/** Returns the token. Removes it from the address, so that it is neither visible nor stored in the browser's history. */
 function takeToken(): string | null {
   const from = new URLSearchParams(location.hash.slice(1));
   const token = from.get("token");

@@ -13,7 +13,6 @@ export function node(tag: string, content: string, className = ""): HTMLElement 
   return made;
 }
 
-/** Creates a table row with cells of one kind. */
 export function tableRow(tag: "td" | "th", cells: string[]): HTMLElement {
   const row = document.createElement("tr");
   row.append(...cells.map((cell) => node(tag, cell)));

@@ -28,7 +28,6 @@ const KEYS: [string, string, Word][] = [
 
 const dialog = $<HTMLDialogElement>("help");
 
-/** Renders the list of keys in a language. */
 export function sayKeys(lang: Lang): void {
   const rows = KEYS.map(([english, german, word]) => {
     const row = document.createElement("tr");
@@ -38,7 +37,6 @@ export function sayKeys(lang: Lang): void {
   $("key-list").replaceChildren(...rows);
 }
 
-/** Opens or closes the list of keys. */
 export function toggleHelp(): void {
   if (dialog.open) dialog.close();
   else dialog.showModal();

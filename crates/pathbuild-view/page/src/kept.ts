@@ -63,7 +63,6 @@ export class Kept {
     this.object.material.uniforms.picture.value = shown.target.texture;
   }
 
-  /** Releases the resources of the graphics card. */
   dispose(): void {
     this.forget();
     this.lines.geometry.dispose();
@@ -107,7 +106,6 @@ export class Kept {
     return { target, count: picture.count };
   }
 
-  /** Copies a picture into a target. */
   private put(renderer: THREE.WebGLRenderer, picture: Picture, target: THREE.WebGLRenderTarget): void {
     this.object.material.uniforms.picture.value = picture.target.texture;
     paint(renderer, target, this.object, new THREE.Camera(), true);
@@ -119,7 +117,6 @@ export class Kept {
   }
 }
 
-/** Draws a single object into a target, which is cleared first if requested. */
 function paint(renderer: THREE.WebGLRenderer, target: THREE.WebGLRenderTarget, object: THREE.Object3D, camera: THREE.Camera, clears: boolean): void {
   const [color, alpha] = [renderer.getClearColor(new THREE.Color()), renderer.getClearAlpha()];
   renderer.autoClear = clears;

@@ -34,7 +34,6 @@ export class Labels {
     private legend: HTMLElement,
   ) {}
 
-  /** Replaces all labels. */
   set(spots: Spot[]): void {
     const rank = ({ node }: Spot) => RANKS.findIndex((name) => node.classList.contains(name));
     this.labels = spots.map((spot): Label => ({ ...spot, rank: rank(spot), box: [0, 0, 0, 0] })).sort((a, b) => a.rank - b.rank);
@@ -42,7 +41,6 @@ export class Labels {
     this.host.replaceChildren(...spots.map(({ node }) => node));
   }
 
-  /** Places the labels in a picture of this size. */
   place(project: (at: [number, number, number]) => Point, width: number, height: number): void {
     if (!this.isMeasured) this.measure();
     const taken = new Map<number, Box[]>();

@@ -23,7 +23,6 @@ export interface Shown {
   parts: FinishedPart[];
 }
 
-/** Renders the legend for everything that is visible. */
 export function sayLegend(model: Model, shown: Shown, lang: Lang): void {
   const hasCuts = Number.isFinite(model.deepest);
   depths.hidden = !hasCuts;
@@ -63,7 +62,6 @@ export function sayScale(perMm: number | null): void {
   scale.textContent = `${mm(length)} mm`;
 }
 
-/** Shows or hides the legend. */
 export function showLegend(isShown: boolean): void {
   host.hidden = !isShown;
 }

@@ -15,7 +15,7 @@ const STATES = { errors: "manyErrors", stale: "stateStale", current: "stateCurre
 
 export class List {
   private rows: LibraryRow[] = [];
-  /** Index of the selected row. */
+  /** Index of the selected row; -1 if no row is selected. */
   private at = -1;
   private isCompact = false;
 
@@ -43,12 +43,10 @@ export class List {
     if (before !== this.at) this.reveal();
   }
 
-  /** Opens the first row. */
   openFirst(): void {
     if (this.rows.length > 0) this.choose(0, true);
   }
 
-  /** Renders the visible rows. */
   draw(): void {
     const height = this.height();
     this.items.style.height = `${this.rows.length * height}px`;

@@ -14,7 +14,6 @@ interface Wanted {
   path: string | null;
 }
 
-/** The selection of rows that are listed. */
 type Filter = "all" | "errors" | "stale" | "current" | "ok" | "warnings";
 
 const FILTERS: [Filter, Word][] = [
@@ -109,7 +108,6 @@ class Page {
     void this.listen();
   }
 
-  /** Listens for changes while the page is open. */
   private async listen(): Promise<void> {
     for (;;) {
       try {
@@ -182,7 +180,7 @@ class Page {
     return this.files.flatMap((file) => this.drawings.get(file)!);
   }
 
-  /** Lists the rows that match the search. */
+  /** Lists the rows that match the search and the filter. */
   private relist(): void {
     const words = $<HTMLInputElement>("search").value.toLowerCase().split(/\s+/).filter((word) => word !== "");
     const isMeant = (row: LibraryRow) => {
@@ -202,7 +200,6 @@ class Page {
     this.list.set(rows, this.open);
   }
 
-  /** Renders all texts. */
   private say(): void {
     $<HTMLInputElement>("search").placeholder = say("search", lang);
     $("search").setAttribute("aria-label", say("search", lang));
@@ -219,7 +216,7 @@ class Page {
     const { statistics } = this;
     if (!statistics) return $("states").replaceChildren();
     const numbers = { ...statistics.states, all: statistics.paths, warnings: statistics.with_warnings };
-    // The list has a row for each drawing without readable paths; the statistics are those of paths.
+    // The list has a row for each drawing without readable paths, too; the statistics count only paths.
     const whole = this.rows().filter(({ path }) => path === null);
     for (const [filter] of FILTERS) numbers[filter] += whole.filter((row) => isListed(row, filter)).length;
     const shown = FILTERS.filter(([filter]) => filter === "all" || filter === this.filter || numbers[filter] > 0);
@@ -265,7 +262,7 @@ class Page {
     this.remark();
   }
 
-  /** Renders the remarks about the whole picture. */
+  /** Shows why the picture is missing or out of date, if it is. */
   private remark(): void {
     const text = this.failure !== "" ? this.failure : !this.isOnline ? say("offline", lang) : this.isGone ? `${this.open?.file} ${say("gone", lang)}` : "";
     this.note.textContent = text;
@@ -372,7 +369,6 @@ class Page {
   }
 }
 
-/** Whether a filter accepts a row. */
 function isListed(row: LibraryRow, filter: Filter): boolean {
   return filter === "all" || (filter === "warnings" ? (row.warnings ?? 0) > 0 : row.state === filter);
 }

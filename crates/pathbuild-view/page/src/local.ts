@@ -103,7 +103,6 @@ class Local implements Source {
     return seen;
   }
 
-  /** Lists all paths. */
   private async list(compiler: Compiler): Promise<void> {
     const { halted, problems, drawings, posts } = await compiler.open();
     if (compiler !== this.compiler) return;
@@ -117,7 +116,6 @@ class Local implements Source {
     this.tell(true);
   }
 
-  /** Checks all listed paths. */
   private async check(compiler: Compiler): Promise<void> {
     if (compiler !== this.compiler || this.halted !== null) return;
     // A restarted compiler has lost the figures of the paths checked before.
@@ -165,7 +163,7 @@ const CONFIGURATION = "pathbuild.toml";
 
 const FIELDS = ["feed", "sweep-height", "rapid", "probe-feed"] as const;
 
-/** Options that the user sets in addition to the configuration. */
+/** Returns the options that the user has set on the page in addition to the configuration. */
 function options(): Options {
   const said: Options = { lang };
   for (const name of FIELDS) {

@@ -23,7 +23,7 @@ function takePrograms(open: (program: DroppedProgram) => void): void {
   });
 }
 
-/** Shows the still picture of the page. Scripts get it as text: it is large, and only browsers without WebGL2 need it. */
+/** Shows the still picture. It is in a `noscript` element, which the browser does not parse: it is large, and needed only without WebGL2. */
 function drawStill(): void {
   const still = document.getElementById("still")!;
   const text = still.querySelector("noscript")?.textContent;

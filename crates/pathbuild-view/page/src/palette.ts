@@ -16,7 +16,6 @@ export function hex(name: string): number {
   return color(name).reduce((sum, part) => sum * 256 + Math.round(part * 255), 0);
 }
 
-/** Returns the colours of the stock. */
 export function stockColors(): StockColors {
   const names = ["uncut", "shallow", "deep", "plate", "wrong", "leftover", "loose"] as const;
   return Object.fromEntries(names.map((name) => [name, color(name).map((part) => Math.round(part * 255))])) as StockColors;

@@ -29,7 +29,6 @@ interface Strokes {
 /** Number of pieces above which lines are thin: thick ones are too slow without a graphics card. */
 const MOST_THICK = 20_000;
 
-/** Whether moves are drawn as thick lines. */
 export function isThick(model: Model): boolean {
   return model.cuts.step.length + model.rapids.step.length <= MOST_THICK;
 }
@@ -98,7 +97,7 @@ export class Stage {
     THREE.ColorManagement.enabled = false;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    // The controls orbit around the current up axis.
+    // Set before the controls are created, because they orbit around the up axis that the camera has at that time.
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.draw());
@@ -109,7 +108,6 @@ export class Stage {
     this.watcher.observe(host);
   }
 
-  /** Replaces the scene. */
   load(model: Model, scene: Scene): void {
     this.empty();
     this.model = model;
@@ -143,7 +141,6 @@ export class Stage {
     this.resize();
   }
 
-  /** Releases the resources of the graphics card. */
   dispose(): void {
     this.empty();
     this.watcher.disconnect();
@@ -187,13 +184,11 @@ export class Stage {
     this.layer = 0;
   }
 
-  /** Returns the position of the camera. */
   view(): View {
     const { position, zoom } = this.camera;
     return { position: position.clone(), target: this.controls.target.clone(), zoom };
   }
 
-  /** Restores a position of the camera. */
   restore({ position, target, zoom }: View): void {
     this.camera.position.copy(position);
     this.controls.target.copy(target);
@@ -435,7 +430,6 @@ export class Stage {
   }
 }
 
-/** Creates pieces of a single colour. */
 function colored(points: number[], name: string): Pieces {
   const parts = color(name);
   return { points, colors: points.map((_, index) => parts[index % 3]), until: [], step: [] };

@@ -81,7 +81,6 @@ struct ElementBuilder<'a> {
     source: &'a DrawnSource<'a>,
     placement: &'a Placement,
     path: u32,
-    /// Effective parameters of each element.
     in_force: BTreeMap<ElementId, &'a [InForceParameter]>,
     /// The parameters of the previous element, and their form in the scene, which the next element shares if it has the same ones.
     last: (&'a [InForceParameter], sync::Arc<[Parameter]>),
@@ -273,7 +272,6 @@ fn element_kind(role: Role) -> ElementKind {
     }
 }
 
-/// Converts a drawn shape to the coordinates of the program.
 fn placed_shape(shape: &DrawnShape, placement: &Placement) -> Shape {
     match shape {
         DrawnShape::Curve(curve) => curve_shape(&placement.place_curve(curve)),
@@ -283,7 +281,6 @@ fn placed_shape(shape: &DrawnShape, placement: &Placement) -> Shape {
     }
 }
 
-/// Converts a curve to a shape.
 pub(super) fn curve_shape(curve: &Curve) -> Shape {
     match curve {
         Curve::Line(line) => Shape::Line { from: pair(line.start), to: pair(line.end) },

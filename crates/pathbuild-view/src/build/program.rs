@@ -43,7 +43,6 @@ pub struct EmittedText<'a> {
     pub is_posted: bool,
 }
 
-/// A text of a program, and how to read it.
 #[derive(Clone, Copy)]
 struct ShownText<'a> {
     bytes: &'a [u8],
@@ -172,7 +171,6 @@ impl Builder {
         }
     }
 
-    /// Numbers the elements in cutting order, from 1.
     fn number_elements(&mut self) {
         let mut next = 1;
         for movement in &self.scene.moves {
@@ -336,7 +334,7 @@ impl LineFinder {
     }
 }
 
-/// Whether two positions are equal along the given axes.
+/// Whether two positions are known and, within [`PLACE_TOLERANCE`], equal along the given axes.
 fn is_same(a: &Position, b: &Position, axes: Axes) -> bool {
     (0..3).filter(|axis| axes.has(Axes::of(*axis))).all(|axis| {
         a.known.and(b.known).has(Axes::of(axis)) && libm::fabs(a.at[axis] - b.at[axis]) < PLACE_TOLERANCE

@@ -9,7 +9,7 @@ use crate::scene::{Point, Scene};
 /// Font families of all texts, the first of which is preferred.
 const FONT: &str = "DejaVu Sans, Verdana, sans-serif";
 
-/// An SVG picture under construction, in px.
+/// An SVG picture under construction.
 pub(super) struct Canvas {
     text: String,
 }
@@ -59,7 +59,6 @@ impl Canvas {
         self.raw(&format!("<g {attributes}>"));
     }
 
-    /// Closes the last group.
     pub(super) fn close(&mut self) {
         self.raw("</g>");
     }
@@ -207,7 +206,6 @@ pub(super) fn color(share: f64) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// Converts a small whole number to an index.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
 fn index(value: f64) -> usize {
     value as usize

@@ -174,7 +174,6 @@ struct Style {
 }
 
 impl Style {
-    /// Returns a line of the usual width without dashes.
     fn plain(color: &'static str) -> Self {
         Self { color, dashes: "", width: LINE_WIDTH }
     }

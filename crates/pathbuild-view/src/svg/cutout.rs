@@ -130,7 +130,6 @@ fn scene_near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
     }
 }
 
-/// Removes texts beyond the maximum number.
 fn keep_first_texts(paths: &mut [ScenePath]) {
     let mut remaining = MAX_TEXTS;
     for path in paths {

@@ -128,7 +128,6 @@ impl Frame {
         PageTransform { frame: *self, zero: path.zero }
     }
 
-    /// Returns the transform for coordinates of the drawing.
     pub(super) fn of_drawing(&self) -> PageTransform {
         PageTransform { frame: *self, zero: [0.0; 2] }
     }
@@ -140,7 +139,6 @@ impl PageTransform {
         self.frame.scale
     }
 
-    /// Converts a point to the coordinates of the page.
     pub(super) fn to_page(self, [x, y]: Point) -> Point {
         let Frame { low, high, scale, corner } = self.frame;
         [corner[0] + (x + self.zero[0] - low[0]) * scale, corner[1] + (high[1] - y - self.zero[1]) * scale]
@@ -201,12 +199,10 @@ const NEAR_CANDIDATES: usize = 13;
 pub(super) type Rectangle = [Point; 2];
 
 impl OccupiedSpace {
-    /// Creates the space of a picture, with everything free.
     pub(super) fn new(area: Rectangle) -> Self {
         Self { area, taken: BTreeSet::new(), lines: Vec::new() }
     }
 
-    /// Marks the cells of a rectangle as occupied.
     pub(super) fn occupy(&mut self, rectangle: Rectangle) {
         self.taken.extend(self.cells(rectangle));
     }
@@ -218,7 +214,7 @@ impl OccupiedSpace {
         Some(found)
     }
 
-    /// Occupies the free rectangle of this size that is nearest to a point, and returns its centre.
+    /// Occupies the free rectangle of this size that is nearest to a point, and returns its centre; `None` if no position nearby is free.
     pub(super) fn occupy_near(&mut self, at: Point, [width, height]: Point) -> Option<Point> {
         let [low, high] = self.area;
         let inside = |axis: usize, value: f64, size: f64| {
@@ -302,7 +298,6 @@ impl OccupiedSpace {
     }
 }
 
-/// Returns the length of the part of a line that lies in a rectangle.
 fn length_within([from, to]: &[Point; 2], [low, high]: Rectangle) -> f64 {
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
     for axis in [0, 1] {

@@ -54,7 +54,6 @@ impl<'a> Legend<'a> {
         }
     }
 
-    /// Creates the legend for a picture of the stock after all moves.
     pub(super) fn of_stock(
         stock: &'a MilledStock<'a>,
         frame: &Frame,

@@ -13,7 +13,7 @@ use crate::scene::{MoveKind, Point, SceneMove, ScenePath};
 /// Minimum length in px of a move that gets an arrow.
 const MIN_ARROW_LENGTH: f64 = 26.0;
 
-/// Number of lines that replace an arc in another plane than XY.
+/// Number of lines that replace an arc whose plane is not XY.
 const PIECES_PER_ARC: u32 = 24;
 
 /// All moves along one line, regardless of direction. It has the direction of the first move and the depth of the deepest one.
@@ -94,7 +94,6 @@ fn is_hole(movement: &SceneMove, path: &ScenePath) -> bool {
     })
 }
 
-/// Returns the final depth of each element.
 fn final_depths(path: &ScenePath) -> Vec<Option<f64>> {
     let mut bottoms: Vec<Option<f64>> = vec![None; path.elements.len()];
     for movement in

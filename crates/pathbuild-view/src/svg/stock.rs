@@ -49,7 +49,6 @@ const MAX_COMBINED_STROKES: usize = 512;
 pub(super) struct MilledStock<'s> {
     pub(super) scene: &'s Scene,
     blanks: Vec<Blank>,
-    /// The areas that strokes paint.
     areas: Vec<SweptArea>,
     strokes: Vec<Stroke>,
     /// Pieces of rapid moves that hit material.
@@ -197,7 +196,7 @@ impl<'s> MilledStock<'s> {
         Some(self)
     }
 
-    /// Removes everything outside of an area.
+    /// Removes the strokes and hits outside of an area.
     pub(super) fn keep_near(mut self, [low, high]: [Point; 2]) -> Self {
         let is_near = |swept: &SweptArea| {
             let radius = swept.diameter / 2.0;
@@ -494,7 +493,6 @@ fn in_drawing_coordinates(way: &Move, zero: Point) -> Move {
     moved
 }
 
-/// Builder of the areas and strokes that cuts paint.
 struct StrokeBuilder {
     areas: Vec<SweptArea>,
     strokes: Vec<Stroke>,
@@ -615,7 +613,6 @@ fn line(steps: usize) -> u32 {
     u32::try_from(steps + 1).unwrap_or(u32::MAX)
 }
 
-/// Fills the outlines of parts that no path cuts.
 pub(super) fn draw_uncut_parts(canvas: &mut Canvas, scene: &Scene, place: &PageTransform) {
     let style = format!("fill=\"{LEFTOVER_COLOUR}\" fill-opacity=\"0.35\"");
     for ring in &scene.uncut {
@@ -681,7 +678,7 @@ const MAX_CORNER_REACH: f64 = 10.0;
 /// Draws the defects of a part: cuts into it, support bars that are cut away, and a colour if nothing holds the part.
 fn draw_defects(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
     let material = || -> String {
-        // Ignore rings within an opening: the opening is not filled.
+        // Rings within an opening are left out, because an opening is not filled.
         let rings =
             part.rings.iter().enumerate().zip(&part.nests).filter(|((index, _), nest)| index == *nest);
         rings.map(|((_, ring), _)| symbols::outline(ring, place)).collect()

@@ -46,7 +46,7 @@ fn text_rectangle([x, y]: Point, size: f64, text: &str) -> Rectangle {
     [[x - half, y - size / 2.0], [x + half, y + size / 2.0]]
 }
 
-/// Draws clamps, with their heights in the middle of each.
+/// Draws clamps, each with its height in the middle.
 fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &mut OccupiedSpace) {
     canvas.open(&format!("id=\"keep-outs\" fill=\"none\" stroke=\"{ERROR_COLOUR}\" stroke-width=\"1.2\""));
     let style = format!("stroke-dasharray=\"8 2 2 2\" fill=\"{ERROR_COLOUR}\" fill-opacity=\"0.14\"");
@@ -194,7 +194,6 @@ fn longest_line(label: &Label) -> usize {
     label.text.lines().map(|line| line.chars().count()).max().unwrap_or(0)
 }
 
-/// Returns the point of a shape that is nearest to another point.
 fn nearest(shape: &Shape, at: Point) -> Point {
     let onto_circle = |centre: Point, radius: f64| {
         let out = [at[0] - centre[0], at[1] - centre[1]];

@@ -64,7 +64,7 @@ export class StockPicture {
     this.object.renderOrder = -1;
   }
 
-  /** Reports that heights or colours of these texels have changed. */
+  /** Registers texels whose heights or colours have changed. They are uploaded by `prepare`. */
   change(texels: Texels): void {
     this.changed.push(texels);
   }

@@ -9,7 +9,6 @@ export type Color = [number, number, number];
 /** The colours of the stock: uncut, cut a little, cut deep, cut through, and the colours of its errors. */
 export type StockColors = Record<"uncut" | "shallow" | "deep" | "plate" | "wrong" | "leftover" | "loose", Color>;
 
-/** Direction of the light. */
 const LIGHT = normal(-0.42, 0.55, 0.72);
 /** Steps steeper than this, in texels, and higher than this, in mm, are walls: they get a dark edge and no slope. */
 const [WALL_STEEP, WALL_HIGH] = [1.8, 0.02];

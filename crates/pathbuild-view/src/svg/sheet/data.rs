@@ -120,7 +120,6 @@ pub(super) fn shown_box(sheet: &Sheet) -> Corners {
     corners.unwrap_or_default()
 }
 
-/// Returns the bounding box of a clamp.
 pub(super) fn clamp_box(clamp: &KeepOut) -> Corners {
     let mut corners = None;
     for extent in clamp.outline.iter().map(Shape::extent) {

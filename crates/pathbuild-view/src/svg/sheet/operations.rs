@@ -14,14 +14,12 @@ struct Operation {
     work: ElementOperation,
 }
 
-/// The operation at an element.
 #[derive(Debug, PartialEq)]
 struct ElementOperation {
     /// Occurrence of the path, as an index into [`ScenePath::embedded`].
     occurrence: u32,
     path: String,
     what: String,
-    /// Depth that is reached, formatted as text.
     depth: String,
 }
 

@@ -30,14 +30,12 @@ const MIN_TABLE_HEIGHT: f64 = 90.0;
 /// Share of the first page's width for the checklist.
 const CHECKLIST_SHARE: f64 = 0.54;
 
-/// A page with the items on it.
 #[derive(Debug, Default)]
 pub(super) struct Page {
     pub(super) items: Vec<Item>,
     pub(super) picture: Option<PlacedPicture>,
 }
 
-/// Returns the pages of a sheet as SVG files.
 pub(super) fn pages_as_svg(sheet: &Sheet, lang: Lang) -> Vec<String> {
     let pages = pages(sheet, Words(lang));
     let count = pages.len();

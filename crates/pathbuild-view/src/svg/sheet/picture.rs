@@ -133,7 +133,6 @@ impl PlacedPicture {
         Self { area, corners, scale, has_inset, height, is_stock: false, turned: None }
     }
 
-    /// Returns the lower edge of the picture on its page.
     pub(super) fn bottom(&self) -> f64 {
         self.area.top + self.height
     }
@@ -255,7 +254,6 @@ impl PlacedPicture {
     }
 }
 
-/// Returns the sides of a rectangle in the coordinates of the page.
 fn sides([low, high]: Corners, place: &PageTransform) -> [[Point; 2]; 4] {
     let corners = [low, [high[0], low[1]], high, [low[0], high[1]]].map(|corner| place.to_page(corner));
     [0, 1, 2, 3].map(|side| [corners[side], corners[(side + 1) % 4]])
