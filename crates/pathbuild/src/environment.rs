@@ -19,7 +19,6 @@ use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 /// (reproducible-builds.org).
 const EPOCH_VARIABLE: &str = "SOURCE_DATE_EPOCH";
 
-/// Environment variable for the language of messages.
 const LANG_VARIABLE: &str = "PATHBUILD_LANG";
 
 /// Environment variable that names the cache directory, like `--cache-dir`.

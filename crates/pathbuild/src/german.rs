@@ -112,7 +112,6 @@ pub(crate) fn help(text: &str, printer: &Printer) -> ExitStatus {
     ExitStatus::Success
 }
 
-/// Prints a usage error.
 pub(crate) fn print_usage_error(reason: &str, lang: Lang, printer: &Printer) -> ExitStatus {
     let (error, advice) = match lang {
         Lang::En => ("error", "For more information, try '--help'."),

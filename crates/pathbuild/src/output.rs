@@ -26,7 +26,6 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Creates the output of a command.
     pub(crate) fn new(command: &Command, common: &CommonArgs) -> Self {
         Self {
             command: command.name(),

@@ -157,7 +157,6 @@ impl Printer {
         self.json(Stream::Stdout, json);
     }
 
-    /// Prints a line of JSON.
     pub(crate) fn json(&self, stream: Stream, json: impl Display) {
         self.write(stream, &shown::json(&format!("{json}\n")));
     }
@@ -190,7 +189,6 @@ impl Printer {
         }
     }
 
-    /// Prints several lines about the status of the run.
     pub(crate) fn status_lines(&self, lines: impl Display) {
         if self.verbosity >= Verbosity::Normal {
             self.write(Stream::Stderr, &shown::lines(&lines.to_string()));

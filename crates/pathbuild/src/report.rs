@@ -119,7 +119,6 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
     format!("{paths} in {drawings}: {errors}, {warnings}{known} ({seconds} s)")
 }
 
-/// Returns the number of drawings with errors.
 fn count_faulty_drawings(findings: &Findings) -> usize {
     let errors = findings.diagnostics.iter().filter(|diagnostic| diagnostic.is_error());
     errors.filter_map(|diagnostic| diagnostic.file.as_deref()).collect::<BTreeSet<_>>().len()

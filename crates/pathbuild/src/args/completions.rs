@@ -40,14 +40,12 @@ pub(crate) fn posts() -> ArgValueCompleter {
     })
 }
 
-/// Completes names of dialects.
 pub(crate) fn dialects() -> ArgValueCandidates {
     ArgValueCandidates::new(|| {
         Dialect::ALL.iter().map(|dialect| CompletionCandidate::new(dialect.name())).collect()
     })
 }
 
-/// Completes codes of diagnostics.
 pub(crate) fn codes() -> ArgValueCandidates {
     let candidate = |code: &Code| CompletionCandidate::new(code.to_string()).help(Some(code.name().into()));
     ArgValueCandidates::new(move || Code::ALL.iter().map(candidate).collect())

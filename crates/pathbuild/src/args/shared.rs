@@ -243,7 +243,6 @@ impl ReportFile {
         self.file == "-"
     }
 
-    /// Parses a report of the form `FORMAT=FILE`.
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         let (format, file) = text.split_once('=').ok_or("expected FORMAT=FILE")?;
         let format = Format::from_str(format, false).ok().filter(|format| format.shows_diagnostics());

@@ -55,7 +55,6 @@ pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
     ExitStatus::Success
 }
 
-/// Reports how many files were removed.
 fn report(context: &Context, removed: Result<usize, RemoveError>) -> ExitStatus {
     match removed {
         Ok(count) => {

@@ -145,7 +145,6 @@ impl<'a> RevisionFiles<'a> {
         false
     }
 
-    /// Returns a symbolic link that has a changed target, if there is one.
     fn changed_link(&self) -> Option<Utf8PathBuf> {
         let ids: Vec<&str> = self.links.values().map(String::as_str).collect();
         // A target that cannot be read counts as changed.

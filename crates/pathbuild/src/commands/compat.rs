@@ -36,7 +36,6 @@ const VALUES: &[(char, &str)] = &[
     ('l', "--lang"),
 ];
 
-/// The translation of a command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Translation {
     /// Command lines of pathbuild, without the program's name, to be run in order.

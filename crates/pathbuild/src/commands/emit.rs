@@ -163,7 +163,6 @@ fn count_current(context: &Context, delivered: &[ProgramOutcome], outdated: usiz
     });
 }
 
-/// Returns a JSON row about a file.
 fn row(
     context: &Context,
     path: &Utf8Path,

@@ -153,7 +153,6 @@ fn show(context: &Context, file: &Utf8Path, changes: &[Change], descriptions: &[
     context.printer.result(text);
 }
 
-/// Adds a line with the old and the new value of a key.
 fn change_lines(text: &mut String, change: &Change) {
     let Change { key, old, new, source, is_new, .. } = change;
     if let Some(old) = old.as_ref().filter(|_| *is_new) {

@@ -61,7 +61,6 @@ fn show(context: &Context, name: &str) -> ExitStatus {
     }
 }
 
-/// Rewrites a program through a post-processor.
 fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
     if args.run_post_build && file_to_write(args).is_none() {
         return context.usage(context.choose(
@@ -191,7 +190,7 @@ fn file_to_write(args: &PostArgs) -> Option<&Utf8Path> {
     args.output.as_deref().filter(|file| *file != "-")
 }
 
-/// Converts the warning about a word that is not checked, because the post does not write it either.
+/// Replaces the message that a word is not checked by the message that it is left out, because the post does not write it either.
 fn tell_left_out(problem: &mut Diagnostic) {
     if problem.message == &gcode::FOREIGN_WORD {
         problem.message = &gcode::WORD_LEFT_OUT;
@@ -262,7 +261,6 @@ fn complete_tools_of_job(
     if unknown.is_empty() { by_number } else { unknown }
 }
 
-/// Shows the notes of a post-processor.
 fn show_notes(context: &Context, notes: &[Note]) {
     for note in notes {
         context.printer.status(format_args!("{}", note.text(context.lang())));

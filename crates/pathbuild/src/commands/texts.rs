@@ -227,7 +227,6 @@ fn table<'a>(
     text
 }
 
-/// Describes the source of a parameter.
 fn source(context: &Context, from: &Provider) -> String {
     let word = from.word().in_lang(context.lang());
     match from {

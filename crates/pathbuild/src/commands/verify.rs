@@ -65,7 +65,6 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
     status
 }
 
-/// Argument that means standard input.
 const STANDARD_INPUT: &str = "-";
 
 /// Reads a program from standard input.
@@ -132,7 +131,6 @@ fn conclude(
 struct CheckReport(Vec<(String, Vec<CheckRecord>)>);
 
 impl CheckReport {
-    /// Adds the checks made for a program.
     fn add(&mut self, file: String, checks: Vec<CheckRecord>) {
         if !checks.is_empty() {
             self.0.push((file, checks));

@@ -246,7 +246,7 @@ pub(super) async fn answer(listener: tokio::net::TcpListener, router: Router) ->
     }
 }
 
-/// Accepts the next connection.
+/// Returns the next connection. Errors do not end the server: it tries again, after a pause if the connection is not the cause.
 async fn next(listener: &tokio::net::TcpListener) -> TcpStream {
     loop {
         match listener.accept().await {

@@ -38,30 +38,26 @@ pub(super) struct State {
     is_over: bool,
 }
 
-/// The published facts about a drawing.
 struct PublishedDrawing {
     revision: u64,
     /// Rows of the drawing in the list, as JSON.
     text: String,
 }
 
-/// A request of a page for a picture or a scene.
+/// A request of a page for a scene or a picture, to be answered by the watching thread.
 pub(super) struct Question {
-    /// Subject of the scene or picture.
     pub(super) subject: Subject,
     /// Receives the answer; `None` means that there is no such path.
     pub(super) answer: oneshot::Sender<Option<String>>,
 }
 
-/// The subject of a request.
 pub(super) enum Subject {
-    /// A drawing of the library.
+    /// A drawing of the library, or one of its paths.
     Drawing {
         /// Name of the drawing in the list.
         file: String,
         /// Name of the path; `None` for the whole drawing.
         path: Option<String>,
-        /// Form of the answer.
         form: AnswerForm,
     },
     /// A program that was dropped on the page.

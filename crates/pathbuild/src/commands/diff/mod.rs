@@ -95,7 +95,6 @@ fn finish(context: &Context, output: &Output, comparison: &Comparison) -> ExitSt
     }
 }
 
-/// One side of a comparison.
 pub(super) enum Side {
     Drawings(Box<Drawings>),
     Program(Box<ComparedProgram>),
@@ -123,7 +122,6 @@ pub(super) enum Failure {
     Found(Vec<Diagnostic>),
 }
 
-/// The kind of an argument of `diff`.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum ArgumentKind {
     Drawings,
@@ -245,8 +243,8 @@ fn path(
     })
 }
 
-/// Returns the configured post-processor if it has written a program. If the path's program is written by the same post-processor, rounding
-/// and additional moves do not count as differences.
+/// Returns the configured post-processor if, judging by its header, the program was written by it. The path's program is then written by
+/// the same post-processor, so that rounding and additional moves do not count as differences.
 fn post_processor_of(context: &Context, program: &Utf8Path) -> Option<PostProcessor> {
     let head = context.system.read_head(program, HEAD_BYTES).ok()?;
     let (provenance, _) = Provenance::of_head(&head)?;

@@ -45,7 +45,6 @@ impl Output {
         Ok(Self(Some((format, file.to_owned()))))
     }
 
-    /// Whether the format shows pictures.
     pub(super) fn has_pictures(&self) -> bool {
         matches!(self.0, Some((Format::Html, _)))
     }

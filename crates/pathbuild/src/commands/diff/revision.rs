@@ -84,8 +84,8 @@ const MIN_SIZE_LIMIT: u64 = 1 << 30;
 struct Checkout<'a> {
     repository: &'a Repository<'a>,
     whole: &'a Utf8Path,
-    /// Maximum size of a file in bytes. A larger file is created with its length but without its content, so that reading it reports the
-    /// limit.
+    /// Maximum size of a file in bytes. A larger file is created with its length but without its content, so that reading it fails with the
+    /// error that it is too large.
     largest: u64,
     /// Names of drawings that could not be written.
     left_out: Vec<String>,
