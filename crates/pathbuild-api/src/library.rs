@@ -356,7 +356,6 @@ fn named_path(session: &Session<'_>, argument: &str) -> Result<(SourceFile, Path
     }
 }
 
-/// Finds the path of this name in this drawing.
 fn path_in(session: &Session<'_>, drawing: &str, name: &str) -> Result<(SourceFile, PathName), Error> {
     let file = session.file(Utf8Path::new(drawing));
     if let Some(name) = path_names(session.db(), file).iter().find(|known| known.as_str() == name) {

@@ -115,7 +115,6 @@ impl LibraryOptions {
         Library::start(Source::Files(files), self)
     }
 
-    /// Creates the workspace with these options.
     pub(crate) fn workspace(self, source: Source) -> Result<Workspace, Error> {
         let settings = self.given_options()?;
         let utf8 = |path| utf8(path, self.lang);

@@ -107,7 +107,7 @@ pub enum MoveKind {
     Probe,
 }
 
-/// An arc in a plane; along the third axis it moves evenly (a helix).
+/// An arc in a plane. If its ends differ along the third axis, it is a helix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Arc {

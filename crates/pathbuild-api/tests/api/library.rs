@@ -32,7 +32,6 @@ fn on_disk() -> TempDir {
     directory
 }
 
-/// Returns the codes of the findings in an error.
 fn codes<T: std::fmt::Debug>(result: Result<T, Error>) -> Vec<String> {
     match result.unwrap_err() {
         Error::Findings(found) => found.iter().map(pathbuild_api::Finding::code).collect(),
@@ -40,7 +39,6 @@ fn codes<T: std::fmt::Debug>(result: Result<T, Error>) -> Vec<String> {
     }
 }
 
-/// Returns the reason of a refused request.
 fn refusal<T: std::fmt::Debug>(result: Result<T, Error>) -> String {
     match result.unwrap_err() {
         Error::Refused(reason) => reason,
@@ -61,7 +59,6 @@ fn a_library_is_checked_and_listed() {
     assert_eq!(named[0].program, ProgramState::None);
 }
 
-/// The mistakes in the fixtures are found, in both languages and with their positions.
 #[test]
 fn findings_have_code_place_and_both_languages() {
     let checked = fixtures().check(&["mistakes"]).unwrap();
@@ -263,7 +260,6 @@ fn a_faulty_configuration_opens_nothing() {
     assert_eq!(codes(LibraryOptions::new().config("none.toml").open(on_disk().path())), ["PB003"]);
 }
 
-/// The cache keeps the results of an earlier process.
 #[test]
 fn results_are_kept_in_the_cache() {
     let (directory, caches) = (on_disk(), TempDir::new().unwrap());
@@ -273,7 +269,6 @@ fn results_are_kept_in_the_cache() {
     assert_eq!(open().check(&[]).unwrap(), first);
 }
 
-/// An untrusted library writes nothing outside of its tree.
 #[test]
 fn an_untrusted_library_stays_in_its_tree() {
     let directory = on_disk();
@@ -286,7 +281,6 @@ fn an_untrusted_library_stays_in_its_tree() {
     assert!(!codes(open(LibraryOptions::new().untrusted())).is_empty());
 }
 
-/// A library can be shared between threads.
 #[test]
 fn threads_share_a_library() {
     let library = fixtures();
