@@ -115,7 +115,6 @@ impl<'a> ChainBuilder<'a> {
         Self { path, walked: WalkedPath { members, ..WalkedPath::default() }, chained: 0 }
     }
 
-    /// Adds the next traversed segment.
     #[inline]
     pub(crate) fn add(&mut self, segment: usize, passage: Passage, is_return: bool) {
         if let SegmentKind::Cut(cut) = self.path.segments[segment].kind {
@@ -127,7 +126,6 @@ impl<'a> ChainBuilder<'a> {
         self.walked.items.extend(self.single_item(segment, &passage, is_return));
     }
 
-    /// Returns the items of the whole walk, and the diagnostics.
     pub(crate) fn finish(mut self) -> WalkedPath {
         self.finish_chain();
         self.walked
@@ -146,7 +144,6 @@ impl<'a> ChainBuilder<'a> {
         })
     }
 
-    /// Finishes the current chain, if there is one.
     pub(crate) fn finish_chain(&mut self) {
         let Self { path, walked: WalkedPath { items, members, diagnostics, .. }, chained } = self;
         let [first, ..] = &members[*chained..] else { return };
@@ -272,7 +269,6 @@ pub(crate) struct Passage {
 }
 
 impl Passage {
-    /// Creates the passage between these ends, in the drawn direction.
     pub(crate) fn in_drawn_direction([start, end]: [Xy; 2]) -> Self {
         Self { start, end, is_turned: false, moved: None }
     }

@@ -61,11 +61,9 @@ pub enum Provider {
 #[derive(Clone, Copy)]
 pub(crate) struct Texts<'v, 't> {
     pub(crate) class: ElementClass,
-    /// The element's own text.
     pub(crate) own: &'v Values<'t>,
     /// The text of the first segment of the element's chain, if that is another element.
     pub(crate) chain: Option<&'v Values<'t>>,
-    /// The text of the element's path.
     pub(crate) path: &'v Values<'t>,
 }
 
@@ -134,7 +132,6 @@ impl<'v, 't> Texts<'v, 't> {
         own.filter(has).or_else(|| path().filter(has))
     }
 
-    /// Returns the number that the texts give for a letter.
     #[inline]
     pub(crate) fn number(&self, letter: Letter) -> GivenNumber {
         self.source(letter).map_or(GivenNumber::Absent, |(values, _)| values.number(letter))

@@ -282,7 +282,6 @@ impl IntendedMarker {
     }
 }
 
-/// Converts a point of the drawing for diagnostics.
 pub(crate) fn diagnostic_point(point: Xy) -> Point {
     Point::new(point.x, point.y)
 }

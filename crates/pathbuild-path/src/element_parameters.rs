@@ -151,7 +151,7 @@ fn display_value(values: &Values<'_>, letter: Letter) -> Option<SmolStr> {
     }
 }
 
-/// For each element of a chain except the first: the first element of that chain. Empty if the path has errors.
+/// Maps each element of a chain, except the first, to the first element of that chain. Empty if the path has errors.
 fn chains(raw: &RawPath, bindings: &Bindings, language: &Language) -> BTreeMap<u32, u32> {
     let mut firsts = BTreeMap::new();
     let path = raw.is_sound().then(|| bind(raw, bindings, language).0).flatten();

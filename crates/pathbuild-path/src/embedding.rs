@@ -255,7 +255,6 @@ pub struct SweepLimits {
     faces: Box<[UpperFace]>,
 }
 
-/// An upper face of the material.
 #[derive(Clone, Debug, PartialEq)]
 struct UpperFace {
     /// The element that gives T.
@@ -325,12 +324,10 @@ impl Restriction {
         Ok(Self { parent: Regex::new(parent)?, child: Regex::new(child)? })
     }
 
-    /// Whether the rule applies to what this path embeds.
     fn applies_to(&self, parent: &PathName) -> bool {
         parent.is_match(&self.parent)
     }
 
-    /// The expression that embedded names must match.
     fn child(&self) -> &Regex {
         &self.child
     }
@@ -353,7 +350,6 @@ enum Rule<'a> {
     Own(&'a str, Option<Regex>),
     /// `--restrict`: the first restriction that applies to the path.
     Restriction(&'a Regex),
-    /// Any name is allowed.
     Any,
 }
 
@@ -361,7 +357,7 @@ enum Rule<'a> {
 pub(crate) const CHORD_TOLERANCE: f64 = 0.001;
 
 impl<'a> SubpathChecker<'a> {
-    /// Creates a judge for the embeddings of a path, by its E or else by these restrictions.
+    /// Creates a checker for the embeddings of a path. The path's E decides which names are allowed, or these restrictions if it has no E.
     pub fn new(
         outer: &'a PathSignature,
         restrictions: &'a [Restriction],
@@ -422,7 +418,6 @@ impl<'a> SubpathChecker<'a> {
         Err(Box::new(problem))
     }
 
-    /// Returns the rule that forbids embedding a path of this name.
     fn broken_rule(&self, name: &PathName) -> Option<&str> {
         let (rule, is_kept) = match &self.rule {
             Rule::Own(rule, pattern) => {
@@ -613,7 +608,6 @@ impl<'a> SubpathChecker<'a> {
         self.at(call, problem, call.fault(letter))
     }
 
-    /// Places a diagnostic at a segment.
     fn at(&self, call: &SubpathCall, diagnostic: Diagnostic, text: Option<&TextFault>) -> Diagnostic {
         call.origin.at(diagnostic.in_path(self.outer.name.as_str())).with_text(text.cloned())
     }
@@ -629,7 +623,6 @@ fn as_warning(mut diagnostic: Diagnostic) -> Diagnostic {
     diagnostic
 }
 
-/// Maximum number of names in a note.
 const MAX_NAMES_IN_NOTE: usize = 5;
 
 /// Adds a note to a finding about a path that none of the searched drawings defines. It lists the names that `name` may be a misspelling of, or else

@@ -117,7 +117,7 @@ impl Curve {
 }
 
 impl Arc {
-    /// Creates an arc from its angles in degrees as drawn; a full circle according to [`is_full_turn`].
+    /// Creates an arc from its angles in degrees as drawn. [`is_full_turn`] decides whether it is a full circle.
     pub fn from_angles(centre: Xy, radius: f64, start_angle: f64, end_angle: f64, clockwise: bool) -> Self {
         let ahead = if clockwise { start_angle - end_angle } else { end_angle - start_angle };
         let start = on_circle(centre, radius, start_angle);
@@ -232,7 +232,7 @@ impl Curve {
         }
     }
 
-    /// Returns the interior points of this curve that may be nearest to another curve, if that is an arc.
+    /// Returns the interior points of this curve that may be nearest to `other`. There are none to try if `other` is a line: the ends suffice.
     fn nearest_candidates(&self, other: &Self) -> Vec<Xy> {
         match (self, other) {
             (Self::Line(line), Self::Arc(arc)) => vec![line.nearest(arc.centre)],
@@ -251,7 +251,6 @@ impl Curve {
 }
 
 impl Line {
-    /// Returns the point of the line that is nearest to a given point.
     pub(crate) fn nearest(&self, point: Xy) -> Xy {
         let along = self.end - self.start;
         let squared = along.norm_squared();

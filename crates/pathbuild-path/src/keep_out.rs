@@ -151,7 +151,6 @@ impl Outline {
         Self { pieces: RTree::bulk_load(pieces.collect()) }
     }
 
-    /// Returns the bounding box of the outline.
     pub(crate) fn extent(&self) -> AABB<[f64; 2]> {
         self.pieces.root().envelope()
     }

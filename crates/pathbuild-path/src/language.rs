@@ -70,7 +70,6 @@ impl PathTools {
 }
 
 impl Default for PathTools {
-    /// Creates a lookup that finds no tools.
     fn default() -> Self {
         Self::new(|_, _| None)
     }

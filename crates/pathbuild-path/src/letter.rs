@@ -46,7 +46,6 @@ letters! {
     Variable ':',
 }
 
-/// A set of letters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Letters(u32);
 
@@ -88,7 +87,6 @@ impl Letter {
 }
 
 impl Letters {
-    /// All letters.
     pub(crate) const ALL: Self = Self(u32::MAX);
 
     pub(crate) const fn of(letters: &[Letter]) -> Self {
@@ -110,7 +108,6 @@ impl Letters {
         Self(self.0 | others.0)
     }
 
-    /// Whether the sets have a letter in common.
     pub(crate) const fn has_any(self, others: Self) -> bool {
         others.0 & self.0 != 0
     }
@@ -188,7 +185,6 @@ const ROWS: [(ElementClass, &str); 13] = [
     (ElementClass::Probe, ". . . . . . . . p . . ! p p . o o o . . . . ."),
 ];
 
-/// The cells of the table by row and letter.
 const CELLS: [[LetterUse; Letter::COUNT]; ROWS.len()] = {
     let mut cells = [[LetterUse::Unknown; Letter::COUNT]; ROWS.len()];
     let (columns, mut row) = (COLUMNS.as_bytes(), 0);
@@ -245,7 +241,6 @@ impl ElementClass {
             .map(|(character, _)| character)
     }
 
-    /// Returns the letters that elements of this class require.
     pub(crate) fn needed_letters(self) -> impl Iterator<Item = Letter> {
         Letter::ALL
             .into_iter()

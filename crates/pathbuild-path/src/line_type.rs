@@ -117,7 +117,6 @@ fn find_by_name(name: &str) -> Option<LineType> {
     names.find(|(known, _)| *known == name).map(|(_, line_type)| line_type)
 }
 
-/// Returns the names in a table, each with its line type.
 fn names_in(table: &[(LineType, &[&'static str])]) -> impl Iterator<Item = (&'static str, LineType)> {
     table.iter().flat_map(|(line_type, names)| names.iter().map(|name| (*name, *line_type)))
 }

@@ -35,7 +35,6 @@ pub(crate) fn first_look_alike(text: &str) -> Option<Vec<(&'static str, Value)>>
     Some(vec![("character", character.into()), ("code", code), ("plain", plain.into())])
 }
 
-/// Returns the problem with the first look-alike in a text; `None` if there is none.
 pub(crate) fn look_alike_problem(message: &'static Message, text: &str) -> Option<Diagnostic> {
     let mut problem = Diagnostic::new(message);
     problem.arguments.extend(first_look_alike(text)?);

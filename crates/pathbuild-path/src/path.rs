@@ -340,7 +340,7 @@ impl Subpath {
 }
 
 impl Segment {
-    /// Priority among several segments with the same order at a point.
+    /// Rank among segments with the same order at a point; the segment with the smallest rank comes first.
     pub(crate) fn preference(&self) -> u8 {
         match self.kind {
             SegmentKind::Hole(_) => 1,

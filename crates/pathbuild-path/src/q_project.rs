@@ -51,7 +51,6 @@ impl<'a> Component<'a> {
         self.paths.iter().copied().find(|path| *path.name == *name)
     }
 
-    /// Returns the proxy lines of a path.
     fn proxies(&self, name: &PathName) -> &[&'a ProxyLine] {
         self.by_name.get(name).map_or(&[], Vec::as_slice)
     }

@@ -33,7 +33,6 @@ pub struct RawPath {
     pub(crate) parameters: Option<TextId>,
     /// The path named by @, and its start marker, which has the parameters.
     pub(crate) borrowed_from: Option<Box<(PathName, Origin)>>,
-    /// Properties that errors leave unknown.
     pub(crate) faults: DrawingFaults,
     /// The definitions of the path's variables, in the order written.
     pub definitions: Vec<Definition>,
@@ -200,7 +199,6 @@ pub(crate) struct DrawingFaults {
 /// Properties of a path that errors leave unknown, after its variables are bound.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Faults {
-    /// Letters with unknown values.
     pub(crate) letters: Letters,
     /// Whether an error may hide I of a segment.
     pub(crate) is_infeed_unknown: bool,

@@ -39,7 +39,6 @@ struct Text {
 pub struct ParameterText<'t> {
     string: &'t str,
     pieces: &'t [LetterValue],
-    /// The letters in the text.
     pub(crate) letters: Letters,
     /// Whether all pieces of the text have different letters and valid values without references to variables.
     pub(crate) is_plain: bool,
@@ -50,13 +49,11 @@ pub struct ParameterText<'t> {
 pub struct LetterValue {
     /// The letter; `None` if the piece begins with another character (PB202).
     pub letter: Option<Letter>,
-    /// The value before variables are substituted.
     pub(crate) written: ValueKind,
     /// The byte range in the text.
     span: Range<u32>,
 }
 
-/// The kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ValueKind {
     /// A number, for a letter with a numeric value.
@@ -70,7 +67,7 @@ pub(crate) enum ValueKind {
 }
 
 impl ParameterTexts {
-    /// Adds a text as drawn.
+    /// Adds a text as drawn: its lines are joined and its `%%` codes replaced.
     pub(crate) fn push_drawn(&mut self, text: &str) -> TextId {
         // Texts with the same content are usually near each other.
         let is_same = |known: &&Text| self.string[range(&known.string)] == *text;
@@ -83,7 +80,7 @@ impl ParameterTexts {
         if is_plain { self.push(text) } else { self.push(&join_lines(&without_percent_codes(text))) }
     }
 
-    /// Adds a text with its lines joined and its codes replaced.
+    /// Adds a text whose lines are already joined and whose codes are already replaced.
     pub(crate) fn push(&mut self, text: &str) -> TextId {
         let (start, first) = (self.string.len(), self.pieces.len());
         self.string.push_str(text);
@@ -160,12 +157,12 @@ impl<'t> ParameterText<'t> {
         self.pieces
     }
 
-    /// Returns the first piece with a letter.
+    /// Returns the first piece with this letter.
     pub fn piece(self, letter: Letter) -> Option<&'t LetterValue> {
         self.pieces.get(self.index(letter)?)
     }
 
-    /// Returns the index of the first piece with a letter.
+    /// Returns the index of the first piece with this letter.
     pub(crate) fn index(self, letter: Letter) -> Option<usize> {
         self.pieces.iter().position(|piece| piece.letter == Some(letter))
     }
@@ -175,7 +172,6 @@ impl<'t> ParameterText<'t> {
         self.string[piece.span()].chars().next()
     }
 
-    /// Returns a piece as written.
     pub(crate) fn piece_text(self, piece: &LetterValue) -> &'t str {
         &self.string[piece.span()]
     }
@@ -205,7 +201,6 @@ impl<'t> ParameterText<'t> {
         }
     }
 
-    /// Whether a letter occurs more than once.
     pub(crate) fn repeats(self, letter: Letter) -> bool {
         !self.is_plain && self.pieces.iter().filter(|piece| piece.letter == Some(letter)).nth(1).is_some()
     }

@@ -20,16 +20,13 @@ use crate::variables::Interpolation;
 /// The value that a text gives a letter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) enum GivenNumber {
-    /// The text does not give the letter.
     #[default]
     Absent,
     /// A value with a problem that is reported; problems that follow from it are not reported.
     Faulty,
-    /// A valid number.
     Number(f64),
 }
 
-/// The values that a parameter text gives.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Values<'t> {
     text: ParameterText<'t>,
@@ -50,7 +47,6 @@ enum FilledValue<'t> {
 }
 
 impl GivenNumber {
-    /// Returns the number, if it is valid.
     pub(crate) fn number(self) -> Option<f64> {
         match self {
             Self::Number(number) => Some(number),
@@ -178,7 +174,6 @@ impl<'t> Values<'t> {
         }
     }
 
-    /// Whether the text contains the letter.
     pub(crate) fn has(&self, letter: Letter) -> bool {
         self.text.letters.contains(letter)
     }
@@ -188,7 +183,6 @@ impl<'t> Values<'t> {
         self.has(letter) || self.unread.contains(letter)
     }
 
-    /// Returns all letters in the text.
     pub(crate) fn letters(&self) -> Letters {
         self.text.letters
     }

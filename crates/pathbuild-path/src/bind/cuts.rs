@@ -13,7 +13,7 @@ use crate::text::TextId;
 use crate::values::check_bar;
 
 impl Binder<'_> {
-    /// Adds the cut of a segment in a milling chain. Returns its order among the segments that meet at a point, and its index among the path's cuts.
+    /// Adds the cut of a segment in a milling chain. Returns the segment's order among those that meet at a point, and the cut's index in the path.
     pub(super) fn cut(
         &mut self,
         element: &Element,
@@ -96,7 +96,6 @@ impl Binder<'_> {
     }
 }
 
-/// Returns the finding about bars that leave no gap on a segment of this length; `None` if they leave one.
 fn missing_gap(bars: &Bars, length: f64) -> Option<Diagnostic> {
     (bars.count(length) == 0.0).then(|| {
         Diagnostic::new(&paths::NO_GAP_BETWEEN_BARS)

@@ -54,14 +54,12 @@ pub fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> Exami
     ExaminedPath { path, problems }
 }
 
-/// State of binding a path.
 struct Binder<'a> {
     raw: &'a RawPath,
     language: &'a Language,
     interpolation: Interpolation<'a>,
     /// The values in the path's own text.
     values: Values<'a>,
-    /// The chip load allowed for the path's tool.
     chip_load: Option<ChipLoad>,
     segments: Vec<Segment>,
     cuts: Vec<CutParameters>,
@@ -77,7 +75,6 @@ struct Binder<'a> {
     has_gap: bool,
     /// The finding about the first segment without a gap.
     gapless: Option<Diagnostic>,
-    /// Values that are unknown because of errors.
     unknown: UnknownValues,
 }
 
@@ -100,7 +97,6 @@ enum FaultSite<'a> {
 }
 
 impl FaultSite<'_> {
-    /// The parameter text of the element or marker, if it has one.
     fn text(self) -> Option<TextId> {
         match self {
             FaultSite::Element(element) => element.text,
@@ -115,8 +111,8 @@ impl<'a> Binder<'a> {
             Interpolation { bindings, limit: language.text_limit, unknown: &raw.faults.variables };
         let mut values = Values::of(raw.parameters(), ElementClass::PathStart, &interpolation);
         let has_text = raw.parameters.is_some() && !raw.faults.has_second_start;
-        // Letters that the path's own text lacks may be in a text without an element. If that text itself is missing or uncertain, any
-        // letter may be given.
+        // Letters that the path's own text lacks may be in a text without an element. If the path's own text is missing or uncertain, any letter
+        // may be given.
         let hidden =
             if has_text && !raw.faults.has_broken_entity { raw.faults.stray_letters } else { Letters::ALL };
         values.unread = values.unread.and(hidden);
@@ -340,7 +336,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Reports a problem, but only once for the parts of a polyline, which share a text. Other texts may have the same problem.
+    /// Reports a problem, but only once for the parts of a polyline, which share a text. The same problem in another text is reported again.
     fn report(&mut self, at: FaultSite<'_>, problem: Diagnostic) {
         let problem = self.origin(at).at(problem.in_path(self.raw.name.as_str()));
         if let (Some(text), true) = (at.text(), problem.text.is_some()) {
@@ -572,7 +568,6 @@ impl<'a> Scope<'a> {
     }
 }
 
-/// Appends an item and returns its index.
 fn push_indexed<T>(list: &mut Vec<T>, thing: T) -> u32 {
     list.push(thing);
     u32::try_from(list.len() - 1).unwrap_or(u32::MAX)

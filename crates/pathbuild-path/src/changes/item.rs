@@ -32,7 +32,6 @@ pub(super) struct Item<'a> {
 /// A role, and the effective parameters that can change moves.
 type Effect<'i> = (Option<Role>, Vec<(Letter, &'i str)>);
 
-/// Returns the elements and markers of a path.
 pub(super) fn items(side: DrawnSide<'_>) -> Vec<Item<'_>> {
     let raw = side.raw;
     let first = usize::from(raw.start.is_some());
@@ -77,7 +76,6 @@ fn handle(side: DrawnSide<'_>, element: ElementId) -> Option<Handle> {
     side.positions.positions().get(element.0 as usize)?.handle
 }
 
-/// Returns the effective parameters that can change moves.
 fn moving_parameters(row: &ElementParameters) -> impl Iterator<Item = &Parameter> {
     row.parameters.iter().filter(|parameter| can_move(parameter.letter))
 }
@@ -173,10 +171,8 @@ fn differing_pieces(
     texts.iter().any(|text| !text.is_empty()).then_some(texts)
 }
 
-/// Maximum number of characters that are shown of a text.
 const MAX_SHOWN_CHARACTERS: usize = 200;
 
-/// Returns the text, or its beginning if it is long.
 fn excerpt(text: &str) -> String {
     match text.char_indices().nth(MAX_SHOWN_CHARACTERS) {
         Some((end, _)) => format!("{}...", &text[..end]),
@@ -192,7 +188,6 @@ fn comparable_role(role: Role) -> Role {
     }
 }
 
-/// Whether elements with this role have texts of their own.
 fn takes_text(role: Role) -> bool {
     role != Role::SilentSweep
 }
@@ -204,7 +199,6 @@ fn line_type(role: Role) -> LineType {
     line_types.into_iter().find(is_role).unwrap_or(LineType::Continuous)
 }
 
-/// A difference between two shapes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ShapeChange {
     /// The shape was moved by this vector in mm.

@@ -111,7 +111,6 @@ pub fn drawn_changes(old: DrawnSide<'_>, new: DrawnSide<'_>) -> DrawnChanges {
 /// A change with its element in the new drawing, or in the old drawing if the element was removed.
 type FoundChange<'i> = (&'i Item<'i>, ElementChange);
 
-/// Returns the changes from one version of an element to the other.
 fn element_changes(old: &Item<'_>, new: &Item<'_>, frame: &Frame) -> Vec<ElementChange> {
     let mut changes: Vec<ElementChange> = Vec::new();
     changes.extend(shape_changes(&old.shape, &new.shape, frame.shift).map(|change| match change {
@@ -191,7 +190,6 @@ impl ElementChange {
         }
     }
 
-    /// The arguments of the change's text.
     fn arguments(&self) -> Vec<(&'static str, Value)> {
         let pair = |[was, now]: [Value; 2]| vec![("was", was), ("now", now)];
         match self {

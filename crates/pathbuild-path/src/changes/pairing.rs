@@ -26,7 +26,7 @@ pub(super) struct PairedElements<'i> {
 }
 
 impl PairedElements<'_> {
-    /// Whether some elements follow each other in one file in another order than in the other file.
+    /// Whether some paired elements are in a different order in the two files.
     pub(super) fn is_reordered(&self) -> bool {
         let elements = self.both.iter().filter(|(old, _)| old.role.is_some());
         let mut numbers: Vec<[usize; 2]> = elements.map(|(old, new)| [new.number, old.number]).collect();
@@ -199,7 +199,6 @@ impl<'i> Pairing<'i> {
         self.pair_with(|_, _| counterparts.next().flatten());
     }
 
-    /// Pairs lines and arcs that have kept one end.
     fn pair_by_shared_end(&mut self) {
         let mut at_end: HashMap<(ElementKind, Micrometres), Vec<usize>> = HashMap::new();
         for (index, item) in self.new.iter().enumerate() {
@@ -228,21 +227,20 @@ const MAX_CANDIDATES: usize = 64;
 /// A vector rounded to whole micrometres, the last digit that programs show.
 type Micrometres = [i64; 2];
 
-/// The outline of an element: a point of it, and its form relative to that. Neither depends on the direction in which it is drawn.
+/// The outline of an element: one of its points, and its form relative to that point. Neither depends on the direction in which it is drawn.
 #[derive(Debug)]
 struct Outline {
     first: Xy,
     form: Form,
 }
 
-/// Radius and further points of an element, relative to its first one.
+/// The form of an element: its radius, and up to two further points relative to its first one. Unused values are 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 struct Form {
     radius: i64,
     points: [Micrometres; 2],
 }
 
-/// Kind, form and place of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 struct Place {
     kind: ElementKind,

@@ -183,7 +183,7 @@ impl Eq for PathName {}
 
 impl Hash for PathName {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        // Fast path with the same result: a name with other letters may be equal to one in ASCII.
+        // Fast path. It must give the same hash as the code below, since a name with letters outside ASCII may equal a name in ASCII.
         if self.0.is_ascii() {
             self.0.bytes().for_each(|byte| char::from(byte.to_ascii_uppercase()).hash(state));
             return;

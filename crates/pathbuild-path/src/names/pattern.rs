@@ -19,7 +19,6 @@ pub(crate) enum Pattern {
     Regex(Box<RegexPattern>),
 }
 
-/// A pattern as a regular expression.
 #[derive(Clone)]
 pub(crate) struct RegexPattern {
     source: Box<str>,
@@ -94,7 +93,7 @@ impl Pattern {
         }
     }
 
-    /// Returns the groups of a name that matches as a whole. A group that took no part in the match is empty.
+    /// Returns the groups of a name; `None` if the pattern does not match the whole name.
     pub(crate) fn groups(&self, name: &str) -> Option<Groups> {
         match self {
             Self::Default(pattern) => pattern.whole(name).map(|found| found.groups(name)),
@@ -315,7 +314,6 @@ impl DefaultPattern {
 }
 
 impl Match {
-    /// Returns the texts of the groups of a match.
     fn groups(&self, text: &str) -> Groups {
         let groups = [Some(&self.first), Some(&self.second), self.third.as_ref()];
         groups.into_iter().flatten().map(|group| text[group.clone()].into()).collect()

@@ -157,7 +157,7 @@ impl<'s> PartCheck<'s> {
         })
     }
 
-    /// The paths with cuts into the part.
+    /// Returns the paths with cuts through the plate that go into the part.
     fn entering_paths(&self) -> BTreeSet<usize> {
         let enters = |judged: &&ClassifiedCut<'_>| judged.cut.through.is_some() && !judged.entered.is_empty();
         self.judged.values().filter(enters).map(|judged| judged.cut.path).collect()
@@ -216,7 +216,7 @@ impl<'s> PartCheck<'s> {
     }
 }
 
-/// For each path, whether it comes within O of a ring of a part that it may cut.
+/// Returns, for each path, whether it may cut the part and comes within O of the ring.
 fn near_paths(part: &Part, ring: &[Curve], cuts: &CutIndex<'_>) -> Vec<bool> {
     let may_cut: Vec<bool> = cuts.paths.iter().map(|path| part.may_belong_to(&path.name)).collect();
     let mut is_near = vec![false; may_cut.len()];
@@ -270,7 +270,6 @@ mod tests {
     use crate::names::{LayerPattern, PathName};
     use crate::part::{CutElement, PartCut, PartRing, SlotPaths};
 
-    /// Returns the sides of a rectangle, each in several pieces.
     fn rectangle([left, low]: [f64; 2], [right, high]: [f64; 2], pieces: u32) -> Vec<Line> {
         let corners = [[left, low], [right, low], [right, high], [left, high]].map(Xy::from);
         let side = |number: usize| {

@@ -91,7 +91,6 @@ impl PathCuts {
 /// A cut of one of several paths.
 #[derive(Clone, Copy)]
 pub(super) struct IndexedCut<'c> {
-    /// Index of the cut's path.
     pub(super) path: usize,
     pub(super) cut: &'c PartCut,
     pub(super) radius: f64,
@@ -136,7 +135,6 @@ impl IndexedCut<'_> {
         (self.path, self.cut.element)
     }
 
-    /// Returns the element that makes the cut.
     pub(super) fn element<'c>(&self, index: &CutIndex<'c>) -> &'c CutElement {
         &index.paths[self.path].elements[self.cut.element as usize]
     }

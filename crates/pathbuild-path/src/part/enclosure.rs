@@ -11,9 +11,9 @@ use crate::keep_out::widened_box;
 pub(super) struct Enclosure<'s> {
     part: &'s PreparedPart<'s>,
     cuts: &'s CutIndex<'s>,
-    /// For each path, whether it cuts the part out. All of its through cuts count.
+    /// For each path, whether it cuts the part out. If so, all of its through cuts count.
     own: &'s [bool],
-    /// The through cuts of other paths near the part's rim. What holds the part may end at them.
+    /// The through cuts of other paths near the part's rim. The material that holds the part may end at them.
     beside: Vec<Cut<'s>>,
 }
 
@@ -48,8 +48,8 @@ impl<'s> Enclosure<'s> {
         Some(cut)
     }
 
-    /// Returns the cut of another path that closes a ring together with the own cuts, if these alone do not: of the first such path, the cut that is
-    /// nearest to the rim. If it takes several paths to close the ring, the nearest cut of all.
+    /// Returns the cut of another path that closes a ring, if the own cuts alone do not: of the first other path that suffices, the cut that is
+    /// nearest to the rim. If several other paths are needed to close the ring, the nearest of all their cuts.
     pub(super) fn severing_cut(&self) -> Option<&'s IndexedCut<'s>> {
         if self.beside.is_empty() {
             return None;

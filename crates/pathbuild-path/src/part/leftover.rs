@@ -33,7 +33,6 @@ pub(super) struct Leftover {
     pub(super) thickness: f64,
     /// If the cut beside the stretch does not go through the plate, the cut's lowest height in mm.
     pub(super) height: Option<f64>,
-    /// The outline along the stretch, and the material there.
     pub(super) material: LeftMaterial,
 }
 
@@ -67,14 +66,12 @@ pub(super) struct UnreachableOutline {
     pub(super) element: u32,
 }
 
-/// The material left at the outlines of a part.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Leftovers {
     pub(super) stretches: Vec<Leftover>,
     pub(super) unreachable: Option<UnreachableOutline>,
 }
 
-/// Searches the rings of a part for leftovers.
 pub(super) struct LeftoverSearch<'s> {
     part: &'s PreparedPart<'s>,
     cuts: &'s CutIndex<'s>,
@@ -102,7 +99,6 @@ struct RingStretches {
 struct RingCurve<'r> {
     ring: usize,
     curve: &'r Curve,
-    /// The numbers of the cuts near the curve.
     near: Vec<usize>,
 }
 
@@ -263,7 +259,7 @@ impl<'s> LeftoverSearch<'s> {
         join_stretches(found.into_iter().map(|(from, to)| (from * scale, to * scale)).collect(), JOIN_GAP)
     }
 
-    /// Whether a cutter reaches all of an inner arc that has its own radius: it does so from the arc's centre.
+    /// Whether a curve is an inner arc with the cutter's radius: the cutter then reaches the whole arc from the arc's centre.
     fn reaches_whole_arc(&self, curve: &Curve, radius: f64) -> bool {
         let Curve::Arc(arc) = curve else { return false };
         let reach = radius - self.tolerance;

@@ -210,7 +210,6 @@ fn swept_lines(curve: &Curve, radius: f64) -> Vec<SweptLine> {
         .collect()
 }
 
-/// Returns the nearest points of two lines.
 fn nearest_points(one: &Line, other: &Line) -> (Xy, Xy) {
     let (along, across) = (one.end - one.start, other.end - other.start);
     let between = other.start - one.start;

@@ -64,7 +64,6 @@ impl SlotPaths {
 }
 
 impl Default for SlotPaths {
-    /// Creates a predicate that is false for all paths.
     fn default() -> Self {
         Self::new(|_, _| false)
     }

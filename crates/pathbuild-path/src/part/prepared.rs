@@ -68,7 +68,6 @@ impl<'p> PreparedPart<'p> {
         }
     }
 
-    /// Returns the bounding box of the part.
     pub(crate) fn extent(&self) -> AABB<[f64; 2]> {
         self.rings[0].extent
     }

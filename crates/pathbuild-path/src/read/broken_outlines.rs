@@ -22,7 +22,7 @@ use crate::read::rings::{
 /// larger gaps.
 const MAX_RELATIVE_GAP: f64 = 0.1;
 
-/// Minimum share of the length of chains that lies between the points where they cross, if only their ends are too long for an outline.
+/// Minimum share of the length of chains that must lie between the points where they cross, for them to form an outline with overlong ends.
 const MIN_CHAIN_SHARE: f64 = 0.9;
 
 /// An outline that cannot be compared with cuts.
@@ -210,7 +210,6 @@ struct OpenHalf {
     curves: Vec<usize>,
 }
 
-/// A point with a number.
 type NumberedPoint = GeomWithData<[f64; 2], usize>;
 
 /// Returns the open halves of outlines. They are attached to the ring on both sides of the gap and lie outside it; inside, there are only lines
@@ -384,7 +383,7 @@ impl OutermostRings {
     }
 }
 
-/// Two points in a fixed order, regardless of which comes first.
+/// Returns two points in a fixed order, whichever of them is given first.
 fn points_in_order(one: Xy, other: Xy) -> (Point, Point) {
     let (one, other) = (diagnostic_point(one), diagnostic_point(other));
     (one.min(other), one.max(other))

@@ -15,11 +15,9 @@ use crate::read::entities::TextCircle;
 pub(crate) struct Candidate {
     /// The element's number in the source map.
     pub(crate) id: ElementId,
-    /// The drawn shape.
     pub(crate) shape: Shape,
     /// Number of the polyline that the element is part of. The parts of a polyline share a text.
     pub(crate) group: Option<u32>,
-    /// The owner of the element's text.
     pub(crate) owner: Owner,
     /// Whether an earlier text belongs to the element.
     pub(crate) is_taken: bool,
@@ -165,7 +163,7 @@ pub(crate) fn nearest_miss(
     boxes: &CandidateIndex,
     budget: &SearchBudget,
 ) -> Option<NearMiss> {
-    // A tree examines more nodes initially than it yields candidates.
+    // The first step of a search in a tree examines many nodes, so it is not begun without a budget.
     if candidates.len() > MAX_SCANNED_CANDIDATES && budget.is_exhausted() {
         return None;
     }

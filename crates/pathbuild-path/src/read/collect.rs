@@ -42,9 +42,7 @@ pub(crate) struct PathCollector<'d> {
     pub(crate) diagnostics: Vec<Diagnostic>,
     has_broken_circle: bool,
     pub(super) faults: DrawingFaults,
-    /// Circles without a meaning.
     pub(super) unclear: Vec<UnclearCircle>,
-    /// Problems shared by several elements: their index among the diagnostics, and the number of elements.
     pub(super) shared: Vec<SharedProblem>,
     pub(super) hints: StartHints,
     /// Whether there is anything but texts: layers with texts alone form no path.
@@ -96,7 +94,6 @@ pub(super) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<PathCo
 }
 
 impl PathCollector<'_> {
-    /// Creates a collector for the path with these layers.
     fn new(drawing: &Drawing, layers: &[FoundLayer]) -> Self {
         let mut path = Self {
             name: layers[0].path.clone(),
@@ -138,7 +135,6 @@ impl PathCollector<'_> {
         diagnostics
     }
 
-    /// Assigns each text to its element.
     pub(crate) fn assign_texts(&mut self, language: &Language) {
         self.count_shared_problems();
         let mut texts = take(&mut self.texts);
@@ -210,7 +206,6 @@ impl PathCollector<'_> {
         }
     }
 
-    /// Returns the text that belongs to an owner.
     pub(super) fn text_of(&self, owner: Owner) -> Option<ParameterText<'_>> {
         let text = match owner {
             Owner::Start => self.start.as_ref()?.text?,
@@ -286,7 +281,6 @@ impl PathCollector<'_> {
     }
 }
 
-/// The path layers of a drawing.
 pub(super) struct PathLayers {
     /// The path layers in file order, except that the layers of a path follow its first one.
     found: Vec<FoundLayer>,
@@ -314,7 +308,6 @@ pub(super) struct Membership {
 }
 
 impl PathLayers {
-    /// Finds the path layers of a drawing.
     pub(super) fn find(drawing: &Drawing, pattern: &PathPattern) -> Self {
         let layer = |(number, layer): (usize, &Layer)| {
             let path = pattern.layer(&layer.name)?.path;
@@ -338,7 +331,7 @@ impl PathLayers {
         Self { found, memberships }
     }
 
-    /// The layers of each path, in order of first appearance.
+    /// Returns the layers of each path, in order of first appearance.
     fn by_path(&self) -> impl Iterator<Item = &[FoundLayer]> {
         by_path(&self.found)
     }

@@ -9,7 +9,7 @@ use crate::approx::above;
 use crate::element::{Source, diagnostic_point};
 use crate::geometry::{Arc, Curve, Line, Xy, direction};
 
-/// A text of the drawing.
+/// A text of the drawing with its source.
 #[derive(Clone, Copy)]
 pub(super) struct FoundText<'d> {
     pub(super) source: Source,
@@ -24,7 +24,7 @@ pub(super) enum AnyText<'d> {
 }
 
 impl<'d> FoundText<'d> {
-    /// Returns the string as in the drawing.
+    /// Returns the text's string with its `%%` codes, which are not replaced yet.
     pub(super) fn string(&self) -> &'d str {
         self.text.string()
     }
@@ -52,7 +52,7 @@ impl<'d> AnyText<'d> {
         }
     }
 
-    /// Returns the string as in the drawing.
+    /// Returns the text's string with its `%%` codes, which are not replaced yet.
     pub(super) fn string(self) -> &'d str {
         match self {
             Self::Text(text) => &text.string,
@@ -230,7 +230,6 @@ pub(super) fn begin(geometry: &Geometry) -> Xy {
     }
 }
 
-/// Places a problem at an entity of a drawing.
 pub(super) fn at_entity(drawing: &Drawing, entity: usize, point: Xy, problem: Diagnostic) -> Diagnostic {
     let (kind, origin) = (drawing.entities[entity].kind, drawing.origins[entity]);
     let layer = &drawing.layers[drawing.entities[entity].layer as usize];

@@ -125,7 +125,6 @@ fn by_layer(drawing: &Drawing) -> Vec<Vec<usize>> {
     layers
 }
 
-/// State of reading the clamps of a layer.
 struct ClampReader<'d> {
     drawing: &'d Drawing,
     language: &'d Language,
@@ -134,7 +133,6 @@ struct ClampReader<'d> {
     problems: Vec<Diagnostic>,
 }
 
-/// The texts inside an outline.
 #[derive(Clone, Default)]
 struct OutlineTexts<'d> {
     /// The first few texts, with the indices of their entities.
@@ -258,7 +256,7 @@ impl ClampReader<'_> {
                     let problem = self.at(part.entity, at, problem);
                     self.report(problem);
                 }
-                // Several parts end at the same point.
+                // This point was reported for another curve that ends there.
                 Ring::Branch { .. } => {}
             }
         }
@@ -323,7 +321,7 @@ impl ClampReader<'_> {
         None
     }
 
-    /// Returns the height given by a text.
+    /// Returns the height given by a text. Reports a text that gives none, and a height that is doubtful.
     fn height_in(&mut self, number: usize, text: AnyText<'_>) -> Option<f64> {
         let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
         let read = texts.first().unwrap_or_default();
@@ -340,7 +338,6 @@ impl ClampReader<'_> {
         height
     }
 
-    /// Places a problem at an entity.
     fn at(&self, entity: usize, point: Xy, problem: Diagnostic) -> Diagnostic {
         at_entity(self.drawing, entity, point, problem)
     }
@@ -376,12 +373,10 @@ fn height(text: ParameterText<'_>) -> Option<f64> {
     }
 }
 
-/// Returns a text on one line, for messages.
 fn one_line(text: AnyText<'_>) -> String {
     without_percent_codes(text.string()).trim_end().replace('\n', " ")
 }
 
-/// Places a problem at a layer as a whole.
 fn on_layer(layer: &str, mut problem: Diagnostic) -> Diagnostic {
     problem.place.layer = Some(layer.into());
     problem
@@ -440,7 +435,6 @@ enum Junction {
     Several,
 }
 
-/// State of joining curves.
 struct RingBuilder<'p> {
     parts: &'p [RingPart],
     /// For each end, the other ends that it coincides with.

@@ -118,7 +118,7 @@ impl Graph {
         face[0].is_multiple_of(2) && self_crossing(&curves).is_some()
     }
 
-    /// The numbers of the curves that have different faces on their two sides.
+    /// Returns the numbers of the curves that have different faces on their two sides.
     fn dividing_curves(&self) -> Vec<usize> {
         let faces = self.faces(&self.numbers);
         let mut face_of = vec![0; 2 * self.curves.len()];

@@ -207,7 +207,6 @@ const MIN_MOVE_LENGTH: f64 = 0.0005;
 /// them no more accurately than this.
 const MIN_CUT_LENGTH: f64 = 0.01;
 
-/// A raw path being checked.
 pub(super) struct PathCheck<'r> {
     pub(super) raw: &'r mut RawPath,
     pub(super) hints: StartHints,

@@ -55,7 +55,6 @@ pub fn has_text_on_part(drawing: &Drawing, language: &Language) -> bool {
             .any(|entity| is_part(entity.layer) && AnyText::of(&entity.geometry).is_some_and(is_stray))
 }
 
-/// A curve on a layer with parts.
 struct OutlineCurve {
     curve: Curve,
     /// The index of the curve's entity.
@@ -68,7 +67,6 @@ struct OutlineLayers<'d> {
     language: &'d Language,
     /// For each layer of the drawing, whether it holds parts.
     layers: Vec<bool>,
-    /// The curves, by the name that the pattern captures in the name of their layer.
     curves: BTreeMap<Option<SmolStr>, Vec<OutlineCurve>>,
 }
 

@@ -20,7 +20,6 @@ pub(crate) struct Texts<'d> {
     pub(super) layers: Vec<LayerTexts<'d>>,
 }
 
-/// Texts and candidates of one layer.
 #[derive(Default)]
 pub(super) struct LayerTexts<'d> {
     pub(super) name: SmolStr,
@@ -46,12 +45,10 @@ pub(crate) struct TextMatch<'d> {
 }
 
 impl<'d> Texts<'d> {
-    /// Adds the next layer.
     pub(super) fn add_layer(&mut self, name: &str) {
         self.layers.push(LayerTexts { name: name.into(), ..LayerTexts::default() });
     }
 
-    /// Returns the names of the layers in order.
     pub(super) fn layer_names(self) -> Vec<SmolStr> {
         self.layers.into_iter().map(|layer| layer.name).collect()
     }
@@ -163,8 +160,8 @@ impl<'d> LayerTexts<'d> {
         Origin::new(source, &self.name, point)
     }
 
-    /// Calls the closure for each TEXT in file order, then for each MTEXT, with its candidate; for a polyline, with all its parts. Texts
-    /// that are not taken stay. Stops at the text that exhausts the budget, and returns it.
+    /// Calls `is_taken` for each TEXT in file order, then for each MTEXT, with its candidate; for a polyline, with all its parts. The texts for which
+    /// it returns false stay. Stops at the text that exhausts the budget, and returns that text.
     pub(super) fn each_match(
         &mut self,
         budget: &SearchBudget,

@@ -41,7 +41,7 @@ impl Walker<'_> {
         if begin.is_some() { problem } else { self.with_hints(problem) }
     }
 
-    /// The nearest segment that was not reached, and the point at which it begins, if that point is in the middle of a traversed segment.
+    /// Returns the nearest segment that was not reached, and the point at which it begins, if that point is in the middle of a traversed segment.
     fn begin_on_another(&self) -> Option<(usize, Xy)> {
         let (segment, begin, _) = self.nearest_end(self.at)?;
         self.segment_through(begin).map(|_| (segment, begin))
@@ -111,7 +111,6 @@ impl Walker<'_> {
             .with("end", diagnostic_point(self.path.end)))
     }
 
-    /// Returns the segments that were not reached.
     pub(super) fn unreached_segments(&self) -> impl Iterator<Item = usize> {
         let open = self.is_traversed.iter().enumerate().filter(|(_, traversed)| !**traversed);
         open.map(|(segment, _)| segment)
@@ -149,7 +148,7 @@ impl Walker<'_> {
         Curves::new(self.path, traversed).has_duplicate(segment)
     }
 
-    /// A segment that lies on a traversed one: either it was not reached, or the walk went along both.
+    /// Returns a segment that lies on a traversed one: either it was not reached, or the walk went along both.
     fn duplicate_segment(&self) -> Option<usize> {
         let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
         let curves = Curves::new(self.path, traversed.clone());

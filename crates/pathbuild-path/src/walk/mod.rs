@@ -40,7 +40,6 @@ type Failure = Option<Box<Diagnostic>>;
 /// Number of segments at a point above which they are sorted once instead of being scanned in each step.
 const MIN_JUNCTION_SEGMENTS: usize = 16;
 
-/// Number of segments between calls of the checkpoint.
 const SEGMENTS_PER_CHECKPOINT: usize = 256;
 
 struct Walker<'a> {
@@ -56,7 +55,6 @@ struct Walker<'a> {
     at: Xy,
     /// The last traversed segment.
     last: Option<usize>,
-    /// The traversed segments, grouped into items.
     chains: ChainBuilder<'a>,
     /// Segments traversed forwards and not yet retraced. They always lead from the start to `at`. Unused without turn markers.
     way_back: Vec<(usize, Passage)>,
@@ -71,7 +69,7 @@ struct Walker<'a> {
     gaps: Vec<Diagnostic>,
 }
 
-/// Length in mm of a gap that is skipped after it was reported: it is clear where the path continues.
+/// Largest gap in mm that is skipped after it was reported: it is still clear where the path continues.
 const MAX_SKIPPED_GAP: f64 = 1.0;
 
 /// Maximum number of gaps that are skipped in a walk.
@@ -195,7 +193,7 @@ impl<'a> Walker<'a> {
         self.path.faults.as_ref().is_some_and(|faults| faults.ends.len() > 1)
     }
 
-    /// The next segment at the current point: the minimum by order, preference and length.
+    /// Returns the next segment at the current point: the minimum by order, preference and length.
     fn next(&mut self) -> Option<usize> {
         if let Some(junction) = self.junctions.at(self.at) {
             return junction.next(self.path, &self.ends, &self.is_traversed);
@@ -333,7 +331,6 @@ impl OpenEnds {
         Self { points: RTree::bulk_load(points), segments }
     }
 
-    /// Removes the ends of a segment.
     fn remove(&mut self, segment: usize, ends: &Ends) {
         for end in of(segment, ends) {
             let Some(at_end) = self.segments.get_mut(&bits(end)) else { continue };
@@ -366,7 +363,7 @@ fn bits(point: [f64; 2]) -> [u64; 2] {
 }
 
 impl Walker<'_> {
-    /// The segment with the nearest end, if that is within the tolerance. Reports the join.
+    /// Returns the segment with the nearest end, if that is within the tolerance. Reports the join.
     fn next_within_tolerance(&mut self) -> Option<usize> {
         if self.join_tolerance <= 0.0 {
             return None;

@@ -56,7 +56,6 @@ struct Group {
 }
 
 impl Junctions {
-    /// Returns the junction at a point, if one is known there.
     pub(super) fn at(&mut self, point: Xy) -> Option<&mut Junction> {
         if self.0.is_empty() {
             return None;
@@ -163,7 +162,6 @@ impl Turns {
         found
     }
 
-    /// Returns the markers that were never used.
     pub(super) fn unused(&self) -> impl Iterator<Item = usize> {
         (0..self.first.len()).filter(|turn| !self.has_acted[self.first[*turn]])
     }
@@ -179,7 +177,6 @@ pub(super) struct Ends {
 
 /// The ends of a segment, with links to further ends.
 struct SegmentEnds {
-    /// Start and end as drawn.
     drawn: [Xy; 2],
     /// For each end, the next end in the same bucket. An end is numbered by twice its segment's number, plus one for the second end.
     next: [u32; 2],
@@ -214,8 +211,8 @@ const SQUARES_PER_MM: f64 = 5000.0;
 const GRID_OFFSET: f64 = 0.25;
 /// Search distance around a point in squares: slightly more than the distance at which points coincide (0.16).
 const SEARCH_DISTANCE: f64 = 0.22;
-/// Search distance in squares for points that coincide with a point only by way of others, each of which coincides with the next: slightly
-/// more than three times that distance.
+/// Search distance in squares for points that coincide with a point only by way of others, each of which coincides with the next: slightly more
+/// than three times the distance at which points coincide.
 const WIDE_SEARCH_DISTANCE: f64 = 0.5;
 /// Addend so large that adding it rounds to an integer: the low bits of the sum count whole numbers. (1.5 * 2^52)
 const ROUNDING_ADDEND: f64 = 6_755_399_441_055_744.0;
@@ -307,7 +304,6 @@ impl Squares {
     }
 }
 
-/// Returns the square of a point.
 pub(super) fn square(point: Xy) -> Square {
     Square(strip_number(in_squares(point.x)), strip_number(in_squares(point.y)))
 }
@@ -325,7 +321,7 @@ fn in_squares(coordinate: f64) -> f64 {
     coordinate * SQUARES_PER_MM + GRID_OFFSET
 }
 
-/// Number of the column or row that contains a coordinate; adjacent ones differ by one. Very far from the origin they are wider, but
+/// Returns the number of the column or row that contains a coordinate; adjacent ones differ by one. Very far from the origin they are wider, but
 /// there only equal points coincide.
 fn strip_number(place: f64) -> u64 {
     (place + ROUNDING_ADDEND).to_bits()
@@ -361,7 +357,7 @@ mod tests {
         count
     }
 
-    /// Points in a grid in a tiny part of a mm, none of which coincide.
+    /// Returns points in a grid of 0.00004 mm, none of which coincide.
     fn crowd(side: u32) -> Vec<Xy> {
         const APART: f64 = 0.000_04;
         let at = |number: u32| APART * f64::from(number);

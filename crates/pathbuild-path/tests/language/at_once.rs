@@ -45,7 +45,7 @@ const MISTAKES: [Mistake; 14] = [
     },
 ];
 
-/// Pairs of mistakes of which one hides the other, or which look like another mistake together, with the codes that are reported.
+/// Pairs of mistakes with the codes that are reported: one mistake hides the other, or the two together look like another mistake.
 const TOGETHER: [([&str; 2], &[&str]); 7] = [
     // Without O, it is unknown which circle is too small.
     (["O missing", "hole too small"], &["PB201 O"]),

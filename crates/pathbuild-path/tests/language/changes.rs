@@ -10,7 +10,6 @@ use crate::support::{language, read};
 const PARAMETERS: &str = "O2 T3 I1 B0 F150";
 const ROUND: &str = "mill 0,0 40,0\nmill 40,0 40,20\nsweep 40,20 0,20\nend 0,20\n";
 
-/// Returns the changes between two drawings of a path.
 fn compared(old: &str, new: &str) -> DrawnChanges {
     let sides = [old, new].map(|drawing| {
         let mut paths = read(drawing).paths;

@@ -6,7 +6,6 @@ use proptest::prelude::*;
 
 use crate::support::{compile, path};
 
-/// A milled line of the drawing.
 #[derive(Clone, Copy, Debug)]
 struct MilledLine {
     start: Xy,

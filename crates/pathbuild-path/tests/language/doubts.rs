@@ -17,7 +17,6 @@ fn findings(drawing: &str, doubts: DoubtThresholds) -> Vec<String> {
     found.collect()
 }
 
-/// Returns the codes of all findings about a path.
 fn all_codes(drawing: &str, language: &Language) -> Vec<String> {
     let (raw, _) = read_as(drawing, language).paths.into_iter().next().expect("there is a path");
     codes(&compile_raw(&raw, &Bindings::check_values(&raw.definitions), language).found)

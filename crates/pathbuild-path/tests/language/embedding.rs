@@ -28,7 +28,7 @@ fn signature(drawing: &str) -> PathSignature {
     PathSignature::of(&compile(drawing).path.expect("the path is right"))
 }
 
-/// Returns the verdict on the only segment of a path.
+/// Returns the result of calling `judge` with the checker of a path and the path's only segment.
 fn judged<R>(
     outer: &PathSignature,
     restrictions: &[Restriction],

@@ -7,7 +7,6 @@ use crate::support::{compile, path};
 
 const P: &str = "T5 O3 I1 B0";
 
-/// Returns message and help of each error.
 fn messages_with_help(found: &[Diagnostic]) -> Vec<String> {
     let with_help = |found: &Diagnostic| {
         format!("{} {}; {}", found.code(), found.text(Lang::En), found.help(Lang::En).unwrap_or_default())

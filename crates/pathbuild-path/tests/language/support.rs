@@ -8,7 +8,6 @@ use pathbuild_path::{
 };
 use pathbuild_testkit::sheet;
 
-/// The compiled form of a path.
 pub(crate) struct Compiled {
     pub(crate) path: Option<Path>,
     pub(crate) walked: WalkedPath,
@@ -51,7 +50,6 @@ pub(crate) fn language() -> Language {
     }
 }
 
-/// Reads the paths of a drawing.
 pub(crate) fn read(drawing: &str) -> RawFile {
     read_as(drawing, &language())
 }

@@ -86,7 +86,7 @@ fn percent_codes_are_replaced() {
     assert_eq!(text("%%u%%"), "Q%%u%%");
 }
 
-/// Tests long and short texts, recent and earlier ones, in a path with more elements than are compared.
+/// Tests long and short texts, recent and earlier ones, in a path with more texts than a new one is compared with.
 #[test]
 fn each_element_has_the_text_that_is_drawn_beside_it() {
     let same = |length: usize| "a".repeat(length);
