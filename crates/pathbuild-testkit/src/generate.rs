@@ -74,11 +74,11 @@ impl Library {
     }
 }
 
-/// The start of the first path, and the vertical distance to the next.
+/// The start of the first path, and the vertical distance in mm to the next.
 const ORIGIN: Point = Point::new(20.0, 80.0);
 const ROW: f64 = 90.0;
 
-/// Width and height of the field for one feature.
+/// Width and height in mm of the field for one feature.
 const FIELD_SIZE: Point = Point::new(34.0, 26.0);
 const FIELDS_IN_ROW: usize = 4;
 
@@ -162,7 +162,7 @@ fn draw_path(path: &PathPlan, start: Point, features: usize, random: &mut Random
 /// Number of embeddings in a project.
 const EMBEDDINGS: usize = 10;
 
-/// Distance between the embeddings of a project.
+/// Distance in mm between the embeddings of a project.
 const EMBEDDING_DISTANCE: f64 = 170.0;
 
 /// Path numbers of fixture and variable projects.
@@ -237,7 +237,7 @@ fn segments(choices: &[Choice]) -> Vec<(String, Signature)> {
     choices.iter().map(segment).collect()
 }
 
-/// Two interchangeable paths, for a given cutter if there is one.
+/// Returns two interchangeable paths without variables, for this cutter if one is given; any pair if there are none.
 fn neighbours(plan: &Plan, cutter: Option<f64>, random: &mut Random) -> [PathPlan; 2] {
     let pairs = plan.components() / 2;
     let begin = random.below(pairs);
@@ -341,7 +341,6 @@ impl Plan {
         Random::new(self.seed, SHAPE_STREAM + index as u64)
     }
 
-    /// Returns the random numbers for a project.
     pub(super) fn project_random(&self, index: usize) -> Random {
         Random::new(self.seed, PROJECT_STREAM + index as u64)
     }
@@ -448,7 +447,7 @@ impl Tool {
         format!("{own} {more}").trim().to_owned()
     }
 
-    /// A marking depth, above every B.
+    /// Returns a marking depth, above every B.
     fn mark(&self) -> String {
         comma(self.thickness - 0.4)
     }
@@ -586,7 +585,6 @@ impl<'a> Pen<'a> {
         self.entities.push(entity);
     }
 
-    /// Draws a line from the current point.
     pub(super) fn line(&mut self, to: Point, line_type: &str, text: &str) {
         // One line in four is drawn from its end, as happens when users copy and mirror.
         let (from, end) = if self.random.once_in(4) { (to, self.at) } else { (self.at, to) };
@@ -594,7 +592,6 @@ impl<'a> Pen<'a> {
         self.at = to;
     }
 
-    /// Draws an arc with this bulge from the current point.
     pub(super) fn arc(&mut self, to: Point, bulge: f64, line_type: &str, text: &str) {
         match arc_of_bulge(self.at, to, bulge) {
             Some(arc) => self.add(Entity::new(Shape::Arc(arc)).with_line_type(line_type).note(text)),

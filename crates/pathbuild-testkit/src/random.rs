@@ -28,7 +28,6 @@ impl Random {
         usize::try_from(below).unwrap_or_default()
     }
 
-    /// Returns a random element of a slice.
     pub(crate) fn pick<T: Copy>(&mut self, all: &[T]) -> T {
         all[self.below(all.len())]
     }

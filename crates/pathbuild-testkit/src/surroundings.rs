@@ -17,10 +17,10 @@ const BYTE_RANGE: usize = 8_000;
 /// Number of variants of the surroundings.
 const VARIANTS: usize = 16;
 
-/// Maximum number of hatch lines. Large paths get fewer.
+/// Maximum number of hatch lines. A drawing with a large path has fewer.
 const HATCH_LINES: usize = 160;
 
-/// Cache of the surroundings as DXF, by version and variant: even thousands of drawings use only a few.
+/// Cache of the surroundings as DXF, by version and variant: even thousands of drawings use only a few of them.
 static TEMPLATES: [[OnceLock<Arc<Template>>; VARIANTS]; Version::ALL.len()] =
     [const { [const { OnceLock::new() }; VARIANTS] }; Version::ALL.len()];
 
@@ -180,7 +180,7 @@ fn text(value: &str, anchor: Point, height: f64, horizontal: Horizontal) -> Enti
     }))
 }
 
-/// The border, with marks at the middle of each side.
+/// Returns the border, with marks at the middle of each side.
 fn border() -> Block {
     let corners = [(-10.0, -10.0), (390.0, -10.0), (390.0, 267.0), (-10.0, 267.0)].map(Point::from);
     let side = |index: usize| Line { from: corners[index], to: corners[(index + 1) % 4] };
@@ -334,7 +334,7 @@ fn hole(room: &mut Surroundings, at: Point, diameter: f64) {
     room.line(at.polar(reach, 270.0), at.polar(reach, 90.0), CENTRE);
 }
 
-/// The head of a screw, seen from above.
+/// Returns the head of a screw, seen from above.
 fn screw() -> Block {
     let corner = |index: u8| Point::default().polar(2.886_751_345_948, f64::from(index) * 60.0);
     let sides = (0..6).map(|index| Entity::line(corner(index), corner(index + 1)));
@@ -378,7 +378,7 @@ fn hatch(room: &mut Surroundings) {
     }
 }
 
-/// Bytes of the fixed parts (header, usual tables, empty blocks and objects), of a layer, and of a block.
+/// Estimated size in bytes of the fixed parts (header, usual tables, empty blocks and objects), of a layer, and of a block.
 const EMPTY_DRAWING_BYTES: usize = 14_500;
 const LAYER_BYTES: usize = 155;
 const BLOCK_BYTES: usize = 500;

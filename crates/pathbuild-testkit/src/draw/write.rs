@@ -83,7 +83,7 @@ fn assemble<'a>(sheet: &'a Sheet, mut written: CrateOutput<'a>) -> Vec<Pair<'a>>
     pairs
 }
 
-/// Assigns handles and owners to blocks and entities.
+/// The entities of a sheet, to which handles and owners are assigned.
 struct Entities<'a, 'o> {
     /// The entities in the order of their tags.
     tagged: Vec<&'a Entity>,
@@ -197,7 +197,6 @@ impl<'a> CrateOutput<'a> {
         written
     }
 
-    /// Corrects the entities in the crate's output.
     fn correct_entities(&mut self, tagged: &[&Entity], version: Version) {
         for record in self.entities.iter_mut().chain(&mut self.blocks) {
             pairs::remove_unwanted_pairs(record);
@@ -274,7 +273,6 @@ fn set_variable<'a>(variables: &mut Vec<Record<'a>>, wanted: &'a str, value: Opt
     }
 }
 
-/// Corrects an entity in the crate's output.
 fn correct_entity(record: &mut Record<'_>, entity: &Entity) {
     match &entity.shape {
         Shape::Text(_) => correct_text(record),
@@ -300,7 +298,6 @@ fn correct_text(record: &mut Record<'_>) {
     }
 }
 
-/// Applies the changes that the drawing requests.
 fn apply_changes<'a>(record: &mut Record<'a>, changes: &'a [Change]) {
     for change in changes {
         match change {
@@ -341,7 +338,7 @@ impl Template {
         })
     }
 
-    /// Adds the template to the records of a sheet, without its last `left_out` records.
+    /// Adds the template, without its last `left_out` records, to the records of a sheet.
     fn add_to<'a>(&'a self, written: &mut CrateOutput<'a>, left_out: usize) {
         written.tables.extend(borrowed(&self.tables));
         written.blocks.extend(borrowed(&self.blocks));
@@ -625,7 +622,6 @@ impl Objects {
         self.first + PLOT_STYLE
     }
 
-    /// Returns the pairs of the objects section.
     pub(crate) fn pairs(self, version: Version, spaces: [u64; 2]) -> Vec<Pair<'static>> {
         let text = if version >= Version::R2000 { R2000 } else { R13 };
         let mut lines = text.lines();

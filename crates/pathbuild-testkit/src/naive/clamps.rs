@@ -22,7 +22,6 @@ struct Occurrence {
     place: Place,
 }
 
-/// Placement of a drawing in a program.
 #[derive(Clone, Copy)]
 struct Place {
     origin: Pair,
@@ -110,7 +109,7 @@ impl ExpandedPath<'_> {
         }
     }
 
-    /// One finding for each clamp, each element of the innermost path that contains both, and each kind of move.
+    /// Returns one finding for each clamp, each element of the innermost path that contains both, and each kind of move.
     fn findings(&self) -> Vec<Finding> {
         let mut entries: BTreeMap<_, (u32, f64)> = BTreeMap::new();
         for (number, occurrence) in self.occurrences.iter().enumerate() {
@@ -188,7 +187,7 @@ fn passes(surface: f64, infeed: f64, bottom: f64) -> impl Iterator<Item = f64> {
     std::iter::successors(Some(surface), next).skip(1)
 }
 
-/// Minimum and maximum of X and Y of a rectangle.
+/// Returns the minimum and maximum of X and Y of a rectangle.
 fn corners(clamp: &KeepOut) -> [Pair; 2] {
     let points: Vec<Pair> = clamp.outline.iter().map(|curve| pair(curve.start())).collect();
     [0, 1].map(|axis| {

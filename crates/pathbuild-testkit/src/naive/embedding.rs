@@ -214,7 +214,7 @@ impl Model {
         visit.found
     }
 
-    /// Returns the path that a subpath embeds, if exactly one drawing defines it.
+    /// Returns the path that a subpath embeds, from its own drawing or else from the first that defines it; `None` if no drawing does.
     pub(super) fn child(&self, outer: &Instance, name: &PathName, subpath: &Subpath) -> Option<Instance> {
         let holder = *self.defining_drawings(outer.0, name).first()?;
         let paths = &self.drawings[holder].content.paths;
@@ -231,7 +231,6 @@ fn is_part_of_word(value: &str, name: &str) -> bool {
     [before, behind].into_iter().flatten().any(char::is_alphanumeric)
 }
 
-/// Whether a variable accepts a value.
 fn allows(definition: &Definition, value: &str) -> bool {
     match &definition.values {
         AllowedValues::Range { from, to, .. } => {

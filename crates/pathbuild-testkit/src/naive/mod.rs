@@ -165,12 +165,11 @@ impl Drawing {
         }
     }
 
-    /// Returns the drawing's proxy lines.
     fn proxies(&self, language: &Language) -> Vec<ProxyLine> {
         proxy_lines(&read_drawing(&self.bytes, &|_| true), language)
     }
 
-    /// Findings about the drawing itself rather than its paths.
+    /// Returns the findings about the drawing itself rather than its paths.
     fn faults(&self) -> Vec<Finding> {
         let own = self.content.diagnostics.iter().chain(&self.clamp_problems);
         let own = own.map(|found| Finding::shared(found, &self.path));
@@ -183,7 +182,6 @@ impl Drawing {
             && self.content.diagnostics.iter().chain(&self.clamp_problems).any(Diagnostic::is_error)
     }
 
-    /// Returns the handle of an element of a path.
     fn handle(&self, path: &PathName, element: ElementId) -> Option<String> {
         let (_, map) = self.content.paths.iter().find(|(raw, _)| *raw.name == *path)?;
         map.positions().get(element.0 as usize)?.handle.map(|handle| handle.to_string())
@@ -370,7 +368,6 @@ static END: LazyLock<Regex> =
     LazyLock::new(|| pattern(r"(?i)[0-9]{4}(?:[.][0-9]+)?[A-Z]? *[-\u{2013}] *[0-9]{4}(?:[.][0-9]+)?[A-Z]?"));
 
 impl Drawing {
-    /// Findings about the name of the drawing.
     fn name_faults(&self) -> Vec<Finding> {
         let stem = stem(&self.path);
         if stem.to_lowercase().ends_with("_q") || self.content.diagnostics.iter().any(Diagnostic::is_error) {

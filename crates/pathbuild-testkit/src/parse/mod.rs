@@ -35,7 +35,6 @@ const STATES: [(&str, LayerState); 4] = [
     ("unlisted", LayerState::Unlisted),
 ];
 
-/// State of parsing a drawing in text form, line by line.
 #[derive(Debug, Default)]
 struct Parser {
     draft: Draft,

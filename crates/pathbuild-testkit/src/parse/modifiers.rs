@@ -248,7 +248,6 @@ fn one_of(cursor: &mut Cursor, words: [&str; 3]) -> Parsed<usize> {
     found.ok_or_else(|| cursor.error(format!("{word:?} is none of {expected}")))
 }
 
-/// Parses a kind of text entity.
 pub(crate) fn note_kind(cursor: &mut Cursor) -> Parsed<NoteKind> {
     choice(cursor, "a kind of text", &[("text", NoteKind::Text), ("mtext", NoteKind::MText)])
 }

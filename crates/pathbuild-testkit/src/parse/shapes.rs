@@ -97,7 +97,7 @@ pub(crate) fn begin(cursor: &mut Cursor) -> Parsed<Point> {
     Ok(from)
 }
 
-/// Parses `P P [P ...]` or `to P [P ...]`: a line between consecutive points.
+/// Parses `P P [P ...]` or `to P [P ...]`: lines between consecutive points.
 fn lines(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let mut from = begin(cursor)?;
     let mut entities = Vec::new();

@@ -3,7 +3,7 @@
 use pathbuild_draw::{EmbeddingPath, q_project};
 use pathbuild_testkit::{Draft, Entity, Point};
 
-/// Returns the rows that [`q_project`] draws, as entities of a draft.
+/// Writes the rows that [`q_project`] draws, but as entities of a draft, with the test kit's writer.
 fn drafted(paths: &[EmbeddingPath<'_>]) -> Vec<u8> {
     let mut draft = Draft::new();
     let mut start = Point::new(0.0, 0.0);
@@ -79,7 +79,7 @@ fn texts_with_foreign_and_special_characters_have_the_same_bytes() {
     assert_same(&[path("a.0Q", "", &[(2000.0, long.as_str())])]);
 }
 
-/// If the start has no text of its own, each text that is near the short segment is assigned to it.
+/// If the start has no text of its own, any text near the short segment beside it would be assigned to the start.
 #[test]
 fn a_text_without_room_is_named() {
     assert!(q_project(&[path("1234.0Q", "T5", &[(0.01, ">1234.1P")])]).is_ok());

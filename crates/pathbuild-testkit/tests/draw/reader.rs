@@ -118,7 +118,7 @@ fn without_formatting(text: &str) -> String {
     text.replace("\\P", "\n").replace("\\S1^ 2;", "12").replace("\\~", "\u{a0}")
 }
 
-/// Writes a drawing in all possible ways.
+/// Returns the sheets of a drawing for each version of DXF and each form of its files, with the options that choose them.
 fn written(text: &str) -> Vec<(String, Sheet)> {
     let options =
         ["", "binary\n", "lineends lf\n", "lineends cr\n", "bom\n", "encoding utf-8\n", "encoding escaped\n"];

@@ -18,7 +18,6 @@ pub(crate) fn records(bytes: &[u8]) -> Vec<Record> {
     records
 }
 
-/// Returns the records of a section.
 pub(crate) fn section(records: &[Record], name: &str) -> Vec<Record> {
     let begin = records.iter().position(|record| record[0].1 == "SECTION" && record[1].1 == name).unwrap();
     let rest = records[begin + 1..].iter();
