@@ -60,7 +60,6 @@ pub fn q_project(paths: &[EmbeddingPath<'_>]) -> Result<Vec<u8>, Vec<String>> {
     Ok(to_dxf(&layers, &elements, &place_texts(&elements)?))
 }
 
-/// An element of a Q-project.
 struct Element<'a> {
     shape: ElementPart,
     layer: &'a str,
@@ -69,7 +68,6 @@ struct Element<'a> {
     text: Option<&'a str>,
 }
 
-/// The text of an element with its position.
 struct PlacedText<'a> {
     text: &'a str,
     /// The upper left corner of the text.
