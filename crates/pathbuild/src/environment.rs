@@ -95,7 +95,8 @@ pub(crate) fn named_lang(name: &str) -> Option<Lang> {
     }
 }
 
-/// Returns the date of a run: the given one, or else that of `SOURCE_DATE_EPOCH`, or else the current date in UTC.
+/// Returns the date of a run: the given one, or else that of `SOURCE_DATE_EPOCH`, or else the current date in UTC. `None` if
+/// `SOURCE_DATE_EPOCH` is not a time.
 pub(crate) fn date(given: Option<Date>) -> Option<RunDate> {
     if let Some(date) = given {
         return Some(RunDate { date, source: DateSource::Given });

@@ -122,7 +122,7 @@ impl Output {
         page(&found, &pictures(workspace, &found.diagnostics), view)
     }
 
-    /// Returns the findings as a report in another format.
+    /// Returns the findings as a report in a format other than HTML.
     pub(crate) fn whole_report(&self, format: Format, status: u8, view: &View) -> RenderedText {
         let found = self.found.borrow();
         let rendered = render(format, &found, view);

@@ -244,7 +244,7 @@ impl Reporter for Printer {
         Self::detail(self, line);
     }
 
-    /// Returns a counter that shows a progress bar if stderr is a terminal.
+    /// Returns a counter. It shows a progress bar if stderr is a terminal and neither `-q` nor `-qq` is given.
     fn progress(&self, total: usize) -> Box<dyn ProgressCounter> {
         if self.verbosity < Verbosity::Normal || !Stream::Stderr.is_terminal() {
             return Box::new(SilentReporter);

@@ -15,8 +15,8 @@ use crate::render::write_pictures;
 use crate::text::{DRAWING, ERROR, PATH, WARNING, count, counted, table};
 use crate::waivers;
 
-/// Ends a check that took the given time: applies severities and waivers, shows findings, writes reports and the summary, and returns the
-/// exit status.
+/// Ends a check that took the given time: applies severities and waivers, writes pictures, shows findings and the summary, and returns
+/// the exit status.
 pub fn conclude(
     context: &Context,
     args: &CheckArgs,

@@ -20,7 +20,7 @@ use crate::text::counted;
 /// `--update-baseline` or `--accept`, writes the baseline instead.
 ///
 /// # Errors
-/// The status with which the run ends, because the baseline was written, or because it cannot be read or written.
+/// The status with which the run ends: the baseline was written, or it cannot be read or written, or the options are invalid.
 pub(crate) fn settle(
     context: &Context,
     args: &WaiverArgs,

@@ -16,8 +16,8 @@ use pathbuild_diagnostic::shown;
 /// Interval at which an invalid configuration is checked again.
 const CONFIGURATION_INTERVAL: Duration = Duration::from_millis(200);
 
-/// Runs `watch` until it ends. An invalid configuration at the beginning ends the run; later, the run waits until the configuration is
-/// valid again.
+/// Runs `watch` until it ends. An invalid configuration at the beginning ends the run, unless the user sees only the page; later, the run
+/// waits until the configuration is valid again.
 pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
     let mut has_begun = false;
     let mut had_file = false;
@@ -87,7 +87,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
 }
 
 /// Changes back to the working directory, which may have been replaced. If arguments are relative to it, waits until it exists again.
-/// Returns false if the page was closed meanwhile, so that the run ends.
+/// Returns false if the user has ended watching meanwhile.
 fn return_to_working_directory(cli: &Cli, home: &Utf8Path, server: Option<&Server>) -> bool {
     let inputs = cli.command.inputs();
     let is_named = inputs.inputs.iter().all(|input| Utf8Path::new(input).is_absolute());

@@ -53,7 +53,7 @@ export class Compiler {
   private lost: (Place & Ended["why"])[] = [];
   private seconds = OPENING;
   private isOver = false;
-  /** Number of restarts. A restarted compiler has lost all earlier results. */
+  /** Number of times that the compiler was started. A restarted compiler has lost all earlier results. */
   generation = 0;
 
   constructor(
@@ -89,7 +89,7 @@ export class Compiler {
     return bytes;
   }
 
-  /** Returns the statistics of all paths requested so far. */
+  /** Returns the statistics of all paths checked since the compiler was started. */
   async statistics(): Promise<any> {
     return (await this.next(() => this.put({ ask: "statistics" }))).head.statistics;
   }

@@ -67,7 +67,7 @@ function query(file: string, path: string | null): string {
   return wanted.toString();
 }
 
-/** Returns the token. Removes it from the address, so that it is neither visible nor stored in the browser's history. */
+/** Returns the token of the address, or of an earlier visit. Removes it from the address, so that it is not visible or kept in the history. */
 function takeToken(): string | null {
   const from = new URLSearchParams(location.hash.slice(1));
   const token = from.get("token");

@@ -104,7 +104,7 @@ async function read(place: string, file: File): Promise<ArrayBuffer> {
   }
 }
 
-/** Adds drawings to the existing files. A drawing replaces the file with its name in any directory, if there is only one such file. */
+/** Returns the files after more were given: a folder replaces all; a drawing replaces the one file with its name, or else is added. */
 export function joined(before: Files, given: Given): Files {
   if (given.isFolder || before.size === 0) return given.files;
   const files = new Map(before);

@@ -40,7 +40,7 @@ class Page {
   /** Files sorted by path. */
   private files: string[] = [];
   private revision = 0;
-  /** Whether the last answer was complete. */
+  /** Whether the last answer contained all drawings that had changed. */
   private isWhole = true;
   private isPulling = false;
   private isBehind = false;
@@ -308,7 +308,7 @@ class Page {
     this.follow();
   }
 
-  /** Shows the path that the page's address names. */
+  /** Shows the path or program that the page's address names, or only the list. */
   private follow(): void {
     const from = new URLSearchParams(location.hash.slice(1));
     const file = from.get("file");
@@ -333,7 +333,7 @@ class Page {
     if (wasOpen && !this.open && !this.settings) $("list").focus();
   }
 
-  /** Fetches and shows the open path. */
+  /** Fetches and shows the open path or program. */
   private async view(isSame: boolean): Promise<void> {
     const [{ open, program, settings }, look] = [this, ++this.look];
     try {

@@ -284,7 +284,7 @@ async function begin(): Promise<void> {
   speak();
 }
 
-/** Renders the selection of posts, and keeps the selected one. */
+/** Fills the selection of posts, unless it is already filled. */
 function offer(posts: { name: string; for: string }[]): void {
   const select = $<HTMLSelectElement>("post");
   if (select.options.length > 1) return;

@@ -472,7 +472,7 @@ function clamp(it: KeepOut): THREE.Mesh {
   return new THREE.Mesh(body, material);
 }
 
-/** Returns the shapes of elements that are not moves: all elements of a path without a program, otherwise those that embed paths. */
+/** Returns the lines of elements to draw beside moves: all elements of a path without a program, otherwise those that no move shows. */
 function elementShapes(scene: Scene): number[] {
   const always = ["subpath", "skipped-subpath", "turn", "probe", "start", "end"];
   return scene.paths.flatMap((path) =>

@@ -87,7 +87,7 @@ fn draw_cut(
     canvas.path(&path_data(&movement.way, place), &format!("stroke=\"{color}\"{dashes}"));
 }
 
-/// Whether a plunge is a hole, because it makes up its whole element. Plunges without an element are drawn as holes too.
+/// Whether a plunge is drawn as a hole: its element is a circle, or it has no element.
 fn is_hole(movement: &SceneMove, path: &ScenePath) -> bool {
     movement.element.is_none_or(|element| {
         matches!(path.elements[element as usize].shape, crate::scene::Shape::Circle { .. })
@@ -165,7 +165,7 @@ fn draw_rapids(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, sho
     }
 }
 
-/// Draws a small triangle in the middle of a move, pointing in its direction.
+/// Draws a small triangle near the middle of a move, pointing in its direction. A short move gets none.
 fn draw_arrow(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, color: &str) {
     let (before, at) = (place.to_page(along(movement, 0.59)), place.to_page(along(movement, 0.61)));
     let [dx, dy] = [at[0] - before[0], at[1] - before[1]];

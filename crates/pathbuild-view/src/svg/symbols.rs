@@ -122,7 +122,8 @@ pub(super) fn draw_above_moves(
     hidden
 }
 
-/// Draws elements that no move shows: with a program, subpaths and skipped elements; without one, all elements.
+/// Draws the elements that no move shows. If the path has no program, these are all elements except for the start and end markers;
+/// otherwise, for example, subpaths and turn markers.
 fn elements(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
     canvas.open("id=\"elements\" fill=\"none\" stroke-width=\"1.4\"");
     for element in &path.elements {

@@ -201,7 +201,7 @@ impl<'a> Adjustment<'a> {
     /// Compares a program with its drawing. Returns whether the program is known to be up to date.
     ///
     /// # Errors
-    /// The drawing now produces a different program, or the program was edited.
+    /// The drawing has errors or now produces a different program, or the program was edited.
     fn compare(&self, job: &Job, clean: &[u8]) -> Result<bool, Vec<Diagnostic>> {
         let context = self.context;
         let not_compared =

@@ -196,8 +196,8 @@ impl EarlierFiles for RevisionFiles<'_> {
     }
 }
 
-/// Returns the place that determines the repository: the root of an untrusted tree; otherwise the first argument, the configuration's
-/// directory, or the working directory.
+/// Returns the place that determines the repository: the root of an untrusted tree; otherwise the first file or directory among the
+/// arguments, the configuration's directory, or the working directory.
 fn repository_place(context: &Context, inputs: &Inputs) -> Utf8PathBuf {
     if let Some(confined) = &context.settings.confined {
         return confined.root().to_owned();

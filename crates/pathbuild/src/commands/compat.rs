@@ -23,7 +23,8 @@ use super::adjust;
 use crate::environment::named_lang;
 use crate::german;
 
-/// Options of the original tools that take a value, each with the corresponding option of pathbuild.
+/// Options of the original tools with the options of pathbuild that replace them in every command. `/x` and `/m` are not among them,
+/// because what replaces them depends on the command.
 const VALUES: &[(char, &str)] = &[
     ('f', "--feed"),
     ('v', "--rapid"),
@@ -219,7 +220,7 @@ impl CompatArguments {
         self.max_correction.is_some() || self.files.iter().any(is_adjusted)
     }
 
-    /// Whether the option for the largest permitted correction is missing.
+    /// Whether the command line adjusts programs but does not state the largest permitted correction.
     fn lacks_correction(&self) -> bool {
         let is_ours = self.own.iter().any(|option| option.starts_with("--max-correction"));
         self.adjusts() && self.max_correction.is_none() && !is_ours

@@ -18,11 +18,11 @@ pub(super) struct Repository<'a> {
     pub(super) root: Utf8PathBuf,
 }
 
-/// A file in a revision.
+/// An entry of a revision's tree.
 #[derive(Debug)]
 pub(super) struct Entry {
     pub(super) kind: EntryKind,
-    /// Object id of its blob.
+    /// Object id of the blob, or of a submodule's commit.
     pub(super) id: String,
     /// Path relative to the root, as stored by Git. It may be hostile: check [`is_plain`](Entry::is_plain) before writing a file.
     pub(super) name: String,
@@ -40,7 +40,8 @@ pub(super) enum EntryKind {
 /// Callback that gets the index of a blob and its bytes, or its size if that exceeds the limit.
 pub(super) type TakeBlob<'t> = &'t mut dyn FnMut(usize, Result<&mut dyn Read, u64>) -> io::Result<()>;
 
-/// Maximum length in bytes of a `.git` file, and of the header line of a blob or file in Git's output. No system has longer file names.
+/// Maximum length in bytes of a `.git` file, and of a line in which Git lists a file or introduces a blob. No system has longer file
+/// names.
 const MAX_LINE_BYTES: u64 = 4096;
 
 /// Maximum total size in bytes of the blobs in a single request, because a few Git objects can expand to any size.
@@ -144,10 +145,10 @@ impl<'a> Repository<'a> {
             && branch().and_then(|name| refs(&name)).is_some_and(|output| output.is_empty())
     }
 
-    /// Returns all files in a tree.
+    /// Returns all entries of a tree and its subtrees.
     ///
     /// # Errors
-    /// There are more files than the limit permits (a few objects can describe any number), or Git cannot read the tree.
+    /// There are more entries than the limit permits (a few objects can describe any number), or Git cannot read the tree.
     pub(super) fn entries(&self, tree: &str) -> Result<Vec<Entry>, String> {
         let most = self.workspace.settings.limits.library_entries.value;
         let arguments = ["ls-tree", "-r", "-z", "--full-tree", tree];

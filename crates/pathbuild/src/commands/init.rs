@@ -14,8 +14,8 @@ macro_rules! example {
     };
 }
 
-/// Files of the example library with their contents. Its drawings are derived from text files beside them; the tests of the book keep both
-/// in sync.
+/// Files of the example library with their contents. The drawings are derived from the text files (.draw) beside them; a test of the book
+/// compares the two.
 const EXAMPLE: &[(&str, &[u8])] = example![
     "pathbuild.toml",
     "starter.dxf",

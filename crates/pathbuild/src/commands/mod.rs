@@ -95,7 +95,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
     }
 }
 
-/// Returns an error message if the format cannot be used: it is for graphs only and the command prints none, or it is only for reports.
+/// Returns an error message if the format is for graphs and the command prints none, or if the format is only for reports.
 fn format_refusal(context: &Context, command: &Command) -> Option<String> {
     if context.format == Format::Html {
         let refusal = context.choose(

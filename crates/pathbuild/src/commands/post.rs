@@ -115,7 +115,7 @@ fn rewrite_and_report(
         return Err(Vec::new());
     }
     let steps = std::mem::take(&mut program.read.steps);
-    // `emit` replaces G38.3 of native programs as well.
+    // In native programs, only G38.3 can be replaced. `emit` does that without a warning, too.
     if program.dialect != Dialect::Native {
         let mut altered = altered_words(&steps);
         program.place_own(&mut altered);
@@ -171,8 +171,8 @@ fn findings(
     }
 }
 
-/// Whether a finding is about something that the post-processor adds or completes: the spindle, tools of the table, and the end of the
-/// program.
+/// Whether a finding is about something that the post-processor adds or completes (the spindle, tools of the table, the end of the
+/// program) or that it judges in its own output (the travel of the machine).
 fn is_judged_in_output(problem: &Diagnostic) -> bool {
     matches!(
         problem.code(),

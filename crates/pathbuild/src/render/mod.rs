@@ -19,8 +19,8 @@ pub(crate) use html::page;
 pub(crate) use pictures::{pictures, write as write_pictures};
 pub use view::View;
 
-/// The text of rendered findings. Only [`render`] creates it. It contains no control sequences except pathbuild's own colours, so that it
-/// is safe to print.
+/// The text of rendered findings. Only this module and its renderers create it. It contains no control sequences except pathbuild's own
+/// colours, so that it is safe to print.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RenderedText(String);
 

@@ -17,7 +17,7 @@ const MAX_PICTURES: usize = 1000;
 /// gigabytes.
 const MAX_PICTURE_BYTES: usize = 256 << 20;
 
-/// Returns one picture per finding as SVG; `None` if the finding has no place in a drawing.
+/// Returns one picture per finding as SVG; `None` if the finding has no place in a drawing, or if the limits are reached.
 pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic]) -> Vec<Option<String>> {
     let mut files: Vec<&Utf8Path> =
         diagnostics.iter().take(MAX_PICTURES).filter_map(|diagnostic| drawing(diagnostic)).collect();
@@ -100,8 +100,8 @@ fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<FindingP
     Some(FindingPlace { at, related, circle, is_error: diagnostic.is_error() })
 }
 
-/// Writes a picture of each finding that has a place into a directory. Returns errors. The same finding has the same file name in every
-/// run.
+/// Writes the pictures of findings into a directory, and stops at the first file that cannot be written. Returns the error. The same
+/// finding has the same file name in every run.
 pub(crate) fn write(workspace: &Workspace, directory: &Utf8Path, findings: &Findings) -> Vec<Diagnostic> {
     let directory = workspace.working_directory.join(directory);
     let images = pictures(workspace, &findings.diagnostics);

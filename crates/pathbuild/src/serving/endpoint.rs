@@ -136,7 +136,7 @@ pub(super) fn random_token() -> io::Result<String> {
     Ok(format!("{:032x}", u128::from_ne_bytes(bits)))
 }
 
-/// Prefix of routes that return data of drawings.
+/// Prefix of the routes that return data, for which the token is required.
 pub(super) const DATA_PREFIX: &str = "/api/";
 
 /// Route that receives the text of a program, which the server does not store.

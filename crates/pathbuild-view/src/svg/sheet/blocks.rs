@@ -305,7 +305,7 @@ fn embedded_rows(sheet: &Sheet) -> Vec<Vec<String>> {
     each.into_iter().map(row).collect()
 }
 
-/// Describes a cutter: the tool itself, then its spindle speed.
+/// Describes a cutter in up to three texts: number, diameter and name; cutting edges; spindle speed and direction.
 fn tool_text(tool: &SheetTool, words: Words) -> Vec<String> {
     let number = tool.number.map(|number| format!("T{number} "));
     let name = tool.name.as_ref().map(|name| format!(" ({name})"));

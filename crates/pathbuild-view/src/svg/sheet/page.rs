@@ -117,7 +117,7 @@ impl Page {
     }
 }
 
-/// Returns the name of the program and its drawings.
+/// Returns the items of the title: the name of the path or of the joined paths, the drawings, and a rule.
 fn title(sheet: &Sheet, words: Words) -> Vec<Item> {
     let (size, width) = (20.0, (RIGHT_EDGE - LEFT_EDGE) * 0.62);
     let name = wrap_text(&sheet.title, width, size);

@@ -63,7 +63,7 @@ impl Scale {
     }
 }
 
-/// Returns the picture for the first page: in true size if there is enough space, and enlarged if it is small.
+/// Returns the picture for the first page: in true size if there is enough space, otherwise reduced; enlarged if it would be very small.
 pub(super) fn first_page_picture(sheet: &Sheet, area: Column) -> PlacedPicture {
     let corners = with_min_extent(shown_box(sheet));
     let limit = max_scale(corners, area);

@@ -25,7 +25,7 @@ use crate::render::Format;
 use output::Output;
 use revision::Revision;
 
-/// Runs the command. Changed paths are not errors, but paths that can no longer be compared are.
+/// Runs the command. Changed paths are not errors, but paths that cannot be compared because they have errors now are.
 pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
     let output = match Output::of(context, args.output.as_deref()) {
         Ok(output) => output,
@@ -100,7 +100,7 @@ pub(super) enum Side {
     Program(Box<ComparedProgram>),
 }
 
-/// The drawings below a directory, with their configuration.
+/// A drawing, or the drawings below a directory, with their configuration.
 pub(super) struct Drawings {
     pub(super) workspace: Workspace,
     pub(super) inputs: Inputs,

@@ -25,7 +25,7 @@ pub(super) struct Revision {
 /// Checks out a revision of the working directory's repository. Touches neither the working tree nor the index.
 ///
 /// # Errors
-/// Git's message if there is no such revision.
+/// A message if there is no such revision, or if its files cannot be read or written.
 pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, String> {
     let name = git::revision(context, name)?;
     let repository = Repository::of(context, Utf8Path::new(""))?;
