@@ -156,7 +156,7 @@ pub struct ProbeTop {
 }
 
 impl ProbeTop {
-    /// Returns the probes of a path that are raised by H. T of the others is checked together with S.
+    /// Returns those probes of a path that H raises. T of all other probes is checked together with S.
     fn raised(path: &Path) -> Vec<Self> {
         let top = |probe: &crate::path::Probe| {
             let fault = path.drawn.text(probe.text)?.fault_of(Letter::H)?;
@@ -546,7 +546,7 @@ impl<'a> SubpathChecker<'a> {
         problems
     }
 
-    /// Reports a path that is drawn for another cutter: a program has a single one, that of the emitted path, whatever O a segment gives.
+    /// Reports a path that is drawn for another cutter. A program has a single cutter, that of the emitted path, whatever O a segment gives.
     fn other_cutter_problem(&self, inner: &PathSignature) -> Diagnostic {
         Diagnostic::new(&messages::CUTTER_OF_PROJECT)
             .quoting("outer", self.outer.name.as_str())

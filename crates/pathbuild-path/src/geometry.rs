@@ -261,7 +261,7 @@ impl Line {
     }
 
     /// Whether two lines cross, so that each has its ends on both sides of the other. Lines that only touch do not cross, but an end of one
-    /// lies on the other.
+    /// line lies on the other.
     fn crosses(&self, other: &Self) -> bool {
         let divides = |one: &Self, other: &Self| {
             let along = one.end - one.start;
@@ -321,7 +321,7 @@ impl Arc {
         if squared == 0.0 {
             return false;
         }
-        // The point where the line through the crossings of both circles meets the line between the centres, as a fraction of their distance.
+        // The line through the crossings of the circles meets the line between the centres at this fraction of the distance between the centres.
         let along = (squared + self.radius * self.radius - other.radius * other.radius) / (2.0 * squared);
         let half = self.radius * self.radius / squared - along * along;
         if half < 0.0 {

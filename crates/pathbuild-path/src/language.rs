@@ -53,7 +53,7 @@ pub struct PathTools(Arc<FindTool>);
 type FindTool = dyn Fn(&str, f64) -> Option<PathTool> + Send + Sync;
 
 impl PathTools {
-    /// Creates a lookup that calls a function with the path's name and its O in mm. It returns `None` for a path without a configured tool.
+    /// Creates a lookup from a function of a path's name and its O in mm, which returns `None` for a path without a configured tool.
     pub fn new(find: impl Fn(&str, f64) -> Option<PathTool> + Send + Sync + 'static) -> Self {
         Self(Arc::new(find))
     }

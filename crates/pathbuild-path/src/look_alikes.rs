@@ -23,7 +23,7 @@ pub(crate) fn ascii(character: char) -> Option<char> {
     }
 }
 
-/// Returns a text with all characters replaced by those that they look like.
+/// Returns a text with each look-alike replaced by the keyboard character that it looks like.
 pub(crate) fn with_keyboard_characters(text: &str) -> String {
     text.chars().map(|character| ascii(character).unwrap_or(character)).collect()
 }

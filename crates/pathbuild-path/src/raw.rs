@@ -14,7 +14,7 @@ use crate::names::{CaseSensitiveName, PathName};
 use crate::text::{ParameterText, ParameterTexts, TextId, ValueKind};
 use crate::variables::{Bindings, Definition};
 
-/// A path as drawn. It contains no lines and handles of the file, see [`SourceMap`].
+/// A path as drawn. The line numbers and handles of its elements in the file are in the [`SourceMap`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawPath {
     /// Name of the path, in the spelling of its first layer in the file.
@@ -29,7 +29,7 @@ pub struct RawPath {
     pub probes: Vec<Marker>,
     /// The path's elements with their texts.
     pub drawn: Arc<DrawnElements>,
-    /// The path's own parameters among the texts: the text of its start, or a copy of that of the path named by @.
+    /// The text with the path's own parameters: that of its start, or a copy of the start text of the path named by @.
     pub(crate) parameters: Option<TextId>,
     /// The path named by @, and its start marker, which has the parameters.
     pub(crate) borrowed_from: Option<Box<(PathName, Origin)>>,

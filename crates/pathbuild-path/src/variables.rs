@@ -1,4 +1,4 @@
-//! Variables: their definitions and permitted values, and the texts with their values. (book: language/variables)
+//! Variables: their definitions and permitted values, and the substitution of their values in texts. (book: language/variables)
 
 use std::borrow::Cow;
 use std::collections::HashSet;

@@ -286,7 +286,7 @@ fn project(
     (format!("projects/{name}.dxf"), finish_drawing(draft, furniture))
 }
 
-/// Draws a subpath segment with the length of the path from the current point, in a random direction.
+/// Draws a subpath segment from the current point in a random direction, as long as the embedded path.
 fn embed(pen: &mut Pen<'_>, text: &str, signature: Signature) {
     let turn = pen.random.pick(&[0.0, 5.0, 10.0, 15.0, -10.0]);
     let length = Point::default().distance(signature.chord);

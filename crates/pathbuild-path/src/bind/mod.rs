@@ -283,7 +283,7 @@ impl<'a> Binder<'a> {
         });
     }
 
-    /// Returns the bottom of a cut, from its own text or the path's. Reports doubtful marks; of those with the path's D, only the first.
+    /// Returns the bottom of a cut, from its own text or the path's. Reports a doubtful mark; of the marks with the path's D, only the first.
     fn bottom(&mut self, scope: &Scope<'_>, cut: Cut) -> Option<f64> {
         let bottom = self.value(scope, cut.depth())?;
         let doubts = &self.language.doubts;
@@ -525,8 +525,8 @@ impl Binder<'_> {
     }
 }
 
-/// Combines the reports that a letter is missing on elements of one kind, as if it was forgotten in the path's own text, into one at the
-/// first of them.
+/// Combines the reports that a letter is missing on several elements of one kind into one report at the first of these elements, since the letter
+/// was probably forgotten in the path's own text.
 pub(crate) fn group_missing(problems: &mut Vec<Diagnostic>) {
     let mut kept: Vec<Diagnostic> = Vec::with_capacity(problems.len());
     let mut groups: Vec<(usize, u64)> = Vec::new();

@@ -89,8 +89,8 @@ pub fn check_parts(
     findings
 }
 
-/// Checks the cuts of one path against the parts of its drawing, for other values of its variables than those of
-/// [`check_parts`].
+/// Checks the cuts of one path against the parts of its drawing, for values of its variables other than those that
+/// [`check_parts`] was called with.
 pub fn check_path(parts: &[Part], path: &PathCuts, settings: &PartSettings) -> Vec<Diagnostic> {
     let paths = [path];
     let cuts = CutIndex::new(&paths);

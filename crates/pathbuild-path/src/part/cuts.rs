@@ -101,7 +101,7 @@ pub(super) struct IndexedCut<'c> {
 /// The cuts of all paths of a drawing, with an index of their boxes, which are widened by the cutter's diameter.
 pub(super) struct CutIndex<'c> {
     pub(super) paths: &'c [&'c PathCuts],
-    /// For each path, whether it cuts parts out. The cuts of all other paths are only searched for cuts into parts and bars.
+    /// For each path, whether it cuts parts out. Of all other paths, only cuts into parts and into bars matter.
     pub(super) contours: Vec<bool>,
     pub(super) cuts: Vec<IndexedCut<'c>>,
     boxes: BoxIndex,

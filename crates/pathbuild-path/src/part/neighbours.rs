@@ -98,7 +98,7 @@ impl<'c> PlacedCuts<'c> {
         NeighbourCuts { gouges: gouged, bars }
     }
 
-    /// Returns the parts that nothing holds because of the cuts of other paths beside them, though the cuts of `own` alone leave something that does.
+    /// Returns the parts that come loose because of cuts of other paths beside them: the cuts of `own` alone would leave material that holds them.
     /// `own` are the paths that belong to the same drawing at the same place, including this one; `others` are the remaining paths by their index.
     pub fn severed_by(&self, own: &[&Self], others: &[(usize, &Self)]) -> Vec<SeveredPart> {
         let is_near = |(_, other): &&(usize, &Self)| {

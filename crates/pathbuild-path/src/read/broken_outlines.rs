@@ -1,4 +1,4 @@
-//! Outlines of finished parts that are open or cross themselves or others. (book: language/part)
+//! Outlines of finished parts that are open, or that cross themselves or other outlines. (book: language/part)
 
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};

@@ -59,7 +59,7 @@ pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
     (0..rings.len()).map(outermost).collect()
 }
 
-/// A place where two curves of a sequence cross: their indices, each with the distance in mm along it.
+/// A place where two curves of a sequence cross, with the index of each curve and the distance in mm along it.
 pub(super) struct Crossing {
     pub(super) at: Xy,
     pub(super) first: (usize, f64),

@@ -27,7 +27,7 @@ const MAX_EXAMINED_CANDIDATES: usize = 1_000_000;
 /// Maximum number of characters after a path name that count as a typing error.
 const MAX_SLIP_CHARACTERS: usize = 2;
 
-/// Words that follow the name of a path on the layer of another version of it, in English and German.
+/// Words that follow a path's name in the name of a layer with another version of the path, in English and German.
 const VERSIONS: [&str; 6] = ["old", "new", "copy", "alt", "neu", "Kopie"];
 
 /// Whether the undecoded bytes of a text may be a parameter text that [`stray_findings`] reports. If not, it is certain that nothing is reported.

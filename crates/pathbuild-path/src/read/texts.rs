@@ -96,7 +96,7 @@ impl<'d> Texts<'d> {
         }
     }
 
-    /// Whether a text with O and T overlaps a circle.
+    /// Whether a text that gives O and T overlaps the circle of a marker, which has this radius in mm.
     pub(super) fn has_path_text(&self, marker: &Marker, radius: f64) -> bool {
         let on_layer = self.layers.iter().filter(|layer| layer.name == marker.origin.layer);
         on_layer.flat_map(|layer| &layer.texts).any(|text| {

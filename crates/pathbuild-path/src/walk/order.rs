@@ -51,7 +51,7 @@ struct Group {
     segments: Vec<usize>,
     /// Number of leading segments that are known to be traversed.
     traversed: usize,
-    /// Whether all pairs of lengths are near each other.
+    /// Whether the lengths of any two of these segments are near each other.
     is_level: bool,
 }
 
@@ -277,7 +277,7 @@ impl Ends {
         (is_alone && coincide(low, high)).then_some(JunctionSegments { corners: [low, high], segments })
     }
 
-    /// Calls `take` for the ends in a square and for others in the same bucket.
+    /// Calls `take` for the ends in a square, and for all other ends in the same bucket.
     fn each_in(&self, square: Square, mut take: impl FnMut(usize, usize)) {
         let mut at = self.buckets[bucket_of(square, self.buckets.len())];
         while at != END_OF_BUCKET {

@@ -102,7 +102,7 @@ fn a_name_with_more_groups_than_the_file_is_in_it_and_not_the_other_way_round() 
     assert!(holds("1234.3", "1234.3.A"));
     assert!(holds("1234.3", "1234.3"));
     assert!(!holds("1234.3", "1234"));
-    // A greater number of the file ends a range after the path.
+    // The end of the range has more groups than the path's name, so it is greater.
     assert!(holds("1233-1234.3", "1234"));
     assert!(!holds("1234.3-1235", "1234"));
 }
