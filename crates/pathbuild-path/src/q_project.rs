@@ -171,7 +171,7 @@ struct QProjectComparison<'a> {
     drawing: &'a str,
 }
 
-/// A difference between two texts: the letter or variable, and both values.
+/// A difference between two texts: the letter or variable, both values, and the place in the text that has the letter, if it is known.
 type Difference = (String, Value, Value, Option<TextFault>);
 
 impl<'a> QProjectComparison<'a> {

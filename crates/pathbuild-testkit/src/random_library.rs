@@ -53,7 +53,7 @@ const SWEEP_LENGTH: u32 = 30;
 const CHAIN_LENGTH: u32 = 13;
 
 impl RandomLibrary {
-    /// Creates the library of a seed.
+    /// Creates the library that follows from a seed.
     pub fn new(seed: u64) -> Self {
         let mut random = Random::new(seed, 7);
         let mut kinds: Vec<ComponentKind> =

@@ -192,7 +192,7 @@ impl<'s> LeftoverSearch<'s> {
         all.unreachable.extend(shifted(intersection(&open, &corners)));
     }
 
-    /// Returns the cuts near a curve that run beside the part, along this ring.
+    /// Returns the cuts near a curve that run beside the part, along the curve's ring.
     fn cuts_beside(&self, curve: &RingCurve<'_>) -> impl Iterator<Item = &'s ClassifiedCut<'s>> {
         let ring = curve.ring;
         let judged = curve.near.iter().filter_map(|number| self.judged.get(number));
