@@ -139,7 +139,6 @@ impl LibraryOptions {
         if faults.is_empty() { Ok(workspace) } else { Err(Error::from_findings(&workspace, faults)) }
     }
 
-    /// Returns the overridden keys of the configuration with their values.
     fn given_options(&self) -> Result<GivenOptions, Error> {
         let mut given: Vec<(&'static str, Vec<String>)> = Vec::new();
         for (name, value) in &self.settings {

@@ -35,7 +35,7 @@ pub struct Path {
     pub findings: Vec<Finding>,
 }
 
-/// A drawn element, or a special circle. (book: language/line-types)
+/// A drawn element, a marker or a probe. (book: language/line-types)
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Element {

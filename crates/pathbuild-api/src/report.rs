@@ -173,7 +173,7 @@ impl OutputFile {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct GraphReport {
-    /// The pairs of an embedding and an embedded path, each pair once, sorted by drawing and name of the embedding path.
+    /// Pairs of an embedding path and a path that it embeds, each pair once, sorted by drawing and name of the embedding path.
     pub edges: Vec<GraphEdge>,
     /// Number of paths with errors, which may embed more paths than are listed. [`Library::check`](crate::Library::check) finds these errors.
     pub incomplete: usize,

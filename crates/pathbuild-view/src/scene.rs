@@ -29,7 +29,7 @@ pub struct Scene {
     pub version: u32,
     /// Name of the path, drawing or program that is shown.
     pub title: String,
-    /// Height in mm above the plate below which a cut counts as going through it.
+    /// Height in mm above the plate. A cut that goes down to this height or lower goes through the material.
     #[serde(serialize_with = "millimetres")]
     pub through: f64,
     /// The paths shown, or a single program.
@@ -131,7 +131,7 @@ pub struct Example {
     pub value: Option<String>,
 }
 
-/// An embedded path with its place in a program.
+/// A path with its place in a program: the outermost path, or an embedded one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EmbeddedPath {
     /// Name of the path.

@@ -17,7 +17,6 @@ pub enum ExitStatus {
 }
 
 impl ExitStatus {
-    /// Returns the status of a run with these findings.
     pub(crate) fn of(findings: &Findings) -> Self {
         if findings.errors() > 0 { Self::Errors } else { Self::Success }
     }

@@ -120,7 +120,6 @@ fn change_directory(home: &Utf8Path) -> bool {
     home.as_str().is_empty() || std::env::set_current_dir(home).is_ok()
 }
 
-/// Returns the message that the configuration has disappeared, so that nothing is checked.
 fn lost_configuration_message(context: &Context) -> &'static str {
     context.choose("pathbuild.toml is missing", "pathbuild.toml fehlt")
 }

@@ -54,7 +54,6 @@ impl Canvas {
         self.text.push('\n');
     }
 
-    /// Opens a group with these attributes.
     pub(super) fn open(&mut self, attributes: &str) {
         self.raw(&format!("<g {attributes}>"));
     }

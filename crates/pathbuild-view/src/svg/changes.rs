@@ -44,7 +44,6 @@ pub enum Picture {
     New,
 }
 
-/// The programs of a path before and after a change, and the differences between them.
 #[derive(Clone, Copy, Debug)]
 struct Pair<'a> {
     old: &'a [SceneMove],

@@ -259,7 +259,6 @@ impl OccupiedSpace {
         starts[least]
     }
 
-    /// Whether a line crosses occupied cells.
     pub(super) fn is_crossed_by(&self, [from, to]: [Point; 2]) -> bool {
         let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few px")]
@@ -315,7 +314,7 @@ fn length_within([from, to]: &[Point; 2], [low, high]: Rectangle) -> f64 {
     (leaves - enters).max(0.0) * libm::hypot(to[0] - from[0], to[1] - from[1])
 }
 
-/// Returns offsets in columns and rows, nearest first.
+/// Returns the offsets at which a text is tried, nearest first: across in half widths of the text, down in heights.
 fn offsets() -> impl Iterator<Item = Point> {
     let rows = (0..=MAX_TEXT_DISTANCE).flat_map(|row| [f64::from(row), -f64::from(row)]);
     let mut steps: Vec<Point> =

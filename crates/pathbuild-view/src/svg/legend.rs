@@ -22,10 +22,8 @@ const FINDINGS_WIDTH: f64 = Frame::WIDTH - 80.0;
 /// Maximum number of lines of findings. Each line adds to the height of a picture, and thereby to its size in memory.
 const MAX_LINES: usize = 40;
 
-/// Number of steps in the depth scale.
 const DEPTH_STEPS: u32 = 24;
 
-/// The legend of a picture, with its position on the page.
 pub(super) struct Legend<'a> {
     scene: &'a Scene,
     depths: &'a Depths,

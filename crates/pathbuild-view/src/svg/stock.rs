@@ -92,13 +92,13 @@ impl SweptArea {
 }
 
 impl Stroke {
-    /// Returns the height that remains after the cut. All cuts through the plate have the same height.
+    /// Returns the height that remains after the cut. All cuts through the material have the same height.
     fn height(&self) -> f64 {
         if self.kind >= StrokeKind::ThroughEdge { f64::NEG_INFINITY } else { self.z }
     }
 }
 
-/// Sorts strokes in painting order: cuts through the plate last, all others from high to low. At the same height, marked strokes are
+/// Sorts strokes in painting order: cuts through the material last, all others from high to low. At the same height, marked strokes are
 /// painted first, beneath the others.
 fn sort(strokes: &mut [Stroke]) {
     let is_through = |stroke: &Stroke| stroke.kind >= StrokeKind::ThroughEdge;
@@ -480,7 +480,6 @@ fn cutting_conditions(scene: &Scene, path: &ScenePath, movement: &SceneMove) -> 
     Some(CuttingConditions { diameter: tool.map(|tool| tool.diameter).or(path.tool)?, top, through })
 }
 
-/// Converts a move to the coordinates of the drawing.
 fn in_drawing_coordinates(way: &Move, zero: Point) -> Move {
     let place =
         |end: &Position| Position { at: [end.at[0] + zero[0], end.at[1] + zero[1], end.at[2]], ..*end };

@@ -280,7 +280,6 @@ pub(super) fn shape(shape: &Shape, place: &PageTransform) -> String {
     }
 }
 
-/// Colour of sweeps, for the legend.
 pub(super) const SWEEP_COLOUR: &str = RAPID_COLOUR;
 
 /// Radius in px of the circle around a number.

@@ -20,7 +20,7 @@ use pathbuild_workspace::findings::Findings;
 /// Watches until the user ends it.
 ///
 /// # Errors
-/// The reason why everything must be restarted, as a sentence.
+/// The reason, as a sentence, why the configuration must be loaded and watching restarted.
 pub(crate) fn run(
     context: &Context,
     args: &WatchArgs,

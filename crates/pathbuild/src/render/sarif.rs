@@ -159,7 +159,6 @@ fn artifact(file: &str) -> Json {
     }
 }
 
-/// Percent-encodes a file name for a URI.
 fn percent_encoded(name: &str) -> String {
     let encode = |byte: u8| match byte {
         b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'.' | b'-' | b'_' | b'~' => {

@@ -19,7 +19,6 @@ use tokio::time::sleep;
 
 use crate::args::{Address, Host};
 
-/// Port used by default.
 pub(super) const DEFAULT_PORT: u16 = 8347;
 
 /// The address of a listening socket, and the requirements for requests to it.

@@ -192,7 +192,7 @@ impl Facts {
     }
 }
 
-/// Returns tables with details for which the first page has no space.
+/// Returns the tables of details, which follow the checklist and the facts.
 pub(super) fn tables(sheet: &Sheet, words: Words) -> Vec<Block> {
     let mut blocks = Vec::new();
     let mut table = |heading: &str, shares: &'static [f64], head: &[&str], rows: Vec<Vec<String>>| {

@@ -52,7 +52,6 @@ pub(super) fn pages_as_svg(sheet: &Sheet, lang: Lang) -> Vec<String> {
     drawn.collect()
 }
 
-/// Arranges the content of a sheet on pages.
 pub(super) fn pages(sheet: &Sheet, words: Words) -> Vec<Page> {
     let mut first = Page::default();
     let placed = picture::first_page_picture(
