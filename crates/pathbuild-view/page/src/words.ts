@@ -193,7 +193,7 @@ export function sayKind(kind: string, lang: Lang): string {
   return kind in words ? say(kind as Word, lang) : kind;
 }
 
-/** Returns the name of an option without a value. */
+/** Returns the name, as shown to users, of an option or parameter that has no value. */
 export function sayOption(name: string, lang: Lang): string {
   return name === "feed" ? say("feedF", lang) : name === "rapid" ? say("sweep", lang) : name;
 }

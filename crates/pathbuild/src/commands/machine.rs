@@ -16,7 +16,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::render::Format;
 
-/// Prints the differences, and writes them if requested. Nothing is written if a file cannot be read.
+/// Prints the differences, and writes the new values if requested. Nothing is written if a file cannot be read.
 pub fn run(context: &Context, args: &MachineArgs) -> ExitStatus {
     let MachineCommand::Import { files, units, write } = &args.command;
     let mut diagnostics = Vec::new();

@@ -190,7 +190,7 @@ fn file_to_write(args: &PostArgs) -> Option<&Utf8Path> {
     args.output.as_deref().filter(|file| *file != "-")
 }
 
-/// Replaces the message that a word is not checked by the message that it is left out, because the post does not write it either.
+/// Replaces the message that a word is not checked with the message that it is left out, because the post does not write it either.
 fn tell_left_out(problem: &mut Diagnostic) {
     if problem.message == &gcode::FOREIGN_WORD {
         problem.message = &gcode::WORD_LEFT_OUT;

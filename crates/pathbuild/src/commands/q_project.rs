@@ -129,7 +129,7 @@ fn draw_q_project(
     if problems.iter().any(is_wrong) { Err(problems) } else { Ok((bytes, count)) }
 }
 
-/// Returns names for the paths of a Q-project, one per cutter: the first one, followed by free names with higher last numbers. `None` if
+/// Returns names for the paths of a Q-project, one per cutter: the given one, followed by free names with higher last numbers. `None` if
 /// not enough names are free.
 fn names(first: &PathName, count: usize, is_free: impl Fn(&PathName) -> bool) -> Option<Vec<PathName>> {
     let is_digit = |character: char| character.is_ascii_digit();

@@ -25,7 +25,7 @@ use crate::render::Format;
 use output::Output;
 use revision::Revision;
 
-/// Runs the command. Changed paths are not errors, but paths that cannot be compared because they have errors now are.
+/// Runs the command. A changed path is no error. A path that cannot be compared, because it has errors now, is one.
 pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
     let output = match Output::of(context, args.output.as_deref()) {
         Ok(output) => output,
