@@ -126,6 +126,12 @@ impl<'a> ChainBuilder<'a> {
         self.walked.items.extend(self.single_item(segment, &passage, is_return));
     }
 
+    /// Adds a sweep across the gap before or after a segment.
+    pub(crate) fn add_sweep(&mut self, segment: usize, start: Xy, end: Xy) {
+        self.finish_chain();
+        self.walked.items.push(Item::Sweep(Sweep { segment, start, end, height: None }));
+    }
+
     pub(crate) fn finish(mut self) -> WalkedPath {
         self.finish_chain();
         self.walked

@@ -41,6 +41,16 @@ messages! {
         en: "the nearest open end is at {point}, {distance} mm away ({element})",
         de: "das nächste offene Ende ist bei {point}, {distance} mm entfernt ({element})",
     }
+    /// Note: a turn marker that is not exactly at the tip.
+    TURN_MARKER_BESIDE_TIP: NothingContinues {
+        en: "the turn marker at {point} is {distance} mm away: it must be exactly at the tip, `join-tolerance` does not apply to it",
+        de: "die Wendemarke bei {point} ist {distance} mm entfernt: sie muss genau an der Spitze liegen, `join-tolerance` gilt für sie nicht",
+    }
+    /// Note: a segment that does not quite meet the way back.
+    END_BESIDE_WAY_BACK: NothingContinues {
+        en: "{element} ends at {point}, {distance} mm beside the way back: on the way back the ends must meet, `join-tolerance` does not apply",
+        de: "{element} endet bei {point}, {distance} mm neben dem Rückweg: auf dem Rückweg müssen sich die Enden treffen, `join-tolerance` gilt dort nicht",
+    }
     /// Note: an open end on another layer.
     END_ON_OTHER_LAYER: NothingContinues {
         en: "on layer {layer} {element} ends at {point}, {distance} mm away: is it on the wrong layer?",

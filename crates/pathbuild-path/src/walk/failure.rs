@@ -8,7 +8,7 @@ use crate::element::{Element, diagnostic_point};
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
 use crate::read::TextCircle;
-use crate::walk::Walker;
+use crate::walk::{MAX_SKIPPED_GAP, OpenEnds, Walker};
 
 /// Tolerance in mm within which a point counts as lying on a curve: the offset is invisible on screen.
 const ON_CURVE_TOLERANCE: f64 = 0.001;
@@ -36,7 +36,8 @@ impl Walker<'_> {
         };
         let problem = problem.with("left", self.left);
         let last = self.last.map(|segment| self.path.origin(&self.path.segments[segment]));
-        let mut problem = last.as_ref().unwrap_or(&self.path.start_origin).at(problem);
+        let problem = last.as_ref().unwrap_or(&self.path.start_origin).at(problem);
+        let mut problem = self.with_turn_marker_beside(problem);
         problem.place.point = Some(diagnostic_point(self.at));
         if begin.is_some() { problem } else { self.with_hints(problem) }
     }
@@ -57,7 +58,43 @@ impl Walker<'_> {
 
     pub(super) fn turn_found_nothing(&self, marker: usize) -> Diagnostic {
         let problem = Diagnostic::new(&messages::TURN_FOUND_NOTHING).with("left", self.left);
-        self.with_hints(self.path.turns[marker].origin.at(problem))
+        let problem = self.path.turns[marker].origin.at(problem);
+        match self.end_beside_way_back() {
+            Some((segment, end, distance)) => problem.note(
+                &messages::END_BESIDE_WAY_BACK,
+                vec![
+                    ("element", self.word(segment).into()),
+                    ("point", diagnostic_point(end).into()),
+                    ("distance", distance.into()),
+                ],
+            ),
+            None => self.with_hints(problem),
+        }
+    }
+
+    /// Returns the end of a remaining segment that is nearest to the traversed segments' ends, with its distance, if that is a small gap.
+    fn end_beside_way_back(&self) -> Option<(usize, Xy, f64)> {
+        let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
+        let passed = OpenEnds::new(traversed, &self.ends);
+        let beside = self.unreached_segments().flat_map(|segment| {
+            let ends = self.ends.of(segment).into_iter();
+            ends.filter_map(|end| Some((segment, end, passed.nearest(end)?.1))).collect::<Vec<_>>()
+        });
+        let nearest = beside.reduce(|best, other| if other.2 < best.2 { other } else { best })?;
+        (nearest.2 <= MAX_SKIPPED_GAP).then_some(nearest)
+    }
+
+    /// Adds a note about the nearest turn marker, if only a small gap separates it from the current point.
+    fn with_turn_marker_beside(&self, problem: Diagnostic) -> Diagnostic {
+        let distances = self.path.turns.iter().map(|turn| (turn.at, (turn.at - self.at).norm()));
+        let nearest = distances.reduce(|best, other| if other.1 < best.1 { other } else { best });
+        match nearest.filter(|(_, distance)| *distance <= MAX_SKIPPED_GAP) {
+            Some((at, distance)) => problem.note(
+                &messages::TURN_MARKER_BESIDE_TIP,
+                vec![("point", diagnostic_point(at).into()), ("distance", distance.into())],
+            ),
+            None => problem,
+        }
     }
 
     pub(super) fn unreached_problem(&self) -> Diagnostic {

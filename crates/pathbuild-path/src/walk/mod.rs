@@ -12,7 +12,7 @@ use rstar::RTree;
 use crate::approx::{above, at_least, coincide};
 use crate::bind::group_missing;
 use crate::chain::{ChainBuilder, Passage, WalkedPath};
-use crate::element::Origin;
+use crate::element::{Origin, diagnostic_point};
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
 use crate::walk::failure::Curves;
@@ -222,9 +222,13 @@ impl<'a> Walker<'a> {
         }
         let passage =
             self.oriented_from_here(segment, Passage::in_drawn_direction(self.ends.of(segment)), false);
-        // An arc keeps its centre and radius: the gap before it becomes a short line.
-        if self.is_milled_arc(segment) && !coincide(passage.start, self.at) {
-            self.go(segment, passage.lead_in(self.at));
+        // An arc keeps its centre and radius: the gap before it becomes a short line. To a hole, circle or subpath the tool sweeps.
+        if !coincide(passage.start, self.at) {
+            if self.is_milled_arc(segment) {
+                self.go(segment, passage.lead_in(self.at));
+            } else {
+                self.chains.add_sweep(segment, self.at, passage.start);
+            }
         }
         self.go(segment, passage);
     }
@@ -259,13 +263,13 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// Returns the passage along a segment that ends near the current point. Holes, circles and arcs stay in place.
+    /// Returns the passage along a segment that ends near the current point. Holes, circles, subpaths and arcs stay in place.
     fn joined_passage(&self, number: usize, passage: Passage, is_return: bool) -> Passage {
         let segment = &self.path.segments[number];
         let is_nearer_at_end = (passage.end - self.at).norm() < (passage.start - self.at).norm();
         let passage = if is_nearer_at_end { passage.reversed() } else { passage };
         match segment.kind {
-            SegmentKind::Hole(_) | SegmentKind::Helix(_) if !is_return => passage,
+            SegmentKind::Hole(_) | SegmentKind::Helix(_) | SegmentKind::Subpath(_) if !is_return => passage,
             SegmentKind::Cut(_) if self.is_milled_arc(number) => passage,
             _ => passage.starting_at(self.at, segment),
         }
@@ -310,7 +314,7 @@ impl<'a> Walker<'a> {
     }
 }
 
-/// A spatial index of the ends of remaining segments.
+/// A spatial index of the ends of segments.
 struct OpenEnds {
     /// Each point once: a tree removes one of many equal points by scanning all of them.
     points: RTree<[f64; 2]>,
@@ -376,24 +380,30 @@ impl Walker<'_> {
         if above(distance, self.join_tolerance) {
             return None;
         }
-        self.report_join(&self.path.origin(&self.path.segments[nearest]), distance);
+        let ends = self.ends.of(nearest);
+        let [one, other] = ends.map(|end| (end - self.at).norm());
+        let end = ends[usize::from(other < one)];
+        self.report_join(&self.path.origin(&self.path.segments[nearest]), end, distance);
         Some(nearest)
     }
 
-    /// Whether the end marker is within the tolerance, so that the walk ends there with a warning.
+    /// Whether the end marker is within the tolerance, so that the tool sweeps there with a warning.
     fn joins_end(&mut self) -> bool {
         let distance = (self.path.end - self.at).norm();
         let is_known = self.path.faults.as_ref().is_none_or(|faults| !faults.ends.is_empty());
         let is_near = is_known && self.join_tolerance > 0.0 && at_least(self.join_tolerance, distance);
         if is_near {
-            self.report_join(&self.path.end_origin, distance);
+            self.report_join(&self.path.end_origin, self.path.end, distance);
+            if let Some(last) = self.last {
+                self.chains.add_sweep(last, self.at, self.path.end);
+            }
         }
         is_near
     }
 
-    fn report_join(&mut self, origin: &Origin, distance: f64) {
+    /// Reports a join at the end of the element to which the walk continues.
+    fn report_join(&mut self, origin: &Origin, end: Xy, distance: f64) {
         let warning = origin.at(Diagnostic::new(&messages::JOINED_ENDS).with("distance", distance));
-        let point = crate::element::diagnostic_point(self.at);
-        self.joined.push(warning.at_point(point));
+        self.joined.push(warning.at_point(diagnostic_point(end)));
     }
 }

@@ -120,7 +120,12 @@ pub(crate) fn items(drawing: &str) -> Vec<String> {
     let compiled = compile(drawing);
     let errors: Vec<&Diagnostic> = compiled.found.iter().filter(|found| found.is_error()).collect();
     assert!(errors.is_empty(), "{errors:?} in\n{drawing}");
-    let path = compiled.path.as_ref().expect("there are no errors");
+    items_of(&compiled)
+}
+
+/// Returns the operations along a compiled path in the same form; none if it has errors.
+pub(crate) fn items_of(compiled: &Compiled) -> Vec<String> {
+    let Some(path) = &compiled.path else { return Vec::new() };
     compiled.walked.items.iter().map(|it| item(path, &compiled.walked, it)).collect()
 }
 

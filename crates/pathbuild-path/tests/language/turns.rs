@@ -195,3 +195,36 @@ fn with_nothing_left_the_tool_goes_back_to_the_end() {
     assert_eq!(codes_of("mill 0,0 20,0\nturn 20,0\nend 90,0"), ["PB403"]);
     assert_eq!(codes_of("mill 0,0 20,0\nend 0,0"), ["PB403"]);
 }
+
+/// Returns the notes of the first finding.
+fn notes_of(statements: &str) -> Vec<String> {
+    let compiled = compile(&path(P, statements));
+    compiled.found[0].notes.iter().map(|note| note.text(pathbuild_diagnostic::Lang::En)).collect()
+}
+
+#[test]
+fn a_turn_marker_beside_the_tip_is_named() {
+    let notes = |marker: &str| {
+        notes_of(&format!("mill 0,0 20,0 20,10\nmill 20,0 40,0 \"N9999\"\nturn {marker}\nend 40,0"))
+    };
+    assert_eq!(
+        notes("20,10.5")[0],
+        "the turn marker at (20, 10.5) is 0.5 mm away: it must be exactly at the tip, `join-tolerance` does not apply to it"
+    );
+    assert!(notes("20,11.1")[0].starts_with("the nearest open end"));
+}
+
+#[test]
+fn a_segment_beside_the_way_back_is_named() {
+    let notes = |gap: f64| {
+        let x = 20.0 + gap;
+        notes_of(&format!("mill 0,0 20,0 20,10\nmill {x},0 40,0\nturn 20,10\nend 40,0"))
+    };
+    assert_eq!(
+        notes(0.25),
+        [
+            "a milling segment ends at (20.25, 0), 0.25 mm beside the way back: on the way back the ends must meet, `join-tolerance` does not apply"
+        ]
+    );
+    assert!(notes(1.25)[0].starts_with("the nearest open end"));
+}

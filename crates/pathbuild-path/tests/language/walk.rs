@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Lang;
 
-use crate::support::{codes, compile, compile_raw, items, language, path, raw, wrong};
+use crate::support::{codes, compile, compile_raw, items, items_of, language, path, raw, wrong};
 use pathbuild_path::{Bindings, Curve, Xy};
 
 const P: &str = "T5 O3 I1 B0 D2";
@@ -169,6 +169,60 @@ fn a_joined_arc_may_begin_a_chain() {
     let language = pathbuild_path::Language { join_tolerance: 0.02, ..language() };
     let compiled = compile_raw(&raw(&path("T5 O3 B0", drawn)), &Bindings::default(), &language);
     assert_eq!(codes(&compiled.found), ["PB115"]);
+}
+
+/// Returns the items of a path whose ends are joined within 0.05 mm, and the places of the joins.
+fn joined_items(drawn: &str) -> (Vec<String>, Vec<String>) {
+    let language = pathbuild_path::Language { join_tolerance: 0.05, ..language() };
+    let compiled = compile_raw(&raw(&path(P, drawn)), &Bindings::default(), &language);
+    let place = |found: &pathbuild_diagnostic::Diagnostic| {
+        let point = found.place.point.expect("joins have a place");
+        format!("{} {},{}", found.code(), point.x.0, point.y.0)
+    };
+    (items_of(&compiled), compiled.found.iter().map(place).collect())
+}
+
+/// What is drilled or embedded is not moved to the end of the line before it.
+#[test]
+fn joined_holes_circles_and_subpaths_stay_where_they_are() {
+    let between = |drawn: &str| {
+        joined_items(&format!("line HIDDEN 0,0 10,0\n{drawn}\nmill 10.03,0 20,0\nend 20,0"))
+    };
+    let (items, joins) = between("circle 10.03,0 d 3");
+    assert_eq!(items, ["sweep 0,0 10,0", "sweep 10,0 10.03,0", "hole 10.03,0", "[10.03,0 20,0]"]);
+    assert_eq!(joins, ["PB115 10.03,0"]);
+    let (items, _) = between("circle 10.03,0 d 8");
+    assert_eq!(items[1..3], ["sweep 10,0 10.03,0", "helix 10.03,0 r4"]);
+    let (items, _) =
+        joined_items("mill 0,0 10,0\nsubpath 10.03,0 15,0 \">1111.1P\"\nmill 15,0 20,0\nend 20,0");
+    assert_eq!(items[1..3], ["sweep 10,0 10.03,0", "subpath 10.03,0 15,0"]);
+    // A hole on the line's end needs no sweep.
+    let (items, joins) = joined_items("mill 0,0 10,0\ncircle 10,0 d 3\nmill 10,0 20,0\nend 20,0");
+    assert_eq!(items, ["[0,0 10,0]", "hole 10,0", "[10,0 20,0]"]);
+    assert!(joins.is_empty(), "{joins:?}");
+    let (_, joins) = joined_items("mill 0,0 10,0\ncircle 10.051,0 d 3\nend 10.051,0");
+    assert_eq!(joins[0], "PB401 10,0");
+}
+
+/// Each hole of a row is drilled at its own place.
+#[test]
+fn joins_do_not_add_up() {
+    let (items, joins) = joined_items(
+        "mill 0,0 10,0\ncircle 10.04,0 d 3\ncircle 10.08,0 d 3\nmill 10.08,0 20,0\nend 20.04,0",
+    );
+    assert_eq!(
+        items,
+        [
+            "[0,0 10,0]",
+            "sweep 10,0 10.04,0",
+            "hole 10.04,0",
+            "sweep 10.04,0 10.08,0",
+            "hole 10.08,0",
+            "[10.08,0 20,0]",
+            "sweep 20,0 20.04,0"
+        ]
+    );
+    assert_eq!(joins, ["PB115 10.04,0", "PB115 10.08,0", "PB115 20.04,0"]);
 }
 
 #[test]
