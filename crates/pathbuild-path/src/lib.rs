@@ -8,6 +8,7 @@ pub mod approx;
 mod bind;
 mod chain;
 mod changes;
+mod disjoint_sets;
 mod effective;
 mod element;
 mod element_parameters;

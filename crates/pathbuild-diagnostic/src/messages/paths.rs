@@ -136,6 +136,13 @@ messages! {
         help_en: "for a gap, lower U, the minimum distance between bars; use line type DIVIDE to mill only to D, and CONTINUOUS to mill through",
         help_de: "für eine Lücke U, den Mindestabstand der Stege, verkleinern; Linientyp DIVIDE fräst nur bis D, CONTINUOUS ganz durch",
     }
+    /// Connected segments with support bars that leave no gap, because each of them is too short.
+    NO_GAP_IN_RUN: NoGapBetweenBars {
+        en: "everything is left standing up to D {top} over a length of {length} mm: each of these {count} connected segments is shorter than P + U, which is {pitch} mm",
+        de: "auf einer Länge von {length} mm bleibt alles bis D {top} stehen: jedes dieser {count} verbundenen Segmente ist kürzer als P + U mit {pitch} mm",
+        help_en: "draw longer lines or arcs, such as a few arcs instead of an ellipse, or lower U; line type CONTINUOUS mills through without bars",
+        help_de: "längere Linien oder Bögen zeichnen, etwa wenige Bögen statt einer Ellipse, oder U verkleinern; Linientyp CONTINUOUS fräst ohne Stege durch",
+    }
     /// A program that moves into a clamp, reported at the drawn element.
     MOVES_INTO_CLAMP: InsideKeepOut {
         en: "the tool, O{tool}, hits the clamp of layer {layer} at {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",

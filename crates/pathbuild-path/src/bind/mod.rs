@@ -2,6 +2,7 @@
 //! (book: language/letters, book: language/variables)
 
 mod cuts;
+mod uncut_runs;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -13,6 +14,7 @@ use regex::Regex;
 use smol_str::SmolStr;
 
 use crate::approx::above;
+use crate::bind::uncut_runs::{SupportSegment, uncut_runs};
 use crate::effective::Texts;
 use crate::element::{Cut, Element, Marker, Origin, Role, Shape};
 use crate::geometry::{Curve, Line};
@@ -143,9 +145,7 @@ impl<'a> Binder<'a> {
         let thickness = self.path_number(Letter::T).filter(positive);
         let sweep_height = self.path_number(Letter::S);
         self.bind_segments(tool);
-        // Short edges of rounded corners stand between longer sides with gaps. U is doubtful only if no segment has a gap.
-        let gapless = self.gapless.take().filter(|_| !self.has_gap);
-        self.problems.extend(gapless);
+        self.report_missing_gaps();
         self.check_unused_letters(tool);
         let turns = self.raw.turns.iter();
         let start = self.marker(self.raw.start.as_ref())?;
@@ -599,6 +599,26 @@ impl Binder<'_> {
         }
         if BAR_LETTERS.into_iter().any(|letter| self.values.has(letter)) {
             self.check_bars(tool);
+        }
+    }
+
+    /// Reports support segments of which nothing is cut through. Short edges of rounded corners stand between longer sides with gaps, so single ones are
+    /// only doubtful if no segment of the path has a gap.
+    fn report_missing_gaps(&mut self) {
+        let elements = &self.raw.drawn.elements;
+        let segments = self.segments.iter().filter_map(|segment| {
+            let element = &elements[segment.element as usize];
+            let (SegmentKind::Cut(cut), Shape::Curve(curve)) = (&segment.kind, element.shape) else {
+                return None;
+            };
+            let bars = self.cuts[*cut as usize].bars?;
+            Some(SupportSegment { element, curve, bars })
+        });
+        let runs = uncut_runs(&segments.collect::<Vec<_>>());
+        let gapless = self.gapless.take().filter(|_| !self.has_gap && runs.is_empty());
+        self.problems.extend(gapless);
+        for run in runs {
+            self.report(FaultSite::Element(run.first.element), run.problem());
         }
     }
 

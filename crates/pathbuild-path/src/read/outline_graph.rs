@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
+use crate::disjoint_sets::{root, unite};
 use crate::geometry::{Curve, Xy};
 use crate::read::rings::{JOIN_DISTANCE, NumberedCurves, self_crossing};
 
@@ -273,21 +274,4 @@ impl<'g> Forest<'g> {
         way.reverse();
         way
     }
-}
-
-/// Unites the groups of two nodes. Returns whether they were different.
-fn unite(groups: &mut [usize], one: usize, other: usize) -> bool {
-    let (one, other) = (root(groups, one), root(groups, other));
-    groups[one.max(other)] = one.min(other);
-    one != other
-}
-
-/// Returns the first node of a group.
-fn root(groups: &mut [usize], node: usize) -> usize {
-    let mut root = node;
-    while groups[root] != root {
-        groups[root] = groups[groups[root]];
-        root = groups[root];
-    }
-    root
 }

@@ -235,10 +235,27 @@ fn there_is_room_for_the_cutter_between_bars() {
     };
     assert_eq!(edges(5), [""; 0]);
     assert_eq!(edges(4), ["PB408"]);
+    assert_eq!(edges(2), ["PB408"], "together they are longer than P + U");
     let circle = |u: &str| on("sweep 0,0 40,0\ncircle BORDER 40,0 d 11", &format!("T5 O3 I1 B0 D2 P1 U{u}"));
     // The cutter's centre runs along a circle of 8 mm: 25.13 mm.
     assert_eq!(circle("4"), [""; 0]);
     assert_eq!(circle("2.5"), ["PB406"]);
     assert_eq!(circle("24.1"), [""; 0]);
     assert_eq!(circle("24.2"), ["PB408"]);
+}
+
+/// A curve of many short segments is left standing as a whole, even if other segments of the path have gaps.
+#[test]
+fn a_run_of_short_support_segments_is_cut_through_somewhere() {
+    let beside = |drawn: &str| {
+        on(&format!("bars 0,0 20,0\nsweep 20,0 30,0\n{drawn}\nsweep 34,6 40,0"), "T5 O3 I1 B0 D2 P2 U8")
+    };
+    assert_eq!(beside("bars 30,0 34,0\nbars 34,0 34,5.9\nsweep 34,5.9 34,6"), [""; 0]);
+    assert_eq!(beside("bars 30,0 34,0\nbars 34,0 34,6"), ["PB408"]);
+    // One edge with a gap is enough, unless a polyline is drawn without any.
+    assert_eq!(beside("bars 30,0 34,0\nbars 34,0 34,16\nsweep 34,16 34,6"), [""; 0]);
+    assert_eq!(beside("bars polyline 30,0 34,0 34,4 34,8\nbars 34,8 34,18\nsweep 34,18 34,6"), ["PB408"]);
+    assert_eq!(beside("bars 30,0 34,0 34,4 34,8\nbars 34,8 34,18\nsweep 34,18 34,6"), [""; 0]);
+    // Ends that do not meet are two runs.
+    assert_eq!(beside("bars 30,0 34,0\nsweep 34,0 34.01,0\nbars 34.01,0 34,6"), [""; 0]);
 }
