@@ -58,6 +58,43 @@ fn feeds_of_a_program_are_compared_by_its_own_speed() {
     assert_eq!(loads("F9999", "S20000", ""), [""; 0]);
 }
 
+#[test]
+fn each_feed_of_a_program_is_compared() {
+    let configuration = format!("{TOOL}chip-load = [0.01, 0.03]\n");
+    let lines = |cuts: &str| {
+        let program = format!(
+            "G17 G21 G90 G94\nT4 M6\nM3 S10000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F20\n{cuts}\nG0 Z5\nM5\nM30\n"
+        );
+        let run = verify(&configuration, &program, "");
+        let found = run.stderr.lines().filter(|line| line.contains("PB790"));
+        found.filter_map(|line| line.split(':').nth(1)?.parse().ok()).collect::<Vec<u32>>()
+    };
+    assert_eq!(lines("G1 X10 F700\nG1 X20\nG1 X30 F800\nG1 X40 F600"), [7, 9]);
+    assert_eq!(lines("G1 X10 F700\nG1 X20 F600\nG1 X30 F700"), [7], "the same feed again");
+    assert_eq!(lines("G1 X10 F600\nS9000\nG1 X20"), [9], "the same feed at another speed");
+}
+
+/// The tool of a native program, which always selects T1, is that of its path and its O.
+#[test]
+fn feeds_of_a_native_program_are_compared() {
+    let drawing = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 MX F600\"\nmill 0,0 40,0\nend 40,0\n";
+    let other = "[tool.other]\ndiameter = 6\nnumber = 1\nspindle = 10000\nflutes = 2\nchip-load = [1, 2]\n";
+    let place = Place::new()
+        .file(
+            "pathbuild.toml",
+            format!("rapid = 1000\nsweep-height = 8\n{other}{TOOL}chip-load = [0.01, 0.03]\n"),
+        )
+        .file("1234.1P.dxf", sheet(drawing).unwrap().to_dxf());
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    let program = place.read("1234.1P_Milling.gcode");
+    assert!(!place.run("verify 1234.1P_Milling.gcode").stderr.contains("PB790"));
+    let faster = Place::new()
+        .file("pathbuild.toml", place.read("pathbuild.toml"))
+        .file("a.gcode", program.replace("F600.000 X", "F601.000 X"));
+    let run = faster.run("verify a.gcode --format concise");
+    assert!(run.stderr.contains("0.0301 mm per tooth is above 0.03: feed 601 mm/min"), "{run}");
+}
+
 /// Whether `verify` reports a rapid move back along a cut, at its depth and `offset` mm beside its centre line.
 fn rapid_beside_a_cut(tool: &str, offset: f64) -> bool {
     let program = format!(

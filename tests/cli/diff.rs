@@ -135,6 +135,82 @@ fn a_program_and_the_path_that_it_was_made_from() {
     assert_eq!(place.run("diff programs/1001.1P_Milling.gcode new").status, Some(2));
 }
 
+/// Two cuts, with everything that a program states besides moves.
+const TWO_CUTS: &str = "G21 G90 G17 G94 G54\nT1 M6\nG43 H1\nM3 S12000\nM8\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG4 P1\nG1 X20\nM0\nM3\nG1 X30\nG0 Z5\nM5\nM30\n";
+
+fn programs(old: &str, new: &str) -> Run {
+    let place = Place::new().file("a.ngc", old).file("b.ngc", new);
+    place.run("diff a.ngc b.ngc --dialect linuxcnc")
+}
+
+#[test]
+fn what_two_programs_state_besides_moves_is_compared() {
+    let edited = |old: &str, new: &str| {
+        assert!(TWO_CUTS.contains(old), "{old}");
+        programs(TWO_CUTS, &TWO_CUTS.replacen(old, new, 1))
+    };
+    for (old, new, line) in [
+        ("T1 M6", "T2 M6", "  tool: T2 instead of T1 (line 8)\n"),
+        ("G43 H1", "G43 H2", "  tool length: G43 H2 instead of G43 H1 (line 8)\n"),
+        ("M3 S12000", "M3 S2000", "  spindle: M3 S2000 instead of M3 S12000 (line 8)\n"),
+        ("M3 S12000\n", "\n", "  spindle: none instead of M3 S12000 (line 8)\n"),
+        ("M8", "M9", "  coolant: none instead of M8 (line 8)\n"),
+        ("G54", "G55", "  work offset: G55 instead of G54 (line 8)\n"),
+        ("M0\n", "", "  stop: none instead of M0\n"),
+        ("M0", "M1", "  stop: M1 instead of M0 (line 11)\n"),
+        ("G4 P1", "G4 P100", "  dwell: 100 s instead of 1 s (line 9)\n"),
+        // The same words before another cut.
+        ("G1 X20\nM0", "M0\nG1 X20", "  stop: M0 instead of none (line 10)\n"),
+        ("M0\nM3\nG1 X30", "M0\nM3\nG1 X30\nM9", ""),
+    ] {
+        let run = edited(old, new);
+        let changed = u8::from(!line.is_empty());
+        assert_prints(&run, 0, &[line, &format!("{changed} of 1 path changed\n")]);
+    }
+    let german = Place::new().file("a.ngc", TWO_CUTS).file("b.ngc", &TWO_CUTS.replace("T1", "T2"));
+    let run = german.run("diff a.ngc b.ngc --dialect linuxcnc --lang de");
+    assert_prints(&run, 0, &["  Werkzeug: T2 statt T1 (Zeile 8)\n"]);
+    let json = german.run("diff a.ngc b.ngc --dialect linuxcnc --format json");
+    assert_prints(&json, 0, &[r#""states":[{"kind":"tool","line":8,"now":"T2","was":"T1"}]"#]);
+}
+
+#[test]
+fn words_are_compared_in_their_order_where_cuts_differ() {
+    let longer = TWO_CUTS.replace("G1 X30", "G1 X30\nG1 X40");
+    let run = programs(TWO_CUTS, &longer);
+    assert_prints(&run, 0, &["  added: ", "1 of 1 path changed\n"]);
+    assert!(!run.stdout.contains("stop"), "{run}");
+    let run = programs(TWO_CUTS, &longer.replace("T1", "T2"));
+    assert_prints(&run, 0, &["  added: ", "  tool: T2 instead of T1"]);
+}
+
+#[test]
+fn programs_whose_moves_are_not_known_are_not_said_to_be_equal() {
+    let calling = TWO_CUTS.replace("G0 X0", "o100 call\nG0 X0");
+    assert_prints(
+        &programs(TWO_CUTS, &calling),
+        1,
+        &["b.ngc · a.ngc → b.ngc: has errors now\n", "0 of 1 path changed, 1 with errors now\n"],
+    );
+    assert_prints(&programs(&calling, &calling), 1, &["has errors, before and now"]);
+    assert_prints(&programs(&calling, TWO_CUTS), 1, &["had errors, has none now"]);
+    // An error that hides no moves does not prevent the comparison.
+    let without_end = TWO_CUTS.replace("G1 X30", "G1 X30 P-1");
+    assert_prints(&programs(TWO_CUTS, &without_end), 1, &["0 of 1 path changed\n"]);
+}
+
+/// A path without a feed has no program, so there is nothing to compare with.
+#[test]
+fn a_path_that_needs_an_option_is_not_compared() {
+    let drawing =
+        sheet("layer 1001.1P\nstart 0,0 \"T5 O2 I9 B1 MPlate S10\"\nmill 0,0 40,0\nend 40,0\n").unwrap();
+    let place = Place::new().file("1001.1P.dxf", drawing.to_dxf()).file("pathbuild.toml", "rapid = 1000\n");
+    assert_eq!(place.run("emit 1001.1P --feed 100").status, Some(0));
+    let run = place.run("diff 1001.1P_Milling.gcode 1001.1P");
+    assert!(run.status == Some(2) && run.stderr.contains("missing: the milling feed"), "{run}");
+    assert_prints(&place.run("diff 1001.1P_Milling.gcode 1001.1P --feed 100"), 0, &["0 of 1 path changed"]);
+}
+
 /// GRBL's post writes four decimals, and the native program three. The coordinate differs by half a micrometre between them, which is not a
 /// change.
 #[test]

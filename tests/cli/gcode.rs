@@ -122,6 +122,64 @@ fn tools_are_those_of_the_table_where_there_is_one() {
     assert!(!elsewhere.run("verify foreign.nc --format concise").stderr.contains("PB764"));
 }
 
+/// Tools without a number have the free ones in all commands, as `emit` writes them.
+#[test]
+fn tools_without_a_number_have_the_free_ones() {
+    let program =
+        "G17 G21 G90 G94\nT1 M6\nM3 S12000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20 F200\nG0 Z5\nM5\nM30\n";
+    let tools = "[tool.a]\ndiameter = 2\nspindle = 12000\n[tool.c]\ndiameter = 4\nnumber = 2\n[tool.b]\ndiameter = 6\n";
+    let place = Place::new()
+        .file("pathbuild.toml", tools)
+        .file("one.nc", program)
+        .file("three.nc", program.replace("T1", "T3"))
+        .file("four.nc", program.replace("T1", "T4"));
+    let verify =
+        |name: &str| place.run(&format!("verify {name}.nc --dialect linuxcnc --surface 0 --format concise"));
+    assert!(verify("one").stderr.contains("against a cutter of 2 mm ([tool])"), "{}", verify("one"));
+    assert!(verify("three").stderr.contains("against a cutter of 6 mm ([tool])"), "{}", verify("three"));
+    assert!(
+        verify("four").stderr.contains("warning[PB764] T4 is not in the tool table"),
+        "{}",
+        verify("four")
+    );
+    let post =
+        |name: &str| place.run(&format!("post {name}.nc --dialect linuxcnc --post mach3 --surface 0 -o -"));
+    assert!(post("three").stdout.contains("(T3: 6.0 b)"), "{}", post("three"));
+    assert!(post("four").stderr.contains("PB764"), "{}", post("four"));
+}
+
+/// Where [tool] and the drawing disagree, the line about checks names the diameter of the drawing as that of the drawing.
+#[test]
+fn the_cutter_of_the_drawing_is_named_as_such() {
+    let drawing = "== 1234.1P.dxf ==\nlayer 1234.1P\nstart 0,0 \"T5 O2 I1 B4\"\nmill 0,0 40,0\nend 40,0\n";
+    let program = "G17 G21 G40 G49 G54 G80 G90 G94\nT1 M6\nM3 S9000\nG0 Z20\nG0 X0 Y0\nG1 Z4 F150\nG1 X40\nG0 Z20\nM5\nM30\n";
+    let place = Place::of(drawing).file("a.nc", program).file(
+        "pathbuild.toml",
+        "feed = 150\nrapid = 1000\nsweep-height = 20\n[tool.b]\ndiameter = 6\nnumber = 1\n",
+    );
+    let run = place.run("verify a.nc --against 1234.1P --dialect linuxcnc");
+    assert!(run.stderr.contains("against a cutter of 2 mm (drawing)"), "{run}");
+}
+
+/// Where a rapid move differs from the drawing, the drawing's own rapid move is named.
+#[test]
+fn a_rapid_move_is_compared_with_that_of_the_drawing() {
+    let drawing = "== 1234.1P.dxf ==\nlayer 1234.1P\nstart 0,0 \"T5 O2 I1 B4\"\nmill 0,0 40,0\nend 40,0\n";
+    let place = Place::of(drawing).file("pathbuild.toml", "feed = 150\nrapid = 1000\nsweep-height = 20\n");
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    let program = place.read("1234.1P_Milling.gcode");
+    let against = |text: String| {
+        let place =
+            Place::of(drawing).file("a.gcode", text).file("pathbuild.toml", place.read("pathbuild.toml"));
+        place.run("verify a.gcode --against 1234.1P --format concise").stderr
+    };
+    let higher = against(program.replace("Z20.000", "Z25.000"));
+    assert!(higher.contains("Z25.000; the drawing says X0.000 Y0.000 Z20.000"), "{higher}");
+    let last = program.rfind("G00 Z20.000").unwrap();
+    let foot = against(format!("{}G00 Z15.000{}", &program[..last], &program[last + 11..]));
+    assert!(foot.contains("; the drawing says X40.000 Y0.000 Z20.000"), "{foot}");
+}
+
 /// The configuration is the nearest one above the program, or else that of the working directory. The output names it if it is not obvious.
 #[test]
 fn the_configuration_of_a_program_is_told() {

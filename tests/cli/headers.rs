@@ -287,6 +287,30 @@ fn the_configuration_may_require_checks() {
     assert_eq!(codes("[verify]\nrequire = [\"rapid\"]\n", ""), ["PB003"]);
 }
 
+/// Only the machine knows where G55 lies, and whether the moves in G54 and in G55 fit into its travel together.
+#[test]
+fn the_travel_of_several_work_offsets_is_not_checked() {
+    let program =
+        |more: &str| format!("G21 G90 G17 G54\nM3 S9000\nG0 Z5\nG0 X0 Y0\n{more}\nG0 Z5\nM5\nM30\n");
+    let place = Place::new()
+        .file("pathbuild.toml", "[machine]\ntravel = [400, 300, 80]\n")
+        .file("one.nc", program("G0 X300"))
+        .file("two.nc", program("G0 X300\nG55\nG0 X0\nG0 X300"))
+        .file(
+            "stated.nc",
+            program("G0 X300\nG55\nG0 X300")
+                .replace("G54\n", "G54\nG10 L2 P1 X0 Y0 Z0\nG10 L2 P2 X90 Y0 Z0\n"),
+        );
+    let verify = |name: &str| {
+        place.run(&format!("verify {name}.nc --dialect linuxcnc --require envelope --format concise"))
+    };
+    assert_eq!(verify("one").status, Some(0));
+    assert_eq!(verify("stated").status, Some(0), "{}", verify("stated"));
+    let run = verify("two");
+    assert!(run.status == Some(1) && run.stderr.contains("error[PB523]"), "{run}");
+    assert!(run.stderr.contains("only the machine knows where the work offsets of the program lie"), "{run}");
+}
+
 #[test]
 fn the_last_line_says_what_was_checked() {
     let place = Place::new()

@@ -179,6 +179,17 @@ fn half_circles_by_radius_are_doubtful() {
 }
 
 #[test]
+fn the_last_digit_of_a_radius_is_that_of_the_finest_length() {
+    let found = |other: &str| wrong(LinuxCnc, &format!("G0 X0 Y0 Z0\nG2 X10. Y10. R10. F10\nG0 {other}"));
+    assert_eq!(found("X5."), ["3 doubtful-arc"]);
+    assert_eq!(found("X5.12"), FINE, "a quarter circle does not depend on hundredths");
+    assert_eq!(found("X5.1\nG4 P0.123"), ["3 doubtful-arc"], "a time is no length");
+    assert_eq!(found("X[1.23]"), ["3 doubtful-arc"], "a calculated length has any number of digits");
+    let half = |other: &str| wrong(LinuxCnc, &format!("G0 X0 Y0 Z{other}\nG2 X20 Y0 R10. F10"));
+    assert_eq!([half("0.123"), half("0.1234")], [vec!["3 doubtful-arc".to_owned()], vec![]]);
+}
+
+#[test]
 fn a_radius_that_is_too_short_is_no_half_circle() {
     let found = |radius: &str| wrong(LinuxCnc, &format!("G0 X0 Y0 Z0\nG2 X19.999 Y0 R{radius} F10"));
     assert_eq!(found("10.000"), ["3 doubtful-arc"]);
@@ -1015,9 +1026,20 @@ fn dwells_of_din_have_seconds_or_turns() {
 
 #[test]
 fn m5_in_the_line_of_a_move_comes_before_it() {
-    assert_eq!(wrong(Native, "G0 X0 Y0 Z5\nG0 Z9 M5"), ["3 stop-before-motion"]);
-    assert_eq!(wrong(Native, "G0 X0 Y0 Z5\nG0 Z9 M9"), ["3 stop-before-motion"]);
-    assert_eq!(wrong(Native, "G0 X0 Y0 Z5\nG0 Z9 M3\nM5"), FINE);
+    let after = |cut: &str, last: &str| wrong(Native, &format!("G0 X0 Y0 Z5\n{cut}\n{last}"));
+    assert_eq!(after("G1 Z0 F9", "G0 Z9 M5"), ["4 stop-before-motion"]);
+    assert_eq!(after("G1 Z0 F9", "G0 Z9 M9"), ["4 stop-before-motion"]);
+    assert_eq!(after("G1 Z0 F9", "G0 Z9 M3\nM5"), FINE);
+    assert_eq!(after("G1 Z0 F9\nG0 X9", "G91 G28 Z0 M9"), ["5 stop-before-motion"]);
+}
+
+#[test]
+fn m5_may_be_in_the_line_of_a_move_of_a_raised_tool() {
+    let after = |cut: &str, last: &str| wrong(Native, &format!("G0 X0 Y0 Z5\n{cut}\n{last}"));
+    assert_eq!(after("G1 Z0 F9\nG0 Z5", "G91 G28 Z0 M9"), FINE);
+    assert_eq!(after("G1 Z0 F9\nG53 G0 Z0", "G0 X9 M5"), FINE);
+    assert_eq!(after("G0 X9", "G0 Z9 M5"), FINE, "nothing has been cut");
+    assert_eq!(after("G1 Z0 F9\nG0 Z5", "G1 Z0 M5"), ["5 stop-before-motion"], "the move of the line cuts");
 }
 
 #[test]
@@ -1059,6 +1081,14 @@ fn coolant_and_spindle_are_steps() {
             "6 spindle Off 2000"
         ]
     );
+    // M19 turns the spindle to an angle and stops it there.
+    for dialect in [LinuxCnc, Fanuc, Haas] {
+        assert_eq!(
+            run(dialect, "M3 S9\nM19").last().map(String::as_str),
+            Some("3 spindle Off 9"),
+            "{dialect}"
+        );
+    }
 }
 
 #[test]

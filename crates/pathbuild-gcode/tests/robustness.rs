@@ -40,7 +40,7 @@ fn run(text: &[u8], dialect: Dialect) {
     assert!(summary.total.cutting().length.is_finite() && summary.total.sum(1.0).time >= 0.0, "{summary:?}");
     let machine = Machine { feed: Some(1.0), ..Machine::default() };
     let mut limits = MachineRules::new(&machine);
-    verify(&result.steps[..], None, &mut |step| limits.step(step));
+    verify(&result.steps[..], dialect, None, &mut |step| limits.step(step));
     limits.finish();
     let lines =
         u32::try_from(text.split(|byte| *byte == b'\n' || *byte == b'\r').count()).expect("few lines");

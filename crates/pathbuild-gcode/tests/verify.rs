@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use common::{fault_text, spelled_out};
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_gcode::dialect::Dialect::{Native, Xpertmill};
+use pathbuild_gcode::dialect::Dialect::{self, Fanuc, Haas, LinuxCnc, Native, Xpertmill};
 use pathbuild_gcode::interpret::{Heights, Interpretation, Options, interpret};
 use pathbuild_gcode::read::quote;
 use pathbuild_gcode::verify::{
@@ -23,7 +23,7 @@ fn run(program: &str) -> Interpretation {
 }
 
 fn verify(steps: &[Step], stock: Option<&Stock>) -> Vec<Diagnostic> {
-    pathbuild_gcode::verify::verify(steps, stock, &mut |_| {})
+    pathbuild_gcode::verify::verify(steps, Native, stock, &mut |_| {})
 }
 
 fn wrong(program: &str, stock: Option<&Stock>) -> Vec<String> {
@@ -244,6 +244,15 @@ fn the_cutter_is_raised_before_it_moves_in_the_plane() {
     assert_eq!(wrong("G0 X1 Y1\nG0 Z5"), ["2 start-not-raised"]);
     assert_eq!(wrong("G0 Z5\nG0 X1 Y1"), FINE);
     assert_eq!(wrong("G0 X1 Y1 Z5\nG1 X2"), FINE);
+    // A tool changer raises the tool; an operator may leave it where it is.
+    let changed = |dialect: Dialect| {
+        let program = "G17 G21 G90\nT1 M6\nG0 X1. Y1.\nG0 Z5.\nM30\n";
+        let steps = interpret(program.as_bytes(), dialect, &Options::default()).steps;
+        let found = pathbuild_gcode::verify::verify(&steps, dialect, None, &mut |_| {});
+        found.iter().map(fault_text).collect::<Vec<_>>()
+    };
+    assert_eq!([Fanuc, Haas].map(changed), [FINE, FINE]);
+    assert_eq!(changed(LinuxCnc), ["3 start-not-raised"]);
     // Named positions of the machine raise the tool.
     assert_eq!(wrong("G53 G0 Z0\nG0 X1 Y1"), FINE);
     assert_eq!(wrong("G28 G91 Z0\nG90\nG0 X1 Y1"), FINE);
@@ -278,6 +287,13 @@ fn the_spindle_turns_while_cutting() {
     );
     assert_eq!(wrong("M3 S1000\nG0 X0 Y0 Z5\nG1 Z1\nG0 Z5\nT2 M6\nG1 Z1"), ["7 spindle-off"]);
     assert_eq!(wrong("M3 S1000\nG0 X0 Y0 Z5\nG1 Z1\nG0 Z5\nM5"), FINE);
+    let oriented = |word: &str| {
+        let program = format!("M3 S9\nG0 X0 Y0 Z5\nG1 Z1 F9\n{word}\nX5\nM3\nX6\nG0 Z5\nM5\nM30\n");
+        let steps = interpret(program.as_bytes(), LinuxCnc, &Options::default()).steps;
+        verify(&steps, None).iter().map(fault_text).collect::<Vec<_>>()
+    };
+    assert_eq!(oriented("M19"), ["5 spindle-off"], "M19 stops the spindle");
+    assert_eq!(oriented("M8"), FINE);
     // The first height may be reached at feed.
     assert_eq!(wrong("G1 Z5\nG0 X0 Y0\nM3 S1000\nG1 Z1\nG0 Z5\nM5"), FINE);
     assert_eq!(wrong("G1 Z5\nG0 X0 Y0\nG1 Z1\nM3 S1000\nG0 Z5\nM5"), ["4 spindle-off"]);
@@ -342,7 +358,7 @@ fn the_spindle_stands_where_the_operator_changes_the_tool() {
     // The program pauses without a tool change, or a changer stops the spindle itself.
     assert_eq!(program("M0"), FINE);
     let haas = "T1\nM3 S9000\nG0 Z9.\nM0\nT2\nM30\n";
-    let read = interpret(haas.as_bytes(), pathbuild_gcode::dialect::Dialect::Haas, &Options::default());
+    let read = interpret(haas.as_bytes(), Haas, &Options::default());
     assert_eq!(verify(&read.steps, None).iter().map(fault_text).collect::<Vec<_>>(), FINE);
 }
 
@@ -364,7 +380,7 @@ fn a_stop_is_above_the_material() {
 /// unknown positions, with the line of the first.
 fn from_unknown(program: &str) -> (Vec<String>, Option<(usize, u32)>) {
     let text = format!("G17 G21 G90 G94 F100\n{program}\nM30\n");
-    let read = interpret(text.as_bytes(), pathbuild_gcode::dialect::Dialect::LinuxCnc, &Options::default());
+    let read = interpret(text.as_bytes(), LinuxCnc, &Options::default());
     let stock = Stock::uniform(0.0, 2.0);
     let mut blind = BlindRapidRules::new(&stock).expect("the surface is known");
     read.steps.iter().for_each(|step| blind.step(step));
@@ -594,6 +610,42 @@ fn a_feed_is_at_most_the_machines() {
     let machine = Machine { feed: Some(1000.0), ..Machine::default() };
     let wrong = |program| wrong_on(&machine, program);
     assert_eq!(wrong("G0 X0 Y0 Z0\nG1 X10 Y10 F1000\nX20 F1001\nX30\nX40 F999"), ["4 feed-too-high"]);
+}
+
+#[test]
+fn positions_of_the_machine_fit_into_its_travel() {
+    let machine = Machine { travel: Some(Travel::Size([400.0, 300.0, 80.0])), ..Machine::default() };
+    let wrong = |program: &str| wrong_on(&machine, &format!("G0 X0 Y0 Z1\n{program}"));
+    assert_eq!(wrong("G53 G0 X-200\nG53 G0 X200"), FINE);
+    assert_eq!(wrong("G53 G0 X-200\nG53 G0 X200.01"), ["4 outside-machine"]);
+    assert_eq!(wrong("G53 G0 Z-80"), FINE);
+    assert_eq!(wrong("G53 G0 Z-80.01"), ["3 outside-machine"], "machine zero is within the travel");
+    // Machine coordinates say nothing about the place of the program's zero.
+    assert_eq!(wrong("G53 G0 X-400\nG0 X400"), FINE);
+    let placed = Travel::Placed([(-100.0, 300.0), (0.0, 300.0), (-80.0, 0.0)]);
+    let machine = Machine { travel: Some(placed), ..Machine::default() };
+    assert_eq!(wrong_on(&machine, "G0 Z0\nG53 G0 X-400"), FINE);
+    assert_eq!(wrong_on(&machine, "G0 Z0\nG53 G0 X-400.01"), ["3 outside-machine"]);
+}
+
+#[test]
+fn each_work_offset_of_unknown_place_fits_into_the_travel() {
+    let machine = Machine { travel: Some(Travel::Size([400.0, 300.0, 80.0])), ..Machine::default() };
+    let run_after = |head: &str, program: &str| {
+        let mut rules = MachineRules::new(&machine);
+        let text = format!("G21 G90 G54 {head}\nG0 Z5\nG0 X0 Y0\n{program}\nM30\n");
+        let steps = interpret(text.as_bytes(), LinuxCnc, &Options::default()).steps;
+        steps.iter().for_each(|step| rules.step(step));
+        (rules.has_several_frames(), rules.finish().iter().map(fault_text).collect::<Vec<_>>())
+    };
+    let run = |program: &str| run_after("", program);
+    assert_eq!(run("G55\nG0 X390\nG54\nG0 X-200"), (true, vec![]));
+    assert_eq!(run("G55\nG0 X390\nG0 X-11"), (true, vec!["6 outside-machine".to_owned()]));
+    assert_eq!(run("G0 X390\nG0 X-11"), (false, vec!["5 outside-machine".to_owned()]));
+    // G10 states both places, so the moves are in the same coordinates.
+    let stated = |program: &str| run_after("\nG10 L2 P1 X0 Y0 Z0\nG10 L2 P2 X350 Y0 Z0", program);
+    assert_eq!(stated("G55\nG0 X50"), (false, vec![]));
+    assert_eq!(stated("G55\nG0 X51"), (false, vec!["7 outside-machine".to_owned()]));
 }
 
 #[test]

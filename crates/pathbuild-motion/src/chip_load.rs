@@ -27,20 +27,29 @@ impl ChipLoad {
         let is_small = load < self.least * (1.0 - RELATIVE_TOLERANCE);
         let is_large = load > self.most * (1.0 + RELATIVE_TOLERANCE);
         let message = if is_small { &say::CHIP_LOAD_SMALL } else { &say::CHIP_LOAD_LARGE };
-        let problem = Diagnostic::new(message).with("load", rounded(load)).with("feed", feed);
+        let limit = if is_small { self.least } else { self.most };
+        let problem = Diagnostic::new(message).with("load", rounded(load, limit)).with("feed", feed);
         let problem = problem.with("speed", speed).with("flutes", u64::from(self.flutes));
         (is_small || is_large).then(|| problem.with("least", self.least).with("most", self.most))
     }
 }
 
-fn rounded(load: f64) -> f64 {
-    const DIGITS: f64 = 1e4;
-    libm::round(load * DIGITS) / DIGITS
+/// Rounds a chip load for a message, finely enough that it differs from the limit.
+fn rounded(load: f64, limit: f64) -> f64 {
+    const DIGITS: [f64; 5] = [1e4, 1e5, 1e6, 1e7, 1e8];
+    let mut rounded = DIGITS.into_iter().map(|digits| libm::round(load * digits) / digits);
+    rounded.find(|rounded| *rounded != limit).unwrap_or(load)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_load_is_told_so_that_it_differs_from_the_limit() {
+        assert_eq!(rounded(0.012_345, 0.01), 0.0123);
+        assert_eq!(rounded(0.004_95, 0.005), 0.004_95);
+    }
 
     #[test]
     fn the_limits_themselves_are_allowed() {

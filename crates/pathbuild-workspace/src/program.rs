@@ -247,6 +247,14 @@ impl Program {
         text
     }
 
+    /// Whether all words that may move the tool are known to the dialect and followed.
+    pub fn are_moves_known(&self) -> bool {
+        let hides_moves = |problem: &Diagnostic| {
+            problem.is_error() && matches!(problem.code(), Code::UnknownWord | Code::WordNotFollowed)
+        };
+        !self.read.problems.iter().any(hides_moves)
+    }
+
     /// Returns the first line with unknown moves, for example a call of a subprogram. Lengths and times are unknown as well if there is one.
     pub fn first_line_with_unknown_moves(&self) -> Option<u32> {
         let is_unfollowed =

@@ -10,6 +10,7 @@ mod programs;
 use std::io::Write;
 
 use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::verify::{Ends, Stock, Tolerance, compare, verify};
 use pathbuild_post::{BUILT_IN, Job, Language, PostDefinition, PostOptions, ToolTable, load};
@@ -42,7 +43,7 @@ fn no_rule_finds_an_error() {
     let fault = |it: &Named| {
         let steps = programs::steps_of(&it.program);
         let stock = Stock::of(&it.program);
-        let found = verify(&steps[..], Some(&stock), &mut |_| {});
+        let found = verify(&steps[..], Dialect::Native, Some(&stock), &mut |_| {});
         let errors: Vec<Diagnostic> = found.into_iter().filter(Diagnostic::is_error).collect();
         (!errors.is_empty()).then(|| format!("{}: {}", it.name, texts(&errors)))
     };

@@ -515,6 +515,13 @@ messages! {
         help_en: "the value must be {limits}",
         help_de: "erlaubt: {limits}",
     }
+    /// A drilling cycle with too many moves to follow.
+    TOO_MANY_STROKES: ValueOutOfRange {
+        en: "this line drills with {count} moves; pathbuild follows at most {most}",
+        de: "diese Zeile bohrt mit {count} Bewegungen; pathbuild folgt höchstens {most}",
+        help_en: "correct the depth, the depth of a peck (Q) or the number of holes",
+        help_de: "die Tiefe, die Tiefe je Hub (Q) oder die Zahl der Bohrungen berichtigen",
+    }
     /// G53 while G91 is active, which together give no position.
     MACHINE_COORDINATES_RELATIVE: ConflictingWords {
         en: "G53 counts from the machine's zero, but G91 from where the tool is: together they give no position",
@@ -723,10 +730,10 @@ messages! {
     }
     /// An arc given by its radius that is nearly a half circle, so that the centre is imprecise.
     NEAR_HALF_CIRCLE: DoubtfulArc {
-        en: "the centre of this arc with R moves by {shift} mm when the last digit of R changes",
-        de: "der Mittelpunkt dieses Bogens mit R wandert um {shift} mm, wenn sich die letzte Ziffer von R ändert",
-        help_en: "write the arc with I and J",
-        help_de: "den Bogen mit I und J schreiben",
+        en: "the centre of this arc with R moves by {shift} mm if R changes by {change} mm, and the program's numbers are no finer",
+        de: "der Mittelpunkt dieses Bogens mit R wandert um {shift} mm, wenn sich R um {change} mm ändert, und die Zahlen des Programms sind nicht feiner",
+        help_en: "write the arc with I and J, or with more decimals",
+        help_de: "den Bogen mit I und J oder mit mehr Nachkommastellen schreiben",
     }
     /// An arc that is nearly a full circle.
     NEAR_FULL_CIRCLE: DoubtfulArc {

@@ -47,6 +47,8 @@ pub struct Rules {
     pub straight_rapids: bool,
     /// When M codes of the spindle and the coolant take effect in the line of a move.
     pub m_order: MCodeOrder,
+    /// Whether M6 is a tool changer, above everything. Elsewhere an operator may change the tool where it stands.
+    pub has_changer: bool,
     /// Whether rapid moves use the feed F, as all other moves do.
     pub rapids_at_feed: bool,
     /// Whether `O1234` at the beginning of a file is the program number.
@@ -271,6 +273,7 @@ const BASE: Rules = Rules {
     unusual: OptionalWords { g: &[], turns: false },
     straight_rapids: true,
     m_order: MCodeOrder::First,
+    has_changer: false,
     rapids_at_feed: false,
     program_numbers: false,
     least_increments: false,
@@ -462,6 +465,7 @@ pub(super) static FANUC: Rules = Rules {
     numbers_references: true,
     // Parameter 1401#1 (LRP) is 0 by default: positioning is not linear.
     straight_rapids: false,
+    has_changer: true,
     ..ISO
 };
 
@@ -481,6 +485,7 @@ pub(super) static HAAS: Rules = Rules {
     systems: Some(SystemNumbers { code: 1540, regular: 0, most: 99 }),
     // Haas Mill Operator's Manual, G00: "Generally, rapid motion will not be in a single straight line."
     straight_rapids: false,
+    has_changer: true,
     ..ISO
 };
 

@@ -59,10 +59,9 @@ impl Interpreter<'_> {
         }
         let hole = Hole { clear: if self.state.retract_to_r { hole.r } else { old }, ..hole };
         if f64::from(repeats) * moves_of(&hole) > MAX_MOVES_PER_LINE {
-            return self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
-                d.quoting("word", "Q, L")
-                    .with("value", f64::from(repeats))
-                    .with("limits", &limits::MOVES_OF_A_CYCLE)
+            let count = f64::from(repeats) * moves_of(&hole);
+            return self.report(block, &say::TOO_MANY_STROKES, Span::new(0, block.text.len()), |d| {
+                d.with("count", count).with("most", MAX_MOVES_PER_LINE)
             });
         }
         for _ in 0..repeats {

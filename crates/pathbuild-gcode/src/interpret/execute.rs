@@ -8,6 +8,7 @@ use pathbuild_motion::{Action, Axes, Change, Group, Move, Pace, Step};
 use super::codes;
 use super::codes::Command;
 use super::evaluate::{Fault, Parameters, StatedProbes};
+use super::half_circles::HalfCircles;
 use super::state::{Heights, Options, State};
 use crate::dialect::{MCodeOrder, Percent, Rules, beginning_of};
 use crate::read::{Block, OWordKind, Problems, SourcePosition, Span};
@@ -19,6 +20,7 @@ pub(super) struct Interpreter<'i> {
     pub(super) state: State,
     pub(super) words: BlockWords,
     pub(super) problems: Problems,
+    pub(super) half_circles: HalfCircles,
     pub(super) parameters: Parameters,
     pub(super) stated: StatedProbes,
     /// Steps produced by the last block.
@@ -41,6 +43,7 @@ impl<'i> Interpreter<'i> {
             state: State::new(rules, options.offsets.as_ref()),
             words: BlockWords::default(),
             problems: Problems::default(),
+            half_circles: HalfCircles::default(),
             parameters: Parameters::default(),
             stated: StatedProbes::default(),
             out: Vec::new(),
@@ -65,6 +68,7 @@ impl<'i> Interpreter<'i> {
             };
             self.problems.add_at_line(&say::NO_END, last_line, |d| d.quoting("words", words));
         }
+        self.problems.append(self.half_circles.finish());
         self.problems
     }
 
@@ -112,6 +116,10 @@ impl<'i> Interpreter<'i> {
         if begins_lost || movement.to.known == Axes::ALL {
             self.state.lost = None;
         }
+        self.state.is_lifted = match movement.pace {
+            Pace::Rapid => self.state.is_lifted || rises(&movement),
+            Pace::Feed(_) | Pace::Probe { .. } => false,
+        };
         if matches!(movement.pace, Pace::Feed(_)) {
             self.state.has_cut = true;
             self.state.offsets.fix_length();
@@ -181,10 +189,11 @@ impl<'i> Interpreter<'i> {
         }
         self.apply_modes(block);
         self.take_inert(block);
+        let was_lifted = self.state.is_lifted;
         let has_moved = self.execute_coordinate_command(block) || self.motion(block);
         if stops_last {
             self.apply_spindle_and_coolant(block);
-        } else if has_moved {
+        } else if has_moved && !(was_lifted && self.state.is_lifted) {
             self.check_stop_before_motion(block);
         }
         self.apply_stop(block);
@@ -200,6 +209,12 @@ impl<'i> Interpreter<'i> {
         };
         value * self.state.unit
     }
+}
+
+/// Whether a rapid move leads upwards, which lifts the tool from what it has cut.
+fn rises(movement: &Move) -> bool {
+    let known = movement.from.known.and(movement.to.known);
+    movement.homes_z() || known.has(Axes::Z) && movement.to.z() > movement.from.z()
 }
 
 /// Converts the number of a tool, a layer or repetitions; `None` if it is negative or not a whole number.
@@ -401,7 +416,6 @@ pub(super) mod limits {
     limits! {
         COUNT: "a whole number, 0 or more", "eine ganze Zahl ab 0";
         HOLES: "a whole number of holes, 1 or more", "eine ganze Zahl von Bohrungen ab 1";
-        MOVES_OF_A_CYCLE: "at most 100000 moves in all", "höchstens 100000 Bewegungen insgesamt";
         NOT_BELOW_Z: "at least Z", "mindestens Z";
         NOT_NEGATIVE: "0 or more", "0 oder mehr";
         NUMBER_OF_LAYER: "the number of a layer", "die Nummer eines Layers";

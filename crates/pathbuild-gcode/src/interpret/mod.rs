@@ -11,6 +11,7 @@ mod evaluate;
 mod execute;
 mod formulas;
 mod guess;
+mod half_circles;
 mod motion;
 mod state;
 mod switches;

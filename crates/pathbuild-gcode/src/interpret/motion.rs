@@ -9,9 +9,10 @@ use pathbuild_motion::{
 
 use super::codes::{self, Command, Motion, Origin};
 use super::execute::{Interpreter, Slot, Values, limits, whole};
+use super::half_circles::{ArcByRadius, height_over_chord};
 use super::state::{INCH, State, StatedLength};
 use crate::dialect::RadiusTolerance;
-use crate::read::{Block, Span};
+use crate::read::{Block, SourcePosition, Span};
 
 /// The lowest height of G53, in mm, that counts as a retract. Posts stay some millimetres below machine zero, to keep clear of the switches: Carbide
 /// Create writes `G53G0Z-5.000`, `OpenBuilds` `G53 G0 Z-10`.
@@ -504,9 +505,6 @@ fn given_axes(coordinates: &[Option<Slot>; 3]) -> Axes {
     given.fold(Axes::NONE, |axes, axis| axes.with(Axes::of(axis)))
 }
 
-/// Shift of the centre in mm, caused by the last digit of R, above which an arc of almost 180 degrees given by R is doubtful.
-const MAX_CENTRE_SHIFT: f64 = 0.05;
-
 /// Maximum distance in mm between different ends at which an almost full circle is doubtful: their last digit decides whether nearly all of it
 /// is milled or nearly nothing.
 const NEAR_ENDS_DISTANCE: f64 = 0.002;
@@ -655,11 +653,8 @@ impl Interpreter<'_> {
             });
         }
         let height = height_over_chord(radius, half);
-        let unit_of_last_digit = self.state.unit * libm::pow(10.0, -f64::from(slot.decimals));
-        let shift = height_over_chord(radius + unit_of_last_digit, half) - height;
-        if shift > MAX_CENTRE_SHIFT && half <= radius {
-            self.report(block, &say::NEAR_HALF_CIRCLE, slot.span, |d| d.with("shift", shift));
-        }
+        let arc = ArcByRadius { radius, half_chord: half, unit: self.state.unit, decimals: slot.decimals };
+        self.half_circles.add_arc(arc, SourcePosition::block(block, slot.span));
         // The centre of a short clockwise arc is to the right of its chord.
         let side = if clockwise == is_long { -height / length } else { height / length };
         Some([
@@ -696,11 +691,6 @@ impl Interpreter<'_> {
             });
         }
     }
-}
-
-/// Returns the distance from the centre of an arc to its chord.
-fn height_over_chord(radius: f64, half_chord: f64) -> f64 {
-    libm::sqrt((radius * radius - half_chord * half_chord).max(0.0))
 }
 
 fn plane_words(plane: Plane, letters: [&str; 3]) -> String {

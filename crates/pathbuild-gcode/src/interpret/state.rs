@@ -20,6 +20,8 @@ pub(super) struct State {
     pub(super) lost: Option<(u32, u16)>,
     /// Whether a move at feed has been made.
     pub(super) has_cut: bool,
+    /// Whether a rapid move has raised the tool since the last cut, or nothing has been cut yet.
+    pub(super) is_lifted: bool,
     /// Line and code (times ten) of a move to the reference switches after the first cut, until the next cut.
     pub(super) referenced: Option<(u32, u16)>,
     pub(super) motion: Motion,
@@ -101,6 +103,7 @@ impl State {
             stated_since_stop: Axes::ALL,
             lost: None,
             has_cut: false,
+            is_lifted: true,
             referenced: None,
             motion: match rules.start_motion {
                 StartMotion::Rapid => Motion::Rapid,

@@ -73,7 +73,8 @@ impl Interpreter<'_> {
         let turning = self.words.m_code(SPINDLE).and_then(|(code, _)| match code {
             30 => Some(Turning::Clockwise),
             40 => Some(Turning::CounterClockwise),
-            50 => Some(Turning::Off),
+            // M19 stops the spindle at an angle, where it stands until M3 or M4.
+            50 | 190 => Some(Turning::Off),
             _ => None,
         });
         if let Some(turning) = turning {

@@ -10,6 +10,9 @@ use super::execute::{AssignedParameter, Interpreter, Slot, ValueFault, limits};
 use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
 use crate::read::{Block, SourcePosition, Span, Target, Value, Word};
 
+/// Number of decimals of a calculated value.
+const OF_EXPRESSION: u8 = u8::MAX;
+
 impl Interpreter<'_> {
     /// Sorts the words of a block and evaluates them.
     pub(super) fn gather(&mut self, block: &Block<'_>) -> Result<(), ValueFault> {
@@ -70,7 +73,7 @@ impl Interpreter<'_> {
                 d.quoting("parameter", parameter).with("value", value)
             });
         }
-        Ok((value, u8::MAX))
+        Ok((value, OF_EXPRESSION))
     }
 
     fn most_parameters(&self) -> u32 {
@@ -141,6 +144,10 @@ impl Interpreter<'_> {
         }
         if letter == b'F' && slot.value < 0.0 {
             return self.report_out_of_range(block, "F", slot, &limits::NOT_NEGATIVE);
+        }
+        let is_number = slot.decimals != OF_EXPRESSION;
+        if is_number && matches!(letter, b'X' | b'Y' | b'Z' | b'I' | b'J' | b'K' | b'R') {
+            self.half_circles.add_length(slot.decimals);
         }
         if !self.words.values.set(letter, slot) {
             self.report(block, &say::LETTER_TWICE, slot.span, |d| d.with("letter", char::from(letter)));

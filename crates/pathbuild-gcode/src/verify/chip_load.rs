@@ -1,23 +1,33 @@
 //! Checks the chip load of a program against the limits of its tools. (book: reference/configuration, `[tool]`)
 
+use std::collections::BTreeSet;
+
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_motion::{Action, ChipLoad, Pace, Step, Turning};
 
-/// Rule that finds chip loads outside the limits of the tools: pass every step of a program, then call [`finish`](Self::finish). Each tool is
-/// reported at most once for too small and once for too large a chip load.
+use crate::read::Problems;
+
+/// Rule that finds chip loads outside the limits of the tools: pass every step of a program, then call [`finish`](Self::finish). A feed is
+/// reported at its first cut, once for each tool and each speed.
 #[derive(Debug)]
 pub struct ChipLoadRules {
     /// The limits of the tools, each with the line from which it cuts, in the order of the lines.
     tools: Vec<(u32, Option<ChipLoad>)>,
     /// The spindle speed in 1/min that the program has set; `None` if it has set none.
     speed: Option<f64>,
-    found: Vec<(usize, Diagnostic)>,
+    /// The tool, the feed and the speed of the last cut, which need not be checked again.
+    last: Option<Cut>,
+    reported: BTreeSet<Cut>,
+    problems: Problems,
 }
+
+/// Tool, feed and speed of a cut, as bits.
+type Cut = (usize, u64, Option<u64>);
 
 impl ChipLoadRules {
     /// Creates the rule for tools, each with the line from which it cuts, in the order of the lines.
     pub fn new(tools: Vec<(u32, Option<ChipLoad>)>) -> Self {
-        Self { tools, speed: None, found: Vec::new() }
+        Self { tools, speed: None, last: None, reported: BTreeSet::new(), problems: Problems::default() }
     }
 
     /// Processes the next step of the program.
@@ -42,18 +52,20 @@ impl ChipLoadRules {
 
     fn check(&mut self, line: u32, feed: f64) {
         let Some(tool) = self.tools.partition_point(|(from, _)| *from <= line).checked_sub(1) else { return };
+        let cut = (tool, feed.to_bits(), self.speed.map(f64::to_bits));
+        if self.last.replace(cut) == Some(cut) {
+            return;
+        }
         let Some(problem) = self.tools[tool].1.and_then(|limits| limits.check(feed, self.speed)) else {
             return;
         };
-        let is_known =
-            |(known, other): &(usize, Diagnostic)| *known == tool && other.message.key == problem.message.key;
-        if !self.found.iter().any(is_known) {
-            self.found.push((tool, problem.at_line(line, None)));
+        if self.reported.insert(cut) {
+            self.problems.add_at_line(problem.message, line, |_| problem);
         }
     }
 
-    /// Returns all findings.
-    pub fn finish(self) -> impl Iterator<Item = Diagnostic> {
-        self.found.into_iter().map(|(_, problem)| problem)
+    /// Returns all findings, ordered by line.
+    pub fn finish(self) -> Vec<Diagnostic> {
+        self.problems.into_diagnostics()
     }
 }

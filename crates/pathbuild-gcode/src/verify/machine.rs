@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_motion::{Action, Move, Step, Turning};
+use pathbuild_motion::{Action, Axes, Move, MoveShape, NamedPosition, Step, Turning, WorkSystem};
 
 use crate::read::Problems;
 
@@ -39,7 +39,7 @@ const AXES: [char; 3] = ['X', 'Y', 'Z'];
 #[derive(Debug)]
 pub struct MachineRules<'m> {
     machine: &'m Machine,
-    reach: ReportedExtent,
+    reach: Reach,
     last_feed: Option<f64>,
     last_speed: Option<f64>,
     problems: Problems,
@@ -50,7 +50,7 @@ impl<'m> MachineRules<'m> {
     pub fn new(machine: &'m Machine) -> Self {
         Self {
             machine,
-            reach: ReportedExtent::default(),
+            reach: Reach::default(),
             last_feed: None,
             last_speed: None,
             problems: Problems::default(),
@@ -60,6 +60,7 @@ impl<'m> MachineRules<'m> {
     /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         match &step.action {
+            Action::System { frame, .. } => self.reach.enter(*frame),
             Action::Move(movement) => {
                 if let Some(travel) = &self.machine.travel {
                     self.reach.check(step.line, movement, travel, &mut self.problems);
@@ -75,6 +76,12 @@ impl<'m> MachineRules<'m> {
             }
             _ => {}
         }
+    }
+
+    /// Whether the program moves in coordinate systems whose places relative to each other are not known, so that nothing is known about the
+    /// travel that they need together.
+    pub fn has_several_frames(&self) -> bool {
+        self.reach.frames.len() > 1
     }
 
     /// Returns all problems, ordered by line.
@@ -111,23 +118,82 @@ impl<'m> MachineRules<'m> {
     }
 }
 
-/// The extent of the moves so far, and the ends of axes that have been reported as exceeded.
+/// The extents of the moves so far, and the ends of axes that have been reported as exceeded.
 #[derive(Debug, Default)]
-struct ReportedExtent {
-    extent: [Option<(f64, f64)>; 3],
+struct Reach {
+    current: WorkSystem,
+    /// Whether the next move begins in another frame.
+    is_entering: bool,
+    /// The extents in the frames with moves, in the order of use. Positions in different frames cannot be compared.
+    frames: Vec<(WorkSystem, Extent)>,
+    /// The extent of positions in machine coordinates, which includes machine zero: that is within the travel of every machine.
+    machine: Extent,
     said: [[bool; 2]; 3],
 }
 
-impl ReportedExtent {
+/// Least and greatest coordinates of X, Y and Z, in mm.
+type Extent = [Option<(f64, f64)>; 3];
+
+fn widen(extent: &mut Option<(f64, f64)>, (low, high): (f64, f64)) -> (f64, f64) {
+    let known = extent.get_or_insert((low, high));
+    *known = (known.0.min(low), known.1.max(high));
+    *known
+}
+
+impl Reach {
+    fn enter(&mut self, frame: WorkSystem) {
+        self.is_entering |= std::mem::replace(&mut self.current, frame) != frame;
+    }
+
     fn check(&mut self, line: u32, movement: &Move, travel: &Travel, problems: &mut Problems) {
-        for (axis, extent) in movement.extent().into_iter().enumerate() {
-            let Some((low, high)) = extent else { continue };
-            let known = self.extent[axis].get_or_insert((low, high));
-            *known = (known.0.min(low), known.1.max(high));
+        self.check_machine_position(line, movement, travel, problems);
+        let mut movement = *movement;
+        if std::mem::take(&mut self.is_entering) && movement.shape == MoveShape::Line {
+            movement.from.known = Axes::NONE;
+        }
+        let moved = movement.extent();
+        if moved.iter().all(Option::is_none) {
+            return;
+        }
+        let index = self.frames.iter().position(|(frame, _)| *frame == self.current).unwrap_or_else(|| {
+            self.frames.push((self.current, Extent::default()));
+            self.frames.len() - 1
+        });
+        for (axis, range) in moved.into_iter().enumerate() {
+            let Some(range) = range else { continue };
+            let whole = widen(&mut self.frames[index].1[axis], range);
             match travel {
-                Travel::Placed(limits) => self.check_placed(line, axis, (low, high), limits[axis], problems),
-                Travel::Size(sizes) => self.check_size(line, axis, sizes[axis], problems),
+                // The limits are those of the system in which the program begins.
+                Travel::Placed(limits) if index == 0 => {
+                    self.check_placed(line, axis, range, limits[axis], problems);
+                }
+                Travel::Placed(_) => {}
+                Travel::Size(sizes) => self.check_size(line, axis, whole, sizes[axis], problems),
             }
+        }
+    }
+
+    /// Checks a position in machine coordinates, whose place in the program's coordinates is not known.
+    fn check_machine_position(
+        &mut self,
+        line: u32,
+        movement: &Move,
+        travel: &Travel,
+        problems: &mut Problems,
+    ) {
+        let Some(NamedPosition::Machine(axes)) = movement.named else { return };
+        for axis in 0..3 {
+            let is_machine = axes.has(Axes::of(axis)) && !movement.to.known.has(Axes::of(axis));
+            if !is_machine {
+                continue;
+            }
+            let at = movement.to.at[axis];
+            let whole = widen(&mut self.machine[axis], (at.min(0.0), at.max(0.0)));
+            let size = match travel {
+                Travel::Placed(limits) => limits[axis].1 - limits[axis].0,
+                Travel::Size(sizes) => sizes[axis],
+            };
+            self.check_size(line, axis, whole, size, problems);
         }
     }
 
@@ -153,8 +219,15 @@ impl ReportedExtent {
         }
     }
 
-    fn check_size(&mut self, line: u32, axis: usize, most: f64, problems: &mut Problems) {
-        let size = self.extent[axis].map_or(0.0, |(low, high)| high - low);
+    fn check_size(
+        &mut self,
+        line: u32,
+        axis: usize,
+        (low, high): (f64, f64),
+        most: f64,
+        problems: &mut Problems,
+    ) {
+        let size = high - low;
         if size > most + 2.0 * ROUNDING && !std::mem::replace(&mut self.said[axis][0], true) {
             problems.add_at_line(&say::LARGER_THAN_MACHINE, line, |d| {
                 d.with("axis", AXES[axis]).with("size", size).with("most", most)

@@ -50,6 +50,7 @@ pub use tool_state::{LengthFit, ToolState};
 pub use words::{PostWords, WordRules};
 
 use self::frames::Frames;
+use crate::dialect::Dialect;
 use crate::interpret::Program;
 use crate::read::Problems;
 
@@ -58,10 +59,11 @@ use crate::read::Problems;
 /// passes.
 pub fn verify(
     program: &(impl Program + ?Sized),
+    dialect: Dialect,
     stock: Option<&Stock>,
     each: &mut dyn FnMut(&Step),
 ) -> Vec<Diagnostic> {
-    let mut rules = Rules::new(stock);
+    let mut rules = Rules::new(stock).in_dialect(dialect);
     let mut frames = Frames::default();
     program.each(&mut |step| {
         rules.step(step);

@@ -26,6 +26,8 @@ pub struct Rules<'c> {
     at: Position,
     /// The last line with a move.
     line: u32,
+    /// Whether M6 raises the tool above everything.
+    has_changer: bool,
     /// Whether the height has been known at some point, or has been reported as unknown.
     is_raised: bool,
     spindle: Spindle,
@@ -72,6 +74,7 @@ impl<'c> Rules<'c> {
             problems: Problems::default(),
             at: Position::default(),
             line: 0,
+            has_changer: false,
             is_raised: false,
             spindle: Spindle::UNSTATED,
             cut_before_spindle: None,
@@ -92,6 +95,12 @@ impl<'c> Rules<'c> {
         }
     }
 
+    /// Adapts the rules to the dialect of the program.
+    pub fn in_dialect(mut self, dialect: Dialect) -> Self {
+        self.has_changer = dialect.rules().has_changer;
+        self
+    }
+
     /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let line = step.line;
@@ -103,7 +112,10 @@ impl<'c> Rules<'c> {
                 self.shifted = are_shifted.then_some((line, *code, self.has_cut));
             }
             Action::End => self.spindle.turning = Turning::Unstated,
-            Action::ChangeTool(_) => self.check_tool_change(line),
+            Action::ChangeTool(_) => {
+                self.is_raised |= self.has_changer;
+                self.check_tool_change(line);
+            }
             Action::SelectTool(_) => {
                 self.by_hand.is_selected = true;
                 self.check_change_by_hand(line);

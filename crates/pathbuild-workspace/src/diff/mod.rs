@@ -1,6 +1,7 @@
 //! `diff`: compares the programs of all paths in two trees. (book: program/comparing)
 
 mod reasons;
+mod states;
 
 use std::collections::HashMap;
 
@@ -18,6 +19,7 @@ use crate::session::{Session, compare_names};
 
 pub use reasons::{Reason, ValueChange};
 use reasons::{Side, reasons};
+pub use states::{MachineStates, StateChange, StateKind};
 
 /// One side of the comparison: drawings below a directory.
 #[derive(Debug)]
@@ -42,11 +44,14 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Whether the problems of either side include errors of this path.
+    /// Whether the problems of either side include errors of this path, or of the file that defines it.
     pub fn has_error_of(&self, path: &PathDiff) -> bool {
         let is_of = |problem: &Diagnostic| {
-            let name = problem.path.as_deref().map(PathName::new);
-            problem.is_error() && name == Some(PathName::new(&path.name))
+            let is_named = match problem.path.as_deref() {
+                Some(name) => PathName::new(name) == PathName::new(&path.name),
+                None => path.files.contains(&problem.file),
+            };
+            problem.is_error() && is_named
         };
         self.problems.iter().flatten().any(is_of)
     }
@@ -87,6 +92,8 @@ pub enum Outcome {
 pub struct ProgramDiff {
     /// Changed moves, grouped by the kind of change.
     pub groups: Vec<Group>,
+    /// Changes of tools, spindle, work offsets, stops and the like; empty unless both sides are programs.
+    pub states: Vec<StateChange>,
     /// Reasons for the changes; `None` unless both sides are drawings, empty if no element and no setting differs.
     pub reasons: Option<Vec<Reason>>,
     /// Lengths and times before and after, if known.
@@ -114,6 +121,7 @@ pub fn compare_moves(old: &ScenePath, new: &ScenePath, pictures: Option<Lang>) -
     let picture = |which, lang| changes_svg(&old.moves, &new.moves, &changes, which, lang);
     ProgramDiff {
         groups: groups(&changes, &old.moves, &new.moves),
+        states: Vec::new(),
         reasons: None,
         totals: [old.totals, new.totals],
         pictures: pictures.filter(|_| !changes.is_empty()).map(|lang| PictureSet {

@@ -91,6 +91,8 @@ pub enum Reason {
     NoCutBelow,
     /// A word is not followed, so that the moves are not known.
     NotFollowed,
+    /// The program moves in coordinate systems whose places relative to each other are not known.
+    SeveralZeros,
     /// A limit of `[limits]` is exceeded.
     TooLarge,
 }
@@ -104,6 +106,8 @@ pub(super) struct References {
     pub(super) has_keep_out: bool,
     /// Whether all words that may move the tool are followed.
     pub(super) are_moves_known: bool,
+    /// Whether the program moves in coordinate systems whose places relative to each other are not known.
+    pub(super) has_several_zeros: bool,
 }
 
 /// Returns the checks of a program. `rapids` is the outcome of the check of rapid moves.
@@ -126,6 +130,7 @@ pub(super) fn records(
     };
     let envelope = match limits(|machine| machine.travel.is_some()) {
         Outcome::Made(_) if !references.are_moves_known => Outcome::NotMade(Reason::NotFollowed),
+        Outcome::Made(_) if references.has_several_zeros => Outcome::NotMade(Reason::SeveralZeros),
         other => other,
     };
     let all = [
@@ -212,6 +217,7 @@ impl CheckRecord {
             (Reason::NoCutter, _) => &CUTTER_OPTIONS,
             (Reason::NoSurface | Reason::NoCutBelow, _) => &SURFACE_OPTIONS,
             (Reason::NotFollowed, _) => &KNOWN_WORDS,
+            (Reason::SeveralZeros, _) => &STATED_ZEROS,
             (Reason::TooLarge, _) => &LIMITS,
             (Reason::NoSpeed, _) => &START_OPTIONS,
             (Reason::NoCornerLimit, _) => &CORNER_LIMIT,
@@ -285,6 +291,7 @@ impl Reason {
             Self::NoCornerLimit => &NO_CORNER_LIMIT,
             Self::NoCutBelow => &NO_CUT_BELOW,
             Self::NotFollowed => &NOT_FOLLOWED,
+            Self::SeveralZeros => &SEVERAL_ZEROS,
         }
     }
 }
@@ -367,6 +374,12 @@ static NOT_FOLLOWED: Text = Text {
     en: "a word is not followed, so the moves are not known",
     de: "einem Wort wird nicht gefolgt, die Bewegungen sind daher nicht bekannt",
 };
+static SEVERAL_ZEROS: Text = Text {
+    en: "only the machine knows where the work offsets of the program lie",
+    de: "nur die Maschine weiß, wo die Nullpunkte des Programms liegen",
+};
+static STATED_ZEROS: Text =
+    Text { en: "one work offset, or G10 L2 for each", de: "ein einziger Nullpunkt, oder G10 L2 für jeden" };
 static KNOWN_WORDS: Text = Text {
     en: "a program without words that are unknown or not followed (PB720, PB721)",
     de: "ein Programm ohne unbekannte Wörter und solche, denen nicht gefolgt wird (PB720, PB721)",

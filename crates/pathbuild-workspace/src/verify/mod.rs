@@ -134,7 +134,7 @@ impl<'w> Verifier<'w> {
             options: VerifyOptions { reading, ..options },
             writers,
             against,
-            table: tool_table(&workspace.settings),
+            table: tool_table(&workspace.settings).with_numbers(),
             machine: machine(&workspace.settings),
             words: Mutex::default(),
         })
@@ -221,6 +221,7 @@ struct WrittenSteps<'m> {
 struct WrittenFindings {
     statistics: Vec<Diagnostic>,
     limits: Vec<Diagnostic>,
+    has_several_zeros: bool,
 }
 
 impl<'m> WrittenSteps<'m> {
@@ -252,8 +253,9 @@ impl<'m> WrittenSteps<'m> {
             && Provenance::of_head(&program.text).is_some()
             && !native::is_compatible(&program.text);
         let statistics = if has_own_statistics { self.stated.finish() } else { Vec::new() };
+        let has_several_zeros = self.limits.as_ref().is_some_and(MachineRules::has_several_frames);
         let limits = self.limits.map(MachineRules::finish).unwrap_or_default();
-        (self.header.finish(program.inch_word()), WrittenFindings { statistics, limits })
+        (self.header.finish(program.inch_word()), WrittenFindings { statistics, limits, has_several_zeros })
     }
 }
 
@@ -315,6 +317,8 @@ struct CheckEvidence {
     corners: CornerRules,
     /// The lowest height in mm that a cut reaches.
     lowest_cut: Option<f64>,
+    /// Whether the program moves in coordinate systems whose places relative to each other are not known.
+    has_several_zeros: bool,
 }
 
 impl CheckEvidence {
@@ -377,6 +381,7 @@ impl<'v> Examination<'v> {
             speeds: SpindleStarts::default(),
             corners: CornerRules::new(self.verifier.settings.general.part_tolerance.value),
             lowest_cut: None,
+            has_several_zeros: written.has_several_zeros,
         };
         let (mut found, comparison) = self.findings(written, rewritten.as_ref(), &mut evidence);
         if let Some(against) =
@@ -429,21 +434,22 @@ impl<'v> Examination<'v> {
         let mut depths = DepthRules::default();
         let stock = self.sources.stock();
         let mut bent_rapids = stock.and_then(|stock| BentRapidRules::new(program.dialect, stock));
-        let mut found = verify(&program.at_nominal_heights(), self.sources.stock(), &mut |step| {
-            nominal.step(step);
-            evidence.step(step);
-            chip_loads.step(step);
-            if let Some(directions) = &mut directions {
-                directions.step(step);
-            }
-            if let Some(lengths) = &mut lengths {
-                lengths.step(step);
-            }
-            depths.step(step);
-            if let Some(bent_rapids) = &mut bent_rapids {
-                bent_rapids.step(step);
-            }
-        });
+        let mut found =
+            verify(&program.at_nominal_heights(), program.dialect, self.sources.stock(), &mut |step| {
+                nominal.step(step);
+                evidence.step(step);
+                chip_loads.step(step);
+                if let Some(directions) = &mut directions {
+                    directions.step(step);
+                }
+                if let Some(lengths) = &mut lengths {
+                    lengths.step(step);
+                }
+                depths.step(step);
+                if let Some(bent_rapids) = &mut bent_rapids {
+                    bent_rapids.step(step);
+                }
+            });
         found.extend(lengths.into_iter().flat_map(LengthRules::finish));
         found.extend(self.sources.doubtful_rapids(depths, &found));
         let bent = bent_rapids.map_or_else(Vec::new, |rules| rules.finish(&program.at_nominal_heights()));
@@ -491,7 +497,7 @@ impl<'v> Examination<'v> {
             // A check that was not made is an error only if it is required.
             problem.severity = Severity::Warning;
         }
-        let CheckEvidence { blind, speeds, corners, lowest_cut } = evidence;
+        let CheckEvidence { blind, speeds, corners, lowest_cut, has_several_zeros } = evidence;
         let verifier = self.verifier;
         let references = checks::References {
             is_compared_to_its_end: verifier
@@ -500,6 +506,7 @@ impl<'v> Examination<'v> {
                 .map(|_| comparison.is_none_or(|comparison| comparison.equal == comparison.moves)),
             has_keep_out: verifier.settings.general.keep_out.value.is_some(),
             are_moves_known: self.sources.are_moves_known(),
+            has_several_zeros,
         };
         // XpertMILL sets the speeds by layer, and not in the program.
         let states_speed =

@@ -4,6 +4,8 @@ use pathbuild_diagnostic::messages::{gcode as say, posts};
 use pathbuild_diagnostic::{Code, Diagnostic, Severity, Text};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{CuttingTool, Header, StatedCutter};
+use pathbuild_gcode::native::path_of_title;
+use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{BlindRapids, Cutter, DepthRules, Stock, StockSpan};
 use pathbuild_motion::{ChipLoad, Turning};
 
@@ -138,10 +140,7 @@ impl<'s> Sources<'s> {
 
     /// Whether all words that may move the tool are followed.
     pub(super) fn are_moves_known(&self) -> bool {
-        let hides_moves = |problem: &Diagnostic| {
-            problem.is_error() && matches!(problem.code(), Code::UnknownWord | Code::WordNotFollowed)
-        };
-        !self.program.read.problems.iter().any(hides_moves)
+        self.program.are_moves_known()
     }
 
     /// Returns PB777 if all cuts end above the surface that an option states: the program then cuts nothing, or its Z 0 is on the table.
@@ -174,7 +173,10 @@ impl<'s> Sources<'s> {
         if self.cuts_above(lowest_cut).is_some() {
             return Outcome::NotMade(Reason::NoCutBelow);
         }
-        let cutters = cutters.iter().map(|(_, cutter)| cutter.diameter).collect();
+        let cutters = match self.options().cutter.or(self.drawn_cutter()) {
+            Some(given) => vec![given],
+            None => cutters.iter().map(|(_, cutter)| cutter.diameter).collect(),
+        };
         let values =
             RapidValues { cutters, cutter_origin, surface, is_level: self.is_level(), surface_origin };
         let has_machine_values =
@@ -289,9 +291,10 @@ impl<'s> Sources<'s> {
         Some(Diagnostic::new(message).with("found", stated).with("given", given))
     }
 
-    /// Warns about tools that are not in the table, unless no tool in the table has a number.
+    /// Warns about tools that are not in the table, unless it is empty.
     pub(super) fn unknown_tools(&self) -> Vec<Diagnostic> {
-        let table_numbers: Vec<u32> = self.tools().iter().filter_map(|tool| tool.number).collect();
+        let table_numbers: Vec<u32> =
+            self.verifier.table.entries.iter().filter_map(|entry| entry.index).collect();
         let mut unknown: Vec<(u32, u32)> = Vec::new();
         for (line, number) in &self.header.changes {
             let is_new = unknown.iter().all(|(_, met)| met != number);
@@ -306,16 +309,30 @@ impl<'s> Sources<'s> {
     }
 
     fn entry(&self, tool: &CuttingTool) -> Option<&'s Tool> {
-        self.tools().iter().find(|entry| entry.number.is_some() && entry.number == tool.number)
+        let number = tool.number?;
+        let entry = self.verifier.table.entries.iter().position(|entry| entry.index == Some(number))?;
+        self.tools().get(entry)
+    }
+
+    /// Returns the configured tool for the path and the cutter O that the header of a native program names.
+    fn native_entry(&self) -> Option<&'s Tool> {
+        let (provenance, title) = Provenance::of_head(&self.program.text)?;
+        let entry = self.verifier.table.position(path_of_title(&title)?, provenance.cutter?)?;
+        self.tools().get(entry)
     }
 
     /// Returns the chip loads allowed for the tools, each with the line from which the tool cuts. Empty for a program with subprograms and several
     /// tools, in which the tool of a line depends on the caller.
     pub(super) fn chip_loads(&self) -> Vec<(u32, Option<ChipLoad>)> {
-        if !self.is_numbered() || self.header.has_calls && self.header.tools.len() > 1 {
+        if self.program.dialect == Dialect::Xpertmill || self.header.has_calls && self.header.tools.len() > 1
+        {
             return Vec::new();
         }
-        let load = |tool: &CuttingTool| (tool.line, self.entry(tool).and_then(Tool::chip_load));
+        let native = self.native_entry();
+        let load = |tool: &CuttingTool| {
+            let entry = if self.is_numbered() { self.entry(tool) } else { native };
+            (tool.line, entry.and_then(Tool::chip_load))
+        };
         self.header.tools.iter().map(load).collect()
     }
 

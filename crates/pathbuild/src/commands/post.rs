@@ -254,8 +254,8 @@ fn complete_tools_of_job(
     native_cutter: Option<(String, f64)>,
     tools: &ToolTable,
 ) -> Vec<Diagnostic> {
-    let Some((path, diameter)) = native_cutter else { return complete_tools(job, tools) };
     let tools = tools.with_numbers();
+    let Some((path, diameter)) = native_cutter else { return complete_tools(job, &tools) };
     let unknown = job.set_cutter(&path, diameter, &tools);
     let by_number = complete_tools(job, &tools);
     if unknown.is_empty() { by_number } else { unknown }

@@ -139,7 +139,10 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
                 && libm::fabs(z - movement.from.z()) <= height
         };
         match chain.check(&traverse) {
-            Err(found) => Err(Box::new(Difference { kind: DifferenceKind::Place, found, expected: next })),
+            Err(RapidDeviation { found, expected }) => {
+                let expected = expected.or(next);
+                Err(Box::new(Difference { kind: DifferenceKind::Place, found, expected }))
+            }
             Ok(()) if cut.is_none_or(|(_, movement)| reaches(movement) || movement.is_standstill()) => {
                 self.equal += expected.len();
                 Ok(())
@@ -330,6 +333,15 @@ impl Plunge {
 
 type NumberedMove = (u32, Move);
 
+/// The first rapid move that deviates from the expected ones.
+#[derive(Clone, Copy, Debug)]
+struct RapidDeviation {
+    /// The move of the program; `None` if an expected move is missing.
+    found: Option<NumberedMove>,
+    /// The expected move; `None` if none is expected.
+    expected: Option<NumberedMove>,
+}
+
 /// The rapid moves of a program since the last cut.
 #[derive(Debug)]
 pub(super) struct RapidSequence {
@@ -373,14 +385,16 @@ impl RapidSequence {
         plunge.share_at(last.to.z()).filter(|_| stays)
     }
 
-    /// Checks the moves against the expected ones. The error is the first move that deviates; `None` if an expected move is missing.
-    pub(super) fn check(&self, traverse: &ExpectedTraverse<'_>) -> Result<(), Option<NumberedMove>> {
+    /// Checks the moves against the expected ones. The error is the first deviation.
+    fn check(&self, traverse: &ExpectedTraverse<'_>) -> Result<(), RapidDeviation> {
         if !self.is_head {
             return Self::check_rest(&self.moves, traverse.expected, traverse);
         }
-        let mut outcome = Err(self.moves.first().copied());
+        let begins_elsewhere = |found| RapidDeviation { found, expected: Some(traverse.arrival_at_start()) };
+        let mut outcome = Err(begins_elsewhere(self.moves.first().copied()));
         for (passed, place) in traverse.clear_places().enumerate() {
-            let Some(rest) = self.moves_after_arrival(&place, passed > 0, traverse)? else { continue };
+            let rest = self.moves_after_arrival(&place, passed > 0, traverse);
+            let Some(rest) = rest.map_err(|found| begins_elsewhere(Some(found)))? else { continue };
             outcome = Self::check_rest(rest, &traverse.expected[passed..], traverse);
             if outcome.is_ok() {
                 break;
@@ -394,18 +408,18 @@ impl RapidSequence {
         moves: &[NumberedMove],
         expected: &[NumberedMove],
         traverse: &ExpectedTraverse<'_>,
-    ) -> Result<(), Option<NumberedMove>> {
+    ) -> Result<(), RapidDeviation> {
         let mut found = moves.iter().filter(|(_, movement)| !traverse.is_too_short(movement));
-        for (_, expected) in expected.iter().filter(|(_, movement)| !traverse.is_too_short(movement)) {
+        for expected in expected.iter().filter(|(_, movement)| !traverse.is_too_short(movement)) {
             let next = found.next();
-            let is_same = |(_, movement): &NumberedMove| traverse.is_same(movement, expected);
+            let is_same = |(_, movement): &NumberedMove| traverse.is_same(movement, &expected.1);
             if !next.is_some_and(is_same) {
-                return Err(next.copied());
+                return Err(RapidDeviation { found: next.copied(), expected: Some(*expected) });
             }
         }
         match found.find(|(_, movement)| !(traverse.is_foot && traverse.is_harmless(movement))) {
             None => Ok(()),
-            Some(other) => Err(Some(*other)),
+            Some(other) => Err(RapidDeviation { found: Some(*other), expected: None }),
         }
     }
 
@@ -417,7 +431,7 @@ impl RapidSequence {
         place: &Position,
         is_later: bool,
         traverse: &ExpectedTraverse<'_>,
-    ) -> Result<Option<&[NumberedMove]>, Option<NumberedMove>> {
+    ) -> Result<Option<&[NumberedMove]>, NumberedMove> {
         let begins = |(_, movement): &NumberedMove| {
             let is_raised = !is_later || movement.from.known.has(Axes::Z);
             movement.to.known == Axes::ALL && traverse.is_near(&movement.to, place) && is_raised
@@ -430,7 +444,7 @@ impl RapidSequence {
             // The height at the beginning is unknown, so the tool must be raised before it moves in the plane.
             let is_raised = movement.from.known.has(Axes::Z) || movement.to.known.has(Axes::Z) || is_parked;
             if !is_raised || !traverse.is_harmless(movement) {
-                return Err(Some((*line, *movement)));
+                return Err((*line, *movement));
             }
         }
         Ok(Some(rest))
@@ -453,6 +467,12 @@ impl ExpectedTraverse<'_> {
             || stays
             || self.clear_places().any(|place| self.is_at(&movement.to, &place));
         matches!(movement.shape, MoveShape::Line) && (is_raised || stays) && is_height && is_place
+    }
+
+    /// Returns a move to the start of the expected moves.
+    fn arrival_at_start(&self) -> NumberedMove {
+        let (from, to) = (self.start, self.start);
+        (0, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named: None })
     }
 
     /// Returns the start of the expected moves, and the positions that they reach before they go below S0.

@@ -4,14 +4,17 @@ mod output;
 mod revision;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::MissingOption;
 use pathbuild_db::system::{FileKind, is_drawing};
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
-use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, Tree, compare_moves, compare_trees};
-use pathbuild_workspace::emit::ShownText;
+use pathbuild_workspace::diff::{
+    Comparison, MachineStates, Outcome, PathDiff, ProgramDiff, Tree, compare_moves, compare_trees,
+};
+use pathbuild_workspace::emit::{ShownText, missing_values};
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
 use pathbuild_workspace::program::Program;
 use pathbuild_workspace::session::Session;
@@ -66,12 +69,23 @@ fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<
 
 /// Compares two programs, or a program and a path.
 fn compare_two_programs(old: ComparedProgram, new: ComparedProgram, pictures: Option<Lang>) -> Comparison {
-    let changed = compare_moves(&old.path, &new.path, pictures);
-    let is_same = changed.groups.is_empty();
+    let outcome = match [&old, &new].map(|seen| seen.are_moves_known) {
+        [true, true] => {
+            let changed = compare_moves(&old.path, &new.path, pictures);
+            let states = old.states.as_ref().zip(new.states.as_ref());
+            let states = states.map_or_else(Vec::new, |(old, new)| old.changes(new));
+            let is_same = changed.groups.is_empty() && states.is_empty();
+            (!is_same).then(|| Outcome::Changed(Box::new(ProgramDiff { states, ..changed })))
+        }
+        [true, false] => Some(Outcome::Broken),
+        [false, true] => Some(Outcome::Mended),
+        [false, false] => Some(Outcome::StillBroken),
+    };
     let files = [&old, &new].map(|seen| Some(seen.path.file.clone().into()));
     let name = new.path.name.clone();
-    let path = PathDiff { name, files, outcome: Outcome::Changed(Box::new(changed)) };
-    let paths = if is_same { Vec::new() } else { vec![path] };
+    let paths =
+        outcome.into_iter().map(|outcome| PathDiff { name: name.clone(), files: files.clone(), outcome });
+    let paths = paths.collect();
     Comparison { paths, path_count: 1, problems: [old.problems, new.problems] }
 }
 
@@ -112,6 +126,10 @@ pub(super) struct Drawings {
 /// A program, or the program of a path.
 pub(super) struct ComparedProgram {
     pub(super) path: ScenePath,
+    /// The states of the machine; `None` for the program of a path.
+    pub(super) states: Option<MachineStates>,
+    /// Whether all words that may move the tool are followed.
+    pub(super) are_moves_known: bool,
     pub(super) problems: Vec<Diagnostic>,
 }
 
@@ -200,7 +218,12 @@ impl Drawings {
 fn program(context: &Context, file: &Utf8Path, args: &DiffArgs) -> Result<ComparedProgram, Failure> {
     let program = Program::open(context, file, args.reading.options())
         .map_err(|problem| Failure::Found(vec![*problem]))?;
-    Ok(ComparedProgram { path: program.scene_path(context), problems: program.read.problems })
+    Ok(ComparedProgram {
+        path: program.scene_path(context),
+        states: Some(MachineStates::of(&program.read.steps)),
+        are_moves_known: program.are_moves_known(),
+        problems: program.read.problems,
+    })
 }
 
 /// Returns the program of a path in the working directory, for comparing it with a program in a file.
@@ -235,11 +258,17 @@ fn path(
             return Err(Failure::Found(session.with_hints(seen.diagnostics)));
         }
         let path = seen.scene.paths.into_iter().next().unwrap_or_default();
+        let options = [MissingOption::Feed, MissingOption::SweepHeight].map(MissingOption::name);
+        let is_missing = |name: &&'static str| path.examples.iter().any(|example| example.name == *name);
+        let missing: Vec<&str> = options.into_iter().filter(is_missing).collect();
+        if !missing.is_empty() {
+            return Err(Failure::Usage(missing_values(context, missing)));
+        }
         let path = match post_processor {
             Some(_) if path.native.is_some() => with_posted_program(context, path, args)?,
             _ => with_printed_program(path),
         };
-        Ok(ComparedProgram { path, problems: seen.diagnostics })
+        Ok(ComparedProgram { path, states: None, are_moves_known: true, problems: seen.diagnostics })
     })
 }
 

@@ -6,7 +6,9 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Lang, Number, shown};
 use pathbuild_path::{DrawnChange, ElementChange};
 use pathbuild_view::{ChangeKind, Group, Totals, escaped, moves, phrase};
-use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, PictureSet, ProgramDiff, Reason};
+use pathbuild_workspace::diff::{
+    Comparison, Outcome, PathDiff, PictureSet, ProgramDiff, Reason, StateChange,
+};
 use pathbuild_workspace::files::write_error;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -138,6 +140,7 @@ pub(super) fn problems(comparison: &Comparison, lang: Lang) -> Vec<String> {
 /// Returns a line for each kind of change, and one for the totals.
 pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
     let mut lines: Vec<String> = program.groups.iter().map(|group| line(group, lang)).collect();
+    lines.extend(program.states.iter().map(|change| state_line(change, lang)));
     if let [Some(old), Some(new)] = program.totals {
         lines.push(totals(&old, &new, lang));
     }
@@ -180,6 +183,17 @@ fn line(group: &Group, lang: Lang) -> String {
     let first = lang.choose("the first to", "die erste nach");
     let at = group.at.map(|[x, y]| format!(", {first} ({}, {})", Number(x), Number(y))).unwrap_or_default();
     format!("{}: {}, {} mm{at}", phrase(group, lang), moves(group, lang), tenths(group.length).prose(lang))
+}
+
+fn state_line(change: &StateChange, lang: Lang) -> String {
+    let [was, is] = change.words.each_ref().map(|words| match words.as_str() {
+        "" => lang.choose("none", "nichts"),
+        words => words,
+    });
+    let name = change.kind.text().in_lang(lang);
+    let line =
+        change.line.map(|line| format!(" ({} {line})", lang.choose("line", "Zeile"))).unwrap_or_default();
+    format!("{name}: {is} {} {was}{line}", lang.choose("instead of", "statt"))
 }
 
 fn totals(old: &Totals, new: &Totals, lang: Lang) -> String {
@@ -311,6 +325,9 @@ fn path(path: &PathDiff, lang: Lang) -> Value {
     let mut value = json!({ "path": path.name, "old_file": old, "new_file": new, "outcome": outcome });
     if let Outcome::Changed(program) = &path.outcome {
         value["changes"] = program.groups.iter().map(group).collect();
+        if !program.states.is_empty() {
+            value["states"] = program.states.iter().map(state).collect();
+        }
         value["old"] = json!(program.totals[0]);
         value["new"] = json!(program.totals[1]);
         if let Some(reasons) = &program.reasons {
@@ -358,6 +375,12 @@ fn reason(reason: &Reason, lang: Lang) -> Value {
         }
     };
     value["kind"] = kind.into();
+    value
+}
+
+fn state(change: &StateChange) -> Value {
+    let mut value = json!({ "kind": change.kind.name(), "line": change.line });
+    set_values(&mut value, change.words.each_ref());
     value
 }
 
