@@ -793,3 +793,18 @@ fn a_program_that_leads_to_itself_is_not_missing() {
     let run = consistent_output(&place, "");
     assert!(run.stdout.contains("8001_Milling.gcode: not current\n"), "{run}");
 }
+
+/// Another drawing yields the same program: with cached results, too, the program on disk is out of date.
+#[test]
+fn a_program_that_a_second_drawing_yields_is_outdated() {
+    let place = Place::of(LIBRARY);
+    assert_eq!(place.run("emit --out-dir gcode").status, Some(0));
+    let bytes = fs::read(place.path().join("projects/8001.dxf")).unwrap();
+    let place = place.file("projects/more/8001.dxf", bytes);
+    for command in ["emit --check --out-dir gcode", "emit --out-dir gcode"] {
+        let cached = place.run(command);
+        let anew = place.run(&format!("{command} --no-cache"));
+        assert_eq!((cached.status, output(&cached)), (Some(1), output(&anew)));
+        assert!(cached.to_string().contains("PB514") && cached.to_string().contains("PB522"), "{cached}");
+    }
+}

@@ -52,7 +52,10 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
                 }
                 Ok(ExitStatus::Usage)
             }
-            true => watch::run(&context, args, server.as_ref()),
+            true => {
+                let is_current = || Sources::of(&Context::of(cli).0) == sources;
+                watch::run(&context, args, server.as_ref(), &is_current)
+            }
             false => {
                 if let Some(server) = &server {
                     server.halt(&faults, "");

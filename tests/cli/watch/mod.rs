@@ -568,6 +568,35 @@ fn a_program_that_could_not_be_written_is_written_later() {
     assert!(said.last().unwrap().contains(" 0 new findings, 1 fixed"), "{said:#?}");
 }
 
+/// Two drawings yield the same program. As long as both do, neither writes it, whichever of them was saved last; the remaining one writes it as soon
+/// as the other is gone.
+#[test]
+fn a_program_of_two_drawings_is_written_once_one_of_them_is_gone() {
+    let two = |depth: u32| {
+        let path = |name: &str, y: u32| {
+            format!("layer {name}\nstart 0,{y} \"T5 O2 I1 B{depth} MPlate\"\nmill 0,{y} 40,{y}\nend 40,{y}\n")
+        };
+        sheet(&(path("8010.1P", 0) + &path("8011.1P", 20))).unwrap().to_dxf()
+    };
+    let (both, own) = ("library/projects/8010-8012 x.dxf", "library/projects/8010.1P.dxf");
+    let place = library().file(both, two(1)).file(own, dxf("8010.1P", 5, &[]));
+    let program = place.path().join("library/projects/8010.1P_Milling.gcode");
+    let watch = Watch::begin(&place, "watch --emit --format concise");
+    assert!(watch.beginning.iter().any(|line| line.contains("[PB514]")), "{:#?}", watch.beginning);
+
+    watch.write(both, two(2));
+    watch.until("x.dxf: changed");
+    assert!(!program.exists());
+    watch.write(own, dxf("8010.1P", 6, &[]));
+    watch.until("8010.1P.dxf: changed");
+    assert!(!program.exists());
+
+    fs::remove_file(place.path().join(own)).unwrap();
+    let said = watch.until("8010.1P.dxf: removed");
+    assert!(said.iter().any(|line| line.contains("8010.1P_Milling.gcode: written")), "{said:#?}");
+    assert!(place.read("library/projects/8010.1P_Milling.gcode").contains("Z2"));
+}
+
 /// Returns a command that runs the program as an unprivileged user; `None` if that is impossible.
 #[cfg(target_os = "linux")]
 fn as_nobody() -> Option<Command> {

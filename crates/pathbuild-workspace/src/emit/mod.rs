@@ -327,8 +327,10 @@ pub fn write(
         for plan in &mut plans {
             plan.leave_out_if_raised(context);
         }
-        for job in plans.iter_mut().filter_map(|plan| plan.job.as_mut()).filter(|job| !job.is_left_out) {
-            job.is_left_out = !job.claim_file_names(session, owners, &mut diagnostics);
+        for job in plans.iter_mut().filter_map(|plan| plan.job.as_mut()) {
+            // A job that is left out claims its names, too: whether another target may write them does not depend on which was saved last.
+            let clash = job.claim_file_names(session, owners);
+            diagnostics.extend(clash.filter(|_| !std::mem::replace(&mut job.is_left_out, true)));
         }
         build_and_settle(
             session,

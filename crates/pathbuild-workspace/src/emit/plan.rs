@@ -19,8 +19,8 @@ use crate::post_processor::PostProcessor;
 use crate::session::{CheckedTarget, OutputKind, ProgramFacts, Session, stem_fault};
 use crate::workspace::Workspace;
 
-/// The target for which each file was written, by file name in lower case.
-pub type FileOwners = HashMap<String, Target>;
+/// The targets that yield each file, by file name in lower case. A file with several is not written.
+pub type FileOwners = HashMap<String, Vec<Target>>;
 
 /// The plan for one program: its job, or the reasons why it has none.
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -73,9 +73,7 @@ impl Plan {
     pub(super) fn leave_out_if_raised(&mut self, workspace: &Workspace) {
         let is_wrong = workspace.has_error(self.problems());
         if let Some(job) = self.job.as_mut().filter(|_| is_wrong) {
-            job.is_left_out = true;
-            // Discard the outcome of an earlier run, which may have written the files.
-            job.outcome = None;
+            job.leave_out();
         }
     }
 
@@ -99,31 +97,35 @@ impl Job {
         self.targets[0].file(db)
     }
 
+    /// Leaves out the job, and discards the outcome of an earlier run, which may have written the files.
+    fn leave_out(&mut self) {
+        self.is_left_out = true;
+        self.outcome = None;
+    }
+
     fn name(&self, session: &Session<'_>) -> String {
         let db = session.db();
         format!("{} ({})", self.path, self.drawing(db).path(db))
     }
 
-    /// Claims the job's file names for its target. If a target that still yields a program has already claimed one of them, reports PB514 and returns
-    /// false.
+    /// Claims the job's file names for its target. Returns PB514 if another target claims one of them as well.
     pub(super) fn claim_file_names(
         &self,
         session: &Session<'_>,
         owners: &mut FileOwners,
-        diagnostics: &mut Vec<Diagnostic>,
-    ) -> bool {
-        let names = || self.files.iter().map(|(_, path)| path.as_str().to_lowercase());
-        let other =
-            names().find_map(|name| owners.get(&name).copied().filter(|owner| *owner != self.targets[0]));
-        if let Some(other) = other {
-            let db = session.db();
-            let other = format!("{} ({})", other.name(db), other.file(db).path(db));
-            let name = self.files[0].1.file_name();
-            diagnostics.push(same_output_error(name, other, self.name(session), self.drawing(db).path(db)));
-            return false;
+    ) -> Option<Diagnostic> {
+        let mut other = None;
+        for (_, path) in &self.files {
+            let claimants = owners.entry(path.as_str().to_lowercase()).or_default();
+            if !claimants.contains(&self.targets[0]) {
+                claimants.push(self.targets[0]);
+            }
+            other = other.or_else(|| claimants.iter().copied().find(|claimant| *claimant != self.targets[0]));
         }
-        owners.extend(names().map(|name| (name, self.targets[0])));
-        true
+        let (other, db) = (other?, session.db());
+        let other = format!("{} ({})", other.name(db), other.file(db).path(db));
+        let name = self.files[0].1.file_name();
+        Some(same_output_error(name, other, self.name(session), self.drawing(db).path(db)))
     }
 }
 
@@ -400,7 +402,7 @@ pub(super) fn leave_out_clashes<'p>(
             diagnostics.push(same_output_error(path.file_name(), first, second, drawing));
         }
         for owner in owners {
-            jobs[owner].is_left_out = true;
+            jobs[owner].leave_out();
         }
     }
 }

@@ -38,6 +38,8 @@ pub(super) struct Watcher {
     is_woken: bool,
     /// Whether the end of watching was requested.
     is_over: bool,
+    /// Time at which to check the configuration once more; `None` if all of its changes are reported.
+    configuration_check: Option<Instant>,
     /// Incomplete drawings, each with the time after which it is read although it is incomplete.
     unfinished: BTreeMap<Utf8PathBuf, Instant>,
 }
@@ -46,6 +48,8 @@ pub(super) struct Watcher {
 pub(super) enum Batch {
     Changes(Changes),
     Restart(Restart),
+    /// A change of the configuration may not have been reported.
+    ConfigurationInDoubt,
     /// A wake-up was requested through the [`WakeHandle`].
     WokenUp,
     /// The end of watching was requested.
@@ -54,6 +58,9 @@ pub(super) enum Batch {
 
 /// Interval at which network drives are polled.
 const POLL_INTERVAL: Duration = Duration::from_secs(1);
+
+/// Resolution of the times by which polling notices changes, with a margin: a change is not noticed if it follows the first look within a second.
+const POLL_RESOLUTION: Duration = Duration::from_millis(1100);
 
 /// Interval at which the path of the working directory is checked.
 const DIRECTORY_CHECK_INTERVAL: Duration = Duration::from_secs(1);
@@ -97,6 +104,7 @@ impl Watcher {
                 || configuration.iter().any(|file| file.is_relative()))
             .then(|| current_directory(&*workspace.system)),
             next_directory_check: Instant::now() + DIRECTORY_CHECK_INTERVAL,
+            configuration_check: is_polling.then(|| Instant::now() + POLL_RESOLUTION),
             configuration,
             directories,
             pending: Changes::default(),
@@ -131,6 +139,9 @@ impl Watcher {
             }
             if self.has_moved() {
                 return Batch::Restart(Restart::Directories);
+            }
+            if self.configuration_check.take_if(|due| *due <= Instant::now()).is_some() {
+                return Batch::ConfigurationInDoubt;
             }
             let patience = self.time_to_deadline(library);
             if patience.is_zero()
@@ -205,6 +216,8 @@ impl Watcher {
     }
 
     fn wait(&self, patience: Duration) -> Result<Signal, RecvTimeoutError> {
+        let until_check = |due: Instant| due.saturating_duration_since(Instant::now());
+        let patience = patience.min(self.configuration_check.map_or(Duration::MAX, until_check));
         if self.working_directory.is_some() {
             return self.signals.recv_timeout(patience.min(DIRECTORY_CHECK_INTERVAL));
         }

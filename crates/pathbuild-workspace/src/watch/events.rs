@@ -29,6 +29,11 @@ pub struct Request<'a> {
 
 /// A receiver of reports from the watch loop. Callbacks get the session, so that they can query more than the findings.
 pub trait Listener {
+    /// Whether the files of the configuration still have the contents that were loaded. Asked when changes of them begin to be reported, because
+    /// they may have changed in between.
+    fn is_configuration_current(&self) -> bool {
+        true
+    }
     /// Receives the handle that wakes the watcher from other threads.
     fn set_wake_handle(&self, _: WakeHandle) {}
     /// Called when drawings were found and read, before they are checked. The diagnostics are those of arguments and directories.

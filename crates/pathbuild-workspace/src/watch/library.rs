@@ -215,6 +215,11 @@ impl<'a> Library<'a> {
         self.open.values().copied()
     }
 
+    pub(super) fn check_again(&mut self, drawings: Vec<SourceFile>) {
+        let db = self.session.db();
+        self.open.extend(drawings.into_iter().map(|file| (file.path(db).clone(), file)));
+    }
+
     /// Checks up to `most` of the drawings still to be checked, and returns them.
     pub(super) fn check_portion(&mut self, most: usize, update: &mut Batch) -> Vec<SourceFile> {
         let portion: Vec<SourceFile> =

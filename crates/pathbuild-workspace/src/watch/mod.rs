@@ -43,6 +43,7 @@ impl Request<'_> {
         }
         // Start watching before anything is read, so that no change is missed.
         match Watcher::new(&session, self, &writer.sources()) {
+            Ok(_) if !listener.is_configuration_current() => WatchEnd::ConfigurationChanged,
             Ok(watcher) => {
                 let library = Library::new(session, self.inputs);
                 let tally = FindingTally::default();
@@ -76,6 +77,10 @@ impl WatchLoop<'_> {
             match self.watcher.next(&self.library) {
                 Batch::Restart(Restart::Configuration) => return WatchEnd::ConfigurationChanged,
                 Batch::Restart(Restart::Directories) => return WatchEnd::DirectoriesChanged,
+                Batch::ConfigurationInDoubt if !self.listener.is_configuration_current() => {
+                    return WatchEnd::ConfigurationChanged;
+                }
+                Batch::ConfigurationInDoubt => {}
                 Batch::Over => return WatchEnd::Over,
                 Batch::WokenUp => self.listener.woken(self.library.session_mut()),
                 Batch::Changes(changes) => self.update(&changes),
@@ -127,11 +132,10 @@ impl WatchLoop<'_> {
     /// Checks the remaining drawings, writes their programs, and reports the outcome. Returns the checked drawings.
     fn work_on(&mut self, mut found: library::Batch) -> Vec<SourceFile> {
         let begun = Instant::now();
-        found.before.extend(self.writer.release(
-            self.library.session(),
-            self.library.unchecked_drawings(),
-            &found.removed,
-        ));
+        found.before.extend(self.writer.forget(&found.removed));
+        let (session, unchecked) = (self.library.session(), self.library.unchecked_drawings());
+        let rivals = self.writer.release(session, unchecked, &found.removed);
+        self.library.check_again(rivals);
         let mut written = Vec::new();
         self.follow_links();
         while self.library.has_backlog() {

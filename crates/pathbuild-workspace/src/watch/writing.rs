@@ -78,20 +78,32 @@ impl<'a> Writer<'a> {
         with_transient_problems.map(|(drawing, _)| drawing.clone()).collect()
     }
 
-    /// Releases the output file names that are claimed for drawings that will be checked again or were removed. Returns the diagnostics of the
-    /// programs of removed drawings.
+    /// Releases the output file names that are claimed for drawings that will be checked again or were removed. Returns the other drawings that claim
+    /// the same names, which must be checked again because they may be the only ones now.
     pub(super) fn release(
         &mut self,
         session: &Session<'_>,
         checked_files: impl Iterator<Item = SourceFile>,
         removed: &BTreeSet<Utf8PathBuf>,
-    ) -> Vec<Diagnostic> {
+    ) -> Vec<SourceFile> {
         let db = session.db();
-        let gone = removed.iter().filter_map(|drawing| self.found.remove(drawing)).flatten().collect();
         let removed = removed.iter().map(|drawing| db.file(drawing));
         let released: HashSet<SourceFile> = checked_files.chain(removed).collect();
-        self.owners.retain(|_, owner| !released.contains(&owner.file(db)));
-        gone
+        let mut others = Vec::new();
+        self.owners.retain(|_, claimants| {
+            let before = claimants.len();
+            claimants.retain(|claimant| !released.contains(&claimant.file(db)));
+            if claimants.len() < before {
+                others.extend(claimants.iter().map(|claimant| claimant.file(db)));
+            }
+            !claimants.is_empty()
+        });
+        others
+    }
+
+    /// Forgets removed drawings, and returns the diagnostics of their programs.
+    pub(super) fn forget(&mut self, removed: &BTreeSet<Utf8PathBuf>) -> Vec<Diagnostic> {
+        removed.iter().filter_map(|drawing| self.found.remove(drawing)).flatten().collect()
     }
 
     /// Writes all targets. Returns diagnostics of the programs, and of targets that match no path.
@@ -148,7 +160,7 @@ impl<'a> Writer<'a> {
     fn drawing_of(&self, session: &Session<'_>, problem: &Diagnostic) -> Option<Utf8PathBuf> {
         let file = problem.file.as_ref().map(|file| file.as_str()).or(problem.quoted("name"))?;
         match self.owners.get(&file.to_lowercase()) {
-            Some(owner) => Some(owner.file(session.db()).path(session.db()).clone()),
+            Some(owners) => owners.first().map(|owner| owner.file(session.db()).path(session.db()).clone()),
             None => problem.file.clone(),
         }
     }

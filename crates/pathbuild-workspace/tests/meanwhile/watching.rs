@@ -7,6 +7,7 @@ use std::thread;
 use std::time::Duration;
 
 use camino::Utf8PathBuf;
+use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_workspace::watch::{FirstCheck, Listener, Request, Update, WakeHandle, WatchEnd};
 use pathbuild_workspace::{Inputs, Workspace};
@@ -239,4 +240,29 @@ fn a_directory_that_cannot_be_listed_for_a_moment_loses_no_drawing() {
     assert!(codes(&again.before) == [Code::UnreadableFile] && again.now.is_empty(), "{again:#?}");
     assert_eq!((again.problems.as_deref(), again.checked), (Some(&[][..]), 1), "{again:#?}");
     assert!(again.tried_again.iter().any(|path| path.ends_with("lib")), "{again:#?}");
+}
+
+/// A listener for which the configuration changes after a number of questions.
+struct Doubter {
+    answers: RefCell<Vec<bool>>,
+}
+
+impl Listener for Doubter {
+    fn is_configuration_current(&self) -> bool {
+        self.answers.borrow_mut().pop().unwrap_or(false)
+    }
+}
+
+/// Between loading the configuration and watching it, it may change; polling does not notice a change within the second of its first look.
+#[test]
+fn a_configuration_that_changed_before_it_was_watched_begins_anew() {
+    for (polls, answers) in [(false, vec![]), (true, vec![true])] {
+        let place = OnDisk::configured(EMITTING, &[OTHER]);
+        let inputs = Inputs::default();
+        let workspace = place.workspace(&inputs, OsSystem::shared(), false);
+        let request = Request { inputs: &inputs, emits: false, lists: false, polls };
+        let doubter = Doubter { answers: answers.into() };
+        assert!(matches!(request.run(&workspace, &doubter), WatchEnd::ConfigurationChanged), "{polls}");
+        assert!(doubter.answers.borrow().is_empty());
+    }
 }

@@ -25,6 +25,7 @@ pub(crate) fn run(
     context: &Context,
     args: &WatchArgs,
     server: Option<&Server>,
+    is_configuration_current: &dyn Fn() -> bool,
 ) -> Result<ExitStatus, &'static str> {
     let page = server.map(|server| server.page(context));
     let halt = |problems: &[Diagnostic], reason: &str| {
@@ -37,7 +38,7 @@ pub(crate) fn run(
     let here = Inputs { inputs: vec![".".to_owned()] };
     let inputs = if is_everything { &here } else { &*args.inputs };
     let request = Request { inputs, emits: args.emit, lists: page.is_some(), polls: args.poll };
-    Ok(match request.run(context, &WatchPrinter { context, page }) {
+    Ok(match request.run(context, &WatchPrinter { context, page, is_configuration_current }) {
         WatchEnd::ConfigurationChanged => {
             return Err(context.choose(
                 "the configuration or its post-processor has changed",
@@ -81,9 +82,14 @@ pub(crate) fn run(
 struct WatchPrinter<'a> {
     context: &'a Context,
     page: Option<Box<dyn Listener + 'a>>,
+    is_configuration_current: &'a dyn Fn() -> bool,
 }
 
 impl Listener for WatchPrinter<'_> {
+    fn is_configuration_current(&self) -> bool {
+        (self.is_configuration_current)()
+    }
+
     fn set_wake_handle(&self, bell: WakeHandle) {
         if let Some(page) = &self.page {
             page.set_wake_handle(bell.clone());
