@@ -66,6 +66,15 @@ fn a_program_passes_or_is_kept_out_of_the_way() {
     assert!(has(&place, "a wrong & (2).nc") && !has(&place, "a wrong & (2).nc.rejected"));
 }
 
+/// A script whose variable is not set names no program, or the directory.
+#[test]
+fn nothing_and_a_directory_do_not_pass() {
+    let place = Place::new().file("jobs/a.nc", wrong());
+    assert_eq!(gate(&place, &[], "").status.code(), Some(2));
+    assert_eq!(gate(&place, &["jobs"], "").status.code(), Some(1));
+    assert!(has(&place, "jobs/a.nc"));
+}
+
 #[test]
 fn options_reach_verify_and_what_was_not_checked_is_kept_out_of_the_way() {
     let place = Place::new().file("a.nc", SOUND);

@@ -172,3 +172,17 @@ fn a_command_line_says_the_same_whatever_of_the_commands_is_defined() {
         assert_eq!(said(Cli::read(&line)), said(Cli::try_parse_from(&line)), "{line:?}");
     }
 }
+
+/// An empty argument would name the working directory: `emit "$NAME"` in a script would write all programs if the variable is not set.
+#[test]
+fn an_empty_argument_is_refused() {
+    let place = Place::new().file("pathbuild.toml", "library = [\".\"]");
+    for arguments in
+        [&["check", ""][..], &["emit", "--out-dir", "", "."], &["check", "--search="], &["list", ""]]
+    {
+        let run = place.run_with(arguments);
+        assert_eq!(run.status, Some(2), "{run}");
+        assert!(run.stderr.contains("is empty"), "{run}");
+    }
+    assert_ne!(place.run_with(&["list", "."]).status, Some(2));
+}

@@ -41,6 +41,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
     }
     match Cli::read(&arguments) {
         Ok(Cli { command: Command::Compat(args), common }) => run_compat(&arguments, &args, &common),
+        Ok(_) if let Some(number) = arguments.iter().position(is_empty_value) => {
+            let lang = lang_of(&arguments);
+            print(|printer| german::print_usage_error(&empty_argument_error(number, lang), lang, printer))
+        }
         Ok(cli) => execute(&cli),
         Err(error) => {
             let lang = lang_of(&arguments);
@@ -48,6 +52,23 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
             let message = Cli::matches(&german::command(lang), &arguments).err().unwrap_or(error);
             print(|printer| german::print_clap_error(&message, lang, printer))
         }
+    }
+}
+
+/// Whether an argument is empty, or an option has an empty value, as where a script uses a variable that is not set. As a name of a file it would mean
+/// the working directory, and a script would write all programs instead of one.
+fn is_empty_value(argument: &OsString) -> bool {
+    argument.is_empty() || argument.to_str().is_some_and(|text| text.starts_with("--") && text.ends_with('='))
+}
+
+fn empty_argument_error(number: usize, lang: Lang) -> String {
+    match lang {
+        Lang::En => format!(
+            "argument {number} is empty: write `.` for the working directory; in a script, check that all variables are set"
+        ),
+        Lang::De => format!(
+            "Argument {number} ist leer: für das Arbeitsverzeichnis `.` schreiben; in einem Skript prüfen, ob alle Variablen gesetzt sind"
+        ),
     }
 }
 

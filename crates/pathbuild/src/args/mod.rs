@@ -177,7 +177,7 @@ impl Command {
     pub fn owns_stdout(&self) -> bool {
         match self {
             Self::Emit(args) => args.output.is_some(),
-            Self::Post(args) => args.command.is_none() && args.output.is_none(),
+            Self::Post(args) => args.command.is_none() && args.output.as_ref().is_none_or(|file| file == "-"),
             _ => false,
         }
     }
