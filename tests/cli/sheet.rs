@@ -84,6 +84,28 @@ fn a_page_has_picture_measures_checklist_and_facts() {
     assert_snapshot!(texts(&place.read("sheet.svg")).join("\n"));
 }
 
+/// Material on shims (H) is not that of the plate: without the shims, the cutter would mill air, or not through.
+#[test]
+fn shims_are_in_the_checklist() {
+    let checks = |h: &str| {
+        let project = format!(
+            "layer 8001.1P\nstart 0,0 \"T2 O2 S30 MX\"\nsubpath 0,0 40,0 \">1300.1P {h}\"\nsubpath 40,0 80,0 \">1300.1P\"\nend 80,0"
+        );
+        let component = "layer 1300.1P\nstart 0,0 \"T2 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0";
+        let place = place("").file("8001.1P.dxf", dxf(&project)).file("1300.1P.dxf", dxf(component));
+        let run = place.run("sheet 8001.1P -o sheet.svg");
+        assert_eq!(run.status, Some(0), "{run}");
+        let svg = place.read("sheet.svg");
+        texts(&svg).join(" ")
+    };
+    let with = checks("H5");
+    assert!(
+        with.contains("Shims of 5 mm") && with.contains("1300.1P") && with.contains("upper face is at Z 7"),
+        "{with}"
+    );
+    assert!(!checks("").contains("Shims"));
+}
+
 /// Each number of the picture is explained, or listed as one that does not fit. A table that continues on a new page repeats its title.
 #[test]
 fn operations_are_listed_and_no_number_is_lost() {

@@ -5,7 +5,7 @@ use super::flow::Block;
 use super::operations;
 use pathbuild_diagnostic::with_decimal_separator;
 
-use crate::scene::{BilingualText, MoveKind, Point};
+use crate::scene::{BilingualText, EmbeddedPath, MoveKind, Point, ScenePath};
 use crate::svg::canvas::mm;
 use crate::svg::sheet::data::clamp_box;
 use crate::svg::sheet::data::feeds;
@@ -15,6 +15,7 @@ use crate::svg::sheet::data::removed_box;
 /// Returns the steps before running the program, in the order in which the operator carries them out.
 pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
     let mut checks = vec![program(sheet, words), material(sheet, words)];
+    checks.extend(shims(sheet, words));
     if let Some((deepest, _)) = sheet.cutting_box[2].filter(|(deepest, _)| *deepest < 0.0) {
         let depth = words.mm(-deepest);
         checks.push(words.choose(
@@ -75,6 +76,31 @@ fn material(sheet: &Sheet, words: Words) -> String {
             .collect();
     let facts = facts.join(", ");
     words.choose(format!("Material is ready: {facts}"), format!("Material liegt bereit: {facts}"))
+}
+
+/// Describes the shims on which the material of embedded paths lies (H), one sentence for each height. What a raised path embeds lies on its shims.
+fn shims(sheet: &Sheet, words: Words) -> Vec<String> {
+    let raised: Vec<(&EmbeddedPath, f64)> = sheet.scene.paths.iter().flat_map(raised_paths).collect();
+    let text = |height: f64| {
+        let of_height = || raised.iter().filter(|(_, raise)| *raise == height).map(|(path, _)| *path);
+        let names = distinct(of_height().map(|path| path.name.clone())).join(", ");
+        let tops = format_numbers(&distinct(of_height().map(|path| path.thickness))).unwrap_or_default();
+        let (count, height) = (of_height().count(), words.mm(height));
+        words.choose(
+            format!("Shims of {height} mm lie under the material of {names} ({count} in the picture); its upper face is at Z {tops}"),
+            format!("{height} mm hohe Unterlagen liegen unter dem Material von {names} ({count} im Bild); dessen Oberseite ist bei Z {tops}"),
+        )
+    };
+    distinct(raised.iter().map(|(_, raise)| *raise)).into_iter().map(text).collect()
+}
+
+/// Returns the paths that their embedding raises, with the height in mm by which it raises them.
+fn raised_paths(path: &ScenePath) -> impl Iterator<Item = (&EmbeddedPath, f64)> {
+    path.embedded.iter().filter_map(|embedded| {
+        let embedder = &path.elements[embedded.by? as usize];
+        let raise = embedded.raised - path.embedded[embedder.path as usize].raised;
+        (raise > 0.0).then(|| (embedded, (raise * 1000.0).round() / 1000.0))
+    })
 }
 
 fn clamped_text(sheet: &Sheet, words: Words) -> String {
