@@ -387,14 +387,22 @@ pub struct Total {
     /// Total length of the paths' programs in mm.
     pub length: f64,
     /// Machining time in minutes, of the paths for which it is known.
-    pub minutes: f64,
+    known_minutes: f64,
+    /// Number of paths with a program of unknown time.
+    untimed: usize,
 }
 
 impl Total {
     fn add(&mut self, row: &Row) {
         self.paths += 1;
         self.length += row.path.figures.length.unwrap_or_default();
-        self.minutes += row.path.figures.minutes.unwrap_or_default();
+        self.known_minutes += row.path.figures.minutes.unwrap_or_default();
+        self.untimed += usize::from(row.path.figures.length.is_some() && row.path.figures.minutes.is_none());
+    }
+
+    /// Returns the machining time in minutes; `None` if the time of a program is unknown.
+    pub fn minutes(&self) -> Option<f64> {
+        (self.untimed == 0).then_some(self.known_minutes)
     }
 }
 
@@ -475,7 +483,7 @@ pub fn stats_json(stats: &Stats) -> Json {
         "drawings": stats.drawings,
         "paths": stats.all.paths,
         "length": stats.all.length,
-        "minutes": stats.all.minutes,
+        "minutes": stats.all.minutes(),
         "states": states.collect::<serde_json::Map<_, _>>(),
         "with_warnings": stats.warnings,
         "materials": materials.collect::<Vec<_>>(),
@@ -484,7 +492,7 @@ pub fn stats_json(stats: &Stats) -> Json {
 }
 
 fn with(total: &Total, key: &str, value: Json) -> Json {
-    let mut object = json!({ "paths": total.paths, "length": total.length, "minutes": total.minutes });
+    let mut object = json!({ "paths": total.paths, "length": total.length, "minutes": total.minutes() });
     object[key] = value;
     object
 }

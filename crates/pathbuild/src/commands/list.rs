@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::list::{PathListing, Request, Row, State, Stats, Total, path_json, stats_json};
 use pathbuild_workspace::session::Session;
 
@@ -120,7 +121,7 @@ fn text(stats: &Stats, context: &Context) -> String {
         say("length", "Länge"),
         decimal(stats.all.length, 0, lang),
         say("minutes", "Minuten"),
-        decimal(stats.all.minutes, 0, lang),
+        minutes(&stats.all, lang),
     );
     for (state, number) in &stats.states {
         _ = writeln!(text, "  {}: {}", state_word(*state, context), count(*number, lang));
@@ -144,6 +145,11 @@ fn text(stats: &Stats, context: &Context) -> String {
     text
 }
 
+/// Formats the time of several paths; a hyphen if it is unknown.
+fn minutes(total: &Total, lang: Lang) -> String {
+    total.minutes().map_or_else(|| "-".to_owned(), |minutes| decimal(minutes, 0, lang))
+}
+
 fn table_by<'a>(
     context: &Context,
     heading: &str,
@@ -157,7 +163,7 @@ fn table_by<'a>(
         ("min", true),
     ];
     let rows = totals.map(|(name, total)| {
-        vec![name, count(total.paths, lang), decimal(total.length, 0, lang), decimal(total.minutes, 0, lang)]
+        vec![name, count(total.paths, lang), decimal(total.length, 0, lang), minutes(total, lang)]
     });
     format!("\n{}", table(&columns, rows))
 }
