@@ -437,7 +437,8 @@ fn compare(place: &Place, name: &str, given: Option<Given>, points: &mut Points)
     let options = given.map(|Given { cutter, surface }| format!("--cutter {cutter} --surface {surface} "));
     for more in ["-o stock.json".to_owned(), format!("--stock {}-o stock.svg", options.unwrap_or_default())] {
         let run = place.run(&format!("view {name} {more}"));
-        assert_eq!(run.status, Some(0), "{run}");
+        // A random program may have rapid moves through material.
+        assert!(run.status == Some(0) || given.is_some() && run.status == Some(1), "{run}");
     }
     let mut scene: Value = serde_json::from_str(&place.read("stock.json")).unwrap();
     if let Some(Given { cutter, surface }) = given {

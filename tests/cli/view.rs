@@ -472,6 +472,56 @@ fn a_program_is_seen_without_elements() {
     assert_eq!(place.run("view a.nc -o a.svg").status, Some(0));
 }
 
+/// A program is checked as by `verify`, with the cutters and the material that it assumes.
+#[test]
+fn a_program_is_shown_with_its_findings_and_checks() {
+    let slots = |between: &str| {
+        format!(
+            "(T1 D=6 CR=0 - ZMIN=-2 - flat end mill)\n(T2 D=3 CR=0 - ZMIN=-1 - flat end mill)\nG21 G90 G17 G94 G54\nT1 M6\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-2 F100\nG1 X40 F300\n{between}G0 Y20\nG1 X0\nG0 Z5\nT2 M6\nM3 S9000\nG4 P2\nG0 X0 Y40\nG1 Z-1 F100\nG1 X40\nG0 Z5\nM30\n"
+        )
+    };
+    let place = Place::new().file("low.nc", slots("")).file("lifted.nc", slots("G0 Z5\n"));
+    let view = |file: &str, options: &str| {
+        let json = place.path().join("x.json").to_str().unwrap().to_owned();
+        let words = format!("view {file} --dialect linuxcnc {options}");
+        let arguments: Vec<&str> = words.split_whitespace().chain(["-o", &json]).collect();
+        let run = place.run_with(&arguments);
+        let status = run.status;
+        (scene(&run), status)
+    };
+    let (low, status) = view("low.nc", "--surface 0");
+    assert_eq!((&low["findings"][0]["code"], status), (&"PB740".into(), Some(1)));
+    let (lifted, status) = view("lifted.nc", "--surface 0");
+    assert_eq!((lifted["findings"].as_array().map(Vec::len), status), (Some(0), Some(0)));
+    let diameters: Vec<_> =
+        lifted["paths"][0]["tools"].as_array().unwrap().iter().map(|it| &it["diameter"]).collect();
+    assert_eq!(diameters, [6.0, 3.0]);
+    let program = &lifted["program"];
+    assert_eq!(
+        (&program["surface"], &program["waits"]["en"]),
+        (&0.0.into(), &"2.0 s dwelling, 2 tool changes".into())
+    );
+    assert_eq!(
+        (&program["checks"][0]["check"], &program["checks"][0]["outcome"]),
+        (&"rapids".into(), &"assumed".into())
+    );
+    let (unknown, _) = view("lifted.nc", "");
+    assert_eq!(
+        (&unknown["program"]["surface"], &unknown["program"]["checks"][0]["outcome"]),
+        (&Value::Null, &"not-made".into())
+    );
+}
+
+/// The scale of depths reaches the lowest point of an arc in a vertical plane, not only its ends.
+#[test]
+fn the_depth_of_an_arc_is_that_of_its_lowest_point() {
+    let place = Place::new()
+        .file("a.nc", "G21 G90 G17 G94\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG18 G2 X10 Z-1 I5 K0\nG0 Z5\nM30\n");
+    place.run("view a.nc --dialect linuxcnc -o a.svg");
+    let svg = fs::read_to_string(place.path().join("a.svg")).unwrap();
+    assert!(svg.contains("-6"), "{svg}");
+}
+
 /// A page is sent to others, so it names files relative to the shown file and does not reveal where they are on this machine.
 #[test]
 fn absolute_names_are_not_in_a_scene() {
@@ -604,7 +654,7 @@ fn rapid_moves_through_material_are_red() {
     let place = Place::new().file("deep.nc", program("-0.01")).file("high.nc", program("0"));
     for (file, is_through) in [("deep", true), ("high", false)] {
         let run = place.run(&format!("view {file}.nc --stock --cutter 2 --surface 0 -o {file}.svg"));
-        assert_eq!(run.status, Some(0), "{run}");
+        assert_eq!(run.status, Some(i32::from(is_through)), "{run}");
         assert_eq!(place.read(&format!("{file}.svg")).contains(RAPID_THROUGH_MATERIAL), is_through, "{file}");
     }
     // A rapid move back along a cut does not hit material.

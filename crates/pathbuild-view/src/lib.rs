@@ -25,8 +25,8 @@ pub use page::{LIVE_STYLE, SCRIPT, live_page, page};
 pub use raster::{pdf, png, sheet_pdf};
 pub use scene::{
     ArcShape, Bar, BilingualText, Element, ElementKind, EmbeddedPath, Example, Finding, FinishedPart,
-    KeepOut, Label, LeftMaterial, MoveKind, NativeText, OtherShape, Parameter, Point, ProbeMark, SCHEMA,
-    Scene, SceneMove, ScenePath, Shape, ToolSpan, Totals, VERSION,
+    KeepOut, Label, LeftMaterial, MoveKind, NativeText, OtherShape, Parameter, Point, ProbeMark,
+    ProgramRecord, SCHEMA, Scene, SceneMove, ScenePath, Shape, ShownCheck, ToolSpan, Totals, VERSION,
 };
 #[cfg(not(feature = "pictures"))]
 pub use svg::sheet_pdf;

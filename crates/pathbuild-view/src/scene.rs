@@ -43,6 +43,41 @@ pub struct Scene {
     pub uncut: Vec<Vec<Shape>>,
     /// Findings, numbered from 1.
     pub findings: Vec<Finding>,
+    /// How a program was read and checked; `None` for drawings.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub program: Option<ProgramRecord>,
+}
+
+/// How a program of any origin was read and checked.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ProgramRecord {
+    /// Name of the dialect in which the program was read.
+    pub dialect: &'static str,
+    /// The dialects in which the program can be read again; empty on a page that cannot read it again.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub dialects: Vec<&'static str>,
+    /// The dialect in which the program was read and, if it was guessed, the reason.
+    pub read_as: BilingualText,
+    /// The checks of `verify`, made or not.
+    pub checks: Vec<ShownCheck>,
+    /// The cutters that the program itself states.
+    pub cutters: Vec<ToolSpan>,
+    /// Z in mm of the material's upper face; `None` if it is unknown or not level.
+    pub surface: Option<f64>,
+    /// Dwells, stops and tool changes, which are in no time; `None` if there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub waits: Option<BilingualText>,
+}
+
+/// A check of `verify`, with what it was made with or the reason why it was not made.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ShownCheck {
+    /// Name of the check, as for `--require`.
+    pub check: &'static str,
+    /// `made`, `assumed` or `not-made`.
+    pub outcome: &'static str,
+    /// Description of the check.
+    pub text: BilingualText,
 }
 
 /// A path of a drawing with its program, if it has one; or a program that was read.
@@ -434,6 +469,7 @@ impl Scene {
             keep_outs: Vec::new(),
             uncut: Vec::new(),
             findings: Vec::new(),
+            program: None,
         }
     }
 
@@ -565,10 +601,10 @@ impl SceneMove {
         [self.way.to.x(), self.way.to.y()]
     }
 
-    /// Returns the lowest Z in mm; `None` if the height of neither end is known.
+    /// Returns the lowest Z in mm, which an arc in a vertical plane has between its ends; `None` if the height of neither end is known.
     pub fn depth(&self) -> Option<f64> {
-        let ends = [&self.way.from, &self.way.to].into_iter().filter(|end| end.known.has(Axes::Z));
-        ends.map(motion::Position::z).reduce(f64::min)
+        let [.., z] = self.way.extent();
+        z.map(|(low, _)| low)
     }
 
     /// Returns the corners of the bounding box in the plane; `None` if the position is unknown.

@@ -1,7 +1,7 @@
 //! Messages between the page and the compiler: questions and answers.
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_workspace::dropped::Assumptions;
+use pathbuild_workspace::program_view::Assumptions;
 use serde::Deserialize;
 use serde_json::Value;
 

@@ -280,16 +280,17 @@ class Page {
     const { statistics } = this;
     if (!statistics) return;
     const number = (value: number | null, digits = 0) => (value === null ? say("noneOfIt", lang) : new Intl.NumberFormat(lang, { maximumFractionDigits: digits }).format(value));
+    const minutes = (total: { minutes: number | null }) => (total.minutes === null ? "–" : number(total.minutes));
     const all = table([
       [say("drawings", lang), number(statistics.drawings)],
       [say("paths", lang), number(statistics.paths)],
       [say("length", lang), `${number(statistics.length)} mm`],
-      [say("minutes", lang), number(statistics.minutes)],
+      [say("minutes", lang), minutes(statistics)],
       ...FILTERS.slice(1).map(([filter, word]) => [say(word, lang), number(filter === "warnings" ? statistics.with_warnings : statistics.states[filter as "ok"])]),
     ]);
     const heads = [say("paths", lang), `${say("length", lang)} mm`, say("min", lang)];
-    const by = (word: Word, rows: [string, { paths: number; length: number; minutes: number }][]) =>
-      table(rows.map(([name, total]) => [name, number(total.paths), number(total.length), number(total.minutes)]), [say(word, lang), ...heads]);
+    const by = (word: Word, rows: [string, { paths: number; length: number; minutes: number | null }][]) =>
+      table(rows.map(([name, total]) => [name, number(total.paths), number(total.length), minutes(total)]), [say(word, lang), ...heads]);
     $("statistics").replaceChildren(
       all,
       by("materialM", statistics.materials.map((it) => [it.material ?? say("noneOfIt", lang), it])),

@@ -1,7 +1,7 @@
 // The moves of all paths in sequence, converted once into flat arrays.
 
 import { Color, color as named, depthColor, depths } from "./palette.js";
-import { Move, Path, Scene, isCut, pointsOfMove, pointsOfShape, toolOf } from "./scene.js";
+import { Move, Path, Scene, depthOfMove, isCut, pointsOfMove, pointsOfShape, toolOf } from "./scene.js";
 
 export interface Step {
   path: Path;
@@ -32,7 +32,7 @@ export interface Model {
 
 export function model(scene: Scene): Model {
   const steps = scene.paths.flatMap((path) => path.moves.map((move) => ({ path, move })));
-  const heights = steps.filter((it) => isCut(it.move.kind)).map((it) => it.move.to[2] ?? 0);
+  const heights = steps.filter((it) => isCut(it.move.kind)).map((it) => depthOfMove(it.move) ?? 0);
   const shallowest = heights.reduce((a, b) => Math.max(a, b), -Infinity);
   const deepest = heights.reduce((a, b) => Math.min(a, b), Infinity);
   const empty = (): Pieces => ({ points: [], colors: [], until: [], step: [] });
@@ -81,7 +81,7 @@ export function model(scene: Scene): Model {
   const [stops, rapid]: [Color[], Color] = [depths(), named("rapid")];
   steps.forEach(({ path, move }, index) => {
     const cuts = isCut(move.kind);
-    const share = shallowest > deepest ? (shallowest - (move.to[2] ?? 0)) / (shallowest - deepest) : 0.5;
+    const share = shallowest > deepest ? (shallowest - (depthOfMove(move) ?? 0)) / (shallowest - deepest) : 0.5;
     const color = cuts ? depthColor(stops, share) : rapid;
     const into = cuts ? made.cuts : made.rapids;
     const points = flat[index];

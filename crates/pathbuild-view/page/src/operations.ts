@@ -1,7 +1,7 @@
 // The operations of a scene: the cuts between two rapid moves in the plane, or the sections of a program that names them in comments.
 
 import { Model } from "./model.js";
-import { MoveKind, isCut, toolOf } from "./scene.js";
+import { MoveKind, depthOfMove, isCut, toolOf } from "./scene.js";
 import { Timeline } from "./timeline.js";
 
 export interface Operation {
@@ -51,7 +51,8 @@ export function operations(model: Model, timeline: Timeline): Operation[] {
     [hasTravelled, last] = [false, index];
     current.length += move.length;
     if (current.kind === "plunge") current.kind = move.kind;
-    for (const z of [move.from[2], move.to[2]]) if (z !== null && z < (current.depth ?? Infinity)) current.depth = z;
+    const depth = depthOfMove(move);
+    if (depth !== null && depth < (current.depth ?? Infinity)) current.depth = depth;
     const order = move.element === undefined ? null : path.elements[move.element].order;
     if (order !== null) numbers = numbers ? [Math.min(numbers[0], order), Math.max(numbers[1], order)] : [order, order];
   });

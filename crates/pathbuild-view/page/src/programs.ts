@@ -36,13 +36,16 @@ export interface Check {
 /** The data about a program besides its moves. */
 export interface ProgramRecord {
   dialect: string;
-  dialects: string[];
+  /** Dialects in which the program can be read again; none on a page that cannot read it again. */
+  dialects?: string[];
   /** The dialect in which the program was read, with the reason for this choice. */
   read_as: { en: string; de: string };
   checks: Check[];
   /** Cutter diameters in mm that the program itself states. */
   cutters: { line: number; diameter: number }[];
   surface: number | null;
+  /** Dwells, stops and tool changes, which are in no time. */
+  waits?: { en: string; de: string };
 }
 
 /** Parses the settings in an address; `null` if the address is not that of a program. */

@@ -5,6 +5,7 @@ import type { Finding } from "../../../../packaging/npm/index.js";
 
 export type { Finding };
 export type Point = [number, number];
+export type Point3 = [number, number, number];
 export type Place = [number | null, number | null, number | null];
 
 export interface Arc {
@@ -167,6 +168,42 @@ export function pointsOfMove(move: Move, sagitta = Infinity): [number, number, n
   }
   points.push(end);
   return points;
+}
+
+/** Returns the least and greatest coordinates of a move in mm, exactly also for arcs; `null` if its route is unknown. */
+export function extentOfMove(move: Move): [low: Point3, high: Point3] | null {
+  const [begin, ...others] = pointsOfMove({ ...move, arc: undefined });
+  if (!begin) return null;
+  const [low, high]: [Point3, Point3] = [[...begin], [...begin]];
+  for (const point of [...others, ...(move.arc ? extremes(begin, move.arc) : [])]) {
+    point.forEach((value, axis) => {
+      low[axis] = Math.min(low[axis], value);
+      high[axis] = Math.max(high[axis], value);
+    });
+  }
+  return [low, high];
+}
+
+/** Returns the points of an arc that are farthest along one of the axes of its plane. */
+function extremes(begin: Point3, { axes: [a, b], centre, clockwise, degrees }: Arc): Point3[] {
+  const [x, y] = [begin[a] - centre[0], begin[b] - centre[1]];
+  const radius = Math.hypot(x, y);
+  const start = (Math.atan2(y, x) * 180) / Math.PI;
+  return [0, 90, 180, 270].flatMap((angle) => {
+    const turn = ((((clockwise ? start - angle : angle - start) % 360) + 360) % 360);
+    if (turn > degrees) return [];
+    const at: Point3 = [...begin];
+    at[a] = centre[0] + radius * Math.round(Math.cos((angle * Math.PI) / 180));
+    at[b] = centre[1] + radius * Math.round(Math.sin((angle * Math.PI) / 180));
+    return [at];
+  });
+}
+
+/** Returns the lowest Z of a move in mm; `null` if no height is known. */
+export function depthOfMove(move: Move): number | null {
+  const ends = [move.from[2], move.to[2]].filter((z) => z !== null);
+  const lowest = move.arc ? extentOfMove(move)?.[0][2] : undefined;
+  return lowest ?? (ends.length > 0 ? Math.min(...ends) : null);
 }
 
 /** Returns the points of a shape. Chords stay within `sagitta` mm of an arc. */

@@ -22,7 +22,8 @@ export interface LibraryRow {
 interface Total {
   paths: number;
   length: number;
-  minutes: number;
+  /** `null` if the time of a program is unknown. */
+  minutes: number | null;
 }
 
 /** The results of `stats`. */

@@ -6,7 +6,7 @@ import { Spot } from "./labels.js";
 import { sayLegend, sayScale, showLegend } from "./legend.js";
 import { Model, model } from "./model.js";
 import { MOST_OPERATIONS, Operation, operations } from "./operations.js";
-import { Finding, Parameter, Path, Scene, isCut, pointsOfMove, pointsOfShape } from "./scene.js";
+import { Finding, Parameter, Path, Scene, extentOfMove, isCut, pointsOfShape } from "./scene.js";
 import { Stage, isThick } from "./stage.js";
 import { NOTHING } from "./stock/heights.js";
 import { Assumed } from "./stock/pieces.js";
@@ -96,18 +96,20 @@ export function show(next: Scene, isSame: boolean, still: () => void = () => {})
 function placeProgram(): void {
   const { program } = scene;
   document.getElementById("download")?.toggleAttribute("hidden", program !== undefined);
-  for (const id of ["typeDialect", "typeSurface", "settings", "checked"]) $(id).hidden = !program;
+  for (const id of ["typeDialect", "settings"]) $(id).hidden = !program?.dialects;
+  for (const id of ["typeSurface", "checked"]) $(id).hidden = !program;
   if (!program) return;
   placeFindings();
+  const checks = program.checks.map(({ outcome, text: said }) => node("li", said[lang], outcome));
+  $("checks").replaceChildren(...checks);
+  $<HTMLInputElement>("assumedTool").placeholder = [...new Set(program.cutters.map(({ diameter }) => mm(diameter)))].join(", ");
+  $<HTMLInputElement>("assumedSurface").placeholder = program.surface === null ? "" : mm(program.surface);
+  if (!program.dialects) return;
   const dialect = $<HTMLSelectElement>("assumedDialect");
   const chosen = dialect.value;
   dialect.replaceChildren(new Option(`${say("asFound", lang)}: ${program.dialect}`, ""), ...program.dialects.map((name) => new Option(name, name)));
   dialect.value = chosen;
-  $<HTMLInputElement>("assumedTool").placeholder = [...new Set(program.cutters.map(({ diameter }) => mm(diameter)))].join(", ");
-  $<HTMLInputElement>("assumedSurface").placeholder = program.surface === null ? "" : mm(program.surface);
   $<HTMLAnchorElement>("settings").href = `#${fragmentOf(settings())}`;
-  const checks = program.checks.map(({ outcome, text: said }) => node("li", said[lang], outcome));
-  $("checks").replaceChildren(...checks);
 }
 
 /** Places the findings of a program at the end of the first move of their line. */
@@ -257,9 +259,10 @@ function placeStock(): void {
   $("order").hidden = !scene.paths.some(({ elements }) => elements.some(({ order }) => order !== null));
   $("texts").hidden = !scene.paths.some(({ texts, embedded }) => texts.length > 0 || embedded.length > 1);
   $("other").hidden = scene.other_layers.length === 0;
-  $("typeTool").hidden = $("typeThickness").hidden = !scene.program && !cuts.some(({ tool }) => tool === null);
+  $("typeTool").hidden = !scene.program?.dialects && !cuts.some(({ tool, tools }) => tool === null && !tools);
+  $("typeThickness").hidden = !scene.program && $("typeTool").hidden;
   $("typeRapid").hidden = scene.paths.every(({ rapid, moves }) => moves.length === 0 || rapid);
-  $("assumed").hidden = $("typeTool").hidden && $("typeRapid").hidden;
+  $("assumed").hidden = ["typeTool", "typeThickness", "typeRapid"].every((id) => $(id).hidden);
   $("stock").hidden = !cuts.some(({ tool, tools }) => tool !== null || tools || hasTool);
   if (shown.stock && stock === undefined) stock = Stock.of(scene, assumed(), stockColors());
   stage?.showStock(shown.stock ? stock! : null);
@@ -542,17 +545,20 @@ function summary(): void {
     const box = path.elements.length === 0 ? extent(path) : "";
     if (scene.program) list.push([say("readAs", lang), scene.program.read_as[lang]]);
     if (box) list.push([say("extent", lang), box]);
-    if (path.tools) list.push([say("tools", lang), path.tools.map(({ diameter }) => mm(diameter)).join(", ")]);
+    if (path.tools && path.tool === null) list.push([say("tools", lang), path.tools.map(({ diameter }) => mm(diameter)).join(", ")]);
     if (path.tool !== null) list.push([say("cutterO", lang), mm(path.tool)]);
     if (path.thickness !== null) list.push([say("thickness", lang), mm(path.thickness)]);
     if (path.material) list.push([say("materialM", lang), path.material]);
     const { totals } = path;
     if (totals && path.moves.length > 0) {
       for (const kind of Object.keys(TOTALS) as (keyof typeof TOTALS)[]) list.push([say(TOTALS[kind], lang), `${totals[kind].toFixed(0)} mm`]);
-      const { cutting } = timeline;
+      const { cutting, isKnown, total } = timeline;
+      const isOnly = scene.paths.length === 1;
       if (totals.minutes !== null) list.push([say("time", lang), `${totals.minutes} min`]);
-      else if (cutting !== null && scene.paths.length === 1) list.push([say("time", lang), `${Math.ceil(cutting / 60)} min ${say("withoutRapids", lang)}`]);
+      else if (isKnown && isOnly) list.push([say("time", lang), `${Math.ceil(total / 60)} min`]);
+      else if (cutting !== null && isOnly) list.push([say("time", lang), `${Math.ceil(cutting / 60)} min ${say("withoutRapids", lang)}`]);
     }
+    if (scene.program?.waits) list.push([say("waits", lang), scene.program.waits[lang]]);
     const examples = path.examples ?? [];
     const known = examples.filter(({ value }) => value !== null).map(({ name, value }) => `${name} ${value}`);
     const unknown = examples.filter(({ value }) => value === null).map(({ name }) => sayOption(name, lang));
@@ -573,11 +579,10 @@ function extent(path: Path): string {
   if (known !== undefined) return known;
   const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
   for (const move of path.moves.filter(({ kind }) => isCut(kind))) {
-    for (const end of pointsOfMove(move)) {
-      end.forEach((value, axis) => {
-        low[axis] = Math.min(low[axis], value);
-        high[axis] = Math.max(high[axis], value);
-      });
+    const box = extentOfMove(move);
+    for (const axis of box ? [0, 1, 2] : []) {
+      low[axis] = Math.min(low[axis], box![0][axis]);
+      high[axis] = Math.max(high[axis], box![1][axis]);
     }
   }
   const ranges = [0, 1, 2].filter((axis) => low[axis] <= high[axis]).map((axis) => `${"XYZ"[axis]} ${mm(low[axis])} … ${mm(high[axis])}`);
@@ -658,12 +663,20 @@ export function onSpeak(hear: () => void): void {
   hearers.push(hear);
 }
 
+/** Formats a place of the picture in the coordinates of the program; of several programs, in those of the drawing, and says so. */
+function shownPlace([x, y]: [number, number], format: (value: number) => string): string {
+  const [path, ...others] = scene.paths;
+  if (others.length > 0) return `${say("inDrawing", lang)} X${format(x)} Y${format(y)}`;
+  const [left, lower] = path?.zero ?? [0, 0];
+  return `X${format(x - left)} Y${format(y - lower)}`;
+}
+
 function measure(at: [number, number]): void {
   measured = measured && measured.length < 2 ? [...measured, at] : [at];
   const [a, b] = measured;
   $("measured").textContent = b
     ? `${mm(Math.hypot(b[0] - a[0], b[1] - a[1]))} mm · ΔX ${mm(b[0] - a[0])} · ΔY ${mm(b[1] - a[1])}`
-    : `X${mm(a[0])} Y${mm(a[1])}`;
+    : shownPlace(a, mm);
   spots();
 }
 
@@ -794,6 +807,7 @@ addEventListener("keydown", (event) => {
 slider.addEventListener("input", () => go(Number(slider.value)));
 $("assumedRapid").addEventListener("input", () => {
   placeWork();
+  describe(chosen);
   go(count, share);
 });
 for (const id of ["assumedTool", "assumedThickness", "assumedSurface"]) {
@@ -839,7 +853,7 @@ picture.addEventListener("pointermove", (event) => {
     const [x, y] = [left - box.left, top - box.top];
     const at = stage!.plane(x, y, 0);
     const height = shown.stock && !space && stock ? stock.map.at(...at) : NOTHING;
-    $("at").textContent = `X${at[0].toFixed(2)} Y${at[1].toFixed(2)}${height === NOTHING ? "" : ` Z${height.toFixed(2)}`}`;
+    $("at").textContent = `${shownPlace(at, (value) => value.toFixed(2))}${height === NOTHING ? "" : ` Z${height.toFixed(2)}`}`;
     const step = stage!.pick(x, y, count);
     if (step !== null || chosen === null) describe(step);
   });

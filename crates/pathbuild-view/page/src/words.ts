@@ -79,6 +79,7 @@ const words = {
   lineShort: ["line", "Zeile"],
   readAs: ["read as", "gelesen als"],
   extent: ["extent", "Ausdehnung"],
+  waits: ["waits (not in the time)", "Halte (nicht in der Zeit)"],
   tools: ["tools", "Werkzeuge"],
   pickProgram: ["Open a program…", "Programm öffnen…"],
   pickExample: ["Example with a mistake", "Beispiel mit einem Fehler"],
@@ -131,7 +132,8 @@ const words = {
     "This page needs the complete address that pathbuild printed, including the part after the #.",
     "Diese Seite braucht die vollständige Adresse, die pathbuild ausgegeben hat, mit dem Teil hinter dem #.",
   ],
-  gone: ["is no longer there; this is its last state.", "ist nicht mehr da; zu sehen ist der letzte Stand."],
+  gone: ["is no longer there, or cannot be read; this is its last state.", "ist nicht mehr da oder nicht lesbar; zu sehen ist der letzte Stand."],
+  inDrawing: ["drawing:", "Zeichnung:"],
   drop: [
     "Drop drawings, a folder or any G-code program here. Nothing leaves this machine: pathbuild runs in this page.",
     "Zeichnungen, einen Ordner oder ein beliebiges G-Code-Programm hier ablegen. Nichts verlässt diesen Rechner: pathbuild läuft in dieser Seite.",

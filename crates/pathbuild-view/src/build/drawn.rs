@@ -15,7 +15,7 @@ use crate::scene::{
     Parameter, Point, ScenePath, Shape,
 };
 
-/// The input for a path's drawn elements: a path as it is drawn, with the parameters in force.
+/// Everything needed to show a path as drawn: its elements and texts, and the parameters in force.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnSource<'a> {
     /// Display name of the drawing that contains the path.

@@ -144,7 +144,7 @@ impl<'s> MilledStock<'s> {
                 }
                 None => blanks.push((extent, setting.top)),
             }
-            low = low.min(movement.way.from.z()).min(movement.way.to.z());
+            low = movement.depth().map_or(low, |z| low.min(z));
             count += 1;
         }
         blanks.sort_by(|one, other| one.1.total_cmp(&other.1));

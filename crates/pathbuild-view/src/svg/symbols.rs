@@ -113,7 +113,7 @@ pub(super) fn draw_above_moves(
     }
     canvas.close();
     if shown.texts {
-        texts(canvas, path, place, room);
+        draw_texts(canvas, path, place, room);
     }
     draw_ends(canvas, path, place, shown, room);
     probes(canvas, path, place, room);
@@ -154,7 +154,7 @@ fn style_without_program(element: &Element) -> &'static str {
     }
 }
 
-fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
+fn draw_texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
     canvas.open(&format!("id=\"texts\" fill=\"{TEXT_COLOUR}\""));
     // Skip the text at the start of an embedded path: it only concerns that path's own drawing.
     let is_start = |index: &u32| path.elements[*index as usize].kind == ElementKind::Start;

@@ -336,10 +336,10 @@ pub struct ViewArgs {
     #[arg(long, requires = "output")]
     pub stock: bool,
     /// Diameter of a program's cutter; without it from T and `[tool.NAME]`, or from comments
-    #[arg(long, value_name = "MM", requires = "stock", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub cutter: Option<String>,
     /// Height of a program's material; programs by pathbuild contain it
-    #[arg(long, value_name = "MM", requires = "stock", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub surface: Option<String>,
     /// Options for reading a program.
     #[command(flatten)]

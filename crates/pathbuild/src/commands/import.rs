@@ -7,6 +7,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::estimate::{self, Kinematics};
 use pathbuild_gcode::statistics::{AxisRanges, MoveTotals, Summary, Tally, ToolTotals, is_guess};
 use pathbuild_workspace::program::Program;
+use pathbuild_workspace::program_view::describe_waits;
 use serde_json::{Value, json};
 
 use crate::args::ImportArgs;
@@ -175,7 +176,8 @@ impl Formatter<'_> {
             lines.push((if index == 0 { tools } else { "" }, self.used(used, is_layer, facts)));
         }
         lines.push((self.choose("time", "Zeit"), self.time(facts)));
-        lines.extend(self.format_dwells(facts).map(|waits| (self.choose("waits", "Halte"), waits)));
+        let waits = describe_waits(&facts.summary, self.0.lang());
+        lines.extend(waits.map(|waits| (self.choose("waits", "Halte"), waits)));
         for (index, taken) in facts.taken.iter().enumerate() {
             let label = if index == 0 { self.choose("assumed", "angenommen") } else { "" };
             let line = taken.place.line.unwrap_or(0);
@@ -300,29 +302,6 @@ impl Formatter<'_> {
             _ = write!(time, "; {minutes:.0}:{rest:02.0} min {on}");
         }
         time
-    }
-
-    fn format_dwells(&self, facts: &Facts<'_>) -> Option<String> {
-        let summary = &facts.summary;
-        let mut waits = Vec::new();
-        if summary.dwell > 0.0 {
-            waits.push(format!("{} s {}", self.tenths(summary.dwell), self.choose("dwelling", "Wartezeit")));
-        }
-        if summary.stops > 0 {
-            waits.push(format!(
-                "{} {}",
-                summary.stops,
-                self.choose("stops for the operator", "Halte für den Bediener")
-            ));
-        }
-        if summary.tool_changes > 0 {
-            waits.push(format!(
-                "{} {}",
-                summary.tool_changes,
-                self.choose("tool changes", "Werkzeugwechsel")
-            ));
-        }
-        (!waits.is_empty()).then(|| waits.join(", "))
     }
 }
 

@@ -3,16 +3,16 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
 use pathbuild_diagnostic::{Diagnostic, Value, shown};
-use pathbuild_gcode::verify::{Stock, StockSpan};
-use pathbuild_view::{Scene, ToolSpan, VisibleParts, has_stock};
+use pathbuild_view::{Scene, VisibleParts, has_stock};
 use pathbuild_workspace::Failure;
 use pathbuild_workspace::emit::{SceneReport, ShownText};
 use pathbuild_workspace::files::is_file_name_taken;
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
 use pathbuild_workspace::program::Program;
+use pathbuild_workspace::program_view::program_scene;
 use pathbuild_workspace::session::{NamedPaths, Session};
-use pathbuild_workspace::verify::{Verifier, VerifyOptions};
+use pathbuild_workspace::verify::VerifyOptions;
 
 use super::picture_output::{deliver, show};
 use crate::args::ViewArgs;
@@ -76,27 +76,11 @@ fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failu
 
 fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<TargetScene, Failure> {
     let found = |problem: Box<Diagnostic>| Failure::Found(vec![*problem]);
-    let program = Program::open(context, file, args.reading.options()).map_err(found)?;
-    let mut scene = Scene::new(file.file_name().unwrap_or_default());
-    let mut path = program.scene_path(context);
-    let mut disagreements = Vec::new();
-    if args.stock {
-        let options = VerifyOptions { reading: args.reading.options(), ..VerifyOptions::default() };
-        let options = options.with_stock(args.cutter.as_deref(), args.surface.as_deref()).map_err(found)?;
-        let mut session = Session::new(context);
-        let verifier = Verifier::new(&mut session, options)?;
-        let (stock, found) = verifier.stock(&program);
-        path.tools = stock.iter().flat_map(Stock::spans).map(tool_span).collect();
-        disagreements = found.into_iter().map(|problem| problem.in_file(file)).collect();
-    }
-    scene.paths.push(path);
-    let diagnostics = program.read.problems.into_iter().chain(disagreements).collect();
-    let report = SceneReport { scene, diagnostics };
+    let options = VerifyOptions { reading: args.reading.options(), ..VerifyOptions::default() };
+    let options = options.with_stock(args.cutter.as_deref(), args.surface.as_deref()).map_err(found)?;
+    let program = Program::open(context, file, options.reading).map_err(found)?;
+    let report = program_scene(&mut Session::new(context), &program, options)?;
     Ok(TargetScene { report, file: file.to_string() })
-}
-
-fn tool_span(span: &StockSpan) -> ToolSpan {
-    ToolSpan { line: span.line, diameter: span.cutter.diameter, surface: Some(span.surface) }
 }
 
 fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {

@@ -6,7 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_workspace::dropped::DroppedProgram;
+use pathbuild_workspace::program_view::DroppedProgram;
 use pathbuild_workspace::watch::WakeHandle;
 use tokio::sync::{oneshot, watch};
 

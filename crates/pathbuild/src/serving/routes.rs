@@ -17,7 +17,7 @@ use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use futures_util::stream;
 use pathbuild_diagnostic::{Lang, shown};
-use pathbuild_workspace::dropped::{Assumptions, DroppedProgram};
+use pathbuild_workspace::program_view::{Assumptions, DroppedProgram};
 use serde::Deserialize;
 use tokio::runtime;
 use tokio::sync::watch;

@@ -1,0 +1,197 @@
+//! Views of programs of any origin: their moves, the findings of [`verify`](crate::verify), and the assumptions made for them.
+//! (book: program/pictures, book: program/browser)
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Diagnostic, Lang, with_decimal_separator};
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::header::HeaderReader;
+use pathbuild_gcode::statistics::Summary;
+use pathbuild_gcode::verify::StockSpan;
+use pathbuild_view::{BilingualText, ProgramRecord, Scene, ScenePath, ShownCheck, ToolSpan};
+use serde::Deserialize;
+
+use crate::config::{number, positive};
+use crate::emit::SceneReport;
+use crate::program::{Program, ReadingOptions};
+use crate::session::Session;
+use crate::verify::{CheckRecord, Outcome, RapidValues, Verifier, VerifyOptions};
+use crate::workspace::Failure;
+
+/// A program that was dropped on the page.
+#[derive(Debug)]
+pub struct DroppedProgram {
+    /// Name of the program's file.
+    pub name: String,
+    /// Bytes of the program's text.
+    pub text: Vec<u8>,
+    /// Values that the user typed in on the page.
+    pub assumptions: Assumptions,
+}
+
+/// Values that a user assumes for a program, as text; missing ones are taken from the program.
+#[derive(Clone, Debug, Default, Deserialize)]
+pub struct Assumptions {
+    /// Name of the dialect; `None` guesses it.
+    pub dialect: Option<String>,
+    /// Diameter of the cutter in mm.
+    pub cutter: Option<String>,
+    /// Height of the material's upper face in mm.
+    pub surface: Option<String>,
+}
+
+impl DroppedProgram {
+    /// Returns the scene of the program as JSON, with its findings and the dialects in which it can be read again.
+    pub fn scene(self, session: &mut Session<'_>) -> String {
+        let workspace = session.workspace();
+        let mut problems = Vec::new();
+        let options = self.assumptions.options(&mut problems);
+        let file = Utf8Path::new(&self.name);
+        let program = Program::of_text(workspace, file, self.text, options.reading);
+        let program = program.map_err(|problem| Failure::Found(vec![*problem]));
+        let mut report = match program.and_then(|program| program_scene(session, &program, options)) {
+            Ok(report) => report,
+            Err(Failure::Post(diagnostics) | Failure::Found(diagnostics)) => {
+                SceneReport { scene: Scene::new(file_name(file)), diagnostics }
+            }
+            // Only the name of a drawing to compare with can be a usage error, and there is none here.
+            Err(Failure::Usage(_)) => {
+                SceneReport { scene: Scene::new(file_name(file)), diagnostics: Vec::new() }
+            }
+        };
+        if let Some(record) = &mut report.scene.program {
+            record.dialects = Dialect::ALL.iter().map(|dialect| dialect.name()).collect();
+        }
+        report.diagnostics.splice(..0, problems);
+        report.with_findings(workspace, &self.name).0.to_json()
+    }
+}
+
+/// Returns the scene of a program with the findings of [`verify`](crate::verify), the checks that were made, and the cutters and the material that
+/// they assumed.
+///
+/// # Errors
+/// If the options cannot be used, for example because the configuration of the post-processor has errors.
+pub fn program_scene(
+    session: &mut Session<'_>,
+    program: &Program,
+    options: VerifyOptions,
+) -> Result<SceneReport, Failure> {
+    let workspace = session.workspace();
+    let cutter = options.cutter;
+    let verifier = Verifier::new(session, options)?;
+    let verified = verifier.verify(&program.file, program.text.clone());
+    let rapids = verified.checks.iter().find_map(CheckRecord::values);
+    let (cutters, surface) = stated_cutters_and_surface(program, rapids);
+    let mut path = program.scene_path(workspace);
+    set_cutters(&mut path, cutter, &cutters, rapids);
+    if let (Some(stock), _) = verifier.stock(program) {
+        path.tools = stock.spans().iter().map(tool_span).collect();
+    }
+    let mut scene = Scene::new(file_name(&program.file));
+    scene.paths.push(path);
+    let summary = Summary::of(&program.read.steps, program.dialect == Dialect::Xpertmill);
+    scene.program = Some(ProgramRecord {
+        dialect: program.shown.name(),
+        dialects: Vec::new(),
+        read_as: bilingual(|lang| program.describe_reading(lang)),
+        checks: verified.checks.iter().map(shown_check).collect(),
+        cutters,
+        surface,
+        waits: describe_waits(&summary, Lang::En)
+            .zip(describe_waits(&summary, Lang::De))
+            .map(|(en, de)| BilingualText { en, de }),
+    });
+    Ok(SceneReport { scene, diagnostics: verified.diagnostics })
+}
+
+/// Describes the dwells, stops and tool changes of a program; `None` if it has none.
+pub fn describe_waits(summary: &Summary, lang: Lang) -> Option<String> {
+    let choose = |en, de| if lang == Lang::De { de } else { en };
+    let mut waits = Vec::new();
+    if summary.dwell > 0.0 {
+        let seconds = with_decimal_separator(format!("{:.1}", summary.dwell), lang);
+        waits.push(format!("{seconds} s {}", choose("dwelling", "Wartezeit")));
+    }
+    if summary.stops > 0 {
+        waits.push(format!(
+            "{} {}",
+            summary.stops,
+            choose("stops for the operator", "Halte für den Bediener")
+        ));
+    }
+    if summary.tool_changes > 0 {
+        waits.push(format!("{} {}", summary.tool_changes, choose("tool changes", "Werkzeugwechsel")));
+    }
+    (!waits.is_empty()).then(|| waits.join(", "))
+}
+
+fn file_name(file: &Utf8Path) -> &str {
+    file.file_name().unwrap_or(file.as_str())
+}
+
+fn tool_span(span: &StockSpan) -> ToolSpan {
+    ToolSpan { line: span.line, diameter: span.cutter.diameter, surface: Some(span.surface) }
+}
+
+impl Assumptions {
+    /// Converts the assumptions to options of `verify`. Adds diagnostics of invalid texts.
+    fn options(&self, problems: &mut Vec<Diagnostic>) -> VerifyOptions {
+        let mut value = |text: Option<&String>, read: fn(&str) -> Result<f64, Box<Diagnostic>>| {
+            read(text?).map_err(|problem| problems.push(*problem)).ok()
+        };
+        VerifyOptions {
+            reading: ReadingOptions {
+                dialect: self.dialect.as_ref().and_then(|name| name.parse().ok()),
+                ..ReadingOptions::default()
+            },
+            cutter: value(self.cutter.as_ref(), |text| positive("cutter", text)),
+            surface: value(self.surface.as_ref(), |text| number("surface", text)),
+            ..VerifyOptions::default()
+        }
+    }
+}
+
+/// Returns the cutters that a program states, and the height of the material's upper face; `None` if it does not state that height.
+fn stated_cutters_and_surface(
+    program: &Program,
+    rapids: Option<&RapidValues>,
+) -> (Vec<ToolSpan>, Option<f64>) {
+    let mut header = HeaderReader::default();
+    for step in &program.read.steps {
+        header.step(step);
+    }
+    let header = header.finish(program.inch_word());
+    let span = |tool: &pathbuild_gcode::header::CuttingTool| {
+        Some(ToolSpan { line: tool.line, diameter: tool.cutter?.diameter, surface: None })
+    };
+    let surface = rapids.filter(|values| values.is_level).map(|values| values.surface).or(header.surface);
+    (header.tools.iter().filter_map(span).collect(), surface)
+}
+
+/// Sets the cutters with which a path is shown: the diameter that the user typed in, or those with which its rapid moves were checked.
+fn set_cutters(path: &mut ScenePath, cutter: Option<f64>, stated: &[ToolSpan], rapids: Option<&RapidValues>) {
+    let mut diameters: Vec<f64> = match (cutter, rapids) {
+        (Some(cutter), _) => vec![cutter],
+        (None, Some(values)) => values.cutters.clone(),
+        (None, None) => stated.iter().map(|tool| tool.diameter).collect(),
+    };
+    diameters.dedup();
+    match *diameters {
+        [] => {}
+        [diameter] => path.tool = Some(diameter),
+        _ => path.tools = stated.to_vec(),
+    }
+}
+
+fn shown_check(record: &CheckRecord) -> ShownCheck {
+    let outcome = match record.outcome {
+        Outcome::Made(_) => "made",
+        Outcome::Assumed(..) => "assumed",
+        Outcome::Incomplete(..) | Outcome::NotMade(_) => "not-made",
+    };
+    ShownCheck { check: record.requirement.name(), outcome, text: bilingual(|lang| record.text(lang)) }
+}
+
+fn bilingual(text: impl Fn(Lang) -> String) -> BilingualText {
+    BilingualText { en: text(Lang::En), de: text(Lang::De) }
+}
