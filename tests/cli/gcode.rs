@@ -447,7 +447,7 @@ fn words_that_a_rewritten_program_does_not_have_are_told() {
     let place = place.file("plain.ngc", text.replace("M64 P1\n", "").replace("M1\n", "M0\n"));
     let options = "--dialect linuxcnc --surface 0 --format concise";
     let posted = place.run(&format!("post a.ngc --post linuxcnc {options}"));
-    assert!(posted.stderr.contains("a.ngc:4:1: warning[PB778] M64 is left out"), "{posted}");
+    assert!(posted.stderr.contains("a.ngc:4:1: warning[PB778] the post does not write M64"), "{posted}");
     assert!(posted.stderr.contains("a.ngc:9:1: warning[PB778] M1 is written as M0"), "{posted}");
     assert!(!posted.stdout.contains("M64") && posted.stdout.contains("\nM0\n"), "{posted}");
     let verified = place.run(&format!("verify a.ngc {options}"));

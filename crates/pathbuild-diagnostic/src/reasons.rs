@@ -61,7 +61,7 @@ words! {
     HOLDS_OTHERS: "it contains other files, and no CACHEDIR.TAG of pathbuild", "es enthält andere Dateien und keine CACHEDIR.TAG von pathbuild";
     /// The cache directory is in an untrusted repository.
     IN_UNTRUSTED_TREE: "it lies in an untrusted directory tree", "es liegt in einem nicht vertrauenswürdigen Verzeichnisbaum";
-    /// A directory that should be a cache is not one of pathbuild.
+    /// The directory given as the cache was not created by pathbuild.
     NO_CACHE: "it has no CACHEDIR.TAG of pathbuild, so it is not a cache of pathbuild", "es hat keine CACHEDIR.TAG von pathbuild, ist also kein Cache von pathbuild";
     /// A result is too large for a cache file.
     RESULT_TOO_LARGE: "the results are too large for one file", "die Ergebnisse sind zu groß für eine Datei";

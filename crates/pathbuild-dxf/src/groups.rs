@@ -192,7 +192,7 @@ pub(crate) struct ScannedPairs<'a> {
 /// Number of bytes scanned at once.
 const WINDOW_BYTES: usize = 64;
 
-/// Longest line with a code, in bytes.
+/// Maximum length in bytes of a group code's line.
 const MAX_CODE_BYTES: usize = 8;
 
 impl<'a> ScannedPairs<'a> {

@@ -38,7 +38,7 @@ fn xref_prefix_length(name: &str) -> usize {
     }
 }
 
-/// A small hash table by spelling. Drawings have few spellings, and most are short.
+/// A small hash table keyed by the spelling of a name. Drawings contain few different spellings, and most are short.
 #[derive(Debug)]
 pub(crate) struct Spellings<'a, T> {
     /// Short spellings by open addressing. Some slots are always free.

@@ -123,7 +123,7 @@ impl<'a> Pairs<'a> {
         pairs.line
     }
 
-    /// Parses the line of a group code with any padding.
+    /// Parses the line of a group code, which may be padded with any number of blanks.
     fn code(&mut self) -> Result<i32, Stop<'a>> {
         let at = self.at;
         let line = self.next_line();

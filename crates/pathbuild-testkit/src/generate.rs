@@ -76,7 +76,7 @@ impl Library {
 
 /// The start of the first path, and the vertical distance in mm to the next.
 const ORIGIN: Point = Point::new(20.0, 80.0);
-const ROW: f64 = 90.0;
+const ROW_SPACING: f64 = 90.0;
 
 /// Width and height in mm of the field for one feature.
 const FIELD_SIZE: Point = Point::new(34.0, 26.0);
@@ -91,7 +91,7 @@ fn component_drawing(plan: &Plan, index: usize) -> (String, Sheet) {
     // Features besides the plate.
     let features = if paths.len() == 1 { 3 + random.below(4) } else { 4 - paths.len() };
     for (row, path) in paths.iter().enumerate() {
-        let origin = ORIGIN + Point::new(0.0, ROW * row as f64);
+        let origin = ORIGIN + Point::new(0.0, ROW_SPACING * row as f64);
         draft.layer(&layer(&path.name, &mut random));
         draft.extend(draw_path(path, origin, features, &mut random));
         draft.layer("Part").add(plate_outline(path.signature.cutter, origin + field(features)));

@@ -267,7 +267,7 @@ messages! {
     }
     /// A waiver that matches no finding.
     UNUSED_WAIVER: UnusedWaiver {
-        en: "this waiver matches no finding any more",
+        en: "this waiver no longer matches any finding",
         de: "diese Ausnahme trifft auf keinen Befund mehr zu",
         help_en: "remove it, so that it does not hide the same finding later",
         help_de: "sie entfernen, damit sie nicht später denselben Befund verdeckt",

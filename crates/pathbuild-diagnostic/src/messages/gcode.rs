@@ -57,9 +57,9 @@ messages! {
     }
     /// A word that the output of a post does not have.
     WORD_LEFT_OUT: ForeignWord {
-        en: "{word} is left out: the program that was written does not have it",
-        de: "{word} ist weggelassen: das geschriebene Programm enthält es nicht",
-        help_en: "put it into the texts of the post if the machine needs it, such as a clamp or a suction",
+        en: "the post does not write {word}: it is missing from the output",
+        de: "der Postprozessor schreibt {word} nicht: es fehlt in der Ausgabe",
+        help_en: "put it into the texts of the post if the machine needs it, for example for clamping or dust extraction",
         help_de: "das Wort in die Texte des Postprozessors aufnehmen, wenn die Maschine es braucht, etwa für Spanner oder Absaugung",
     }
     /// Words on which controls disagree, in a program that does not reveal its dialect.
@@ -470,14 +470,14 @@ messages! {
     SPEED_REPLACED: IgnoredWord {
         en: "layer {layer} already has the speed {old}; {new} takes its place",
         de: "Layer {layer} hat schon die Drehzahl {old}; {new} ersetzt sie",
-        help_en: "give each layer one S",
+        help_en: "give each layer only one S",
         help_de: "jedem Layer nur ein S geben",
     }
     /// Two words of the same modal group.
     SAME_GROUP: ConflictingWords {
         en: "{first} and {second} must not be in the same line",
         de: "{first} und {second} dürfen nicht in derselben Zeile stehen",
-        help_en: "put them into two lines",
+        help_en: "put them on separate lines",
         help_de: "auf zwei Zeilen verteilen",
     }
     /// A letter that occurs twice in one line.
@@ -491,7 +491,7 @@ messages! {
     AXES_WANTED_TWICE: ConflictingWords {
         en: "{first} and {second} both use the coordinates of this line",
         de: "{first} und {second} verwenden beide die Koordinaten dieser Zeile",
-        help_en: "put them into two lines",
+        help_en: "put them on separate lines",
         help_de: "auf zwei Zeilen verteilen",
     }
     /// A word that requires another word.
@@ -657,8 +657,8 @@ messages! {
     NO_FEED: MissingFeed {
         en: "this cutting move has no feed",
         de: "diese Fräsbewegung hat keinen Vorschub",
-        help_en: "write F in this line or before",
-        help_de: "F in diese Zeile oder davor schreiben",
+        help_en: "write F in this line or an earlier one",
+        help_de: "F in diese oder eine frühere Zeile schreiben",
     }
     /// A cut without a feed after G94 cleared it.
     FEED_CLEARED: MissingFeed {
@@ -739,8 +739,8 @@ messages! {
     NEAR_FULL_CIRCLE: DoubtfulArc {
         en: "the arc's ends are only {gap} mm apart: it is run as {degrees} degrees, but their last digit decides between a tiny arc and a full circle",
         de: "die Enden des Bogens liegen nur {gap} mm auseinander: er wird als {degrees} Grad gefahren, aber ihre letzte Ziffer entscheidet zwischen Bogenstück und Vollkreis",
-        help_en: "if a full circle is meant, write equal ends; if not, leave the arc out",
-        help_de: "ist ein Vollkreis gemeint, gleiche Enden schreiben; sonst den Bogen weglassen",
+        help_en: "for a full circle, give the arc the same start and end; otherwise remove the arc",
+        help_de: "für einen Vollkreis Anfang und Ende gleich schreiben; sonst den Bogen entfernen",
     }
     /// An arc that turns back at both ends, where an arc in the other direction would continue the neighbouring cuts.
     ARC_DOUBLES_BACK: DoubtfulArc {

@@ -45,7 +45,7 @@ messages! {
     }
     /// A pattern for clamps that matches no layer of the library.
     NO_CLAMP_LAYER: PatternWithoutLayer {
-        en: "`keep-out` ({pattern}) matches no layer in any drawing of the library, so nothing is checked for clamps",
+        en: "`keep-out` ({pattern}) matches no layer in any drawing of the library, so collisions with clamps are not checked",
         de: "auf `keep-out` ({pattern}) passt kein Layer in irgendeiner Zeichnung der Bibliothek: Spannmittel werden nicht geprüft",
         help_en: "correct the pattern, which must match the whole name of a layer, or remove the key",
         help_de: "das Muster berichtigen, das auf den ganzen Namen eines Layers passen muss, oder den Schlüssel entfernen",

@@ -279,8 +279,8 @@ messages! {
     }
     /// A word for an axis that is replaced by an angle.
     REPLACED_AXIS_WRITTEN: PostDiffers {
-        en: "the post writes \"{line}\", but {angle} stands in place of {axis}: the machine would move both",
-        de: "der Postprozessor schreibt \"{line}\", aber {angle} steht anstelle von {axis}: die Maschine würde beide bewegen",
+        en: "the post writes \"{line}\" although {angle} replaces {axis}: the machine would move both axes",
+        de: "der Postprozessor schreibt \"{line}\", obwohl {angle} an die Stelle von {axis} tritt: die Maschine würde beide Achsen bewegen",
         help_en: "take {axis} out of the post's texts",
         help_de: "{axis} aus den Texten des Postprozessors nehmen",
     }
@@ -470,8 +470,8 @@ messages! {
     }
     /// A term without a finite value, for example because of a division by zero.
     TERM_NOT_FINITE: InvalidControlText {
-        en: "{text}, line {line}, column {column}: the term has no value (a division by zero?)",
-        de: "{text}, Zeile {line}, Spalte {column}: der Ausdruck hat keinen Wert (Division durch null?)",
+        en: "{text}, line {line}, column {column}: the term has no value, for example because it divides by zero",
+        de: "{text}, Zeile {line}, Spalte {column}: der Ausdruck hat keinen Wert, etwa weil er durch null teilt",
     }
     /// A bitwise operator or a binary format for a number that is not an integer.
     TERM_NOT_WHOLE: InvalidControlText {
@@ -789,8 +789,8 @@ messages! {
     }
     /// A cut with the length of another tool, or without a length where the tool has one, in a program to be written through a post.
     JOB_LENGTH: NothingToPost {
-        en: "the length is not that of the tool that cuts: a post writes one length for each tool, with the tool's own number",
-        de: "die Länge ist nicht die des Werkzeugs, das fräst: ein Postprozessor schreibt eine Länge je Werkzeug, mit der Nummer des Werkzeugs",
+        en: "the tool length offset (H) is not that of the tool that cuts: a post writes one for each tool, with the tool's own number",
+        de: "die Werkzeuglänge (H) ist nicht die des Werkzeugs, das fräst: ein Postprozessor schreibt eine je Werkzeug, mit der Nummer des Werkzeugs",
         help_en: "name the tool with T, and write H with the same number once after each tool change",
         help_de: "das Werkzeug mit T nennen und nach jedem Werkzeugwechsel einmal H mit derselben Nummer schreiben",
     }

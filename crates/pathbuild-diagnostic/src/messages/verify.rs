@@ -45,8 +45,8 @@ messages! {
     }
     /// `verify --against`: a rapid move instead of a cut, or the reverse.
     DRAWN_AT_ANOTHER_PACE: MovesDiffer {
-        en: "this is {found}; the drawing says {expected}",
-        de: "das ist {found}; die Zeichnung sagt {expected}",
+        en: "this move is {found}, but the drawing's program has {expected} here",
+        de: "diese Bewegung ist {found}, im Programm der Zeichnung steht hier aber {expected}",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
@@ -103,7 +103,7 @@ messages! {
     NUMBERS_DIFFER: MovesDiffer {
         en: "the program's number is O{found}, but the drawing's is O{expected}: on the control, O{found} may be another program",
         de: "die Programmnummer ist O{found}, für die Zeichnung ist sie O{expected}: in der Steuerung kann O{found} ein anderes Programm sein",
-        help_en: "write the program again with `pathbuild emit`; if its number on the control is another one, set `program-number`",
+        help_en: "write the program again with `pathbuild emit`; if the control uses another number for it, set `program-number`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben; hat es in der Steuerung eine andere Nummer, `program-number` setzen",
     }
     /// `verify --against`: a tool length offset (G43, H) other than that of the tool in the spindle.

@@ -43,7 +43,7 @@ pub struct Rules {
     pub reference: ReferenceRules,
     /// Words that only controls built with a special setting obey; all other controls ignore them.
     pub unusual: OptionalWords,
-    /// Whether rapid moves are straight. Otherwise each axis moves at its own speed, and the one with the shorter way arrives first.
+    /// Whether rapid moves are straight. Otherwise each axis moves at its own speed, and an axis with less distance to cover arrives early.
     pub straight_rapids: bool,
     /// When M codes of the spindle and the coolant take effect in the line of a move.
     pub m_order: MCodeOrder,
@@ -144,7 +144,7 @@ pub struct DwellRules {
     pub p: DwellUnit,
     /// Letters other than P that specify seconds.
     pub seconds: &'static [u8],
-    /// Whether S specifies turns of the spindle.
+    /// Whether S gives the length of the dwell in turns of the spindle.
     pub counts_turns: bool,
 }
 
@@ -665,7 +665,7 @@ pub struct Grammar {
     pub o_words: bool,
 }
 
-/// The precedence of operators. All are left-associative.
+/// The precedence of operators, from those that bind tightest. All are left-associative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operators {
     /// `**`, then `* / MOD`, then `+ - AND OR XOR`.

@@ -93,9 +93,10 @@ fn runs<'a>(
     may_join: impl Fn(&SupportSegment<'a>, &SupportSegment<'a>) -> bool,
 ) -> Vec<Vec<usize>> {
     let ends = |segment: &SupportSegment<'_>| [segment.curve.start(), segment.curve.end()];
-    let numbered = segments.iter().enumerate().flat_map(|(number, segment)| {
-        ends(segment).map(|end| GeomWithData::new([end.x, end.y], number))
-    });
+    let numbered = segments
+        .iter()
+        .enumerate()
+        .flat_map(|(number, segment)| ends(segment).map(|end| GeomWithData::new([end.x, end.y], number)));
     let tree = RTree::bulk_load(numbered.collect());
     let mut groups: Vec<usize> = (0..segments.len()).collect();
     for (number, segment) in segments.iter().enumerate() {

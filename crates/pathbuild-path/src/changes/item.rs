@@ -288,7 +288,8 @@ fn arc_change(
     }
 }
 
-/// Returns the new curve in the direction of the old one: an arc with the same turn, or a line with each end nearer to the matching old end.
+/// Returns the new curve, reversed if necessary to run in the direction of the old one: two arcs turn the same way, and each end of a line is the one
+/// nearer to that of the old line.
 fn in_same_direction(old: &Curve, new: &Curve, shift: Vector2<f64>) -> Curve {
     let distance = |curve: &Curve| {
         (curve.start() - old.start() - shift).norm() + (curve.end() - old.end() - shift).norm()

@@ -185,9 +185,8 @@ fn joined_items(drawn: &str) -> (Vec<String>, Vec<String>) {
 /// What is drilled or embedded is not moved to the end of the line before it.
 #[test]
 fn joined_holes_circles_and_subpaths_stay_where_they_are() {
-    let between = |drawn: &str| {
-        joined_items(&format!("line HIDDEN 0,0 10,0\n{drawn}\nmill 10.03,0 20,0\nend 20,0"))
-    };
+    let between =
+        |drawn: &str| joined_items(&format!("line HIDDEN 0,0 10,0\n{drawn}\nmill 10.03,0 20,0\nend 20,0"));
     let (items, joins) = between("circle 10.03,0 d 3");
     assert_eq!(items, ["sweep 0,0 10,0", "sweep 10,0 10.03,0", "hole 10.03,0", "[10.03,0 20,0]"]);
     assert_eq!(joins, ["PB115 10.03,0"]);
@@ -207,9 +206,8 @@ fn joined_holes_circles_and_subpaths_stay_where_they_are() {
 /// Each hole of a row is drilled at its own place.
 #[test]
 fn joins_do_not_add_up() {
-    let (items, joins) = joined_items(
-        "mill 0,0 10,0\ncircle 10.04,0 d 3\ncircle 10.08,0 d 3\nmill 10.08,0 20,0\nend 20.04,0",
-    );
+    let (items, joins) =
+        joined_items("mill 0,0 10,0\ncircle 10.04,0 d 3\ncircle 10.08,0 d 3\nmill 10.08,0 20,0\nend 20.04,0");
     assert_eq!(
         items,
         [

@@ -65,12 +65,12 @@ impl Variable {
                 de: "sie hat nur bei Kurven einen Wert, und Programme enthalten keine",
             },
             Presence::Holes => &Text {
-                en: "it has a value only in cycle and point",
-                de: "sie hat nur in cycle und point einen Wert",
+                en: "it has a value only in the texts cycle and point",
+                de: "sie hat nur in den Texten cycle und point einen Wert",
             },
             Presence::Waits => &Text {
-                en: "it has a value only in cycle, point and dwell",
-                de: "sie hat nur in cycle, point und dwell einen Wert",
+                en: "it has a value only in the texts cycle, point and dwell",
+                de: "sie hat nur in den Texten cycle, point und dwell einen Wert",
             },
             Presence::Comments => &Text {
                 en: "it has a value only in the text comment",

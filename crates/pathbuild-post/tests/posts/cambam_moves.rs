@@ -328,7 +328,7 @@ fn an_angle_stands_in_place_of_the_axis_across() {
     assert_eq!(texts(&round_y.warnings), Vec::<String>::new());
     assert!(!text(round_y).contains('X'));
     for (elements, expected) in [
-        ("<FeedMove>{$g1} {$_x} Y0 {$_z} {$_a}</FeedMove>", "stands in place of Y"),
+        ("<FeedMove>{$g1} {$_x} Y0 {$_z} {$_a}</FeedMove>", "replaces Y"),
         ("<Rapid>{$g0} {$_x} {$_z} A0</Rapid>", "PB767"),
         ("<Rapid>{$g0} {$_x} {$_z}</Rapid>", "PB767"),
     ] {

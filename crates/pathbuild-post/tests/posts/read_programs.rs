@@ -302,7 +302,7 @@ fn each_tool_has_one_length_with_its_own_number() {
     let head = "G21 G90 G17\n";
     let is_refused = |text: &str, line: u32| {
         let errors = job_of(&format!("{head}{text}"), Dialect::LinuxCnc).expect_err(text);
-        let start = format!("{line}: PB765 the length is not that of the tool that cuts");
+        let start = format!("{line}: PB765 the tool length offset (H) is not that of the tool that cuts");
         assert!(errors[0].starts_with(&start), "{text}: {errors:?}");
     };
     is_refused(&format!("T1 M6\nG43 H5\n{CUT}"), 3);

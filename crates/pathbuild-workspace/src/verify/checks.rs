@@ -371,8 +371,8 @@ static NO_CUT_BELOW: Text = Text {
     de: "alle Schnitte enden über dem Material von --surface",
 };
 static NOT_FOLLOWED: Text = Text {
-    en: "a word is not followed, so the moves are not known",
-    de: "einem Wort wird nicht gefolgt, die Bewegungen sind daher nicht bekannt",
+    en: "the program has a word that pathbuild does not interpret, so its moves are not known",
+    de: "das Programm hat ein Wort, das pathbuild nicht auswertet; seine Bewegungen sind daher nicht bekannt",
 };
 static SEVERAL_ZEROS: Text = Text {
     en: "only the machine knows where the work offsets of the program lie",
@@ -381,8 +381,8 @@ static SEVERAL_ZEROS: Text = Text {
 static STATED_ZEROS: Text =
     Text { en: "one work offset, or G10 L2 for each", de: "ein einziger Nullpunkt, oder G10 L2 für jeden" };
 static KNOWN_WORDS: Text = Text {
-    en: "a program without words that are unknown or not followed (PB720, PB721)",
-    de: "ein Programm ohne unbekannte Wörter und solche, denen nicht gefolgt wird (PB720, PB721)",
+    en: "a program without words that are unknown or not interpreted (PB720, PB721)",
+    de: "ein Programm ohne unbekannte und nicht ausgewertete Wörter (PB720, PB721)",
 };
 static CORNER_LIMIT: Text = Text { en: "G64 P or G61 in the program", de: "G64 P oder G61 im Programm" };
 static START_OPTIONS: Text = Text { en: "M3 and S in the program", de: "M3 und S im Programm" };

@@ -64,6 +64,6 @@ static NO_BROWSER: Text = Text {
 
 #[cfg(not(feature = "pictures"))]
 static NO_PAGES: Text = Text {
-    en: "this pathbuild was built without the feature `pictures`: give -o FILE",
-    de: "dieses pathbuild ist ohne das Feature `pictures` gebaut: -o DATEI angeben",
+    en: "this pathbuild was built without the feature `pictures` and cannot open a page: write a file with -o FILE",
+    de: "dieses pathbuild ist ohne das Feature `pictures` gebaut und kann keine Seite öffnen: mit -o DATEI eine Datei schreiben",
 };
