@@ -496,6 +496,56 @@ fn what_nothing_writes_any_more_is_stale() {
     assert_eq!(gone, ["projects/8001 a b_Milling.gcode"]);
 }
 
+#[test]
+fn copies_of_programs_are_never_removed() {
+    let place = Place::of(LIBRARY);
+    place.run("emit");
+    let text = place.read("projects/8001 a b_Milling.gcode");
+    let copies = [
+        "old.gcode",
+        "8001 a b_Milling (copy).gcode",
+        "8001 a b_old_Milling.gcode",
+        "Copy of 8001 a b_Milling.gcode",
+    ];
+    let place = copies
+        .iter()
+        .fold(place, |place, name| place.file(&format!("projects/{name}"), text.replace("F150", "F120")));
+    // While the drawing is there, and after it was removed.
+    for is_there in [true, false] {
+        if !is_there {
+            fs::remove_file(place.path().join("projects/8001 a b.dxf")).unwrap();
+        }
+        let run = place.run("emit --remove-stale --format concise");
+        for name in copies {
+            assert!(run.stderr.contains(&format!("{name}: warning[PB520]")), "{name}: {run}");
+            assert!(place.path().join("projects").join(name).exists(), "{name}: {run}");
+        }
+        assert_eq!(place.path().join("projects/8001 a b_Milling.gcode").exists(), is_there, "{run}");
+    }
+    // A program under the name of its path, as drawings with several paths have it.
+    let place = place.file("projects/8001.1P_Milling.gcode", text);
+    let run = place.run("emit --remove-stale");
+    assert!(run.stderr.contains("8001.1P_Milling.gcode: stale, removed"), "{run}");
+}
+
+/// A drawing in a search directory is found by its name, so its program is not stale although the drawing is not in the library.
+#[test]
+fn programs_of_drawings_that_the_search_finds_are_not_stale() {
+    let emitted = |search: &str| {
+        let place = Place::of(LIBRARY);
+        assert_eq!(place.run("emit 1234.1P --out-dir all").status, Some(0));
+        let smaller = LIBRARY.lines().find(|line| line.starts_with("library")).unwrap();
+        let text = place.read("pathbuild.toml").replace(smaller, "library = [\"projects\"]");
+        let place = place.file("pathbuild.toml", text.replace("search = [\"components\"]", search));
+        let run = place.run("emit --out-dir all --remove-stale");
+        (place.path().join("all/1234_Milling.gcode").exists(), run)
+    };
+    let (is_there, run) = emitted("search = [\"components\"]");
+    assert!(is_there && !run.stderr.contains("PB520"), "{run}");
+    let (is_there, run) = emitted("");
+    assert!(!is_there, "{run}");
+}
+
 /// A file is not stale if a path or a command may write it again.
 #[test]
 fn what_may_be_written_again_is_not_stale() {

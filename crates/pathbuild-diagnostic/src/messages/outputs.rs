@@ -131,6 +131,13 @@ messages! {
         help_en: "check that it is no longer needed; emit --remove-stale removes such files",
         help_de: "prüfen, ob es noch gebraucht wird; emit --remove-stale entfernt solche Dateien",
     }
+    /// A program that no path would write now, in a file with a name that `emit` does not give to it.
+    STALE_COPY: StaleOutput {
+        en: "{name} contains a program that no path would write now, under a name that emit does not give to it",
+        de: "{name} enthält ein Programm, das kein Pfad jetzt noch schreiben würde, unter einem Namen, den emit ihm nicht gibt",
+        help_en: "check that it is no longer needed, and delete it yourself: emit --remove-stale keeps files that may be copies",
+        help_de: "prüfen, ob es noch gebraucht wird, und es selbst löschen: emit --remove-stale lässt Dateien stehen, die Kopien sein können",
+    }
     /// An output file from an earlier run that no path of this library would write. Another library may have written it.
     STALE_OR_OF_OTHERS: StaleOutput {
         en: "{name} was written earlier from a drawing that this library does not have",

@@ -37,6 +37,8 @@ struct StaleProgram {
 enum Reason {
     /// No path yields the program any more.
     Left,
+    /// No path yields the program any more, and `emit` would give it another name, so a person may have copied it.
+    Copied,
     /// The program's drawing is not in this library, but may be in another library that shares the output directory.
     OfOthers,
     /// The program was adjusted from the program `clean`, which has changed since.
@@ -54,6 +56,7 @@ impl StaleProgram {
         let name = |path: &Utf8Path| path.file_name().unwrap_or_default().to_owned();
         let problem = match &self.reason {
             Reason::Left => Diagnostic::new(&messages::STALE),
+            Reason::Copied => Diagnostic::new(&messages::STALE_COPY),
             Reason::OfOthers => Diagnostic::new(&messages::STALE_OR_OF_OTHERS),
             Reason::Adjusted { clean } => {
                 Diagnostic::new(&messages::STALE_ADJUSTED).quoting("clean", name(clean))
@@ -73,7 +76,7 @@ impl StaleProgram {
 
     /// Whether the path still exists but has other moves now; a comparison reports such a program as out of date.
     fn is_outdated(&self) -> bool {
-        !matches!(self.reason, Reason::Left | Reason::OfOthers)
+        !matches!(self.reason, Reason::Left | Reason::Copied | Reason::OfOthers)
     }
 }
 
@@ -122,8 +125,8 @@ impl EarlierPrograms<'_> {
     ) -> StaleOutcome {
         let mut dealt = StaleOutcome::default();
         for stale in stale {
-            // Keep a program that may belong to another library, and one that was edited, because its edits would be lost.
-            let is_kept = matches!(stale.reason, Reason::OfOthers | Reason::Edited { .. });
+            // Keep a program that may belong to another library, and one that was copied or edited, because that work would be lost.
+            let is_kept = matches!(stale.reason, Reason::Copied | Reason::OfOthers | Reason::Edited { .. });
             if !is_removed || is_kept {
                 diagnostics.push(stale.diagnostic());
                 dealt.outdated.extend(stale.is_outdated().then_some(stale.path));
@@ -288,7 +291,10 @@ impl<'a> StaleSearch<'a> {
             }
             _ => self.of_other_post(&path, &found, &title).or_else(|| {
                 let directory = path.parent().unwrap_or(Utf8Path::new(""));
-                let reason = self.writers.removal_reason(directory, &title, beside?.iter())?;
+                let reason = match self.writers.removal_reason(directory, &title, beside?.iter())? {
+                    Reason::Left if !has_name_of_title(&path, &title) => Reason::Copied,
+                    reason => reason,
+                };
                 Some(StaleProgram { path, reason })
             }),
         }
@@ -369,8 +375,22 @@ fn is_of(job: &Job, session: &Session<'_>, title: &str) -> bool {
     native::is_title(title, drawing, &job.path)
 }
 
+/// Ending of the names of setup sheets, without extension.
+const SHEET_SUFFIX: &str = "_Sheet";
+
 /// Endings of program names, without extension.
 const PROGRAM_SUFFIXES: [&str; 3] = ["_Milling", "_Clean", "_Probing"];
+
+/// Whether a program has the name that `emit` gives to a program with this title: that of the drawing or of the path, without any R.
+fn has_name_of_title(program: &Utf8Path, title: &str) -> bool {
+    let title = plain_title(title);
+    let Some(drawing) = native::drawing_of_title(&title) else { return false };
+    let path = title.split_once(' ').and_then(|(_, rest)| rest.split_once(',')).map(|(path, _)| path);
+    let name = plain_title(program.file_stem().unwrap_or_default());
+    let suffixes = PROGRAM_SUFFIXES.into_iter().chain([SHEET_SUFFIX]).map(str::to_lowercase);
+    let stem = suffixes.into_iter().find_map(|suffix| name.strip_suffix(&*suffix));
+    stem.is_some() && [Utf8Path::new(drawing).file_stem(), path].contains(&stem)
+}
 
 /// Whether a name is that of a program. The extension that a post definition chooses is recognised only while that definition is in use.
 fn is_gcode(name: &str, post_processor: Option<&PostProcessor>) -> bool {
@@ -394,6 +414,8 @@ struct KnownTitles {
     covered: BTreeSet<Title>,
     /// Drawings that exist, but of which the run does not know the paths.
     others: BTreeSet<Title>,
+    /// Names of the drawings in the search directories, which `emit` finds although they may not be in the library.
+    searched: BTreeSet<String>,
     /// Whether the run knows all drawings of the library, or all drawings beside the program. If so, a drawing that it does not know does not exist
     /// any more.
     knows_all: bool,
@@ -437,6 +459,7 @@ impl KnownTitles {
             idle: of_covered.filter(|title| !generated.contains(title)).collect(),
             covered: covered.iter().map(|drawing| written(drawing)).collect(),
             others: others.map(written).collect(),
+            searched: searched_drawings(session),
             knows_all: if has_library {
                 problems.is_empty() && session.missing_directories().is_empty()
             } else {
@@ -466,9 +489,16 @@ impl KnownTitles {
             return Some(Reason::Left);
         }
         // Leave the program alone if its drawing exists although the run does not know it, for example because it is ignored.
-        let is_gone = self.knows_all && !is_beside;
+        let is_gone = self.knows_all && !is_beside && !self.searched.contains(&drawing.1);
         is_gone.then_some(if self.is_shared { Reason::OfOthers } else { Reason::Left })
     }
+}
+
+/// Returns the names of the files in the search directories, normalised for comparison.
+fn searched_drawings(session: &Session<'_>) -> BTreeSet<String> {
+    let directories = session.workspace().settings.general.search.value.iter();
+    let listed = directories.filter_map(|directory| session.file_names_in(&session.normal(directory)).ok());
+    listed.flat_map(|names| names.iter().map(plain_title).collect::<Vec<_>>()).collect()
 }
 
 /// Whether a directory lies outside the directory of the configuration.
