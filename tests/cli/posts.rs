@@ -784,3 +784,31 @@ fn demanded_checks_do_not_concern_post() {
     assert_eq!(place.run("verify a.nc --dialect linuxcnc --surface 0").status, Some(1));
     assert_eq!(place.run("post a.nc --dialect linuxcnc --post grbl --surface 0").status, Some(0));
 }
+
+/// Controls of Fanuc and Haas move each axis at its own speed. The tool returns along a slot by a rapid move.
+#[test]
+fn bent_rapid_moves_are_judged_as_the_target_makes_them() {
+    let written = |from: &str, to: &str, end: &str, tool: &str| {
+        let program = format!(
+            "{tool}\nG21 G90 G17 G94 G40 G49 G80 G54\nT1 M6\nG43 H1 G0 Z5.\nM3 S9000\nG0 X0. Y0.\nG1 Z-1. F100.\nG1 {end} F200.\nG0 X0. Y0.\nG0 Z5.\nM5\nM30\n"
+        );
+        let table = if tool.is_empty() { "[tool.a]\ndiameter = 2\nnumber = 1\n" } else { "" };
+        let place = Place::new().file("1234.nc", program).file("pathbuild.toml", table);
+        let run =
+            place.run(&format!("post 1234.nc --dialect {from} --post {to} --surface 0 --format concise"));
+        let is_written = run.stdout.contains("M30");
+        (run.status, is_written, run.stderr.matches("[PB744]").count())
+    };
+    for from in ["linuxcnc", "fanuc", "haas"] {
+        for to in ["fanuc", "haas"] {
+            assert_eq!(written(from, to, "X20. Y50.", ""), (Some(1), false, 1), "{from} {to}");
+            assert_eq!(
+                written(from, to, "X20. Y50.", "(T1 D=2. CR=0. - FLAT END MILL)"),
+                (Some(1), false, 1),
+                "{from} {to}"
+            );
+            assert_eq!(written(from, to, "X20. Y20.", ""), (Some(0), true, 0), "{from} {to}");
+        }
+        assert_eq!(written(from, "linuxcnc", "X20. Y50.", ""), (Some(0), true, 0), "{from}");
+    }
+}

@@ -85,6 +85,11 @@ impl Job {
         self.operations.iter().map(feeds).collect()
     }
 
+    /// Returns the operation of each step, in the order of all steps.
+    pub(super) fn operations_by_step(&self) -> Vec<&Operation> {
+        self.operations.iter().flat_map(|operation| operation.steps.iter().map(move |_| operation)).collect()
+    }
+
     /// Returns the height in mm of the lowest upper face of the material; `None` if it is unknown.
     pub(super) fn lowest_surface(&self) -> Option<f64> {
         let surfaces = self.operations.iter().map(|operation| operation.surface);

@@ -5,7 +5,9 @@ use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options};
-use pathbuild_gcode::verify::{CornerRules, Machine, MachineRules, Rules, Stock, Tolerance};
+use pathbuild_gcode::verify::{
+    BentRapidRules, CornerRules, Cutter, Machine, MachineRules, Rules, Stock, StockSpan, Tolerance,
+};
 use pathbuild_motion::{
     Action, Axes, Change, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength, WorkSystem,
 };
@@ -17,7 +19,7 @@ use crate::job::{Entry, Job, JobStep, Operation};
 use crate::rs274_translation::{Doubt, TranslatedText};
 use crate::target::Target;
 use crate::tools;
-use crate::traverse;
+use crate::traverse::{self, MatchedCut};
 
 /// The expectations that a text is checked against.
 #[derive(Clone, Copy, Debug)]
@@ -97,6 +99,9 @@ pub(super) fn check(
                     |problem: &Diagnostic| is_spinning_told && problem.message == &gcode::SPINNING_AT_CHANGE;
                 problems
                     .extend(tools.into_iter().filter(|problem| !is_told(problem)).map(as_finding_of_post));
+                problems.extend(
+                    target.into_iter().flat_map(|target| bent_rapids(&read.steps, job, &cuts, target)),
+                );
             }
             Err(movement) => problems.push(as_finding_of_post(*movement)),
         }
@@ -176,6 +181,38 @@ const DWELL_TOLERANCE: f64 = 0.000_501;
 /// previous program.
 fn is_of_modes(problem: &Diagnostic) -> bool {
     [&gcode::UNITS_NOT_STATED, &gcode::MODES_NOT_STATED].contains(&problem.message)
+}
+
+/// Returns errors about the rapid moves of a text that lead through material because the control does not go straight. They are judged only if all
+/// cutters and the surface are known.
+fn bent_rapids(steps: &Vec<Step>, job: &Job, cuts: &[MatchedCut], target: &Target) -> Vec<Diagnostic> {
+    let Some(stock) = stock(job, cuts) else { return Vec::new() };
+    let Some(mut rules) = BentRapidRules::new(target.reader, &stock) else { return Vec::new() };
+    steps.iter().for_each(|step| rules.step(step));
+    let mut found = rules.finish(steps);
+    for bent in &mut found {
+        bent.severity = Severity::Error;
+    }
+    found
+}
+
+/// Returns the stock by line of a text with these cuts; `None` if a cutter or the surface is unknown.
+fn stock(job: &Job, cuts: &[MatchedCut]) -> Option<Stock> {
+    let operations = job.operations_by_step();
+    let mut pieces: Vec<StockSpan> = Vec::new();
+    for (line, number) in cuts.iter().filter(|_| !job.has_no_surface) {
+        let operation = operations.get(usize::try_from(*number).ok()?.checked_sub(1)?)?;
+        let (surface, diameter) = (operation.surface, operation.tool.diameter);
+        if diameter <= 0.0 {
+            return None;
+        }
+        let is_same = |last: &StockSpan| last.surface == surface && last.cutter.diameter == diameter;
+        if !pieces.last().is_some_and(is_same) {
+            pieces.push(StockSpan { line: *line, surface, cutter: Cutter::flat(diameter) });
+        }
+    }
+    pieces.first_mut()?.line = 0;
+    Some(Stock::of_pieces(pieces))
 }
 
 /// Projects moves to the plane and drops those that do not move in it.

@@ -117,12 +117,10 @@ fn stops(job: &Job) -> Vec<Option<bool>> {
 
 impl<'j> Checker<'j> {
     fn new(steps: &[Step], job: &'j Job, target: Option<Dialect>, is_manual: bool, is_flat: bool) -> Self {
-        let operations =
-            job.operations.iter().flat_map(|operation| operation.steps.iter().map(move |_| operation));
         let cutting = job.operations.iter().filter(|operation| operation.cuts());
         let surface = cutting.map(|operation| operation.surface).reduce(f64::max);
         Self {
-            operations: operations.collect(),
+            operations: job.operations_by_step(),
             tools: ToolState::new(target.unwrap_or(Dialect::LinuxCnc)),
             words: ToolWords::new(steps, target),
             is_manual,

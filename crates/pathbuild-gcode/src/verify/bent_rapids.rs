@@ -5,8 +5,8 @@
 
 use std::collections::BTreeSet;
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_motion::{Action, Move, MoveShape, Pace, Position, Step};
 
 use super::frames::Frames;
@@ -56,7 +56,9 @@ impl<'c> BentRapidRules<'c> {
         let mut hits = Problems::default();
         let bent = BentRapids { program, found: &found };
         frames.each(&bent, &mut |program| material::check(program, stock, &mut hits));
-        let lines: BTreeSet<u32> = hits.into_diagnostics().iter().filter_map(|hit| hit.place.line).collect();
+        let mut hits = hits.into_diagnostics();
+        hits.retain(|hit| hit.code() != Code::LimitReached);
+        let lines: BTreeSet<u32> = hits.iter().filter_map(|hit| hit.place.line).collect();
         let mut problems = Problems::default();
         for line in lines {
             problems.add_at_line(&say::BENT_RAPID, line, |d| d.quoting("dialect", dialect.name()));

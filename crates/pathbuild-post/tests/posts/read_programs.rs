@@ -600,3 +600,24 @@ fn xpertmill_s_first_layer_is_1_and_its_speeds_make_the_spindle_turn() {
     let lines = posted(text, Dialect::Xpertmill, "xpertmill").unwrap_or_else(|errors| panic!("{errors:?}"));
     assert!(lines.contains(&"M06 01".to_owned()) && lines.contains(&"M06 05".to_owned()), "{lines:?}");
 }
+
+/// The job is that of a control whose rapid moves are straight; the tool returns along a slanting slot.
+#[test]
+fn a_rapid_move_that_the_target_bends_into_material_is_not_written() {
+    let written = |post: &str, end: &str, diameter: f64| {
+        let mut job = read(&format!(
+            "G21 G90 G0 Z5\nT1 M6\nM3 S900\nG0 X0 Y0\nG1 Z-1 F60\nG1 {end} F200\nG0 X0 Y0\nG0 Z5\nM5\nM2"
+        ));
+        job.name = "1234".into();
+        job.set_surface(0.0);
+        job.operations.iter_mut().for_each(|operation| operation.tool.diameter = diameter);
+        let written = load(post).unwrap().write(&job, &PostOptions::default());
+        written.map_or_else(|errors| texts(&errors).join("\n"), |_| String::new())
+    };
+    for post in ["fanuc", "haas"] {
+        assert!(written(post, "X20 Y50", 2.0).contains("does not go straight"), "{post}");
+        assert_eq!(written(post, "X20 Y20", 2.0), "", "{post}");
+        assert_eq!(written(post, "X20 Y50", 0.0), "", "{post}: the cutter is unknown");
+    }
+    assert_eq!(written("linuxcnc", "X20 Y50", 2.0), "");
+}

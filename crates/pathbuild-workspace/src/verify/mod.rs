@@ -55,6 +55,8 @@ pub struct VerifyOptions {
     pub required: Vec<Requirement>,
     /// Name or file of the post-processor that wrote the programs.
     pub post: Option<String>,
+    /// The control for which the programs will be rewritten. Its way of making rapid moves counts, not that of a program's own dialect.
+    pub target: Option<Dialect>,
 }
 
 impl VerifyOptions {
@@ -433,7 +435,8 @@ impl<'v> Examination<'v> {
             self.milled.is_none().then(|| LengthRules::new(program.dialect, self.sources.stock()));
         let mut depths = DepthRules::default();
         let stock = self.sources.stock();
-        let mut bent_rapids = stock.and_then(|stock| BentRapidRules::new(program.dialect, stock));
+        let control = verifier.options.target.unwrap_or(program.dialect);
+        let mut bent_rapids = stock.and_then(|stock| BentRapidRules::new(control, stock));
         let mut found =
             verify(&program.at_nominal_heights(), program.dialect, self.sources.stock(), &mut |step| {
                 nominal.step(step);
@@ -453,7 +456,12 @@ impl<'v> Examination<'v> {
         found.extend(lengths.into_iter().flat_map(LengthRules::finish));
         found.extend(self.sources.doubtful_rapids(depths, &found));
         let bent = bent_rapids.map_or_else(Vec::new, |rules| rules.finish(&program.at_nominal_heights()));
-        let is_new = |bent: &Diagnostic| found.iter().all(|problem| problem.place.line != bent.place.line);
+        let is_of_rapid = |problem: &Diagnostic| {
+            matches!(problem.code(), Code::RapidInMaterial | Code::RapidPlunge | Code::DiagonalRapid)
+        };
+        let is_new = |bent: &Diagnostic| {
+            found.iter().all(|problem| problem.place.line != bent.place.line || !is_of_rapid(problem))
+        };
         let bent: Vec<Diagnostic> = bent.into_iter().filter(is_new).collect();
         found.extend(bent);
         for word in program.words_left_out() {

@@ -110,7 +110,7 @@ fn rewrite_and_report(
     }
     let given = args.surface.as_deref().map(|text| number("surface", text)).transpose();
     let given = given.map_err(|fault| vec![*fault])?;
-    diagnostics.extend(findings(context, args, &program, given)?);
+    diagnostics.extend(findings(context, args, &program, given, post_processor.reader())?);
     if context.has_error(&*diagnostics) {
         return Err(Vec::new());
     }
@@ -149,20 +149,27 @@ fn rewrite_and_report(
     }
 }
 
-/// Returns the findings of `verify` about the program, except those about things that the post-processor adds or completes.
+/// Returns the findings of `verify` about the program, except those about things that the post-processor adds or completes. Rapid moves are judged
+/// as the target makes them.
 fn findings(
     context: &Context,
     args: &PostArgs,
     program: &Program,
     surface: Option<f64>,
+    target: Option<Dialect>,
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    let options = VerifyOptions { reading: args.reading.options(), surface, ..VerifyOptions::default() };
+    let reading = args.reading.options();
+    let options = VerifyOptions { reading, surface, target, ..VerifyOptions::default() };
     let mut session = Session::new(context);
     match Verifier::new(&mut session, options) {
         Ok(verifier) => {
             let mut found = verifier.findings(program);
             found.retain(|problem| !is_judged_in_output(problem));
             found.iter_mut().for_each(tell_left_out);
+            let is_bent = |problem: &&mut Diagnostic| problem.message == &gcode::BENT_RAPID;
+            for bent in found.iter_mut().filter(is_bent).filter(|_| target.is_some()) {
+                bent.severity = Severity::Error;
+            }
             Ok(found)
         }
         Err(Failure::Post(problems) | Failure::Found(problems)) => Err(problems),
