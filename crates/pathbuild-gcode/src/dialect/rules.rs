@@ -61,7 +61,7 @@ pub struct Rules {
     pub offsets_need_axis: bool,
     /// The letter of the word for the number of repetitions of a drilling cycle.
     pub repeats: u8,
-    /// Whether a drilling cycle with 0 repetitions is only stored, for the lines after it.
+    /// Whether a line of a drilling cycle with 0 repetitions drills nothing: it stores the cycle for the lines after it, and moves to its X and Y.
     pub stores_cycles: bool,
     /// Rules by which P selects coordinate systems besides G54 to G59; `None` if P does not select any.
     pub systems: Option<SystemNumbers>,
@@ -479,7 +479,7 @@ pub(super) static HAAS: Rules = Rules {
     stop_is_complete: true,
     // Haas Mill Operator's Manual, M codes: "All M-codes take effect at the end of the block."
     m_order: MCodeOrder::Last,
-    // From memory of the operator's manual: L0 defines a cycle without drilling at the present position.
+    // Haas Mill Operator's Manual, program O60811: `X5.5 L0` between holes avoids a corner. From memory: without X and Y, L0 defines a cycle.
     stores_cycles: true,
     // From memory of the operator's manual: G154 P1 to P99 selects work coordinates.
     systems: Some(SystemNumbers { code: 1540, regular: 0, most: 99 }),

@@ -42,9 +42,8 @@ impl Interpreter<'_> {
     pub(super) fn cycle(&mut self, block: &Block<'_>, cycle: Cycle) {
         let coordinates = self.words.values.take_coordinates();
         let axis = self.state.plane.third();
-        if self.is_only_stored(&coordinates) {
-            self.words.values.take(self.rules.repeats);
-            return self.store_cycle_words(block, coordinates[axis]);
+        if self.drills_nothing() {
+            return self.pass_over_hole(block, coordinates);
         }
         let repeats = self.take_repeat_count(block);
         self.check_change_within_cycle(block);
@@ -65,11 +64,7 @@ impl Interpreter<'_> {
             });
         }
         for _ in 0..repeats {
-            let mut beside = coordinates;
-            beside[axis] = None;
-            let mut over = self.target(beside);
-            over.at[axis] = old;
-            over.known = over.known.with(Axes::of(axis));
+            let over = self.place_over_hole(coordinates, old);
             self.rapid(block, over);
             if old != hole.r {
                 self.lift_to(block, hole.r);
@@ -79,11 +74,31 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Whether the line only defines the cycle. A line with coordinates does not count, because it is unknown whether the tool moves to them.
-    fn is_only_stored(&self, coordinates: &[Option<Slot>; 3]) -> bool {
+    /// Whether the line has no repetitions: it defines the cycle, or leads the tool around an obstacle, and drills nothing.
+    fn drills_nothing(&self) -> bool {
         let repeats = self.words.values.peek(self.rules.repeats);
-        let stays = self.state.plane.axes().iter().all(|axis| coordinates[*axis].is_none());
-        self.rules.stores_cycles && stays && repeats.is_some_and(|slot| slot.value == 0.0)
+        self.rules.stores_cycles && repeats.is_some_and(|slot| slot.value == 0.0)
+    }
+
+    /// Stores the values of the cycle, and moves to the place in the line without drilling there.
+    fn pass_over_hole(&mut self, block: &Block<'_>, coordinates: [Option<Slot>; 3]) {
+        self.words.values.take(self.rules.repeats);
+        let height = self.retract_height();
+        self.store_cycle_words(block, coordinates[self.state.plane.third()]);
+        if self.state.plane.axes().iter().any(|axis| coordinates[*axis].is_some()) {
+            let over = self.place_over_hole(coordinates, height);
+            self.rapid(block, over);
+        }
+    }
+
+    /// Returns the place of a hole at a height in mm.
+    fn place_over_hole(&mut self, mut coordinates: [Option<Slot>; 3], height: f64) -> Position {
+        let axis = self.state.plane.third();
+        coordinates[axis] = None;
+        let mut over = self.target(coordinates);
+        over.at[axis] = height;
+        over.known = over.known.with(Axes::of(axis));
+        over
     }
 
     /// Reports the first hole of a cycle that was on before a tool change.
