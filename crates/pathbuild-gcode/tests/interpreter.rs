@@ -87,6 +87,20 @@ fn coordinates_need_a_motion() {
     }
 }
 
+/// On Fanuc and Haas, cycles are a modal group of their own.
+#[test]
+fn g80_leaves_the_motion_before_the_cycle() {
+    for dialect in [Fanuc, Haas] {
+        let after =
+            |words: &str| format!("G0 X0. Y0. Z5.\n{words}\nG98 G81 X1. Y2. Z-2. R1. F100.\nG80\nZ15.");
+        assert_eq!(wrong(dialect, &after("")), FINE, "{dialect}");
+        assert_eq!(run(dialect, &after("")).last().unwrap(), "6 rapid to 1 2 15", "{dialect}");
+        assert!(run(dialect, &after("G1 X0. F50.")).last().unwrap().starts_with("6 feed"), "{dialect}");
+        assert_eq!(wrong(dialect, "G80\nX1."), ["3 missing-word"], "{dialect}");
+    }
+    assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z5\nG98 G81 X1 Y2 Z-2 R1 F100\nG80\nZ15"), ["5 missing-word"]);
+}
+
 #[test]
 fn cutting_needs_a_feed() {
     assert_eq!(wrong(Native, "G0 X0 Y0 Z0\nG1 X1\nX2\nX3 F0\nX4 F1"), ["3 missing-feed", "5 missing-feed"]);

@@ -73,6 +73,8 @@ pub struct Rules {
     pub lifts_to_start: bool,
     /// Whether G80 may stand beside a motion word, which then applies.
     pub ends_cycles_beside_motion: bool,
+    /// Whether drilling cycles and G80 are a modal group of their own, so that G80 leaves the motion in effect that was before the cycle.
+    pub cycles_are_apart: bool,
     /// Rules for the tool length in effect where the program does not set one.
     pub lengths: LengthRules,
 }
@@ -286,6 +288,7 @@ const BASE: Rules = Rules {
     rises_before_holes: true,
     lifts_to_start: false,
     ends_cycles_beside_motion: false,
+    cycles_are_apart: false,
     lengths: LengthRules { keeps_entry: false, keeps_length: false },
 };
 
@@ -447,8 +450,9 @@ const ISO: Rules = Rules {
     // From memory of the operator's manual: operation 1 of a canned cycle is the positioning of X and Y, operation 2 the rapid move to R.
     rises_before_holes: false,
     lifts_to_start: true,
-    // G80 is in a modal group of its own, so another motion word may stand beside it.
+    // G80 is in a modal group of its own (09), so another motion word may stand beside it.
     ends_cycles_beside_motion: true,
+    cycles_are_apart: true,
     lengths: LengthRules { keeps_entry: true, keeps_length: false },
     ..BASE
 };

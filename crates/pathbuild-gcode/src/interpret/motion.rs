@@ -67,6 +67,7 @@ impl Interpreter<'_> {
             self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", codes::name('G', code)));
             Motion::Unfollowed
         };
+        let (motion, code) = self.beside_cycles(motion, code);
         if motion != self.state.motion {
             let goes_on = matches!((self.state.motion, motion), (Motion::Cycle(_), Motion::Cycle(_)));
             self.begin_cycle(goes_on);
@@ -74,6 +75,18 @@ impl Interpreter<'_> {
         self.state.change_within_cycle = None;
         self.state.motion = motion;
         self.state.motion_code = code;
+    }
+
+    /// Returns the motion that a word puts into effect. Where cycles are a group of their own, G80 leaves the motion that was before the cycle.
+    fn beside_cycles(&mut self, motion: Motion, code: u16) -> (Motion, u16) {
+        let present = (self.state.motion, self.state.motion_code);
+        let is_in_cycle = matches!(present.0, Motion::Cycle(_));
+        if matches!(motion, Motion::Cycle(_)) && !is_in_cycle {
+            self.state.motion_before_cycle = present;
+        }
+        let left = if is_in_cycle { self.state.motion_before_cycle } else { present };
+        let is_kept = matches!(left.0, Motion::Rapid | Motion::Feed | Motion::Arc { .. });
+        if motion == Motion::None && self.rules.cycles_are_apart && is_kept { left } else { (motion, code) }
     }
 
     /// Reports a probe without coordinates, and warns about a motion word that neither moves nor sets F: in dialects where each line states

@@ -27,6 +27,8 @@ pub(super) struct State {
     pub(super) motion: Motion,
     /// Code of the motion (times ten), for messages.
     pub(super) motion_code: u16,
+    /// The motion before the drilling cycle with its code.
+    pub(super) motion_before_cycle: (Motion, u16),
     pub(super) plane: Plane,
     pub(super) incremental: bool,
     pub(super) incremental_centres: bool,
@@ -110,6 +112,7 @@ impl State {
                 StartMotion::None => Motion::None,
             },
             motion_code: 0,
+            motion_before_cycle: (Motion::None, 0),
             plane: Plane::Xy,
             incremental: false,
             incremental_centres: true,
