@@ -645,6 +645,11 @@ fn named_places_are_known_from_the_configuration() {
 fn machine_coordinates_go_with_absolute_straight_moves() {
     assert_eq!(wrong(LinuxCnc, "G0 X1 Y1 Z1\nG91 G53 G0 X0"), ["3 conflicting-words"]);
     assert_eq!(wrong(LinuxCnc, "G0 X1 Y1 Z1\nG53 G80\nG90"), ["3 conflicting-words"]);
+    // GRBL takes them with G91 as well, and counts from the machine's zero.
+    let moved = |words: &str| format!("G0 X1 Y1 Z1\n{words} G53 G0 Z-5\nG90 G0 Z1");
+    assert_eq!(wrong(Grbl, &moved("G91")), FINE);
+    assert_eq!(run(Grbl, &moved("G91")), run(Grbl, &moved("G90")));
+    assert_eq!(wrong(Fanuc, "G0 X1. Y1. Z1.\nG91 G53 G0 Z0.").len(), 1);
 }
 
 #[test]
@@ -995,7 +1000,7 @@ fn a_cycle_may_be_stored_without_drilling() {
         assert_eq!(run(dialect, &around)[1..3], ["3 rapid to 1 0 5", "4 rapid to 3 0 5"]);
         let below = format!("G0 X0. Y0. Z5.\nG99 G81 X1. Z-2. R1. F100.\nX2. {zero}\nX3.\nG80");
         assert_eq!(
-            run(dialect, &below)[4..],
+            run(dialect, &below)[5..],
             ["4 rapid to 2 0 1", "5 rapid to 3 0 1", "5 feed 100 to 3 0 -2", "5 rapid to 3 0 1"]
         );
     }
@@ -1452,11 +1457,11 @@ fn an_arc_begins_and_ends_along_its_tangents() {
 #[test]
 fn a_number_of_holes_names_its_letter() {
     for (dialect, letter) in [(LinuxCnc, "L"), (Haas, "L"), (Fanuc, "K")] {
-        let program = format!("{HEAD}G0 X0 Y0 Z5\nG98 G81 X2 Z-3 R1 {letter}0 F60\nG80\nM30\n");
+        let program = format!("{HEAD}G0 X0 Y0 Z5\nG98 G81 X2. Z-3. R1. {letter}-1 F60\nG80\nM30\n");
         let problems = interpret(program.as_bytes(), dialect, &Options::default()).problems;
         let texts: Vec<String> = problems.iter().map(|it| it.text(Lang::En)).collect();
         assert!(
-            texts.iter().any(|text| text.contains(&format!("{letter}0")) || text.starts_with(letter)),
+            texts.iter().any(|text| text.contains(&format!("{letter}-1")) || text.starts_with(letter)),
             "{texts:?}"
         );
     }

@@ -43,6 +43,8 @@ pub struct Rules {
     pub reference: ReferenceRules,
     /// Words that only controls built with a special setting obey; all other controls ignore them.
     pub unusual: OptionalWords,
+    /// Whether G53 counts from the machine's zero even with G91. Other controls refuse G53 with G91.
+    pub absolute_machine_coordinates: bool,
     /// Whether rapid moves are straight. Otherwise each axis moves at its own speed, and an axis with less distance to cover arrives early.
     pub straight_rapids: bool,
     /// When M codes of the spindle and the coolant take effect in the line of a move.
@@ -273,6 +275,7 @@ const BASE: Rules = Rules {
     runs_past_end: false,
     reference: ReferenceRules { g: &[], loses_zero: false },
     unusual: OptionalWords { g: &[], turns: false },
+    absolute_machine_coordinates: false,
     straight_rapids: true,
     m_order: MCodeOrder::First,
     has_changer: false,
@@ -369,6 +372,8 @@ pub(super) static GRBL: Rules = Rules {
     runs_past_end: true,
     // gcode.c, G10: "if (!axis_words) { FAIL(STATUS_GCODE_NO_AXIS_WORDS) }; // [No axis words]".
     offsets_need_axis: true,
+    // From memory of gcode.c: "Update specified value according to distance mode or ignore if absolute override is active."
+    absolute_machine_coordinates: true,
     ..BASE
 };
 

@@ -107,7 +107,7 @@ impl Interpreter<'_> {
     }
 
     fn check_machine_coordinates(&mut self, block: &Block<'_>, motion: Motion, span: Span) {
-        if self.state.incremental {
+        if self.state.incremental && !self.rules.absolute_machine_coordinates {
             self.report(block, &say::MACHINE_COORDINATES_RELATIVE, span, |d| d);
         } else if !matches!(motion, Motion::Rapid | Motion::Feed) {
             self.report(block, &say::MACHINE_COORDINATES_MOTION, span, |d| d);
