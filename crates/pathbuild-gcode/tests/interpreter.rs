@@ -984,6 +984,18 @@ fn g10_l2_after_the_first_move_is_doubtful() {
     assert_eq!(found("G0 X0 Y0 Z5\nG10 L20 P2 X9\nG55\nG0 X0"), FINE);
 }
 
+/// The spindle may never start if M8 is the one that an older Fanuc obeys.
+#[test]
+fn haas_takes_one_m_code_per_line_and_some_fanucs_obey_one() {
+    assert_eq!(wrong(Haas, "S900 M3 M8"), ["2 conflicting-words"]);
+    assert_eq!(wrong(Fanuc, "S900 M3 M8"), ["2 ignored-word"]);
+    for dialect in [Haas, Fanuc] {
+        assert_eq!(wrong(dialect, "S900 M3\nM8"), FINE);
+        assert_eq!(wrong(dialect, "M3 M5"), ["2 conflicting-words"], "once");
+    }
+    assert_eq!(wrong(LinuxCnc, "S900 M3 M8"), FINE);
+}
+
 /// With K0 (Haas: L0) the cycle is stored without drilling, and the next position is drilled.
 #[test]
 fn a_cycle_may_be_stored_without_drilling() {

@@ -90,6 +90,20 @@ messages! {
         help_en: "write {word} into a line of its own",
         help_de: "{word} in eine eigene Zeile schreiben",
     }
+    /// A second M code in a line of a control that refuses such lines.
+    SECOND_M_REFUSED: ConflictingWords {
+        en: "{dialect} allows only one M code in a line; here are {first} and {second}",
+        de: "{dialect} erlaubt in einer Zeile nur ein M-Wort; hier stehen {first} und {second}",
+        help_en: "write {second} into a line of its own",
+        help_de: "{second} in eine eigene Zeile schreiben",
+    }
+    /// A second M code in a line, which older controls ignore.
+    SECOND_M_LOST: IgnoredWord {
+        en: "older controls of {dialect} obey only one M code in a line: {first} or {second} is lost",
+        de: "ältere Steuerungen von {dialect} führen je Zeile nur ein M-Wort aus: {first} oder {second} geht verloren",
+        help_en: "write {second} into a line of its own, or accept this warning with `--accept` if the control takes several (parameter 3404#7)",
+        help_de: "{second} in eine eigene Zeile schreiben oder die Warnung mit `--accept` hinnehmen, wenn die Steuerung mehrere annimmt (Parameter 3404#7)",
+    }
     /// A file that does not look like G-code.
     NOT_G_CODE: NotGCode {
         en: "this is not G-code: {found}",

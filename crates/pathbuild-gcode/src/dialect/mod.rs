@@ -13,9 +13,9 @@ pub use codes::{InertWord, Letters, Words};
 pub(crate) use comment::beginning_of;
 pub use comment::{Charset, ascii, is_active_comment, within_comment};
 pub use rules::{
-    ArcRules, Blanks, DwellRules, DwellUnit, FeedMode, Grammar, LengthRules, LineLength, MCodeOrder,
-    NotationSupport, Operators, Percent, RadiusTolerance, Rules, Slash, Spelling, StartMotion, SystemNumbers,
-    UnitChange,
+    ArcRules, Blanks, DwellRules, DwellUnit, FeedMode, Grammar, LengthRules, LineLength, MCodeLimit,
+    MCodeOrder, NotationSupport, Operators, Percent, RadiusTolerance, Rules, Slash, Spelling, StartMotion,
+    SystemNumbers, UnitChange,
 };
 
 /// Declares the dialects, each with its name on the command line and its rules.

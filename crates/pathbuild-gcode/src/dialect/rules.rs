@@ -35,6 +35,8 @@ pub struct Rules {
     pub one_command: bool,
     /// Whether a line may have only one G and one M word.
     pub one_word_each: bool,
+    /// How many M codes a line may have.
+    pub m_limit: MCodeLimit,
     /// Whether M0 and M1 also switch spindle and coolant off, which then stay off.
     pub stop_is_complete: bool,
     /// Whether the control runs the lines after M2 and M30, because it has no program memory and takes each line as it is sent.
@@ -90,6 +92,17 @@ pub enum MCodeOrder {
     StopsLast,
     /// After the move.
     Last,
+}
+
+/// How many M codes a line may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MCodeLimit {
+    /// Several.
+    Unlimited,
+    /// One on older controls, which ignore the others.
+    OneOnSome,
+    /// One: the control refuses the line.
+    One,
 }
 
 /// The effect of a change of the unit on F, G52 and G92.
@@ -271,6 +284,7 @@ const BASE: Rules = Rules {
     dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"", counts_turns: false },
     one_command: false,
     one_word_each: false,
+    m_limit: MCodeLimit::Unlimited,
     stop_is_complete: false,
     runs_past_end: false,
     reference: ReferenceRules { g: &[], loses_zero: false },
@@ -472,6 +486,8 @@ pub(super) static FANUC: Rules = Rules {
     // From memory: G54.1 P1 to P48, or P300 with an option; G30 P2, P3 and P4 are the second to fourth reference points.
     systems: Some(SystemNumbers { code: 541, regular: 0, most: 247 }),
     numbers_references: true,
+    // From memory: up to three M codes with parameter 3404#7 (M3B), otherwise one.
+    m_limit: MCodeLimit::OneOnSome,
     // Parameter 1401#1 (LRP) is 0 by default: positioning is not linear.
     straight_rapids: false,
     has_changer: true,
@@ -488,6 +504,8 @@ pub(super) static HAAS: Rules = Rules {
     stop_is_complete: true,
     // Haas Mill Operator's Manual, M codes: "All M-codes take effect at the end of the block."
     m_order: MCodeOrder::Last,
+    // Haas Mill Operator's Manual, M codes: "Only one M-code is allowed per line of code."
+    m_limit: MCodeLimit::One,
     // Haas Mill Operator's Manual, program O60811: `X5.5 L0` between holes avoids a corner. From memory: without X and Y, L0 defines a cycle.
     stores_cycles: true,
     // From memory of the operator's manual: G154 P1 to P99 selects work coordinates.

@@ -8,6 +8,7 @@ use super::codes::{self, Command, Motion};
 use super::evaluate::{Scope, name_of, parameter_number};
 use super::execute::{AssignedParameter, Interpreter, Slot, ValueFault, limits};
 use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
+use crate::dialect::MCodeLimit;
 use crate::read::{Block, SourcePosition, Span, Target, Value, Word};
 
 /// Number of decimals of a calculated value.
@@ -315,6 +316,7 @@ impl Interpreter<'_> {
                 break;
             }
         }
+        self.check_m_limit(block);
         let takers = || self.words.commands.iter().filter(|(command, ..)| command.takes_coordinates());
         if self.words.values.has_coordinates()
             && let (Some(&(first_command, first, _)), Some(&(second_command, second, span))) =
@@ -329,6 +331,22 @@ impl Interpreter<'_> {
                 span,
             );
         }
+    }
+
+    /// Reports a second M code that the control refuses or, on some machines, loses. Codes that exclude each other are reported already.
+    fn check_m_limit(&mut self, block: &Block<'_>) {
+        let [(first, _), (second, span), ..] = *self.words.m_codes else { return };
+        let message = match self.rules.m_limit {
+            MCodeLimit::Unlimited => return,
+            MCodeLimit::OneOnSome => &say::SECOND_M_LOST,
+            MCodeLimit::One => &say::SECOND_M_REFUSED,
+        };
+        if M_GROUPS.iter().any(|group| group.contains(&first) && group.contains(&second)) {
+            return;
+        }
+        self.report(block, message, span, |d| {
+            d.quoting("first", codes::name('M', first)).quoting("second", codes::name('M', second))
+        });
     }
 
     fn report_conflict(
