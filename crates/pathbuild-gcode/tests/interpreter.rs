@@ -984,6 +984,40 @@ fn g10_l2_after_the_first_move_is_doubtful() {
     assert_eq!(found("G0 X0 Y0 Z5\nG10 L20 P2 X9\nG55\nG0 X0"), FINE);
 }
 
+#[test]
+fn fanuc_and_haas_know_the_words_of_their_manuals() {
+    let codes = |words: &str| words.split(' ').map(str::to_owned).collect::<Vec<_>>();
+    let found = |dialect, word: &str| {
+        let mut kinds = wrong(dialect, &format!("G0 X0. Y0. Z5.\n{word}"));
+        kinds.retain(|kind| kind != "3 missing-word" && kind != "3 missing-feed");
+        kinds
+    };
+    let not_followed = [
+        (Haas, "G47 G101 G107 G136 G141 G143 G150 G153 G155 G161 G166 G169 G174 G184 G188 G234 G254 M16 M96"),
+        (Fanuc, "G07.1 G33 G39 G45 G46 G47 G48 G51.1 G60"),
+    ];
+    for (dialect, words) in not_followed {
+        for word in codes(words) {
+            assert_eq!(found(dialect, &word), ["3 word-not-followed"], "{dialect} {word}");
+        }
+    }
+    let harmless = [
+        (
+            Haas,
+            "G100 G255 M10 M13 M21 M25 M34 M36 M39 M51 M59 M61 M69 M73 M74 M75 M78 M80 M81 M82 M86 M95 M109 M138",
+        ),
+        (Fanuc, "G22 G23 G50.1 G93"),
+    ];
+    for (dialect, words) in harmless {
+        for word in codes(words) {
+            assert_eq!(found(dialect, &word), FINE, "{dialect} {word}");
+        }
+    }
+    assert_eq!(run(Fanuc, "G0 X0. Y0. Z5.\nG22 X9. Y9. Z9. I1. J1. K1.\nG50.1 X0."), ["2 rapid to 0 0 5"]);
+    assert_eq!(wrong(Fanuc, "G24"), ["2 unknown-word"]);
+    assert_eq!(wrong(Haas, "G256\nM17"), ["2 unknown-word", "3 unknown-word"]);
+}
+
 /// The spindle may never start if M8 is the one that an older Fanuc obeys.
 #[test]
 fn haas_takes_one_m_code_per_line_and_some_fanucs_obey_one() {

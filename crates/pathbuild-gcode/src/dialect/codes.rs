@@ -11,6 +11,8 @@ pub struct Words {
     pub g_own: &'static [u16],
     /// Accepted M codes, in ascending order.
     pub m: &'static [u16],
+    /// Accepted M codes with a meaning of their own that moves or jumps; the interpreter reports them and does not execute them.
+    pub m_own: &'static [u16],
     /// M codes that the control accepts but ignores.
     pub m_ignored: &'static [u16],
     /// Accepted words that change neither the tool's path nor the order of lines.
@@ -83,6 +85,7 @@ const COMMON_WORDS: Words = Words {
     g: &[],
     g_own: &[],
     m: &[],
+    m_own: &[],
     m_ignored: &[],
     inert: &[],
     own_m_codes: false,
@@ -180,18 +183,23 @@ pub(super) static MACH3: Words = Words {
 pub(super) static FANUC: Words = Words {
     letters: Letters::new(b"ABCDFGHIJKLMNOPQRSTXYZ"),
     g: &[
-        0, 10, 20, 30, 40, 50, 51, 80, 90, 100, 110, 150, 160, 170, 180, 190, 200, 210, 270, 280, 290, 300,
-        310, 400, 410, 420, 430, 440, 490, 500, 510, 520, 530, 540, 541, 550, 560, 570, 580, 590, 610, 620,
-        630, 640, 650, 660, 670, 680, 690, 730, 740, 760, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890,
-        900, 910, 920, 940, 950, 960, 970, 980, 990,
+        0, 10, 20, 30, 40, 50, 51, 71, 80, 90, 100, 110, 150, 160, 170, 180, 190, 200, 210, 220, 230, 270,
+        280, 290, 300, 310, 330, 390, 400, 410, 420, 430, 440, 450, 460, 470, 480, 490, 500, 501, 510, 511,
+        520, 530, 540, 541, 550, 560, 570, 580, 590, 600, 610, 620, 630, 640, 650, 660, 670, 680, 690, 730,
+        740, 760, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890, 900, 910, 920, 930, 940, 950, 960, 970,
+        980, 990,
     ],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 290, 300, 980, 990],
+    // From memory of the list of G codes of the 16/18/0i-M: G22 and G23 switch the stored stroke check, G50.1 switches the mirroring of G51.1 off.
     // Look-ahead: G05 P10000 and P0 (P10001 and up run stored data), G05.1 Q1 and Q0 (Q2 and Q3 smooth the path), G08 P1 and P0. Sources: the table
     // of codes of the 30i at cncschool.pl, and blog.csdn.net/sinat_26528193, article 126620736.
     inert: &[
         InertWord { letter: 'G', code: 50, values: b"P", harmless: &[0.0, 10_000.0] },
         InertWord { letter: 'G', code: 51, values: b"Q", harmless: &[0.0, 1.0] },
         InertWord { letter: 'G', code: 80, values: b"P", harmless: &[0.0, 1.0] },
+        inert('G', 220, b"XYZIJK"),
+        inert('G', 230, b""),
+        inert('G', 501, b"XYZ"),
     ],
     ..COMMON_WORDS
 };
@@ -200,16 +208,34 @@ pub(super) static HAAS: Words = Words {
     letters: Letters::new(b"ABCDEFGHIJKLMNOPQRSTUVWXYZ"),
     g: &[
         0, 10, 20, 30, 40, 90, 100, 120, 130, 170, 180, 190, 200, 210, 280, 290, 310, 350, 360, 370, 400,
-        410, 420, 430, 440, 490, 500, 510, 520, 530, 540, 550, 560, 570, 580, 590, 600, 610, 640, 650, 680,
-        690, 700, 710, 720, 730, 740, 760, 770, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890, 900, 910,
-        920, 930, 940, 950, 980, 990, 1030, 1100, 1110, 1120, 1130, 1140, 1150, 1160, 1170, 1180, 1190, 1200,
-        1210, 1220, 1230, 1240, 1250, 1260, 1270, 1280, 1290, 1540, 1870,
+        410, 420, 430, 440, 470, 490, 500, 510, 520, 530, 540, 550, 560, 570, 580, 590, 600, 610, 640, 650,
+        680, 690, 700, 710, 720, 730, 740, 760, 770, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890, 900,
+        910, 920, 930, 940, 950, 980, 990, 1000, 1010, 1030, 1070, 1100, 1110, 1120, 1130, 1140, 1150, 1160,
+        1170, 1180, 1190, 1200, 1210, 1220, 1230, 1240, 1250, 1260, 1270, 1280, 1290, 1360, 1410, 1430, 1500,
+        1530, 1540, 1550, 1610, 1620, 1630, 1640, 1650, 1660, 1690, 1740, 1840, 1870, 1880, 2340, 2540, 2550,
     ],
     // G103 P limits the look-ahead (gcodes.net/haas-g103-limit-block-buffering). From memory: G187 P E sets the accuracy at corners.
-    inert: &[inert('G', 1030, b"P"), inert('G', 1870, b"PE")],
+    // From memory: G100 switches the mirroring of G101 off, G255 the work offset of G254.
+    inert: &[
+        inert('G', 1000, b"XYZ"),
+        inert('G', 1030, b"P"),
+        inert('G', 1870, b"PE"),
+        inert('G', 2550, b""),
+        inert('M', 590, b"P"),
+        inert('M', 610, b""),
+        inert('M', 690, b"P"),
+        inert('M', 730, b""),
+        inert('M', 1380, b"PE"),
+    ],
+    // M16 changes the tool, M96 jumps.
+    m_own: &[160, 960],
+    // Haas Mill Operator's Manual, list of M codes: M10 to M13 brakes of rotary axes, M21 to M28 and M51 to M69 outputs and user functions, M34 and
+    // M35 coolant nozzle, M73, M74, M83 and M84 air, M80 and M81 door, M130 and M131 media, M138 and M139 variation of the spindle speed.
     m: &[
-        0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 290, 300, 310, 330, 410, 420, 830, 840, 880, 890, 970,
-        980, 990,
+        0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110, 120, 130, 160, 190, 210, 220, 230, 240, 250, 260,
+        270, 280, 290, 300, 310, 330, 340, 350, 360, 390, 410, 420, 510, 520, 530, 540, 550, 560, 570, 580,
+        590, 610, 620, 630, 640, 650, 660, 670, 680, 690, 730, 740, 750, 780, 790, 800, 810, 820, 830, 840,
+        860, 880, 890, 950, 960, 970, 980, 990, 1090, 1300, 1310, 1380, 1390,
     ],
     ..COMMON_WORDS
 };

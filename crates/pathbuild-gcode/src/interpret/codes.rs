@@ -158,7 +158,8 @@ impl Command {
             300 => Self::Home(1),
             301 => Self::StoreHome(1),
             400 => Self::NoEffect(CutterCompensation),
-            410 | 411 | 420 | 421 => Self::NotFollowed(CutterCompensation),
+            410 | 411 | 420 | 421 | 390 | 1410 => Self::NotFollowed(CutterCompensation),
+            1430 => Self::NotFollowed(ToolLength),
             430 | 432 | 490 => Self::NoEffect(ToolLength),
             431 => Self::LengthByNumber,
             520 => Self::LocalOffset,
@@ -175,7 +176,8 @@ impl Command {
             // G15, G50 and G69 switch polar coordinates, scaling, mirroring and rotation off. They have no effect, because the words that switch
             // these on are reported and not executed.
             150 | 500 | 690 => Self::NoEffect(Transform),
-            160 | 510 | 680 => Self::NotFollowed(Transform),
+            // Fanuc: G07.1 and G51.1; Haas: G101, G107, G234 and G254.
+            160 | 510 | 680 | 71 | 511 | 1010 | 1070 | 2340 | 2540 => Self::NotFollowed(Transform),
             70 => Self::NotFollowed(LatheMode),
             80 => Self::NoEffect(LatheMode),
             900 => Self::Incremental(false),

@@ -116,8 +116,10 @@ impl Interpreter<'_> {
     }
 
     fn is_unsupported(&self, m_code: u16) -> bool {
-        let is_own = self.rules.words.own_m_codes && (1000..2000).contains(&m_code);
-        is_jump(m_code) && !self.calls(m_code) || is_own
+        let words = self.rules.words;
+        let is_own = words.own_m_codes && (1000..2000).contains(&m_code) || words.m_own.contains(&m_code);
+        let is_inert = words.inert('M', m_code).is_some();
+        is_jump(m_code) && !self.calls(m_code) && !is_inert || is_own
     }
 
     /// Returns the time in seconds of the block's G4, if any. Removes the letters that state it, so that F and S do not set the feed and the speed.

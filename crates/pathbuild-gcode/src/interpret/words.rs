@@ -6,7 +6,7 @@ use pathbuild_motion::{Action, Group, StatedWord, WordEffect};
 
 use super::codes::{self, Command, Motion};
 use super::evaluate::{Scope, name_of, parameter_number};
-use super::execute::{AssignedParameter, Interpreter, Slot, ValueFault, limits};
+use super::execute::{AssignedParameter, Interpreter, Slot, ValueFault, Values, limits};
 use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
 use crate::dialect::MCodeLimit;
 use crate::read::{Block, SourcePosition, Span, Target, Value, Word};
@@ -239,7 +239,9 @@ impl Interpreter<'_> {
             let (code, _) = self.words.m_codes[index];
             let effect = match code {
                 _ if self.calls(code) => WordEffect::Call,
-                _ if is_followed_m(code) => WordEffect::Followed,
+                _ if is_followed_m(code) && self.rules.words.inert('M', code).is_none() => {
+                    WordEffect::Followed
+                }
                 _ => WordEffect::NotFollowed,
             };
             self.step(block, Action::Word(StatedWord { letter: 'M', code, group: None, effect }));
@@ -378,7 +380,11 @@ impl Interpreter<'_> {
             let is_harmless =
                 word.harmless.is_empty() || first.is_some_and(|slot| word.harmless.contains(&slot.value));
             for letter in word.values {
-                self.words.values.take(*letter);
+                if Values::AXES.contains(letter) {
+                    self.words.values.remove(*letter);
+                } else {
+                    self.words.values.take(*letter);
+                }
             }
             if !is_harmless {
                 let name = codes::name(word.letter, word.code);
