@@ -1018,6 +1018,40 @@ fn fanuc_and_haas_know_the_words_of_their_manuals() {
     assert_eq!(wrong(Haas, "G256\nM17"), ["2 unknown-word", "3 unknown-word"]);
 }
 
+#[test]
+fn macros_of_fanuc_and_haas_are_not_followed() {
+    let statements = [
+        "#1=0",
+        "WHILE[#1LT3]DO1",
+        "#1=#1+1",
+        "END1",
+        "IF[#1LT3]GOTO10",
+        "IF [#1 EQ 3] THEN #2=5",
+        "GOTO10",
+        "G0 X#1",
+        "G0 X-#1",
+        "G0 X[#1+2.]",
+        "N10 goto 20",
+        "DPRNT[X]",
+    ];
+    for dialect in [Fanuc, Haas] {
+        for statement in statements {
+            assert_eq!(wrong(dialect, statement), ["2 word-not-followed"], "{dialect} {statement}");
+        }
+        assert_eq!(wrong(dialect, "GX1."), ["2 invalid-word"]);
+    }
+    assert_eq!(wrong(Grbl, "#1=0\nG0 X#1"), ["2 unknown-word", "3 unknown-word"]);
+    assert_eq!(wrong(Grbl, "GOTO10"), ["2 invalid-word"]);
+}
+
+#[test]
+fn fanuc_numbers_its_switches_for_block_delete() {
+    let lines = "G0 X0. Y0. Z5.\n/2 G0 Z6.\n/G0 Z7.";
+    assert_eq!(wrong(Fanuc, lines), ["3 optional-line", "4 optional-line"]);
+    assert_eq!(run(Fanuc, lines)[1..], ["3 rapid to 0 0 6", "4 rapid to 0 0 7"]);
+    assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z5\n/2 G0 Z6").len(), 2);
+}
+
 /// The spindle may never start if M8 is the one that an older Fanuc obeys.
 #[test]
 fn haas_takes_one_m_code_per_line_and_some_fanucs_obey_one() {

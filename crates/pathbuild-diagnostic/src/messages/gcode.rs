@@ -342,6 +342,13 @@ messages! {
         help_en: "write numbers, or read the file as another dialect with --dialect",
         help_de: "Zahlen schreiben oder die Datei mit --dialect als anderen Dialekt lesen",
     }
+    /// A macro statement of a control whose macros are not followed.
+    MACRO_NOT_FOLLOWED: WordNotFollowed {
+        en: "macros of {dialect} are not followed; the line is left out",
+        de: "Makros von {dialect} werden nicht verfolgt; die Zeile bleibt unbeachtet",
+        help_en: "check the program at the control, or write the moves out",
+        help_de: "das Programm an der Steuerung prüfen oder die Bewegungen ausschreiben",
+    }
     /// `%` in a dialect without this sign.
     UNKNOWN_PERCENT: UnknownWord {
         en: "{dialect} does not know `%`",

@@ -249,11 +249,13 @@ const BASE_SPELLING: Spelling = Spelling {
     blanks: Blanks::Ignored,
     percent: Percent::Frame,
     slash: Slash::Optional,
+    slash_numbers: false,
     line_length: None,
     block_numbers: Some(99_999),
     fractional_block_numbers: false,
     checksums: false,
     grammar: None,
+    macros: false,
     decimal_comma: false,
     formulas: false,
     bare_tool_number: false,
@@ -478,6 +480,8 @@ const ISO: Rules = Rules {
 
 pub(super) static FANUC: Rules = Rules {
     dialect: Dialect::Fanuc,
+    // From memory of the operator's manual: `/1` to `/9` are optional block skips of their own; Custom Macro B.
+    spelling: Spelling { slash_numbers: true, macros: true, ..BASE_SPELLING },
     words: &codes::FANUC,
     dwell: DwellRules { p: DwellUnit::Milliseconds, seconds: b"X", counts_turns: false },
     repeats: b'K',
@@ -496,6 +500,7 @@ pub(super) static FANUC: Rules = Rules {
 
 pub(super) static HAAS: Rules = Rules {
     dialect: Dialect::Haas,
+    spelling: Spelling { macros: true, ..BASE_SPELLING },
     // From memory of the operator's manual: G20 and G21 only check Setting 9, and alarm if it differs.
     units: UnitChange::Refused,
     words: &codes::HAAS,
@@ -600,6 +605,8 @@ pub struct Spelling {
     pub percent: Percent,
     /// Meaning of `/` at the beginning of a line.
     pub slash: Slash,
+    /// Whether a digit after that `/` numbers the switch, as in `/2 G0 Z5.`.
+    pub slash_numbers: bool,
     /// Maximum length of a line; `None` if the dialect has none.
     pub line_length: Option<LineLength>,
     /// Largest block number N; `None` if there are no block numbers.
@@ -610,6 +617,8 @@ pub struct Spelling {
     pub checksums: bool,
     /// The syntax of `[ ]` and `#`, if they are supported.
     pub grammar: Option<Grammar>,
+    /// Whether the control has macros (`#1=0`, `IF[#1LT3]GOTO10`), which are not followed.
+    pub macros: bool,
     /// Whether numbers may have a decimal comma, which causes a warning.
     pub decimal_comma: bool,
     /// Whether `(=...)` after a number is its correction formula. (book: language/probes)

@@ -199,6 +199,9 @@ impl Line<'_> {
             _ => self.report(&say::SLASH_DROPPED, self.current_span(), |d| d),
         }
         self.at += 1;
+        if self.spelling().slash_numbers && matches!(self.peek(), Some(b'1'..=b'9')) {
+            self.at += 1;
+        }
     }
 
     pub(super) fn unknown_character(&mut self) -> Result<(), UnreadableLine> {

@@ -58,7 +58,9 @@ impl Line<'_> {
     fn value_of_word(&mut self, start: usize, letter: u8) -> Result<Value, UnreadableLine> {
         let syntax = match self.spelling().grammar.as_ref() {
             Some(grammar) if !self.letter_follows_without_bracket() => syntax_of(grammar),
-            None if matches!(self.peek(), Some(b'#' | b'[')) => return Err(self.report_no_expressions(start)),
+            None if matches!(self.peek(), Some(b'#' | b'[' | b'+' | b'-')) => {
+                return Err(self.report_no_expressions(start));
+            }
             _ => return Err(self.word_without_number(start, letter)),
         };
         self.compiled_value(syntax).map(Value::Expression)
@@ -71,12 +73,26 @@ impl Line<'_> {
     }
 
     fn word_without_number(&mut self, start: usize, letter: u8) -> UnreadableLine {
+        if self.begins_macro(start) {
+            return self.report_no_expressions(start);
+        }
         let span = Span::new(start, start + 1);
         self.fault(&say::WORD_WITHOUT_NUMBER, span, |d| d.with("letter", char::from(letter)))
     }
 
     fn report_no_expressions(&mut self, start: usize) -> UnreadableLine {
-        self.fault(&say::UNKNOWN_EXPRESSION, Span::new(start, self.bytes.len()), |d| d)
+        let message =
+            if self.spelling().macros { &say::MACRO_NOT_FOLLOWED } else { &say::UNKNOWN_EXPRESSION };
+        self.fault(message, Span::new(start, self.bytes.len()), |d| d)
+    }
+
+    /// Whether a statement of a macro begins here.
+    fn begins_macro(&self, start: usize) -> bool {
+        let rest = &self.bytes[start..];
+        let is_there = |keyword: &&[u8]| {
+            rest.get(..keyword.len()).is_some_and(|text| text.eq_ignore_ascii_case(keyword))
+        };
+        self.spelling().macros && MACRO_KEYWORDS.iter().any(is_there)
     }
 
     /// Reads a number and reports unusual features of its notation.
@@ -178,6 +194,10 @@ impl Line<'_> {
         Ok(())
     }
 }
+
+/// The keywords of macro statements, in upper case.
+const MACRO_KEYWORDS: [&[u8]; 11] =
+    [b"WHILE", b"DO", b"END", b"IF", b"THEN", b"GOTO", b"POPEN", b"PCLOS", b"DPRNT", b"BPRNT", b"SETVN"];
 
 /// The supported keywords of O words, in lower case.
 const O_WORDS: [(&[u8], OWordKind); 15] = [
