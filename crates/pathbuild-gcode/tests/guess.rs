@@ -53,6 +53,22 @@ fn else_the_first_dialect_that_knows_the_words() {
 }
 
 #[test]
+fn a_dialect_that_takes_every_line_wins() {
+    let after_number = |line: &str| guessed(&format!("O1000\nG21 G90\nG0 X1. Y1. Z5.\n{line}\nM30\n")).0;
+    assert_eq!(after_number("G187 P2"), Haas);
+    assert_eq!(after_number("G5.1 Q1"), Fanuc);
+    assert_eq!(after_number("G187 P2\nG5.1 Q1"), Fanuc, "no dialect has both");
+    let without = |line: &str| guessed(&format!("G21 G90\nG0 X1. Y1. Z5.\n{line}\nM30\n")).0;
+    assert_eq!(without("G54.1 P1"), Fanuc);
+    assert_eq!(without("G154 P1"), Haas);
+    assert_eq!(without("G81 X2. Y2. Z-1. R1. F10. K3"), Fanuc);
+    assert_eq!(without("G81 X2. Y2. Z-1. R1. F10. L3"), Rs274);
+    assert_eq!(without("G54.1 P1\nG154 P1"), Rs274, "no dialect has both");
+    assert_eq!(without("G2 X2. Y1. I0.5 K0.000 F10."), Grbl, "which ignores K");
+    assert_eq!(without("M3 M10"), Rs274, "Haas takes only one of them");
+}
+
+#[test]
 fn fixtures_are_recognised() {
     for (text, dialect) in [
         (include_str!("programs/native/drill.gcode"), Native),

@@ -49,6 +49,8 @@ pub enum EvidenceKind {
 /// Guesses the dialect of a file from features that only one dialect has, otherwise from the dialect that accepts most of its words.
 pub fn guess(text: &[u8]) -> Guess {
     let head = &text[..text.len().min(INSPECTED_BYTES)];
+    let whole_lines = memchr::memrchr(b'\n', head).filter(|_| head.len() < text.len());
+    let head = &head[..whole_lines.unwrap_or(head.len())];
     guess_by_header(head).or_else(|| guess_by_feature(head)).unwrap_or_else(|| guess_by_words(head))
 }
 
@@ -111,8 +113,25 @@ fn guess_by_feature(head: &[u8]) -> Option<Guess> {
         if dialect == Dialect::Xpertmill && states_modes(head) {
             return None;
         }
-        Some(Guess { dialect, evidence: Evidence { reason, line: Some(line), kind: EvidenceKind::Feature } })
+        let guess =
+            Guess { dialect, evidence: Evidence { reason, line: Some(line), kind: EvidenceKind::Feature } };
+        Some(if dialect == Dialect::Fanuc { with_all_words(head, guess) } else { guess })
     })
+}
+
+/// Replaces Fanuc by another control whose programs have a number, if only that one takes every line of the program.
+fn with_all_words(head: &[u8], guess: Guess) -> Guess {
+    if takes_every_line(head, guess.dialect) {
+        return guess;
+    }
+    let reason = &Text {
+        en: "it has a program number, and this dialect has all of its words",
+        de: "es hat eine Programmnummer, und dieser Dialekt kennt alle seine Wörter",
+    };
+    [Dialect::Haas, Dialect::Mach3]
+        .into_iter()
+        .find(|dialect| takes_every_line(head, *dialect))
+        .map_or(guess, |dialect| Guess { dialect, evidence: Evidence { reason, ..guess.evidence } })
 }
 
 /// Whether a program states units or distances by words that XpertMILL does not know. XpertMILL would interpret the inches of such a program as
@@ -131,13 +150,20 @@ fn states_modes(head: &[u8]) -> bool {
     false
 }
 
-/// Guesses the dialect with the fewest unknown words; among equals, the first.
+/// Guesses the dialect with the fewest unknown words; among equals, the first. If it does not take every line of the program, the first dialect that
+/// does.
 fn guess_by_words(head: &[u8]) -> Guess {
     let candidates = [Dialect::Rs274, Dialect::LinuxCnc, Dialect::Grbl];
     let strangers = candidates.map(|dialect| unknown_words(head, dialect));
-    let fewest = strangers.iter().min().copied().unwrap_or(0);
-    let dialect =
+    let mut fewest = strangers.iter().min().copied().unwrap_or(0);
+    let mut dialect =
         candidates.into_iter().zip(strangers).find(|(_, count)| *count == fewest).map(|(dialect, _)| dialect);
+    if !dialect.is_some_and(|dialect| takes_every_line(head, dialect)) {
+        let others = [Dialect::LinuxCnc, Dialect::Grbl, Dialect::Mach3, Dialect::Fanuc, Dialect::Haas];
+        if let Some(complete) = others.into_iter().find(|dialect| takes_every_line(head, *dialect)) {
+            (dialect, fewest) = (Some(complete), 0);
+        }
+    }
     let reason = if fewest == 0 {
         &Text {
             en: "this dialect knows all words of the program",
@@ -157,9 +183,18 @@ fn guess_by_words(head: &[u8]) -> Guess {
 
 fn unknown_words(head: &[u8], dialect: Dialect) -> usize {
     let problems = interpret_each(head, dialect, &Options::default(), &mut |_| {});
-    let is_stranger =
-        |code| matches!(code, Code::UnknownWord | Code::UnknownCharacter | Code::InvalidComment);
-    problems.iter().filter(|problem| is_stranger(problem.code())).count()
+    problems.iter().filter(|problem| is_unknown(problem.code())).count()
+}
+
+fn is_unknown(code: Code) -> bool {
+    matches!(code, Code::UnknownWord | Code::UnknownCharacter | Code::InvalidComment)
+}
+
+/// Whether a control of the dialect knows all words of the program, uses them, and refuses no line because of two that exclude each other.
+fn takes_every_line(head: &[u8], dialect: Dialect) -> bool {
+    let problems = interpret_each(head, dialect, &Options::default(), &mut |_| {});
+    let is_taken = |code| !is_unknown(code) && !matches!(code, Code::UnusedWord | Code::ConflictingWords);
+    problems.iter().all(|problem| is_taken(problem.code()))
 }
 
 fn contains(line: &[u8], sign: &[u8]) -> bool {
