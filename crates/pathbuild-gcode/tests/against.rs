@@ -15,12 +15,18 @@ const CLEARANCE: f64 = 5.0;
 
 /// Returns the differences between a program and a drawing. `drawn` are the drawing's moves as G-code, beginning above the zero of the path.
 fn differences(dialect: Dialect, program: &str, drawn: &str) -> Vec<String> {
+    differences_with_pecks(dialect, program, drawn, None)
+}
+
+/// Like [`differences`], for holes that are drilled in pecks of a depth in mm.
+fn differences_with_pecks(dialect: Dialect, program: &str, drawn: &str, peck: Option<f64>) -> Vec<String> {
     let drawn = format!("G17 G21 G90 G94\nG0 X0 Y0 Z5\n{drawn}\nM30\n");
     let moves = interpret(drawn.as_bytes(), Native, &Options::default()).moves();
     let program = format!("{program}\nM30\n");
     let words = PostWords::of_programs([&program], dialect);
     let drawn = ExpectedProgram {
         moves: moves.into_iter().skip(1),
+        pecks: vec![(0, peck)],
         start: Position::known(0.0, 0.0, CLEARANCE),
         clearance: CLEARANCE,
         tool: ToolUse::default(),
@@ -109,4 +115,32 @@ fn pecks_stay_in_the_hole_and_reach_its_bottom() {
     differs("G1 Z1 F100\nG0 Z2\nG0 Z1.1\nG1 Z-1.1");
     differs("G1 Z1 F100\nG0 Z2\nG0 Z1.1\nG1 Z-1 F200");
     differs("G1 Z1 F100\nG0 Z5");
+}
+
+/// The hole is 4 mm deep, from Z1 to Z-3.
+#[test]
+fn holes_with_c_are_drilled_in_pecks() {
+    let drilled = |hole: &str, peck: Option<f64>| {
+        let head = "G17 G21 G90 G94\nG0 Z5\nG0 X0 Y0\nG0 X9 Y0";
+        let drawn = "G0 X9 Y0\nG0 Z1\nG1 Z-3 F100\nG0 Z5";
+        let cycle = hole.starts_with("G98").then(|| format!("{head}\n{hole}\nG80"));
+        let program = cycle.unwrap_or_else(|| format!("{head}\nG0 Z1\n{hole}\nG0 Z5"));
+        let mut found = differences_with_pecks(Dialect::Rs274, &program, drawn, peck);
+        found.retain(|fault| fault.ends_with("moves-differ"));
+        found.len()
+    };
+    let by_hand = |first: &str, gap: &str| format!("G1 Z{first} F100\nG0 Z{gap}\nG0 Z{first}\nG1 Z-3");
+    assert_eq!(drilled("G1 Z-3 F100", None), 0);
+    assert_eq!(drilled("G1 Z-3 F100", Some(4.0)), 0);
+    assert_eq!(drilled("G1 Z-3 F100", Some(3.9)), 1);
+    assert_eq!(drilled("G1 Z-1 F100\nG1 Z-3", Some(2.0)), 1, "the tool does not leave the hole");
+    assert_eq!(drilled(&by_hand("-1", "1"), Some(2.0)), 0);
+    assert_eq!(drilled(&by_hand("-1.01", "1"), Some(2.0)), 1);
+    assert_eq!(drilled(&by_hand("-1", "-1"), Some(2.0)), 1, "the tool does not rise");
+    assert_eq!(drilled("G98 G83 X9 Y0 Z-3 R1 Q2 F100", Some(2.0)), 0);
+    assert_eq!(drilled("G98 G83 X9 Y0 Z-3 R1 Q3 F100", Some(2.0)), 1);
+    assert_eq!(drilled("G98 G81 X9 Y0 Z-3 R1 F100", Some(2.0)), 1);
+    assert_eq!(drilled("G98 G83 X9 Y0 Z-3 R1 Q4 F100", Some(4.0)), 0);
+    assert_eq!(drilled("G98 G83 X9 Y0 Z-3 R1 Q1.3333333333 F100", Some(2.0)), 0, "the last peck is nothing");
+    assert_eq!(drilled("G98 G83 X9 Y0 Z-3 R1 Q1.3333333333 F100", None), 0);
 }

@@ -86,6 +86,15 @@ impl Program {
         })
     }
 
+    /// Returns the peck depth C in mm that applies from each element on, by step numbers as those of [`moves`](Self::moves).
+    pub fn pecks(&self) -> Vec<(u32, Option<f64>)> {
+        let peck = |(number, step): (u32, &ProgramStep)| match step {
+            ProgramStep::Comment(Comment::Element { peck, .. }) => Some((number, *peck)),
+            _ => None,
+        };
+        (1_u32..).zip(&self.steps).filter_map(peck).collect()
+    }
+
     /// Returns S0 in mm, which is slightly above S, so that the first sweep always writes its Z.
     pub fn start_height(&self) -> f64 {
         self.sweep_height * (1.0 + 0.000_002)

@@ -130,6 +130,7 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
     let mut rules = Rules::new(Some(&stock));
     let drawn = ExpectedProgram {
         moves: program.moves(),
+        pecks: Vec::new(),
         start: Position::known(0.0, 0.0, program.start_height()),
         clearance: program.start_height(),
         tool: ToolUse {

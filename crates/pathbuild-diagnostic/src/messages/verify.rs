@@ -120,6 +120,27 @@ messages! {
         help_en: "write the program again with `pathbuild emit`, or correct [tool.NAME]",
         help_de: "das Programm mit `pathbuild emit` neu schreiben oder [tool.NAME] berichtigen",
     }
+    /// `verify --against`: a hole with C that is drilled in deeper strokes.
+    STROKE_TOO_DEEP: MovesDiffer {
+        en: "the tool drills {found} mm in one stroke; by C of the drawing, each peck is at most {expected} mm deep",
+        de: "das Werkzeug bohrt {found} mm auf einmal; nach C der Zeichnung ist jede Stufe höchstens {expected} mm tief",
+        help_en: "correct Q of the cycle, or write the program again with `pathbuild emit`",
+        help_de: "Q des Zyklus berichtigen oder das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: a cut before the program switches the spindle.
+    SPINDLE_NOT_SWITCHED: MovesDiffer {
+        en: "the program has not switched the spindle on, but the drawing's cutter needs `{expected}`",
+        de: "das Programm hat die Spindel nicht eingeschaltet, der Fräser der Zeichnung braucht aber `{expected}`",
+        help_en: "write the program again with `pathbuild emit`, or correct [tool.NAME]",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben oder [tool.NAME] berichtigen",
+    }
+    /// `verify --against`: a program that ends with the spindle or the coolant on.
+    STOP_MISSING: MovesDiffer {
+        en: "the program ends without {word}, which the drawing's program has",
+        de: "das Programm endet ohne {word}, das im Programm der Zeichnung steht",
+        help_en: "add {word} at the end, or write the program again with `pathbuild emit`: it may have been cut off",
+        help_de: "{word} am Ende ergänzen oder das Programm mit `pathbuild emit` neu schreiben: vielleicht wurde es abgeschnitten",
+    }
     /// `verify --against`: a cut too soon after the spindle was switched on, because the dwell is missing or too short.
     SPUN_UP_TOO_SHORT: MovesDiffer {
         en: "the tool cuts less than {seconds} s after the spindle was switched on",

@@ -116,6 +116,11 @@ impl ReferenceProgram {
         let drawn_moves = is_native.then(|| self.drawn.moves()).into_iter().flatten();
         let drawn = verify::ExpectedProgram {
             moves: drawn_moves.chain(written.into_iter().flatten()),
+            pecks: if is_native && settings.general.cycles.value && dialect != Dialect::Native {
+                self.drawn.pecks()
+            } else {
+                Vec::new()
+            },
             start,
             clearance,
             tool: self

@@ -3,7 +3,7 @@
 
 use std::iter::Peekable;
 
-use pathbuild_diagnostic::messages::paths as say;
+use pathbuild_diagnostic::messages::{gcode, paths as say};
 use pathbuild_diagnostic::{Diagnostic, Point};
 use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Position, Step};
 use pathbuild_path::{KeepOut, KeepOutMap};
@@ -34,8 +34,16 @@ pub(super) const CHORD_TOLERANCE: f64 = 0.01;
 #[derive(Debug)]
 pub(super) struct CutComparison<M: Iterator<Item = (u32, Move)>> {
     expected: Peekable<M>,
+    /// The peck depth of the expected moves from a number on.
+    pecks: Vec<(u32, Option<f64>)>,
     /// The fraction of the next expected move that the program has already made.
     done: f64,
+    /// Height in mm of the bottom of a begun hole when the tool last left it; `None` before the first stroke.
+    left_at: Option<f64>,
+    /// The last expected move, if it was a plunge that the program has made.
+    finished_plunge: Option<Plunge>,
+    /// The first stroke into a hole that is too deep.
+    deep_stroke: Option<Diagnostic>,
     /// The expected position before the next expected move.
     at: Position,
     chain: RapidSequence,
@@ -53,10 +61,20 @@ pub(super) struct CutComparison<M: Iterator<Item = (u32, Move)>> {
 }
 
 impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
-    pub(super) fn new(expected: M, start: Position, clearance: f64, dialect: Dialect) -> Self {
+    pub(super) fn new(
+        expected: M,
+        pecks: Vec<(u32, Option<f64>)>,
+        start: Position,
+        clearance: f64,
+        dialect: Dialect,
+    ) -> Self {
         Self {
             expected: expected.peekable(),
+            pecks,
             done: 0.0,
+            left_at: None,
+            finished_plunge: None,
+            deep_stroke: None,
             at: start,
             chain: RapidSequence::new(),
             clearance,
@@ -81,6 +99,8 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
         }
         if movement.pace == Pace::Rapid {
             self.chain.push(line, movement);
+        } else if self.repeats_last_stroke(movement) {
+            self.chain = RapidSequence::after_cut();
         } else if let Err(difference) =
             self.rapids(Some((line, movement))).and_then(|()| self.cut(line, movement))
         {
@@ -88,8 +108,8 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
         }
     }
 
-    /// Returns the first difference, and the number of expected moves found before it.
-    pub(super) fn finish(mut self) -> (Option<Diagnostic>, usize) {
+    /// Returns the first difference and the first stroke that is too deep, and the number of expected moves found before the difference.
+    pub(super) fn finish(mut self) -> (Vec<Diagnostic>, usize) {
         if self.difference.is_none() {
             self.difference = self.rapids(None).err().map(|difference| *difference);
         }
@@ -101,13 +121,18 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
                 expected: Some(expected),
             })
         });
-        (difference.map(|difference| difference.diagnostic_against_drawing()), self.equal)
+        let difference = difference.map(|difference| difference.diagnostic_against_drawing());
+        (difference.into_iter().chain(self.deep_stroke).collect(), self.equal)
     }
 
     /// Compares the rapid moves before this cut, or at the end of the program, with the expected ones.
     fn rapids(&mut self, cut: Option<(u32, &Move)>) -> Result<(), Box<Difference>> {
         let mut chain = std::mem::replace(&mut self.chain, RapidSequence::after_cut());
         if let Some(share) = cut.and_then(|_| chain.peck_fraction(&self.begun_plunge()?)) {
+            let bottom = self.place().z();
+            if chain.highest() > bottom + self.slack_of_height() {
+                self.left_at = Some(bottom);
+            }
             (self.done, chain) = (share, RapidSequence::after_cut());
         }
         let start = self.at;
@@ -148,6 +173,38 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
                 Ok(())
             }
             Ok(()) => Err(Box::new(Difference { kind: DifferenceKind::Place, found, expected: next })),
+        }
+    }
+
+    /// Whether a cut goes once more to the bottom of the hole that the program has just finished. A cycle whose pecks reach the bottom exactly does so
+    /// after rounding.
+    fn repeats_last_stroke(&mut self, movement: &Move) -> bool {
+        let Some(plunge) = self.finished_plunge else { return false };
+        let highest = self.chain.highest();
+        let leaves = self
+            .expected
+            .peek()
+            .is_none_or(|(_, next)| next.pace == Pace::Rapid && next.to.z() > highest + self.tolerance.place);
+        let slack = 2.0 * self.tolerance.place;
+        leaves
+            && self.chain.peck_fraction(&plunge).is_some()
+            && highest <= plunge.movement.from.z() + slack
+            && is_plunge_or_stands(movement)
+            && is_near(&movement.to.at, &plunge.movement.to.at, slack)
+    }
+
+    /// Reports the first stroke into a hole that is deeper than a peck of the drawing.
+    fn check_stroke(&mut self, line: u32, bottom: f64) {
+        let Some((number, expected)) = self.expected.peek().filter(|(_, expected)| is_plunge(expected))
+        else {
+            return;
+        };
+        let index = self.pecks.partition_point(|(first, _)| first <= number);
+        let Some(peck) = index.checked_sub(1).and_then(|index| self.pecks[index].1) else { return };
+        let depth = self.left_at.unwrap_or(expected.from.z()) - bottom;
+        if depth > peck + 2.0 * self.tolerance.place && self.deep_stroke.is_none() {
+            let found = Diagnostic::new(&gcode::STROKE_TOO_DEEP).with("found", depth).with("expected", peck);
+            self.deep_stroke = Some(found.at_line(line, None));
         }
     }
 
@@ -208,6 +265,7 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
             let is_chord = is_helix && !self.takes_helices && !ours.is_arc();
             if ours.end_together(&theirs, slack) && !is_chord {
                 check_pace(movement, &expected, &self.tolerance).map_err(differs)?;
+                self.check_stroke(line, movement.to.z());
                 check_shape(&ours, 1.0, &theirs, 1.0, theirs.radius_error(), &self.tolerance)
                     .map_err(differs)?;
                 check_centres(movement, &expected).map_err(differs)?;
@@ -243,6 +301,7 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
                 return Err(differs(DifferenceKind::Place));
             }
             if splits {
+                self.check_stroke(line, movement.to.z());
                 self.done = meeting_fraction(&ours, &theirs, theirs.radius_error(), &self.tolerance)
                     .map_err(differs)?;
                 return Ok(());
@@ -257,7 +316,9 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
         self.expected.next();
         self.equal += 1;
         self.at = expected.to;
-        self.done = 0.0;
+        (self.done, self.left_at) = (0.0, None);
+        let plunge = Plunge { movement: *expected, done: 1.0, slack: self.tolerance.place };
+        self.finished_plunge = is_plunge(expected).then_some(plunge);
     }
 }
 
@@ -301,6 +362,11 @@ fn is_plunge(movement: &Move) -> bool {
         && matches!(movement.shape, MoveShape::Line)
         && is_straight
         && movement.to.z() < movement.from.z()
+}
+
+/// Whether a cut goes straight down, or nowhere.
+fn is_plunge_or_stands(movement: &Move) -> bool {
+    matches!(movement.pace, Pace::Feed(_)) && (is_plunge(movement) || movement.is_standstill())
 }
 
 /// An expected plunge of which the program has made a part.
@@ -375,6 +441,11 @@ impl RapidSequence {
 
     pub(super) fn push(&mut self, line: u32, movement: &Move) {
         self.moves.push((line, *movement));
+    }
+
+    /// Returns the greatest height in mm that the moves reach.
+    fn highest(&self) -> f64 {
+        self.moves.iter().map(|(_, movement)| movement.to.z()).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Returns the fraction of a plunge at which these moves end, if they are those between two pecks: up in the hole and down again, no deeper

@@ -24,6 +24,8 @@ use setup::Setup;
 pub struct ExpectedProgram<M> {
     /// The expected moves, beginning at `start`.
     pub moves: M,
+    /// The depth of each peck in mm with which holes must be drilled, from a number of the moves on; `None` if the tool may go down in one stroke.
+    pub pecks: Vec<(u32, Option<f64>)>,
     /// The position at which the moves begin: above the path's zero at the height `clearance`, unless a definition begins elsewhere.
     pub start: Position,
     /// The drawing's S0: the height in mm at and above which there are no obstacles.
@@ -117,7 +119,7 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
         Self {
             setup: Setup::new(dialect, words, drawn.clearance, drawn.tool, drawn.spin_up),
             words: WordRules::strict(words, dialect),
-            cuts: CutComparison::new(drawn.moves, drawn.start, drawn.clearance, dialect),
+            cuts: CutComparison::new(drawn.moves, drawn.pecks, drawn.start, drawn.clearance, dialect),
             number: drawn.number,
             problems: Problems::default(),
         }
@@ -149,8 +151,8 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
         self.setup.finish(&mut self.problems);
         let mut differences = self.problems.into_diagnostics();
         differences.extend(self.words.finish());
-        let (first, equal) = self.cuts.finish();
-        differences.extend(first);
+        let (found, equal) = self.cuts.finish();
+        differences.extend(found);
         differences.sort_by_key(|diagnostic| diagnostic.place.line);
         Agreement { differences, equal }
     }

@@ -39,6 +39,8 @@ pub(super) struct Setup<'w> {
     /// The control's behaviour at corners, if the program has specified it.
     corners: Option<Corners>,
     spindle_line: u32,
+    /// The line of the last step.
+    line: u32,
     /// Seconds that the spindle has been running since it was switched on.
     running: f64,
     reported: ReportedFaults,
@@ -86,6 +88,7 @@ impl<'w> Setup<'w> {
             spin_up,
             at: Position::default(),
             spindle_line: 0,
+            line: 0,
             running: 0.0,
             reported: ReportedFaults::default(),
         }
@@ -93,6 +96,7 @@ impl<'w> Setup<'w> {
 
     pub(super) fn step(&mut self, step: &Step, problems: &mut Problems) {
         let line = step.line;
+        self.line = line;
         let spindle_before = self.tools.spindle();
         self.tools.step(step);
         match &step.action {
@@ -123,10 +127,18 @@ impl<'w> Setup<'w> {
 
     pub(super) fn finish(&mut self, problems: &mut Problems) {
         if self.is_spindle_on() {
-            report_extra_word(self.spindle_line, "M3, M4".to_owned(), problems);
+            if self.expected.turning.is_some_and(Turning::is_on) {
+                problems.add_at_line(&say::STOP_MISSING, self.line, |d| d.quoting("word", "M5"));
+            } else {
+                report_extra_word(self.spindle_line, "M3, M4".to_owned(), problems);
+            }
         }
         if self.coolant != Coolant::default() && self.switches_coolant() {
-            report_extra_word(self.coolant_line, "M7, M8".to_owned(), problems);
+            if self.expected.coolant.is_some_and(|expected| expected != Coolant::default()) {
+                problems.add_at_line(&say::STOP_MISSING, self.line, |d| d.quoting("word", "M9"));
+            } else {
+                report_extra_word(self.coolant_line, "M7, M8".to_owned(), problems);
+            }
         }
     }
 
@@ -303,8 +315,10 @@ impl<'w> Setup<'w> {
 
     fn spindle_differs(&self, line: u32, message: &'static Message, problems: &mut Problems) {
         let (expected, found) = (self.expected, self.tools.spindle());
+        let running = spindle_text(Some(found.turning), found.speed);
+        let message = if running.is_empty() { &say::SPINDLE_NOT_SWITCHED } else { message };
         problems.add_at_line(message, line, |d| {
-            d.quoting("found", spindle_text(Some(found.turning), found.speed))
+            d.quoting("found", running)
                 .quoting("expected", spindle_text(expected.turning, expected.speed))
                 .with("seconds", self.spin_up)
         });
