@@ -34,6 +34,8 @@ pub struct InertWord {
     pub values: &'static [u8],
     /// Harmless values of the first letter in `values`; empty if every value is harmless.
     pub harmless: &'static [f64],
+    /// Letters of which the word needs one; empty if it needs none.
+    pub needs: &'static [u8],
 }
 
 /// A set of letters, with one bit for each ASCII character.
@@ -76,7 +78,12 @@ impl Words {
 
 /// Creates an inert word that is harmless with all values of these letters.
 const fn inert(letter: char, code: u16, values: &'static [u8]) -> InertWord {
-    InertWord { letter, code, values, harmless: &[] }
+    InertWord { letter, code, values, harmless: &[], needs: &[] }
+}
+
+/// Creates an inert word that needs one of these letters.
+const fn needing(needs: &'static [u8], word: InertWord) -> InertWord {
+    InertWord { needs, ..word }
 }
 
 /// The words that most dialects share; each of them overrides some fields.
@@ -118,19 +125,20 @@ pub(super) static LINUXCNC: Words = Words {
     ],
     // From memory of LinuxCNC's page "M-Codes": M19 R Q P orients the spindle; M50 to M53 P switch overrides, adaptive feed and feed stop;
     // M62 to M65 P switch digital outputs, M67 and M68 E Q set analogue ones; M66 P or E, L, Q waits for an input.
+    // The interpreter refuses M62 to M68 without P or E.
     inert: &[
         inert('M', 190, b"RQP"),
         inert('M', 500, b"P"),
         inert('M', 510, b"P"),
         inert('M', 520, b"P"),
         inert('M', 530, b"P"),
-        inert('M', 620, b"P"),
-        inert('M', 630, b"P"),
-        inert('M', 640, b"P"),
-        inert('M', 650, b"P"),
-        inert('M', 660, b"PELQ"),
-        inert('M', 670, b"EQ"),
-        inert('M', 680, b"EQ"),
+        needing(b"P", inert('M', 620, b"P")),
+        needing(b"P", inert('M', 630, b"P")),
+        needing(b"P", inert('M', 640, b"P")),
+        needing(b"P", inert('M', 650, b"P")),
+        needing(b"PE", inert('M', 660, b"PELQ")),
+        needing(b"E", inert('M', 670, b"EQ")),
+        needing(b"E", inert('M', 680, b"EQ")),
     ],
     own_m_codes: true,
     ..COMMON_WORDS
@@ -194,9 +202,9 @@ pub(super) static FANUC: Words = Words {
     // Look-ahead: G05 P10000 and P0 (P10001 and up run stored data), G05.1 Q1 and Q0 (Q2 and Q3 smooth the path), G08 P1 and P0. Sources: the table
     // of codes of the 30i at cncschool.pl, and blog.csdn.net/sinat_26528193, article 126620736.
     inert: &[
-        InertWord { letter: 'G', code: 50, values: b"P", harmless: &[0.0, 10_000.0] },
-        InertWord { letter: 'G', code: 51, values: b"Q", harmless: &[0.0, 1.0] },
-        InertWord { letter: 'G', code: 80, values: b"P", harmless: &[0.0, 1.0] },
+        InertWord { letter: 'G', code: 50, values: b"P", harmless: &[0.0, 10_000.0], needs: &[] },
+        InertWord { letter: 'G', code: 51, values: b"Q", harmless: &[0.0, 1.0], needs: &[] },
+        InertWord { letter: 'G', code: 80, values: b"P", harmless: &[0.0, 1.0], needs: &[] },
         inert('G', 220, b"XYZIJK"),
         inert('G', 230, b""),
         inert('G', 501, b"XYZ"),

@@ -71,6 +71,9 @@ pub struct Rules {
     pub systems: Option<SystemNumbers>,
     /// Whether P of G30 selects the reference point by its number, counted from 2.
     pub numbers_references: bool,
+    /// Whether the control refuses lines that the interpreter of RS274/NGC refuses: G53 that moves nothing unless G0 or G1 is in its line, a motion word
+    /// beside G10, G28, G30, G52 or G92 even without coordinates, and P or Q that the drilling cycle does not use.
+    pub refuses_idle_words: bool,
     /// Whether a drilling cycle that begins below R first rises to it and then goes to the hole, as in RS274/NGC, 3.5.16.1.
     pub rises_before_holes: bool,
     /// Whether drilling cycles return to their initial height (G98) by default.
@@ -304,6 +307,7 @@ const BASE: Rules = Rules {
     stores_cycles: false,
     systems: None,
     numbers_references: false,
+    refuses_idle_words: false,
     rises_before_holes: true,
     lifts_to_start: false,
     ends_cycles_beside_motion: false,
@@ -328,6 +332,7 @@ pub(super) static RS274: Rules = Rules {
     },
     arcs: ArcRules { radius: NIST_RADIUS, ..BASE.arcs },
     start_motion: StartMotion::None,
+    refuses_idle_words: true,
     lengths: RS274_LENGTHS,
     ..BASE
 };
@@ -362,6 +367,7 @@ pub(super) static LINUXCNC: Rules = Rules {
     },
     feed_mode: FeedMode::ClearsFeed,
     start_motion: StartMotion::None,
+    refuses_idle_words: true,
     lengths: RS274_LENGTHS,
     ..BASE
 };

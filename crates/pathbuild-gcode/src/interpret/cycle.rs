@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Position};
 
-use super::codes::{self, Cycle};
+use super::codes::{self, Cycle, Motion};
 use super::execute::{Interpreter, Slot, limits, whole};
 use super::state::{CycleState, StatedLength};
 use crate::read::{Block, Span};
@@ -147,8 +147,8 @@ impl Interpreter<'_> {
         let shift = self.state.offsets.shift(self.state.plane.third());
         let old = self.retract_height();
         let r = self.words.values.take_slot(b'R').map(|slot| self.millimetres(slot));
-        let q = self.words.values.take_slot(b'Q').map(|slot| self.millimetres(slot));
-        let p = self.words.values.take_slot(b'P').map(|slot| self.seconds(block, slot));
+        let q = self.take_cycle_word(b'Q').map(|slot| self.millimetres(slot));
+        let p = self.take_cycle_word(b'P').map(|slot| self.seconds(block, slot));
         let z = z.map(|slot| self.millimetres(slot));
         let incremental = self.state.incremental;
         let stated = StatedLength { line: block.line, unit: self.state.unit };
@@ -160,6 +160,16 @@ impl Interpreter<'_> {
         kept.z = z.map(|z| if incremental { kept.r.unwrap_or(old) + z } else { z + shift }).or(kept.z);
         kept.p = p.or(kept.p);
         kept.q = q.or(kept.q);
+    }
+
+    /// Returns P or Q, if the cycle takes it.
+    fn take_cycle_word(&mut self, letter: u8) -> Option<Slot> {
+        let takes = match (self.state.motion, letter) {
+            (Motion::Cycle(Cycle::ChipBreaking | Cycle::Pecking), b'Q') => true,
+            (Motion::Cycle(Cycle::Dwelling | Cycle::BoringDwelling), b'P') => true,
+            _ => !self.rules.refuses_idle_words,
+        };
+        if takes { self.words.values.take_slot(letter) } else { None }
     }
 
     fn hole(&mut self, block: &Block<'_>, cycle: Cycle) -> Option<Hole> {

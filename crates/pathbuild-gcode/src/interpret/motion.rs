@@ -30,6 +30,10 @@ impl Interpreter<'_> {
         let is_machine = self.words.of_group(Group::MachineCoordinates);
         if let Some((.., span)) = is_machine {
             self.check_machine_coordinates(block, motion, span);
+            let is_idle = !has_coordinates && !stated.is_some_and(|(_, code, _)| matches!(code, 0 | 10));
+            if is_idle && self.rules.refuses_idle_words && matches!(motion, Motion::Rapid | Motion::Feed) {
+                self.report(block, &say::MACHINE_COORDINATES_MOTION, span, |d| d);
+            }
         }
         let moves_without = stated.is_some() && matches!(motion, Motion::Arc { .. } | Motion::Cycle(_));
         if !has_coordinates && !moves_without {

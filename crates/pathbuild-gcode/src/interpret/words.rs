@@ -320,10 +320,16 @@ impl Interpreter<'_> {
         }
         self.check_m_limit(block);
         let takers = || self.words.commands.iter().filter(|(command, ..)| command.takes_coordinates());
-        if self.words.values.has_coordinates()
-            && let (Some(&(first_command, first, _)), Some(&(second_command, second, span))) =
-                (takers().next(), takers().nth(1))
+        let uses_axes = |first: Command, second: Command| {
+            let groups = [first.group(), second.group()];
+            self.words.values.has_coordinates()
+                || self.rules.refuses_idle_words
+                    && [Group::Motion, Group::NonModal].iter().all(|group| groups.contains(group))
+        };
+        if let (Some(&(first_command, first, _)), Some(&(second_command, second, span))) =
+            (takers().next(), takers().nth(1))
             && first_command.group() != second_command.group()
+            && uses_axes(first_command, second_command)
         {
             self.report_conflict(
                 block,
@@ -377,6 +383,12 @@ impl Interpreter<'_> {
             codes.filter_map(|(letter, code, span)| Some((words.inert(letter, code)?, span))).collect();
         for (word, span) in found {
             let first = word.values.first().and_then(|letter| self.words.values.peek(*letter));
+            if !word.needs.is_empty() && word.needs.iter().all(|letter| !self.words.values.has(*letter)) {
+                let name = codes::name(word.letter, word.code);
+                let needed = word.needs.iter().map(|letter| char::from(*letter).to_string());
+                let needed = needed.collect::<Vec<_>>().join(", ");
+                self.report(block, &say::NEEDS, span, |d| d.quoting("word", name).quoting("missing", needed));
+            }
             let is_harmless =
                 word.harmless.is_empty() || first.is_some_and(|slot| word.harmless.contains(&slot.value));
             for letter in word.values {
