@@ -117,6 +117,7 @@ fn run(line: &str, victim: &str, reads: u32) -> (ExitStatus, bool) {
         jobs: Some(1),
         cache: None,
         reporter: Rc::<Printer>::clone(&printer),
+        is_date_decisive: Arc::default(),
     };
     let context = Context::new(&cli, cli.common.overrides(), printer, workspace);
     let status = commands::run(&context, &cli.command);

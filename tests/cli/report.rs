@@ -137,6 +137,7 @@ fn severities_are_those_of_the_configuration_and_the_last_part_that_names_the_fi
         jobs: None,
         cache: None,
         reporter: std::rc::Rc::new(SilentReporter),
+        is_date_decisive: std::sync::Arc::default(),
     };
     let severity = |diagnostic: Diagnostic| {
         workspace.findings(vec![diagnostic]).diagnostics.first().map(|diagnostic| diagnostic.severity)

@@ -127,3 +127,21 @@ fn severities_hold_for_rewritten_programs_too() {
     let place = with(place.file("my.cbpp", POST), "[severity]\nPB754 = \"ignore\"");
     assert_stopped(&place, "post p.nc --dialect linuxcnc --surface 0 --post my.cbpp -o x.nc", &["524"]);
 }
+
+/// Each command that a waiver with an end decides says which date it was compared with.
+#[test]
+fn commands_name_the_date_that_decided_a_waiver() {
+    let place = |until: &str| {
+        let table =
+            format!("[[severity-in]]\nfiles = [\"*\"]\nPB210 = \"ignore\"\nreason = \"later\"\n{until}");
+        with(Place::of(LIBRARY), &table)
+    };
+    for command in ["check", "emit 1234.1P", "list", "sheet 1234.1P", "view 1234.1P -o x.svg"] {
+        let mentions = |until: &str| {
+            let run = place(until).run(command);
+            assert!(!run.stderr.contains("[PB210]"), "{run}");
+            run.stderr.matches("waivers with an end were compared with").count()
+        };
+        assert_eq!((mentions("until = 2031-12-31"), mentions("")), (1, 0), "{command}");
+    }
+}

@@ -135,6 +135,7 @@ impl LibraryOptions {
             jobs: self.threads,
             cache,
             reporter: std::rc::Rc::new(SilentReporter),
+            is_date_decisive: Arc::default(),
         };
         if faults.is_empty() { Ok(workspace) } else { Err(Error::from_findings(&workspace, faults)) }
     }

@@ -185,7 +185,7 @@ fn is_of_modes(problem: &Diagnostic) -> bool {
 
 /// Returns errors about the rapid moves of a text that lead through material because the control does not go straight. They are judged only if all
 /// cutters and the surface are known.
-fn bent_rapids(steps: &Vec<Step>, job: &Job, cuts: &[MatchedCut], target: &Target) -> Vec<Diagnostic> {
+fn bent_rapids(steps: &[Step], job: &Job, cuts: &[MatchedCut], target: &Target) -> Vec<Diagnostic> {
     let Some(stock) = stock(job, cuts) else { return Vec::new() };
     let Some(mut rules) = BentRapidRules::new(target.reader, &stock) else { return Vec::new() };
     steps.iter().for_each(|step| rules.step(step));

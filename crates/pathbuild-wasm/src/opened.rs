@@ -55,6 +55,7 @@ impl OpenedFiles {
             jobs: Some(1),
             cache: None,
             reporter: Rc::new(SilentReporter),
+            is_date_decisive: Arc::default(),
         };
         // Leaked because it lives as long as the instance: to open other files, the page starts a new instance.
         let workspace: &'static Workspace = Box::leak(Box::new(workspace));

@@ -144,6 +144,7 @@ fn a_library_has_the_programs_that_are_written_from_files() {
         jobs: None,
         cache: None,
         reporter: Rc::new(SilentReporter),
+        is_date_decisive: std::sync::Arc::default(),
     };
     let mut session = Session::new(&workspace);
     let mut compared = 0;

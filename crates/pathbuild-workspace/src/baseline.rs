@@ -4,6 +4,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
+use std::sync::atomic::Ordering;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
@@ -251,6 +252,8 @@ impl Workspace {
             }
             unused.extend(baseline.unused(&findings.diagnostics, &Run::new(self, &coverage)));
             findings = baseline.apply(findings, self.settings.date, &self.working_directory);
+            let has_end = findings.waived.iter().any(|waived| waived.waiver.until.is_some());
+            self.is_date_decisive.fetch_or(has_end, Ordering::Relaxed);
         }
         if !unused.is_empty() {
             findings.diagnostics.extend(self.findings(unused).diagnostics);

@@ -1,5 +1,7 @@
 //! Applies the configuration to diagnostics: it sets their severities, ignores some, and waives others. (book: reference/diagnostics)
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::outputs;
 use pathbuild_diagnostic::{Code, Diagnostic};
@@ -14,6 +16,7 @@ use crate::workspace::Workspace;
 pub(crate) struct Severities<'a> {
     settings: &'a Settings,
     working_directory: &'a Utf8Path,
+    is_date_decisive: &'a AtomicBool,
 }
 
 /// The outcome of applying the configured severities and waivers to a diagnostic.
@@ -28,7 +31,11 @@ pub(crate) enum Verdict {
 
 impl Workspace {
     pub(crate) fn severities(&self) -> Severities<'_> {
-        Severities { settings: &self.settings, working_directory: &self.working_directory }
+        Severities {
+            settings: &self.settings,
+            working_directory: &self.working_directory,
+            is_date_decisive: &self.is_date_decisive,
+        }
     }
 
     /// Whether any of these diagnostics counts as an error under the configuration. A program with errors is not written.
@@ -88,7 +95,10 @@ impl Severities<'_> {
                     None => diagnostic,
                 })
             }
-            (None, Some(waiver)) => Verdict::Waived(diagnostic, waiver.clone()),
+            (None, Some(waiver)) => {
+                self.is_date_decisive.fetch_or(waiver.until.is_some(), Ordering::Relaxed);
+                Verdict::Waived(diagnostic, waiver.clone())
+            }
             (None, None) => Verdict::Ignored,
         }
     }

@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 use std::rc::Rc;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{CacheLocation, TreeStore};
@@ -32,6 +33,8 @@ pub struct Workspace {
     pub cache: Option<CacheLocation>,
     /// Receives messages about the progress of the run.
     pub reporter: Rc<dyn Reporter>,
+    /// Whether a waiver that ends has accepted a finding because of the date of the run.
+    pub is_date_decisive: Arc<AtomicBool>,
 }
 
 impl Workspace {

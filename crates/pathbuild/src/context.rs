@@ -2,6 +2,7 @@
 
 use std::ops::Deref;
 use std::rc::Rc;
+use std::sync::atomic::Ordering;
 
 use camino::Utf8Path;
 use pathbuild_db::system::OsSystem;
@@ -154,8 +155,23 @@ impl Context {
         self.machine_view().raw_name(file).into_owned()
     }
 
-    /// Prints the end of the machine-readable document, and writes the reports. A report that cannot be written is an error.
+    /// Names the date of the run if it decided since the last call that a waiver with an end holds.
+    pub(crate) fn name_date(&self) {
+        if self.is_date_decisive.swap(false, Ordering::Relaxed)
+            && let Some(date) = self.settings.date
+        {
+            self.printer.status(self.phrase(
+                "waivers with an end were compared with {}",
+                "befristete Ausnahmen wurden mit {} verglichen",
+                &date.text(self.lang()),
+            ));
+        }
+    }
+
+    /// Prints the end of the machine-readable document, and writes the reports. A report that cannot be written is an error. Names the date if the
+    /// command has not done so.
     pub(crate) fn end(&self, status: ExitStatus) -> ExitStatus {
+        self.name_date();
         let (status, view) = (self.write_reports(status), self.machine_view());
         if let Some(text) = self.output.end(status.code(), &view) {
             self.printer.document(self.output.stream, &text);

@@ -47,6 +47,7 @@ pub(crate) fn workspace(
         jobs: None,
         cache: None,
         reporter: Rc::new(SilentReporter),
+        is_date_decisive: std::sync::Arc::default(),
     };
     (workspace, faults)
 }

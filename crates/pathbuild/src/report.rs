@@ -43,9 +43,7 @@ fn deliver(context: &Context, args: &CheckArgs, findings: &Findings, time: Durat
     context.output.add_figure("paths", findings.checked.iter().map(|file| file.paths.len()).sum::<usize>());
     context.output.add_figure("drawings", findings.checked.len());
     context.output.add_figure("known", findings.waived.len());
-    if let Some(line) = waivers::date_line(context, findings) {
-        context.printer.status(line);
-    }
+    context.name_date();
     context.printer.status(summary(findings, findings.waived.len(), time, context.lang()));
     if !failed.is_empty() {
         return context.fail(failed);

@@ -37,17 +37,6 @@ pub(crate) fn settle(
     context.settle(findings, args.baseline.as_deref(), coverage).map_err(|faults| context.refuse(faults))
 }
 
-/// Returns the status line that names the date of the run, if a waiver with an end was compared with it.
-pub(crate) fn date_line(context: &Context, findings: &Findings) -> Option<String> {
-    let has_end = findings.waived.iter().any(|waived| waived.waiver.until.is_some());
-    let date = context.settings.date.filter(|_| has_end)?.text(context.lang());
-    Some(context.phrase(
-        "waivers with an end were compared with {}",
-        "befristete Ausnahmen wurden mit {} verglichen",
-        &date,
-    ))
-}
-
 fn acceptance(args: &WaiverArgs) -> Option<(Code, Waiver)> {
     Some((args.accept?, Waiver { reason: args.reason.as_deref().map(Box::from), until: args.until, line: 0 }))
 }

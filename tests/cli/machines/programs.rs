@@ -75,6 +75,7 @@ pub(crate) fn of_inputs(settings: Settings, inputs: Vec<String>, name: &str) -> 
         jobs: Some(1),
         cache: None,
         reporter: Rc::new(SilentReporter),
+        is_date_decisive: Arc::default(),
     };
     let session = Session::new(&workspace);
     let wanted = session.select(&Inputs { inputs });

@@ -42,6 +42,7 @@ impl Place {
             jobs: Some(1),
             cache: None,
             reporter: Rc::new(SilentReporter),
+            is_date_decisive: Arc::default(),
         };
         let place = Self { system, inputs, workspace };
         place.draw("lib/1001.1P.dxf");

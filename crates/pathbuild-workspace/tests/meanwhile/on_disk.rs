@@ -142,6 +142,7 @@ impl OnDisk {
             jobs: None,
             cache: is_kept.then_some(CacheHome::Named(caches)),
             reporter: Rc::new(SilentReporter),
+            is_date_decisive: Arc::default(),
         }
     }
 }

@@ -108,9 +108,7 @@ fn conclude(
         Err(status) => return status,
     };
     context.show(&findings);
-    if let Some(line) = waivers::date_line(context, &findings) {
-        context.printer.status(line);
-    }
+    context.name_date();
     let (errors, warnings) = (findings.errors(), findings.warnings());
     let phrase = |en: &'static str, de: &'static str| context.choose(en, de);
     let known = match findings.waived.len() {

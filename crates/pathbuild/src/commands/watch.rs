@@ -127,6 +127,7 @@ impl Listener for WatchPrinter<'_> {
         let context = self.context;
         let findings = context.findings(diagnostics.clone());
         context.show(&findings);
+        context.name_date();
         let counted = |number, noun| counted(number, noun, context.lang());
         let milliseconds = time.as_secs_f64() * 1000.0;
         let (paths, drawings) = (counted(*paths, PATH), counted(*drawings, DRAWING));
