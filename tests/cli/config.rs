@@ -210,6 +210,16 @@ fn a_line_type_is_named_once_in_whatever_case() {
 }
 
 #[test]
+fn a_line_type_of_the_layer_has_no_meaning_of_its_own() {
+    for name in ["BYLAYER", "ByBlock"] {
+        let found = complaints(&format!("[line-types]\n{name} = \"DIVIDE\""));
+        assert!(found.contains(&format!("`line-types` has {name}")), "{found}");
+    }
+    let run = Place::new().file("pathbuild.toml", "[line-types]\nBYLAYER2 = \"DIVIDE\"").run("config show");
+    assert_eq!(run.status, Some(0), "{run}");
+}
+
+#[test]
 fn everything_that_is_wrong_is_said_at_once() {
     let text = r#"fed = 1
 rapid = "fast"

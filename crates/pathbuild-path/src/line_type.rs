@@ -66,12 +66,8 @@ impl LineType {
     /// Returns the line type for a name in upper case: by an exact match, without a suffix, or through an alias. It is never guessed from the dash
     /// pattern, since DASHED2 and HIDDEN have the same pattern.
     pub fn of(name: &str, aliases: &LineTypeAliases) -> Option<Self> {
-        aliases
-            .0
-            .get(name)
-            .copied()
-            .or_else(|| find_by_name(name))
-            .or_else(|| SUFFIXES.iter().find_map(|suffix| find_by_name(name.strip_suffix(suffix)?)))
+        let exact = |name: &str| aliases.0.get(name).copied().or_else(|| find_by_name(name));
+        exact(name).or_else(|| SUFFIXES.iter().find_map(|suffix| exact(name.strip_suffix(suffix)?)))
     }
 }
 
@@ -176,3 +172,28 @@ const ALIASES: &[(LineType, &[&str])] = &[
     (LineType::Center, &["AM_ISO08W050"]),
     (LineType::Phantom, &["AM_ISO09W050"]),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_ones_own_have_the_same_endings() {
+        let mut aliases = LineTypeAliases::default();
+        aliases.insert("foo", LineType::Hidden);
+        aliases.insert("Bar2", LineType::Divide);
+        aliases.insert("DOT", LineType::Center);
+        for (name, expected) in [
+            ("FOO", Some(LineType::Hidden)),
+            ("FOO2", Some(LineType::Hidden)),
+            ("FOOX2", Some(LineType::Hidden)),
+            ("FOO3", None),
+            ("BAR2", Some(LineType::Divide)),
+            ("BAR", None),
+            ("DOT2", Some(LineType::Center)),
+            ("HIDDEN2", Some(LineType::Hidden)),
+        ] {
+            assert_eq!(LineType::of(name, &aliases), expected, "{name}");
+        }
+    }
+}

@@ -125,6 +125,13 @@ messages! {
         help_en: "remove one of the two: case makes no difference in the names of line types",
         help_de: "einen der beiden Namen entfernen: bei Linientypen zählt Groß- und Kleinschreibung nicht",
     }
+    /// An entry for a line type that stands for that of the layer or of the block.
+    INHERITED_LINE_TYPE: InvalidConfiguration {
+        en: "`{key}` has {name}, which stands for the line type of the layer or of the block",
+        de: "`{key}` enthält {name}, das für den Linientyp des Layers oder des Blocks steht",
+        help_en: "remove the entry, and name the line type of the layer instead",
+        help_de: "den Eintrag entfernen und den Linientyp des Layers nennen",
+    }
     /// A key that names something other than a directory.
     NO_DIRECTORY: InvalidConfiguration {
         en: "`{key}` names {directory}, which is not a directory",

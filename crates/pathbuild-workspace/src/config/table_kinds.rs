@@ -213,7 +213,16 @@ fn entries<'v, 't>(
 
 fn alias((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<LineTypeAlias> {
     let line_type = reader.read_within(name.get_ref(), |reader| read_choice(value, reader))?;
+    if is_inherited(name.get_ref()) {
+        let fault = reader.fault(&messages::INHERITED_LINE_TYPE, name.span());
+        reader.report(fault.quoting("name", &**name.get_ref()));
+    }
     Some(LineTypeAlias { name: (**name.get_ref()).into(), line_type })
+}
+
+/// Whether a line type stands for that of the layer or of the block, so that it has no meaning of its own.
+fn is_inherited(name: &str) -> bool {
+    ["BYLAYER", "BYBLOCK"].iter().any(|inherited| name.trim().eq_ignore_ascii_case(inherited))
 }
 
 fn post_macro((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<PostMacro> {
