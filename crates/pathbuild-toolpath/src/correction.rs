@@ -59,6 +59,12 @@ impl Correction {
         steps.fold(0, u64::saturating_add)
     }
 
+    /// Whether the probes of a program do not determine a slope that the model needs.
+    pub fn lacks_slope(self, program: &Program) -> bool {
+        let places: Vec<Xy> = program.probes.iter().map(|probe| probe.at).collect();
+        self.model.lacks_slope(&places)
+    }
+
     /// Returns the point outside the probes, and farthest from them, at which the program mills, if there is one. `None` for models with reliable
     /// values outside the probes.
     pub fn farthest_unprobed_point(self, program: &Program) -> Option<UnprobedPoint> {

@@ -39,6 +39,13 @@ enum Model {
     Tin(Triangulation),
 }
 
+impl ZModel {
+    /// Whether these positions of probes lie on a line or at one place, across which the model then knows no slope.
+    pub(super) fn lacks_slope(self, places: &[Xy]) -> bool {
+        self != Self::Idw4 && !places.is_empty() && !Scatter::new(places).is_wide()
+    }
+}
+
 impl Surface {
     /// Creates a model for probes at these positions.
     pub fn new(model: ZModel, places: &[Xy]) -> Self {

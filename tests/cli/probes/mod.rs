@@ -243,6 +243,25 @@ fn milling_outside_the_probes_is_a_warning() {
 }
 
 #[test]
+fn probes_without_a_slope_across_them_are_a_warning() {
+    let warned = |model: &str, probes: &str| {
+        let place =
+            plate(&format!("z-model = \"{model}\"\n")).file("a.dxf", drawing(&format!("{PLATE}{probes}")));
+        let run = emit(&place, "a.dxf");
+        assert_eq!(run.status, Some(0), "{run}");
+        run.stderr.contains("no slope is known")
+    };
+    for model in ["plane", "tin"] {
+        assert!(warned(model, "probe 150,0\n"));
+        assert!(warned(model, "probe 0,0\nprobe 300,0\n"));
+        assert!(warned(model, "probe 0,0\nprobe 150,0\nprobe 300,0\n"));
+        assert!(warned(model, "probe 0,0\nprobe 150,1\nprobe 300,0\n"), "almost on a line");
+        assert!(!warned(model, "probe 0,0\nprobe 150,5\nprobe 300,0\n"));
+    }
+    assert!(!warned("idw4", "probe 150,0\n"));
+}
+
+#[test]
 fn values_that_were_entered_are_kept() {
     let place = plate("");
     succeed(&emit(&place, "a.dxf"));

@@ -183,6 +183,13 @@ messages! {
         help_en: "draw probes at the outer corners of the milled area; outside the probes, heights are only guessed",
         help_de: "Proben an die äußeren Ecken des gefrästen Bereichs zeichnen; außerhalb der Proben sind Höhen nur geschätzt",
     }
+    /// Probes at one place or on a line, with a model that needs a slope.
+    WITHOUT_SLOPE: OutsideProbes {
+        en: "the probes lie at one place or on a line: across it, no slope is known, and heights beside it are only guessed",
+        de: "die Proben liegen an einer Stelle oder auf einer Linie: quer dazu ist keine Neigung bekannt, und Höhen daneben sind nur geschätzt",
+        help_en: "draw at least three probes that are not on a line",
+        help_de: "mindestens drei Proben zeichnen, die nicht auf einer Linie liegen",
+    }
     /// A measured height that differs strongly from those of the neighbouring probes.
     ODD: OddProbe {
         en: "#{probe} is {off} mm {direction} than expected from its neighbours",

@@ -197,6 +197,9 @@ fn write_native(
     if let Some(problem) = too_many_pieces(steps, program, &settings.writing) {
         return Err(Box::new(at(problem)));
     }
+    if correction.lacks_slope(program) {
+        delivered.problems.push(at(Diagnostic::new(&probes::WITHOUT_SLOPE)));
+    }
     match correction.farthest_unprobed_point(program) {
         Some(outside) => delivered.problems.push(at(unprobed_point_warning(&outside))),
         // This warning would say nothing new about probes outside the program, so it is given only if there are none.
