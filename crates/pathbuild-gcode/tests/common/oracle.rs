@@ -4,7 +4,7 @@
 //! unless `PATHBUILD_REQUIRE` contains `rs274`.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
@@ -45,11 +45,65 @@ pub(crate) fn rs274() -> Option<PathBuf> {
 }
 
 pub(crate) fn ask(program: &Path, text: &str) -> Oracle {
-    let file = tempfile::Builder::new().suffix(".ngc").tempfile().expect("a temporary file");
-    std::io::Write::write_all(&mut file.as_file(), text.as_bytes()).expect("it can be written");
-    let output = Command::new(program).arg(file.path()).output().expect("rs274 runs");
+    let output = run(program, text);
     let refusal = (!output.status.success()).then(|| String::from_utf8_lossy(&output.stderr).into_owned());
     Oracle { calls: calls_of(&String::from_utf8_lossy(&output.stdout)), refusal }
+}
+
+/// Asks for several programs with one start of rs274, which costs more CPU time than reading a program. Between two programs, everything that the
+/// first one has set is reset. If the programs do not begin and end alike, or if one of them is refused, each is asked for by itself.
+#[allow(dead_code, reason = "not every test that has this oracle asks for many programs")]
+pub(crate) fn ask_all(program: &Path, texts: &[String]) -> Vec<Oracle> {
+    let by_itself = || texts.iter().map(|text| ask(program, text)).collect();
+    let parts: Vec<(String, Vec<&str>)> = texts.iter().map(|text| without_frame(text)).collect();
+    let [(_, frame), ..] = parts.as_slice() else { return Vec::new() };
+    if parts.iter().any(|(_, other)| other != frame) {
+        return by_itself();
+    }
+    let (head, foot) = frame.split_at(usize::from(frame.first() == Some(&"%")));
+    let bodies: Vec<&str> = parts.iter().map(|(body, _)| body.as_str()).collect();
+    let joined = format!("{}\n{}\n{}\n", head.join("\n"), bodies.join(RESET), foot.join("\n"));
+    let output = run(program, &joined);
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    let found: Vec<&str> = printed.split("MESSAGE(\"begins\")").collect();
+    if !output.status.success() || found.len() != texts.len() {
+        return by_itself();
+    }
+    let calls = |part: &&str| calls_of(part.split("MESSAGE(\"ends\")").next().unwrap_or_default());
+    found.iter().map(calls).map(|calls| Oracle { calls, refusal: None }).collect()
+}
+
+/// The lines that reset rs274 to its state at the beginning.
+const RESET: &str = "(MSG,ends)
+G21 G17 G90 G94 G91.1 G97 G98 G54 G40 G49 G64 G80
+G92.1
+M5 M9
+T0 M6
+F0 S0
+G0 X0 Y0 Z0
+G80
+(MSG,begins)
+";
+
+/// Splits a program into its text and the lines that begin and end it, without their numbers.
+fn without_frame(text: &str) -> (String, Vec<&str>) {
+    let is_frame = |line: &&str| matches!(without_number(line), "%" | "M30" | "M2" | "M02");
+    let frame = text.lines().filter(is_frame).map(without_number).collect();
+    let body = text.lines().filter(|line| !is_frame(line)).flat_map(|line| [line, "\n"]).collect();
+    (body, frame)
+}
+
+/// Returns a line without its block number.
+fn without_number(line: &str) -> &str {
+    let line = line.trim();
+    let rest = line.strip_prefix('N').map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
+    rest.unwrap_or(line).trim()
+}
+
+fn run(program: &Path, text: &str) -> Output {
+    let file = tempfile::Builder::new().suffix(".ngc").tempfile().expect("a temporary file");
+    std::io::Write::write_all(&mut file.as_file(), text.as_bytes()).expect("it can be written");
+    Command::new(program).arg(file.path()).output().expect("rs274 runs")
 }
 
 /// Returns the canonical calls that rs274 prints for a program, which may be any bytes, with a tool table; `None` if it rejects the program.
@@ -170,9 +224,14 @@ fn agree(theirs: &Call, ours: &Call) -> bool {
 
 /// Returns the first difference between rs274's reading of a program and ours, or `None` if they agree and the program moves at all. rs274 may get
 /// another text (`theirs`) with the same meaning.
+#[allow(dead_code, reason = "not every test that has this oracle asks for single programs")]
 pub(crate) fn difference(program: &Path, theirs: &str, ours: &str, dialect: Dialect) -> Option<String> {
-    let oracle = ask(program, theirs);
-    if let Some(refusal) = oracle.refusal {
+    difference_from(&ask(program, theirs), ours, dialect)
+}
+
+/// Like [`difference`], for a program that rs274 has read already.
+pub(crate) fn difference_from(oracle: &Oracle, ours: &str, dialect: Dialect) -> Option<String> {
+    if let Some(refusal) = &oracle.refusal {
         return Some(format!("rs274 refuses it: {refusal}"));
     }
     let ours = our_calls(ours, dialect);
