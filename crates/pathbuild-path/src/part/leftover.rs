@@ -1,5 +1,6 @@
 //! Stretches of an outline at which material is left. (book: language/part)
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::boxes::square;
@@ -9,6 +10,7 @@ use super::intervals::{
     JOIN_GAP, NEIGHBOUR_JOIN_GAP, Stretch, add_stretches_within, at as at_along, difference, gaps_between,
     intersection, join_ends, join_stretches, offset_curve,
 };
+use super::loose::is_surrounded;
 use super::prepared::{PreparedPart, Side};
 use crate::geometry::{Curve, Xy};
 use crate::keep_out::widened_box;
@@ -82,6 +84,9 @@ pub(super) struct LeftoverSearch<'s> {
     tolerance: f64,
     /// The elements, with their paths, that enter the part above the plate: grooves, which have no influence on the part's outline.
     grooves: BTreeSet<(usize, u32)>,
+    /// Whether the cuts and support bars of the paths that cut the part out close a ring round it, once that is needed. The edge of the plate is then
+    /// nowhere the edge of the part.
+    is_ringed: OnceCell<bool>,
 }
 
 /// Stretches of a ring that through cuts do not reach, as positions in mm along the ring.
@@ -114,7 +119,8 @@ impl<'s> LeftoverSearch<'s> {
             !judged.entered.is_empty() && judged.cut.element(cuts).lowest > THROUGH_HEIGHT
         };
         let grooves = judged.values().filter(enters).map(|judged| judged.cut.number());
-        Self { part, cuts, judged, contours, tolerance, grooves: grooves.collect() }
+        let grooves = grooves.collect();
+        Self { part, cuts, judged, contours, tolerance, grooves, is_ringed: OnceCell::new() }
     }
 
     /// Returns the material left at all rings. Of the rings of a nest, only the ring with the least leftover material counts.
@@ -154,12 +160,15 @@ impl<'s> LeftoverSearch<'s> {
             }
             all.length += length;
         }
+        all.never = join_stretches(all.never, NEIGHBOUR_JOIN_GAP);
+        if ring == 0 && is_near {
+            self.add_notches(&mut all, &mut uncut);
+        }
         let is_long = |(from, to): &Stretch| to - from >= MIN_REPORTED_LENGTH;
         all.left = join_ends(join_stretches(uncut, NEIGHBOUR_JOIN_GAP), all.length)
             .into_iter()
             .filter(is_long)
             .collect();
-        all.never = join_stretches(all.never, NEIGHBOUR_JOIN_GAP);
         all.unreachable = join_ends(join_stretches(all.unreachable, NEIGHBOUR_JOIN_GAP), all.length);
         all.unreachable.retain(is_long);
         is_near.then_some(all)
@@ -239,10 +248,65 @@ impl<'s> LeftoverSearch<'s> {
         join_stretches(found, JOIN_GAP)
     }
 
-    /// Returns the stretches that the smallest cutter beside a curve cannot reach without entering the part elsewhere.
+    /// Adds the material left in notches of the rim that the contour passes: long stretches that neither a cut nor a support bar comes near, if these
+    /// close a ring round the part.
+    fn add_notches(&self, all: &mut RingStretches, uncut: &mut Vec<Stretch>) {
+        let Some(radius) = self.smallest_radius() else { return };
+        let is_notch = |(from, to): &Stretch| to - from >= 2.0 * radius;
+        let long: Vec<Stretch> = all.never.iter().copied().filter(is_notch).collect();
+        if long.is_empty() || !self.is_ringed() {
+            return;
+        }
+        let mut notches = difference(&long, &self.rim_near_bars());
+        notches.retain(is_notch);
+        all.never = difference(&all.never, &notches);
+        let mut start = 0.0;
+        for curve in &self.part.part.rings[0].curves {
+            let length = curve.length();
+            let here = intersection(&notches, &[(start, start + length)]);
+            if !here.is_empty() {
+                let curve = RingCurve { ring: 0, curve, near: self.cuts.near(widened_box(curve, 0.0)) };
+                let corners = self.unreachable_stretches(&curve).into_iter();
+                let corners: Vec<Stretch> = corners.map(|(from, to)| (from + start, to + start)).collect();
+                uncut.extend(difference(&here, &corners));
+                all.unreachable.extend(intersection(&here, &corners));
+            }
+            start += length;
+        }
+    }
+
+    /// Returns the stretches of the rim within O of support bars.
+    fn rim_near_bars(&self) -> Vec<Stretch> {
+        let mut found = Vec::new();
+        let mut start = 0.0;
+        for curve in &self.part.part.rings[0].curves {
+            let mut here = Vec::new();
+            for (bar, radius) in self.bars() {
+                add_stretches_within(curve, &bar.foot, 2.0 * radius, &mut here);
+            }
+            found.extend(here.into_iter().map(|(from, to)| (from + start, to + start)));
+            start += curve.length();
+        }
+        join_stretches(found, NEIGHBOUR_JOIN_GAP)
+    }
+
+    fn is_ringed(&self) -> bool {
+        *self.is_ringed.get_or_init(|| {
+            let cuts = self.cuts.cuts.iter().filter(|cut| self.contours[cut.path]);
+            let sweeps = cuts.filter_map(|cut| {
+                let curve = cut.element(self.cuts).supported.or(cut.through);
+                cut.through.and(curve).map(|curve| (curve, cut.radius))
+            });
+            let feet = self.bars().map(|(bar, radius)| (bar.foot, radius));
+            is_surrounded(self.part, &sweeps.chain(feet).collect::<Vec<_>>())
+        })
+    }
+
+    /// Returns the stretches that the smallest cutter beside a curve, or of all if there is none, cannot reach without entering the part elsewhere.
     fn unreachable_stretches(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let radii = self.cuts_beside(curve).map(|judged| judged.cut.radius);
-        let Some(radius) = radii.min_by(f64::total_cmp) else { return Vec::new() };
+        let smallest = radii.min_by(f64::total_cmp).or_else(|| self.smallest_radius());
+        let Some(radius) = smallest else { return Vec::new() };
         let length = curve.curve.length();
         let Some(away) = offset_curve(curve.curve, radius) else {
             return if self.reaches_whole_arc(curve.curve, radius) {
@@ -287,12 +351,22 @@ impl<'s> LeftoverSearch<'s> {
         numbers.iter().map(|number| &self.cuts.cuts[*number]).filter(|cut| self.contours[cut.path])
     }
 
+    /// Returns the radius of the smallest cutter that cuts the part out.
+    fn smallest_radius(&self) -> Option<f64> {
+        self.all_contour_cuts().map(|cut| cut.radius).min_by(f64::total_cmp)
+    }
+
+    fn all_contour_cuts(&self) -> impl Iterator<Item = &IndexedCut<'s>> {
+        self.cuts.cuts.iter().filter(|cut| self.contours[cut.path])
+    }
+
     /// Describes the material left along a stretch of a ring. `None` for the rounded corner where a cut ends at the edge of the plate: beyond it, the
     /// edge of the plate is the edge of the part.
     fn leftover(&self, ring: usize, (from, to): Stretch, stretches: &RingStretches) -> Option<Leftover> {
         let whole = stretches.length;
         let place = |along: f64| self.ring_point(ring, along, whole);
-        let nearest = self.nearest(ring, place(f64::midpoint(from, to)))?;
+        let middle = place(f64::midpoint(from, to));
+        let nearest = self.nearest(ring, middle).or_else(|| self.nearest_at_any_distance(ring, middle))?;
         let is_end = |end: f64| {
             let wrapped = [end - whole, end, end + whole];
             let touches = |at: f64| wrapped.iter().any(|end| (end - at).abs() <= NEIGHBOUR_JOIN_GAP);
@@ -331,7 +405,8 @@ impl<'s> LeftoverSearch<'s> {
     ) {
         for (from, to) in &stretches.unreachable {
             let at = self.ring_point(ring, f64::midpoint(*from, *to), stretches.length);
-            let Some(nearest) = self.nearest(ring, at) else { continue };
+            let nearest = self.nearest(ring, at).or_else(|| self.nearest_at_any_distance(ring, at));
+            let Some(nearest) = nearest else { continue };
             let (path, element) = (nearest.cut.path, nearest.cut.cut.element);
             let all = found.get_or_insert(UnreachableOutline { at, length: 0.0, path, element });
             all.length += to - from;
@@ -344,16 +419,25 @@ impl<'s> LeftoverSearch<'s> {
 
     /// Returns the distance in mm from a point of an outline to the edge of the nearest cut of any depth, even above a bar.
     fn distance(&self, at: Xy) -> f64 {
+        let distance = |cut: &IndexedCut<'_>| cut.cut.way.curve.distance_to(at) - cut.radius;
         let near = self.cuts.near(square(at, 0.0));
-        let distances = self.contour_cuts(&near).map(|cut| cut.cut.way.curve.distance_to(at) - cut.radius);
-        distances.fold(f64::INFINITY, f64::min)
+        let nearest = self.contour_cuts(&near).map(distance).min_by(f64::total_cmp);
+        nearest.unwrap_or_else(|| self.all_contour_cuts().map(distance).fold(f64::INFINITY, f64::min))
     }
 
     /// Returns the cut beside the part with the edge nearest to a point of a ring. A cut that ends above the plate only counts where it reaches the
     /// ring.
     fn nearest(&self, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {
+        self.nearest_of(self.cuts.near(square(at, 0.0)), ring, at)
+    }
+
+    fn nearest_at_any_distance(&self, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {
+        self.nearest_of((0..self.cuts.cuts.len()).collect(), ring, at)
+    }
+
+    fn nearest_of(&self, near: Vec<usize>, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {
         let point = Curve::Line(crate::geometry::Line { start: at, end: at });
-        let curve = RingCurve { ring, curve: &point, near: self.cuts.near(square(at, 0.0)) };
+        let curve = RingCurve { ring, curve: &point, near };
         let distance = |judged: &ClassifiedCut<'_>| judged.curve.distance_to(at) - judged.cut.radius;
         let element = |judged: &ClassifiedCut<'_>| (judged.cut.path, judged.cut.cut.element);
         let counts = |judged: &&ClassifiedCut<'_>| {

@@ -43,6 +43,11 @@ pub(super) fn is_cut_out<'b>(
     !can_escape(centre, &sweeps) && is_ring_closed(centre, &sweeps)
 }
 
+/// Whether cuts, each with its cutter radius, close a ring round a part.
+pub(super) fn is_surrounded(part: &PreparedPart<'_>, cuts: &[(Curve, f64)]) -> bool {
+    is_cut_out(part, cuts, &std::iter::empty())
+}
+
 /// Returns the points on both sides of a bar where the part may begin, each with the middle of the bar.
 fn beside_bar(bar: &StandingBar, radius: f64) -> impl Iterator<Item = (Xy, Xy)> {
     let centre = |curve: &Curve| at_along(curve, curve.length() / 2.0);
