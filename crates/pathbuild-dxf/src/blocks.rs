@@ -20,8 +20,10 @@ use crate::pairs::{Pair, Pairs, Stop};
 
 #[derive(Default)]
 pub(crate) struct Blocks<'a> {
-    /// Blocks by folded name. If several have the same name, the first one counts.
+    /// Blocks by folded name: of several with the same name, the first.
     by_name: HashMap<SmolStr, BlockId>,
+    /// The further blocks of a name, by the first one.
+    namesakes: BTreeMap<BlockId, Vec<BlockId>>,
     all: Vec<Block<'a>>,
     /// The wanted layers on which an insertion draws, by the inserted block and the layer of the insertion.
     wanted: BTreeMap<BlockOnLayer, Rc<[LayerId]>>,
@@ -100,6 +102,11 @@ impl<'a> Blocks<'a> {
             .get(&case_folded(name))
             .copied()
             .filter(|block| !self.all[block.0].is_missing_reference())
+    }
+
+    /// Returns the further blocks with the name of this one.
+    pub(crate) fn namesakes(&self, block: BlockId) -> Vec<BlockId> {
+        self.namesakes.get(&block).cloned().unwrap_or_default()
     }
 
     pub(crate) fn base(&self, block: BlockId) -> Result<Point3, EntityError<'a>> {
@@ -247,7 +254,11 @@ impl<'a> Blocks<'a> {
     fn add(&mut self, fields: &Fields<'a>, pairs: Pairs<'a>, head: Pair<'a>, decoder: &mut Decoder<'_>) {
         if let Some(name) = fields.get(2) {
             let name = case_folded(&decoder.decode(name.bytes, name.line));
-            self.by_name.entry(name).or_insert(BlockId(self.all.len()));
+            let block = BlockId(self.all.len());
+            let first = *self.by_name.entry(name).or_insert(block);
+            if first != block {
+                self.namesakes.entry(first).or_default().push(block);
+            }
         }
         let base = if fields.get(10).is_some() { fields.point(10) } else { Ok(Point3::default()) };
         self.all.push(Block {

@@ -10,15 +10,17 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::limits::{ENTITIES, TEXT_LENGTH, exceeded};
 use pathbuild_diagnostic::messages::drawing::{
-    BLOCK_MISSING, BLOCK_NESTED, INSERTED_FROZEN, INVISIBLE, NOT_COMPATIBLE, TILTED, TOO_LARGE,
+    BLOCK_MISSING, BLOCK_NESTED, BLOCK_TWICE, CURVE_WITHOUT_LENGTH, INSERTED_FROZEN, INVISIBLE,
+    NOT_COMPATIBLE, TILTED, TOO_LARGE, WIDTH_IGNORED,
 };
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Place, Point, Value};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Place, Point, Value};
 use smol_str::SmolStr;
 
 use crate::entities::Shape;
 use crate::faults::{EntityError, Fatal};
 use crate::layers::{LayerId, UsedLayer};
 use crate::placement::Placement;
+use crate::shapes::Polyline;
 use crate::shapes::curves::{ApproximationFailure, Tolerance};
 use crate::{Drawing, Entity, Fault, Geometry, Layer, OmittedCurve, Origin, Point3};
 
@@ -26,10 +28,8 @@ pub(crate) struct Collector<'d> {
     drawing: &'d mut Drawing,
     /// Indices into [`Drawing::layers`] by folded name.
     layers: BTreeMap<SmolStr, u32>,
-    /// Layers with at least one invisible entity.
-    with_invisible: BTreeSet<u32>,
-    /// Layers with at least one entity in a block that is inserted on a frozen layer.
-    with_frozen: BTreeSet<u32>,
+    /// The notes that were given about each layer.
+    noted: BTreeSet<(u32, LayerNote)>,
     /// The missing blocks that are inserted on layers that are not read, to report each of them once.
     missing_blocks: BTreeSet<SmolStr>,
     /// Layer of the previous entity, as a cache.
@@ -39,6 +39,19 @@ pub(crate) struct Collector<'d> {
     groups: u32,
     has_ignored: bool,
     limits: Limits,
+}
+
+/// A finding about entities of a layer that is reported once, for the first of them.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum LayerNote {
+    /// An entity is marked invisible.
+    Invisible,
+    /// An entity is in a block that is inserted on a frozen layer.
+    Frozen,
+    /// A polyline has a width.
+    Wide,
+    /// A polyline or curve is a single point.
+    WithoutLength,
 }
 
 /// Number of entities for which memory is reserved in advance.
@@ -94,8 +107,7 @@ impl<'d> Collector<'d> {
         Self {
             drawing,
             layers: BTreeMap::new(),
-            with_invisible: BTreeSet::new(),
-            with_frozen: BTreeSet::new(),
+            noted: BTreeSet::new(),
             missing_blocks: BTreeSet::new(),
             last: None,
             faulty: HashSet::new(),
@@ -114,7 +126,7 @@ impl<'d> Collector<'d> {
     ) -> Result<(), Fatal> {
         let layer = self.layer(placed);
         if placed.is_invisible {
-            self.note_invisible(placed, layer);
+            self.note(placed, layer, LayerNote::Invisible, &INVISIBLE);
         }
         if let Some(frozen) = placed.frozen.filter(|_| !placed.layer.hidden) {
             self.note_frozen(placed, layer, frozen);
@@ -138,11 +150,14 @@ impl<'d> Collector<'d> {
         let placement = placed.placement.unwrap_or(&Placement::IDENTITY);
         let tolerance = Tolerance { distance: self.limits.curves, most_pieces: self.limits.entities };
         let parts = match shape {
-            Shape::Parts(mut parts) => {
-                for part in &mut parts {
-                    placement.apply(part);
+            Shape::Polyline(Polyline { mut pieces, is_wide }) => {
+                if is_wide {
+                    self.note(placed, layer, LayerNote::Wide, &WIDTH_IGNORED);
                 }
-                Ok(parts)
+                for piece in &mut pieces {
+                    placement.apply(piece);
+                }
+                Ok(pieces)
             }
             Shape::Ellipse(ellipse) => ellipse.pieces(placement, tolerance),
             Shape::Spline(spline) => spline.pieces(placement, tolerance),
@@ -155,6 +170,9 @@ impl<'d> Collector<'d> {
             }
             Err(ApproximationFailure::TooMany) => return Err(self.entity_limit_error()),
         };
+        if parts.is_empty() {
+            self.note(placed, layer, LayerNote::WithoutLength, &CURVE_WITHOUT_LENGTH);
+        }
         let group = Some(self.groups);
         self.groups += 1;
         parts.into_iter().try_for_each(|part| self.push(placed, layer, group, part))
@@ -188,6 +206,7 @@ impl<'d> Collector<'d> {
             EntityError::Group(group) => group.diagnostic(placed.kind),
             EntityError::Tilted => Diagnostic::new(&TILTED).quoting("entity", placed.kind.name()),
             EntityError::TooLarge => Diagnostic::new(&TOO_LARGE).quoting("entity", placed.kind.name()),
+            EntityError::DefinedTwice(block) => Diagnostic::new(&BLOCK_TWICE).quoting("block", &**block),
             EntityError::Nested(block) => Diagnostic::new(&BLOCK_NESTED).quoting("block", &**block),
             EntityError::LeftOut { message, point, block, layers } => {
                 self.count()?;
@@ -255,16 +274,17 @@ impl<'d> Collector<'d> {
         }
     }
 
-    fn note_invisible(&mut self, placed: &PlacedEntity<'_>, layer: u32) {
-        if self.with_invisible.insert(layer) {
-            let diagnostic = Diagnostic::new(&INVISIBLE).quoting("entity", placed.kind.name());
+    /// Reports an entity unless another entity of its layer was reported for the same reason.
+    fn note(&mut self, placed: &PlacedEntity<'_>, layer: u32, note: LayerNote, message: &'static Message) {
+        if self.noted.insert((layer, note)) {
+            let diagnostic = Diagnostic::new(message).quoting("entity", placed.kind.name());
             let diagnostic = self.located(diagnostic, placed, layer);
             self.drawing.diagnostics.push(diagnostic);
         }
     }
 
     fn note_frozen(&mut self, placed: &PlacedEntity<'_>, layer: u32, frozen: &str) {
-        if self.with_frozen.insert(layer) {
+        if self.noted.insert((layer, LayerNote::Frozen)) {
             let diagnostic = Diagnostic::new(&INSERTED_FROZEN).quoting("entity", placed.kind.name());
             let diagnostic = self.located(diagnostic.quoting("layer", frozen), placed, layer);
             self.drawing.diagnostics.push(diagnostic);

@@ -16,7 +16,7 @@ use crate::fields::{Fields, FillDecision, Value};
 use crate::groups::Records;
 use crate::layers::{LayerId, Layers, LineType, LineTypes};
 use crate::pairs::{Pair, Pairs, Stop};
-use crate::shapes::{self, Ellipse, Insert, OpenPolyline, Spline};
+use crate::shapes::{self, Ellipse, Insert, OpenPolyline, Polyline, Spline};
 use crate::{Geometry, Options, Origin};
 
 /// A reader of entities, with a cache of the layer and line-type names that it has resolved.
@@ -48,7 +48,7 @@ pub(crate) fn max_repeated_groups(options: &Options<'_>) -> usize {
     options.max_entities.saturating_mul(GROUPS_PER_ENTITY).max(options.max_text)
 }
 
-/// Number of groups of a polyline or spline that count as one entity: x, y, bulge; or x, y, z, weight, knot.
+/// Number of groups of a polyline or spline that count as one entity: x, y, two widths, bulge; or x, y, z, weight, knot.
 const GROUPS_PER_ENTITY: usize = 5;
 
 impl<'a, 'o> EntityReader<'a, 'o> {
@@ -282,7 +282,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             RecordKind::Hatch => Shape::Hatch(shapes::hatch_point(fields)),
             RecordKind::Insert => Shape::Insert(Box::new(Insert::read(fields, decoder)?)),
             RecordKind::Foreign(_) => return Err(EntityError::omitted(&FOREIGN, fields)),
-            _ => Shape::Parts(shapes::lightweight(fields)?),
+            _ => Shape::Polyline(shapes::lightweight(fields)?),
         })
     }
 
@@ -309,7 +309,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             }
             is_first = false;
         }
-        Ok(polyline.map(|polyline| Shape::Parts(polyline.end())))
+        Ok(polyline.map(|polyline| Shape::Polyline(polyline.end())))
     }
 }
 
@@ -433,7 +433,7 @@ impl RecordKind {
             bits
         }
         const CHUNKS: u64 = bits(&[1, 3]);
-        const VERTICES: u64 = bits(&[10, 20, 42]);
+        const VERTICES: u64 = bits(&[10, 20, 40, 41, 42]);
         const BOUNDARY: u64 = bits(&[10, 20]);
         const CONTROL: u64 = bits(&[10, 20, 30, 40, 41]);
         match self {
@@ -487,8 +487,8 @@ pub(crate) struct CommonProperties {
 pub(crate) enum Shape<'a> {
     /// A shape of the drawing language.
     Plain(Geometry),
-    /// The lines and arcs of a polyline.
-    Parts(Vec<Geometry>),
+    /// A polyline, as lines and arcs.
+    Polyline(Polyline),
     /// An ellipse, approximated when it is placed.
     Ellipse(Box<Ellipse>),
     /// A spline, approximated when it is placed.

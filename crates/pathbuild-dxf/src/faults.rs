@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing::{
     BAD_GROUP_CODE, DECIMAL_COMMA, GROUP_MISSING, NOT_POSITIVE, NUMBER_NOT_FINITE, SECTION_NOT_ENDED,
-    TRUNCATED, VALUE_NOT_A_NUMBER,
+    TRUNCATED, VALUE_NOT_A_NUMBER, VERTEX_COUNT,
 };
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, TextFault, Value};
 use smol_str::SmolStr;
@@ -88,6 +88,8 @@ pub(crate) enum EntityError<'a> {
     },
     /// The insertion of this block, which contains itself or is nested too deep: PB002.
     Nested(Box<str>),
+    /// The insertion of this block, which the file defines twice: PB002.
+    DefinedTwice(Box<str>),
     /// More parts than the limit of entities: PB005, for the whole file.
     TooManyParts,
     /// A text longer than the limit: PB005, for the whole file.
@@ -132,6 +134,11 @@ impl BadGroup<'_> {
                     .with_text(fault)
                     .at_line(value.line.saturating_add(1), None)
             }
+            Self::VertexCount { value, found } => Diagnostic::new(&VERTEX_COUNT)
+                .quoting("entity", entity)
+                .quoting("stated", value_excerpt(value.bytes))
+                .with("found", *found)
+                .at_line(value.line.saturating_add(1), None),
         }
     }
 }

@@ -41,6 +41,8 @@ pub(crate) enum BadGroup<'a> {
         code: i32,
         value: Value<'a>,
     },
+    /// A polyline does not have as many vertices as it states.
+    VertexCount { value: Value<'a>, found: usize },
 }
 
 /// The groups of an entity.
@@ -66,7 +68,7 @@ pub(crate) enum FillDecision {
 }
 
 /// Number of slots: one per role that keeps its value, and one for all others.
-const SLOTS: usize = 84;
+const SLOTS: usize = 85;
 
 impl<'a> Value<'a> {
     pub(crate) fn new(bytes: &'a [u8], line: u32) -> Self {

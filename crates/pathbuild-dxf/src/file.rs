@@ -1,6 +1,8 @@
 //! Reads a file from its first byte to the end of ENTITIES, and checks its tail.
 
-use pathbuild_diagnostic::messages::drawing::{NO_END_OF_FILE, NO_ENTITIES, SECTION_EXPECTED};
+use pathbuild_diagnostic::messages::drawing::{
+    NO_END_OF_FILE, NO_ENTITIES, SECTION_EXPECTED, SECTION_MISPLACED, SECTION_TWICE,
+};
 use pathbuild_diagnostic::messages::files::{EMPTY_FILE, NOT_DXF};
 use pathbuild_diagnostic::{Diagnostic, Text};
 
@@ -124,13 +126,16 @@ impl<'a> File<'a> {
             SectionEnd::CutOff { line } => return Err(stop_error(Stop::End { line }, &section())),
         }
         let pairs = begin.until(&self.pairs);
-        match name.trimmed() {
-            b"HEADER" => self.header.find(&pairs),
-            b"TABLES" => self.tables = Some(pairs),
-            b"BLOCKS" => self.blocks = Some(pairs),
-            _ => {}
-        }
-        Ok(())
+        let known = match name.trimmed() {
+            b"HEADER" => {
+                self.header.find(&pairs);
+                None
+            }
+            b"TABLES" => self.tables.replace(pairs),
+            b"BLOCKS" => self.blocks.replace(pairs),
+            _ => None,
+        };
+        if known.is_some() { Err(pair_error(&SECTION_TWICE, name)) } else { Ok(()) }
     }
 
     fn read_entities(self, drawing: &mut Drawing, options: &Options<'_>) -> Result<(), Fatal> {
@@ -155,6 +160,9 @@ impl<'a> File<'a> {
         if !records.head.is("ENDSEC") {
             return Err(missing_end_error("ENTITIES", &records.head));
         }
+        if let Some(section) = records.groups.pairs().next_section(&READ_SECTIONS) {
+            return Err(pair_error(&SECTION_MISPLACED, &section));
+        }
         drawing.has_noted_text = reader.has_noted_text;
         drawing.diagnostics.extend(reader.decoder.into_doubt());
         drawing
@@ -163,6 +171,9 @@ impl<'a> File<'a> {
         Ok(())
     }
 }
+
+/// The sections that are read. None of them may follow ENTITIES.
+const READ_SECTIONS: [&str; 4] = ["HEADER", "TABLES", "BLOCKS", "ENTITIES"];
 
 fn not_dxf(bytes: &[u8]) -> Fatal {
     Box::new(Diagnostic::new(&NOT_DXF).with("found", kind_of_file(bytes)).at_line(1, None))

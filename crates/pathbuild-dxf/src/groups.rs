@@ -286,15 +286,15 @@ impl CodeEnd {
 
 impl Role {
     /// A code without any role.
-    const WITHOUT_ROLE: Self = Self(83);
+    const WITHOUT_ROLE: Self = Self(84);
     /// Code 0, which starts an entity.
-    pub(crate) const BEGIN: Self = Self(84);
+    pub(crate) const BEGIN: Self = Self(85);
     /// Code 8, the entity's layer.
-    pub(crate) const LAYER: Self = Self(85);
+    pub(crate) const LAYER: Self = Self(86);
     /// Code 101, which starts an embedded object.
-    pub(crate) const EMBEDDED: Self = Self(86);
+    pub(crate) const EMBEDDED: Self = Self(87);
     /// Code 102, which opens or closes a group of an application.
-    pub(crate) const APPLICATION: Self = Self(87);
+    pub(crate) const APPLICATION: Self = Self(88);
 
     pub(crate) const fn of(code: i32) -> Self {
         match code {
@@ -302,6 +302,7 @@ impl Role {
             8 => Self::LAYER,
             101 => Self::EMBEDDED,
             102 => Self::APPLICATION,
+            90 => Self(83),
             210 => Self(80),
             220 => Self(81),
             230 => Self(82),
@@ -366,6 +367,7 @@ impl Role {
             Self(80) => 210,
             Self(81) => 220,
             Self(82) => 230,
+            Self(83) => 90,
             Self(slot) => i32::from(slot),
         })
     }

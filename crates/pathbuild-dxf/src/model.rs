@@ -5,6 +5,7 @@
     reason = "an entity is made where it ends up, without copies from function to function"
 )]
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use pathbuild_diagnostic::Point;
@@ -130,6 +131,17 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             return self.refuse_insertion(traits, &[layer], &trouble, around);
         };
         let wanted = self.blocks.wanted_layers(block, layer, self.reader, &mut self.steps)?;
+        let namesakes = self.blocks.namesakes(block);
+        if !namesakes.is_empty() && !self.reader.options.compatible {
+            let mut layers = BTreeSet::from([layer]);
+            layers.extend(wanted.iter());
+            for namesake in namesakes {
+                let wanted = self.blocks.wanted_layers(namesake, layer, self.reader, &mut self.steps)?;
+                layers.extend(wanted.iter());
+            }
+            let trouble = EntityError::DefinedTwice(insert.block.as_str().into());
+            return self.refuse_insertion(traits, &Vec::from_iter(layers), &trouble, around);
+        }
         if wanted.is_empty() {
             return self.check_elsewhere(traits, layer, block, &insert, around);
         }

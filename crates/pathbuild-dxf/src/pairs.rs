@@ -183,6 +183,7 @@ pub(crate) type Keyword = LazyLock<Finder<'static>>;
 
 pub(crate) static LAYER: Keyword = LazyLock::new(|| Finder::new("LAYER"));
 
+static SECTION: Keyword = LazyLock::new(|| Finder::new("SECTION"));
 static SECTION_OR_END: Keyword = LazyLock::new(|| Finder::new("SEC"));
 static EOF: LazyLock<FinderRev<'static>> = LazyLock::new(|| FinderRev::new("EOF"));
 
@@ -216,6 +217,20 @@ impl<'a> Pairs<'a> {
             Ok(pair) => SectionEnd::Missing(pair),
             Err(_) => SectionEnd::CutOff { line: self.line() },
         }
+    }
+
+    /// Returns the name of the next section that has one of these names.
+    pub(crate) fn next_section(&self, names: &[&str]) -> Option<Pair<'a>> {
+        let from = self.consumed();
+        let mut found = SECTION.find_iter(&self.bytes()[from..]);
+        found.find_map(|at| {
+            let mut pairs = *self;
+            pairs.jump_to(self.pair_start(b"0", from + at..from + at + SECTION.needle().len())?);
+            pairs.next().ok()?;
+            let name = pairs.next().ok()?;
+            let is_name = |known: &&str| name.trimmed().eq_ignore_ascii_case(known.as_bytes());
+            (name.code == 2 && names.iter().any(|known| is_name(&known))).then_some(name)
+        })
     }
 
     /// Returns the pairs after the next one with this code and keyword. Lines in between are not counted.

@@ -272,6 +272,27 @@ messages! {
         help_en: "delete one of the two; if both are wanted, give each a text, and order them with N",
         help_de: "eines der beiden löschen; sind beide gewollt, jedem einen Text geben und sie mit N ordnen",
     }
+    /// A path that is embedded twice at the same place.
+    SUBPATH_TWICE: LeftoverElement {
+        en: "path {path} is embedded twice at this place: it is milled twice here",
+        de: "Pfad {path} ist an dieser Stelle doppelt eingebettet: er wird hier zweimal gefräst",
+        help_en: "delete one of the two segments, or move it to where the second one belongs",
+        help_de: "eines der beiden Segmente löschen oder dorthin schieben, wo das zweite Teil hingehört",
+    }
+    /// Two probes at one place.
+    PROBE_TWICE: LeftoverElement {
+        en: "there is another probe at this place: it is measured twice",
+        de: "an dieser Stelle liegt noch eine Probe: hier wird zweimal gemessen",
+        help_en: "delete one of the two",
+        help_de: "eine der beiden löschen",
+    }
+    /// A polyline or spline whose points all lie in one place.
+    CURVE_WITHOUT_LENGTH: LeftoverElement {
+        en: "{entity} has no length: all of its points lie in one place, and nothing is drawn by it",
+        de: "{entity} hat keine Länge: alle Punkte liegen auf derselben Stelle, und nichts wird dadurch gezeichnet",
+        help_en: "delete it, or draw it again",
+        help_de: "löschen oder neu zeichnen",
+    }
     /// A milled line or arc that is far shorter than the cutter is wide.
     CUT_HARDLY_LONG: LeftoverElement {
         en: "{element} here is only {length} mm long: the cutter plunges and mills hardly anything",
@@ -433,6 +454,20 @@ messages! {
         help_en: "save the drawing again; the file is damaged",
         help_de: "die Zeichnung noch einmal speichern; die Datei ist beschädigt",
     }
+    /// A section that is read after ENTITIES, in a file that has it there.
+    SECTION_MISPLACED: InvalidDxf {
+        en: "a section {found} follows the section ENTITIES; what it contains would be ignored",
+        de: "auf den Abschnitt ENTITIES folgt ein Abschnitt {found}; sein Inhalt würde nicht beachtet",
+        help_en: "open the drawing in a CAD program and save it again: the order is HEADER, TABLES, BLOCKS, ENTITIES, each at most once",
+        help_de: "die Zeichnung in einem CAD-Programm öffnen und neu speichern: Die Reihenfolge ist HEADER, TABLES, BLOCKS, ENTITIES, jeder höchstens einmal",
+    }
+    /// A section that comes twice.
+    SECTION_TWICE: InvalidDxf {
+        en: "this is a second section {found}; only one is allowed",
+        de: "dies ist ein zweiter Abschnitt {found}; erlaubt ist nur einer",
+        help_en: "open the drawing in a CAD program and save it again",
+        help_de: "die Zeichnung in einem CAD-Programm öffnen und neu speichern",
+    }
     /// A group of an entity that must contain a number, but does not.
     VALUE_NOT_A_NUMBER: InvalidDxf {
         en: "{entity}: group {code} must be a number, not \"{value}\"",
@@ -460,6 +495,13 @@ messages! {
         de: "{entity}: Gruppe {code} fehlt",
         help_en: "draw the entity again, or save the drawing again; the entity is incomplete",
         help_de: "das Element neu zeichnen oder die Zeichnung noch einmal speichern; das Element ist unvollständig",
+    }
+    /// A polyline with more or fewer vertices than it states.
+    VERTEX_COUNT: InvalidDxf {
+        en: "{entity}: group 90 says that there are {stated} vertices, but there are {found}",
+        de: "{entity}: laut Gruppe 90 hat die Polylinie {stated} Stützpunkte, es sind aber {found}",
+        help_en: "draw the polyline again: an editor or a transfer may have lost vertices",
+        help_de: "die Polylinie neu zeichnen: ein Editor oder eine Übertragung hat womöglich Stützpunkte verloren",
     }
     /// A length of an entity that is 0 or negative.
     NOT_POSITIVE: InvalidDxf {
@@ -531,6 +573,20 @@ messages! {
         help_en: "draw it as a 2D polyline, or with lines and arcs",
         help_de: "als 2D-Polylinie zeichnen oder mit Linien und Bögen",
     }
+    /// A polyline that is drawn with a width.
+    WIDTH_IGNORED: UnsupportedCurve {
+        en: "the width of {entity} is ignored: only its middle line counts",
+        de: "die Breite von {entity} wird nicht beachtet: es zählt nur die Mittellinie",
+        help_en: "set the width to 0 and draw what is meant: the way of the cutter, or the outline",
+        help_de: "die Breite auf 0 setzen und zeichnen, was gemeint ist: den Weg des Fräsers oder den Umriss",
+    }
+    /// A spline that is given by points on it only.
+    SPLINE_BY_FIT_POINTS: UnsupportedCurve {
+        en: "{entity} is left out: it has fit points, but no control points",
+        de: "{entity} wird ausgelassen: er hat Passpunkte, aber keine Kontrollpunkte",
+        help_en: "draw it as a spline with control points, or as a polyline with arcs",
+        help_de: "als Spline mit Kontrollpunkten zeichnen oder als Polylinie mit Bögen",
+    }
     /// A spline without valid control points and knots.
     SPLINE_NOT_UNDERSTOOD: UnsupportedCurve {
         en: "{entity} is left out: its control points and knots do not describe a curve",
@@ -565,6 +621,13 @@ messages! {
         de: "Block {block} ist zu tief verschachtelt oder enthält sich selbst",
         help_en: "explode the insertion",
         help_de: "die Einfügung auflösen",
+    }
+    /// An inserted block that the file defines twice.
+    BLOCK_TWICE: InvalidDxf {
+        en: "the file defines block {block} more than once",
+        de: "die Datei definiert den Block {block} mehrfach",
+        help_en: "rename one of the blocks, or open the drawing in a CAD program and save it again",
+        help_de: "einen der Blöcke umbenennen, oder die Zeichnung in einem CAD-Programm öffnen und neu speichern",
     }
     /// An entity that is marked invisible.
     INVISIBLE: LayerNotVisible {

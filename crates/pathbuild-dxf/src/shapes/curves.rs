@@ -7,7 +7,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use pathbuild_diagnostic::messages::drawing::SPLINE_NOT_UNDERSTOOD;
+use pathbuild_diagnostic::messages::drawing::{SPLINE_BY_FIT_POINTS, SPLINE_NOT_UNDERSTOOD};
 use pathbuild_motion::is_full_turn;
 
 use crate::faults::EntityError;
@@ -411,6 +411,9 @@ impl Spline {
     pub(crate) fn read<'a>(fields: &Fields<'a>) -> Result<Self, EntityError<'a>> {
         is_mirrored(fields)?;
         let groups = Groups::of(fields)?;
+        if groups.points.is_empty() && fields.get(11).is_some() {
+            return Err(EntityError::omitted(&SPLINE_BY_FIT_POINTS, fields));
+        }
         let z = groups.points.first().and_then(|point| point[2]).unwrap_or(0.0);
         if groups.points.iter().any(|point| point[2].unwrap_or(0.0) != z) {
             return Err(EntityError::Tilted);

@@ -1,4 +1,4 @@
-//! LWPOLYLINE and two-dimensional POLYLINE as lines and arcs. Widths are ignored, since the cutter has its own.
+//! LWPOLYLINE and two-dimensional POLYLINE as lines and arcs along their middle line: the cutter has a width of its own.
 
 use pathbuild_diagnostic::messages::drawing::POLYLINE_NOT_FLAT;
 
@@ -8,15 +8,30 @@ use crate::placement::{Placement, angle_of};
 use crate::shapes::{is_mirrored, repeated_number};
 use crate::{Arc, Geometry, Line, Point3};
 
+/// The middle line of a polyline.
+#[derive(Clone, Debug)]
+pub(crate) struct Polyline {
+    /// The lines and arcs between the vertices.
+    pub(crate) pieces: Vec<Geometry>,
+    /// Whether the polyline has a width, which the pieces do not show.
+    pub(crate) is_wide: bool,
+}
+
 /// Converts an LWPOLYLINE to lines and arcs.
-pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Vec<Geometry>, EntityError<'a>> {
+pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Polyline, EntityError<'a>> {
     let flags = fields.whole(70)?.unwrap_or(0);
     let z = fields.number(38)?.unwrap_or(0.0);
     let mut corners: Vec<Corner> = Vec::new();
     let mut has_y = true;
+    // The constant width only counts if no vertex has one.
+    let mut is_wide = None;
     for pair in &fields.repeated {
         let number = repeated_number(pair)?;
         match (pair.code, corners.last_mut()) {
+            (40 | 41, _) => {
+                is_wide = Some(is_wide.unwrap_or(false) || number != 0.0);
+                continue;
+            }
             (10, _) if !has_y => return Err(BadGroup::Missing { code: 20 }.into()),
             (10, _) => corners.push(Corner { x: number, y: 0.0, z, bulge: 0.0 }),
             (_, None) => return Err(BadGroup::Missing { code: 10 }.into()),
@@ -28,7 +43,22 @@ pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Vec<Geometry>, Enti
     if !has_y {
         return Err(BadGroup::Missing { code: 20 }.into());
     }
-    Ok(pieces(&corners, flags & CLOSED_FLAG != 0, is_mirrored(fields)?))
+    check_count(fields, corners.len())?;
+    let is_wide = match is_wide {
+        Some(is_wide) => is_wide,
+        None => fields.number(43)?.is_some_and(|width| width != 0.0),
+    };
+    Ok(Polyline { pieces: pieces(&corners, flags & CLOSED_FLAG != 0, is_mirrored(fields)?), is_wide })
+}
+
+/// Checks that an LWPOLYLINE has as many vertices as it states: an editor or a transfer may have lost some.
+fn check_count<'a>(fields: &Fields<'a>, found: usize) -> Result<(), BadGroup<'a>> {
+    match (fields.whole(90)?, fields.get(90)) {
+        (Some(stated), Some(value)) if usize::try_from(stated) != Ok(found) => {
+            Err(BadGroup::VertexCount { value, found })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// A POLYLINE that is waiting for its VERTEX records.
@@ -37,6 +67,9 @@ pub(crate) struct OpenPolyline {
     is_closed: bool,
     is_mirrored: bool,
     is_spline_fit: bool,
+    /// The widths at the start and end of a piece whose vertex has none.
+    widths: [f64; 2],
+    is_wide: bool,
     corners: Vec<Corner>,
 }
 
@@ -52,6 +85,8 @@ impl OpenPolyline {
             is_closed: flags & CLOSED_FLAG != 0,
             is_mirrored: is_mirrored(fields)?,
             is_spline_fit: flags & SPLINE_FIT_FLAG != 0,
+            widths: [fields.number(40)?.unwrap_or(0.0), fields.number(41)?.unwrap_or(0.0)],
+            is_wide: false,
             corners: Vec::new(),
         })
     }
@@ -65,12 +100,16 @@ impl OpenPolyline {
         let point = fields.point(10)?;
         let z = if point.z == 0.0 { self.elevation } else { point.z };
         let bulge = fields.number(42)?.unwrap_or(0.0);
+        let [start, end] = self.widths;
+        let widths = [fields.number(40)?.unwrap_or(start), fields.number(41)?.unwrap_or(end)];
+        self.is_wide |= widths != [0.0, 0.0];
         self.corners.push(Corner { x: point.x, y: point.y, z, bulge });
         Ok(())
     }
 
-    pub(crate) fn end(self) -> Vec<Geometry> {
-        pieces(&self.corners, self.is_closed, self.is_mirrored)
+    pub(crate) fn end(self) -> Polyline {
+        let pieces = pieces(&self.corners, self.is_closed, self.is_mirrored);
+        Polyline { pieces, is_wide: self.is_wide }
     }
 }
 

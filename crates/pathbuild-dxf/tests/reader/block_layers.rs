@@ -84,11 +84,17 @@ fn a_block_without_a_name_changes_nothing_about_others() {
     assert_eq!(left_out(&(block("2 B", &other) + &block("70 0", &wanted)), "X"), 0);
 }
 
+/// Whichever of two blocks of a name draws something wanted, the insertion is a fault.
 #[test]
-fn of_two_blocks_of_a_name_the_first_counts() {
+fn of_two_blocks_of_a_name_each_counts() {
+    let faults = |blocks: &str| {
+        let file = file("", "", blocks, "0 INSERT\n8 X\n2 B\n10 0\n20 0");
+        read(file.as_bytes(), &Options { keep_layer: &|name| name == "P", ..options() }).faults.len()
+    };
     let [wanted, other] = [block("2 B", &line("8 P")), block("2 b", &line("8 X"))];
-    assert_eq!(left_out(&(wanted.clone() + &other), "X"), 1);
-    assert_eq!(left_out(&(other + &wanted), "X"), 0);
+    assert_eq!(faults(&(wanted.clone() + &other)), 1);
+    assert_eq!(faults(&(other.clone() + &wanted)), 1);
+    assert_eq!(faults(&(other.clone() + &other)), 0, "neither draws anything wanted");
 }
 
 /// Returns the drawing with this block content inserted on layer X, while layers named P are wanted.

@@ -262,6 +262,19 @@ fn a_block_that_the_file_lacks_is_left_out_on_its_layer() {
 }
 
 #[test]
+fn an_inserted_block_is_defined_once() {
+    let found = |second: &str, inserted: &str| {
+        let blocks = block("B", "", LINE) + &block(second, "", LINE);
+        faults(&drawing(&blocks, &format!("0 INSERT\n8 P\n2 {inserted}\n10 0\n20 0")))
+    };
+    assert_eq!(found("C", "B"), [""; 0]);
+    let [fault] = &found("b", "B")[..] else { panic!("a fault") };
+    assert!(fault.ends_with("the file defines block B more than once"), "{fault}");
+    let others = block("C", "", LINE) + &block("B", "", LINE) + &block("B", "", LINE);
+    assert_eq!(faults(&drawing(&others, "0 INSERT\n8 P\n2 C\n10 0\n20 0")), [""; 0], "not inserted");
+}
+
+#[test]
 fn a_block_that_contains_itself_is_a_fault() {
     let content = |inner: &str| format!("{LINE}\n0 INSERT\n5 EE\n8 0\n2 {inner}\n10 1\n20 0");
     for blocks in

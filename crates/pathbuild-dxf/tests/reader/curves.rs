@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use pathbuild_diagnostic::{Code, EntityKind, Point};
+use pathbuild_diagnostic::{Code, EntityKind, Lang, Point};
 use pathbuild_dxf::{Arc, Drawing, Geometry, Options, read};
 
 use crate::support::{entities, faults, file, options};
@@ -378,6 +378,13 @@ fn a_spline_of_fit_points_is_left_out_at_the_first_of_them() {
         let left_out = &approximated(&file, tolerance).left_out[0];
         assert_eq!(left_out.point, Some(Point::new(3.0, 4.0)));
     }
+    let reason = |file: &str| approximated(file, 0.01).left_out[0].diagnostic.text(Lang::En);
+    assert_eq!(reason(&file), "SPLINE is left out: it has fit points, but no control points");
+    let with_control_point = file.replace(" 11\n3\n", " 10\n3\n 20\n4\n 11\n3\n");
+    assert_eq!(
+        reason(&with_control_point),
+        "SPLINE is left out: its control points and knots do not describe a curve"
+    );
 }
 
 #[test]

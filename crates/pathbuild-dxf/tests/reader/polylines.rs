@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::{Code, EntityKind, Handle};
 use pathbuild_dxf::{Arc, Drawing, Geometry, Line, Point3};
 
-use crate::support::{entities, faults, read_all};
+use crate::support::{entities, faults, file_faults, read_all};
 
 fn point(x: f64, y: f64) -> Point3 {
     Point3 { x, y, z: 0.0 }
@@ -60,6 +60,57 @@ fn straight_pieces_become_lines() {
         shapes(&heavy("10 0\n20 0\n30 0", &["10 0\n20 0", "10 3\n20 0\n40 1", "10 3\n20 4"])),
         expected
     );
+}
+
+/// Only the middle line is read, so a width is reported, once for each layer.
+#[test]
+fn a_width_is_reported() {
+    let wide = |name: &str| [format!("PB111 5 the width of {name} is ignored: only its middle line counts")];
+    let light_width =
+        |widths: &str| file_faults(&light(&format!("{widths}10 0\n20 0\n40 0\n41 0\n10 3\n20 0")));
+    assert_eq!(light_width(""), [""; 0]);
+    assert_eq!(light_width("43 0\n"), [""; 0]);
+    assert_eq!(light_width("43 3\n"), [""; 0], "the widths of the vertices count");
+    assert_eq!(file_faults(&light("43 0.001\n10 0\n20 0\n10 3\n20 0")), wide("LWPOLYLINE"));
+    assert_eq!(file_faults(&light("10 0\n20 0\n40 0\n41 2\n10 3\n20 0")), wide("LWPOLYLINE"));
+    let heavy_width = |own: &str, vertex: &str| {
+        file_faults(&heavy(own, &[&format!("10 0\n20 0{vertex}"), &format!("10 3\n20 0{vertex}")]))
+    };
+    assert_eq!(heavy_width("40 0\n41 0", ""), [""; 0]);
+    assert_eq!(heavy_width("40 2\n41 2", ""), wide("POLYLINE"));
+    assert_eq!(heavy_width("40 2\n41 2", "\n40 0\n41 0"), [""; 0]);
+    assert_eq!(heavy_width("", "\n40 2"), wide("POLYLINE"));
+    let two = "0 LWPOLYLINE\n8 A\n43 1\n10 0\n20 0\n10 1\n20 0\n";
+    assert_eq!(
+        file_faults(&read_all(entities(&format!("{two}{two}{}", two.replace("8 A", "8 B"))))).len(),
+        2
+    );
+}
+
+#[test]
+fn the_stated_number_of_vertices_is_that_of_the_vertices() {
+    let stated = |count: &str| faults(&light(&format!("90 {count}\n10 0\n20 0\n10 3\n20 0")));
+    assert_eq!(stated("2"), [""; 0]);
+    for other in ["1", "3", "-2"] {
+        let expected =
+            format!("PB002 12 A: LWPOLYLINE: group 90 says that there are {other} vertices, but there are 2");
+        assert_eq!(stated(other), [expected]);
+    }
+    assert_eq!(faults(&light("10 0\n20 0\n10 3\n20 0")), [""; 0], "it may be missing");
+}
+
+#[test]
+fn a_polyline_of_a_single_point_is_reported() {
+    let pointlike = |name: &str| {
+        [format!(
+            "PB121 5 {name} has no length: all of its points lie in one place, and nothing is drawn by it"
+        )]
+    };
+    assert_eq!(file_faults(&light("90 2\n10 5\n20 5\n10 5\n20 5")), pointlike("LWPOLYLINE"));
+    assert_eq!(file_faults(&light("90 1\n10 5\n20 5")), pointlike("LWPOLYLINE"));
+    assert_eq!(file_faults(&heavy("", &[])), pointlike("POLYLINE"));
+    assert_eq!(file_faults(&heavy("", &["10 5\n20 5"])), pointlike("POLYLINE"));
+    assert_eq!(file_faults(&light("90 3\n10 5\n20 5\n10 5\n20 5\n10 5\n20 5.001")), [""; 0]);
 }
 
 /// The polyline becomes two half circles, neither of which is lost.

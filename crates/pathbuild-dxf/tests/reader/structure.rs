@@ -1,6 +1,6 @@
 //! Tests sections, the end of the file, and files that are not DXF. (book: reference/dxf; book: reference/diagnostics, PB002 and PB007)
 
-use crate::support::{entities, file_faults, only, read_all, section};
+use crate::support::{entities, file_faults, read_all, section};
 
 const CIRCLE: &str = "0 CIRCLE\n8 A\n10 1\n20 2\n40 3";
 
@@ -133,7 +133,35 @@ fn variables_behind_the_header_count() {
     );
 }
 
+/// What follows the entities is not read, so nothing that counts may be there.
 #[test]
-fn the_first_section_with_entities_counts() {
-    only(entities(CIRCLE).replace("  0\nEOF", "  0\nSECTION\n  2\nENTITIES\n  0\nENDSEC\n  0\nEOF"));
+fn a_section_that_is_read_may_not_follow_the_entities() {
+    let behind = |name: &str| {
+        file_findings(entities(CIRCLE).replace("  0\nEOF", &format!("{}  0\nEOF", section(name, "9 x"))))
+    };
+    for name in ["HEADER", "TABLES", "BLOCKS", "ENTITIES"] {
+        let expected = format!(
+            "PB002 19 a section {name} follows the section ENTITIES; what it contains would be ignored"
+        );
+        assert_eq!(behind(name), expected);
+    }
+    assert_eq!(behind("OBJECTS"), "");
+    assert_eq!(behind("ENTITIESX"), "");
+    let text = "0 SECTION\n1 TABLES";
+    assert_eq!(
+        file_findings(entities(CIRCLE).replace("  0\nEOF", &format!("{}  0\nEOF", section("OBJECTS", text)))),
+        ""
+    );
+}
+
+#[test]
+fn a_section_comes_once() {
+    for name in ["TABLES", "BLOCKS"] {
+        let twice = section(name, "") + &section(name, "") + &entities(CIRCLE);
+        assert_eq!(
+            file_findings(&twice),
+            format!("PB002 9 this is a second section {name}; only one is allowed")
+        );
+    }
+    assert_eq!(file_findings(section("CLASSES", "") + &section("CLASSES", "") + &entities(CIRCLE)), "");
 }
