@@ -169,6 +169,13 @@ messages! {
         help_en: "join only paths that are milled from one plate, or give both the same M",
         help_de: "nur Pfade verbinden, die aus einer Platte gefräst werden, oder beiden dasselbe M geben",
     }
+    /// Two probes of a path with the same name (L).
+    PROBE_NAME_TWICE: DoubtfulValue {
+        en: "L is {label}, as for the probe at {point}: the file for the measured heights has two lines with this name",
+        de: "L ist {label} wie bei der Probe bei {point}: die Datei für die gemessenen Höhen hat zwei Zeilen mit diesem Namen",
+        help_en: "give each probe a name of its own",
+        help_de: "jeder Probe einen eigenen Namen geben",
+    }
     /// A path that is joined with itself.
     JOINED_TWICE: DoubtfulValue {
         en: "path {path} is joined with itself: everything is milled twice",

@@ -4,10 +4,10 @@
 mod cuts;
 mod uncut_runs;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
-use pathbuild_diagnostic::messages::parameters as messages;
+use pathbuild_diagnostic::messages::{drawing, parameters as messages};
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
 use pathbuild_motion::ChipLoad;
 use regex::Regex;
@@ -16,7 +16,7 @@ use smol_str::SmolStr;
 use crate::approx::above;
 use crate::bind::uncut_runs::{SupportSegment, uncut_runs};
 use crate::effective::Texts;
-use crate::element::{Cut, Element, Marker, Origin, Role, Shape};
+use crate::element::{Cut, Element, Marker, Origin, Role, Shape, diagnostic_point};
 use crate::geometry::{Curve, Line};
 use crate::language::Language;
 use crate::letter::{ElementClass, Letter, LetterUse, Letters};
@@ -373,6 +373,28 @@ impl<'a> Binder<'a> {
                 label: values.text(Letter::L).map(Into::into),
                 text: marker.text,
             });
+        }
+        self.report_repeated_probes(&path.probes);
+    }
+
+    /// Reports probes that lie on an earlier one, or have the name of an earlier one.
+    fn report_repeated_probes(&mut self, probes: &[Probe]) {
+        let (mut places, mut labels) = (BTreeSet::new(), BTreeMap::new());
+        for (marker, probe) in self.raw.probes.iter().zip(probes) {
+            let place = [probe.at.x, probe.at.y].map(|coordinate| (coordinate + 0.0).to_bits());
+            if !places.insert(place) {
+                self.report(FaultSite::Marker(marker), Diagnostic::new(&drawing::PROBE_TWICE));
+                continue;
+            }
+            let Some(label) = &probe.label else { continue };
+            if let Some(first) = labels.insert(label.clone(), probe.at) {
+                let text = self.raw.drawn.text(marker.text);
+                let problem = Diagnostic::new(&messages::PROBE_NAME_TWICE)
+                    .quoting("label", &**label)
+                    .with("point", diagnostic_point(first))
+                    .with_text(text.and_then(|text| text.fault_of(Letter::L)));
+                self.report(FaultSite::Marker(marker), problem);
+            }
         }
     }
 }

@@ -1,12 +1,15 @@
 //! Explains why a walk cannot continue, with hints for finding the cause.
 
+use std::collections::BTreeSet;
+
 use pathbuild_diagnostic::messages::{drawing, paths as messages};
 use pathbuild_diagnostic::{Diagnostic, Text, Value, words};
 
 use crate::approx::coincide;
+use crate::chain::Item;
 use crate::element::{Element, diagnostic_point};
 use crate::geometry::{Curve, Xy};
-use crate::path::{Path, SegmentKind};
+use crate::path::{Path, SegmentKind, SubpathName};
 use crate::read::TextCircle;
 use crate::walk::{MAX_SKIPPED_GAP, OpenEnds, Walker};
 
@@ -294,6 +297,24 @@ impl<'a> Curves<'a> {
     fn element(&self, segment: usize) -> &Element {
         &self.path.drawn.elements[self.path.segments[segment].element as usize]
     }
+}
+
+/// Returns PB121 for paths that are embedded twice with the same values at the same place.
+pub(super) fn embedded_twice(path: &Path, items: &[Item]) -> Vec<Diagnostic> {
+    let mut known = BTreeSet::new();
+    let is_repeated = |item: &Item| {
+        let Item::Subpath(placed) = item else { return None };
+        let segment = &path.segments[placed.segment];
+        let SegmentKind::Subpath(subpath) = &segment.kind else { return None };
+        let SubpathName::Found { name, .. } = &subpath.name else { return None };
+        let values: Vec<(Option<char>, &str)> =
+            subpath.values.iter().map(|value| (value.variable, value.value.as_str())).collect();
+        let height = square(Xy::new(subpath.height, 0.0));
+        let is_new = known.insert((name.as_str(), square(placed.start), square(placed.end), height, values));
+        let problem = Diagnostic::new(&drawing::SUBPATH_TWICE).quoting("path", name.as_str());
+        (!is_new).then(|| path.origin(segment).at(problem))
+    };
+    items.iter().filter_map(is_repeated).collect()
 }
 
 impl CurveKey {

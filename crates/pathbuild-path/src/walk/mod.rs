@@ -15,7 +15,7 @@ use crate::chain::{ChainBuilder, Passage, WalkedPath};
 use crate::element::{Origin, diagnostic_point};
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
-use crate::walk::failure::Curves;
+use crate::walk::failure::{Curves, embedded_twice};
 use crate::walk::order::{Ends, Junctions, Turns, comes_before};
 
 /// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning if no other ends coincide.
@@ -122,6 +122,7 @@ impl<'a> Walker<'a> {
         if is_complete && !walked.items.is_empty() {
             walked.diagnostics.extend(idle);
             walked.diagnostics.extend(Curves::new(path, 0..path.segments.len()).milled_twice());
+            walked.diagnostics.extend(embedded_twice(path, &walked.items));
         }
         walked
     }

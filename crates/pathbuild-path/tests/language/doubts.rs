@@ -2,7 +2,7 @@
 
 use pathbuild_path::{Bindings, DoubtThresholds, Language};
 
-use crate::support::{codes, compile_raw, language, path, read_as};
+use crate::support::{codes, compile, compile_raw, language, path, read_as};
 
 /// Returns the findings about a path, with their values.
 fn findings(drawing: &str, doubts: DoubtThresholds) -> Vec<String> {
@@ -304,7 +304,7 @@ fn the_first_depth_lies_in_the_material_of_the_chain() {
 #[test]
 fn a_first_depth_without_a_chain_has_no_effect() {
     let codes = |statements: &str| {
-        let compiled = crate::support::compile(&path("T5 O2 I1 B0 P3 W4", statements));
+        let compiled = compile(&path("T5 O2 I1 B0 P3 W4", statements));
         compiled.found.iter().map(|found| found.code().to_string()).collect::<Vec<_>>()
     };
     assert_eq!(codes("circle 0,0 d 2\nsweep 0,0 20,0\ncircle 20,0 d 2\nend 20,0"), ["PB210"]);
@@ -329,4 +329,33 @@ fn a_nearer_element_of_another_kind_is_a_rival() {
     // The ring is nearer to the text.
     let inside = "text 19.9,0.2 \"B3\" height 1 align centre middle";
     assert_eq!(texts(&format!("mill 0,0 30,0\ncircle 20,0.2 d 6\n{inside}"), 0.1), [""; 0]);
+}
+
+/// A path that is embedded twice in the same place is milled twice. The tool sweeps back between the two.
+#[test]
+fn a_path_is_embedded_once_at_a_place() {
+    let with = |second: &str| {
+        let statements = format!(
+            "subpath 0,0 20,0 \">1111.1P N1\"\nsweep 20,0 20,9 0,9 0,0\nend 20,0\n\
+             layer 1234.1P~A\nsubpath 0,0 20,0 \"{second} N9999\""
+        );
+        codes(&compile(&path("T5 O3 I1 B0", &statements)).found)
+    };
+    assert_eq!(with(">1111.1P"), ["PB121"]);
+    assert_eq!(with(">1111.2P"), [""; 0], "another path");
+    assert_eq!(with(">1111.1P H0.01"), [""; 0], "higher");
+    assert_eq!(with(">1111.1P :A5"), [""; 0], "with another value");
+}
+
+#[test]
+fn each_probe_has_a_place_and_a_name_of_its_own() {
+    let two = |one: &str, other: &str| {
+        let statements = format!("mill 0,0 40,0\nend 40,0\nprobe {one}\nprobe {other}");
+        codes(&compile(&path("T5 O3 I1 B0", &statements)).found)
+    };
+    assert_eq!(two("10,10 \"LA\"", "20,10 \"LB\""), [""; 0]);
+    assert_eq!(two("10,10", "20,10"), [""; 0]);
+    assert_eq!(two("10,10 \"LA\"", "20,10 \"LA\""), ["PB211"]);
+    assert_eq!(two("10,10", "10,10"), ["PB121"]);
+    assert_eq!(two("10,10 \"LA\"", "10.001,10 \"LB\""), [""; 0]);
 }
