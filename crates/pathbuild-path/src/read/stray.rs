@@ -181,7 +181,7 @@ pub fn is_near_clamps_or_parts(layer: &str, language: &Language) -> bool {
 const MIN_NAME_CHARACTERS: usize = 4;
 
 /// Returns the names that may have been meant by a layer's name: without a tilde and the text after it, without up to two characters at the end, and
-/// with the ending of a plural. Look-alikes are replaced by plain characters; one of the names has no spaces.
+/// with the ending of a plural or a number. Look-alikes are replaced by plain characters; one of the names has no spaces.
 fn similar_names(layer: &str) -> Vec<String> {
     let plain = look_alikes::with_keyboard_characters(layer);
     let plain = plain.split('~').next().unwrap_or_default().trim_end();
@@ -192,12 +192,15 @@ fn similar_names(layer: &str) -> Vec<String> {
     let ends = plain.char_indices().rev().map(|(at, _)| at).take(MAX_SLIP_CHARACTERS);
     let shorter = std::iter::once(plain.len()).chain(ends).map(|end| plain[..end].trim_end());
     let shorter = shorter.filter(|name| is_long(name)).map(str::to_owned);
-    let longer = PLURALS.iter().map(|plural| format!("{plain}{plural}"));
+    let longer = PLURALS.iter().chain(&NUMBERS).map(|ending| format!("{plain}{ending}"));
     shorter.chain(longer).chain([plain.split_whitespace().collect()]).collect()
 }
 
 /// Endings of plurals, in English and German.
 const PLURALS: [&str; 4] = ["s", "e", "n", "en"];
+
+/// A number, as a pattern may require it after a name.
+const NUMBERS: [&str; 3] = ["1", " 1", "_1"];
 
 /// Returns PB119 if a text would have an effect on the layer of a path.
 fn stray_text(
@@ -264,8 +267,13 @@ impl PathCollector<'_> {
 fn near_layer(drawing: &Drawing, near: &NearLayer<'_>, layer: u32, entities: &[usize]) -> Option<Diagnostic> {
     let first = *entities.first()?;
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    for entity in entities {
-        *counts.entry(drawing.entities[*entity].kind.name()).or_default() += 1;
+    // The pieces of a polyline, which follow each other, are one entity.
+    let is_piece = |one: &usize, other: &usize| {
+        let [one, other] = [*one, *other].map(|number| drawing.entities[number].group);
+        one.is_some() && one == other
+    };
+    for entity in entities.chunk_by(is_piece) {
+        *counts.entry(drawing.entities[entity[0]].kind.name()).or_default() += 1;
     }
     let elements: Value = counts.into_iter().map(|(kind, count)| format!("{count} {kind}")).collect();
     let problem = match near {

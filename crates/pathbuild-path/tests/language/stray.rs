@@ -223,6 +223,27 @@ fn a_layer_that_part_nearly_matches_is_named() {
     assert_eq!(circle("Outlines"), ["PB120"]);
     assert_eq!(circle("Outline"), [""; 0]);
     assert_eq!(circle("Contours"), [""; 0]);
+    // The number that the pattern requires is forgotten.
+    let numbered = |layer: &str| {
+        strays_beside(
+            "Clamps",
+            Some("Part ([0-9_]+)"),
+            &format!("layer \"{layer}\"\npolyline 0,40 9,40 9,49 closed"),
+        )
+    };
+    assert_eq!(numbered("Part"), ["PB120"]);
+    assert_eq!(numbered("Part 1234_1"), [""; 0]);
+    assert_eq!(numbered("Plates"), [""; 0]);
+}
+
+/// A polyline is one element, whatever the number of its pieces.
+#[test]
+fn a_polyline_on_a_nearly_named_layer_counts_once() {
+    let others = "layer 1234.1PX\npolyline 0,40 9,40 9,49 closed\npolyline 20,40 29,40\nline 0,60 9,60\nline 0,70 9,70";
+    let drawing = format!("layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0\n{others}");
+    let found = stray_findings(&drawn(&drawing), &language());
+    let elements = found[0].arguments.iter().find(|(name, _)| *name == "elements").expect("elements");
+    assert_eq!(elements.1.render(pathbuild_diagnostic::Lang::En), "2 LINE, 2 LWPOLYLINE");
 }
 
 #[test]
