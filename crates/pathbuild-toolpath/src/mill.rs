@@ -6,6 +6,7 @@ use pathbuild_path::approx::{above, at_least};
 use pathbuild_path::{Arc, Bars, Curve, Helix, Origin, Xy};
 
 use crate::fold::{Fold, FoldPaths, MAX_RESERVED_STEPS, PlacedPath, Tip};
+use crate::moves::LAST_DIGIT;
 use crate::program::{Count, ElementKind, Height, MoveClass, PlannedMove};
 
 /// A part of a segment with the heights at its ends, in mm.
@@ -30,12 +31,14 @@ impl<P: FoldPaths> Fold<'_, P> {
         let z = Height { z: section.to_z, at: section.curve.start() };
         let count = Count { class: MoveClass::Milling, length: section.curve.length(), feed: Some(feed) };
         let tip = Tip { at: to, z: section.to_z };
+        // The three decimals of a program cannot tell an arc of almost no length, such as a slope beside a bar, from a full circle.
+        let is_line = section.curve.length() < LAST_DIGIT && !self.compatible;
         let to = match section.curve {
-            Curve::Line(_) => PlannedMove::Line { feed, to, z },
-            Curve::Arc(arc) => {
+            Curve::Arc(arc) if !is_line => {
                 let centre = (arc.centre - arc.start).into();
                 PlannedMove::Arc { feed, clockwise: arc.clockwise, centre, to, z, is_spiral: false }
             }
+            _ => PlannedMove::Line { feed, to, z },
         };
         self.step(to, count, tip);
     }

@@ -126,6 +126,27 @@ fn bars_stand_on_arcs_too() {
     assert_eq!(arc[arc.len() - 2..], ["A 20,0 2", "L 10"]);
 }
 
+/// Three decimals cannot tell an arc of almost no length from a full circle.
+#[test]
+fn slopes_of_almost_no_length_are_lines() {
+    // On an arc of 20 mm radius, three gaps that are wider than the cutter by `room`.
+    let slopes = |room: f64| {
+        let degrees = (3.0 * (4.0 + room) / 20.0_f64).to_degrees();
+        let [sin, cos] = [libm::sin, libm::cos].map(|of| 20.0 * of(degrees.to_radians()));
+        let statements = format!("bars arc centre -20,0 r 20 from 0 to {degrees}\nend {},{sin}", cos - 20.0);
+        let moves = moves(&path("T4 O2 I5 D3.15 B0 P2 U2", &statements));
+        moves
+            .into_iter()
+            .filter(|step| step.ends_with(" 0"))
+            .map(|step| step[..1].to_owned())
+            .collect::<String>()
+    };
+    assert_eq!(slopes(0.000_000_1), "MMMMMM");
+    assert_eq!(slopes(0.001_9), "MMMMMM");
+    assert_eq!(slopes(0.002_1), "AMAMAM");
+    assert_eq!(slopes(0.02), "AMAMAM");
+}
+
 /// Bars are calculated in the path's own drawing and raised together with it.
 #[test]
 fn bars_are_raised_by_h() {
