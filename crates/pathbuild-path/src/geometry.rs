@@ -250,6 +250,9 @@ impl Curve {
     }
 }
 
+/// Distance in mm from a line up to which a point lies on it: coordinates that were rotated are rounded by less.
+const ON_LINE_DISTANCE: f64 = 1e-9;
+
 impl Line {
     pub(crate) fn nearest(&self, point: Xy) -> Xy {
         let along = self.end - self.start;
@@ -261,12 +264,14 @@ impl Line {
     }
 
     /// Whether two lines cross, so that each has its ends on both sides of the other. Lines that only touch do not cross, but an end of one
-    /// line lies on the other.
-    fn crosses(&self, other: &Self) -> bool {
+    /// line lies on the other. Neither do lines of which one continues the other, wherever rounding puts their ends.
+    pub(crate) fn crosses(&self, other: &Self) -> bool {
         let divides = |one: &Self, other: &Self| {
             let along = one.end - one.start;
-            let side = |point: Xy| along.perp(&(point - one.start));
-            side(other.start) * side(other.end) < 0.0
+            let length = along.norm();
+            let aside = |point: Xy| along.perp(&(point - one.start)) / length;
+            let (start, end) = (aside(other.start), aside(other.end));
+            start.min(end) < -ON_LINE_DISTANCE && start.max(end) > ON_LINE_DISTANCE
         };
         divides(self, other) && divides(other, self)
     }

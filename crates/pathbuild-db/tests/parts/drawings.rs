@@ -72,6 +72,30 @@ fn a_notch_that_a_closed_contour_passes_is_left() {
     assert!((length - 4.0).abs() < 0.01, "{}", left[0].text(Lang::En));
 }
 
+/// Two cuts in line leave a bridge between them, whatever digits the rotation of the drawing gives them.
+#[test]
+fn a_bridge_holds_a_part_at_any_angle() {
+    let turned = |degrees: f64, gap: f64| {
+        let way = direction(degrees);
+        let turned = |(x, y): &(f64, f64)| format!("{},{}", x * way.x - y * way.y, x * way.y + y * way.x);
+        let points = |points: &[(f64, f64)]| points.iter().map(turned).collect::<Vec<_>>();
+        let [before, after] = [20.0 - gap / 2.0, 20.0 + gap / 2.0];
+        let corners = [(-1.0, 21.0), (-1.0, -1.0), (41.0, -1.0), (41.0, 21.0)];
+        let contour = points(&[&[(before, 21.0)][..], &corners, &[(after, 21.0)]].concat());
+        let part = points(&[(0.0, 0.0), (40.0, 0.0), (40.0, 20.0), (0.0, 20.0)]);
+        format!(
+            "layer 1234.1P\nstart {} \"T2 O2 I2 B0 S5\"\nmill {}\nend {}\nlayer Part\npolyline {} closed\n",
+            contour[0],
+            contour.join(" "),
+            contour[5],
+            part.join(" ")
+        )
+    };
+    let is_loose = |degrees: f64, gap: f64| codes(&turned(degrees, gap)).contains(&"PB217".to_owned());
+    for number in 0..60 {
+        let degrees = f64::from(number) * 6.1;
+        assert!(!is_loose(degrees, 2.3), "{degrees}");
+        assert!(is_loose(degrees, 1.9), "{degrees}");
     }
 }
 

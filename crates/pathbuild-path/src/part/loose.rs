@@ -216,15 +216,11 @@ fn swept_lines(curve: &Curve, radius: f64) -> Vec<SweptLine> {
 }
 
 fn nearest_points(one: &Line, other: &Line) -> (Xy, Xy) {
-    let (along, across) = (one.end - one.start, other.end - other.start);
-    let between = other.start - one.start;
-    let divisor = along.perp(&across);
-    if divisor != 0.0 {
-        let (share, other_share) = (between.perp(&across) / divisor, between.perp(&along) / divisor);
-        if (0.0..=1.0).contains(&share) && (0.0..=1.0).contains(&other_share) {
-            let crossing = one.start + along * share;
-            return (crossing, crossing);
-        }
+    if one.crosses(other) {
+        let (along, across) = (one.end - one.start, other.end - other.start);
+        let share = (other.start - one.start).perp(&across) / along.perp(&across);
+        let crossing = one.start + along * share;
+        return (crossing, crossing);
     }
     let pairs = [
         (one.start, other.nearest(one.start)),
