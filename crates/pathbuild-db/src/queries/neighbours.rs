@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{
-    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PartSettings, PlacedCuts, Placement, SeveredPart,
-    TipMove, Xy, gouging_moves,
+    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PartSettings, PathCuts, PlacedCuts, Placement,
+    SeveredPart, TipMove, Xy, gouging_moves,
 };
 use pathbuild_toolpath::tip_move;
 
@@ -134,37 +134,72 @@ impl<'db> PlacedProgram<'db> {
     }
 
     fn findings(&self) -> Vec<Diagnostic> {
-        let mut found = Vec::new();
+        let mut found = self.cuts_into_own_parts();
         for owner in 0..self.paths.len() {
-            let mut gouges: BTreeMap<_, (NeighbourGouge, usize, &Origin)> = BTreeMap::new();
-            let mut bars = Vec::new();
-            for cutting in (0..self.paths.len()).filter(|cutting| self.is_foreign(owner, *cutting)) {
-                let taken =
-                    self.paths[owner].cuts.cuts_made_by(&self.paths[cutting].cuts, self.settings.tolerance);
-                for gouge in taken.gouges {
-                    let (path, origin) = self.innermost_common_path(cutting, gouge.element, owner);
-                    let key = (gouge.part, path, origin.id.0);
-                    let deepest = gouges.entry(key).or_insert((gouge.clone(), cutting, origin));
-                    if gouge.depth > deepest.0.depth {
-                        *deepest = (gouge, cutting, origin);
-                    }
-                }
-                bars.extend(taken.bars.iter().map(|lost| {
-                    let (path, origin) = self.innermost_common_path(cutting, lost.element, owner);
-                    self.at(path, origin, lost.problem(self.paths[owner].cuts.cuts))
-                }));
-            }
-            let gouges = gouges.into_iter();
-            found.extend(gouges.map(|((_, path, _), (gouge, cutting, origin))| {
-                self.at(path, origin, self.gouge_problem(owner, cutting, &gouge))
-            }));
-            found.append(&mut bars);
+            let foreign = (0..self.paths.len()).filter(|cutting| self.is_foreign(owner, *cutting));
+            found.extend(self.cuts_into(owner, &self.paths[owner].cuts, foreign));
             found.extend(self.severed(owner).iter().map(|severed| {
                 let (path, origin) = self.innermost_common_path(severed.path, severed.element, owner);
                 self.at(path, origin, self.severed_problem(owner, severed))
             }));
         }
         found
+    }
+
+    /// Returns PB214 for cuts of other paths into the parts of a path, and PB218 for cuts through its support bars.
+    fn cuts_into(
+        &self,
+        owner: usize,
+        owned: &PlacedCuts<'_>,
+        others: impl Iterator<Item = usize>,
+    ) -> Vec<Diagnostic> {
+        let mut gouges: BTreeMap<_, (NeighbourGouge, usize, &Origin)> = BTreeMap::new();
+        let mut bars = Vec::new();
+        for cutting in others {
+            let taken = owned.cuts_made_by(&self.paths[cutting].cuts, self.settings.tolerance);
+            for gouge in taken.gouges {
+                let (path, origin) = self.innermost_common_path(cutting, gouge.element, owner);
+                let key = (gouge.part, path, origin.id.0);
+                let deepest = gouges.entry(key).or_insert((gouge.clone(), cutting, origin));
+                if gouge.depth > deepest.0.depth {
+                    *deepest = (gouge, cutting, origin);
+                }
+            }
+            bars.extend(taken.bars.iter().map(|lost| {
+                let (path, origin) = self.innermost_common_path(cutting, lost.element, owner);
+                self.at(path, origin, lost.problem(owned.cuts))
+            }));
+        }
+        let gouges = gouges.into_iter().map(|((_, path, _), (gouge, cutting, origin))| {
+            self.at(path, origin, self.gouge_problem(owned, cutting, &gouge))
+        });
+        gouges.chain(bars).collect()
+    }
+
+    /// Returns PB214 for cuts of components into parts that are drawn in the project's own drawing. A part that shows a component's part once more,
+    /// or the sheet around it, is none.
+    fn cuts_into_own_parts(&self) -> Vec<Diagnostic> {
+        let Some((project, components)) = self.paths.split_first().filter(|_| !self.is_joined) else {
+            return Vec::new();
+        };
+        let file = project.instance.file(self.db);
+        // Components in the project's drawing have their parts there, too: beside themselves, and not where they are embedded.
+        let parts = if components.iter().any(|component| component.instance.file(self.db) == file) {
+            parts_of(self.db, project.instance)
+        } else {
+            file_parts(self.db, file).map(|found| found.parts.iter().collect()).unwrap_or_default()
+        };
+        let placed = |parts| PlacedCuts::new(project.cuts.cuts, parts, project.cuts.placement, 0.0);
+        let all = placed(parts);
+        let is_own =
+            |part: &usize| !components.iter().any(|component| all.shows_part_of(*part, &component.cuts));
+        let own = placed((0..all.parts.len()).filter(is_own).map(|part| all.parts[part]).collect());
+        if own.parts.is_empty() {
+            return Vec::new();
+        }
+        let bars = PathCuts { bars: Vec::new(), ..own.cuts.clone() };
+        let own = PlacedCuts::new(&bars, own.parts, own.placement, 0.0);
+        self.cuts_into(0, &own, 1..self.paths.len())
     }
 
     /// Returns the parts of a path that cuts of other paths leave loose.
@@ -236,8 +271,7 @@ impl<'db> PlacedProgram<'db> {
         (path, origin)
     }
 
-    fn gouge_problem(&self, owner: usize, cutting: usize, gouge: &NeighbourGouge) -> Diagnostic {
-        let owner = &self.paths[owner].cuts;
+    fn gouge_problem(&self, owner: &PlacedCuts<'_>, cutting: usize, gouge: &NeighbourGouge) -> Diagnostic {
         let point = |at: Xy| Point::new(at.x, at.y);
         Diagnostic::new(&messages::GOUGED_NEIGHBOUR)
             .with("tool", 2.0 * self.paths[cutting].cuts.cuts.radius)

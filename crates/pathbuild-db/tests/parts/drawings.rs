@@ -46,6 +46,9 @@ fn a_contour_too_far_outside_leaves_material_all_round() {
     assert_eq!(left.len(), 4, "{left:?}");
     for found in &left {
         assert!((number(found, "thickness") - 0.5).abs() < 0.01, "{}", found.text(Lang::En));
+    }
+}
+
 /// The contour passes the mouth of a notch. What is left there can only be the edge of the plate if the contour is open.
 #[test]
 fn a_notch_that_a_closed_contour_passes_is_left() {
@@ -627,9 +630,9 @@ fn a_marked_hole_is_not_made() {
     assert_eq!(codes(&drawing("mark circle 24,20 d 2 \"D1.8\"")), ["PB215"]);
 }
 
-/// An embedded path cuts across the outline that the project draws, which is only for the project's own cuts.
+/// An embedded path cuts across the outline that the project draws round its part: that is the sheet, and only for the project's own cuts.
 #[test]
-fn outlines_of_a_project_are_for_its_own_cuts() {
+fn outlines_of_a_project_round_components_are_for_its_own_cuts() {
     let component = component();
     let drawing = |own: &str| {
         let layer = "layer Part\npolyline 2,-14 28,-14 28,14 2,14 closed\n";
@@ -640,6 +643,29 @@ fn outlines_of_a_project_are_for_its_own_cuts() {
     let gouged = |codes: Vec<String>| codes.iter().any(|code| code == "PB213" || code == "PB214");
     assert!(!gouged(drawing("end 30,24")));
     assert!(gouged(drawing("sweep 30,24 2,0\nmill 2,0 28,0 \"I1 B0\"\nsweep 28,0 30,24\nend 30,24")));
+}
+
+/// A part in the project's drawing that is neither a component's nor the sheet around one is not to be cut by components. The contour of the lower
+/// component covers y from -13 to -11.
+#[test]
+fn components_do_not_cut_into_parts_of_the_project() {
+    let component = component();
+    let found = |outline: &str| {
+        let project = project(2.0, 0.0) + &format!("layer Part\npolyline {outline} closed\n");
+        let found =
+            PartTest::default().diagnostics(&[("8001.1P.dxf", &project), ("1234.1P.dxf", &component)]);
+        found.into_iter().filter(|found| found.code().to_string() == "PB214").collect::<Vec<_>>()
+    };
+    let below = |top: f64| found(&format!("5,-20 25,-20 25,{top} 5,{top}"));
+    assert_eq!(below(-12.99), [], "within the tolerance");
+    let gouged = below(-12.5);
+    let [gouge] = &gouged[..] else { panic!("{gouged:?}") };
+    assert!((number(gouge, "depth") - 0.5).abs() < 1e-6, "{gouge:?}");
+    assert_eq!(gouge.path.as_deref(), Some("8001.1P"));
+    // A copy of the component's outline is the component's part, even if rounding moved it.
+    assert_eq!(found("4,-11 26,-11 26,11 4,11"), []);
+    assert_eq!(found("26,11.009 4,11.009 4,-11 26,-11"), []);
+    assert!(!found("4,-10.9 26,-10.9 26,11.1 4,11.1").is_empty(), "neither equal nor around it");
 }
 
 #[test]

@@ -7,6 +7,7 @@ use super::boxes::widened;
 use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar};
 use super::enclosure::{Enclosure, reach};
 use super::gouge::{classify_cuts, gouges};
+use super::intervals::at as at_along;
 use super::prepared::PreparedPart;
 use super::{Part, placed_part};
 use crate::geometry::{Curve, Placement, Xy};
@@ -61,6 +62,9 @@ pub struct SeveredPart {
     /// Index of the cutting element in [`PathCuts::elements`] of that path.
     pub element: u32,
 }
+
+/// Distance in mm up to which two outlines count as the same.
+const SAME_PART_DISTANCE: f64 = 0.01;
 
 impl<'c> PlacedCuts<'c> {
     /// Places a path and its parts, and computes their bounding boxes.
@@ -122,6 +126,24 @@ impl<'c> PlacedCuts<'c> {
             Some(SeveredPart { part: number, path: others[cut.path - own.len()].0, element: cut.cut.element })
         });
         severed.collect()
+    }
+
+    /// Whether one of these parts is equal to a part of another path, or contains it, as placed: its outline then shows the other part once more, or
+    /// the sheet from which that is cut.
+    pub fn shows_part_of(&self, part: usize, other: &Self) -> bool {
+        let is_near = self.kept.zip(other.kept).is_some_and(|(own, other)| own.intersects(&other));
+        if !is_near {
+            return false;
+        }
+        let own = placed_part(self.parts[part], &self.placement);
+        let own = PreparedPart::new(&own);
+        let is_on_rim =
+            |at: Xy| own.part.rings[0].curves.iter().any(|curve| curve.distance_to(at) <= SAME_PART_DISTANCE);
+        other.parts.iter().any(|inner| {
+            let rim = placed_part(inner, &other.placement).rings.swap_remove(0).curves;
+            let samples = rim.iter().flat_map(|curve| [curve.start(), at_along(curve, curve.length() / 2.0)]);
+            samples.into_iter().all(|at| own.is_material(at) || is_on_rim(at))
+        })
     }
 
     /// Returns the start of a part's outermost ring, as placed.
