@@ -133,6 +133,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         let wanted = self.blocks.wanted_layers(block, layer, self.reader, &mut self.steps)?;
         let namesakes = self.blocks.namesakes(block);
         if !namesakes.is_empty() && !self.reader.options.compatible {
+            self.steps.spend(namesakes.len())?;
             let mut layers = BTreeSet::from([layer]);
             layers.extend(wanted.iter());
             for namesake in namesakes {

@@ -224,12 +224,16 @@ impl<'a> Pairs<'a> {
         let from = self.consumed();
         let mut found = SECTION.find_iter(&self.bytes()[from..]);
         found.find_map(|at| {
-            let mut pairs = *self;
-            pairs.jump_to(self.pair_start(b"0", from + at..from + at + SECTION.needle().len())?);
+            let start = self.pair_start(b"0", from + at..from + at + SECTION.needle().len())?;
+            let mut pairs = self.at(start, self.line());
             pairs.next().ok()?;
-            let name = pairs.next().ok()?;
+            let name = pairs.next().ok().filter(|name| name.code == 2)?;
             let is_name = |known: &&str| name.trimmed().eq_ignore_ascii_case(known.as_bytes());
-            (name.code == 2 && names.iter().any(|known| is_name(&known))).then_some(name)
+            names.iter().find(|known| is_name(known))?;
+            // Lines are only counted for the section that is returned.
+            let mut pairs = *self;
+            pairs.jump_to(start);
+            pairs.next().and_then(|_| pairs.next()).ok()
         })
     }
 

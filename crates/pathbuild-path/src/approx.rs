@@ -29,3 +29,14 @@ pub fn coincide(a: Point2<f64>, b: Point2<f64>) -> bool {
 pub fn is_negligible(distance: f64) -> bool {
     near(distance, 0.0)
 }
+
+/// Number of grid squares per mm: programs have three decimals.
+const SQUARES_PER_MM: f64 = 1000.0;
+/// Offset of the grid in squares, so that points with few decimals, and the midpoints between them, are not on a border between squares.
+const GRID_OFFSET: f64 = 0.37;
+
+/// Returns the square of a grid in which a point lies, as a key under which points that coincide are found together, except at its borders.
+#[expect(clippy::cast_possible_truncation, reason = "far outside, all squares are one")]
+pub(crate) fn grid_square(at: Point2<f64>) -> [i64; 2] {
+    [at.x, at.y].map(|coordinate| (coordinate * SQUARES_PER_MM + GRID_OFFSET).floor() as i64)
+}

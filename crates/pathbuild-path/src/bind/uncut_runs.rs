@@ -4,13 +4,11 @@ use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::paths;
 use pathbuild_diagnostic::{Diagnostic, EntityKind};
-use rstar::RTree;
-use rstar::primitives::GeomWithData;
 
-use crate::approx::{at_least, coincide};
+use crate::approx::{at_least, grid_square};
 use crate::disjoint_sets::{root, unite};
 use crate::element::Element;
-use crate::geometry::{Curve, Xy};
+use crate::geometry::Curve;
 use crate::path::Bars;
 
 /// A segment with support bars.
@@ -64,9 +62,9 @@ pub(super) fn uncut_runs<'a>(segments: &[SupportSegment<'a>]) -> Vec<UncutRun<'a
     if segments.iter().all(SupportSegment::has_gap) {
         return Vec::new();
     }
-    let all = runs(segments, |_, _| true);
+    let all = runs(segments, |_| None);
     let is_compound = |run: &&Vec<usize>| segments[run[0]].compound_kind().is_some();
-    let compound = runs(segments, |one, other| one.compound_kind() == other.compound_kind());
+    let compound = runs(segments, SupportSegment::compound_kind);
     let mut found: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     let mut is_reported = vec![false; segments.len()];
     for run in all.iter().chain(compound.iter().filter(is_compound)) {
@@ -84,30 +82,17 @@ pub(super) fn uncut_runs<'a>(segments: &[SupportSegment<'a>]) -> Vec<UncutRun<'a
         .collect()
 }
 
-/// Search distance in mm for ends that coincide.
-const SEARCH_DISTANCE: f64 = 0.0001;
-
-/// Returns the groups of segments whose ends coincide, each in ascending order, if `may_join` permits both.
+/// Returns the groups of segments of the same kind with common ends, each in ascending order.
 fn runs<'a>(
     segments: &[SupportSegment<'a>],
-    may_join: impl Fn(&SupportSegment<'a>, &SupportSegment<'a>) -> bool,
+    kind: impl Fn(&SupportSegment<'a>) -> Option<EntityKind>,
 ) -> Vec<Vec<usize>> {
-    let ends = |segment: &SupportSegment<'_>| [segment.curve.start(), segment.curve.end()];
-    let numbered = segments
-        .iter()
-        .enumerate()
-        .flat_map(|(number, segment)| ends(segment).map(|end| GeomWithData::new([end.x, end.y], number)));
-    let tree = RTree::bulk_load(numbered.collect());
     let mut groups: Vec<usize> = (0..segments.len()).collect();
+    let mut firsts = BTreeMap::new();
     for (number, segment) in segments.iter().enumerate() {
-        for end in ends(segment) {
-            let near = tree.locate_within_distance([end.x, end.y], SEARCH_DISTANCE * SEARCH_DISTANCE);
-            let meets = |other: &&GeomWithData<[f64; 2], usize>| {
-                coincide(Xy::from(*other.geom()), end) && may_join(segment, &segments[other.data])
-            };
-            for other in near.filter(meets) {
-                unite(&mut groups, number, other.data);
-            }
+        for end in [segment.curve.start(), segment.curve.end()] {
+            let first = *firsts.entry((kind(segment), grid_square(end))).or_insert(number);
+            unite(&mut groups, first, number);
         }
     }
     let mut runs: BTreeMap<usize, Vec<usize>> = BTreeMap::new();

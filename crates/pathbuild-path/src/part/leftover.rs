@@ -293,10 +293,7 @@ impl<'s> LeftoverSearch<'s> {
     fn is_ringed(&self) -> bool {
         *self.is_ringed.get_or_init(|| {
             let cuts = self.cuts.cuts.iter().filter(|cut| self.contours[cut.path]);
-            let sweeps = cuts.filter_map(|cut| {
-                let curve = cut.element(self.cuts).supported.or(cut.through);
-                cut.through.and(curve).map(|curve| (curve, cut.radius))
-            });
+            let sweeps = cuts.filter_map(|cut| Some((cut.through?, cut.radius)));
             let feet = self.bars().map(|(bar, radius)| (bar.foot, radius));
             is_surrounded(self.part, &sweeps.chain(feet).collect::<Vec<_>>())
         })

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use pathbuild_diagnostic::messages::{drawing, paths as messages};
 use pathbuild_diagnostic::{Diagnostic, Text, Value, words};
 
-use crate::approx::coincide;
+use crate::approx::{coincide, grid_square};
 use crate::chain::Item;
 use crate::element::{Element, diagnostic_point};
 use crate::geometry::{Curve, Xy};
@@ -81,7 +81,7 @@ impl Walker<'_> {
         let passed = OpenEnds::new(traversed, &self.ends);
         let beside = self.unreached_segments().flat_map(|segment| {
             let ends = self.ends.of(segment).into_iter();
-            ends.filter_map(|end| Some((segment, end, passed.nearest(end)?.1))).collect::<Vec<_>>()
+            ends.filter_map(|end| Some((segment, end, passed.distance(end)?))).collect::<Vec<_>>()
         });
         let nearest = beside.reduce(|best, other| if other.2 < best.2 { other } else { best })?;
         (nearest.2 <= MAX_SKIPPED_GAP).then_some(nearest)
@@ -242,11 +242,6 @@ pub(super) struct Curves<'a> {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct CurveKey(u8, [[i64; 2]; 3]);
 
-/// Number of grid squares per mm: programs have three decimals.
-const SQUARES_PER_MM: f64 = 1000.0;
-/// Offset of the grid in squares, so that points with few decimals, and the midpoints between them, are not on a border between squares.
-const GRID_OFFSET: f64 = 0.37;
-
 impl<'a> Curves<'a> {
     /// Collects the milled curves, sweeps and subpaths among these segments.
     pub(super) fn new(path: &'a Path, segments: impl Iterator<Item = usize>) -> Self {
@@ -309,8 +304,9 @@ pub(super) fn embedded_twice(path: &Path, items: &[Item]) -> Vec<Diagnostic> {
         let SubpathName::Found { name, .. } = &subpath.name else { return None };
         let values: Vec<(Option<char>, &str)> =
             subpath.values.iter().map(|value| (value.variable, value.value.as_str())).collect();
-        let height = square(Xy::new(subpath.height, 0.0));
-        let is_new = known.insert((name.as_str(), square(placed.start), square(placed.end), height, values));
+        let height = grid_square(Xy::new(subpath.height, 0.0));
+        let is_new =
+            known.insert((name.as_str(), grid_square(placed.start), grid_square(placed.end), height, values));
         let problem = Diagnostic::new(&drawing::SUBPATH_TWICE).quoting("path", name.as_str());
         (!is_new).then(|| path.origin(segment).at(problem))
     };
@@ -327,8 +323,8 @@ impl CurveKey {
             SegmentKind::Hole(_) | SegmentKind::Helix(_) => return None,
         };
         let curve = path.curve(segment)?;
-        let (one, other) = (square(curve.start()), square(curve.end()));
-        Some(Self(kind, [one.min(other), one.max(other), square(middle(&curve))]))
+        let (one, other) = (grid_square(curve.start()), grid_square(curve.end()));
+        Some(Self(kind, [one.min(other), one.max(other), grid_square(middle(&curve))]))
     }
 }
 
@@ -337,9 +333,4 @@ fn middle(curve: &Curve) -> Xy {
         Curve::Line(line) => nalgebra::center(&line.start, &line.end),
         Curve::Arc(arc) => curve.section(0.0, arc.length() / 2.0).end(),
     }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "far outside, all squares are one")]
-fn square(at: Xy) -> [i64; 2] {
-    [at.x, at.y].map(|coordinate| (coordinate * SQUARES_PER_MM + GRID_OFFSET).floor() as i64)
 }

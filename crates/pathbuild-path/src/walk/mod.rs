@@ -356,6 +356,12 @@ impl OpenEnds {
         let firsts = nearest.filter_map(|(end, _)| self.segments.get(&bits(*end))?.first());
         Some((*firsts.min()?, distance))
     }
+
+    /// Returns the distance in mm from a point to the nearest end.
+    fn distance(&self, point: Xy) -> Option<f64> {
+        let nearest = self.points.nearest_neighbor([point.x, point.y])?;
+        Some((Xy::from(*nearest) - point).norm())
+    }
 }
 
 /// Returns the ends of a segment as keys; zeros get a positive sign, since points are compared by their bits.
