@@ -282,6 +282,23 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.close();
 }
 {
+  // A program is shown with its findings by line, the checks that were made or not, the cutter that it states, and its waits. Arcs count with their
+  // lowest and outermost points.
+  const file = join(directory, "checked.nc");
+  const head = ["(T1 D=6 CR=0 - ZMIN=-6 - flat end mill)", "G21 G90 G94 G17 G54", "T1 M6", "M3 S9000", "G4 P2", "G0 Z5", "G0 X0 Y0"];
+  writeFileSync(file, [...head, "G1 Z-1 F100", "G18 G2 X10 Z-1 I5 K0", "G0 Y20", "G17 G3 X10 Y20 I-10 J0", "G0 Z5", "M30", ""].join("\n"));
+  const { page, faults } = await open(file, {}, directory);
+  assert.match(await text(page, "#findings"), /line 10 · PB781/);
+  assert.match(await text(page, "#checks"), /rapid moves: the height of the material is not known/);
+  assert.match(await text(page, "#details"), /X -10 … 10, Y 0 … 30, Z -6 … 5[^]*cutter O\s+6[^]*2.0 s dwelling, 1 tool changes/);
+  assert.match(await text(page, "#operations"), /Z?-6/);
+  assert.match(await text(page, "#legend"), /Z-6/);
+  assert.ok(await page.locator("#typeTool").isHidden());
+  assert.ok(await page.locator("#typeSurface").isVisible());
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
   // Everything that can be focused has a name, and every value has its own.
   const { page, faults } = await open("8001.1P");
   const nameless = await page.evaluate(() => {
